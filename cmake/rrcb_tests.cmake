@@ -1,0 +1,37 @@
+# rrcb_add_test(NAME name SOURCES files... [LIBRARIES targets...] [RANKS counts...] [LABELS ...]
+#               [TIMEOUT seconds])
+#
+# A GoogleTest program; with RANKS it runs once under mpirun for every rank count, and links the
+# main function that initialises MPI and fails on all ranks when it fails on one.
+set(RRCB_MPIEXEC_FLAGS "--oversubscribe;--allow-run-as-root;--bind-to;none"
+    CACHE STRING "Flags for mpiexec, as Open MPI needs them")
+
+function(rrcb_add_mpi_run)
+  cmake_parse_arguments(ARG "" "NAME;RANKS;TIMEOUT" "COMMAND;LABELS;ENVIRONMENT" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 60)
+  endif()
+  add_test(NAME ${ARG_NAME} COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ARG_RANKS}
+                                    ${RRCB_MPIEXEC_FLAGS} ${ARG_COMMAND})
+  set_tests_properties(
+    ${ARG_NAME} PROPERTIES TIMEOUT ${ARG_TIMEOUT} PROCESSORS ${ARG_RANKS} LABELS "${ARG_LABELS}"
+                           ENVIRONMENT "${ARG_ENVIRONMENT}")
+endfunction()
+
+function(rrcb_add_test)
+  cmake_parse_arguments(ARG "" "NAME;TIMEOUT" "SOURCES;LIBRARIES;RANKS;LABELS" ${ARGN})
+  add_executable(${ARG_NAME} ${ARG_SOURCES})
+  rrcb_set_warnings(${ARG_NAME})
+  target_link_libraries(${ARG_NAME} PRIVATE ${ARG_LIBRARIES})
+  if(ARG_RANKS)
+    target_link_libraries(${ARG_NAME} PRIVATE rrcb_mpi_test_main)
+    foreach(ranks IN LISTS ARG_RANKS)
+      rrcb_add_mpi_run(NAME ${ARG_NAME}.np${ranks} RANKS ${ranks} COMMAND $<TARGET_FILE:${ARG_NAME}>
+                       LABELS ${ARG_LABELS} TIMEOUT ${ARG_TIMEOUT})
+    endforeach()
+  else()
+    target_link_libraries(${ARG_NAME} PRIVATE GTest::gtest_main)
+    add_test(NAME ${ARG_NAME} COMMAND ${ARG_NAME})
+    set_tests_properties(${ARG_NAME} PROPERTIES TIMEOUT 60 LABELS "${ARG_LABELS}")
+  endif()
+endfunction()

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <vector>
+
+#include <rrcb/cuts.hpp>
+#include <rrcb/options.hpp>
+
+namespace rrcb {
+
+/// What the balancer saw and expects; the same on every rank.
+struct Report {
+    GlobalCount num_points = 0;      ///< over all ranks
+    GlobalCount num_records = 0;     ///< cells (or points, for DomainKind::points) the root received
+    double total_weight = 0;         ///< over all ranks
+    double estimated_imbalance = 1;  ///< as the statistical domain sees it, see quality.hpp
+    bool all_weights_zero = false;   ///< balanced by count instead
+    int surplus_parts = 0;           ///< parts that must stay empty: more parts than points
+};
+
+/// The new partition; every rank gets the same cuts and the parts of its own points.
+struct Balance {
+    Cuts cuts;
+    std::vector<Part> parts;  ///< length points.count
+    Report report;
+};
+
+/// Divides the points of all ranks into parts of equal (or given relative) weight.
+///
+/// Collective over `comm`: every rank calls it with the same options and dimension; a rank may
+/// hold no points (null arrays are legal) but states the dimension. Three messages of work: the
+/// statistics of the non-empty cells are gathered at rank 0, the cuts are broadcast, every rank
+/// assigns its own points; no point moves. The same input on the same ranks gives the same bits.
+/// The library communicates on a duplicate of `comm`, made at the first call, kept with it and
+/// freed with it.
+///
+/// Throws Error on every rank alike: for NaN or infinite coordinates, negative, NaN or infinite
+/// weights, arrays of inconsistent length, options out of range or different between ranks.
+Balance balance(const Points& points, const Options& options, MPI_Comm comm);
+
+}  // namespace rrcb

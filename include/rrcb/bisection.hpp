@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+
+#include <rrcb/cuts.hpp>
+#include <rrcb/options.hpp>
+#include <rrcb/statistical_domain.hpp>
+
+namespace rrcb {
+
+/// Cuts of a domain and the weight they leave in each part of it.
+struct Bisection {
+    Cuts cuts;
+    std::vector<double> part_weights;  ///< length num_parts, as the domain sees it
+};
+
+/// Recursive coordinate bisection of a domain, across the longest extent of what each box holds.
+///
+/// `part_sizes` are relative, one per part, or empty for equal parts. Cuts divide the weight in
+/// the ratio of the sizes below and above, exactly for the piecewise-linear cumulative weight of
+/// the patches, or the extent in that ratio with CutRule::midpoint. Patches that lie on the plane
+/// are divided along the other axes. Parts of size 0 get an empty region. Not collective.
+Bisection bisect(StatisticalDomain domain, int num_parts, std::span<const double> part_sizes,
+                 CutRule rule);
+
+}  // namespace rrcb

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <rrcb/points.hpp>
+
+namespace rrcb {
+
+/// One cut of the bisection, across `axis`.
+///
+/// A plane at `at[axis]`, with ties broken by position: points that lie exactly on the plane are
+/// compared along the other axes in ascending order. The other entries are -infinity for a plain
+/// plane, of which every point on it is above. A cut at -infinity has nothing below, one at
+/// +infinity nothing above.
+struct Cut {
+    std::int32_t axis = 0;
+    Vector at{};
+};
+
+/// True when `position` is not below the cut: the one test behind every look-up.
+bool is_above(const Cut& cut, const Vector& position, int dimension);
+
+/// The tree of a recursive bisection into `num_parts` parts.
+///
+/// `tree` holds num_parts - 1 cuts in preorder. A node of n parts leaves `lower_parts(n)` of them,
+/// the lower numbers, below its cut. Same bits on every rank after `balance`.
+struct Cuts {
+    int dimension = 0;
+    int num_parts = 1;
+    std::vector<Cut> tree;
+};
+
+/// How many of a node's parts lie below its cut; `num_parts` >= 2.
+constexpr int lower_parts(int num_parts) { return num_parts / 2; }
+
+/// Part of a position. Not collective; O(depth).
+Part part_of(const Cuts& cuts, const Vector& position);
+
+/// Part of every point, into `parts` (length points.count). Not collective.
+void assign(const Cuts& cuts, const Points& points, std::span<Part> parts);
+
+/// Region of a part; open sides are +-infinity. Lower faces belong to it, upper faces do not,
+/// but for ties (see Cut). Not collective.
+Box box_of(const Cuts& cuts, Part part);
+
+/// Parts whose region a closed box touches, ascending; none for an empty box. Not collective.
+std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
+
+}  // namespace rrcb

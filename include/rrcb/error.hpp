@@ -1,0 +1,27 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace rrcb {
+
+enum class ErrorCode {
+    invalid_argument,  ///< the caller's mistake: points, weights or options
+    out_of_memory,     ///< an allocation failed on some rank
+    mpi,               ///< an MPI call returned an error
+    internal           ///< a callback threw, or an invariant does not hold
+};
+
+/// What every function of the library throws; the text names the place and the fix.
+///
+/// From a collective function the same code and text reach every rank of the communicator.
+class Error : public std::runtime_error {
+  public:
+    Error(ErrorCode code, const std::string& what) : std::runtime_error(what), code_(code) {}
+    ErrorCode code() const noexcept { return code_; }
+
+  private:
+    ErrorCode code_;
+};
+
+}  // namespace rrcb

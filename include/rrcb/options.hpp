@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace rrcb {
+
+/// What the root bisects in place of the points.
+enum class DomainKind {
+    analytic,  ///< each cell a uniform density on a box with the cell's moments: no points, no noise
+    sampled,   ///< pseudo-random points in mean +- multiplier * sigma of each cell: the paper's RRCB
+    points     ///< the points themselves, all gathered at the root: the paper's RCB, for reference
+};
+
+/// Where a box is cut across its longest axis.
+enum class CutRule {
+    weighted_fraction,  ///< where the weight below is the share of the parts below
+    midpoint            ///< at that share of the extent: the literal reading of the paper
+};
+
+/// How `balance` works; must be the same on every rank, which is checked.
+struct Options {
+    int num_parts = 0;               ///< parts to make; 0: one per rank
+    std::vector<double> part_sizes;  ///< relative weight of each part, >= 0, some > 0; empty: equal
+
+    int support_mesh = 0;  ///< cells per axis of each rank's support mesh; 0: chosen by dimension
+    DomainKind domain = DomainKind::analytic;
+    CutRule cut_rule = CutRule::weighted_fraction;
+
+    double sigma_multiplier = 1.5;  ///< sampled: half-width of a cell's sampling box, in sigmas
+    double sample_fraction = 1.0;   ///< sampled: points drawn per real point, in (0, 1]
+    std::uint64_t seed = 1;         ///< sampled: the same seed gives the same points
+};
+
+}  // namespace rrcb

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <span>
+#include <vector>
+
+#include <rrcb/points.hpp>
+
+namespace rrcb {
+
+/// Consecutive ranks that hold a part.
+struct RankRange {
+    int first = 0;
+    int count = 1;
+};
+
+/// Ranks of a part: num_parts / num_ranks parts each, the remainder one more each on the last
+/// ranks; with fewer parts than ranks a part spreads over consecutive ranks. Not collective.
+RankRange ranks_of_part(Part part, int num_parts, int num_ranks);
+
+/// Who sends what to whom; entry k of each list on this side describes one point.
+struct Plan {
+    std::vector<LocalIndex> export_indices;  ///< of my points that leave, ascending
+    std::vector<int> export_ranks;           ///< where they go
+    std::vector<Part> export_parts;
+    std::vector<int> import_ranks;           ///< where my new points come from, ascending
+    std::vector<LocalIndex> import_indices;  ///< their index there, ascending per rank
+    std::vector<Part> import_parts;
+};
+
+/// Export and import lists of the points whose rank changes.
+///
+/// Collective over `comm`. `parts` has one entry in 0 ... num_parts - 1 per local point. Throws
+/// Error on every rank when some rank names a part outside that range.
+Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm comm);
+
+}  // namespace rrcb

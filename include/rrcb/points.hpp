@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace rrcb {
+
+using LocalIndex = std::size_t;   ///< counts objects of one rank
+using GlobalCount = std::int64_t; ///< counts objects over all ranks
+using Part = std::int32_t;        ///< number of a part, 0 ... parts - 1
+using Vector = std::array<double, 3>;
+
+inline constexpr int max_dimension = 3;
+
+/// Axis-aligned closed box; axes beyond the dimension of the points are ignored.
+///
+/// The default is the empty box: lower above upper, neutral when boxes are joined.
+struct Box {
+    Vector lower{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+                 std::numeric_limits<double>::infinity()};
+    Vector upper{-std::numeric_limits<double>::infinity(),
+                 -std::numeric_limits<double>::infinity(),
+                 -std::numeric_limits<double>::infinity()};
+};
+
+/// Borrowed view of one rank's points, 1-D to 3-D, interleaved (xyzxyz...) or one array per axis.
+///
+/// Coordinate a of point i is `axes[a][i * stride]`. `weights` is empty (every point weighs 1) or
+/// holds one finite, non-negative weight per point. The arrays must outlive the view. Nothing is
+/// checked here: `balance` checks on all ranks together, so that no rank fails alone.
+struct Points {
+    int dimension = 0;
+    LocalIndex count = 0;
+    std::size_t stride = 1;
+    std::array<std::span<const double>, max_dimension> axes{};
+    std::span<const double> weights{};
+
+    double coordinate(LocalIndex i, int axis) const {
+        return axes[static_cast<std::size_t>(axis)][i * stride];
+    }
+    double weight(LocalIndex i) const { return weights.empty() ? 1.0 : weights[i]; }
+    Vector position(LocalIndex i) const {
+        Vector x{};
+        for (int a = 0; a < dimension; ++a) x[static_cast<std::size_t>(a)] = coordinate(i, a);
+        return x;
+    }
+};
+
+/// View of `coordinates` as points stored one after another; length a multiple of `dimension`.
+Points interleaved_points(std::span<const double> coordinates, int dimension,
+                          std::span<const double> weights = {});
+
+/// View of one array per axis, `columns.size()` of them (1 to 3), all of the same length.
+Points column_points(std::span<const std::span<const double>> columns,
+                     std::span<const double> weights = {});
+
+/// Smallest box that holds all points; the empty box when there are none. Not collective.
+Box bounding_box(const Points& points);
+
+}  // namespace rrcb

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <span>
+#include <vector>
+
+#include <rrcb/points.hpp>
+
+namespace rrcb {
+
+/// Heaviest part over mean part: max_p (weight_p / size_p) * sum(size) / sum(weight).
+///
+/// `part_sizes` are relative, or empty for equal parts; parts of size 0 are left out unless they
+/// hold weight, then the imbalance is infinite. 1 when there is no weight at all.
+double imbalance(std::span<const double> part_weights, std::span<const double> part_sizes = {});
+
+/// Load unbalance of each part in percent: (ideal - actual) / ideal * 100.
+///
+/// The Lu of the CILAMCE 2020 paper: negative when a part holds too much; 0 for a part of size 0.
+std::vector<double> load_unbalance_percent(std::span<const double> part_weights,
+                                           std::span<const double> part_sizes = {});
+
+/// Largest absolute value of load_unbalance_percent.
+double worst_load_unbalance_percent(std::span<const double> part_weights,
+                                    std::span<const double> part_sizes = {});
+
+/// Weight of every part over all ranks, length num_parts, on every rank.
+///
+/// Collective over `comm`: one reduction. `parts` holds one entry in 0 ... num_parts - 1 per
+/// local point.
+std::vector<double> part_weights(const Points& points, std::span<const Part> parts, int num_parts,
+                                 MPI_Comm comm);
+
+/// Share of the weight, 0 ... 1, whose rank is not among the ranks of its new part.
+///
+/// Collective over `comm`: one reduction.
+double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
+                      MPI_Comm comm);
+
+}  // namespace rrcb

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <rrcb/balance.hpp>
+#include <rrcb/bisection.hpp>
+#include <rrcb/cuts.hpp>
+#include <rrcb/error.hpp>
+#include <rrcb/moments.hpp>
+#include <rrcb/options.hpp>
+#include <rrcb/plan.hpp>
+#include <rrcb/points.hpp>
+#include <rrcb/quality.hpp>
+#include <rrcb/statistical_domain.hpp>
+#include <rrcb/support_mesh.hpp>
+#include <rrcb/version.hpp>

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <rrcb/moments.hpp>
+#include <rrcb/options.hpp>
+
+namespace rrcb {
+
+/// Weight spread evenly over a box; a point where `lower` equals `upper`.
+struct Patch {
+    Vector lower{};
+    Vector upper{};
+    double weight = 0;
+};
+
+/// What the root bisects: an approximation of all points, made of patches.
+struct StatisticalDomain {
+    int dimension = 0;
+    std::vector<Patch> patches;
+};
+
+/// One uniform patch per cell, with the cell's mean and standard deviation. Not collective.
+///
+/// The half-width is sqrt(3) sigma, that of a uniform density, kept inside the cell. Where all
+/// weights are 0 the counts take their place.
+StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension);
+
+/// Pseudo-random points of equal weight, uniform in mean +- multiplier * sigma of each cell.
+///
+/// `sample_fraction` times the number of real points in all, shared out over the cells in
+/// proportion to their weight by largest remainder, at least one point in all. The same cells,
+/// options and seed give the same points on every machine. Not collective.
+StatisticalDomain sampled_domain(std::span<const CellMoments> cells, int dimension,
+                                 const Options& options);
+
+/// The points themselves, a patch each. Not collective.
+StatisticalDomain point_domain(const Points& points);
+
+}  // namespace rrcb

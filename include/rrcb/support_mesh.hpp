@@ -1,0 +1,28 @@
+#pragma once
+
+#include <rrcb/points.hpp>
+
+namespace rrcb {
+
+/// Regular grid of `cells` ^ `dimension` cells over the bounding box of one rank's points.
+///
+/// An axis of zero extent has a single layer of cells. Cell numbers run fastest along axis 0.
+struct SupportMesh {
+    int dimension = 0;
+    Box box;
+    std::array<int, max_dimension> cells{1, 1, 1};  ///< per axis
+    Vector cells_per_length{};                      ///< 0 on an axis of zero extent
+};
+
+/// Lays `cells_per_axis` (>= 1) cells over each axis of `box`. Not collective.
+SupportMesh make_support_mesh(const Box& box, int dimension, int cells_per_axis);
+
+LocalIndex num_cells(const SupportMesh& mesh);
+
+/// Cell of a position inside the box of the mesh; positions outside go to the nearest cell.
+LocalIndex cell_of(const SupportMesh& mesh, const Vector& position);
+
+/// Box of a cell; neighbouring cells share their faces to the bit.
+Box cell_box(const SupportMesh& mesh, LocalIndex cell);
+
+}  // namespace rrcb

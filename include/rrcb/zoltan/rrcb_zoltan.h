@@ -1,0 +1,19 @@
+#ifndef RRCB_ZOLTAN_H
+#define RRCB_ZOLTAN_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Returns 1 when the plug-in stands in front of Zoltan in this process, 0 when its functions are
+ *  shadowed because it was linked behind Zoltan. Not collective. */
+int RRCB_Zoltan_Active(void);
+
+/** Version of the library, as "major.minor.patch". Not collective; the string is static. */
+const char* RRCB_Version(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

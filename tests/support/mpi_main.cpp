@@ -1,0 +1,28 @@
+// Runs every test on all ranks; rank 0 reports, other ranks speak only when they fail.
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+int main(int argc, char** argv) {
+    MPI_Init(&argc, &argv);
+    testing::InitGoogleTest(&argc, argv);
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    if (rank != 0) {
+        testing::TestEventListeners& listeners = testing::UnitTest::GetInstance()->listeners();
+        delete listeners.Release(listeners.default_result_printer());
+        struct FailurePrinter : testing::EmptyTestEventListener {
+            void OnTestPartResult(const testing::TestPartResult& result) override {
+                if (!result.failed()) return;
+                MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+                std::fprintf(stderr, "[rank %d] %s:%d: %s\n", rank, result.file_name(),
+                             result.line_number(), result.message());
+            }
+            int rank = 0;
+        };
+        listeners.Append(new FailurePrinter);
+    }
+    int failed = RUN_ALL_TESTS();
+    MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    MPI_Finalize();
+    return failed;
+}

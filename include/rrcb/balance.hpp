@@ -1,19 +1,19 @@
 #pragma once
 
+#include <rrcb/cuts.hpp>
+#include <rrcb/options.hpp>
+
 #include <mpi.h>
 
 #include <vector>
-
-#include <rrcb/cuts.hpp>
-#include <rrcb/options.hpp>
 
 namespace rrcb {
 
 /// What the balancer saw and expects; the same on every rank.
 struct Report {
-    GlobalCount num_points = 0;      ///< over all ranks
-    GlobalCount num_records = 0;     ///< cells (or points, for DomainKind::points) the root received
-    double total_weight = 0;         ///< over all ranks
+    GlobalCount num_points = 0;   ///< over all ranks
+    GlobalCount num_records = 0;  ///< cells (or points, for DomainKind::points) the root received
+    double total_weight = 0;      ///< over all ranks
     double estimated_imbalance = 1;  ///< as the statistical domain sees it, see quality.hpp
     bool all_weights_zero = false;   ///< balanced by count instead
     int surplus_parts = 0;           ///< parts that must stay empty: more parts than points

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <span>
-
 #include <rrcb/cuts.hpp>
 #include <rrcb/options.hpp>
 #include <rrcb/statistical_domain.hpp>
+
+#include <span>
 
 namespace rrcb {
 

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <rrcb/points.hpp>
+
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include <rrcb/points.hpp>
 
 namespace rrcb {
 
@@ -33,7 +33,9 @@ struct Cuts {
 };
 
 /// How many of a node's parts lie below its cut; `num_parts` >= 2.
-constexpr int lower_parts(int num_parts) { return num_parts / 2; }
+constexpr int lower_parts(int num_parts) {
+    return num_parts / 2;
+}
 
 /// Part of a position. Not collective; O(depth).
 Part part_of(const Cuts& cuts, const Vector& position);

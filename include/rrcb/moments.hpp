@@ -1,21 +1,20 @@
 #pragma once
 
-#include <vector>
-
 #include <rrcb/support_mesh.hpp>
+
+#include <vector>
 
 namespace rrcb {
 
-/// Count, weight, centroid and second central moment of a set of points.
+/// Count, weight, centroid and standard deviation per axis of a set of points.
 ///
-/// `mean[a]` is sum(w x) / sum(w) and `central[a]` is sum(w (x - mean)^2), so that the standard
-/// deviation is sqrt(central / weight). Points that all weigh 0 have the moments of the same
-/// points with weight 1, and weight 0.
+/// `mean[a]` is sum(w x) / sum(w) and `deviation[a]` is sqrt(sum(w (x - mean)^2) / sum(w)): lengths
+/// rather than squares, so that no coordinate a double can hold overflows or vanishes.
 struct Moments {
     GlobalCount count = 0;
     double weight = 0;
     Vector mean{};
-    Vector central{};
+    Vector deviation{};
 };
 
 /// The moments of the points in one cell of a support mesh.
@@ -25,19 +24,18 @@ struct CellMoments {
     Moments moments;
 };
 
-/// Standard deviation per axis; 0 where the moments hold one point or none.
-Vector standard_deviation(const Moments& moments);
-
 /// Moments of the union of two disjoint sets of points.
 ///
 /// Chan, Golub, LeVeque: Updating formulae and a pairwise algorithm for computing sample
 /// variances (1979), equations 2.1, with weights in place of counts.
 Moments merge(const Moments& a, const Moments& b);
 
-/// Moments of every non-empty cell of `mesh`, in the order of the cells. Not collective.
+/// Moments of every cell of `mesh` that holds weight, in the order of the cells. Not collective.
 ///
-/// One pass over the points, which must lie in the box of the mesh and be finite. Differences are
-/// taken from a position within the cell, so the offset of the cloud costs no digits.
+/// One pass over the points, which must be finite and lie in the box of the mesh. Differences are
+/// taken from a position among the cell's own points, so the offset of the cloud costs no digits.
+/// When all points weigh 0 their moments are those of the same points with weight 1, under weight
+/// 0.
 std::vector<CellMoments> cell_moments(const Points& points, const SupportMesh& mesh);
 
 }  // namespace rrcb

@@ -8,9 +8,9 @@
 
 namespace rrcb {
 
-using LocalIndex = std::size_t;   ///< counts objects of one rank
-using GlobalCount = std::int64_t; ///< counts objects over all ranks
-using Part = std::int32_t;        ///< number of a part, 0 ... parts - 1
+using LocalIndex = std::size_t;    ///< counts objects of one rank
+using GlobalCount = std::int64_t;  ///< counts objects over all ranks
+using Part = std::int32_t;         ///< number of a part, 0 ... parts - 1
 using Vector = std::array<double, 3>;
 
 inline constexpr int max_dimension = 3;
@@ -21,8 +21,7 @@ inline constexpr int max_dimension = 3;
 struct Box {
     Vector lower{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
                  std::numeric_limits<double>::infinity()};
-    Vector upper{-std::numeric_limits<double>::infinity(),
-                 -std::numeric_limits<double>::infinity(),
+    Vector upper{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
                  -std::numeric_limits<double>::infinity()};
 };
 

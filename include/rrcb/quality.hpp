@@ -1,11 +1,11 @@
 #pragma once
 
+#include <rrcb/points.hpp>
+
 #include <mpi.h>
 
 #include <span>
 #include <vector>
-
-#include <rrcb/points.hpp>
 
 namespace rrcb {
 

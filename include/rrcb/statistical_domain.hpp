@@ -1,10 +1,10 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include <rrcb/moments.hpp>
 #include <rrcb/options.hpp>
+
+#include <span>
+#include <vector>
 
 namespace rrcb {
 

@@ -11,7 +11,8 @@ struct SupportMesh {
     int dimension = 0;
     Box box;
     std::array<int, max_dimension> cells{1, 1, 1};  ///< per axis
-    Vector cells_per_length{};                      ///< 0 on an axis of zero extent
+    Vector scale{1, 1, 1};      ///< power of two that keeps squares of coordinates in range
+    Vector cells_per_length{};  ///< of scaled length; 0 on an axis of zero extent
 };
 
 /// Lays `cells_per_axis` (>= 1) cells over each axis of `box`. Not collective.

@@ -1,0 +1,138 @@
+#include "weighted_quantile.hpp"
+
+#include <rrcb/bisection.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace rrcb {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double weight_of(const StatisticalDomain& domain) {
+    double weight = 0;
+    for (const Patch& patch : domain.patches) weight += patch.weight;
+    return weight;
+}
+
+Box extent_of(const StatisticalDomain& domain) {
+    Box box;
+    for (const Patch& patch : domain.patches) {
+        for (std::size_t a = 0; a < max_dimension; ++a) {
+            box.lower[a] = std::min(box.lower[a], patch.lower[a]);
+            box.upper[a] = std::max(box.upper[a], patch.upper[a]);
+        }
+    }
+    return box;
+}
+
+int longest_axis(const Box& box, int dimension) {
+    int longest = 0;
+    double half_extent = -1;
+    for (int axis = 0; axis < dimension; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        const double candidate = box.upper[a] / 2 - box.lower[a] / 2;
+        if (candidate > half_extent) {
+            half_extent = candidate;
+            longest = axis;
+        }
+    }
+    return longest;
+}
+
+Cut plane(int axis, double value) {
+    Cut cut{axis, {}};
+    cut.at.fill(-infinity);
+    cut.at[static_cast<std::size_t>(axis)] = value;
+    return cut;
+}
+
+/// The cut that leaves the share `below` (0 ... 1) of the domain's weight or extent below it.
+Cut choose_cut(const StatisticalDomain& domain, double below, CutRule rule) {
+    const double weight = weight_of(domain);
+    const Box box = extent_of(domain);
+    const int axis = domain.patches.empty() ? 0 : longest_axis(box, domain.dimension);
+    const auto a = static_cast<std::size_t>(axis);
+    if (below <= 0 || !(weight > 0)) return plane(axis, -infinity);
+    if (below >= 1) return plane(axis, infinity);
+    if (rule == CutRule::midpoint) return plane(axis, std::lerp(box.lower[a], box.upper[a], below));
+    return weighted_quantile(domain, axis, below * weight);
+}
+
+/// The axis that tells on which side of the cut a patch lies: later ones only where it is tied.
+int deciding_axis(const Cut& cut, const Patch& patch, int dimension) {
+    const auto tied = [&](int axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        return patch.lower[a] == cut.at[a] && patch.upper[a] == cut.at[a];
+    };
+    if (!tied(cut.axis)) return cut.axis;
+    for (int axis = 0; axis < dimension; ++axis)
+        if (axis != cut.axis && !tied(axis)) return axis;
+    return cut.axis;
+}
+
+struct Halves {
+    StatisticalDomain lower;
+    StatisticalDomain upper;
+};
+
+Halves split(const StatisticalDomain& domain, const Cut& cut) {
+    Halves halves{{domain.dimension, {}}, {domain.dimension, {}}};
+    for (const Patch& patch : domain.patches) {
+        const auto axis = static_cast<std::size_t>(deciding_axis(cut, patch, domain.dimension));
+        const double value = cut.at[axis];
+        if (patch.lower[axis] >= value) {
+            halves.upper.patches.push_back(patch);
+        } else if (patch.upper[axis] <= value) {
+            halves.lower.patches.push_back(patch);
+        } else {
+            Patch below = patch;
+            Patch above = patch;
+            below.upper[axis] = above.lower[axis] = value;
+            below.weight *= fraction_below(patch.lower[axis], value, patch.upper[axis]);
+            above.weight -= below.weight;
+            halves.lower.patches.push_back(below);
+            halves.upper.patches.push_back(above);
+        }
+    }
+    return halves;
+}
+
+void bisect_node(StatisticalDomain domain, std::span<const double> sizes, CutRule rule,
+                 Bisection& result) {
+    if (sizes.size() == 1) {
+        result.part_weights.push_back(weight_of(domain));
+        return;
+    }
+    const auto num_below = static_cast<std::size_t>(lower_parts(static_cast<int>(sizes.size())));
+    const double size_below =
+        std::accumulate(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(num_below), 0.0);
+    const double size =
+        size_below +
+        std::accumulate(sizes.begin() + static_cast<std::ptrdiff_t>(num_below), sizes.end(), 0.0);
+    const Cut cut = choose_cut(domain, size > 0 ? size_below / size : 0, rule);
+    result.cuts.tree.push_back(cut);
+    Halves halves = split(domain, cut);
+    domain.patches = {};
+    bisect_node(std::move(halves.lower), sizes.first(num_below), rule, result);
+    bisect_node(std::move(halves.upper), sizes.subspan(num_below), rule, result);
+}
+
+}  // namespace
+
+Bisection bisect(StatisticalDomain domain, int num_parts, std::span<const double> part_sizes,
+                 CutRule rule) {
+    const std::vector<double> equal(part_sizes.empty() ? static_cast<std::size_t>(num_parts) : 0,
+                                    1.0);
+    Bisection result;
+    result.cuts.dimension = domain.dimension;
+    result.cuts.num_parts = num_parts;
+    result.cuts.tree.reserve(static_cast<std::size_t>(num_parts - 1));
+    bisect_node(std::move(domain), part_sizes.empty() ? equal : part_sizes, rule, result);
+    return result;
+}
+
+}  // namespace rrcb

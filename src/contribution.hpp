@@ -1,0 +1,56 @@
+#pragma once
+
+#include <rrcb/options.hpp>
+#include <rrcb/points.hpp>
+#include <rrcb/statistical_domain.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace rrcb {
+
+/// The first thing a rank tells the root: whether it can go on, and what its records mean.
+struct Header {
+    std::int32_t failed = 0;  ///< 0, or 1 + ErrorCode
+    std::int32_t dimension = 0;
+    std::int32_t num_parts = 0;
+    std::int32_t cells_per_axis = 0;
+    std::int32_t domain = 0;
+    std::int32_t cut_rule = 0;
+    double sigma_multiplier = 0;
+    double sample_fraction = 0;
+    std::uint64_t seed = 0;
+    std::uint64_t part_sizes_hash = 0;
+    std::int64_t num_points = 0;
+    std::int64_t num_records = 0;
+    std::int64_t record_length = 0;  ///< doubles per record
+    double weight = 0;
+    Box box;  ///< of the support mesh
+};
+
+/// What one rank hands to the root: the moments of its cells, or its points, as plain doubles.
+struct Contribution {
+    Header header;
+    std::vector<double> records;
+};
+
+/// Throws Error naming the option and its range when `options` can't be used.
+void check_options(const Options& options, int dimension, int num_parts);
+
+/// Throws Error naming the first object and how many there are when points are unusable.
+void check_points(const Points& points);
+
+/// Reduces checked points to what the root needs of them.
+Contribution contribute(const Points& points, const Options& options, int num_parts);
+
+/// Name of the first option that differs from the root's, with the rank; none when all agree.
+std::optional<std::string> difference_between(std::span<const Header> headers);
+
+/// The domain the root bisects, from everybody's headers and records in the order of the ranks.
+StatisticalDomain build_domain(std::span<const Header> headers, std::span<const double> records,
+                               const Options& options);
+
+}  // namespace rrcb

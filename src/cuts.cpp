@@ -1,0 +1,138 @@
+#include "point_layout.hpp"
+
+#include <rrcb/cuts.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rrcb {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A node on the way down: its place in the preorder and the parts below it.
+struct Descent {
+    std::size_t node = 0;
+    Part first = 0;
+    int num_parts = 1;
+
+    Descent lower() const { return {node + 1, first, lower_parts(num_parts)}; }
+    Descent upper() const {
+        const int below = lower_parts(num_parts);
+        return {node + static_cast<std::size_t>(below), first + below, num_parts - below};
+    }
+};
+
+/// The tree as a table for the loop over points: child 0 is below the plane, child 1 above. Parts
+/// are nodes that lead to themselves, so that every point takes the same number of steps.
+struct Table {
+    struct Node {
+        double plane = infinity;
+        std::int32_t axis = 0;
+        std::array<std::int32_t, 2> child{};
+        Part part = 0;
+    };
+    std::vector<Node> nodes;
+    int depth = 0;
+    bool plain = true;  ///< every cut is a plane, none breaks ties by position
+};
+
+bool is_plain(const Cut& cut, int dimension) {
+    for (int a = 0; a < dimension; ++a)
+        if (a != cut.axis && cut.at[static_cast<std::size_t>(a)] != -infinity) return false;
+    return true;
+}
+
+std::int32_t tabulate(const Cuts& cuts, Descent at, int depth, Table& table) {
+    const auto index = static_cast<std::int32_t>(table.nodes.size());
+    table.nodes.emplace_back();
+    table.depth = std::max(table.depth, depth);
+    if (at.num_parts == 1) {
+        table.nodes.back() = {infinity, 0, {index, index}, at.first};
+        return index;
+    }
+    const Cut& cut = cuts.tree[at.node];
+    table.plain = table.plain && is_plain(cut, cuts.dimension);
+    const std::int32_t below = tabulate(cuts, at.lower(), depth + 1, table);
+    const std::int32_t above = tabulate(cuts, at.upper(), depth + 1, table);
+    table.nodes[static_cast<std::size_t>(index)] = {
+        cut.at[static_cast<std::size_t>(cut.axis)], cut.axis, {below, above}, 0};
+    return index;
+}
+
+template <class Layout>
+void assign_by_planes(const Layout& x, const Table& table, std::span<Part> parts) {
+    const Table::Node* nodes = table.nodes.data();
+    for (LocalIndex i = 0; i < parts.size(); ++i) {
+        std::int32_t node = 0;
+        for (int level = 0; level < table.depth; ++level)
+            node = nodes[node].child[x(i, nodes[node].axis) >= nodes[node].plane];
+        parts[i] = nodes[node].part;
+    }
+}
+
+void collect_touching(const Cuts& cuts, const Box& box, Descent at, std::vector<Part>& parts) {
+    if (at.num_parts == 1) {
+        parts.push_back(at.first);
+        return;
+    }
+    const Cut& cut = cuts.tree[at.node];
+    if (!is_above(cut, box.lower, cuts.dimension)) collect_touching(cuts, box, at.lower(), parts);
+    if (is_above(cut, box.upper, cuts.dimension)) collect_touching(cuts, box, at.upper(), parts);
+}
+
+}  // namespace
+
+bool is_above(const Cut& cut, const Vector& position, int dimension) {
+    const auto axis = static_cast<std::size_t>(cut.axis);
+    if (position[axis] != cut.at[axis]) return position[axis] > cut.at[axis];
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+        if (a != axis && position[a] != cut.at[a]) return position[a] > cut.at[a];
+    return true;
+}
+
+Part part_of(const Cuts& cuts, const Vector& position) {
+    Descent at{0, 0, cuts.num_parts};
+    while (at.num_parts > 1)
+        at = is_above(cuts.tree[at.node], position, cuts.dimension) ? at.upper() : at.lower();
+    return at.first;
+}
+
+void assign(const Cuts& cuts, const Points& points, std::span<Part> parts) {
+    if (points.count == 0) return;
+    Table table;
+    tabulate(cuts, {0, 0, cuts.num_parts}, 0, table);
+    if (!table.plain) {
+        for (LocalIndex i = 0; i < points.count; ++i) parts[i] = part_of(cuts, points.position(i));
+        return;
+    }
+    visit_layout(points,
+                 [&](const auto& x) { assign_by_planes(x, table, parts.first(points.count)); });
+}
+
+Box box_of(const Cuts& cuts, Part part) {
+    Box box;
+    box.lower.fill(-infinity);
+    box.upper.fill(infinity);
+    Descent at{0, 0, cuts.num_parts};
+    while (at.num_parts > 1) {
+        const Cut& cut = cuts.tree[at.node];
+        const auto axis = static_cast<std::size_t>(cut.axis);
+        const bool above = part >= at.upper().first;
+        if (above) box.lower[axis] = std::max(box.lower[axis], cut.at[axis]);
+        if (!above) box.upper[axis] = std::min(box.upper[axis], cut.at[axis]);
+        at = above ? at.upper() : at.lower();
+    }
+    return box;
+}
+
+std::vector<Part> parts_touching(const Cuts& cuts, const Box& box) {
+    std::vector<Part> parts;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(cuts.dimension); ++a)
+        if (!(box.lower[a] <= box.upper[a])) return parts;
+    collect_touching(cuts, box, {0, 0, cuts.num_parts}, parts);
+    return parts;
+}
+
+}  // namespace rrcb

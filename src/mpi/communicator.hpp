@@ -1,0 +1,26 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rrcb::mpi {
+
+/// Throws Error with the text of an MPI error code that is not MPI_SUCCESS.
+void check(int code, const char* call);
+
+/// Narrows a count to MPI's int; throws Error when it does not fit.
+int to_int(std::int64_t count);
+
+/// The library's own duplicate of the caller's communicator; errors on it return.
+///
+/// Collective when called for the first time with `user`: the duplicate is kept as an attribute
+/// of it and freed with it.
+MPI_Comm duplicate_of(MPI_Comm user);
+
+int rank_of(MPI_Comm comm);
+int size_of(MPI_Comm comm);
+
+}  // namespace rrcb::mpi

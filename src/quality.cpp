@@ -1,0 +1,55 @@
+#include <rrcb/quality.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace rrcb {
+
+namespace {
+
+/// Weight each part should have.
+std::vector<double> ideal_weights(std::span<const double> part_weights,
+                                  std::span<const double> part_sizes) {
+    const double total = std::accumulate(part_weights.begin(), part_weights.end(), 0.0);
+    const double sizes = std::accumulate(part_sizes.begin(), part_sizes.end(), 0.0);
+    std::vector<double> ideal(part_weights.size(),
+                              total / static_cast<double>(part_weights.size()));
+    for (std::size_t p = 0; p < part_sizes.size(); ++p) ideal[p] = total * (part_sizes[p] / sizes);
+    return ideal;
+}
+
+}  // namespace
+
+double imbalance(std::span<const double> part_weights, std::span<const double> part_sizes) {
+    const std::vector<double> ideal = ideal_weights(part_weights, part_sizes);
+    double worst = 0;
+    for (std::size_t p = 0; p < ideal.size(); ++p) {
+        if (part_weights[p] > 0) {
+            worst = std::max(worst, ideal[p] > 0 ? part_weights[p] / ideal[p]
+                                                 : std::numeric_limits<double>::infinity());
+        }
+    }
+    return worst > 0 ? worst : 1;
+}
+
+std::vector<double> load_unbalance_percent(std::span<const double> part_weights,
+                                           std::span<const double> part_sizes) {
+    std::vector<double> unbalance = ideal_weights(part_weights, part_sizes);
+    for (std::size_t p = 0; p < unbalance.size(); ++p) {
+        const double ideal = unbalance[p];
+        unbalance[p] = ideal > 0 ? (ideal - part_weights[p]) / ideal * 100 : 0;
+    }
+    return unbalance;
+}
+
+double worst_load_unbalance_percent(std::span<const double> part_weights,
+                                    std::span<const double> part_sizes) {
+    double worst = 0;
+    for (const double lu : load_unbalance_percent(part_weights, part_sizes))
+        worst = std::max(worst, std::abs(lu));
+    return worst;
+}
+
+}  // namespace rrcb

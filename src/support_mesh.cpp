@@ -1,0 +1,73 @@
+#include <rrcb/support_mesh.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rrcb {
+
+namespace {
+
+// Squares of lengths between 2^-453 and 2^401 are normal numbers; beyond, coordinates are scaled
+// by the power of two that brings the largest near 1.
+double safe_scale(double lower, double upper) {
+    constexpr int harmless_exponent = 400;
+    const double largest = std::max(std::abs(lower), std::abs(upper));
+    if (largest == 0) return 1;
+    const int exponent = std::ilogb(largest);
+    return std::abs(exponent) <= harmless_exponent
+               ? 1
+               : std::ldexp(1.0, std::clamp(-exponent, -1000, 1000));
+}
+
+}  // namespace
+
+SupportMesh make_support_mesh(const Box& box, int dimension, int cells_per_axis) {
+    SupportMesh mesh;
+    mesh.dimension = dimension;
+    mesh.box = box;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
+        if (!(box.lower[a] < box.upper[a])) continue;
+        mesh.scale[a] = safe_scale(box.lower[a], box.upper[a]);
+        mesh.cells[a] = cells_per_axis;
+        mesh.cells_per_length[a] =
+            cells_per_axis / (box.upper[a] * mesh.scale[a] - box.lower[a] * mesh.scale[a]);
+    }
+    return mesh;
+}
+
+LocalIndex num_cells(const SupportMesh& mesh) {
+    LocalIndex product = 1;
+    for (const int cells : mesh.cells) product *= static_cast<LocalIndex>(cells);
+    return product;
+}
+
+LocalIndex cell_of(const SupportMesh& mesh, const Vector& position) {
+    LocalIndex cell = 0;
+    LocalIndex stride = 1;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(mesh.dimension); ++a) {
+        const double offset = position[a] * mesh.scale[a] - mesh.box.lower[a] * mesh.scale[a];
+        const double layer =
+            std::clamp(offset * mesh.cells_per_length[a], 0.0, mesh.cells[a] - 1.0);
+        cell += stride * static_cast<LocalIndex>(layer);
+        stride *= static_cast<LocalIndex>(mesh.cells[a]);
+    }
+    return cell;
+}
+
+Box cell_box(const SupportMesh& mesh, LocalIndex cell) {
+    Box box;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(mesh.dimension); ++a) {
+        const auto cells = static_cast<LocalIndex>(mesh.cells[a]);
+        const LocalIndex layer = cell % cells;
+        cell /= cells;
+        const auto face = [&](LocalIndex k) {
+            return std::lerp(mesh.box.lower[a], mesh.box.upper[a],
+                             static_cast<double>(k) / static_cast<double>(cells));
+        };
+        box.lower[a] = face(layer);
+        box.upper[a] = face(layer + 1);
+    }
+    return box;
+}
+
+}  // namespace rrcb

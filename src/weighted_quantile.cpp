@@ -1,0 +1,172 @@
+#include "weighted_quantile.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rrcb {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// One axis of a patch, and which patch it is.
+struct Interval {
+    double lower;
+    double upper;
+    double weight;
+    std::size_t patch;
+
+    bool is_jump() const { return lower == upper; }
+};
+
+/// Where the cumulative weight passes the target: between two neighbouring breakpoints.
+struct Bracket {
+    double left = -infinity;       ///< weight below `left` is at most the target
+    double right = infinity;       ///< weight below `right` is above the target
+    double below = 0;              ///< weight of the intervals that end at or before `left`
+    std::vector<Interval> active;  ///< jumps at `left`, and intervals that span the bracket
+};
+
+double weight_below(const Interval& interval, double value) {
+    if (interval.upper < value || (interval.upper == value && !interval.is_jump()))
+        return interval.weight;
+    if (interval.lower >= value) return 0;
+    return interval.weight * fraction_below(interval.lower, value, interval.upper);
+}
+
+/// A breakpoint near the median of those left: the median of a few, evenly picked.
+double pivot_of(std::span<const double> breakpoints) {
+    constexpr std::size_t most = 63;
+    std::array<double, most> sample;
+    const std::size_t size = std::min(most, breakpoints.size());
+    for (std::size_t k = 0; k < size; ++k) sample[k] = breakpoints[k * breakpoints.size() / size];
+    const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(size / 2);
+    std::nth_element(sample.begin(), middle, sample.begin() + static_cast<std::ptrdiff_t>(size));
+    return *middle;
+}
+
+/// Moves one end of the bracket to `pivot` and drops what then lies outside.
+void narrow(Bracket& bracket, double pivot, double target) {
+    double below = bracket.below;
+    for (const Interval& interval : bracket.active) below += weight_below(interval, pivot);
+    if (below > target) {
+        bracket.right = pivot;
+        std::erase_if(bracket.active, [&](const Interval& i) { return i.lower >= pivot; });
+        return;
+    }
+    bracket.left = pivot;
+    std::erase_if(bracket.active, [&](const Interval& i) {
+        const bool passed = i.upper < pivot || (i.upper == pivot && !i.is_jump());
+        if (passed) bracket.below += i.weight;
+        return passed;
+    });
+}
+
+Bracket find_bracket(std::vector<Interval> intervals, double target) {
+    Bracket bracket;
+    bracket.active = std::move(intervals);
+    std::vector<double> breakpoints;
+    for (const Interval& interval : bracket.active) {
+        breakpoints.push_back(interval.lower);
+        if (!interval.is_jump()) breakpoints.push_back(interval.upper);
+    }
+    while (!breakpoints.empty()) {
+        narrow(bracket, pivot_of(breakpoints), target);
+        std::erase_if(breakpoints,
+                      [&](double b) { return b <= bracket.left || b >= bracket.right; });
+    }
+    return bracket;
+}
+
+/// A value that separates what lies at or before the bracket's left end from the rest.
+double after_left(const Bracket& bracket) {
+    if (bracket.right == infinity) return infinity;
+    const double middle = bracket.left / 2 + bracket.right / 2;
+    return middle > bracket.left ? middle : bracket.right;
+}
+
+/// How many of the patches lie below a cut.
+enum class Below { none, some, all };
+
+std::vector<Interval> intervals_of(const StatisticalDomain& domain,
+                                   std::span<const std::size_t> patches, std::size_t axis) {
+    std::vector<Interval> intervals;
+    intervals.reserve(patches.size());
+    for (const std::size_t p : patches) {
+        const Patch& patch = domain.patches[p];
+        intervals.push_back({patch.lower[axis], patch.upper[axis], patch.weight, p});
+    }
+    return intervals;
+}
+
+Below divide(const StatisticalDomain& domain, std::span<const std::size_t> patches,
+             std::span<const int> axes, double target, Vector& at);
+
+/// Divides the patches that have no extent and lie at the bracket's left end.
+Below divide_jump(const StatisticalDomain& domain, const Bracket& bracket,
+                  std::span<const int> axes, double target, Vector& at) {
+    std::vector<std::size_t> tied;
+    for (const Interval& interval : bracket.active)
+        if (interval.is_jump()) tied.push_back(interval.patch);
+    const Below below = divide(domain, tied, axes.subspan(1), target, at);
+    const auto axis = static_cast<std::size_t>(axes[0]);
+    if (below != Below::some) at.fill(-infinity);
+    at[axis] = below == Below::all ? after_left(bracket) : bracket.left;
+    return below;
+}
+
+/// Cuts `patches` across axes[0], ties along the axes after it; `at` comes in at -infinity.
+Below divide(const StatisticalDomain& domain, std::span<const std::size_t> patches,
+             std::span<const int> axes, double target, Vector& at) {
+    if (axes.empty()) {
+        double weight = 0;
+        for (const std::size_t p : patches) weight += domain.patches[p].weight;
+        return target < weight / 2 ? Below::none : Below::all;
+    }
+    const auto axis = static_cast<std::size_t>(axes[0]);
+    const Bracket bracket = find_bracket(intervals_of(domain, patches, axis), target);
+    double below = bracket.below;
+    double jump = 0;
+    double slope = 0;
+    for (const Interval& interval : bracket.active) {
+        const double start = weight_below(interval, bracket.left);
+        below += start;
+        if (interval.is_jump())
+            jump += interval.weight;
+        else
+            slope += weight_below(interval, bracket.right) - start;
+    }
+    if (target - below < jump) {
+        const Below of_jump = divide_jump(domain, bracket, axes, target - below, at);
+        if (of_jump == Below::none && below == 0) return Below::none;
+    } else if (slope > 0) {
+        const double share = std::min(1.0, (target - below - jump) / slope);
+        at[axis] = std::lerp(bracket.left, bracket.right, share);
+    } else {
+        at[axis] = after_left(bracket);
+    }
+    return at[axis] == infinity ? Below::all : Below::some;
+}
+
+}  // namespace
+
+double fraction_below(double lower, double value, double upper) {
+    const double extent = upper - lower;
+    if (std::isinf(extent)) return (value / 2 - lower / 2) / (upper / 2 - lower / 2);
+    return (value - lower) / extent;
+}
+
+Cut weighted_quantile(const StatisticalDomain& domain, int axis, double target) {
+    std::vector<int> axes{axis};
+    for (int a = 0; a < domain.dimension; ++a)
+        if (a != axis) axes.push_back(a);
+    std::vector<std::size_t> patches;
+    for (std::size_t p = 0; p < domain.patches.size(); ++p)
+        if (domain.patches[p].weight > 0) patches.push_back(p);
+    Cut cut{axis, {}};
+    cut.at.fill(-infinity);
+    divide(domain, patches, axes, target, cut.at);
+    return cut;
+}
+
+}  // namespace rrcb

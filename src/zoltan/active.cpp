@@ -1,0 +1,24 @@
+#include <dlfcn.h>
+
+#include <rrcb/version.hpp>
+#include <rrcb/zoltan/rrcb_zoltan.h>
+
+#include "export.hpp"
+
+namespace {
+
+const void* library_of(const void* address) {
+    Dl_info info{};
+    return dladdr(address, &info) != 0 ? info.dli_fbase : nullptr;
+}
+
+}  // namespace
+
+RRCB_EXPORT int RRCB_Zoltan_Active(void) {
+    // The process-wide look-up finds what a program's own call would reach.
+    static const char own = 0;
+    const void* reached = dlsym(RTLD_DEFAULT, "Zoltan_LB_Partition");
+    return reached != nullptr && library_of(reached) == library_of(&own) ? 1 : 0;
+}
+
+RRCB_EXPORT const char* RRCB_Version(void) { return rrcb::version; }

@@ -1,0 +1,4 @@
+#pragma once
+
+/// Marks the only symbols the plug-in shows: Zoltan's interposed functions and its own two.
+#define RRCB_EXPORT extern "C" __attribute__((visibility("default")))

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace rrcb::zoltan {
+
+/// An error of one rank, on its way to becoming a Zoltan return code.
+class Failure : public std::runtime_error {
+  public:
+    Failure(int code, const std::string& text) : std::runtime_error(text), code_(code) {}
+    int code() const noexcept { return code_; }
+
+  private:
+    int code_;
+};
+
+}  // namespace rrcb::zoltan

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string_view>
+
+namespace rrcb::zoltan {
+
+/// One line on stderr in the form of Zoltan's own messages.
+void print_error(int rank, const char* function, std::string_view text) noexcept;
+void print_warning(int rank, const char* function, std::string_view text) noexcept;
+
+}  // namespace rrcb::zoltan

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string_view>
+
+#include <rrcb/options.hpp>
+
+namespace rrcb::zoltan {
+
+/// Which lists a partitioning call returns (RETURN_LISTS).
+enum class ReturnLists { none, imports, exports, all, parts };
+
+/// What the plug-in must know of a handle's parameters; the defaults are Zoltan's.
+struct Parameters {
+    bool rrcb = false;  ///< LB_METHOD is RRCB
+    int num_gid_entries = 1;
+    int num_lid_entries = 1;
+    int weight_dimension = 0;
+    int num_global_parts = -1;  ///< -1: not set
+    int num_local_parts = -1;   ///< -1: not set
+    int keep_cuts = 0;
+    int auto_migrate = 0;
+    int debug_level = 1;
+    ReturnLists return_lists = ReturnLists::all;
+    Options options;  ///< RRCB_* only; parts are filled in per call
+};
+
+enum class Setting {
+    accepted,   ///< stored
+    defaulted,  ///< illegal value; the default was stored
+    unknown     ///< not one of RRCB's own parameters
+};
+
+/// Sets a parameter of RRCB's own (RRCB_...). Name and value are upper-cased.
+Setting set_own(Parameters& parameters, std::string_view name, std::string_view value);
+
+/// Notes a parameter that Zoltan itself has accepted, if it matters here. Upper-cased.
+void note_common(Parameters& parameters, std::string_view name, std::string_view value);
+
+/// RETURN_LISTS, LB_METHOD and all other names and values are compared as Zoltan does: leading
+/// blanks dropped, upper-cased.
+std::string clean(const char* text);
+
+}  // namespace rrcb::zoltan

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <zoltan.h>
+#include <zoltan_partition_tree.h>
+
+// Declared in no public header of Zoltan, but exported by it and called by its users.
+extern "C" int Zoltan_RCB_Box(struct Zoltan_Struct* zz, int part, int* dimension, double* xmin,
+                              double* ymin, double* zmin, double* xmax, double* ymax, double* zmax);
+
+namespace rrcb::zoltan {
+
+/// The functions behind the ones the plug-in interposes.
+struct RealZoltan {
+    decltype(&Zoltan_Create) create;
+    decltype(&Zoltan_Copy) copy;
+    decltype(&Zoltan_Copy_To) copy_to;
+    decltype(&Zoltan_Destroy) destroy;
+    decltype(&Zoltan_Set_Param_Vec) set_param_vec;
+    decltype(&Zoltan_LB_Partition) lb_partition;
+    decltype(&Zoltan_LB_Balance) lb_balance;
+    decltype(&Zoltan_LB_Set_Part_Sizes) lb_set_part_sizes;
+    decltype(&Zoltan_LB_Point_PP_Assign) lb_point_pp_assign;
+    decltype(&Zoltan_LB_Point_Assign) lb_point_assign;
+    decltype(&Zoltan_LB_Box_PP_Assign) lb_box_pp_assign;
+    decltype(&Zoltan_LB_Box_Assign) lb_box_assign;
+    decltype(&Zoltan_RCB_Box) rcb_box;
+    decltype(&Zoltan_RCB_Partition_Tree) rcb_partition_tree;
+    decltype(&Zoltan_Serialize_Size) serialize_size;
+    decltype(&Zoltan_Serialize) serialize;
+    decltype(&Zoltan_Deserialize) deserialize;
+};
+
+/// Looked up once. Throws Failure when Zoltan is not behind the plug-in.
+const RealZoltan& real_zoltan();
+
+}  // namespace rrcb::zoltan

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <mpm/decomposition.hpp>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mpm {
+
+/// Number of a column of Particles.
+using Column = std::size_t;
+
+/// Material points of one rank: named columns of doubles, all of the same length.
+///
+/// Whoever needs a property adds its column; all columns travel together. The order of the
+/// points is no property: it changes whenever points are sorted or migrate.
+class Particles {
+  public:
+    /// Adds a column, or finds the one of this name.
+    Column add_column(std::string_view name);
+    /// Finds a column; throws std::out_of_range when nobody has added it.
+    Column find_column(std::string_view name) const;
+    const std::vector<std::string>& column_names() const { return names_; }
+
+    std::size_t size() const { return size_; }
+    double* data(Column column) { return columns_[column].data(); }
+    std::span<const double> operator[](Column column) const {
+        return {columns_[column].data(), size_};
+    }
+    /// Column by name, for readers outside the step.
+    std::span<const double> operator[](std::string_view name) const {
+        return (*this)[find_column(name)];
+    }
+
+    /// Appends rows, each of one value per column in the order of the columns.
+    void append(std::span<const double> rows);
+    /// Copies one point into a row of one value per column.
+    void copy_row(std::size_t point, std::span<double> row) const;
+    /// Removes points given in ascending order; the last points take their places.
+    void remove(std::span<const std::size_t> points);
+    /// Puts the point order[i] in place i.
+    void reorder(std::span<const std::size_t> order);
+
+  private:
+    std::vector<std::string> names_;
+    std::vector<std::vector<double>> columns_;
+    std::vector<double> scratch_;
+    std::size_t size_ = 0;
+};
+
+/// The columns every scene has.
+struct MotionColumns {
+    Column x, y;                            ///< position, m
+    Column velocity_x, velocity_y;          ///< m/s
+    Column displacement_x, displacement_y;  ///< m, since the start
+    Column mass;                            ///< kg per metre of depth
+    Column volume;                          ///< m^3 per metre of depth
+    Column id;  ///< the number of the point in the scene, the same for any number of ranks
+};
+
+MotionColumns add_motion_columns(Particles& particles);
+
+}  // namespace mpm

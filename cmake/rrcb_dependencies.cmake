@@ -1,20 +1,26 @@
-# Finds what the enabled parts stand on. Debian's Trilinos exports un-namespaced targets without
-# include directories, so they are wrapped here as Zoltan::zoltan and Teuchos::teuchos.
+# Finds what the enabled parts stand on; a part whose package of Trilinos is missing is left out.
+include(rrcb_trilinos)
+
 find_package(MPI REQUIRED COMPONENTS C CXX)
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 
-function(rrcb_wrap_trilinos target package libraries include_dirs)
-  add_library(${target} INTERFACE IMPORTED GLOBAL)
-  target_include_directories(${target} SYSTEM INTERFACE ${include_dirs})
-  target_link_libraries(${target} INTERFACE ${libraries} MPI::MPI_CXX)
+function(rrcb_leave_out_unless_found option package debian_package)
+  string(TOLOWER ${package} name)
+  if(NOT ${option})
+    return()
+  endif()
+  rrcb_find_trilinos(${package})
+  if(NOT TARGET ${package}::${name})
+    message(STATUS "${option}: left out, because ${package} of Trilinos was not found"
+                   " (Debian package ${debian_package})")
+    set(${option} OFF PARENT_SCOPE)
+  endif()
 endfunction()
 
-if(RRCB_ZOLTAN OR RRCB_COMPARISONS)
-  find_package(Zoltan REQUIRED)
-  rrcb_wrap_trilinos(Zoltan::zoltan Zoltan "${Zoltan_LIBRARIES}" "${Zoltan_INCLUDE_DIRS}")
-endif()
-
-if(RRCB_COMPARISONS OR RRCB_EXAMPLES)
-  find_package(Teuchos REQUIRED)
-  rrcb_wrap_trilinos(Teuchos::teuchos Teuchos "${Teuchos_LIBRARIES}" "${Teuchos_INCLUDE_DIRS}")
+rrcb_leave_out_unless_found(RRCB_ZOLTAN Zoltan libtrilinos-zoltan-dev)
+rrcb_leave_out_unless_found(RRCB_MPM Teuchos libtrilinos-teuchos-dev)
+if(RRCB_COMPARISONS AND NOT (RRCB_ZOLTAN AND RRCB_MPM))
+  message(STATUS "RRCB_COMPARISONS: left out, because it compares RRCB with Zoltan on the slope"
+                 " (needs RRCB_ZOLTAN and RRCB_MPM)")
+  set(RRCB_COMPARISONS OFF)
 endif()

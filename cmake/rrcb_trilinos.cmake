@@ -1,0 +1,18 @@
+# rrcb_find_trilinos(<package>)
+#
+# Finds one package of Trilinos and offers it as <package>::<package in lower case>; defines nothing
+# when it is not there. Debian's Trilinos exports un-namespaced targets without include
+# directories, so they are wrapped; installed with the library, for rrcbConfig.cmake.
+function(rrcb_find_trilinos package)
+  string(TOLOWER ${package} name)
+  set(target ${package}::${name})
+  if(NOT TARGET ${target})
+    find_package(${package} QUIET)
+  endif()
+  if(TARGET ${target} OR NOT ${package}_FOUND)
+    return()
+  endif()
+  add_library(${target} INTERFACE IMPORTED GLOBAL)
+  target_include_directories(${target} SYSTEM INTERFACE ${${package}_INCLUDE_DIRS})
+  target_link_libraries(${target} INTERFACE ${${package}_LIBRARIES} MPI::MPI_CXX)
+endfunction()

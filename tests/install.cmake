@@ -1,0 +1,31 @@
+# The install as its users meet it: a project of their own against the installed package, and the
+# library built where there is no Trilinos.
+set(prefix ${CMAKE_CURRENT_BINARY_DIR}/prefix)
+set(consumer ${CMAKE_CURRENT_BINARY_DIR}/consumer)
+
+add_test(NAME install.clean COMMAND ${CMAKE_COMMAND} -E rm -rf ${prefix} ${consumer})
+add_test(NAME install.install COMMAND ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --prefix
+                                      ${prefix})
+add_test(
+  NAME install.consumer
+  COMMAND
+    ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer ${consumer}
+    --build-generator ${CMAKE_GENERATOR} --build-options -DCMAKE_PREFIX_PATH=${prefix}
+    -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE} -DEXPECT_ZOLTAN=${RRCB_ZOLTAN}
+    "-DMPIEXEC_PREFLAGS=${RRCB_MPIEXEC_FLAGS}" --test-command ${CMAKE_CTEST_COMMAND}
+    --output-on-failure --no-tests=error)
+add_test(
+  NAME install.builds_without_trilinos
+  COMMAND
+    ${CMAKE_CTEST_COMMAND} --build-and-test ${PROJECT_SOURCE_DIR}
+    ${CMAKE_CURRENT_BINARY_DIR}/without_trilinos --build-generator ${CMAKE_GENERATOR}
+    --build-options -DCMAKE_BUILD_TYPE=Debug -DCMAKE_DISABLE_FIND_PACKAGE_Zoltan=ON
+    -DCMAKE_DISABLE_FIND_PACKAGE_Teuchos=ON -DRRCB_TESTS=OFF -DRRCB_WERROR=${RRCB_WERROR})
+
+set_tests_properties(install.clean PROPERTIES FIXTURES_SETUP clean_prefix)
+set_tests_properties(install.install PROPERTIES FIXTURES_REQUIRED clean_prefix FIXTURES_SETUP
+                                                installed)
+set_tests_properties(install.consumer PROPERTIES FIXTURES_REQUIRED installed)
+set_tests_properties(
+  install.clean install.install install.consumer install.builds_without_trilinos
+  PROPERTIES LABELS install TIMEOUT 300 PROCESSORS 2)

@@ -35,3 +35,17 @@ function(rrcb_add_test)
     set_tests_properties(${ARG_NAME} PROPERTIES TIMEOUT 60 LABELS "${ARG_LABELS}")
   endif()
 endfunction()
+
+# rrcb_add_example_test(NAME name RANKS count SOURCE file COMMAND command ...)
+#
+# Runs an example under mpirun; its output must be the one in the comment at the end of SOURCE.
+function(rrcb_add_example_test)
+  cmake_parse_arguments(ARG "" "NAME;RANKS;SOURCE" "COMMAND" ${ARGN})
+  add_test(
+    NAME ${ARG_NAME}
+    COMMAND
+      ${CMAKE_COMMAND} -D SOURCE=${CMAKE_CURRENT_SOURCE_DIR}/${ARG_SOURCE} -P
+      ${PROJECT_SOURCE_DIR}/cmake/rrcb_check_output.cmake -- ${MPIEXEC_EXECUTABLE}
+      ${MPIEXEC_NUMPROC_FLAG} ${ARG_RANKS} ${RRCB_MPIEXEC_FLAGS} ${ARG_COMMAND})
+  set_tests_properties(${ARG_NAME} PROPERTIES TIMEOUT 60 PROCESSORS ${ARG_RANKS} LABELS examples)
+endfunction()

@@ -1,0 +1,49 @@
+// Balances points that lie unevenly on the ranks: arrays and a communicator are all it takes.
+#include <rrcb/rrcb.hpp>
+
+#include <mpi.h>
+
+#include <cstdio>
+#include <vector>
+
+// A row of unit squares of 100 x 100 points; rank r holds the next r + 1 of them.
+std::vector<double> squares_of(int rank) {
+    const int first = rank * (rank + 1) / 2;
+    std::vector<double> coordinates;
+    for (int i = 0; i < 100 * (rank + 1); ++i) {
+        for (int j = 0; j < 100; ++j) {
+            coordinates.push_back(first + (i + 0.5) / 100);
+            coordinates.push_back((j + 0.5) / 100);
+        }
+    }
+    return coordinates;
+}
+
+int main(int argc, char** argv) {
+    MPI_Init(&argc, &argv);
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    const std::vector<double> coordinates = squares_of(rank);
+
+    const rrcb::Points points = rrcb::interleaved_points(coordinates, 2);
+    const rrcb::Balance balance = rrcb::balance(points, rrcb::Options{}, MPI_COMM_WORLD);
+    const int num_parts = balance.cuts.num_parts;
+    const rrcb::Plan plan = rrcb::plan(balance.parts, num_parts, MPI_COMM_WORLD);
+
+    const std::vector<double> weights =
+        rrcb::part_weights(points, balance.parts, num_parts, MPI_COMM_WORLD);
+    const double moved = rrcb::moved_fraction(points, balance.parts, num_parts, MPI_COMM_WORLD);
+    if (rank == 0) {
+        std::printf("%lld points in %d parts\n", static_cast<long long>(balance.report.num_points),
+                    num_parts);
+        std::printf("imbalance %.4f, moved %.0f %%\n", rrcb::imbalance(weights), 100 * moved);
+        std::printf("rank 0 sends %zu points and receives %zu\n", plan.export_indices.size(),
+                    plan.import_indices.size());
+    }
+    MPI_Finalize();
+}
+
+// Output on 4 ranks:
+// 100000 points in 4 parts
+// imbalance 1.0000, moved 50 %
+// rank 0 sends 0 points and receives 15000

@@ -24,15 +24,20 @@ struct Block {
 };
 
 /// Moments of the finished blocks of one cell, in scaled coordinates, with squares of lengths.
+///
+/// The mean is kept relative to a position of the cell: rounded to a coordinate it would be too
+/// coarse for the distances between means where the cell is small against its offset.
 template <std::size_t Dimension>
 struct Total {
     GlobalCount count = 0;
     double weight = 0;
+    std::array<double, Dimension> anchor{};
     std::array<double, Dimension> mean{};
     std::array<double, Dimension> central{};
 
     /// Chan's formula, with the block's own central moments.
     void absorb(const Block<Dimension>& block) {
+        if (count == 0) anchor = block.origin;
         count += block.count;
         if (!(block.weight > 0)) return;
         const double joint = weight + block.weight;
@@ -40,11 +45,17 @@ struct Total {
         for (std::size_t a = 0; a < Dimension; ++a) {
             const double shift = block.sum[a] / block.weight;
             const double block_central = std::max(0.0, block.square[a] - block.sum[a] * shift);
-            const double distance = block.origin[a] + shift - mean[a];
+            const double distance = block.origin[a] - anchor[a] + shift - mean[a];
             central[a] += block_central + distance * distance * (weight * share);
-            mean[a] = weight > 0 ? mean[a] + distance * share : block.origin[a] + shift;
+            mean[a] += distance * share;
         }
         weight = joint;
+    }
+
+    std::array<double, Dimension> centroid() const {
+        std::array<double, Dimension> position;
+        for (std::size_t a = 0; a < Dimension; ++a) position[a] = anchor[a] + mean[a];
+        return position;
     }
 };
 
@@ -63,7 +74,7 @@ struct Accumulator {
     void start_block(LocalIndex cell, const std::array<double, Dimension>& position) {
         finish_block(cell);
         blocks[cell] = {};
-        blocks[cell].origin = totals[cell].weight > 0 ? totals[cell].mean : position;
+        blocks[cell].origin = totals[cell].weight > 0 ? totals[cell].centroid() : position;
     }
 };
 
@@ -115,8 +126,9 @@ Moments finished(const Total<Dimension>& total, const SupportMesh& mesh) {
     Moments moments;
     moments.count = total.count;
     moments.weight = total.weight;
+    const auto centroid = total.centroid();
     for (std::size_t a = 0; a < Dimension; ++a) {
-        moments.mean[a] = total.mean[a] / mesh.scale[a];
+        moments.mean[a] = centroid[a] / mesh.scale[a];
         moments.deviation[a] = std::sqrt(total.central[a] / total.weight) / mesh.scale[a];
     }
     return moments;

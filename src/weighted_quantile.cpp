@@ -9,6 +9,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Weight that round-off may leave on the wrong side; it must not decide on which side of a gap
+/// between clusters a cut falls.
+double negligible(double weight) {
+    return 1e-12 * weight;
+}
+
 /// One axis of a patch, and which patch it is.
 struct Interval {
     double lower;
@@ -21,8 +27,8 @@ struct Interval {
 
 /// Where the cumulative weight passes the target: between two neighbouring breakpoints.
 struct Bracket {
-    double left = -infinity;       ///< weight below `left` is at most the target
-    double right = infinity;       ///< weight below `right` is above the target
+    double left = -infinity;       ///< weight below `left` is less than the target
+    double right = infinity;       ///< weight below `right` is not
     double below = 0;              ///< weight of the intervals that end at or before `left`
     std::vector<Interval> active;  ///< jumps at `left`, and intervals that span the bracket
 };
@@ -49,7 +55,7 @@ double pivot_of(std::span<const double> breakpoints) {
 void narrow(Bracket& bracket, double pivot, double target) {
     double below = bracket.below;
     for (const Interval& interval : bracket.active) below += weight_below(interval, pivot);
-    if (below > target) {
+    if (below > target - negligible(target)) {
         bracket.right = pivot;
         std::erase_if(bracket.active, [&](const Interval& i) { return i.lower >= pivot; });
         return;
@@ -78,11 +84,23 @@ Bracket find_bracket(std::vector<Interval> intervals, double target) {
     return bracket;
 }
 
-/// A value that separates what lies at or before the bracket's left end from the rest.
-double after_left(const Bracket& bracket) {
-    if (bracket.right == infinity) return infinity;
-    const double middle = bracket.left / 2 + bracket.right / 2;
-    return middle > bracket.left ? middle : bracket.right;
+/// A value with the jump at the bracket's left end below it and as little else as can be.
+double after_jump(const Bracket& bracket) {
+    const bool spanned = std::any_of(bracket.active.begin(), bracket.active.end(),
+                                     [](const Interval& interval) { return !interval.is_jump(); });
+    const double next = std::nextafter(bracket.left, infinity);
+    if (spanned || bracket.right == infinity) return spanned ? next : infinity;
+    return std::max(next, bracket.left / 2 + bracket.right / 2);
+}
+
+/// The middle of the gap that begins at `value`, or `value` where weight begins at once.
+double middle_of_gap(std::span<const Interval> intervals, double value) {
+    double next = infinity;
+    for (const Interval& interval : intervals) {
+        if (interval.upper < value || (interval.upper == value && !interval.is_jump())) continue;
+        next = std::min(next, std::max(interval.lower, value));
+    }
+    return next == infinity ? value : value / 2 + next / 2;
 }
 
 /// How many of the patches lie below a cut.
@@ -111,7 +129,7 @@ Below divide_jump(const StatisticalDomain& domain, const Bracket& bracket,
     const Below below = divide(domain, tied, axes.subspan(1), target, at);
     const auto axis = static_cast<std::size_t>(axes[0]);
     if (below != Below::some) at.fill(-infinity);
-    at[axis] = below == Below::all ? after_left(bracket) : bracket.left;
+    at[axis] = below == Below::all ? after_jump(bracket) : bracket.left;
     return below;
 }
 
@@ -124,7 +142,8 @@ Below divide(const StatisticalDomain& domain, std::span<const std::size_t> patch
         return target < weight / 2 ? Below::none : Below::all;
     }
     const auto axis = static_cast<std::size_t>(axes[0]);
-    const Bracket bracket = find_bracket(intervals_of(domain, patches, axis), target);
+    const std::vector<Interval> intervals = intervals_of(domain, patches, axis);
+    const Bracket bracket = find_bracket(intervals, target);
     double below = bracket.below;
     double jump = 0;
     double slope = 0;
@@ -140,10 +159,13 @@ Below divide(const StatisticalDomain& domain, std::span<const std::size_t> patch
         const Below of_jump = divide_jump(domain, bracket, axes, target - below, at);
         if (of_jump == Below::none && below == 0) return Below::none;
     } else if (slope > 0) {
-        const double share = std::min(1.0, (target - below - jump) / slope);
-        at[axis] = std::lerp(bracket.left, bracket.right, share);
+        const double rest = target - below - jump;
+        const double inside = std::lerp(bracket.left, bracket.right, rest / slope);
+        at[axis] =
+            slope - rest > negligible(target) ? inside : middle_of_gap(intervals, bracket.right);
+        if (jump > 0) at[axis] = std::max(at[axis], std::nextafter(bracket.left, infinity));
     } else {
-        at[axis] = after_left(bracket);
+        at[axis] = after_jump(bracket);
     }
     return at[axis] == infinity ? Below::all : Below::some;
 }

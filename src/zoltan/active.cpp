@@ -1,9 +1,9 @@
-#include <dlfcn.h>
+#include "export.hpp"
 
 #include <rrcb/version.hpp>
 #include <rrcb/zoltan/rrcb_zoltan.h>
 
-#include "export.hpp"
+#include <dlfcn.h>
 
 namespace {
 
@@ -21,4 +21,6 @@ RRCB_EXPORT int RRCB_Zoltan_Active(void) {
     return reached != nullptr && library_of(reached) == library_of(&own) ? 1 : 0;
 }
 
-RRCB_EXPORT const char* RRCB_Version(void) { return rrcb::version; }
+RRCB_EXPORT const char* RRCB_Version(void) {
+    return rrcb::version;
+}

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <string>
 
@@ -59,7 +60,9 @@ bool read_sample_fraction(Options& options, std::string_view text) {
     return true;
 }
 
-bool read_seed(Options& options, std::string_view text) { return read_number(text, options.seed); }
+bool read_seed(Options& options, std::string_view text) {
+    return read_number(text, options.seed);
+}
 
 struct OwnParameter {
     std::string_view name;
@@ -105,8 +108,7 @@ constexpr CommonInteger common_integers[] = {
 int integer_or(std::string_view text, int minimum, int fallback) {
     if (text.starts_with('T')) return 1;
     if (text.starts_with('F')) return 0;
-    int value = 0;
-    std::from_chars(text.data(), text.data() + text.size(), value);
+    const int value = std::atoi(std::string(text).c_str());
     return text == "DEFAULT" || value < minimum ? fallback : value;
 }
 
@@ -114,6 +116,7 @@ ReturnLists return_lists(std::string_view text) {
     const auto has = [text](std::string_view word) { return text.find(word) != text.npos; };
     if (has("EXPORT")) return has("IMPORT") ? ReturnLists::all : ReturnLists::exports;
     if (has("IMPORT")) return ReturnLists::imports;
+    if (has("CANDIDATE")) return ReturnLists::candidates;
     if (has("PART")) return ReturnLists::parts;
     return text == "NONE" ? ReturnLists::none : ReturnLists::all;
 }

@@ -1,13 +1,14 @@
 #pragma once
 
-#include <string_view>
-
 #include <rrcb/options.hpp>
+
+#include <string>
+#include <string_view>
 
 namespace rrcb::zoltan {
 
 /// Which lists a partitioning call returns (RETURN_LISTS).
-enum class ReturnLists { none, imports, exports, all, parts };
+enum class ReturnLists { none, imports, exports, all, parts, candidates };
 
 /// What the plug-in must know of a handle's parameters; the defaults are Zoltan's.
 struct Parameters {
@@ -36,8 +37,7 @@ Setting set_own(Parameters& parameters, std::string_view name, std::string_view 
 /// Notes a parameter that Zoltan itself has accepted, if it matters here. Upper-cased.
 void note_common(Parameters& parameters, std::string_view name, std::string_view value);
 
-/// RETURN_LISTS, LB_METHOD and all other names and values are compared as Zoltan does: leading
-/// blanks dropped, upper-cased.
+/// A name or value as Zoltan compares it: leading blanks dropped, upper-cased.
 std::string clean(const char* text);
 
 }  // namespace rrcb::zoltan

@@ -3,6 +3,8 @@
 #include <zoltan.h>
 #include <zoltan_partition_tree.h>
 
+#include <type_traits>
+
 // Declared in no public header of Zoltan, but exported by it and called by its users.
 extern "C" int Zoltan_RCB_Box(struct Zoltan_Struct* zz, int part, int* dimension, double* xmin,
                               double* ymin, double* zmin, double* xmax, double* ymax, double* zmax);
@@ -30,7 +32,20 @@ struct RealZoltan {
     decltype(&Zoltan_Deserialize) deserialize;
 };
 
-/// Looked up once. Throws Failure when Zoltan is not behind the plug-in.
-const RealZoltan& real_zoltan();
+/// Looked up once; null, with a message on stderr, when Zoltan is not behind the plug-in.
+const RealZoltan* real_zoltan() noexcept;
+
+/// Calls the real function as if the plug-in were not there: callbacks and what they throw
+/// included.
+template <auto member, typename... Arguments>
+auto forward(Arguments... arguments) {
+    using Result = decltype((real_zoltan()->*member)(arguments...));
+    const RealZoltan* real = real_zoltan();
+    if constexpr (std::is_same_v<Result, int>) {
+        return real == nullptr ? ZOLTAN_FATAL : (real->*member)(arguments...);
+    } else {
+        return real == nullptr ? Result() : (real->*member)(arguments...);
+    }
+}
 
 }  // namespace rrcb::zoltan

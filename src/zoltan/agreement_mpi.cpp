@@ -1,0 +1,91 @@
+#include "agreement_mpi.hpp"
+
+#include "mpi/communicator.hpp"
+
+#include <array>
+#include <utility>
+
+namespace rrcb::zoltan {
+
+namespace {
+
+constexpr std::array codes = {ZOLTAN_OK, ZOLTAN_WARN, ZOLTAN_FATAL, ZOLTAN_MEMERR};
+
+int severity(int code) {
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+        if (codes[i] == code) return static_cast<int>(i);
+    }
+    return severity(ZOLTAN_FATAL);
+}
+
+struct SameOnAllRanks {
+    const char* name;
+    int (*value)(const Parameters&);
+};
+
+constexpr std::array same_on_all_ranks = {
+    SameOnAllRanks{"NUM_GID_ENTRIES", [](const Parameters& p) { return p.num_gid_entries; }},
+    SameOnAllRanks{"NUM_LID_ENTRIES", [](const Parameters& p) { return p.num_lid_entries; }},
+    SameOnAllRanks{"OBJ_WEIGHT_DIM", [](const Parameters& p) { return p.weight_dimension; }},
+    SameOnAllRanks{"AUTO_MIGRATE", [](const Parameters& p) { return int{p.auto_migrate != 0}; }},
+    SameOnAllRanks{"RETURN_LISTS",
+                   [](const Parameters& p) { return static_cast<int>(p.return_lists); }},
+};
+
+/// Reduced by maximum; a minimum travels as the maximum of the negative.
+struct Vote {
+    int severity = 0;
+    int failing_rank_from_last = 0;  ///< ranks - lowest failing rank
+    int num_global_parts = -1;
+    int any_local_parts = 0;
+    int any_part_sizes = 0;
+    std::array<int, same_on_all_ranks.size()> largest{};
+    std::array<int, same_on_all_ranks.size()> negative_smallest{};
+};
+
+Vote vote_of(const LocalStatus& local, const State& state) {
+    const Parameters& parameters = state.parameters;
+    Vote vote;
+    vote.severity = severity(local.code);
+    if (local.code != ZOLTAN_OK && local.code != ZOLTAN_WARN) {
+        vote.failing_rank_from_last = state.communicator->size() - state.communicator->rank();
+    }
+    vote.num_global_parts = parameters.num_global_parts;
+    vote.any_local_parts = parameters.num_local_parts >= 0 ? 1 : 0;
+    vote.any_part_sizes = state.part_sizes.empty() ? 0 : 1;
+    for (std::size_t i = 0; i < same_on_all_ranks.size(); ++i) {
+        vote.largest[i] = same_on_all_ranks[i].value(parameters);
+        vote.negative_smallest[i] = -vote.largest[i];
+    }
+    return vote;
+}
+
+}  // namespace
+
+Agreement agree(const LocalStatus& local, const State& state) {
+    Vote vote = vote_of(local, state);
+    static_assert(sizeof(Vote) % sizeof(int) == 0);
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &vote, sizeof(Vote) / sizeof(int), MPI_INT, MPI_MAX,
+                             state.communicator->get()),
+               "MPI_Allreduce");
+    Agreement agreement;
+    agreement.code = codes[static_cast<std::size_t>(vote.severity)];
+    agreement.failing_rank = state.communicator->size() - vote.failing_rank_from_last;
+    agreement.num_global_parts = vote.num_global_parts;
+    agreement.any_local_parts = vote.any_local_parts != 0;
+    agreement.any_part_sizes = vote.any_part_sizes != 0;
+    for (std::size_t i = 0; i < same_on_all_ranks.size(); ++i) {
+        if (vote.largest[i] != -vote.negative_smallest[i]) {
+            agreement.differing = same_on_all_ranks[i].name;
+        }
+    }
+    return agreement;
+}
+
+bool any_rank(bool flag, MPI_Comm comm) {
+    int any = flag ? 1 : 0;
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, comm), "MPI_Allreduce");
+    return any != 0;
+}
+
+}  // namespace rrcb::zoltan

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "state.hpp"
+
+#include <string>
+
+namespace rrcb::zoltan {
+
+/// How far one rank got on its own.
+struct LocalStatus {
+    int code = ZOLTAN_OK;
+    std::string text;
+};
+
+/// What all ranks know after one reduction.
+struct Agreement {
+    int code = ZOLTAN_OK;          ///< the worst of all ranks
+    int failing_rank = 0;          ///< lowest rank that failed; it speaks for all
+    int num_global_parts = -1;     ///< largest of all ranks, -1: set nowhere
+    bool any_local_parts = false;  ///< NUM_LOCAL_PARTS is set somewhere
+    bool any_part_sizes = false;   ///< Zoltan_LB_Set_Part_Sizes was called somewhere
+    std::string differing;         ///< name of a parameter that differs between ranks
+
+    bool failed() const { return code != ZOLTAN_OK && code != ZOLTAN_WARN; }
+};
+
+/// Collective over the handle's communicator: one reduction of a few integers.
+Agreement agree(const LocalStatus& local, const State& state);
+
+/// True on all ranks when `flag` is true on any. Collective: one reduction of one integer.
+bool any_rank(bool flag, MPI_Comm comm);
+
+}  // namespace rrcb::zoltan

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "failure.hpp"
+
+#include <zoltan_mem.h>
+#include <zoltan_types.h>
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+namespace rrcb::zoltan {
+
+/// Array from Zoltan's allocator, so that Zoltan_LB_Free_Part can free what is handed out.
+template <typename T>
+class ZoltanArray {
+  public:
+    ZoltanArray() = default;
+    /// Uninitialised; null when `size` is 0. Throws Failure.
+    explicit ZoltanArray(std::size_t size) {
+        if (size == 0) return;
+        data_ = reinterpret_cast<T*>(Zoltan_Malloc(size * sizeof(T), file(), __LINE__));
+        if (data_ == nullptr) throw Failure(ZOLTAN_MEMERR, "out of memory for lists of objects");
+    }
+    explicit ZoltanArray(T* owned) : data_(owned) {}
+    ZoltanArray(ZoltanArray&& other) noexcept : data_(other.release()) {}
+    ZoltanArray& operator=(ZoltanArray&& other) noexcept {
+        std::swap(data_, other.data_);
+        return *this;
+    }
+    ~ZoltanArray() { Zoltan_Free(reinterpret_cast<void**>(&data_), file(), __LINE__); }
+
+    T* get() const { return data_; }
+    T& operator[](std::size_t i) const { return data_[i]; }
+    T* release() { return std::exchange(data_, nullptr); }
+
+    /// Gives back what is behind the first `size` entries.
+    void shrink(std::size_t size) {
+        if (size == 0) {
+            *this = ZoltanArray();
+        } else if (data_ != nullptr) {
+            T* shrunk =
+                reinterpret_cast<T*>(Zoltan_Realloc(data_, size * sizeof(T), file(), __LINE__));
+            if (shrunk != nullptr) data_ = shrunk;
+        }
+    }
+
+  private:
+    static char* file() { return const_cast<char*>(__FILE_NAME__); }
+
+    T* data_ = nullptr;
+};
+
+/// Uninitialised memory that grows and stays, so that repeated calls touch the same pages.
+template <typename T>
+class Scratch {
+  public:
+    T* get(std::size_t size) {
+        if (size > capacity_) {
+            data_ = std::make_unique_for_overwrite<T[]>(size);
+            capacity_ = size;
+        }
+        return data_.get();
+    }
+
+  private:
+    std::unique_ptr<T[]> data_;
+    std::size_t capacity_ = 0;
+};
+
+}  // namespace rrcb::zoltan

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "failure.hpp"
+#include "message.hpp"
+#include "state.hpp"
+
+#include <exception>
+#include <new>
+
+namespace rrcb::zoltan {
+
+/// Runs the body of an entry point; no exception leaves it. Not for forwarded calls.
+template <typename Body>
+int guarded(const char* function, const State* state, Body body) noexcept {
+    const int rank = state == nullptr ? -1 : state->communicator->rank();
+    int code = ZOLTAN_FATAL;
+    try {
+        return body();
+    } catch (const Failure& failure) {
+        code = failure.code();
+        print_error(rank, function, failure.what());
+    } catch (const std::bad_alloc&) {
+        code = ZOLTAN_MEMERR;
+        print_error(rank, function, "out of memory");
+    } catch (const std::exception& thrown) {
+        print_error(rank, function, thrown.what());
+    } catch (...) {
+        print_error(rank, function, "a callback threw");
+    }
+    return code;
+}
+
+/// The handle's state when RRCB is its method; null when the real Zoltan is to answer.
+inline State* rrcb_state(const Zoltan_Struct* zz) {
+    State* state = find_state(zz);
+    return state != nullptr && state->parameters.rrcb ? state : nullptr;
+}
+
+}  // namespace rrcb::zoltan

@@ -1,0 +1,181 @@
+#include "export.hpp"
+#include "guard.hpp"
+#include "partition_mpi.hpp"
+#include "real_zoltan.hpp"
+
+#include <memory>
+#include <string>
+#include <utility>
+
+using namespace rrcb::zoltan;
+
+namespace {
+
+int switch_to_rrcb(State& state) {
+    if (state.deserialized) {
+        throw Failure(ZOLTAN_FATAL,
+                      "a handle filled by Zoltan_Deserialize cannot be switched to RRCB; create "
+                      "one with Zoltan_Create");
+    }
+    state.parameters.rrcb = true;
+    return ZOLTAN_OK;
+}
+
+int reject_value(const State& state, const std::string& name, const std::string& value) {
+    print_warning(
+        state.communicator->rank(), "Zoltan_Set_Param",
+        "Invalid value `" + value + "' for parameter `" + name + "'; default value will be used.");
+    return ZOLTAN_WARN;
+}
+
+int set_parameter(Zoltan_Struct* zz, const char* raw_name, const char* raw_value, int index) {
+    State* state = find_state(zz);
+    const auto forward_it = [&] {
+        return forward<&RealZoltan::set_param_vec>(zz, raw_name, raw_value, index);
+    };
+    if (state == nullptr) return forward_it();
+    return guarded("Zoltan_Set_Param", state, [&] {
+        const std::string name = clean(raw_name);
+        const std::string value = clean(raw_value);
+        if (name == "LB_METHOD" && value == "RRCB") return switch_to_rrcb(*state);
+        const Setting setting = set_own(state->parameters, name, value);
+        if (setting == Setting::accepted) return ZOLTAN_OK;
+        if (setting == Setting::defaulted) return reject_value(*state, name, value);
+        const int code = forward_it();
+        // An unknown word for RETURN_LISTS is warned about, but sets the default.
+        const bool taken = code == ZOLTAN_OK || name == "RETURN_LISTS";
+        if (taken) note_common(state->parameters, name, value);
+        return code;
+    });
+}
+
+/// Where one of the two lists goes in the caller's variables; `parts` may be null.
+struct Destination {
+    int* count;
+    ZOLTAN_ID_PTR* global_ids;
+    ZOLTAN_ID_PTR* local_ids;
+    int** ranks;
+    int** parts;
+};
+
+void hand_out(List&& list, const Destination& destination) {
+    *destination.count = list.count;
+    *destination.global_ids = list.global_ids.release();
+    *destination.local_ids = list.local_ids.release();
+    *destination.ranks = list.ranks.release();
+    if (destination.parts != nullptr) *destination.parts = list.parts.release();
+}
+
+}  // namespace
+
+RRCB_EXPORT Zoltan_Struct* Zoltan_Create(MPI_Comm user) {
+    Zoltan_Struct* zz = forward<&RealZoltan::create>(user);
+    if (zz == nullptr || user == MPI_COMM_NULL) return zz;
+    guarded("Zoltan_Create", nullptr, [&] {
+        add_state(zz, std::make_shared<Communicator>(user));
+        return ZOLTAN_OK;
+    });
+    return zz;
+}
+
+RRCB_EXPORT Zoltan_Struct* Zoltan_Copy(Zoltan_Struct const* from) {
+    Zoltan_Struct* copy = forward<&RealZoltan::copy>(from);
+    if (copy == nullptr) return copy;
+    guarded("Zoltan_Copy", find_state(from), [&] {
+        copy_state(copy, from);
+        return ZOLTAN_OK;
+    });
+    return copy;
+}
+
+RRCB_EXPORT int Zoltan_Copy_To(Zoltan_Struct* to, Zoltan_Struct const* from) {
+    const int code = forward<&RealZoltan::copy_to>(to, from);
+    if (code != ZOLTAN_OK) return code;
+    return guarded("Zoltan_Copy_To", find_state(from), [&] {
+        copy_state(to, from);
+        return ZOLTAN_OK;
+    });
+}
+
+RRCB_EXPORT void Zoltan_Destroy(Zoltan_Struct** zz) {
+    if (*zz != nullptr) remove_state(*zz);
+    if (const RealZoltan* real = real_zoltan()) real->destroy(zz);
+}
+
+RRCB_EXPORT int Zoltan_Set_Param(Zoltan_Struct* zz, const char* name, const char* value) {
+    return set_parameter(zz, name, value, -1);
+}
+
+RRCB_EXPORT int Zoltan_Set_Param_Vec(Zoltan_Struct* zz, const char* name, const char* value,
+                                     int index) {
+    return set_parameter(zz, name, value, index);
+}
+
+RRCB_EXPORT int Zoltan_LB_Partition(
+    Zoltan_Struct* zz, int* changes, int* num_gid_entries, int* num_lid_entries, int* num_import,
+    ZOLTAN_ID_PTR* import_global_ids, ZOLTAN_ID_PTR* import_local_ids, int** import_procs,
+    int** import_to_part, int* num_export, ZOLTAN_ID_PTR* export_global_ids,
+    ZOLTAN_ID_PTR* export_local_ids, int** export_procs, int** export_to_part) {
+    State* state = rrcb_state(zz);
+    if (state == nullptr) {
+        return forward<&RealZoltan::lb_partition>(
+            zz, changes, num_gid_entries, num_lid_entries, num_import, import_global_ids,
+            import_local_ids, import_procs, import_to_part, num_export, export_global_ids,
+            export_local_ids, export_procs, export_to_part);
+    }
+    Partition result;
+    const int code = guarded("Zoltan_LB_Partition", state, [&] {
+        return partition(zz, *state, "Zoltan_LB_Partition", false, result);
+    });
+    *changes = result.changes ? 1 : 0;
+    *num_gid_entries = state->parameters.num_gid_entries;
+    *num_lid_entries = state->parameters.num_lid_entries;
+    hand_out(std::move(result.imports),
+             {num_import, import_global_ids, import_local_ids, import_procs, import_to_part});
+    hand_out(std::move(result.exports),
+             {num_export, export_global_ids, export_local_ids, export_procs, export_to_part});
+    return code;
+}
+
+RRCB_EXPORT int Zoltan_LB_Balance(Zoltan_Struct* zz, int* changes, int* num_gid_entries,
+                                  int* num_lid_entries, int* num_import,
+                                  ZOLTAN_ID_PTR* import_global_ids, ZOLTAN_ID_PTR* import_local_ids,
+                                  int** import_procs, int* num_export,
+                                  ZOLTAN_ID_PTR* export_global_ids, ZOLTAN_ID_PTR* export_local_ids,
+                                  int** export_procs) {
+    State* state = rrcb_state(zz);
+    if (state == nullptr) {
+        return forward<&RealZoltan::lb_balance>(zz, changes, num_gid_entries, num_lid_entries,
+                                                num_import, import_global_ids, import_local_ids,
+                                                import_procs, num_export, export_global_ids,
+                                                export_local_ids, export_procs);
+    }
+    Partition result;
+    const int code = guarded("Zoltan_LB_Balance", state, [&] {
+        return partition(zz, *state, "Zoltan_LB_Balance", true, result);
+    });
+    *changes = result.changes ? 1 : 0;
+    *num_gid_entries = state->parameters.num_gid_entries;
+    *num_lid_entries = state->parameters.num_lid_entries;
+    hand_out(std::move(result.imports),
+             {num_import, import_global_ids, import_local_ids, import_procs, nullptr});
+    hand_out(std::move(result.exports),
+             {num_export, export_global_ids, export_local_ids, export_procs, nullptr});
+    return code;
+}
+
+RRCB_EXPORT int Zoltan_LB_Set_Part_Sizes(Zoltan_Struct* zz, int global_num, int length,
+                                         int* part_ids, int* weight_indices, float* sizes) {
+    const int code = forward<&RealZoltan::lb_set_part_sizes>(zz, global_num, length, part_ids,
+                                                             weight_indices, sizes);
+    State* state = find_state(zz);
+    if (state == nullptr || code != ZOLTAN_OK) return code;
+    return guarded("Zoltan_LB_Set_Part_Sizes", state, [&] {
+        if (length == -1) state->part_sizes.clear();
+        for (int i = 0; i < length; ++i) {
+            if (weight_indices != nullptr && weight_indices[i] != 0) continue;
+            state->part_sizes.push_back({part_ids[i], global_num != 0, sizes[i]});
+        }
+        return code;
+    });
+}

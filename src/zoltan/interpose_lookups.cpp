@@ -1,0 +1,141 @@
+#include "export.hpp"
+#include "guard.hpp"
+#include "lookups.hpp"
+#include "real_zoltan.hpp"
+
+#include <algorithm>
+#include <cfloat>
+
+using namespace rrcb::zoltan;
+
+namespace {
+
+/// What a box look-up writes; a null `values` is not asked for.
+void hand_out(const std::vector<int>& found, int* values, int* count) {
+    if (values != nullptr) std::ranges::copy(found, values);
+    *count = values == nullptr ? 0 : static_cast<int>(found.size());
+}
+
+void hand_out_failure(int* values, int* count) {
+    if (values != nullptr) *values = -1;
+    *count = 0;
+}
+
+int refuse(const char* function, const State& state) {
+    print_error(state.communicator->rank(), function, "not available with LB_METHOD=RRCB");
+    return ZOLTAN_FATAL;
+}
+
+}  // namespace
+
+RRCB_EXPORT int Zoltan_LB_Point_PP_Assign(Zoltan_Struct* zz, double* coordinates, int* proc,
+                                          int* part) {
+    const State* state = rrcb_state(zz);
+    if (state == nullptr) {
+        return forward<&RealZoltan::lb_point_pp_assign>(zz, coordinates, proc, part);
+    }
+    Place place;
+    const int code = guarded("Zoltan_LB_Point_PP_Assign", state, [&] {
+        place = place_of(*state, coordinates);
+        return ZOLTAN_OK;
+    });
+    if (proc != nullptr) *proc = place.rank;
+    if (part != nullptr) *part = place.part;
+    return code;
+}
+
+RRCB_EXPORT int Zoltan_LB_Point_Assign(Zoltan_Struct* zz, double* coordinates, int* proc) {
+    const State* state = rrcb_state(zz);
+    if (state == nullptr) return forward<&RealZoltan::lb_point_assign>(zz, coordinates, proc);
+    Place place;
+    const int code = guarded("Zoltan_LB_Point_Assign", state, [&] {
+        require_one_part_per_rank(*state, "Zoltan_LB_Point_PP_Assign");
+        place = place_of(*state, coordinates);
+        return ZOLTAN_OK;
+    });
+    *proc = place.rank;
+    return code;
+}
+
+RRCB_EXPORT int Zoltan_LB_Box_PP_Assign(Zoltan_Struct* zz, double xmin, double ymin, double zmin,
+                                        double xmax, double ymax, double zmax, int* procs,
+                                        int* num_procs, int* parts, int* num_parts) {
+    const State* state = rrcb_state(zz);
+    if (state == nullptr) {
+        return forward<&RealZoltan::lb_box_pp_assign>(zz, xmin, ymin, zmin, xmax, ymax, zmax, procs,
+                                                      num_procs, parts, num_parts);
+    }
+    hand_out_failure(procs, num_procs);
+    hand_out_failure(parts, num_parts);
+    return guarded("Zoltan_LB_Box_PP_Assign", state, [&] {
+        const Touched touched = touched_by(*state, {{xmin, ymin, zmin}, {xmax, ymax, zmax}});
+        hand_out(touched.ranks, procs, num_procs);
+        hand_out(touched.parts, parts, num_parts);
+        return ZOLTAN_OK;
+    });
+}
+
+RRCB_EXPORT int Zoltan_LB_Box_Assign(Zoltan_Struct* zz, double xmin, double ymin, double zmin,
+                                     double xmax, double ymax, double zmax, int* procs,
+                                     int* num_procs) {
+    const State* state = rrcb_state(zz);
+    if (state == nullptr) {
+        return forward<&RealZoltan::lb_box_assign>(zz, xmin, ymin, zmin, xmax, ymax, zmax, procs,
+                                                   num_procs);
+    }
+    hand_out_failure(procs, num_procs);
+    return guarded("Zoltan_LB_Box_Assign", state, [&] {
+        require_one_part_per_rank(*state, "Zoltan_LB_Box_PP_Assign");
+        const Touched touched = touched_by(*state, {{xmin, ymin, zmin}, {xmax, ymax, zmax}});
+        hand_out(touched.ranks, procs, num_procs);
+        return ZOLTAN_OK;
+    });
+}
+
+RRCB_EXPORT int Zoltan_RCB_Box(Zoltan_Struct* zz, int part, int* dimension, double* xmin,
+                               double* ymin, double* zmin, double* xmax, double* ymax,
+                               double* zmax) {
+    const State* state = rrcb_state(zz);
+    if (state == nullptr) {
+        return forward<&RealZoltan::rcb_box>(zz, part, dimension, xmin, ymin, zmin, xmax, ymax,
+                                             zmax);
+    }
+    *dimension = -1;
+    *xmin = *ymin = *zmin = -DBL_MAX;
+    *xmax = *ymax = *zmax = DBL_MAX;
+    return guarded("Zoltan_RCB_Box", state, [&] {
+        const rrcb::Box region = region_of(*state, part);
+        *dimension = state->kept->cuts.dimension;
+        *xmin = region.lower[0], *ymin = region.lower[1], *zmin = region.lower[2];
+        *xmax = region.upper[0], *ymax = region.upper[1], *zmax = region.upper[2];
+        return ZOLTAN_OK;
+    });
+}
+
+RRCB_EXPORT int Zoltan_RCB_Partition_Tree(Zoltan_Struct* zz, int node, int* parent, int* left_leaf,
+                                          int* right_leaf) {
+    if (const State* state = rrcb_state(zz)) return refuse("Zoltan_RCB_Partition_Tree", *state);
+    return forward<&RealZoltan::rcb_partition_tree>(zz, node, parent, left_leaf, right_leaf);
+}
+
+RRCB_EXPORT size_t Zoltan_Serialize_Size(Zoltan_Struct const* zz) {
+    if (const State* state = rrcb_state(zz)) {
+        refuse("Zoltan_Serialize_Size", *state);
+        return 0;
+    }
+    return forward<&RealZoltan::serialize_size>(zz);
+}
+
+RRCB_EXPORT int Zoltan_Serialize(Zoltan_Struct const* zz, size_t size, char* buffer) {
+    if (const State* state = rrcb_state(zz)) return refuse("Zoltan_Serialize", *state);
+    return forward<&RealZoltan::serialize>(zz, size, buffer);
+}
+
+RRCB_EXPORT int Zoltan_Deserialize(Zoltan_Struct* zz, size_t size, char* buffer) {
+    // What the buffer holds comes from the real Zoltan and replaces every parameter.
+    if (State* state = find_state(zz)) {
+        state->parameters.rrcb = false;
+        state->deserialized = true;
+    }
+    return forward<&RealZoltan::deserialize>(zz, size, buffer);
+}

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "agreement_mpi.hpp"
+#include "part_map.hpp"
+#include "state.hpp"
+
+#include <vector>
+
+namespace rrcb::zoltan {
+
+/// Where the parts are and how large each is to be.
+struct Layout {
+    PartMap map;
+    std::vector<double> part_sizes;  ///< relative; empty: equal
+};
+
+/// Collective only where NUM_LOCAL_PARTS or part sizes are set somewhere: one message each. Throws
+/// Failure on all ranks alike.
+Layout make_layout(const Agreement& agreement, const State& state);
+
+}  // namespace rrcb::zoltan

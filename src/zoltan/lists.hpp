@@ -1,0 +1,30 @@
+#pragma once
+
+#include "objects.hpp"
+#include "part_map.hpp"
+
+#include <span>
+#include <vector>
+
+namespace rrcb::zoltan {
+
+/// One of Zoltan's two lists. Arrays of an empty list are null; a count of -1 says that the list
+/// was not asked for.
+struct List {
+    int count = 0;
+    ZoltanArray<ZOLTAN_ID_TYPE> global_ids;
+    ZoltanArray<ZOLTAN_ID_TYPE> local_ids;
+    ZoltanArray<int> ranks;
+    ZoltanArray<int> parts;
+};
+
+/// Objects of this rank whose rank or part changes, or all of them (`complete`). Not collective.
+/// Takes the ids out of `objects`; `moves` tells whether any of them changes.
+struct Exports {
+    List list;
+    bool moves = false;
+};
+Exports make_exports(Objects&& objects, const Parameters& parameters,
+                     std::span<const Part> new_parts, const PartMap& map, int my_rank);
+
+}  // namespace rrcb::zoltan

@@ -1,0 +1,182 @@
+#include "objects.hpp"
+
+#include "callback.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace rrcb::zoltan {
+
+namespace {
+
+/// Calls one handle's callbacks and turns their error codes into failures.
+class Collector {
+  public:
+    Collector(Zoltan_Struct* zz, const Parameters& parameters, Workspace& workspace)
+        : zz_(zz), parameters_(parameters), workspace_(workspace) {}
+
+    Objects collect() {
+        read_count();
+        read_dimension();
+        if (objects_.count > 0) {
+            const auto count = static_cast<std::size_t>(objects_.count);
+            objects_.global_ids = ZoltanArray<ZOLTAN_ID_TYPE>(count * num_gid());
+            objects_.local_ids = ZoltanArray<ZOLTAN_ID_TYPE>(count * num_lid());
+            read_ids_and_weights(count);
+            read_coordinates(count);
+            read_initial_parts(count);
+        }
+        return std::move(objects_);
+    }
+
+  private:
+    std::size_t num_gid() const { return static_cast<std::size_t>(parameters_.num_gid_entries); }
+    std::size_t num_lid() const { return static_cast<std::size_t>(parameters_.num_lid_entries); }
+    ZOLTAN_ID_PTR global_id(std::size_t i) const {
+        return objects_.global_ids.get() + i * num_gid();
+    }
+    ZOLTAN_ID_PTR local_id(std::size_t i) const {
+        return num_lid() == 0 ? nullptr : objects_.local_ids.get() + i * num_lid();
+    }
+
+    void check(int code, const char* name) {
+        if (code == ZOLTAN_WARN) objects_.warned = true;
+        if (code == ZOLTAN_OK || code == ZOLTAN_WARN) return;
+        throw Failure(code == ZOLTAN_MEMERR ? ZOLTAN_MEMERR : ZOLTAN_FATAL,
+                      std::string(name) + " returned error code " + std::to_string(code));
+    }
+
+    void read_count() {
+        const auto num_objects = callback<ZOLTAN_NUM_OBJ_FN>(zz_, ZOLTAN_NUM_OBJ_FN_TYPE);
+        if (!num_objects) throw Failure(ZOLTAN_FATAL, "Must register ZOLTAN_NUM_OBJ_FN.");
+        int code = ZOLTAN_OK;
+        objects_.count = num_objects(&code);
+        check(code, "ZOLTAN_NUM_OBJ_FN");
+        if (objects_.count >= 0) return;
+        throw Failure(ZOLTAN_FATAL, "ZOLTAN_NUM_OBJ_FN returned a negative number of objects: " +
+                                        std::to_string(objects_.count));
+    }
+
+    void read_dimension() {
+        const auto dimension = callback<ZOLTAN_NUM_GEOM_FN>(zz_, ZOLTAN_NUM_GEOM_FN_TYPE);
+        if (!dimension) throw Failure(ZOLTAN_FATAL, "Must register ZOLTAN_NUM_GEOM_FN.");
+        int code = ZOLTAN_OK;
+        objects_.points.dimension = dimension(&code);
+        check(code, "ZOLTAN_NUM_GEOM_FN");
+        if (objects_.points.dimension >= 1 && objects_.points.dimension <= max_dimension) return;
+        throw Failure(ZOLTAN_FATAL, "ZOLTAN_NUM_GEOM_FN returned dimension " +
+                                        std::to_string(objects_.points.dimension) +
+                                        "; it must be 1, 2 or 3");
+    }
+
+    void read_ids_and_weights(std::size_t count) {
+        const int weight_dimension = parameters_.weight_dimension;
+        weights_ = weight_dimension == 0 ? nullptr : workspace_.callback_weights.get(count);
+        const auto list = callback<ZOLTAN_OBJ_LIST_FN>(zz_, ZOLTAN_OBJ_LIST_FN_TYPE);
+        if (list) {
+            int code = ZOLTAN_OK;
+            list(parameters_.num_gid_entries, parameters_.num_lid_entries, global_id(0),
+                 local_id(0), weight_dimension, weights_, &code);
+            check(code, "ZOLTAN_OBJ_LIST_FN");
+        } else {
+            iterate_objects(count);
+        }
+    }
+
+    void iterate_objects(std::size_t count) {
+        const auto first = callback<ZOLTAN_FIRST_OBJ_FN>(zz_, ZOLTAN_FIRST_OBJ_FN_TYPE);
+        const auto next = callback<ZOLTAN_NEXT_OBJ_FN>(zz_, ZOLTAN_NEXT_OBJ_FN_TYPE);
+        if (!first || !next) {
+            throw Failure(ZOLTAN_FATAL,
+                          "Must register ZOLTAN_OBJ_LIST_FN or "
+                          "ZOLTAN_FIRST_OBJ_FN/ZOLTAN_NEXT_OBJ_FN.");
+        }
+        int code = ZOLTAN_OK;
+        const int gid = parameters_.num_gid_entries;
+        const int lid = parameters_.num_lid_entries;
+        const int wdim = parameters_.weight_dimension;
+        int found = first(gid, lid, global_id(0), local_id(0), wdim, weights_, &code);
+        check(code, "ZOLTAN_FIRST_OBJ_FN");
+        for (std::size_t i = 1; i < count && found != 0; ++i) {
+            float* weight = weights_ == nullptr ? nullptr : weights_ + i;
+            found = next(gid, lid, global_id(i - 1), local_id(i - 1), global_id(i), local_id(i),
+                         wdim, weight, &code);
+            check(code, "ZOLTAN_NEXT_OBJ_FN");
+        }
+        if (found == 0) {
+            throw Failure(ZOLTAN_FATAL,
+                          "ZOLTAN_FIRST_OBJ_FN/ZOLTAN_NEXT_OBJ_FN ended before the number of "
+                          "objects that ZOLTAN_NUM_OBJ_FN returned");
+        }
+    }
+
+    void read_coordinates(std::size_t count) {
+        const auto dimension = static_cast<std::size_t>(objects_.points.dimension);
+        double* coordinates = workspace_.coordinates.get(count * dimension);
+        read_geometry(count, coordinates);
+        std::span<const double> weights;
+        if (weights_ != nullptr) {
+            double* converted = workspace_.weights.get(count);
+            std::copy_n(weights_, count, converted);
+            weights = {converted, count};
+        }
+        objects_.points = interleaved_points({coordinates, count * dimension},
+                                             objects_.points.dimension, weights);
+    }
+
+    void read_geometry(std::size_t count, double* coordinates) {
+        const auto multi = callback<ZOLTAN_GEOM_MULTI_FN>(zz_, ZOLTAN_GEOM_MULTI_FN_TYPE);
+        const auto single = callback<ZOLTAN_GEOM_FN>(zz_, ZOLTAN_GEOM_FN_TYPE);
+        const int gid = parameters_.num_gid_entries;
+        const int lid = parameters_.num_lid_entries;
+        const auto dimension = static_cast<std::size_t>(objects_.points.dimension);
+        int code = ZOLTAN_OK;
+        if (multi) {
+            multi(gid, lid, objects_.count, global_id(0), local_id(0), objects_.points.dimension,
+                  coordinates, &code);
+            check(code, "ZOLTAN_GEOM_MULTI_FN");
+            return;
+        }
+        if (!single) {
+            throw Failure(ZOLTAN_FATAL, "Must register ZOLTAN_GEOM_MULTI_FN or ZOLTAN_GEOM_FN.");
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            single(gid, lid, global_id(i), local_id(i), coordinates + i * dimension, &code);
+            check(code, "ZOLTAN_GEOM_FN");
+        }
+    }
+
+    void read_initial_parts(std::size_t count) {
+        const auto multi = callback<ZOLTAN_PART_MULTI_FN>(zz_, ZOLTAN_PART_MULTI_FN_TYPE);
+        const auto single = callback<ZOLTAN_PART_FN>(zz_, ZOLTAN_PART_FN_TYPE);
+        if (!multi && !single) return;
+        objects_.initial_parts = ZoltanArray<int>(count);
+        const int gid = parameters_.num_gid_entries;
+        const int lid = parameters_.num_lid_entries;
+        int code = ZOLTAN_OK;
+        if (multi) {
+            multi(gid, lid, objects_.count, global_id(0), local_id(0), objects_.initial_parts.get(),
+                  &code);
+            check(code, "ZOLTAN_PART_MULTI_FN");
+            return;
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            objects_.initial_parts[i] = single(gid, lid, global_id(i), local_id(i), &code);
+            check(code, "ZOLTAN_PART_FN");
+        }
+    }
+
+    Zoltan_Struct* zz_;
+    const Parameters& parameters_;
+    Workspace& workspace_;
+    Objects objects_;
+    float* weights_ = nullptr;  ///< as the callbacks give them, null without weights
+};
+
+}  // namespace
+
+Objects collect_objects(Zoltan_Struct* zz, const Parameters& parameters, Workspace& workspace) {
+    return Collector(zz, parameters, workspace).collect();
+}
+
+}  // namespace rrcb::zoltan

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "buffer.hpp"
+#include "parameters.hpp"
+
+#include <rrcb/points.hpp>
+
+#include <zoltan.h>
+
+namespace rrcb::zoltan {
+
+/// Memory that one handle's calls share.
+struct Workspace {
+    Scratch<double> coordinates;
+    Scratch<double> weights;
+    Scratch<float> callback_weights;
+};
+
+/// One rank's objects, as its callbacks describe them.
+struct Objects {
+    int count = 0;
+    bool warned = false;  ///< a callback returned ZOLTAN_WARN
+    ZoltanArray<ZOLTAN_ID_TYPE> global_ids;
+    ZoltanArray<ZOLTAN_ID_TYPE> local_ids;  ///< null when ids have no local part
+    ZoltanArray<int> initial_parts;         ///< null when no callback tells them
+    Points points;                          ///< borrowed from the workspace
+};
+
+/// Asks the registered callbacks. Not collective. Throws Failure for a missing or failing callback,
+/// a negative count, or a dimension that is not 1, 2 or 3.
+Objects collect_objects(Zoltan_Struct* zz, const Parameters& parameters, Workspace& workspace);
+
+}  // namespace rrcb::zoltan

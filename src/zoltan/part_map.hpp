@@ -1,0 +1,38 @@
+#pragma once
+
+#include <rrcb/plan.hpp>
+#include <rrcb/points.hpp>
+
+#include <span>
+#include <vector>
+
+namespace rrcb::zoltan {
+
+/// Which ranks hold which part, as Zoltan lays parts out.
+struct PartMap {
+    std::vector<RankRange> ranks;  ///< of each part
+    bool one_each = true;          ///< part p is on rank p and on no other
+
+    int num_parts() const { return static_cast<int>(ranks.size()); }
+
+    /// Where object number `index` of rank `me` goes: it stays when its part is there already.
+    int destination(Part part, LocalIndex index, int me) const {
+        const RankRange& range = ranks[static_cast<std::size_t>(part)];
+        if (range.count == 1) return range.first;
+        if (me >= range.first && me < range.first + range.count) return me;
+        return range.first + static_cast<int>(index % static_cast<LocalIndex>(range.count));
+    }
+};
+
+/// Equal numbers of parts on all ranks, or ranks on all parts.
+PartMap even_part_map(int num_parts, int num_ranks);
+
+/// Parts where NUM_LOCAL_PARTS asks for them. `local_parts` holds one number per rank, -1 where
+/// it is not set; those ranks share what is left of `num_global_parts` (-1: not set). Throws
+/// Failure when the numbers do not add up.
+PartMap local_part_map(std::span<const int> local_parts, int num_global_parts);
+
+/// Lowest part on a rank, -1 when there is none.
+int first_part_of(const PartMap& map, int rank);
+
+}  // namespace rrcb::zoltan

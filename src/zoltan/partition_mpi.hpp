@@ -1,0 +1,21 @@
+#pragma once
+
+#include "lists.hpp"
+#include "state.hpp"
+
+namespace rrcb::zoltan {
+
+/// What Zoltan_LB_Partition returns beside its code.
+struct Partition {
+    bool changes = false;
+    List imports;
+    List exports;
+};
+
+/// The whole of Zoltan_LB_Partition under LB_METHOD=RRCB, or of Zoltan_LB_Balance, which is named
+/// by `function` and asks for one part per rank. Collective over the handle's communicator; the
+/// same code on every rank. On an error the message is printed once and the lists are empty.
+int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_part_per_rank,
+              Partition& result);
+
+}  // namespace rrcb::zoltan

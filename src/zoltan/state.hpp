@@ -1,0 +1,65 @@
+#pragma once
+
+#include "objects.hpp"
+#include "parameters.hpp"
+#include "part_map.hpp"
+
+#include <rrcb/cuts.hpp>
+
+#include <mpi.h>
+#include <zoltan.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace rrcb::zoltan {
+
+/// A duplicate of the communicator a handle was created with; copies of the handle share it.
+class Communicator {
+  public:
+    explicit Communicator(MPI_Comm user);
+    ~Communicator();
+    Communicator(const Communicator&) = delete;
+    Communicator& operator=(const Communicator&) = delete;
+
+    MPI_Comm get() const { return comm_; }
+    int rank() const { return rank_; }
+    int size() const { return size_; }
+
+  private:
+    MPI_Comm comm_ = MPI_COMM_NULL;
+    int rank_ = 0;
+    int size_ = 0;
+};
+
+/// One entry of Zoltan_LB_Set_Part_Sizes.
+struct PartSize {
+    int part = 0;
+    bool global = true;  ///< false: the part is counted from the first one on this rank
+    float size = 0;
+};
+
+/// What look-ups need of the last partition.
+struct Kept {
+    Cuts cuts;
+    PartMap map;
+};
+
+/// What the plug-in knows of one Zoltan_Struct beside what Zoltan keeps itself.
+struct State {
+    std::shared_ptr<Communicator> communicator;
+    Parameters parameters;
+    std::vector<PartSize> part_sizes;
+    std::optional<Kept> kept;   ///< with KEEP_CUTS
+    bool deserialized = false;  ///< Zoltan's parameters were set behind the plug-in's back
+    Workspace workspace;
+};
+
+/// The side table. Handles are made and destroyed by one thread at a time, as Zoltan asks.
+State* find_state(const Zoltan_Struct* zz);
+State& add_state(const Zoltan_Struct* zz, std::shared_ptr<Communicator> communicator);
+void copy_state(const Zoltan_Struct* to, const Zoltan_Struct* from);
+void remove_state(const Zoltan_Struct* zz);
+
+}  // namespace rrcb::zoltan

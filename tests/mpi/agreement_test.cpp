@@ -1,0 +1,131 @@
+#include <rrcb/balance.hpp>
+#include <rrcb/error.hpp>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+class Agreement : public testing::Test {
+  protected:
+    void SetUp() override {
+        MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+        MPI_Comm_size(MPI_COMM_WORLD, &num_ranks_);
+    }
+
+    /// Every rank gets the same text, which holds `expected`, and the next call works.
+    void expect_error(const Points& points, const Options& options, const std::string& expected) {
+        std::array<char, 512> text{};
+        try {
+            balance(points, options, MPI_COMM_WORLD);
+            ADD_FAILURE() << "expected: " << expected;
+        } catch (const Error& error) {
+            std::string(error.what()).copy(text.data(), text.size() - 1);
+            EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
+            EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+        }
+        std::array<char, 512> of_root = text;
+        MPI_Bcast(of_root.data(), 512, MPI_CHAR, 0, MPI_COMM_WORLD);
+        EXPECT_STREQ(text.data(), of_root.data());
+
+        const std::vector<double> fine{0.5, 1.5};
+        EXPECT_EQ(balance(interleaved_points(fine, 1), {}, MPI_COMM_WORLD).parts.size(), 2u);
+    }
+
+    bool last() const { return rank_ == num_ranks_ - 1; }
+    std::string last_rank() const { return "rank " + std::to_string(num_ranks_ - 1) + ": "; }
+
+    int rank_ = 0;
+    int num_ranks_ = 1;
+};
+
+TEST_F(Agreement, on_a_coordinate_that_is_no_number) {
+    for (const double bad : {nan, infinity, -infinity}) {
+        std::vector<double> x{0, 1, 2, 3, 4, 5};
+        if (last()) x[3] = x[5] = bad;
+        expect_error(interleaved_points(x, 2), {},
+                     last_rank() +
+                         "coordinate of object 1 on axis 1 is NaN or infinite (2 such "
+                         "values on this rank)");
+    }
+}
+
+TEST_F(Agreement, on_an_impossible_weight) {
+    const std::vector<double> x{0, 1, 2};
+    for (const double bad : {-1.0, nan, infinity}) {
+        std::vector<double> weights(3, 1.0);
+        if (last()) weights[2] = bad;
+        expect_error(interleaved_points(x, 1, weights), {},
+                     last_rank() + "weight of object 2 is negative, NaN or infinite (1 such value");
+    }
+}
+
+TEST_F(Agreement, on_weights_whose_sum_overflows) {
+    const std::vector<double> x{0, 1};
+    const std::vector<double> weights(2, last() ? 1e308 : 1.0);
+    expect_error(interleaved_points(x, 1, weights), {}, last_rank() + "the sum of the weights");
+}
+
+TEST_F(Agreement, on_arrays_that_do_not_fit) {
+    const std::vector<double> x(last() ? 5 : 4);
+    expect_error(interleaved_points(x, 2), {}, "multiple of the dimension");
+    const std::vector<double> y(last() ? 1 : 2);
+    expect_error(interleaved_points(y, 2), {}, "multiple of the dimension");
+    const std::vector<double> weights(last() ? 1 : 2);
+    const std::vector<double> z(4);
+    expect_error(interleaved_points(z, 2, weights), {}, "one entry per point");
+}
+
+TEST_F(Agreement, on_a_dimension_out_of_range) {
+    const std::vector<double> x(12);
+    expect_error(interleaved_points(x, last() ? 4 : 3), {}, "1, 2 or 3 dimensions");
+    expect_error(interleaved_points(x, last() ? 0 : 2), {}, "1, 2 or 3 dimensions");
+}
+
+TEST_F(Agreement, on_options_out_of_range) {
+    const std::vector<double> x{0, 1};
+    const auto with = [&](auto change, const std::string& expected) {
+        Options options;
+        change(options);
+        expect_error(interleaved_points(x, 1), options, "rank 0: " + expected);
+    };
+    with([](Options& o) { o.num_parts = -1; }, "num_parts");
+    with([](Options& o) { o.support_mesh = 5000; }, "support_mesh must be 1 ... 4096");
+    with([](Options& o) { o.sample_fraction = 0; }, "sample_fraction must be in (0, 1]");
+    with([](Options& o) { o.sigma_multiplier = nan; }, "sigma_multiplier");
+    with([](Options& o) { o.num_parts = 2, o.part_sizes = {1}; }, "part_sizes must hold one");
+    with([](Options& o) { o.num_parts = 2, o.part_sizes = {0, 0}; }, "part_sizes must have a");
+    with([](Options& o) { o.num_parts = 2, o.part_sizes = {2, -1}; }, "part_sizes must be finite");
+}
+
+TEST_F(Agreement, on_options_that_differ_between_ranks) {
+    if (num_ranks_ == 1) GTEST_SKIP() << "needs two ranks";
+    const std::vector<double> x{0, 1};
+    const auto with = [&](auto change, const std::string& name) {
+        Options options;
+        if (last()) change(options);
+        expect_error(interleaved_points(x, 1), options,
+                     name + " differs between rank 0 and rank " + std::to_string(num_ranks_ - 1));
+    };
+    with([](Options& o) { o.num_parts = 99; }, "num_parts");
+    with([](Options& o) { o.support_mesh = 3; }, "support_mesh");
+    with([](Options& o) { o.domain = DomainKind::points; }, "domain");
+    with([](Options& o) { o.cut_rule = CutRule::midpoint; }, "cut_rule");
+    with([](Options& o) { o.sigma_multiplier = 3; }, "sigma_multiplier");
+    with([](Options& o) { o.sample_fraction = 0.5; }, "sample_fraction");
+    with([](Options& o) { o.seed = 2; }, "seed");
+    with([&](Options& o) { o.part_sizes.assign(static_cast<std::size_t>(num_ranks_), 2.0); },
+         "part_sizes");
+    const std::vector<double> empty;
+    expect_error(interleaved_points(empty, last() ? 2 : 3), {}, "dimension differs");
+}
+
+}  // namespace
+}  // namespace rrcb

@@ -1,0 +1,108 @@
+#include <rrcb/error.hpp>
+#include <rrcb/plan.hpp>
+#include <rrcb/quality.hpp>
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+int rank() {
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    return rank;
+}
+
+int num_ranks() {
+    int size = 0;
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    return size;
+}
+
+TEST(RanksOfPart, remainder_goes_to_the_last_ranks) {
+    // 7 parts on 3 ranks: 2, 2, 3.
+    const std::vector<int> expected{0, 0, 1, 1, 2, 2, 2};
+    for (Part part = 0; part < 7; ++part) {
+        EXPECT_EQ(ranks_of_part(part, 7, 3).first, expected[static_cast<std::size_t>(part)]);
+        EXPECT_EQ(ranks_of_part(part, 7, 3).count, 1);
+    }
+}
+
+TEST(RanksOfPart, fewer_parts_than_ranks_spread_over_consecutive_ranks) {
+    // 3 parts on 7 ranks: ranks 0-1, 2-3, 4-6.
+    EXPECT_EQ(ranks_of_part(0, 3, 7).first, 0);
+    EXPECT_EQ(ranks_of_part(0, 3, 7).count, 2);
+    EXPECT_EQ(ranks_of_part(1, 3, 7).first, 2);
+    EXPECT_EQ(ranks_of_part(2, 3, 7).first, 4);
+    EXPECT_EQ(ranks_of_part(2, 3, 7).count, 3);
+}
+
+TEST(Plan, imports_mirror_exports) {
+    // Rank r holds r + 2 points; point i goes to part (r + i) mod P.
+    std::vector<Part> parts;
+    for (int i = 0; i < rank() + 2; ++i) parts.push_back((rank() + i) % num_ranks());
+    const Plan result = plan(parts, num_ranks(), MPI_COMM_WORLD);
+
+    std::size_t next = 0;
+    for (LocalIndex i = 0; i < parts.size(); ++i) {
+        if (parts[i] == rank()) continue;
+        ASSERT_LT(next, result.export_indices.size());
+        EXPECT_EQ(result.export_indices[next], i);
+        EXPECT_EQ(result.export_ranks[next], parts[i]);
+        EXPECT_EQ(result.export_parts[next++], parts[i]);
+    }
+    EXPECT_EQ(next, result.export_indices.size());
+
+    next = 0;
+    for (int source = 0; source < num_ranks(); ++source) {
+        for (int i = 0; i < source + 2; ++i) {
+            if (source == rank() || (source + i) % num_ranks() != rank()) continue;
+            ASSERT_LT(next, result.import_indices.size());
+            EXPECT_EQ(result.import_ranks[next], source);
+            EXPECT_EQ(result.import_indices[next], static_cast<LocalIndex>(i));
+            EXPECT_EQ(result.import_parts[next++], rank());
+        }
+    }
+    EXPECT_EQ(next, result.import_indices.size());
+}
+
+TEST(Plan, nothing_moves_when_every_point_is_at_home) {
+    const std::vector<Part> parts(5, rank());
+    const Plan result = plan(parts, num_ranks(), MPI_COMM_WORLD);
+    EXPECT_TRUE(result.export_indices.empty());
+    EXPECT_TRUE(result.import_indices.empty());
+}
+
+TEST(Plan, points_of_a_part_that_spans_ranks_stay) {
+    const std::vector<Part> parts(3, 0);
+    const Plan result = plan(parts, 1, MPI_COMM_WORLD);
+    EXPECT_TRUE(result.export_indices.empty());
+}
+
+TEST(Plan, a_part_out_of_range_on_one_rank_fails_everywhere) {
+    const std::vector<Part> parts(1, rank() == num_ranks() - 1 ? num_ranks() : 0);
+    try {
+        plan(parts, num_ranks(), MPI_COMM_WORLD);
+        FAIL() << "expected an error";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
+        EXPECT_EQ(std::string(error.what()), "rank " + std::to_string(num_ranks() - 1) +
+                                                 ": a part is outside 0 ... " +
+                                                 std::to_string(num_ranks() - 1));
+    }
+}
+
+TEST(MovedFraction, counts_the_weight_that_changes_rank) {
+    // Two points per rank, weights 1 and 3; the heavy one goes to the next rank.
+    const std::vector<double> x{0, 1};
+    const std::vector<double> weights{1, 3};
+    const std::vector<Part> parts{rank(), (rank() + 1) % num_ranks()};
+    const Points points = interleaved_points(x, 1, weights);
+    const double expected = num_ranks() == 1 ? 0 : 0.75;
+    EXPECT_DOUBLE_EQ(moved_fraction(points, parts, num_ranks(), MPI_COMM_WORLD), expected);
+}
+
+}  // namespace
+}  // namespace rrcb

@@ -1,0 +1,150 @@
+#include "../support/clouds.hpp"
+
+#include <rrcb/bisection.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+StatisticalDomain patches_1d(std::vector<std::array<double, 3>> lower_upper_weight) {
+    StatisticalDomain domain{1, {}};
+    for (const auto& [lower, upper, weight] : lower_upper_weight)
+        domain.patches.push_back({{lower, 0, 0}, {upper, 0, 0}, weight});
+    return domain;
+}
+
+double cut_in_two(StatisticalDomain domain, std::vector<double> sizes = {1, 1}) {
+    return bisect(std::move(domain), 2, sizes, CutRule::weighted_fraction).cuts.tree[0].at[0];
+}
+
+std::vector<GlobalCount> counts_of(const Cuts& cuts, const Points& points) {
+    std::vector<Part> parts(points.count);
+    assign(cuts, points, parts);
+    std::vector<GlobalCount> counts(static_cast<std::size_t>(cuts.num_parts));
+    for (const Part part : parts) ++counts[static_cast<std::size_t>(part)];
+    return counts;
+}
+
+TEST(Bisection, cuts_one_uniform_patch_at_the_fraction) {
+    EXPECT_DOUBLE_EQ(cut_in_two(patches_1d({{2, 6, 7}})), 4);
+    EXPECT_DOUBLE_EQ(cut_in_two(patches_1d({{2, 6, 7}}), {1, 3}), 3);
+}
+
+TEST(Bisection, follows_the_piecewise_linear_weight_of_overlapping_patches) {
+    // Densities 1 on [0, 2], 1 + 3 on [2, 4], 3 on [4, 6]: 16 in all, 8 below 3.5.
+    EXPECT_DOUBLE_EQ(cut_in_two(patches_1d({{0, 4, 4}, {2, 6, 12}})), 3.5);
+    // A quarter, 4 of 16, is reached at 2.5.
+    EXPECT_DOUBLE_EQ(cut_in_two(patches_1d({{0, 4, 4}, {2, 6, 12}}), {1, 3}), 2.5);
+}
+
+TEST(Bisection, cuts_in_the_middle_of_a_gap) {
+    EXPECT_DOUBLE_EQ(cut_in_two(patches_1d({{0, 1, 5}, {3, 4, 5}})), 2);
+    EXPECT_DOUBLE_EQ(cut_in_two(patches_1d({{0, 0, 1}, {10, 10, 1}})), 5);
+}
+
+TEST(Bisection, mixes_patches_with_and_without_extent) {
+    // 1 on [0, 1], a jump of 4 at 2, 1 on [3, 4]: the half lies inside the jump, and an
+    // indivisible jump of which half is to be below goes below as a whole.
+    EXPECT_DOUBLE_EQ(cut_in_two(patches_1d({{0, 1, 1}, {2, 2, 4}, {3, 4, 1}})), 2.5);
+    // A third of the jump: it stays above.
+    EXPECT_DOUBLE_EQ(cut_in_two(patches_1d({{0, 1, 1}, {2, 2, 3}, {3, 4, 2}}), {1, 2}), 2);
+}
+
+TEST(Bisection, crosses_the_longest_extent_first) {
+    StatisticalDomain domain{3, {{{0, 0, 0}, {1, 5, 2}, 1}}};
+    const Cuts cuts = bisect(domain, 2, {}, CutRule::weighted_fraction).cuts;
+    EXPECT_EQ(cuts.tree[0].axis, 1);
+    EXPECT_DOUBLE_EQ(cuts.tree[0].at[1], 2.5);
+    EXPECT_EQ(cuts.tree[0].at[0], -infinity);
+}
+
+TEST(Bisection, six_parts_of_a_square_hold_a_sixth_each) {
+    StatisticalDomain domain{2, {{{0, 0, 0}, {6, 6, 0}, 36}}};
+    const Bisection result = bisect(domain, 6, {}, CutRule::weighted_fraction);
+    ASSERT_EQ(result.part_weights.size(), 6u);
+    for (const double weight : result.part_weights) EXPECT_NEAR(weight, 6, 1e-12);
+}
+
+TEST(Bisection, honours_relative_part_sizes_with_zeros) {
+    StatisticalDomain domain{2, {{{0, 0, 0}, {4, 1, 0}, 8}}};
+    const std::vector<double> sizes{1, 0, 0, 2, 5};
+    const Bisection result = bisect(domain, 5, sizes, CutRule::weighted_fraction);
+    for (std::size_t p = 0; p < 5; ++p) EXPECT_NEAR(result.part_weights[p], sizes[p], 1e-12);
+}
+
+TEST(Bisection, midpoint_rule_halves_the_extent_whatever_the_weight) {
+    const StatisticalDomain domain = patches_1d({{0, 1, 99}, {1, 10, 1}});
+    const Cuts cuts = bisect(domain, 2, {}, CutRule::midpoint).cuts;
+    EXPECT_DOUBLE_EQ(cuts.tree[0].at[0], 5);
+}
+
+TEST(Bisection, of_points_is_exact_for_every_number_of_parts) {
+    const std::vector<double> cloud = test::uniform_cloud(1000, 2, 23);
+    const Points points = interleaved_points(cloud, 2);
+    for (int parts = 1; parts <= 17; ++parts) {
+        const Cuts cuts = bisect(point_domain(points), parts, {}, CutRule::weighted_fraction).cuts;
+        const auto counts = counts_of(cuts, points);
+        const double ideal = 1000.0 / parts;
+        for (const GlobalCount count : counts)
+            EXPECT_LE(std::abs(static_cast<double>(count) - ideal), 2) << parts << " parts";
+    }
+}
+
+TEST(Bisection, breaks_ties_of_a_lattice_by_position) {
+    // 4 columns of 4 points, 3 parts: no plane leaves a third on one side.
+    std::vector<double> lattice;
+    for (int i = 0; i < 16; ++i) {
+        lattice.push_back(i / 4);
+        lattice.push_back(i % 4);
+    }
+    const Points points = interleaved_points(lattice, 2);
+    for (const int parts : {2, 3, 5, 16}) {
+        const Cuts cuts = bisect(point_domain(points), parts, {}, CutRule::weighted_fraction).cuts;
+        auto counts = counts_of(cuts, points);
+        std::sort(counts.begin(), counts.end());
+        EXPECT_LE(counts.back() - counts.front(), 1) << parts << " parts";
+    }
+}
+
+TEST(Bisection, coincident_points_stay_together) {
+    const std::vector<double> same(20, 1.5);
+    const Points points = interleaved_points(same, 2);
+    const Bisection result = bisect(point_domain(points), 4, {}, CutRule::weighted_fraction);
+    const auto counts = counts_of(result.cuts, points);
+    EXPECT_EQ(*std::max_element(counts.begin(), counts.end()), 10);
+    EXPECT_EQ(std::accumulate(result.part_weights.begin(), result.part_weights.end(), 0.0), 10);
+}
+
+TEST(Bisection, part_weights_agree_with_the_assignment_of_points) {
+    const std::vector<double> cloud = test::uniform_cloud(777, 3, 29);
+    const Points points = interleaved_points(cloud, 3);
+    const Bisection result = bisect(point_domain(points), 11, {}, CutRule::weighted_fraction);
+    const auto counts = counts_of(result.cuts, points);
+    for (std::size_t p = 0; p < counts.size(); ++p)
+        EXPECT_EQ(static_cast<double>(counts[p]), result.part_weights[p]);
+}
+
+TEST(Bisection, of_nothing_leaves_all_parts_empty) {
+    const Bisection result = bisect({2, {}}, 3, {}, CutRule::weighted_fraction);
+    EXPECT_EQ(result.cuts.tree.size(), 2u);
+    EXPECT_EQ(result.part_weights, (std::vector<double>{0, 0, 0}));
+}
+
+TEST(Bisection, survives_the_whole_range_of_double) {
+    constexpr double huge = std::numeric_limits<double>::max();
+    EXPECT_EQ(cut_in_two(patches_1d({{-huge, huge, 1}})), 0);
+    EXPECT_EQ(cut_in_two(patches_1d({{-huge, -huge, 1}, {huge, huge, 1}})), 0);
+    EXPECT_EQ(cut_in_two(patches_1d({{0, 0, 1}, {5e-324, 5e-324, 1}})), 5e-324);
+}
+
+}  // namespace
+}  // namespace rrcb

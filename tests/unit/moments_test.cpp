@@ -1,0 +1,194 @@
+#include "../support/clouds.hpp"
+
+#include <rrcb/moments.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+struct Reference {
+    long double weight = 0;
+    std::vector<long double> mean;
+    std::vector<long double> deviation;
+};
+
+// Two passes in long double, relative to one of the points.
+Reference reference_of(const Points& points, const std::vector<LocalIndex>& members) {
+    Reference reference;
+    for (const LocalIndex i : members) reference.weight += points.weight(i);
+    for (int axis = 0; axis < points.dimension; ++axis) {
+        const long double origin = points.coordinate(members[0], axis);
+        long double sum = 0;
+        for (const LocalIndex i : members)
+            sum += points.weight(i) * (points.coordinate(i, axis) - origin);
+        const long double mean = sum / reference.weight;
+        long double square = 0;
+        for (const LocalIndex i : members) {
+            const long double difference = points.coordinate(i, axis) - origin - mean;
+            square += points.weight(i) * difference * difference;
+        }
+        reference.mean.push_back(origin + mean);
+        reference.deviation.push_back(std::sqrt(square / reference.weight));
+    }
+    return reference;
+}
+
+void expect_reference_moments(const Points& points, int cells_per_axis) {
+    const SupportMesh mesh =
+        make_support_mesh(bounding_box(points), points.dimension, cells_per_axis);
+    std::vector<std::vector<LocalIndex>> members(num_cells(mesh));
+    for (LocalIndex i = 0; i < points.count; ++i)
+        members[cell_of(mesh, points.position(i))].push_back(i);
+    std::size_t next = 0;
+    const std::vector<CellMoments> cells = cell_moments(points, mesh);
+    for (LocalIndex cell = 0; cell < members.size(); ++cell) {
+        if (members[cell].empty()) continue;
+        EXPECT_EQ(cells.at(next).cell, cell);
+        const Moments& moments = cells.at(next++).moments;
+        EXPECT_EQ(moments.count, static_cast<GlobalCount>(members[cell].size()));
+        const Reference reference = reference_of(points, members[cell]);
+        EXPECT_NEAR(moments.weight, static_cast<double>(reference.weight), 1e-13 * moments.weight);
+        for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a) {
+            const auto mean = static_cast<double>(reference.mean[a]);
+            const auto deviation = static_cast<double>(reference.deviation[a]);
+            // A mean can't be finer than the coordinates it is made of.
+            const double largest = std::max(std::abs(cells.at(next - 1).box.lower[a]),
+                                            std::abs(cells.at(next - 1).box.upper[a]));
+            EXPECT_NEAR(moments.mean[a], mean, 1e-15 * largest + 1e-14 * deviation);
+            EXPECT_NEAR(moments.deviation[a], deviation, 1e-12 * deviation);
+        }
+    }
+    EXPECT_EQ(next, cells.size());
+}
+
+TEST(Moments, of_four_points_worked_out_by_hand) {
+    const std::vector<double> x{0, 1, 4, 5};
+    const std::array<std::span<const double>, 1> columns{x};
+    const Points points = column_points(columns);
+    const auto cells = cell_moments(points, make_support_mesh(bounding_box(points), 1, 1));
+    ASSERT_EQ(cells.size(), 1u);
+    EXPECT_EQ(cells[0].moments.count, 4);
+    EXPECT_EQ(cells[0].moments.weight, 4);
+    EXPECT_DOUBLE_EQ(cells[0].moments.mean[0], 2.5);
+    EXPECT_DOUBLE_EQ(cells[0].moments.deviation[0], std::sqrt(17.0 / 4));
+}
+
+TEST(Moments, weights_count_like_repeated_points) {
+    const std::vector<double> x{0, 4};
+    const std::vector<double> weights{3, 1};
+    const std::array<std::span<const double>, 1> columns{x};
+    const Points points = column_points(columns, weights);
+    const auto cells = cell_moments(points, make_support_mesh(bounding_box(points), 1, 1));
+    EXPECT_EQ(cells[0].moments.count, 2);
+    EXPECT_EQ(cells[0].moments.weight, 4);
+    EXPECT_DOUBLE_EQ(cells[0].moments.mean[0], 1);
+    EXPECT_DOUBLE_EQ(cells[0].moments.deviation[0], std::sqrt(3.0));
+}
+
+TEST(Moments, match_long_double_for_every_dimension_and_mesh) {
+    for (const int dimension : {1, 2, 3})
+        for (const int cells : {1, 2, 5})
+            expect_reference_moments(
+                interleaved_points(test::uniform_cloud(3000, dimension, 7), dimension), cells);
+}
+
+TEST(Moments, keep_their_digits_at_any_offset) {
+    for (const double offset : {0.0, 1e3, 1e6, 1e9, 1e12, 1e15}) {
+        std::vector<double> coordinates = test::uniform_cloud(5000, 2, 3);
+        for (double& x : coordinates) x = offset + (offset > 1e12 ? 1e3 : 1e-3) * x;
+        expect_reference_moments(interleaved_points(coordinates, 2), 3);
+    }
+}
+
+TEST(Moments, survive_extreme_magnitudes) {
+    for (const double magnitude : {1e-300, 1e-200, 1e200, 1e300}) {
+        std::vector<double> coordinates = test::uniform_cloud(500, 2, 5);
+        for (double& x : coordinates) x = magnitude * (x - 0.5);
+        expect_reference_moments(interleaved_points(coordinates, 2), 4);
+    }
+}
+
+TEST(Moments, survive_one_far_outlier_seen_first) {
+    std::vector<double> x{1e6};
+    std::mt19937_64 engine(11);
+    for (int i = 0; i < 100000; ++i) x.push_back(test::uniform(engine, 0, 1e-3));
+    const std::array<std::span<const double>, 1> columns{x};
+    expect_reference_moments(column_points(columns), 1);
+}
+
+TEST(Moments, see_a_tight_cluster_beside_a_wide_one) {
+    std::vector<double> x;
+    std::mt19937_64 engine(13);
+    for (int i = 0; i < 1000; ++i) x.push_back(0.3 + 1e-7 * test::uniform(engine));
+    for (int i = 0; i < 1000; ++i) x.push_back(0.9 + 0.1 * test::uniform(engine));
+    const std::array<std::span<const double>, 1> columns{x};
+    expect_reference_moments(column_points(columns), 4);
+}
+
+TEST(Moments, equal_points_have_no_deviation) {
+    const std::vector<double> x(1000, 0.1);
+    const std::array<std::span<const double>, 1> columns{x};
+    const Points points = column_points(columns);
+    const auto cells = cell_moments(points, make_support_mesh(bounding_box(points), 1, 8));
+    ASSERT_EQ(cells.size(), 1u);
+    EXPECT_EQ(cells[0].moments.mean[0], 0.1);
+    EXPECT_EQ(cells[0].moments.deviation[0], 0);
+}
+
+TEST(Moments, cells_without_weight_are_left_out) {
+    const std::vector<double> x{0, 1, 2};
+    const std::vector<double> weights{1, 0, 1};
+    const std::array<std::span<const double>, 1> columns{x};
+    const Points points = column_points(columns, weights);
+    const auto cells = cell_moments(points, make_support_mesh(bounding_box(points), 1, 3));
+    ASSERT_EQ(cells.size(), 2u);
+    EXPECT_EQ(cells[0].cell, 0u);
+    EXPECT_EQ(cells[1].cell, 2u);
+}
+
+TEST(Moments, without_any_weight_are_those_of_the_positions) {
+    const std::vector<double> x{0, 2};
+    const std::vector<double> weights{0, 0};
+    const std::array<std::span<const double>, 1> columns{x};
+    const Points points = column_points(columns, weights);
+    const auto cells = cell_moments(points, make_support_mesh(bounding_box(points), 1, 1));
+    ASSERT_EQ(cells.size(), 1u);
+    EXPECT_EQ(cells[0].moments.count, 2);
+    EXPECT_EQ(cells[0].moments.weight, 0);
+    EXPECT_EQ(cells[0].moments.mean[0], 1);
+    EXPECT_EQ(cells[0].moments.deviation[0], 1);
+}
+
+TEST(Moments, merge_gives_the_moments_of_the_union) {
+    const std::vector<double> all = test::uniform_cloud(900, 2, 17);
+    const auto moments_of = [&](std::size_t first, std::size_t last) {
+        const std::span<const double> part(all.data() + 2 * first, 2 * (last - first));
+        const Points points = interleaved_points(part, 2);
+        return cell_moments(points, make_support_mesh(bounding_box(points), 2, 1))[0].moments;
+    };
+    const Moments whole = moments_of(0, 900);
+    const Moments left = merge(merge(moments_of(0, 1), moments_of(1, 500)), moments_of(500, 900));
+    const Moments right = merge(moments_of(0, 1), merge(moments_of(1, 500), moments_of(500, 900)));
+    for (const Moments& merged : {left, right}) {
+        EXPECT_EQ(merged.count, whole.count);
+        for (std::size_t a = 0; a < 2; ++a) {
+            EXPECT_NEAR(merged.mean[a], whole.mean[a], 1e-14);
+            EXPECT_NEAR(merged.deviation[a], whole.deviation[a], 1e-14);
+        }
+    }
+}
+
+TEST(Moments, merge_with_nothing_changes_nothing) {
+    const Moments some{3, 3, {1, 2, 3}, {4, 5, 6}};
+    EXPECT_EQ(merge(some, {}).mean, some.mean);
+    EXPECT_EQ(merge({}, some).deviation, some.deviation);
+}
+
+}  // namespace
+}  // namespace rrcb

@@ -1,0 +1,43 @@
+#include <rrcb/quality.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+TEST(Quality, imbalance_is_heaviest_over_mean) {
+    EXPECT_DOUBLE_EQ(imbalance(std::vector<double>{1, 2, 3}), 1.5);
+    EXPECT_DOUBLE_EQ(imbalance(std::vector<double>{5, 5}), 1);
+}
+
+TEST(Quality, imbalance_is_relative_to_the_sizes_asked_for) {
+    const std::vector<double> sizes{1, 3};
+    EXPECT_DOUBLE_EQ(imbalance(std::vector<double>{25, 75}, sizes), 1);
+    EXPECT_DOUBLE_EQ(imbalance(std::vector<double>{50, 50}, sizes), 2);
+}
+
+TEST(Quality, weight_in_a_part_of_size_zero_is_an_infinite_imbalance) {
+    const std::vector<double> sizes{0, 1};
+    EXPECT_DOUBLE_EQ(imbalance(std::vector<double>{0, 7}, sizes), 1);
+    EXPECT_TRUE(std::isinf(imbalance(std::vector<double>{1, 6}, sizes)));
+}
+
+TEST(Quality, nothing_at_all_is_balanced) {
+    EXPECT_EQ(imbalance(std::vector<double>{0, 0, 0}), 1);
+    EXPECT_EQ(worst_load_unbalance_percent(std::vector<double>{0, 0}), 0);
+}
+
+TEST(Quality, load_unbalance_is_negative_where_a_part_holds_too_much) {
+    const std::vector<double> lu = load_unbalance_percent(std::vector<double>{8, 10, 15, 7});
+    EXPECT_DOUBLE_EQ(lu[0], 20);
+    EXPECT_DOUBLE_EQ(lu[1], 0);
+    EXPECT_DOUBLE_EQ(lu[2], -50);
+    EXPECT_DOUBLE_EQ(lu[3], 30);
+    EXPECT_DOUBLE_EQ(worst_load_unbalance_percent(std::vector<double>{8, 10, 15, 7}), 50);
+}
+
+}  // namespace
+}  // namespace rrcb

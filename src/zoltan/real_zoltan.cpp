@@ -1,6 +1,6 @@
 #include "real_zoltan.hpp"
 
-#include "failure.hpp"
+#include "message.hpp"
 
 #include <dlfcn.h>
 

@@ -1,0 +1,84 @@
+"""What the root sees instead of the points: figures 3 and 4 of the paper."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PatchCollection
+from matplotlib.patches import Rectangle
+
+from results import Columns, read_data, read_table, unique
+from style import part_colours, save, show_lengths
+
+MAX_POINTS = 60_000
+
+
+def draw_support_mesh(directory: Path, picture: Path) -> bool:
+    """Every rank's cells with the centroid and the standard deviation of the points inside."""
+    meshes = _by_workload(directory, "cells")
+    if not meshes:
+        return False
+    figure, axes = plt.subplots(
+        len(meshes), 1, figsize=(9, 3.6 * len(meshes)), squeeze=False, sharex=True
+    )
+    for panel, (workload, cells) in zip(axes[:, 0], meshes.items()):
+        _draw_cells(panel, cells)
+        ranks = len(np.unique(cells["rank"]))
+        panel.set_title(
+            f"{workload}: {len(cells['cell'])} cells with points of {ranks} ranks (one colour each), "
+            "centroid and ± standard deviation"
+        )
+        show_lengths(panel, panel is axes[-1, 0])
+    save(figure, picture)
+    return True
+
+
+def draw_domains(directory: Path, picture: Path) -> bool:
+    """The real points and, beside them, the pseudo-random ones that stand for them."""
+    sampled = _by_workload(directory, "statistical")
+    pairs = {
+        workload: (real, statistical)
+        for workload, statistical in sampled.items()
+        if (real := _real_points(directory, workload))
+    }
+    if not pairs:
+        return False
+    figure, axes = plt.subplots(
+        len(pairs), 2, figsize=(11, 2.3 * len(pairs) + 0.3), squeeze=False, sharex=True, sharey=True
+    )
+    for row, (workload, domains) in zip(axes, pairs.items()):
+        for panel, points, kind in zip(row, domains, ("real", "statistical")):
+            chosen = slice(None, None, len(points["x"]) // MAX_POINTS + 1)
+            panel.plot(points["x"][chosen], points["y"][chosen], ",", color="#0067A5", alpha=0.6)
+            panel.set_title(f"{workload}, {kind} domain: {len(points['x']):,} points")
+            show_lengths(panel, row is axes[-1], panel is row[0])
+    save(figure, picture)
+    return True
+
+
+def _by_workload(directory: Path, kind: str) -> dict[str, Columns]:
+    workloads = unique([row.workload for row in read_table(directory)])
+    return {name: data for name in workloads if (data := read_data(directory, kind, name))}
+
+
+def _real_points(directory: Path, workload: str) -> Columns | None:
+    for row in read_table(directory):
+        if row.workload == workload and (points := read_data(directory, "points", workload, row.method)):
+            return points
+    return None
+
+
+def _draw_cells(axes: Axes, cells: Columns) -> None:
+    colours = part_colours(cells["rank"])
+    corners = zip(cells["lower_x"], cells["lower_y"], cells["upper_x"], cells["upper_y"])
+    boxes = [Rectangle((x0, y0), x1 - x0, y1 - y0) for x0, y0, x1, y1 in corners]
+    axes.add_collection(PatchCollection(boxes, facecolors=colours, alpha=0.12))
+    axes.add_collection(PatchCollection(boxes, facecolors="none", edgecolors=colours, linewidths=0.7))
+    x, y, dx, dy = (cells[name] for name in ("mean_x", "mean_y", "sigma_x", "sigma_y"))
+    bars = [[(a - s, b), (a + s, b)] for a, b, s in zip(x, y, dx)]
+    bars += [[(a, b - s), (a, b + s)] for a, b, s in zip(x, y, dy)]
+    axes.add_collection(LineCollection(bars, colors="#333333", linewidths=0.9))
+    axes.plot(x, y, "o", color="black", markersize=2.8)

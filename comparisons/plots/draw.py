@@ -1,0 +1,40 @@
+"""Draws the pictures of a comparison: draw.py DIRECTORY, where the driver wrote its files.
+
+A picture whose data is not there is left out, and removed if an earlier run drew it.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from cost import draw_cost
+from domains import draw_domains, draw_support_mesh
+from history import draw_history
+from parts import draw_parts
+from simulation import draw_simulation
+from style import use_style
+
+PICTURES = {
+    "time_against_imbalance.png": draw_cost,
+    "parts.png": draw_parts,
+    "support_mesh.png": draw_support_mesh,
+    "statistical_domain.png": draw_domains,
+    "unbalance_history.png": draw_history,
+    "simulation_time.png": draw_simulation,
+}
+
+
+def main() -> int:
+    if len(sys.argv) != 2 or not (directory := Path(sys.argv[1])).is_dir():
+        print("usage: draw.py DIRECTORY (with the table.csv of a comparison)", file=sys.stderr)
+        return 2
+    use_style()
+    for name, draw in PICTURES.items():
+        if not draw(directory, directory / name):
+            (directory / name).unlink(missing_ok=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

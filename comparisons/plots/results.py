@@ -1,0 +1,114 @@
+"""Reads the files that the comparison driver writes; a file that is not there reads as nothing."""
+
+from __future__ import annotations
+
+import csv
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+Columns = dict[str, np.ndarray]
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """One row of table.csv: a method on a workload."""
+
+    method: str
+    workload: str
+    ranks: int
+    points: int
+    dimension: int
+    time_ms: float
+    time_ms_min: float
+    time_ms_max: float
+    imbalance: float
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """One row of simulation.csv: the whole simulation under a method."""
+
+    method: str
+    ranks: int
+    points: int
+    steps: int
+    wall: float
+    balance: float
+    step: float
+    mean_imbalance: float
+
+
+def read_table(directory: Path) -> list[Measurement]:
+    """The methods that did not fail, in the order of the table."""
+    return [
+        Measurement(
+            method=row["method"],
+            workload=row["workload"],
+            ranks=int(row["ranks"]),
+            points=int(row["points"]),
+            dimension=int(row["dim"]),
+            time_ms=float(row["time_ms_median"]),
+            time_ms_min=float(row["time_ms_min"]),
+            time_ms_max=float(row["time_ms_max"]),
+            imbalance=float(row["imbalance"]),
+        )
+        for row in _rows(directory / "table.csv")
+        if not row.get("error")
+    ]
+
+
+def read_simulations(directory: Path) -> list[Simulation]:
+    return [
+        Simulation(
+            method=row["method"],
+            ranks=int(row["ranks"]),
+            points=int(row["points"]),
+            steps=int(row["steps"]),
+            wall=float(row["wall_s"]),
+            balance=float(row["balance_s"]),
+            step=float(row["step_s"]),
+            mean_imbalance=float(row["mean_imbalance"]),
+        )
+        for row in _rows(directory / "simulation.csv")
+    ]
+
+
+def read_history(directory: Path) -> dict[str, Columns]:
+    """Per method, in the order of the file: the columns step, time, part and lu_percent."""
+    rows = _rows(directory / "history.csv")
+    names = ("step", "time", "part", "lu_percent")
+    return {
+        method: {
+            name: np.array([float(row[name]) for row in rows if row["method"] == method])
+            for name in names
+        }
+        for method in dict.fromkeys(row["method"] for row in rows)
+    }
+
+
+def read_data(directory: Path, kind: str, *names: str) -> Columns | None:
+    """Columns of data/<kind>_<name>_<name>.csv, names as the driver spells them in file names."""
+    parts = [re.sub(r"[^A-Za-z0-9._-]", "_", name) for name in names]
+    path = directory / "data" / ("_".join([kind, *parts]) + ".csv")
+    if not path.exists():
+        return None
+    with path.open() as file:
+        header = file.readline().strip().split(",")
+        values = np.loadtxt(file, delimiter=",", ndmin=2)
+    if values.size == 0:
+        return None
+    return {name: values[:, column] for column, name in enumerate(header)}
+
+
+def unique(values: list[str]) -> list[str]:
+    return list(dict.fromkeys(values))
+
+
+def _rows(path: Path) -> list[dict[str, str]]:
+    if not path.exists():
+        return []
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))

@@ -1,0 +1,43 @@
+"""Where the time of the whole simulation goes under each balancer."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from matplotlib import pyplot as plt
+
+from results import read_simulations
+from style import method_style, save
+
+
+def draw_simulation(directory: Path, picture: Path) -> bool:
+    """A bar per method: steps of the simulation, balancing, and the rest."""
+    runs = read_simulations(directory)
+    if not runs:
+        return False
+    methods = [run.method for run in runs]
+    figure, axes = plt.subplots(figsize=(8, 0.5 * len(runs) + 1.3))
+    left = [0.0] * len(runs)
+    for name, seconds, colour, hatch in (
+        ("steps of the simulation", [run.step for run in runs], "#9DC3E0", ""),
+        ("balancing", [run.balance for run in runs], "#D55E00", "///"),
+        ("rest", [max(run.wall - run.step - run.balance, 0) for run in runs], "#DDDDDD", ""),
+    ):
+        axes.barh(
+            methods, seconds, left=left, color=colour, hatch=hatch, edgecolor="white", label=name
+        )
+        left = [start + length for start, length in zip(left, seconds)]
+    for row, (run, end) in enumerate(zip(runs, left)):
+        text = f" {run.wall:.1f} s, of it balancing {run.balance:.2f} s; mean imbalance {run.mean_imbalance:.3f}"
+        axes.text(end, row, text, va="center", fontsize=8)
+    for tick, method in zip(axes.get_yticklabels(), methods):
+        tick.set_color(method_style(method).colour)
+    axes.invert_yaxis()
+    axes.set_xlim(0, 1.75 * max(left))
+    axes.set_xlabel("wall time [s]")
+    axes.set_title(
+        f"The whole simulation: {runs[0].points:,} points, {runs[0].steps:,} steps, {runs[0].ranks} ranks"
+    )
+    axes.legend(loc="upper center", bbox_to_anchor=(0.4, -0.28), ncol=3)
+    save(figure, picture)
+    return True

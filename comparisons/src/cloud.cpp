@@ -1,0 +1,130 @@
+#include "cloud.hpp"
+
+#include "counter_random.hpp"
+#include "failure_mpi.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace comparisons {
+
+namespace {
+
+using rrcb::GlobalCount;
+using rrcb::Vector;
+
+constexpr double side = 100;
+
+Vector uniform_point(const Cloud&, GlobalCount, CounterRandom& random) {
+    return {random.uniform(0, side), random.uniform(0, side), random.uniform(0, side)};
+}
+
+// The outline is a base of 110 m x 15 m under a crest of 30 m x 20 m and a face of 20 m x 20 m;
+// axis 0 points to the toe, the last axis up.
+Vector slope_point(const Cloud& cloud, GlobalCount, CounterRandom& random) {
+    constexpr double base_area = 110 * 15;
+    constexpr double crest_area = 30 * 20;
+    constexpr double face_area = 20 * 20 / 2;
+    const double where = random.uniform(0, base_area + crest_area + face_area);
+    const double s = random.uniform();
+    const double t = random.uniform();
+    double x = 110 * s;
+    double z = -15 * t;
+    if (where >= base_area + crest_area) {
+        const double height = std::sqrt(1 - s);
+        x = 30 + 20 * (1 - height);
+        z = 20 * height * t;
+    } else if (where >= base_area) {
+        x = 30 * s;
+        z = 20 * t;
+    }
+    return cloud.dimension == 2 ? Vector{x, z, 0} : Vector{x, random.uniform(0, 40), z};
+}
+
+struct Cluster {
+    double share;  ///< of the points
+    double width;  ///< standard deviation
+    Vector centre;
+};
+
+constexpr Cluster clusters[] = {
+    {0.40, 1, {20, 30, 40}},  {0.25, 5, {75, 70, 20}}, {0.15, 0.2, {60, 15, 80}},
+    {0.10, 12, {25, 80, 65}}, {0.10, 3, {90, 30, 50}},
+};
+
+// Box, Muller: A note on the generation of random normal deviates (1958).
+double normal(CounterRandom& random) {
+    const double radius = std::sqrt(-2 * std::log(1 - random.uniform()));
+    return radius * std::cos(2 * std::numbers::pi * random.uniform());
+}
+
+Vector cluster_point(const Cloud&, GlobalCount, CounterRandom& random) {
+    double where = random.uniform();
+    const Cluster* cluster = std::begin(clusters);
+    while (where >= cluster->share && cluster + 1 != std::end(clusters)) {
+        where -= cluster->share;
+        ++cluster;
+    }
+    Vector x = cluster->centre;
+    for (double& coordinate : x) coordinate += cluster->width * normal(random);
+    return x;
+}
+
+GlobalCount lattice_side(const Cloud& cloud) {
+    const auto full = [&](GlobalCount n) { return cloud.dimension == 2 ? n * n : n * n * n; };
+    const double estimate = std::pow(static_cast<double>(cloud.num_points), 1.0 / cloud.dimension);
+    GlobalCount n = std::max<GlobalCount>(1, static_cast<GlobalCount>(estimate) - 1);
+    while (full(n) < cloud.num_points) ++n;
+    return n;
+}
+
+Vector lattice_point(const Cloud& cloud, GlobalCount index, CounterRandom&) {
+    const GlobalCount per_axis = lattice_side(cloud);
+    Vector x{};
+    for (double& coordinate : x) {
+        coordinate = static_cast<double>(index % per_axis);
+        index /= per_axis;
+    }
+    return x;
+}
+
+struct Generator {
+    std::string_view name;
+    Vector (*point)(const Cloud&, GlobalCount, CounterRandom&);
+};
+
+constexpr Generator generators[] = {
+    {"uniform", uniform_point},
+    {"slope", slope_point},
+    {"clusters", cluster_point},
+    {"lattice", lattice_point},
+};
+
+}  // namespace
+
+std::string cloud_names() {
+    std::string names;
+    for (const Generator& generator : generators) {
+        if (!names.empty()) names += ", ";
+        names += generator.name;
+    }
+    return names;
+}
+
+std::vector<double> cloud_points(const Cloud& cloud, GlobalCount first, GlobalCount last) {
+    const auto* generator = std::ranges::find(generators, cloud.name, &Generator::name);
+    if (generator == std::end(generators)) {
+        throw Failure("--cloud: unknown cloud '" + cloud.name + "'; choose from: " + cloud_names());
+    }
+    std::vector<double> coordinates;
+    coordinates.reserve(static_cast<std::size_t>((last - first) * cloud.dimension));
+    for (GlobalCount i = first; i < last; ++i) {
+        CounterRandom random(cloud.seed, static_cast<std::uint64_t>(i));
+        const Vector x = generator->point(cloud, i, random);
+        coordinates.insert(coordinates.end(), x.begin(), x.begin() + cloud.dimension);
+    }
+    return coordinates;
+}
+
+}  // namespace comparisons

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+namespace comparisons {
+
+/// One round of splitmix64: Steele, Lea, Flood, Fast splittable pseudorandom number generators
+/// (2014), with Stafford's mix 13.
+constexpr std::uint64_t scramble(std::uint64_t x) {
+    x += 0x9e3779b97f4a7c15U;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
+    return x ^ (x >> 31);
+}
+
+/// Numbers that belong to one counter value: no state is shared between counters.
+class CounterRandom {
+  public:
+    CounterRandom(std::uint64_t seed, std::uint64_t counter)
+        : state_(scramble(scramble(seed) ^ counter)) {}
+
+    std::uint64_t next() { return scramble(state_++); }
+
+    /// Uniform in [0, 1).
+    double uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
+
+    double uniform(double lower, double upper) { return lower + (upper - lower) * uniform(); }
+
+  private:
+    std::uint64_t state_;
+};
+
+}  // namespace comparisons

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <exception>
+#include <stdexcept>
+#include <string>
+
+namespace comparisons {
+
+/// A mistake of the user's or a step that cannot go on, thrown on every rank alike.
+class Failure : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// The message of the lowest rank whose own message is not empty, on every rank.
+///
+/// Collective over `comm`; empty when no rank has one.
+std::string first_message(const std::string& mine, MPI_Comm comm);
+
+/// Throws Failure with first_message on every rank unless it is empty. Collective over `comm`.
+void fail_together(const std::string& mine, MPI_Comm comm);
+
+/// Runs a step that is not collective on rank 0; what it throws becomes a Failure on every rank.
+template <typename Step>
+void on_root(Step&& step, MPI_Comm comm) {
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    std::string message;
+    if (rank == 0) {
+        try {
+            step();
+        } catch (const std::exception& error) {
+            message = error.what();
+        }
+    }
+    fail_together(message, comm);
+}
+
+}  // namespace comparisons

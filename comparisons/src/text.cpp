@@ -1,0 +1,81 @@
+#include "text.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+
+namespace comparisons {
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+    std::vector<std::string_view> pieces;
+    int depth = 0;
+    std::size_t start = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '[') ++depth;
+        if (text[i] == ']') --depth;
+        if (text[i] != separator || depth > 0) continue;
+        pieces.push_back(text.substr(start, i - start));
+        start = i + 1;
+    }
+    pieces.push_back(text.substr(start));
+    return pieces;
+}
+
+std::string_view trim(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(" \t\r");
+    if (first == text.npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::string csv_field(const std::string& text) {
+    if (text.find_first_of(",\"\n\r") == text.npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return quoted + '"';
+}
+
+std::string file_name_part(std::string_view text) {
+    std::string name;
+    for (const char c : text) {
+        const bool keep =
+            std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' || c == '=';
+        name += keep ? c : '_';
+    }
+    while (!name.empty() && name.back() == '_') name.pop_back();
+    return name;
+}
+
+std::string fixed(double value, int digits) {
+    char text[512];
+    std::snprintf(text, sizeof text, "%.*f", digits, value);
+    return text;
+}
+
+void print_columns(std::ostream& out, const std::vector<std::vector<std::string>>& rows) {
+    std::vector<std::size_t> widths(rows.front().size());
+    for (const auto& row : rows) {
+        if (row.size() < widths.size()) continue;
+        for (std::size_t c = 0; c < widths.size(); ++c) {
+            widths[c] = std::max(widths[c], row[c].size());
+        }
+    }
+    for (const auto& row : rows) {
+        for (std::size_t c = 0; c < row.size(); ++c) {
+            const std::string padding(widths[c] - std::min(widths[c], row[c].size()), ' ');
+            out << (c == 0 ? row[c] + padding : "  " + padding + row[c]);
+        }
+        out << '\n';
+    }
+}
+
+std::string human_bytes(double bytes) {
+    const char* const units[] = {"B", "KiB", "MiB", "GiB"};
+    std::size_t unit = 0;
+    while (bytes >= 1024 && unit + 1 < std::size(units)) {
+        bytes /= 1024;
+        ++unit;
+    }
+    return fixed(bytes, unit == 0 ? 0 : 1) + ' ' + units[unit];
+}
+
+}  // namespace comparisons

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <charconv>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace comparisons {
+
+/// The number that is the whole of `text`, or nothing.
+template <typename Number>
+std::optional<Number> read_number(std::string_view text) {
+    Number number{};
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc() || stop != end) return std::nullopt;
+    return number;
+}
+
+/// Shortest text that reads back as the same number.
+template <typename Number>
+std::string write_number(Number number) {
+    char text[64];
+    return {text, std::to_chars(text, text + sizeof text, number).ptr};
+}
+
+/// Pieces of `text` between separators that stand outside square brackets.
+std::vector<std::string_view> split(std::string_view text, char separator);
+
+/// `text` without blanks and carriage returns at both ends.
+std::string_view trim(std::string_view text);
+
+/// A field of a CSV file, quoted where RFC 4180 asks for it.
+std::string csv_field(const std::string& text);
+
+/// `text` as a part of a file name: letters, digits and - . = stay, the rest becomes _.
+std::string file_name_part(std::string_view text);
+
+/// `value` with a number of digits behind the point.
+std::string fixed(double value, int digits);
+
+/// Rows of cells in columns: the first to the left, numbers to the right. The first row is the
+/// heading; a shorter row ends with a text of any length.
+void print_columns(std::ostream& out, const std::vector<std::vector<std::string>>& rows);
+
+/// 1536 as "1.5 KiB".
+std::string human_bytes(double bytes);
+
+}  // namespace comparisons

@@ -1,0 +1,106 @@
+#include "pmpi_count.hpp"
+
+#include "traffic.hpp"
+
+namespace comparisons {
+
+namespace {
+
+bool counting = false;
+Traffic traffic;
+
+int world_rank(int rank, MPI_Comm comm) {
+    MPI_Group group = MPI_GROUP_NULL;
+    MPI_Group world = MPI_GROUP_NULL;
+    int translated = MPI_UNDEFINED;
+    PMPI_Comm_group(comm, &group);
+    PMPI_Comm_group(MPI_COMM_WORLD, &world);
+    PMPI_Group_translate_ranks(group, 1, &rank, world, &translated);
+    PMPI_Group_free(&group);
+    PMPI_Group_free(&world);
+    return translated;
+}
+
+}  // namespace
+
+bool counting_traffic() {
+    return counting;
+}
+
+void start_counting_traffic() {
+    traffic = {};
+    counting = true;
+}
+
+Traffic stop_counting_traffic() {
+    counting = false;
+    return traffic;
+}
+
+std::int64_t bytes_of(std::int64_t count, MPI_Datatype type) {
+    int size = 0;
+    PMPI_Type_size(type, &size);
+    return count * size;
+}
+
+void count_message(int count, MPI_Datatype type, int destination, MPI_Comm comm) {
+    if (!counting || destination == MPI_PROC_NULL) return;
+    const std::int64_t bytes = bytes_of(count, type);
+    ++traffic.messages;
+    traffic.bytes += bytes;
+    if (world_rank(destination, comm) == 0) traffic.root_bytes_in += bytes;
+}
+
+void count_collective(std::int64_t bytes_in, std::int64_t bytes_out) {
+    int rank = 0;
+    PMPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    ++traffic.messages;
+    traffic.bytes += bytes_in + bytes_out;
+    if (rank == 0) traffic.root_bytes_in += bytes_out;
+}
+
+}  // namespace comparisons
+
+using comparisons::count_message;
+
+extern "C" {
+
+int MPI_Send(const void* data, int count, MPI_Datatype type, int destination, int tag,
+             MPI_Comm comm) {
+    count_message(count, type, destination, comm);
+    return PMPI_Send(data, count, type, destination, tag, comm);
+}
+
+int MPI_Ssend(const void* data, int count, MPI_Datatype type, int destination, int tag,
+              MPI_Comm comm) {
+    count_message(count, type, destination, comm);
+    return PMPI_Ssend(data, count, type, destination, tag, comm);
+}
+
+int MPI_Rsend(const void* data, int count, MPI_Datatype type, int destination, int tag,
+              MPI_Comm comm) {
+    count_message(count, type, destination, comm);
+    return PMPI_Rsend(data, count, type, destination, tag, comm);
+}
+
+int MPI_Isend(const void* data, int count, MPI_Datatype type, int destination, int tag,
+              MPI_Comm comm, MPI_Request* request) {
+    count_message(count, type, destination, comm);
+    return PMPI_Isend(data, count, type, destination, tag, comm, request);
+}
+
+int MPI_Irsend(const void* data, int count, MPI_Datatype type, int destination, int tag,
+               MPI_Comm comm, MPI_Request* request) {
+    count_message(count, type, destination, comm);
+    return PMPI_Irsend(data, count, type, destination, tag, comm, request);
+}
+
+int MPI_Sendrecv(const void* data, int count, MPI_Datatype type, int destination, int tag,
+                 void* received, int max_received, MPI_Datatype received_type, int source,
+                 int received_tag, MPI_Comm comm, MPI_Status* status) {
+    count_message(count, type, destination, comm);
+    return PMPI_Sendrecv(data, count, type, destination, tag, received, max_received, received_type,
+                         source, received_tag, comm, status);
+}
+
+}  // extern "C"

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+
+namespace comparisons {
+
+/// What one rank's MPI calls moved.
+///
+/// A point-to-point message counts once, at its sender, with its bytes. A collective counts one
+/// message on each rank that takes part, with the bytes the rank hands in and the bytes it gets
+/// out. `root_bytes_in` is what rank 0 of MPI_COMM_WORLD receives, counted where it is known:
+/// at the sender, or as what rank 0 gets out of a collective. Summed over the ranks these are the
+/// totals.
+struct Traffic {
+    std::int64_t messages = 0;
+    std::int64_t bytes = 0;
+    std::int64_t root_bytes_in = 0;
+};
+
+/// Starts counting on this rank, from zero. Not collective.
+///
+/// The counters are MPI functions of this program that shadow those of the MPI library and call
+/// its profiling interface (PMPI); they count whatever library makes the call.
+void start_counting_traffic();
+
+/// Stops counting on this rank. Not collective.
+Traffic stop_counting_traffic();
+
+}  // namespace comparisons

@@ -1,0 +1,118 @@
+#include "zoltan_partitioner_mpi.hpp"
+
+#include "failure_mpi.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace comparisons {
+
+namespace {
+
+int num_objects(void* data, int* code) {
+    *code = ZOLTAN_OK;
+    return static_cast<int>(static_cast<const NumberedPoints*>(data)->workload.points().count);
+}
+
+void object_list(void* data, int, int, ZOLTAN_ID_PTR global_ids, ZOLTAN_ID_PTR local_ids,
+                 int weight_dimension, float* weights, int* code) {
+    const auto& [workload, first_id] = *static_cast<const NumberedPoints*>(data);
+    const rrcb::LocalIndex count = workload.points().count;
+    std::iota(global_ids, global_ids + count, first_id);
+    std::iota(local_ids, local_ids + count, ZOLTAN_ID_TYPE{0});
+    if (weight_dimension > 0) {
+        std::ranges::transform(workload.weights, weights,
+                               [](double weight) { return static_cast<float>(weight); });
+    }
+    *code = ZOLTAN_OK;
+}
+
+int dimension(void* data, int* code) {
+    *code = ZOLTAN_OK;
+    return static_cast<const NumberedPoints*>(data)->workload.dimension;
+}
+
+void coordinates(void* data, int, int, int count, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local_ids,
+                 int num_axes, double* result, int* code) {
+    const double* from = static_cast<const NumberedPoints*>(data)->workload.coordinates.data();
+    const auto axes = static_cast<std::size_t>(num_axes);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+        std::copy_n(from + local_ids[i] * axes, axes, result + i * axes);
+    }
+    *code = ZOLTAN_OK;
+}
+
+}  // namespace
+
+ZoltanPartitioner::ZoltanPartitioner(const ZoltanParameters& parameters, const Workload& workload,
+                                     MPI_Comm comm)
+    : comm_(comm), points_{workload, 0}, zoltan_(Zoltan_Create(comm)) {
+    if (zoltan_ == nullptr) throw Failure("Zoltan_Create failed: not enough memory");
+    for (const auto& [name, value] : parameters) {
+        if (Zoltan_Set_Param(zoltan_, name.c_str(), value.c_str()) == ZOLTAN_OK) continue;
+        Zoltan_Destroy(&zoltan_);
+        throw Failure("Zoltan refuses the parameter " + name + "=" + value);
+    }
+    if (workload.weighted) Zoltan_Set_Param(zoltan_, "OBJ_WEIGHT_DIM", "1");
+    Zoltan_Set_Num_Obj_Fn(zoltan_, num_objects, &points_);
+    Zoltan_Set_Obj_List_Fn(zoltan_, object_list, &points_);
+    Zoltan_Set_Num_Geom_Fn(zoltan_, dimension, &points_);
+    Zoltan_Set_Geom_Multi_Fn(zoltan_, coordinates, &points_);
+    number_points();
+}
+
+ZoltanPartitioner::~ZoltanPartitioner() {
+    free_lists();
+    Zoltan_Destroy(&zoltan_);
+}
+
+void ZoltanPartitioner::number_points() {
+    const auto count = static_cast<ZOLTAN_ID_TYPE>(points_.workload.points().count);
+    ZOLTAN_ID_TYPE end = count;
+    MPI_Scan(MPI_IN_PLACE, &end, 1, ZOLTAN_ID_MPI_TYPE, MPI_SUM, comm_);
+    points_.first_id = end - count;
+}
+
+int ZoltanPartitioner::partition() {
+    int changes = 0;
+    int gid_entries = 0;
+    int lid_entries = 0;
+    return Zoltan_LB_Partition(zoltan_, &changes, &gid_entries, &lid_entries, &imports_.count,
+                               &imports_.global_ids, &imports_.local_ids, &imports_.ranks,
+                               &imports_.parts, &exports_.count, &exports_.global_ids,
+                               &exports_.local_ids, &exports_.ranks, &exports_.parts);
+}
+
+std::vector<rrcb::Part> ZoltanPartitioner::parts() const {
+    int rank = 0;
+    MPI_Comm_rank(comm_, &rank);
+    std::vector<rrcb::Part> parts(points_.workload.points().count, rank);
+    for (int i = 0; i < exports_.count; ++i) parts[exports_.local_ids[i]] = exports_.parts[i];
+    return parts;
+}
+
+void ZoltanPartitioner::free_lists() {
+    for (ObjectLists* lists : {&imports_, &exports_}) {
+        Zoltan_LB_Free_Part(&lists->global_ids, &lists->local_ids, &lists->ranks, &lists->parts);
+        lists->count = -1;
+    }
+}
+
+rrcb::Part ZoltanPartitioner::part_of(const rrcb::Vector& position) const {
+    rrcb::Vector x = position;
+    int rank = -1;
+    int part = -1;
+    Zoltan_LB_Point_PP_Assign(zoltan_, x.data(), &rank, &part);
+    return part;
+}
+
+rrcb::Box ZoltanPartitioner::box_of(rrcb::Part part) const {
+    int num_axes = 0;
+    rrcb::Box box;
+    const int code = Zoltan_RCB_Box(zoltan_, part, &num_axes, &box.lower[0], &box.lower[1],
+                                    &box.lower[2], &box.upper[0], &box.upper[1], &box.upper[2]);
+    if (code != ZOLTAN_OK) throw Failure("Zoltan_RCB_Box failed; it needs RCB and KEEP_CUTS=1");
+    return box;
+}
+
+}  // namespace comparisons

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "method.hpp"
+#include "workload.hpp"
+
+#include <rrcb/points.hpp>
+
+#include <mpi.h>
+#include <zoltan.h>
+
+#include <vector>
+
+namespace comparisons {
+
+/// What the callbacks see: the points of this rank, numbered through over all ranks.
+struct NumberedPoints {
+    const Workload& workload;
+    ZOLTAN_ID_TYPE first_id = 0;
+};
+
+/// Zoltan_LB_Partition on a workload; every method goes through the same callbacks and lists.
+///
+/// Makes one part per rank. The workload must outlive it and may change between calls, followed by
+/// number_points.
+class ZoltanPartitioner {
+  public:
+    /// Collective over `comm`. Throws Failure when Zoltan refuses a parameter.
+    ZoltanPartitioner(const ZoltanParameters& parameters, const Workload& workload, MPI_Comm comm);
+    ~ZoltanPartitioner();
+    ZoltanPartitioner(const ZoltanPartitioner&) = delete;
+    ZoltanPartitioner& operator=(const ZoltanPartitioner&) = delete;
+
+    /// Numbers the points anew after the workload has changed. Collective.
+    void number_points();
+
+    /// Zoltan_LB_Partition; lists of an earlier call must have been freed. Collective; returns
+    /// Zoltan's code on this rank.
+    int partition();
+
+    /// Part of every local point as the export lists tell. Not collective.
+    std::vector<rrcb::Part> parts() const;
+
+    /// Zoltan_LB_Free_Part; nothing when there are no lists. Not collective.
+    void free_lists();
+
+    /// Part of a position by the kept cuts, -1 if Zoltan cannot tell. Not collective.
+    rrcb::Part part_of(const rrcb::Vector& position) const;
+
+    /// Box of a part by the kept cuts; open sides are +-DBL_MAX. Throws Failure without KEEP_CUTS.
+    /// Not collective.
+    rrcb::Box box_of(rrcb::Part part) const;
+
+  private:
+    struct ObjectLists {
+        int count = -1;
+        ZOLTAN_ID_PTR global_ids = nullptr;
+        ZOLTAN_ID_PTR local_ids = nullptr;
+        int* ranks = nullptr;
+        int* parts = nullptr;
+    };
+
+    MPI_Comm comm_;
+    NumberedPoints points_;
+    Zoltan_Struct* zoltan_ = nullptr;
+    ObjectLists imports_;
+    ObjectLists exports_;
+};
+
+}  // namespace comparisons

@@ -1,0 +1,92 @@
+#include "table.hpp"
+
+#include "text.hpp"
+
+#include <algorithm>
+
+namespace comparisons {
+
+namespace {
+
+double median_of_zoltan_rcb(const Comparison& comparison) {
+    for (const Measurement& measurement : comparison.measurements) {
+        if (measurement.method == "zoltan-rcb") return median(measurement.times_ms);
+    }
+    return 0;
+}
+
+std::string ratio(double numerator, double denominator) {
+    return numerator > 0 && denominator > 0 ? write_number(numerator / denominator) : "";
+}
+
+void write_result(std::ostream& out, const Measurement& measurement, double zoltan_rcb_ms) {
+    const auto [min, max] = std::ranges::minmax(measurement.times_ms);
+    const double middle = median(measurement.times_ms);
+    out << middle << ',' << min << ',' << max << ',' << write_number(measurement.imbalance) << ','
+        << measurement.worst_unbalance_percent << ',' << measurement.traffic.messages << ','
+        << measurement.traffic.bytes << ',' << measurement.traffic.root_bytes_in << ','
+        << measurement.moved_fraction << ',' << ratio(middle, zoltan_rcb_ms) << ",\n";
+}
+
+using Row = std::vector<std::string>;
+
+Row result_row(const Measurement& measurement, double zoltan_rcb_ms) {
+    if (!measurement.error.empty()) return {measurement.method, measurement.error};
+    const double middle = median(measurement.times_ms);
+    return {measurement.method,
+            fixed(measurement.imbalance, 5),
+            fixed(measurement.worst_unbalance_percent, 3),
+            fixed(middle, 2),
+            zoltan_rcb_ms > 0 && middle > 0 ? fixed(zoltan_rcb_ms / middle, 2) : "-",
+            human_bytes(static_cast<double>(measurement.traffic.bytes)),
+            std::to_string(measurement.traffic.messages),
+            human_bytes(static_cast<double>(measurement.traffic.root_bytes_in)),
+            fixed(100 * measurement.moved_fraction, 1)};
+}
+
+}  // namespace
+
+bool has_failures(std::span<const Comparison> comparisons) {
+    return std::ranges::any_of(comparisons, [](const Comparison& comparison) {
+        return std::ranges::any_of(comparison.measurements,
+                                   [](const Measurement& m) { return !m.error.empty(); });
+    });
+}
+
+void write_table(std::ostream& out, std::span<const Comparison> comparisons) {
+    out << "method,ranks,parts,points,dim,workload,layout,lists,repeats,time_ms_median,time_ms_min,"
+           "time_ms_max,imbalance,lu_max_percent,messages,bytes,root_bytes_in,moved_fraction,"
+           "time_vs_zoltan_rcb,error\n";
+    for (const Comparison& comparison : comparisons) {
+        const double zoltan_rcb_ms = median_of_zoltan_rcb(comparison);
+        for (const Measurement& measurement : comparison.measurements) {
+            out << csv_field(measurement.method) << ',' << comparison.num_ranks << ','
+                << comparison.num_ranks << ',' << comparison.num_points << ','
+                << comparison.dimension << ',' << csv_field(comparison.workload) << ','
+                << comparison.layout << ',' << lists_name(comparison.plan.lists) << ','
+                << comparison.plan.repeats << ',';
+            if (measurement.error.empty()) {
+                write_result(out, measurement, zoltan_rcb_ms);
+            } else {
+                out << ",,,,,,,,,," << csv_field(measurement.error) << '\n';
+            }
+        }
+    }
+}
+
+void print_table(std::ostream& out, const Comparison& comparison) {
+    out << '\n'
+        << comparison.workload << ": " << comparison.num_points << " points, "
+        << comparison.dimension << "-D, " << comparison.layout << ", " << comparison.num_ranks
+        << " ranks, lists " << lists_name(comparison.plan.lists) << ", median of "
+        << comparison.plan.repeats << "\n\n";
+    std::vector<Row> rows = {{"method", "imbalance", "worst Lu %", "time ms",
+                              "x zoltan-rcb's speed", "bytes", "messages", "into root", "moved %"}};
+    const double zoltan_rcb_ms = median_of_zoltan_rcb(comparison);
+    for (const Measurement& measurement : comparison.measurements) {
+        rows.push_back(result_row(measurement, zoltan_rcb_ms));
+    }
+    print_columns(out, rows);
+}
+
+}  // namespace comparisons

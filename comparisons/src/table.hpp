@@ -1,0 +1,32 @@
+#pragma once
+
+#include "measurement_mpi.hpp"
+
+#include <ostream>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace comparisons {
+
+/// All methods on one workload.
+struct Comparison {
+    std::string workload;
+    std::string layout;
+    int dimension = 2;
+    rrcb::GlobalCount num_points = 0;
+    int num_ranks = 1;
+    MeasurementPlan plan;
+    std::vector<Measurement> measurements;
+};
+
+/// True when some method of some comparison failed.
+bool has_failures(std::span<const Comparison> comparisons);
+
+/// table.csv: one row per method and workload, columns as README.md describes them.
+void write_table(std::ostream& out, std::span<const Comparison> comparisons);
+
+/// The same for people, numbers they compare first.
+void print_table(std::ostream& out, const Comparison& comparison);
+
+}  // namespace comparisons

@@ -1,0 +1,156 @@
+#include "arguments.hpp"
+
+#include "cloud.hpp"
+#include "failure_mpi.hpp"
+#include "text.hpp"
+
+#include <Teuchos_CommandLineProcessor.hpp>
+
+#include <limits>
+#include <map>
+#include <sstream>
+
+namespace comparisons {
+
+namespace {
+
+/// Texts of the options that were given; read strictly here, because Teuchos takes 5x for 5.
+struct Texts {
+    std::map<std::string, std::string> values;
+    bool quick = false;
+    bool sweep = false;
+    bool progress = false;
+    bool version = false;
+
+    const std::string& operator[](const std::string& name) const { return values.at(name); }
+    bool given(const std::string& name) const { return !values.at(name).empty(); }
+};
+
+const std::map<std::string, std::string>& documentation() {
+    static const std::map<std::string, std::string> texts = {
+        {"ranks", "ranks the program was started with"},
+        {"scene", "simulation to run: slope (default)"},
+        {"cloud", "generated points: " + cloud_names()},
+        {"points", "points of the cloud; 1000000"},
+        {"dim", "dimension of the cloud: 2 (default) or 3"},
+        {"layout", "how points lie on the ranks: sorted (default) or scattered"},
+        {"file", "CSV file of points: x,y[,z][,weight]"},
+        {"methods", "methods, by commas: " + method_names()},
+        {"lists", "lists Zoltan returns: PARTS (default), EXPORT or ALL"},
+        {"steps", "steps of the simulation; the whole failure"},
+        {"every", "steps between rebalances"},
+        {"repeats", "timed calls of each method; 7"},
+        {"seed", "seed of the cloud; 1"},
+        {"out", "folder of the results; comparisons/out"},
+    };
+    return texts;
+}
+
+/// The help text if it was asked for, else empty.
+std::string parse(int argc, char** argv, Texts& texts) {
+    Teuchos::CommandLineProcessor processor(false);
+    processor.setDocString("Compares RRCB with Zoltan's partitioners on the same points.\n");
+    for (const auto& [name, text] : documentation()) {
+        processor.setOption(name.c_str(), &texts.values[name], text.c_str());
+    }
+    processor.setOption("quick", "no-quick", &texts.quick, "a small run that tries everything");
+    processor.setOption("sweep", "no-sweep", &texts.sweep, "not available yet");
+    processor.setOption("progress", "no-progress", &texts.progress, "show a progress bar");
+    processor.setOption("version", "no-version", &texts.version, "print the versions");
+    std::ostringstream output;
+    const auto result = processor.parse(argc, argv, &output);
+    if (result == Teuchos::CommandLineProcessor::PARSE_HELP_PRINTED) return output.str();
+    if (result != Teuchos::CommandLineProcessor::PARSE_SUCCESSFUL) {
+        throw Failure(std::string(trim(output.str().substr(output.str().find("Error,")))));
+    }
+    return {};
+}
+
+template <typename Number>
+void read_integer(const Texts& texts, const std::string& name, Number& value, Number minimum,
+                  Number maximum) {
+    if (!texts.given(name)) return;
+    const std::optional<Number> number = read_number<Number>(texts[name]);
+    if (!number || *number < minimum || *number > maximum) {
+        throw Failure("--" + name + " must be an integer from " + std::to_string(minimum) + " to " +
+                      std::to_string(maximum) + ", not '" + texts[name] + "'");
+    }
+    value = *number;
+}
+
+template <typename Value>
+void read_choice(const Texts& texts, const std::string& name, Value& value,
+                 const std::vector<std::pair<std::string, Value>>& choices) {
+    if (!texts.given(name)) return;
+    std::string names;
+    for (const auto& [choice, meaning] : choices) {
+        if (texts[name] == choice) {
+            value = meaning;
+            return;
+        }
+        names += (names.empty() ? "" : ", ") + choice;
+    }
+    throw Failure("--" + name + ": unknown value '" + texts[name] + "'; choose from: " + names);
+}
+
+void check_combination(const Texts& texts) {
+    const int sources = texts.given("scene") + texts.given("cloud") + texts.given("file");
+    if (sources > 1) throw Failure("give one of --scene, --cloud and --file only");
+    const auto needs = [&](const std::string& option, bool fits, const std::string& what) {
+        if (texts.given(option) && !fits) throw Failure("--" + option + " goes with " + what);
+    };
+    const bool is_scene = !texts.given("cloud") && !texts.given("file");
+    needs("points", texts.given("cloud"), "--cloud only; remove it");
+    needs("dim", texts.given("cloud"), "--cloud only; remove it");
+    needs("layout", !is_scene, "--cloud or --file only; remove it");
+    needs("steps", is_scene, "--scene only; remove it");
+    needs("every", is_scene, "--scene only; remove it");
+}
+
+void use_small_sizes(Arguments& arguments) {
+    arguments.points = 20'000;
+    arguments.repeats = 2;
+}
+
+void check_cloud(const std::string& name) {
+    if (!name.empty()) cloud_points({.name = name, .num_points = 0, .dimension = 2}, 0, 0);
+}
+
+}  // namespace
+
+Arguments read_arguments(int argc, char** argv) {
+    Arguments arguments;
+    Texts texts;
+    arguments.help = parse(argc, argv, texts);
+    arguments.version = texts.version;
+    if (!arguments.help.empty() || arguments.version) return arguments;
+    if (texts.sweep) throw Failure("--sweep is not available yet; run one comparison at a time");
+    check_combination(texts);
+    arguments.quick = texts.quick;
+    arguments.progress = texts.progress;
+    if (arguments.quick) use_small_sizes(arguments);
+
+    int scene = 0;
+    constexpr int many = std::numeric_limits<int>::max();
+    read_choice(texts, "scene", scene, {{"slope", 0}});
+    arguments.cloud = texts["cloud"];
+    arguments.file = texts["file"];
+    check_cloud(arguments.cloud);
+    read_integer(texts, "ranks", arguments.ranks, 1, many);
+    read_integer(texts, "points", arguments.points, {1}, {2'000'000'000});
+    read_integer(texts, "dim", arguments.dimension, 2, 3);
+    read_choice<Layout>(texts, "layout", arguments.layout,
+                        {{"sorted", Layout::sorted}, {"scattered", Layout::scattered}});
+    arguments.methods = read_methods(texts.given("methods") ? texts["methods"] : method_names());
+    read_choice<Lists>(texts, "lists", arguments.lists,
+                       {{"PARTS", Lists::parts}, {"EXPORT", Lists::exports}, {"ALL", Lists::all}});
+    read_integer(texts, "steps", arguments.steps, 1, many);
+    read_integer(texts, "every", arguments.every, 1, many);
+    read_integer(texts, "repeats", arguments.repeats, 1, 1000);
+    read_integer<std::uint64_t>(texts, "seed", arguments.seed, 0,
+                                std::numeric_limits<std::uint64_t>::max());
+    if (texts.given("out")) arguments.out = texts["out"];
+    return arguments;
+}
+
+}  // namespace comparisons

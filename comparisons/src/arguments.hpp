@@ -1,0 +1,40 @@
+#pragma once
+
+#include "layout_mpi.hpp"
+#include "method.hpp"
+
+#include <rrcb/points.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace comparisons {
+
+/// What the user asks for; see README.md beside this folder for every option.
+struct Arguments {
+    int ranks = 0;      ///< 0: whatever the program was started with
+    std::string cloud;  ///< empty: not a cloud
+    std::string file;   ///< empty: not a file; with neither: the slope scene
+    rrcb::GlobalCount points = 1'000'000;
+    int dimension = 2;
+    Layout layout = Layout::sorted;
+    std::vector<Method> methods;
+    Lists lists = Lists::parts;
+    int steps = 0;  ///< of the simulation; 0: the whole failure
+    int every = 0;  ///< steps between rebalances; 0: the default
+    int repeats = 7;
+    std::uint64_t seed = 1;
+    std::string out = "comparisons/out";
+    bool quick = false;
+    bool progress = false;
+    std::string help;  ///< not empty: print this and stop
+    bool version = false;
+};
+
+/// Reads the command line. Not collective.
+///
+/// Throws Failure that names the option, what is wrong with it and what is possible.
+Arguments read_arguments(int argc, char** argv);
+
+}  // namespace comparisons

@@ -1,0 +1,102 @@
+#include "comparison_mpi.hpp"
+#include "failure_mpi.hpp"
+#include "run_record.hpp"
+#include "workload_mpi.hpp"
+
+#include <rrcb/error.hpp>
+#include <rrcb/version.hpp>
+#include <rrcb/zoltan/rrcb_zoltan.h>
+
+#include <zoltan.h>
+
+#include <filesystem>
+#include <iostream>
+
+namespace {
+
+using namespace comparisons;
+
+int rank_of(MPI_Comm comm) {
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    return rank;
+}
+
+void check_surroundings(const Arguments& arguments, MPI_Comm comm) {
+    int size = 0;
+    MPI_Comm_size(comm, &size);
+    if (arguments.ranks != 0 && arguments.ranks != size) {
+        throw Failure("--ranks=" + std::to_string(arguments.ranks) + " but mpirun started " +
+                      std::to_string(size) + "; give mpirun the same number with -n");
+    }
+    if (RRCB_Zoltan_Active() == 0) {
+        throw Failure("rrcb_zoltan is not in front of Zoltan; link it before Zoltan");
+    }
+}
+
+Workload make_workload(const Arguments& arguments, MPI_Comm comm) {
+    if (!arguments.file.empty()) {
+        return file_workload(arguments.file, arguments.layout, arguments.seed, comm);
+    }
+    return cloud_workload({arguments.cloud, arguments.points, arguments.dimension, arguments.seed},
+                          arguments.layout, comm);
+}
+
+int compare(const Arguments& arguments, const std::string& command, MPI_Comm comm) {
+    check_surroundings(arguments, comm);
+    const ResultsFolder folder(arguments.out, comm);
+    Progress progress(arguments.progress && rank_of(comm) == 0);
+    const std::string record = run_record(arguments, command, comm);
+    folder.write("run.txt", [&](std::ostream& out) { out << record; });
+    if (rank_of(comm) == 0) std::cout << record;
+
+    const std::vector<Comparison> comparisons = {
+        compare_methods(make_workload(arguments, comm), arguments, folder, progress, comm)};
+    folder.write("table.csv", [&](std::ostream& out) { write_table(out, comparisons); });
+    if (rank_of(comm) == 0)
+        std::cout << '\n' << definitions() << "Written to " << arguments.out << '\n';
+    return has_failures(comparisons) ? 1 : 0;
+}
+
+int run(int argc, char** argv, MPI_Comm comm) {
+    const Arguments arguments = read_arguments(argc, argv);
+    const bool speaks = rank_of(comm) == 0;
+    if (!arguments.help.empty()) {
+        if (speaks) std::cout << arguments.help;
+        return 0;
+    }
+    if (arguments.version) {
+        if (speaks) std::cout << versions();
+        return 0;
+    }
+    return compare(arguments, command_line(argc, argv), comm);
+}
+
+/// The exit code; failures that all ranks know are printed once, any other ends the program on
+/// all ranks.
+int run_and_report(int argc, char** argv, MPI_Comm comm) {
+    try {
+        return run(argc, argv, comm);
+    } catch (const Failure& failure) {
+        if (rank_of(comm) == 0) std::cerr << "rrcb_compare: " << failure.what() << std::endl;
+    } catch (const rrcb::Error& error) {
+        if (rank_of(comm) == 0) std::cerr << "rrcb_compare: " << error.what() << std::endl;
+    } catch (const std::exception& error) {
+        std::cerr << "rrcb_compare: rank " << rank_of(comm) << ": " << error.what() << std::endl;
+        MPI_Abort(comm, 1);
+    }
+    return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    MPI_Init(&argc, &argv);
+    float zoltan_version = 0;
+    Zoltan_Initialize(argc, argv, &zoltan_version);
+    const int code = run_and_report(argc, argv, MPI_COMM_WORLD);
+    std::cout.flush();
+    MPI_Barrier(MPI_COMM_WORLD);
+    MPI_Finalize();
+    return code;
+}

@@ -85,4 +85,7 @@ struct Scene {
     double end_time = 0;          ///< s
 };
 
+/// Throws std::invalid_argument that names what is wrong with a scene.
+void validate(const Scene& scene);
+
 }  // namespace mpm

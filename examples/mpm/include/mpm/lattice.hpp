@@ -1,0 +1,22 @@
+#pragma once
+
+#include <mpm/particles.hpp>
+#include <mpm/scene.hpp>
+
+#include <cstdint>
+
+namespace mpm {
+
+/// How many points a scene has, and where.
+struct Extent {
+    std::int64_t num_points = 0;
+    Box box;  ///< empty without points
+};
+
+Extent extent_of(const Scene& scene);
+
+/// Appends the scene's points that `rank` owns; columns other than those of motion are zero.
+void place_points(const Scene& scene, const Decomposition& decomposition, int rank,
+                  const MotionColumns& motion, Particles& particles);
+
+}  // namespace mpm

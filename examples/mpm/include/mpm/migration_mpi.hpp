@@ -1,0 +1,29 @@
+#pragma once
+
+#include <mpi.h>
+#include <mpm/particles.hpp>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace mpm {
+
+/// How far the points of any rank must travel; the largest over all ranks decides.
+enum class Reach { nowhere, neighbours, anywhere };
+
+/// Points that leave a rank: local indices, ascending, and where each goes.
+struct Leavers {
+    std::vector<std::size_t> points;
+    std::vector<int> owners;
+};
+
+/// Sends the leavers with all their columns, one message per receiver, and appends the points
+/// that arrive, in ascending order of the sender.
+///
+/// Collective; `reach` is the same on all ranks. Within `neighbours` (ascending, mutual) each
+/// pair exchanges a message, elsewhere counts are exchanged first. Returns how many arrived.
+std::size_t migrate(Particles& particles, const Leavers& leavers, Reach reach,
+                    std::span<const int> neighbours, MPI_Comm comm);
+
+}  // namespace mpm

@@ -1,0 +1,35 @@
+#include "rrcb_balancer_mpi.hpp"
+
+#include <rrcb/balance.hpp>
+
+#include <array>
+#include <memory>
+#include <utility>
+
+namespace {
+
+rrcb::Points points_of(mpm::Positions positions) {
+    const std::array<std::span<const double>, 2> columns{positions.x, positions.y};
+    return rrcb::column_points(columns);
+}
+
+mpm::Decomposition decompose(mpm::Positions positions, MPI_Comm comm) {
+    rrcb::Balance balance = rrcb::balance(points_of(positions), {}, comm);
+    mpm::Decomposition decomposition;
+    for (rrcb::Part part = 0; part < balance.cuts.num_parts; ++part) {
+        const rrcb::Box box = rrcb::box_of(balance.cuts, part);
+        decomposition.boxes.push_back({{box.lower[0], box.lower[1]}, {box.upper[0], box.upper[1]}});
+    }
+    decomposition.local_owners = std::move(balance.parts);
+    decomposition.owners = [cuts = std::move(balance.cuts)](mpm::Positions at,
+                                                            std::span<int> owners) {
+        rrcb::assign(cuts, points_of(at), owners);
+    };
+    return decomposition;
+}
+
+}  // namespace
+
+mpm::Balancer rrcb_balancer() {
+    return decompose;
+}

@@ -1,0 +1,115 @@
+#include <mpm/ownership_mpi.hpp>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace mpm {
+
+Ownership::Ownership(const GridShape& grid, MPI_Comm comm)
+    : comm_(comm), grid_{grid.lower, grid.upper()} {
+    int num_ranks = 1;
+    MPI_Comm_rank(comm, &rank_);
+    MPI_Comm_size(comm, &num_ranks);
+    num_ranks_ = static_cast<std::size_t>(num_ranks);
+}
+
+void Ownership::find_leavers(const Decomposition& decomposition, Positions positions,
+                             std::span<const int> neighbours) {
+    leavers_.points.clear();
+    x_.clear();
+    y_.clear();
+    const Box& box = decomposition.boxes[static_cast<std::size_t>(rank_)];
+    for (std::size_t p = 0; p < positions.x.size(); ++p) {
+        const double x = positions.x[p], y = positions.y[p];
+        if (contains(box, x, y) && contains(grid_, x, y)) continue;
+        if (!contains(grid_, x, y)) return report(Fault::left_grid);
+        leavers_.points.push_back(p);
+        x_.push_back(x);
+        y_.push_back(y);
+    }
+    leavers_.owners.resize(x_.size());
+    if (x_.empty() || !ask_owners(decomposition, {x_, y_})) return;
+    leavers_.owners.assign(owners_.begin(), owners_.end());
+    for (const int owner : leavers_.owners) {
+        const bool near = std::ranges::binary_search(neighbours, owner);
+        reach_ = std::max(reach_, near ? Reach::neighbours : Reach::anywhere);
+    }
+}
+
+void Ownership::find_reassigned(const Decomposition& next, Positions positions) {
+    leavers_.points.clear();
+    leavers_.owners.clear();
+    if (next.boxes.size() != num_ranks_) return report(Fault::no_owner);
+    if (next.local_owners.empty()) {
+        if (!ask_owners(next, positions)) return;
+    } else {
+        owners_ = next.local_owners;
+        if (!check_owners(next, positions)) return;
+    }
+    for (std::size_t p = 0; p < owners_.size(); ++p) {
+        if (owners_[p] == rank_) continue;
+        leavers_.points.push_back(p);
+        leavers_.owners.push_back(owners_[p]);
+        reach_ = Reach::anywhere;
+    }
+}
+
+bool Ownership::ask_owners(const Decomposition& decomposition, Positions positions) {
+    owners_.assign(positions.x.size(), -1);
+    try {
+        decomposition.owners(positions, owners_);
+    } catch (const std::exception&) {
+        report(Fault::no_owner);
+        return false;
+    }
+    return check_owners(decomposition, positions);
+}
+
+bool Ownership::check_owners(const Decomposition& decomposition, Positions positions) {
+    if (owners_.size() != positions.x.size()) {
+        report(Fault::no_owner);
+        return false;
+    }
+    for (std::size_t p = 0; p < owners_.size(); ++p) {
+        const auto owner = static_cast<std::size_t>(owners_[p]);
+        if (owner >= num_ranks_)
+            report(Fault::no_owner);
+        else if (!contains(decomposition.boxes[owner], positions.x[p], positions.y[p]))
+            report(Fault::misplaced);
+    }
+    return fault_ == Fault::none;
+}
+
+void Ownership::report(Fault fault) {
+    fault_ = std::max(fault_, fault);
+}
+
+Agreement Ownership::agree(double speed) {
+    std::array<double, 3> worst{static_cast<double>(fault_), static_cast<double>(reach_), speed};
+    MPI_Allreduce(MPI_IN_PLACE, worst.data(), 3, MPI_DOUBLE, MPI_MAX, comm_);
+    fault_ = Fault::none;
+    reach_ = Reach::nowhere;
+    throw_fault(static_cast<Fault>(static_cast<int>(worst[0])));
+    return {static_cast<Reach>(static_cast<int>(worst[1])), worst[2]};
+}
+
+void Ownership::throw_fault(Fault fault) {
+    switch (fault) {
+        case Fault::none:
+            return;
+        case Fault::misplaced:
+            throw std::runtime_error(
+                "the decomposition gave a point to a rank whose box does not hold it");
+        case Fault::no_owner:
+            throw std::runtime_error(
+                "the decomposition named no owner of some point: it must give one box per rank "
+                "and a rank for every position in the grid");
+        case Fault::left_grid:
+            throw std::runtime_error(
+                "a point has left the grid: make the grid larger, give it walls, or lower the "
+                "Courant number");
+    }
+}
+
+}  // namespace mpm

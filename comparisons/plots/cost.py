@@ -58,8 +58,10 @@ def _draw_workload(axes: Axes, rows: list[Measurement]) -> None:
         )
     first = rows[0]
     axes.set_title(f"{first.workload}: {first.points:,} points, {first.ranks} ranks")
-    axes.set_xlabel("time of a call [ms]: median, least to most")
-    axes.axhspan(FLOOR / 10, FLOOR, color="#F0F0F0", zorder=0)
+    axes.set_xlabel("time of a call [ms]: median, from least to most")
+    if any(_excess(row) == FLOOR for row in rows):
+        axes.axhspan(FLOOR / 10, FLOOR, color="#F0F0F0", zorder=0)
+        axes.text(0.02, 0.01, "$10^{-6}$ or less", transform=axes.transAxes, fontsize=8)
     axes.grid(True)
 
 
@@ -72,7 +74,5 @@ def _set_limits(axes: Axes, table: list[Measurement]) -> None:
 
 
 def _label(axes: Axes, rows: list[Measurement]) -> None:
-    labels = [
-        (row.time_ms, _excess(row), row.method, method_style(row.method).colour) for row in rows
-    ]
-    place_labels(axes, labels)
+    marks = [(row.time_ms_min, row.time_ms, row.time_ms_max, _excess(row)) for row in rows]
+    place_labels(axes, marks, [row.method.replace("[", "\n[") for row in rows])

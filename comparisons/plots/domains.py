@@ -11,9 +11,10 @@ from matplotlib.collections import LineCollection, PatchCollection
 from matplotlib.patches import Rectangle
 
 from results import Columns, read_data, read_table, unique
-from style import part_colours, save, show_lengths
+from style import length_ratio, part_colours, save, show_lengths
 
 MAX_POINTS = 60_000
+MARKER_AREA = 0.8
 
 
 def draw_support_mesh(directory: Path, picture: Path) -> bool:
@@ -21,15 +22,17 @@ def draw_support_mesh(directory: Path, picture: Path) -> bool:
     meshes = _by_workload(directory, "cells")
     if not meshes:
         return False
+    outlines = [{axis: cells["lower_" + axis] for axis in "xy"} for cells in meshes.values()]
+    height = length_ratio(outlines) * 8.3 + 0.5
     figure, axes = plt.subplots(
-        len(meshes), 1, figsize=(9, 3.6 * len(meshes)), squeeze=False, sharex=True
+        len(meshes), 1, figsize=(9, height * len(meshes) + 0.4), squeeze=False, sharex=True
     )
     for panel, (workload, cells) in zip(axes[:, 0], meshes.items()):
         _draw_cells(panel, cells)
         ranks = len(np.unique(cells["rank"]))
         panel.set_title(
-            f"{workload}: {len(cells['cell'])} cells with points of {ranks} ranks (one colour each), "
-            "centroid and ± standard deviation"
+            f"{workload}: {len(cells['cell'])} cells with points of {ranks} ranks, a colour each;"
+            " centroid ± standard deviation"
         )
         show_lengths(panel, panel is axes[-1, 0])
     save(figure, picture)
@@ -46,15 +49,18 @@ def draw_domains(directory: Path, picture: Path) -> bool:
     }
     if not pairs:
         return False
+    height = length_ratio(real for real, _ in pairs.values()) * 5.2 + 0.4
+    size = (11, height * len(pairs) + 0.4)
     figure, axes = plt.subplots(
-        len(pairs), 2, figsize=(11, 2.3 * len(pairs) + 0.3), squeeze=False, sharex=True, sharey=True
+        len(pairs), 2, figsize=size, squeeze=False, sharex=True, sharey=True
     )
-    for row, (workload, domains) in zip(axes, pairs.items()):
-        for panel, points, kind in zip(row, domains, ("real", "statistical")):
+    for i, (workload, domains) in enumerate(pairs.items()):
+        for j, (points, kind) in enumerate(zip(domains, ("real", "statistical"))):
             chosen = slice(None, None, len(points["x"]) // MAX_POINTS + 1)
-            panel.plot(points["x"][chosen], points["y"][chosen], ",", color="#0067A5", alpha=0.6)
-            panel.set_title(f"{workload}, {kind} domain: {len(points['x']):,} points")
-            show_lengths(panel, row is axes[-1], panel is row[0])
+            x, y = points["x"][chosen], points["y"][chosen]
+            axes[i, j].scatter(x, y, s=MARKER_AREA, color="#0067A5", linewidths=0)
+            axes[i, j].set_title(f"{workload}, {kind} domain: {len(points['x']):,} points")
+            show_lengths(axes[i, j], i == len(pairs) - 1, j == 0)
     save(figure, picture)
     return True
 
@@ -66,8 +72,9 @@ def _by_workload(directory: Path, kind: str) -> dict[str, Columns]:
 
 def _real_points(directory: Path, workload: str) -> Columns | None:
     for row in read_table(directory):
-        if row.workload == workload and (points := read_data(directory, "points", workload, row.method)):
-            return points
+        if row.workload == workload:
+            if points := read_data(directory, "points", workload, row.method):
+                return points
     return None
 
 
@@ -76,9 +83,11 @@ def _draw_cells(axes: Axes, cells: Columns) -> None:
     corners = zip(cells["lower_x"], cells["lower_y"], cells["upper_x"], cells["upper_y"])
     boxes = [Rectangle((x0, y0), x1 - x0, y1 - y0) for x0, y0, x1, y1 in corners]
     axes.add_collection(PatchCollection(boxes, facecolors=colours, alpha=0.12))
-    axes.add_collection(PatchCollection(boxes, facecolors="none", edgecolors=colours, linewidths=0.7))
+    axes.add_collection(
+        PatchCollection(boxes, facecolors="none", edgecolors=colours, linewidths=0.7)
+    )
     x, y, dx, dy = (cells[name] for name in ("mean_x", "mean_y", "sigma_x", "sigma_y"))
     bars = [[(a - s, b), (a + s, b)] for a, b, s in zip(x, y, dx)]
     bars += [[(a, b - s), (a, b + s)] for a, b, s in zip(x, y, dy)]
     axes.add_collection(LineCollection(bars, colors="#333333", linewidths=0.9))
-    axes.plot(x, y, "o", color="black", markersize=2.8)
+    axes.plot(x, y, "o", color="black", markersize=min(2.8, 45 / np.sqrt(len(x))))

@@ -33,16 +33,17 @@ def draw_history(directory: Path, picture: Path) -> bool:
 
 def _per_part(history: Columns) -> tuple[np.ndarray, np.ndarray]:
     """Times of the steps, and the unbalance as an array of parts by steps."""
-    times = np.unique(history["time"])
-    order = np.lexsort((history["time"], history["part"]))
-    return times, history["lu_percent"][order].reshape(-1, len(times))
+    _, first, step = np.unique(history["step"], return_index=True, return_inverse=True)
+    unbalance = np.full((int(history["part"].max()) + 1, len(first)), np.nan)
+    unbalance[history["part"].astype(int), step] = history["lu_percent"]
+    return history["time"][first], unbalance
 
 
 def _draw_worst(axes: Axes, histories: dict[str, Columns]) -> None:
     for method, history in histories.items():
         style = method_style(method)
         times, unbalance = _per_part(history)
-        worst = np.maximum(np.abs(unbalance).max(axis=0), FLOOR_PERCENT)
+        worst = np.maximum(np.nanmax(np.abs(unbalance), axis=0), FLOOR_PERCENT)
         axes.plot(times, worst, color=style.colour, linestyle=style.line, label=method)
     axes.set_yscale("log")
     axes.set_ylabel("worst |Lu| [%]")
@@ -54,11 +55,10 @@ def _draw_worst(axes: Axes, histories: dict[str, Columns]) -> None:
 def _draw_parts(axes: Axes, method: str, history: Columns) -> None:
     times, unbalance = _per_part(history)
     axes.axhline(0, color="#999999", linewidth=0.6)
-    axes.fill_between(
-        times, unbalance.min(axis=0), unbalance.max(axis=0), color="#DDDDDD", linewidth=0
-    )
+    lowest, highest = np.nanmin(unbalance, axis=0), np.nanmax(unbalance, axis=0)
+    axes.fill_between(times, lowest, highest, color="#DDDDDD", linewidth=0)
     for part, values in enumerate(unbalance):
         colour = PART_COLOURS[part % len(PART_COLOURS)]
         axes.plot(times, values, color=colour, linewidth=0.8)
     axes.set_ylabel("Lu [%]")
-    axes.set_title(f"{method}: every part, and the band between the worst", fontsize=9, loc="left")
+    axes.set_title(f"{method}: Lu of every part", fontsize=9, loc="left")

@@ -10,10 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 
 from results import Columns, Measurement, read_data, read_table, unique
-from style import part_colours, save, show_lengths
+from style import length_ratio, part_colours, save, show_lengths
 
 MAX_POINTS = 60_000
-MARKER_POINTS = 0.55
+MARKER_AREA = 0.55
+PANEL_WIDTH = 4.2
 
 
 def draw_parts(directory: Path, picture: Path) -> bool:
@@ -24,10 +25,11 @@ def draw_parts(directory: Path, picture: Path) -> bool:
         return False
     methods = unique([method for method, _ in panels])
     workloads = unique([workload for _, workload in panels])
+    height = length_ratio(panels.values()) * PANEL_WIDTH + 0.5
     figure, axes = plt.subplots(
         len(methods),
         len(workloads),
-        figsize=(4.2 * len(workloads) + 0.8, _panel_height(panels) * len(methods) + 0.6),
+        figsize=(PANEL_WIDTH * len(workloads) + 0.7, height * len(methods) + 0.5),
         squeeze=False,
         sharex=True,
         sharey=True,
@@ -44,19 +46,13 @@ def draw_parts(directory: Path, picture: Path) -> bool:
     return True
 
 
-def _panel_height(panels: dict[tuple[str, str], Columns]) -> float:
-    width = max(np.ptp(points["x"]) for points in panels.values())
-    height = max(np.ptp(points["y"]) for points in panels.values())
-    return float(np.clip(4.0 * height / max(width, 1e-300), 0.8, 4.0)) + 0.35
-
-
 def _draw_points(axes: Axes, points: Columns) -> None:
     chosen = slice(None, None, len(points["x"]) // MAX_POINTS + 1)
     axes.scatter(
         points["x"][chosen],
         points["y"][chosen],
         c=part_colours(points["part"][chosen]),
-        s=MARKER_POINTS,
+        s=MARKER_AREA,
         linewidths=0,
         rasterized=True,
     )
@@ -85,4 +81,4 @@ def _draw_boxes(axes: Axes, points: Columns, boxes: Columns | None) -> None:
 
 
 def _title(row: Measurement) -> str:
-    return f"{row.method}, {row.workload}: imbalance {row.imbalance:.4f}"
+    return f"{row.method}\n{row.workload}, imbalance {row.imbalance:.4f}"

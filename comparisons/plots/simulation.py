@@ -28,16 +28,22 @@ def draw_simulation(directory: Path, picture: Path) -> bool:
         )
         left = [start + length for start, length in zip(left, seconds)]
     for row, (run, end) in enumerate(zip(runs, left)):
-        text = f" {run.wall:.1f} s, of it balancing {run.balance:.2f} s; mean imbalance {run.mean_imbalance:.3f}"
+        text = (
+            f" {run.wall:.1f} s, balancing {run.balance:.2f} s,"
+            f" mean imbalance {run.mean_imbalance:.3f}"
+        )
         axes.text(end, row, text, va="center", fontsize=8)
     for tick, method in zip(axes.get_yticklabels(), methods):
         tick.set_color(method_style(method).colour)
     axes.invert_yaxis()
     axes.set_xlim(0, 1.75 * max(left))
     axes.set_xlabel("wall time [s]")
+    first = runs[0]
     axes.set_title(
-        f"The whole simulation: {runs[0].points:,} points, {runs[0].steps:,} steps, {runs[0].ranks} ranks"
+        f"The whole simulation: {first.points:,} points, {first.steps:,} steps,"
+        f" {first.ranks} ranks",
+        pad=24,
     )
-    axes.legend(loc="upper center", bbox_to_anchor=(0.4, -0.28), ncol=3)
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3)
     save(figure, picture)
     return True

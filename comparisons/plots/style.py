@@ -1,7 +1,8 @@
-"""One look for all pictures: colours, line styles, axes, and labels that keep clear of each other."""
+"""One look for all pictures: colours, lines, axes, and labels that keep clear of each other."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,6 +14,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib.axes import Axes  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
+from matplotlib.text import Annotation  # noqa: E402
 from matplotlib.transforms import Bbox  # noqa: E402
 
 # K. L. Kelly: Twenty-two colors of maximum contrast (1965), without white and black.
@@ -85,55 +87,80 @@ def show_lengths(axes: Axes, x_label: bool = True, y_label: bool = True) -> None
         axes.set_ylabel("y [m]")
 
 
-def place_labels(axes: Axes, labels: list[tuple[float, float, str, str]]) -> None:
-    """Writes (x, y, text, colour) beside each point where it covers no label and no other point.
+def length_ratio(clouds: Iterable[dict[str, np.ndarray]]) -> float:
+    """Height over width of panels that show every cloud, within what a picture can hold."""
+    clouds = list(clouds)
+    width, height = (
+        max(cloud[axis].max() for cloud in clouds) - min(cloud[axis].min() for cloud in clouds)
+        for axis in "xy"
+    )
+    return float(np.clip(height / max(width, 1e-300), 0.2, 1.2))
 
-    The view limits must be final; of the places that are free the first one is taken.
+
+def place_labels(
+    axes: Axes, marks: list[tuple[float, float, float, float]], texts: list[str]
+) -> None:
+    """Writes each text beside its mark (x from, x, x to, y) where it covers nothing else.
+
+    The view limits must be final; the first of the places that covers least is taken.
     """
-    figure = axes.figure
-    figure.canvas.draw()
-    renderer = figure.canvas.get_renderer()
+    axes.figure.canvas.draw()
+    renderer = axes.figure.canvas.get_renderer()
     frame = axes.get_window_extent(renderer)
-    anchors = axes.transData.transform([(x, y) for x, y, _, _ in labels])
-    taken = [Bbox.from_bounds(x - 5, y - 5, 10, 10) for x, y in anchors]
-    for x, y, text, colour in sorted(labels, key=lambda label: label[:2]):
-        best = None
-        for offset, horizontal, vertical in _PLACES:
-            note = axes.annotate(
-                text,
-                (x, y),
-                xytext=offset,
-                textcoords="offset points",
-                ha=horizontal,
-                va=vertical,
-                color=colour,
-                fontsize=8,
-            )
-            box = note.get_window_extent(renderer).expanded(1.02, 1.05)
-            cost = sum(box.overlaps(other) for other in taken) + 2 * (not _inside(box, frame))
-            if best is None or cost < best[0]:
-                if best is not None:
-                    best[1].remove()
-                best = (cost, note, box)
-            else:
-                note.remove()
-            if cost == 0:
-                break
-        taken.append(best[2])
+    taken = [box for mark in marks for box in _mark_boxes(axes, mark)]
+    for (_, x, _, y), text in zip(marks, texts):
+        notes = [_annotate(axes, x, y, text, place) for place in _PLACES]
+        boxes = [note.get_window_extent(renderer).expanded(1.02, 1.05) for note in notes]
+        costs = [
+            sum(box.overlaps(other) for other in taken) + 2 * (not _inside(box, frame))
+            for box in boxes
+        ]
+        best = costs.index(min(costs))
+        taken.append(boxes[best])
+        for note in notes[:best] + notes[best + 1 :]:
+            note.remove()
 
 
+# Offset in points, horizontal and vertical alignment; above and below first, since bars run across.
 _PLACES = [
-    ((7, 0), "left", "center"),
-    ((-7, 0), "right", "center"),
-    ((0, 7), "center", "bottom"),
-    ((0, -7), "center", "top"),
-    ((6, 6), "left", "bottom"),
-    ((6, -6), "left", "top"),
-    ((-6, 6), "right", "bottom"),
-    ((-6, -6), "right", "top"),
+    ((0, 6), "center", "bottom"),
+    ((0, -6), "center", "top"),
+    ((6, 5), "left", "bottom"),
+    ((-6, 5), "right", "bottom"),
+    ((6, -5), "left", "top"),
+    ((-6, -5), "right", "top"),
     ((0, 18), "center", "bottom"),
     ((0, -18), "center", "top"),
+    ((0, 30), "center", "bottom"),
+    ((0, -30), "center", "top"),
 ]
+
+_Place = tuple[tuple[float, float], str, str]
+
+
+def _annotate(axes: Axes, x: float, y: float, text: str, place: _Place) -> Annotation:
+    offset, horizontal, vertical = place
+    return axes.annotate(
+        text,
+        (x, y),
+        xytext=offset,
+        textcoords="offset points",
+        ha=horizontal,
+        va=vertical,
+        fontsize=8,
+        color="#222222",
+    )
+
+
+def _mark_boxes(axes: Axes, mark: tuple[float, float, float, float]) -> list[Bbox]:
+    """On the screen: the marker, and the bar through it."""
+    left, x, right, y = mark
+    ends = axes.transData.transform([(left, y), (x, y), (right, y)])
+    (x0, _), (x1, middle), (x2, _) = ends
+    return [
+        Bbox.from_extents(x1 - 6, middle - 6, x1 + 6, middle + 6),
+        Bbox.from_extents(x0, middle - 2, x2, middle + 2),
+    ]
 
 
 def _inside(box: Bbox, frame: Bbox) -> bool:

@@ -1,0 +1,118 @@
+"""Draws the pictures of a tiny comparison and looks at what came out."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "plots"))
+
+import cost  # noqa: E402
+import draw  # noqa: E402
+import history  # noqa: E402
+import results  # noqa: E402
+
+TABLE = """\
+method,ranks,parts,points,dim,workload,layout,lists,repeats,time_ms_median,time_ms_min,time_ms_max,\
+imbalance,lu_max_percent,messages,bytes,root_bytes_in,moved_fraction,time_vs_zoltan_rcb,error
+zoltan-rcb,2,2,4,2,slope-start,scene,PARTS,1,2.0,1.5,3.0,1.0,0,1,1,1,0,1,
+"rrcb-sampled[mesh=4,k=2]",2,2,4,2,slope-start,scene,PARTS,1,1.0,0.5,1.5,1.5,50,1,1,1,0,0.5,
+zoltan-hsfc,2,2,4,2,slope-start,scene,PARTS,1,,,,,,,,,,,failed
+"""
+FILES = {
+    "table.csv": TABLE,
+    "history.csv": """\
+method,step,time,part,points,lu_percent,imbalance
+rrcb,0,0.0,0,2,0,1
+rrcb,0,0.0,1,2,0,1
+rrcb,10,0.1,0,3,-50,1.5
+rrcb,10,0.1,1,1,50,1.5
+""",
+    "simulation.csv": """\
+method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,worst_imbalance,front_x_m,mass_kg
+none,2,4,10,0,3.0,0.0,2.5,1.4,1.5,60,1
+rrcb,2,4,10,1,2.0,0.1,1.8,1.0,1.1,60,1
+""",
+    "data/points_slope-start_rrcb-sampled_mesh_4_k_2_.csv": """\
+x,y,part
+0,0,0
+1,0,0
+2,1,0
+3,0,1
+""",
+    "data/boxes_slope-start_rrcb-sampled_mesh_4_k_2_.csv": """\
+part,lower_x,lower_y,upper_x,upper_y
+0,-inf,-inf,2.5,inf
+1,2.5,-inf,inf,inf
+""",
+    "data/cells_slope-start.csv": """\
+rank,cell,lower_x,lower_y,upper_x,upper_y,mean_x,mean_y,sigma_x,sigma_y,count
+0,0,0,0,1,1,0.5,0,0.5,0,2
+1,0,2,0,3,1,2.5,0.5,0.5,0.5,2
+""",
+    "data/statistical_slope-start.csv": "x,y\n0.2,0\n2.7,0.4\n",
+}
+
+
+class DrawTest(unittest.TestCase):
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.directory = Path(temporary.name)
+
+    def write(self, *names: str) -> None:
+        for name in names:
+            path = self.directory / name
+            path.parent.mkdir(exist_ok=True)
+            path.write_text(FILES[name])
+
+    def draw(self, *arguments: str) -> int:
+        sys.argv = ["draw.py", *(arguments or [str(self.directory)])]
+        with contextlib.redirect_stderr(io.StringIO()):
+            return draw.main()
+
+    def pictures(self) -> list[str]:
+        return sorted(path.name for path in self.directory.glob("*.png"))
+
+    def test_draws_every_picture_of_a_complete_comparison(self) -> None:
+        self.write(*FILES)
+        self.assertEqual(self.draw(), 0)
+        self.assertEqual(self.pictures(), sorted(draw.PICTURES))
+        for name in self.pictures():
+            self.assertEqual((self.directory / name).read_bytes()[:4], b"\x89PNG")
+
+    def test_leaves_out_pictures_without_data_and_removes_old_ones(self) -> None:
+        self.write("table.csv")
+        (self.directory / "parts.png").write_text("of an earlier run")
+        (self.directory / "holiday.png").write_text("not ours")
+        self.assertEqual(self.draw(), 0)
+        self.assertEqual(self.pictures(), ["holiday.png", "time_against_imbalance.png"])
+
+    def test_reads_methods_that_succeeded_only(self) -> None:
+        self.write("table.csv")
+        methods = [row.method for row in results.read_table(self.directory)]
+        self.assertEqual(methods, ["zoltan-rcb", "rrcb-sampled[mesh=4,k=2]"])
+
+    def test_draws_a_perfect_balance_at_the_floor(self) -> None:
+        self.write("table.csv")
+        perfect, other = results.read_table(self.directory)
+        self.assertEqual(cost._excess(perfect), cost.FLOOR)
+        self.assertAlmostEqual(cost._excess(other), 0.5)
+
+    def test_arranges_the_history_by_part_and_step(self) -> None:
+        self.write("history.csv")
+        times, unbalance = history._per_part(results.read_history(self.directory)["rrcb"])
+        self.assertEqual(times.tolist(), [0.0, 0.1])
+        self.assertEqual(unbalance.tolist(), [[0.0, -50.0], [0.0, 50.0]])
+
+    def test_refuses_a_directory_that_is_not_there(self) -> None:
+        self.assertEqual(self.draw(str(self.directory / "nowhere")), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,6 +1,7 @@
 #include "comparison_mpi.hpp"
 #include "failure_mpi.hpp"
 #include "run_record.hpp"
+#include "scene_mpi.hpp"
 #include "workload_mpi.hpp"
 
 #include <rrcb/error.hpp>
@@ -9,7 +10,7 @@
 
 #include <zoltan.h>
 
-#include <filesystem>
+#include <algorithm>
 #include <iostream>
 
 namespace {
@@ -42,6 +43,16 @@ Workload make_workload(const Arguments& arguments, MPI_Comm comm) {
                           arguments.layout, comm);
 }
 
+std::vector<Workload> make_workloads(const Arguments& arguments, const ResultsFolder& folder,
+                                     Progress& progress, bool& failed, MPI_Comm comm) {
+    if (!arguments.cloud.empty() || !arguments.file.empty()) {
+        return {make_workload(arguments, comm)};
+    }
+    SceneRuns scene = run_scene(arguments, folder, progress, comm);
+    failed = std::ranges::any_of(scene.runs, [](const auto& run) { return !run.error.empty(); });
+    return std::move(scene.snapshots);
+}
+
 int compare(const Arguments& arguments, const std::string& command, MPI_Comm comm) {
     check_surroundings(arguments, comm);
     const ResultsFolder folder(arguments.out, comm);
@@ -50,12 +61,16 @@ int compare(const Arguments& arguments, const std::string& command, MPI_Comm com
     folder.write("run.txt", [&](std::ostream& out) { out << record; });
     if (rank_of(comm) == 0) std::cout << record;
 
-    const std::vector<Comparison> comparisons = {
-        compare_methods(make_workload(arguments, comm), arguments, folder, progress, comm)};
+    bool failed = false;
+    std::vector<Comparison> comparisons;
+    for (const Workload& workload : make_workloads(arguments, folder, progress, failed, comm)) {
+        comparisons.push_back(compare_methods(workload, arguments, folder, progress, comm));
+    }
     folder.write("table.csv", [&](std::ostream& out) { write_table(out, comparisons); });
-    if (rank_of(comm) == 0)
+    if (rank_of(comm) == 0) {
         std::cout << '\n' << definitions() << "Written to " << arguments.out << '\n';
-    return has_failures(comparisons) ? 1 : 0;
+    }
+    return failed || has_failures(comparisons) ? 1 : 0;
 }
 
 int run(int argc, char** argv, MPI_Comm comm) {

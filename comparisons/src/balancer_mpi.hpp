@@ -1,0 +1,16 @@
+#pragma once
+
+#include "method.hpp"
+
+#include <mpm/decomposition.hpp>
+
+#include <optional>
+
+namespace comparisons {
+
+/// A method as the simulation takes it; none when its parts are no boxes (RIB, HSFC).
+///
+/// Zoltan's RCB runs with KEEP_CUTS=1 for its look-ups and REMAP=0, as part p goes to rank p.
+std::optional<mpm::Balancer> make_balancer(const Method& method);
+
+}  // namespace comparisons

@@ -1,0 +1,103 @@
+#include "scene_mpi.hpp"
+
+#include "balancer_mpi.hpp"
+#include "simulation_table.hpp"
+
+#include <mpm/slope.hpp>
+
+#include <iostream>
+
+namespace comparisons {
+
+namespace {
+
+/// A simulation to run: a label and the balancer, none for the run without.
+struct Contender {
+    std::string label;
+    std::optional<mpm::Balancer> balancer;
+};
+
+std::vector<Contender> contenders(std::span<const Method> methods) {
+    std::vector<Contender> all = {{"none", std::nullopt}};
+    for (const Method& method : methods) {
+        std::optional<mpm::Balancer> balancer = make_balancer(method);
+        if (balancer) all.push_back({method.label, std::move(balancer)});
+    }
+    return all;
+}
+
+/// Thinned so that history.csv stays below 5 MB.
+int record_interval(int num_steps, std::size_t num_runs, MPI_Comm comm) {
+    constexpr double max_rows = 60'000;
+    int num_parts = 0;
+    MPI_Comm_size(comm, &num_parts);
+    const double rows = static_cast<double>(num_runs) * num_parts * num_steps;
+    return static_cast<int>(rows / max_rows) + 1;
+}
+
+SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_Comm comm) {
+    constexpr int quick_cells = 29;
+    constexpr int quick_steps = 40;
+    constexpr int default_every = 10;
+    SimulationPlan plan{arguments.quick ? mpm::slope_scene(quick_cells) : mpm::slope_scene()};
+    plan.num_steps = arguments.steps > 0 ? arguments.steps
+                     : arguments.quick   ? quick_steps
+                                         : steps_to_end(plan.scene, comm);
+    plan.every = arguments.every > 0 ? arguments.every : default_every;
+    plan.record_every = record_interval(plan.num_steps, num_runs, comm);
+    return plan;
+}
+
+Workload snapshot(const std::string& when, const mpm::Simulation& simulation) {
+    Workload workload;
+    workload.name = "slope-" + when;
+    workload.layout = "simulation";
+    const mpm::Positions positions = simulation.positions();
+    for (std::size_t i = 0; i < positions.x.size(); ++i) {
+        workload.coordinates.push_back(positions.x[i]);
+        workload.coordinates.push_back(positions.y[i]);
+    }
+    return workload;
+}
+
+void print_and_write(const SimulationPlan& plan, std::span<const SimulationRun> runs,
+                     const ResultsFolder& folder, MPI_Comm comm) {
+    int rank = 0;
+    int size = 0;
+    MPI_Comm_rank(comm, &rank);
+    MPI_Comm_size(comm, &size);
+    if (rank == 0) print_simulations(std::cout, plan, size, runs);
+    folder.write("simulation.csv",
+                 [&](std::ostream& out) { write_simulations(out, plan, size, runs); });
+    folder.write("history.csv", [&](std::ostream& out) { write_history(out, runs); });
+}
+
+}  // namespace
+
+SceneRuns run_scene(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
+                    MPI_Comm comm) {
+    const std::vector<Contender> all = contenders(arguments.methods);
+    const SimulationPlan plan = plan_scene(arguments, all.size(), comm);
+    SceneRuns scene;
+    for (const Contender& contender : all) {
+        progress.start("simulation: " + contender.label, plan.num_steps);
+        const bool is_first = scene.runs.empty();
+        const auto observe = [&](int steps_done, const mpm::Simulation& simulation) {
+            if (steps_done > 0) progress.advance();
+            if (!is_first) return;
+            if (steps_done == 0) scene.snapshots.push_back(snapshot("start", simulation));
+            if (steps_done == plan.num_steps / 2) {
+                scene.snapshots.push_back(snapshot("middle", simulation));
+            }
+            if (steps_done == plan.num_steps) {
+                scene.snapshots.push_back(snapshot("end", simulation));
+            }
+        };
+        scene.runs.push_back(simulate(plan, contender.balancer, observe, comm));
+        scene.runs.back().method = contender.label;
+    }
+    print_and_write(plan, scene.runs, folder, comm);
+    return scene;
+}
+
+}  // namespace comparisons

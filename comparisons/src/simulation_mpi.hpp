@@ -1,0 +1,56 @@
+#pragma once
+
+#include "progress.hpp"
+
+#include <mpm/simulation.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace comparisons {
+
+/// How a scene is run, the same for every method.
+struct SimulationPlan {
+    mpm::Scene scene;
+    int num_steps = 1;
+    int every = 1;         ///< steps between rebalances
+    int record_every = 1;  ///< steps between records of the load
+};
+
+/// Points on every rank, after the rebalance of a step if it had one.
+struct LoadRecord {
+    std::int64_t step = 0;
+    double time = 0;             ///< s
+    std::vector<double> points;  ///< per part
+};
+
+/// What a whole simulation under one method cost; the same on every rank.
+struct SimulationRun {
+    std::string method;
+    std::string error;  ///< empty unless the simulation failed
+    std::int64_t num_points = 0;
+    double wall_s = 0;     ///< balance_s + step_s; records are not timed
+    double balance_s = 0;  ///< rebalances with the migration of the points, slowest rank
+    double step_s = 0;     ///< steps, slowest rank
+    double mean_imbalance = 1;
+    double worst_imbalance = 1;
+    double front_m = 0;  ///< largest x of a point that has moved a metre
+    double mass_kg = 0;  ///< per metre of depth, at the end
+    std::vector<LoadRecord> history;
+};
+
+/// Called before the first step and after every step.
+using Observer = std::function<void(int steps_done, const mpm::Simulation&)>;
+
+/// Runs the scene, rebalanced before step 0, every, 2 every, ...; without a balancer the slabs
+/// of the start stay. Collective over `comm`.
+SimulationRun simulate(const SimulationPlan& plan, const std::optional<mpm::Balancer>& balancer,
+                       const Observer& observe, MPI_Comm comm);
+
+/// Steps of the scene's time with the time step of its start. Collective over `comm`.
+int steps_to_end(const mpm::Scene& scene, MPI_Comm comm);
+
+}  // namespace comparisons

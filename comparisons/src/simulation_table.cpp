@@ -1,0 +1,60 @@
+#include "simulation_table.hpp"
+
+#include "text.hpp"
+
+#include <rrcb/quality.hpp>
+
+namespace comparisons {
+
+void write_simulations(std::ostream& out, const SimulationPlan& plan, int num_ranks,
+                       std::span<const SimulationRun> runs) {
+    out << "method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,"
+           "worst_imbalance,front_x_m,mass_kg,error\n";
+    for (const SimulationRun& run : runs) {
+        out << csv_field(run.method) << ',' << num_ranks << ',' << run.num_points << ','
+            << plan.num_steps << ',' << plan.every << ',';
+        if (run.error.empty()) {
+            out << run.wall_s << ',' << run.balance_s << ',' << run.step_s << ','
+                << run.mean_imbalance << ',' << run.worst_imbalance << ',' << run.front_m << ','
+                << run.mass_kg << ",\n";
+        } else {
+            out << ",,,,,,," << csv_field(run.error) << '\n';
+        }
+    }
+}
+
+void write_history(std::ostream& out, std::span<const SimulationRun> runs) {
+    out << "method,step,time,part,points,lu_percent,imbalance\n";
+    for (const SimulationRun& run : runs) {
+        for (const LoadRecord& record : run.history) {
+            const std::vector<double> unbalance = rrcb::load_unbalance_percent(record.points);
+            const double imbalance = rrcb::imbalance(record.points);
+            for (std::size_t p = 0; p < record.points.size(); ++p) {
+                out << csv_field(run.method) << ',' << record.step << ',' << record.time << ',' << p
+                    << ',' << record.points[p] << ',' << unbalance[p] << ',' << imbalance << '\n';
+            }
+        }
+    }
+}
+
+void print_simulations(std::ostream& out, const SimulationPlan& plan, int num_ranks,
+                       std::span<const SimulationRun> runs) {
+    out << "\nWhole simulation: " << runs.front().num_points << " points, " << num_ranks
+        << " ranks, " << plan.num_steps << " steps, rebalanced every " << plan.every << "\n\n";
+    std::vector<std::vector<std::string>> rows = {{"method", "wall s", "x speed of none",
+                                                   "balance s", "step s", "mean imbalance",
+                                                   "worst imbalance", "front at x, m"}};
+    for (const SimulationRun& run : runs) {
+        if (!run.error.empty()) {
+            rows.push_back({run.method, run.error});
+            continue;
+        }
+        rows.push_back({run.method, fixed(run.wall_s, 2),
+                        fixed(runs.front().wall_s / run.wall_s, 2), fixed(run.balance_s, 2),
+                        fixed(run.step_s, 2), fixed(run.mean_imbalance, 4),
+                        fixed(run.worst_imbalance, 4), fixed(run.front_m, 2)});
+    }
+    print_columns(out, rows);
+}
+
+}  // namespace comparisons

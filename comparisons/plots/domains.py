@@ -28,11 +28,14 @@ def draw_support_mesh(directory: Path, picture: Path) -> bool:
         len(meshes), 1, figsize=(9, height * len(meshes) + 0.4), squeeze=False, sharex=True
     )
     for panel, (workload, cells) in zip(axes[:, 0], meshes.items()):
+        num_ranks = len(np.unique(cells["rank"]))
+        whose = f"{num_ranks} ranks, a colour each"
+        if _ranks_overlap(cells):
+            cells = {name: column[cells["rank"] == 0] for name, column in cells.items()}
+            whose = f"rank 0 ({num_ranks} ranks' meshes lie over each other)"
         _draw_cells(panel, cells)
-        ranks = len(np.unique(cells["rank"]))
         panel.set_title(
-            f"{workload}: {len(cells['cell'])} cells with points of {ranks} ranks, a colour each;"
-            " centroid ± standard deviation"
+            f"{workload}: {len(cells['cell'])} cells of {whose}; centroid ± standard deviation"
         )
         show_lengths(panel, panel is axes[-1, 0])
     save(figure, picture)
@@ -59,7 +62,7 @@ def draw_domains(directory: Path, picture: Path) -> bool:
             chosen = slice(None, None, len(points["x"]) // MAX_POINTS + 1)
             x, y = points["x"][chosen], points["y"][chosen]
             axes[i, j].scatter(x, y, s=MARKER_AREA, color="#0067A5", linewidths=0)
-            axes[i, j].set_title(f"{workload}, {kind} domain: {len(points['x']):,} points")
+            axes[i, j].set_title(f"{workload}, {kind} domain ({len(x):,} points shown)")
             show_lengths(axes[i, j], i == len(pairs) - 1, j == 0)
     save(figure, picture)
     return True
@@ -76,6 +79,19 @@ def _real_points(directory: Path, workload: str) -> Columns | None:
             if points := read_data(directory, "points", workload, row.method):
                 return points
     return None
+
+
+def _ranks_overlap(cells: Columns) -> bool:
+    """Whether the ranks' meshes together are much larger than the domain they cover."""
+
+    def area(of: np.ndarray) -> float:
+        return float(
+            np.ptp([cells["lower_x"][of].min(), cells["upper_x"][of].max()])
+            * np.ptp([cells["lower_y"][of].min(), cells["upper_y"][of].max()])
+        )
+
+    ranks = [cells["rank"] == rank for rank in np.unique(cells["rank"])]
+    return sum(map(area, ranks)) > 1.5 * area(cells["rank"] >= 0)
 
 
 def _draw_cells(axes: Axes, cells: Columns) -> None:

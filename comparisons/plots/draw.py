@@ -31,7 +31,9 @@ def main() -> int:
         return 2
     use_style()
     for name, draw in PICTURES.items():
-        if not draw(directory, directory / name):
+        if draw(directory, directory / name):
+            print(f"Picture: {directory / name}")
+        else:
             (directory / name).unlink(missing_ok=True)
     return 0
 

@@ -18,32 +18,43 @@ PANEL_WIDTH = 4.2
 
 
 def draw_parts(directory: Path, picture: Path) -> bool:
-    """A panel per method (rows) and workload (columns); methods without points are left out."""
+    """A panel per method (rows) and workload (columns), or in two columns for one workload."""
     rows = {(row.method, row.workload): row for row in read_table(directory)}
     panels = {key: points for key in rows if (points := read_data(directory, "points", *key[::-1]))}
     if not panels:
         return False
-    methods = unique([method for method, _ in panels])
-    workloads = unique([workload for _, workload in panels])
+    grid = _arrange(list(panels))
     height = length_ratio(panels.values()) * PANEL_WIDTH + 0.5
     figure, axes = plt.subplots(
-        len(methods),
-        len(workloads),
-        figsize=(PANEL_WIDTH * len(workloads) + 0.7, height * len(methods) + 0.5),
+        *grid.shape,
+        figsize=(PANEL_WIDTH * grid.shape[1] + 0.7, height * grid.shape[0] + 0.5),
         squeeze=False,
         sharex=True,
         sharey=True,
     )
-    for i, method in enumerate(methods):
-        for j, workload in enumerate(workloads):
-            panel = axes[i, j]
-            show_lengths(panel, i == len(methods) - 1, j == 0)
-            if points := panels.get((method, workload)):
-                _draw_points(panel, points)
-                _draw_boxes(panel, points, read_data(directory, "boxes", workload, method))
-                panel.set_title(_title(rows[method, workload]), fontsize=9)
+    for (i, j), key in np.ndenumerate(grid):
+        show_lengths(axes[i, j], i == grid.shape[0] - 1, j == 0)
+        if key not in panels:
+            axes[i, j].set_axis_off()
+            continue
+        _draw_points(axes[i, j], panels[key])
+        _draw_boxes(axes[i, j], panels[key], read_data(directory, "boxes", *key[::-1]))
+        axes[i, j].set_title(_title(rows[key]), fontsize=9)
     save(figure, picture)
     return True
+
+
+def _arrange(keys: list[tuple[str, str]]) -> np.ndarray:
+    """Which (method, workload) each panel of the picture shows; None where there is none."""
+    methods, workloads = (unique(list(names)) for names in zip(*keys))
+    rows = [[(method, workload) for workload in workloads] for method in methods]
+    if len(workloads) == 1:
+        rows = [keys[i : i + 2] for i in range(0, len(keys), 2)]
+    grid = np.full((len(rows), max(map(len, rows))), None, dtype=object)
+    for i, row in enumerate(rows):
+        for j, key in enumerate(row):
+            grid[i, j] = key
+    return grid
 
 
 def _draw_points(axes: Axes, points: Columns) -> None:

@@ -73,7 +73,8 @@ class DrawTest(unittest.TestCase):
 
     def draw(self, *arguments: str) -> int:
         sys.argv = ["draw.py", *(arguments or [str(self.directory)])]
-        with contextlib.redirect_stderr(io.StringIO()):
+        output = io.StringIO()
+        with contextlib.redirect_stdout(output), contextlib.redirect_stderr(output):
             return draw.main()
 
     def pictures(self) -> list[str]:

@@ -10,6 +10,11 @@ using namespace rrcb::zoltan;
 
 namespace {
 
+void write_place(const Place& place, int* proc, int* part) {
+    if (proc != nullptr) *proc = place.rank;
+    if (part != nullptr) *part = place.part;
+}
+
 /// What a box look-up writes; a null `values` is not asked for.
 void hand_out(const std::vector<int>& found, int* values, int* count) {
     if (values != nullptr) std::ranges::copy(found, values);
@@ -34,27 +39,22 @@ RRCB_EXPORT int Zoltan_LB_Point_PP_Assign(Zoltan_Struct* zz, double* coordinates
     if (state == nullptr) {
         return forward<&RealZoltan::lb_point_pp_assign>(zz, coordinates, proc, part);
     }
-    Place place;
-    const int code = guarded("Zoltan_LB_Point_PP_Assign", state, [&] {
-        place = place_of(*state, coordinates);
+    write_place({}, proc, part);
+    return guarded("Zoltan_LB_Point_PP_Assign", state, [&] {
+        write_place(place_of(*state, coordinates), proc, part);
         return ZOLTAN_OK;
     });
-    if (proc != nullptr) *proc = place.rank;
-    if (part != nullptr) *part = place.part;
-    return code;
 }
 
 RRCB_EXPORT int Zoltan_LB_Point_Assign(Zoltan_Struct* zz, double* coordinates, int* proc) {
     const State* state = rrcb_state(zz);
     if (state == nullptr) return forward<&RealZoltan::lb_point_assign>(zz, coordinates, proc);
-    Place place;
-    const int code = guarded("Zoltan_LB_Point_Assign", state, [&] {
+    write_place({}, proc, nullptr);
+    return guarded("Zoltan_LB_Point_Assign", state, [&] {
         require_one_part_per_rank(*state, "Zoltan_LB_Point_PP_Assign");
-        place = place_of(*state, coordinates);
+        write_place(place_of(*state, coordinates), proc, nullptr);
         return ZOLTAN_OK;
     });
-    *proc = place.rank;
-    return code;
 }
 
 RRCB_EXPORT int Zoltan_LB_Box_PP_Assign(Zoltan_Struct* zz, double xmin, double ymin, double zmin,

@@ -1,0 +1,166 @@
+#include "program.hpp"
+
+#include <rrcb/zoltan/rrcb_zoltan.h>
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace rrcb::zoltan_test {
+namespace {
+
+TEST(PlugIn, says_that_it_stands_in_front_and_the_version_of_the_build) {
+    EXPECT_EQ(RRCB_Zoltan_Active(), 1);
+    EXPECT_STREQ(RRCB_Version(), RRCB_EXPECTED_VERSION);
+}
+
+TEST(Parameters, of_rrcb_are_accepted_in_any_case_with_leading_blanks) {
+    Program program;
+    EXPECT_EQ(program.set("LB_METHOD", "RRCB"), ZOLTAN_OK);
+    EXPECT_EQ(program.set("lb_method", "rrcb"), ZOLTAN_OK);
+    EXPECT_EQ(program.set(" Lb_Method", " Rrcb"), ZOLTAN_OK);
+    for (const char* value : {"AUTO", "auto", "1", "8", "64", "DEFAULT"}) {
+        EXPECT_EQ(program.set("RRCB_SUPPORT_MESH", value), ZOLTAN_OK) << value;
+    }
+    for (const char* value : {"ANALYTIC", "sampled", "POINTS", "DEFAULT"}) {
+        EXPECT_EQ(program.set("rrcb_domain", value), ZOLTAN_OK) << value;
+    }
+    EXPECT_EQ(program.set("RRCB_CUT_RULE", "MIDPOINT"), ZOLTAN_OK);
+    EXPECT_EQ(program.set("RRCB_CUT_RULE", "WEIGHTED"), ZOLTAN_OK);
+    EXPECT_EQ(program.set("RRCB_SIGMA_MULTIPLIER", "1.25"), ZOLTAN_OK);
+    EXPECT_EQ(program.set("RRCB_SAMPLE_FRACTION", "0.125"), ZOLTAN_OK);
+    EXPECT_EQ(program.set("RRCB_SEED", "18446744073709551615"), ZOLTAN_OK);
+}
+
+TEST(Parameters, with_illegal_values_or_unknown_names_warn_as_zoltan_does) {
+    Program program;
+    EXPECT_EQ(program.set("IMBALANCE_TOL", "NONSENSE"), ZOLTAN_WARN);  // Zoltan's own
+    EXPECT_EQ(program.set("RRCB_NONSENSE", "1"), ZOLTAN_WARN);
+    for (const char* value : {"0", "-1", "8X", "", "1.5", "99999999999"}) {
+        EXPECT_EQ(program.set("RRCB_SUPPORT_MESH", value), ZOLTAN_WARN) << value;
+    }
+    EXPECT_EQ(program.set("RRCB_DOMAIN", "LEARNT"), ZOLTAN_WARN);
+    EXPECT_EQ(program.set("RRCB_CUT_RULE", "HALF"), ZOLTAN_WARN);
+    for (const char* value : {"0", "-2", "NAN", "INF", "TWO"}) {
+        EXPECT_EQ(program.set("RRCB_SIGMA_MULTIPLIER", value), ZOLTAN_WARN) << value;
+    }
+    for (const char* value : {"0", "1.01", "-0.5", "HALF"}) {
+        EXPECT_EQ(program.set("RRCB_SAMPLE_FRACTION", value), ZOLTAN_WARN) << value;
+    }
+    EXPECT_EQ(program.set("RRCB_SEED", "-1"), ZOLTAN_WARN);
+}
+
+std::vector<int> parts_with(Program& program, const char* name, const char* value) {
+    EXPECT_GE(program.set(name, value), ZOLTAN_OK);
+    const Outcome outcome = program.partition();
+    EXPECT_EQ(outcome.code, ZOLTAN_OK) << name << "=" << value;
+    return outcome.exports.parts;
+}
+
+/// True when the vectors differ on some rank.
+bool differ(const std::vector<int>& a, const std::vector<int>& b) {
+    int any = a != b ? 1 : 0;
+    MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    return any != 0;
+}
+
+TEST(Parameters, of_rrcb_reach_the_balancer) {
+    Program program;
+    scatter_points(program, 3000);
+    for (double& x : program.coordinates) x *= x;
+    program.set("RETURN_LISTS", "PARTS");
+    program.set("NUM_GLOBAL_PARTS", "6");
+    program.set("LB_METHOD", "RRCB");
+    const auto defaults = program.partition().exports.parts;
+    EXPECT_TRUE(differ(parts_with(program, "RRCB_SUPPORT_MESH", "2"), defaults));
+    EXPECT_FALSE(differ(parts_with(program, "RRCB_SUPPORT_MESH", "NONSENSE"), defaults));
+    EXPECT_TRUE(differ(parts_with(program, "RRCB_CUT_RULE", "MIDPOINT"), defaults));
+    EXPECT_FALSE(differ(parts_with(program, "RRCB_CUT_RULE", "DEFAULT"), defaults));
+    EXPECT_TRUE(differ(parts_with(program, "RRCB_DOMAIN", "POINTS"), defaults));
+    const auto sampled = parts_with(program, "RRCB_DOMAIN", "SAMPLED");
+    EXPECT_TRUE(differ(sampled, defaults));
+    EXPECT_TRUE(differ(parts_with(program, "RRCB_SEED", "7"), sampled));
+    EXPECT_FALSE(differ(parts_with(program, "RRCB_SEED", "1"), sampled));
+    EXPECT_TRUE(differ(parts_with(program, "RRCB_SAMPLE_FRACTION", "0.25"), sampled));
+    EXPECT_FALSE(differ(parts_with(program, "RRCB_SAMPLE_FRACTION", "1"), sampled));
+    EXPECT_TRUE(differ(parts_with(program, "RRCB_SIGMA_MULTIPLIER", "0.5"), sampled));
+    EXPECT_FALSE(differ(parts_with(program, "RRCB_SIGMA_MULTIPLIER", "DEFAULT"), sampled));
+}
+
+TEST(Parameters, domain_of_points_balances_exactly) {
+    Program program;
+    scatter_points(program, 1000);
+    program.weights.assign(program.weights.size(), 1.0F);
+    program.set("RETURN_LISTS", "PARTS");
+    program.set("LB_METHOD", "RRCB");
+    program.set("RRCB_DOMAIN", "POINTS");
+    EXPECT_EQ(imbalance(program, program.partition(), program.num_ranks), 1.0);
+}
+
+TEST(Parameters, an_unknown_method_is_fatal_and_keeps_the_old_one) {
+    Program program;
+    scatter_points(program, 100);
+    program.set("LB_METHOD", "RRCB");
+    program.set("RRCB_CUT_RULE", "MIDPOINT");
+    program.set("RETURN_LISTS", "PARTS");
+    const auto before = program.partition().exports.parts;
+    EXPECT_EQ(program.set("LB_METHOD", "NO_SUCH_METHOD"), ZOLTAN_FATAL);
+    EXPECT_EQ(program.partition().exports.parts, before);
+}
+
+TEST(Parameters, out_of_range_fall_back_to_the_default_as_in_zoltan) {
+    for (const char* method : {"RCB", "RRCB"}) {
+        SCOPED_TRACE(method);
+        Program program;
+        scatter_points(program, 100);
+        program.set("LB_METHOD", method);
+        Zoltan_Set_Param(program.zz, "NUM_GID_ENTRIES", "0");
+        Zoltan_Set_Param(program.zz, "NUM_LID_ENTRIES", "-3");
+        Zoltan_Set_Param(program.zz, "RETURN_LISTS", "NO_SUCH_LIST");
+        Zoltan_Set_Param(program.zz, "OBJ_WEIGHT_DIM", "-1");
+        const Outcome outcome = program.partition();
+        EXPECT_EQ(outcome.code, ZOLTAN_OK);
+        EXPECT_EQ(outcome.num_gid, 1);
+        EXPECT_EQ(outcome.num_lid, 1);
+        EXPECT_GE(outcome.imports.count, 0);
+        EXPECT_GE(outcome.exports.count, 0);
+    }
+}
+
+TEST(Parameters, that_differ_between_ranks_are_fatal_everywhere) {
+    for (const char* name : {"NUM_LID_ENTRIES", "OBJ_WEIGHT_DIM", "RETURN_LISTS"}) {
+        SCOPED_TRACE(name);
+        Program program;
+        if (program.num_ranks == 1) GTEST_SKIP() << "needs two ranks";
+        scatter_points(program, 100);
+        program.set("LB_METHOD", "RRCB");
+        if (program.rank == 0) {
+            program.set(name, std::string(name) == "RETURN_LISTS" ? "PARTS" : "0");
+        } else {
+            program.set(name, std::string(name) == "RETURN_LISTS" ? "ALL" : "1");
+        }
+        const Outcome outcome = program.partition();
+        EXPECT_EQ(outcome.code, ZOLTAN_FATAL);
+        EXPECT_EQ(outcome.exports.count, 0);
+    }
+}
+
+TEST(Parameters, of_the_domain_that_differ_between_ranks_are_fatal_everywhere) {
+    Program program;
+    if (program.num_ranks == 1) GTEST_SKIP() << "needs two ranks";
+    scatter_points(program, 100);
+    program.set("LB_METHOD", "RRCB");
+    program.set("RRCB_SUPPORT_MESH", program.rank == 0 ? "4" : "5");
+    EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
+}
+
+TEST(Parameters, more_than_one_weight_is_fatal) {
+    Program program;
+    scatter_points(program, 100);
+    program.set("LB_METHOD", "RRCB");
+    program.set("OBJ_WEIGHT_DIM", "2");
+    EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
+}
+
+}  // namespace
+}  // namespace rrcb::zoltan_test

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <mpi.h>
+#include <zoltan.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace rrcb::zoltan_test {
+
+/// A call of LB_Partition or LB_Balance, copied out of Zoltan's arrays.
+struct ListCopy {
+    int count = 0;
+    bool has_global_ids = false, has_local_ids = false, has_ranks = false, has_parts = false;
+    std::vector<std::vector<ZOLTAN_ID_TYPE>> global_ids, local_ids;
+    std::vector<int> ranks, parts;
+};
+
+struct Outcome {
+    int code = 0, changes = 0, num_gid = 0, num_lid = 0;
+    ListCopy imports, exports;
+};
+
+/// One rank's data and callbacks, and a handle on which to set parameters.
+struct Program {
+    explicit Program(int dimension = 2);
+    ~Program();
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
+
+    void add(std::vector<double> position, float weight = 1);
+    void register_callbacks(Zoltan_Struct* handle);
+    int set(const char* name, const std::string& value);
+    Outcome partition();
+    Outcome partition(Zoltan_Struct* handle);
+    Outcome balance();
+
+    int rank = 0, num_ranks = 1;
+    int dimension;
+    std::vector<double> coordinates;
+    std::vector<float> weights;
+    int gid_width = 1, lid_width = 1;
+
+    /// Called at the start of each callback with its name; may set the code or throw.
+    std::function<void(const std::string& callback, int& code)> fault;
+    int reported_dimension;
+    int count_offset = 0;
+    bool keep_lists = false;  ///< lists stay allocated in `raw` for further calls of Zoltan
+
+    struct RawList {
+        int count = 0;
+        ZOLTAN_ID_PTR global_ids = nullptr, local_ids = nullptr;
+        int *ranks = nullptr, *parts = nullptr;
+    };
+    RawList raw_imports, raw_exports;
+    void free_lists();
+
+    Zoltan_Struct* zz = nullptr;
+
+    int size() const { return static_cast<int>(weights.size()); }
+    ZOLTAN_ID_TYPE gid_word(int object, int word) const;
+    ZOLTAN_ID_TYPE lid_word(int object, int word) const;
+};
+
+/// Points of all ranks over the same square, so that every rank sends to and gets from every other.
+void scatter_points(Program& program, int count);
+
+/// Largest weight over mean weight of the parts after a call with RETURN_LISTS=PARTS.
+double imbalance(const Program& program, const Outcome& outcome, int num_parts);
+
+}  // namespace rrcb::zoltan_test

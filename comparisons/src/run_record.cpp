@@ -1,6 +1,7 @@
 #include "run_record.hpp"
 
 #include "git_hash.hpp"
+#include "text.hpp"
 
 #include <rrcb/version.hpp>
 
@@ -17,7 +18,7 @@ std::string versions() {
     std::ostringstream text;
     text << "rrcb " << rrcb::version << " (" << git_hash << ")\n"
          << "Zoltan " << ZOLTAN_VERSION_NUMBER << '\n'
-         << std::string(mpi, static_cast<std::size_t>(length)) << '\n';
+         << trim(mpi) << '\n';
     return text.str();
 }
 

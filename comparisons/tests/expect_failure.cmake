@@ -1,0 +1,13 @@
+# Runs COMMAND, which must end by itself with a code other than 0 and print MESSAGE exactly once.
+execute_process(COMMAND ${COMMAND} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(code EQUAL 0)
+  message(FATAL_ERROR "exit code 0 where a failure was due:\n${output}")
+endif()
+string(REPLACE "${MESSAGE}" "" rest "${output}")
+string(LENGTH "${MESSAGE}" length)
+string(LENGTH "${output}" all)
+string(LENGTH "${rest}" others)
+math(EXPR times "(${all} - ${others}) / ${length}")
+if(NOT times EQUAL 1)
+  message(FATAL_ERROR "'${MESSAGE}' printed ${times} times instead of once:\n${output}")
+endif()

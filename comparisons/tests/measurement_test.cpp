@@ -1,0 +1,79 @@
+#include "measurement_mpi.hpp"
+#include "workload_mpi.hpp"
+
+#include <rrcb/zoltan/rrcb_zoltan.h>
+
+#include <gtest/gtest.h>
+#include <zoltan.h>
+
+#include <limits>
+
+namespace comparisons {
+namespace {
+
+class MeasurementTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        float version = 0;
+        Zoltan_Initialize(0, nullptr, &version);
+        MPI_Comm_size(MPI_COMM_WORLD, &num_ranks_);
+        workload_ = cloud_workload({"uniform", 1200, 2, 3}, Layout::scattered, MPI_COMM_WORLD);
+    }
+
+    std::vector<Measurement> run(std::span<const Method> methods, Lists lists) {
+        Progress progress(false);
+        return measure(workload_, methods, {lists, 3}, progress, MPI_COMM_WORLD);
+    }
+
+    int num_ranks_ = 1;
+    Workload workload_;
+};
+
+TEST_F(MeasurementTest, the_plug_in_is_active) {
+    EXPECT_EQ(RRCB_Zoltan_Active(), 1);
+}
+
+TEST_F(MeasurementTest, exact_methods_are_exact_with_any_lists) {
+    // 1200 points divide evenly by 1, 2, 3 and 4 ranks, and no two share a coordinate.
+    const std::vector<Method> methods = read_methods("zoltan-rcb,zoltan-rib,root-rcb");
+    for (const Lists lists : {Lists::parts, Lists::exports, Lists::all}) {
+        for (const Measurement& result : run(methods, lists)) {
+            EXPECT_EQ(result.error, "") << result.method;
+            EXPECT_EQ(result.times_ms.size(), 3U);
+            EXPECT_DOUBLE_EQ(result.imbalance, 1) << result.method << ' ' << lists_name(lists);
+            EXPECT_DOUBLE_EQ(result.worst_unbalance_percent, 0) << result.method;
+        }
+    }
+}
+
+TEST_F(MeasurementTest, all_lists_tell_the_same_parts) {
+    const std::vector<Method> methods = read_methods("zoltan-rcb,zoltan-hsfc,rrcb-sampled,rrcb");
+    const std::vector<Measurement> by_parts = run(methods, Lists::parts);
+    for (const Lists lists : {Lists::exports, Lists::all}) {
+        const std::vector<Measurement> results = run(methods, lists);
+        for (std::size_t m = 0; m < methods.size(); ++m) {
+            EXPECT_EQ(results[m].parts, by_parts[m].parts) << methods[m].label;
+        }
+    }
+}
+
+TEST_F(MeasurementTest, a_method_that_fails_leaves_the_others_alone) {
+    std::vector<Method> methods = read_methods("zoltan-rcb,rrcb");
+    methods.insert(methods.begin() + 1, {"broken", "NO_SUCH_METHOD", std::nullopt});
+    const std::vector<Measurement> results = run(methods, Lists::parts);
+    EXPECT_EQ(results[0].error, "");
+    EXPECT_EQ(results[1].error, "Zoltan refuses the parameter LB_METHOD=NO_SUCH_METHOD");
+    EXPECT_EQ(results[2].error, "");
+    EXPECT_EQ(results[2].times_ms.size(), 3U);
+}
+
+TEST_F(MeasurementTest, coordinates_that_are_not_finite_fail_on_every_rank) {
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    if (rank == num_ranks_ - 1) workload_.coordinates[3] = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<Measurement> results = run(read_methods("rrcb"), Lists::parts);
+    EXPECT_EQ(results[0].error, "Zoltan_LB_Partition returned -1");
+}
+
+}  // namespace
+}  // namespace comparisons

@@ -1,0 +1,138 @@
+#include "traffic.hpp"
+
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+#include <array>
+
+namespace comparisons {
+namespace {
+
+/// Totals over all ranks of what `communicate` moves.
+template <typename Communicate>
+std::array<std::int64_t, 3> totals(Communicate&& communicate) {
+    start_counting_traffic();
+    communicate();
+    const Traffic mine = stop_counting_traffic();
+    std::array<std::int64_t, 3> sums{mine.messages, mine.bytes, mine.root_bytes_in};
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(), 3, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+    return sums;
+}
+
+int rank() {
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    return rank;
+}
+
+int size() {
+    int size = 0;
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    return size;
+}
+
+using Expected = std::array<std::int64_t, 3>;
+
+TEST(Traffic, counts_a_ring_of_messages_once_each) {
+    const int n = size();
+    const auto ring = [&] {
+        const std::array<double, 5> out{};
+        std::array<double, 5> in{};
+        MPI_Request request = MPI_REQUEST_NULL;
+        MPI_Irecv(in.data(), 5, MPI_DOUBLE, (rank() + n - 1) % n, 0, MPI_COMM_WORLD, &request);
+        MPI_Send(out.data(), 5, MPI_DOUBLE, (rank() + 1) % n, 0, MPI_COMM_WORLD);
+        MPI_Wait(&request, MPI_STATUS_IGNORE);
+    };
+    EXPECT_EQ(totals(ring), (Expected{n, 40 * n, 40}));
+}
+
+TEST(Traffic, counts_messages_into_the_root_whatever_the_communicator) {
+    const int n = size();
+    // In the reversed communicator the root of the world is the last rank.
+    MPI_Comm reversed = MPI_COMM_NULL;
+    MPI_Comm_split(MPI_COMM_WORLD, 0, -rank(), &reversed);
+    const auto send_to_last = [&] {
+        const std::array<int, 3> out{};
+        std::array<int, 3> in{};
+        MPI_Request request = MPI_REQUEST_NULL;
+        MPI_Isend(out.data(), 3, MPI_INT, n - 1, 0, reversed, &request);
+        for (int r = 0; rank() == 0 && r < n; ++r) {
+            MPI_Recv(in.data(), 3, MPI_INT, r, 0, reversed, MPI_STATUS_IGNORE);
+        }
+        MPI_Wait(&request, MPI_STATUS_IGNORE);
+    };
+    EXPECT_EQ(totals(send_to_last), (Expected{n, 12 * n, 12 * n}));
+    MPI_Comm_free(&reversed);
+}
+
+TEST(Traffic, counts_sendrecv_and_leaves_out_the_null_rank) {
+    const int n = size();
+    const auto shift_up = [&] {
+        const char out = 'a';
+        char in = 'b';
+        const int to = rank() + 1 < n ? rank() + 1 : MPI_PROC_NULL;
+        const int from = rank() > 0 ? rank() - 1 : MPI_PROC_NULL;
+        MPI_Sendrecv(&out, 1, MPI_CHAR, to, 0, &in, 1, MPI_CHAR, from, 0, MPI_COMM_WORLD,
+                     MPI_STATUS_IGNORE);
+    };
+    EXPECT_EQ(totals(shift_up), (Expected{n - 1, n - 1, 0}));
+}
+
+TEST(Traffic, counts_what_ranks_hand_in_and_get_out_of_collectives) {
+    const int n = size();
+    std::array<double, 2> pair{};
+    std::vector<double> all(2 * static_cast<std::size_t>(n));
+    EXPECT_EQ(totals([&] { MPI_Barrier(MPI_COMM_WORLD); }), (Expected{n, 0, 0}));
+    // The root hands in 16 bytes, every other rank gets 16 out.
+    EXPECT_EQ(totals([&] { MPI_Bcast(pair.data(), 2, MPI_DOUBLE, 0, MPI_COMM_WORLD); }),
+              (Expected{n, 16 * n, 0}));
+    // Every rank hands in 16 bytes, the root gets 16 n out.
+    EXPECT_EQ(totals([&] {
+                  MPI_Gather(pair.data(), 2, MPI_DOUBLE, all.data(), 2, MPI_DOUBLE, 0,
+                             MPI_COMM_WORLD);
+              }),
+              (Expected{n, 32 * n, 16 * n}));
+    EXPECT_EQ(totals([&] {
+                  MPI_Allreduce(MPI_IN_PLACE, pair.data(), 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+              }),
+              (Expected{n, 32 * n, 16}));
+    EXPECT_EQ(totals([&] {
+                  std::vector<double> out(all.size());
+                  MPI_Alltoall(out.data(), 2, MPI_DOUBLE, all.data(), 2, MPI_DOUBLE,
+                               MPI_COMM_WORLD);
+              }),
+              (Expected{n, 32 * n * n, 16 * n}));
+}
+
+TEST(Traffic, counts_unequal_pieces) {
+    const int n = size();
+    // Rank r hands in r + 1 bytes: n (n + 1) / 2 in all.
+    std::vector<int> counts;
+    std::vector<int> starts;
+    for (int r = 0; r < n; ++r) {
+        starts.push_back(r * (r + 1) / 2);
+        counts.push_back(r + 1);
+    }
+    const int sum = n * (n + 1) / 2;
+    const std::vector<char> mine(static_cast<std::size_t>(n));
+    std::vector<char> all(static_cast<std::size_t>(sum));
+    EXPECT_EQ(totals([&] {
+                  MPI_Gatherv(mine.data(), rank() + 1, MPI_CHAR, all.data(), counts.data(),
+                              starts.data(), MPI_CHAR, 0, MPI_COMM_WORLD);
+              }),
+              (Expected{n, 2 * sum, sum}));
+    EXPECT_EQ(totals([&] {
+                  MPI_Allgatherv(mine.data(), rank() + 1, MPI_CHAR, all.data(), counts.data(),
+                                 starts.data(), MPI_CHAR, MPI_COMM_WORLD);
+              }),
+              (Expected{n, sum + n * sum, sum}));
+}
+
+TEST(Traffic, counts_nothing_unless_asked) {
+    MPI_Barrier(MPI_COMM_WORLD);
+    start_counting_traffic();
+    EXPECT_EQ(stop_counting_traffic().messages, 0);
+}
+
+}  // namespace
+}  // namespace comparisons

@@ -23,6 +23,7 @@ Comparison compare_methods(const Workload& workload, const Arguments& arguments,
     int rank = 0;
     MPI_Comm_rank(comm, &rank);
     if (rank == 0) print_table(std::cout, comparison);
+    std::cout.flush();
     return comparison;
 }
 

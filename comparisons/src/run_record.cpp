@@ -47,6 +47,7 @@ std::string run_record(const Arguments& arguments, const std::string& command, M
 std::string definitions() {
     return "imbalance: heaviest part / mean part. Lu: (ideal - actual) / ideal of a part.\n"
            "time: slowest rank, median of the repeats, first call left out.\n"
+           "times as fast: zoltan-rcb's time / this method's.\n"
            "messages, bytes: of one call over all ranks; a message counts once, at its sender;\n"
            "a collective counts 1 a rank, with the bytes the rank hands in and gets out.\n"
            "into root: bytes that rank 0 receives. moved: weight that changes rank.\n";

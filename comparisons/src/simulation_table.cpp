@@ -41,9 +41,9 @@ void print_simulations(std::ostream& out, const SimulationPlan& plan, int num_ra
                        std::span<const SimulationRun> runs) {
     out << "\nWhole simulation: " << runs.front().num_points << " points, " << num_ranks
         << " ranks, " << plan.num_steps << " steps, rebalanced every " << plan.every << "\n\n";
-    std::vector<std::vector<std::string>> rows = {{"method", "wall s", "x speed of none",
-                                                   "balance s", "step s", "mean imbalance",
-                                                   "worst imbalance", "front at x, m"}};
+    std::vector<std::vector<std::string>> rows = {{"method", "wall s", "times as fast", "balance s",
+                                                   "step s", "mean imbalance", "worst imbalance",
+                                                   "front at x, m"}};
     for (const SimulationRun& run : runs) {
         if (!run.error.empty()) {
             rows.push_back({run.method, run.error});

@@ -7,44 +7,93 @@ namespace rrcb::zoltan {
 
 namespace {
 
-void move_id(ZoltanArray<ZOLTAN_ID_TYPE>& ids, std::size_t width, std::size_t from,
-             std::size_t to) {
-    if (from != to) std::copy_n(&ids[from * width], width, &ids[to * width]);
+/// Where every object goes.
+void write_targets(std::span<const Part> new_parts, const PartMap& map, int my_rank, List& list) {
+    int* ranks = list.ranks.get();
+    std::ranges::copy(new_parts, list.parts.get());
+    if (map.one_each) {
+        std::ranges::copy(new_parts, ranks);
+        return;
+    }
+    for (std::size_t i = 0; i < new_parts.size(); ++i) {
+        ranks[i] = map.destination(new_parts[i], i, my_rank);
+    }
+}
+
+/// Tells whether an object changes its rank or part. Without a callback that names parts, Zoltan
+/// takes an object to be in the part of its rank's number.
+class Moves {
+  public:
+    Moves(const List& list, const int* initial_parts, int my_rank)
+        : ranks_(list.ranks.get()),
+          parts_(list.parts.get()),
+          initial_parts_(initial_parts),
+          my_rank_(my_rank) {}
+
+    bool operator()(std::size_t i) const {
+        const int initial_part = initial_parts_ == nullptr ? my_rank_ : initial_parts_[i];
+        return ranks_[i] != my_rank_ || parts_[i] != initial_part;
+    }
+
+  private:
+    const int* ranks_;
+    const int* parts_;
+    const int* initial_parts_;
+    int my_rank_;
+};
+
+template <typename T>
+void move_entry(T* array, std::size_t width, std::size_t from, std::size_t to) {
+    for (std::size_t word = 0; word < width; ++word) {
+        array[to * width + word] = array[from * width + word];
+    }
+}
+
+/// Keeps the entries of objects that move, in their order.
+void keep_moving(const Moves& moves, std::size_t num_gid, std::size_t num_lid, List& list) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(list.count); ++i) {
+        if (!moves(i)) continue;
+        move_entry(list.global_ids.get(), num_gid, i, kept);
+        move_entry(list.local_ids.get(), num_lid, i, kept);
+        move_entry(list.ranks.get(), 1, i, kept);
+        move_entry(list.parts.get(), 1, i, kept);
+        ++kept;
+    }
+    list.global_ids.shrink(kept * num_gid);
+    list.local_ids.shrink(kept * num_lid);
+    list.ranks.shrink(kept);
+    list.parts.shrink(kept);
+    list.count = static_cast<int>(kept);
+}
+
+bool any_moves(const Moves& moves, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        if (moves(i)) return true;
+    }
+    return false;
 }
 
 }  // namespace
 
 Exports make_exports(Objects&& objects, const Parameters& parameters,
                      std::span<const Part> new_parts, const PartMap& map, int my_rank) {
-    const auto num_gid = static_cast<std::size_t>(parameters.num_gid_entries);
-    const auto num_lid = static_cast<std::size_t>(parameters.num_lid_entries);
-    const bool complete = parameters.return_lists == ReturnLists::parts;
     Exports exports;
     List& list = exports.list;
+    list.count = objects.count;
     list.global_ids = std::move(objects.global_ids);
     list.local_ids = std::move(objects.local_ids);
-    list.ranks = ZoltanArray<int>(new_parts.size());
-    list.parts = ZoltanArray<int>(new_parts.size());
-    const int* initial_parts = objects.initial_parts.get();
-    std::size_t listed = 0;
-    for (std::size_t i = 0; i < new_parts.size(); ++i) {
-        const Part part = new_parts[i];
-        const int rank = map.destination(part, i, my_rank);
-        const int initial_part = initial_parts == nullptr ? my_rank : initial_parts[i];
-        const bool moves = rank != my_rank || part != initial_part;
-        exports.moves |= moves;
-        if (!moves && !complete) continue;
-        move_id(list.global_ids, num_gid, i, listed);
-        if (num_lid > 0) move_id(list.local_ids, num_lid, i, listed);
-        list.ranks[listed] = rank;
-        list.parts[listed] = part;
-        ++listed;
+    list.ranks = std::move(objects.new_ranks);
+    list.parts = std::move(objects.new_parts);
+    write_targets(new_parts, map, my_rank, list);
+    const Moves moves(list, objects.initial_parts.get(), my_rank);
+    if (parameters.return_lists == ReturnLists::parts) {
+        exports.moves = any_moves(moves, new_parts.size());
+    } else {
+        keep_moving(moves, static_cast<std::size_t>(parameters.num_gid_entries),
+                    static_cast<std::size_t>(parameters.num_lid_entries), list);
+        exports.moves = list.count > 0;
     }
-    list.count = static_cast<int>(listed);
-    list.global_ids.shrink(listed * num_gid);
-    list.local_ids.shrink(listed * num_lid);
-    list.ranks.shrink(listed);
-    list.parts.shrink(listed);
     return exports;
 }
 

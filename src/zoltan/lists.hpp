@@ -18,12 +18,13 @@ struct List {
     ZoltanArray<int> parts;
 };
 
-/// Objects of this rank whose rank or part changes, or all of them (`complete`). Not collective.
-/// Takes the ids out of `objects`; `moves` tells whether any of them changes.
 struct Exports {
     List list;
-    bool moves = false;
+    bool moves = false;  ///< the rank or part of some object of this rank changes
 };
+
+/// Objects of this rank whose rank or part changes, or all of them where RETURN_LISTS asks for
+/// parts. Takes the arrays out of `objects`, and so cannot fail. Not collective.
 Exports make_exports(Objects&& objects, const Parameters& parameters,
                      std::span<const Part> new_parts, const PartMap& map, int my_rank);
 

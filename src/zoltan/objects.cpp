@@ -25,6 +25,7 @@ class Collector {
             read_ids_and_weights(count);
             read_coordinates(count);
             read_initial_parts(count);
+            make_room(count);
         }
         return std::move(objects_);
     }
@@ -164,6 +165,12 @@ class Collector {
             objects_.initial_parts[i] = single(gid, lid, global_id(i), local_id(i), &code);
             check(code, "ZOLTAN_PART_FN");
         }
+    }
+
+    void make_room(std::size_t count) {
+        if (parameters_.return_lists == ReturnLists::none) return;
+        objects_.new_ranks = ZoltanArray<int>(count);
+        objects_.new_parts = ZoltanArray<int>(count);
     }
 
     Zoltan_Struct* zz_;

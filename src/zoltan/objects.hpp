@@ -23,6 +23,8 @@ struct Objects {
     ZoltanArray<ZOLTAN_ID_TYPE> global_ids;
     ZoltanArray<ZOLTAN_ID_TYPE> local_ids;  ///< null when ids have no local part
     ZoltanArray<int> initial_parts;         ///< null when no callback tells them
+    ZoltanArray<int> new_ranks;             ///< room for where each object goes, while a failure
+    ZoltanArray<int> new_parts;             ///< can still be agreed on; null when not asked for
     Points points;                          ///< borrowed from the workspace
 };
 

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -17,31 +18,47 @@ namespace {
 
 struct Arguments {
     std::string balancer = "rrcb";
-    int every = 10;
-    double end_time = mpm::slope_scene().end_time;
-    int cells = mpm::paper_slope_cells;
-    double cohesion = 10e3;
+    int every = 0;
+    double end_time = 0;
+    int cells = 0;
+    double cohesion = 0;
 };
 
+/// The number an option was given; throws what is wrong with the text.
+template <typename Number>
+Number number(const std::string& option, const std::string& text, Number least) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !(value >= least) ||
+        !std::isfinite(static_cast<double>(value)))
+        throw std::invalid_argument("--" + option + ": '" + text +
+                                    "' is not a number of at least " + std::to_string(least));
+    return value;
+}
+
 /// False when the user only asked for help; throws what is wrong with the arguments.
+///
+/// Teuchos tells of some errors on rank 0 only; the code it returns is the same on all ranks.
 bool parse(int argc, char** argv, Arguments& arguments) {
-    Teuchos::CommandLineProcessor parser(true, true);
+    std::string every = "10", end_time = "8", cells = "116", cohesion = "10e3";
+    Teuchos::CommandLineProcessor parser(false, true);
     parser.setDocString("A slope that is too steep fails and runs out.");
     parser.setOption("balancer", &arguments.balancer, "none (equal slabs) or rrcb");
-    parser.setOption("every", &arguments.every, "steps between two rebalances");
-    parser.setOption("end-time", &arguments.end_time, "simulated seconds");
-    parser.setOption("cells", &arguments.cells, "cells across the 110 m of the slope");
-    parser.setOption("cohesion", &arguments.cohesion, "Pa");
-    if (parser.parse(argc, argv) == Teuchos::CommandLineProcessor::PARSE_HELP_PRINTED) return false;
+    parser.setOption("every", &every, "steps between two rebalances");
+    parser.setOption("end-time", &end_time, "simulated seconds");
+    parser.setOption("cells", &cells, "cells across the 110 m of the slope");
+    parser.setOption("cohesion", &cohesion, "Pa");
+    const auto outcome = parser.parse(argc, argv);
+    if (outcome == Teuchos::CommandLineProcessor::PARSE_HELP_PRINTED) return false;
+    if (outcome != Teuchos::CommandLineProcessor::PARSE_SUCCESSFUL)
+        throw std::invalid_argument("an option is not known; --help lists them all");
     if (arguments.balancer != "none" && arguments.balancer != "rrcb")
         throw std::invalid_argument("--balancer: '" + arguments.balancer +
                                     "' is neither none nor rrcb");
-    if (arguments.every < 1) throw std::invalid_argument("--every: must be at least 1");
-    if (!(arguments.end_time >= 0) || !std::isfinite(arguments.end_time))
-        throw std::invalid_argument("--end-time: must be a finite number of seconds, 0 or more");
-    if (arguments.cells < 11) throw std::invalid_argument("--cells: must be at least 11");
-    if (!(arguments.cohesion >= 0) || !std::isfinite(arguments.cohesion))
-        throw std::invalid_argument("--cohesion: must be a finite number of Pa, 0 or more");
+    arguments.every = number("every", every, 1);
+    arguments.end_time = number("end-time", end_time, 0.0);
+    arguments.cells = number("cells", cells, 11);
+    arguments.cohesion = number("cohesion", cohesion, 0.0);
     return true;
 }
 

@@ -12,13 +12,6 @@ namespace {
 
 using rrcb::GlobalCount;
 
-rrcb::Box global_box(const Workload& workload, MPI_Comm comm) {
-    rrcb::Box box = rrcb::bounding_box(workload.points());
-    MPI_Allreduce(MPI_IN_PLACE, box.lower.data(), 3, MPI_DOUBLE, MPI_MIN, comm);
-    MPI_Allreduce(MPI_IN_PLACE, box.upper.data(), 3, MPI_DOUBLE, MPI_MAX, comm);
-    return box;
-}
-
 std::vector<std::size_t> curve_places(const Workload& workload, MPI_Comm comm) {
     const rrcb::Box box = global_box(workload, comm);
     const rrcb::Points points = workload.points();
@@ -123,6 +116,13 @@ void reorder(Workload& workload, const std::vector<std::size_t>& places) {
 }
 
 }  // namespace
+
+rrcb::Box global_box(const Workload& workload, MPI_Comm comm) {
+    rrcb::Box box = rrcb::bounding_box(workload.points());
+    MPI_Allreduce(MPI_IN_PLACE, box.lower.data(), 3, MPI_DOUBLE, MPI_MIN, comm);
+    MPI_Allreduce(MPI_IN_PLACE, box.upper.data(), 3, MPI_DOUBLE, MPI_MAX, comm);
+    return box;
+}
 
 const char* layout_name(Layout layout) {
     return layout == Layout::sorted ? "sorted" : "scattered";

@@ -16,6 +16,9 @@ enum class Layout {
 
 const char* layout_name(Layout layout);
 
+/// Box around the points of all ranks. Collective over `comm`.
+rrcb::Box global_box(const Workload& workload, MPI_Comm comm);
+
 /// Sends every point to its rank; `workload` holds any distribution of them.
 ///
 /// Collective over `comm`. Depends on the points and the number of ranks alone when each rank

@@ -1,5 +1,6 @@
 #include "plot_data_mpi.hpp"
 
+#include "layout_mpi.hpp"
 #include "text.hpp"
 #include "zoltan_partitioner_mpi.hpp"
 
@@ -40,6 +41,12 @@ void write_rows(std::ostream& out, const std::string& heading, const Rows& rows)
     for (std::size_t i = 0; i < rows.size(); ++i) {
         out << rows[i] << (i % width == width - 1 ? '\n' : ',');
     }
+}
+
+std::string data_file(const std::string& kind, const Workload& workload,
+                      const std::string& method = {}) {
+    return "data/" + kind + '_' + file_name_part(workload.name) +
+           (method.empty() ? "" : '_' + file_name_part(method)) + ".csv";
 }
 
 /// "prefix_x,prefix_y" of as many axes as there are.
@@ -87,10 +94,9 @@ void write_points(const ResultsFolder& folder, const Workload& workload,
         mine.push_back(measurement.parts[i]);
     }
     const Rows rows = gather(mine, comm);
-    folder.write("data/points_" + workload.name + '_' + file_name_part(measurement.method) + ".csv",
-                 [&](std::ostream& out) {
-                     write_rows(out, axis_columns("", workload.dimension) + ",part", rows);
-                 });
+    folder.write(data_file("points", workload, measurement.method), [&](std::ostream& out) {
+        write_rows(out, axis_columns("", workload.dimension) + ",part", rows);
+    });
 }
 
 /// Boxes of the parts of a method that cuts along the axes; none of the others.
@@ -111,13 +117,6 @@ std::vector<rrcb::Box> part_boxes(const Workload& workload, const Method& method
     return boxes;
 }
 
-rrcb::Box global_box(const Workload& workload, MPI_Comm comm) {
-    rrcb::Box box = rrcb::bounding_box(workload.points());
-    MPI_Allreduce(MPI_IN_PLACE, box.lower.data(), 3, MPI_DOUBLE, MPI_MIN, comm);
-    MPI_Allreduce(MPI_IN_PLACE, box.upper.data(), 3, MPI_DOUBLE, MPI_MAX, comm);
-    return box;
-}
-
 void write_boxes(const ResultsFolder& folder, const Workload& workload, const Method& method,
                  MPI_Comm comm) {
     const std::vector<rrcb::Box> boxes = part_boxes(workload, method, comm);
@@ -135,10 +134,9 @@ void write_boxes(const ResultsFolder& folder, const Workload& workload, const Me
         append(rows, lower, workload.dimension);
         append(rows, upper, workload.dimension);
     }
-    folder.write("data/boxes_" + workload.name + '_' + file_name_part(method.label) + ".csv",
-                 [&](std::ostream& out) {
-                     write_rows(out, "part," + box_columns(workload.dimension), rows);
-                 });
+    folder.write(data_file("boxes", workload, method.label), [&](std::ostream& out) {
+        write_rows(out, "part," + box_columns(workload.dimension), rows);
+    });
 }
 
 /// Cells of one rank's support mesh, in the columns of data/cells_*.
@@ -197,13 +195,13 @@ void write_statistics(const ResultsFolder& folder, const Workload& workload,
             rrcb::make_support_mesh(rrcb::bounding_box(points), dimension, options.support_mesh));
     }
     const Rows rows = gather(cell_rows(cells, dimension, comm), comm);
-    folder.write("data/cells_" + workload.name + ".csv", [&](std::ostream& out) {
+    folder.write(data_file("cells", workload), [&](std::ostream& out) {
         write_rows(out,
                    "rank,cell," + box_columns(dimension) + ',' + axis_columns("mean_", dimension) +
                        ',' + axis_columns("sigma_", dimension) + ",count,weight",
                    rows);
     });
-    folder.write("data/statistical_" + workload.name + ".csv", [&](std::ostream& out) {
+    folder.write(data_file("statistical", workload), [&](std::ostream& out) {
         write_sampled(out, rrcb::sampled_domain(cells_from(rows, dimension), dimension, options));
     });
 }

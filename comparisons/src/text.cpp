@@ -35,13 +35,12 @@ std::string csv_field(const std::string& text) {
 }
 
 std::string file_name_part(std::string_view text) {
-    std::string name;
-    for (const char c : text) {
-        const bool keep =
-            std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' || c == '=';
-        name += keep ? c : '_';
+    std::string name(text);
+    for (char& c : name) {
+        const bool stays =
+            std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '_' || c == '-';
+        if (!stays) c = '_';
     }
-    while (!name.empty() && name.back() == '_') name.pop_back();
     return name;
 }
 

@@ -35,7 +35,7 @@ std::string_view trim(std::string_view text);
 /// A field of a CSV file, quoted where RFC 4180 asks for it.
 std::string csv_field(const std::string& text);
 
-/// `text` as a part of a file name: letters, digits and - . = stay, the rest becomes _.
+/// `text` as a part of a file name: letters, digits and . _ - stay, the rest becomes _.
 std::string file_name_part(std::string_view text);
 
 /// `value` with a number of digits behind the point.

@@ -1,5 +1,6 @@
 #include "contribution.hpp"
 #include "failure.hpp"
+#include "fragments.hpp"
 #include "mpi/communicator.hpp"
 
 #include <rrcb/balance.hpp>
@@ -167,7 +168,11 @@ Balance balance(const Points& points, const Options& options, MPI_Comm user) {
     broadcast(decision, points.dimension, num_parts, comm);
     if (decision.verdict.failing_rank >= 0) fail_together(decision.verdict, failure, comm);
 
-    assign(decision.cuts, points, result.parts);
+    if (options.domain == DomainKind::points) {
+        assign(decision.cuts, points, result.parts);
+    } else {
+        assign(decision.cuts, mine.points, result.parts);
+    }
     result.cuts = std::move(decision.cuts);
     result.report = decision.report;
     return result;

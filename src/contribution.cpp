@@ -138,7 +138,8 @@ Contribution contribute(const Points& points, const Options& options, int num_pa
         header.box = bounding_box(points);
         const SupportMesh mesh =
             make_support_mesh(header.box, points.dimension, header.cells_per_axis);
-        for (const CellMoments& cell : cell_moments(points, mesh))
+        mine.points = sort_by_cell(points, mesh);
+        for (const CellMoments& cell : cell_moments(mine.points))
             append_moments(cell, points.dimension, mine.records);
     }
     header.num_records = static_cast<std::int64_t>(mine.records.size()) / header.record_length;

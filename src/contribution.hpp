@@ -2,6 +2,7 @@
 
 #include <rrcb/options.hpp>
 #include <rrcb/points.hpp>
+#include <rrcb/sorted_points.hpp>
 #include <rrcb/statistical_domain.hpp>
 
 #include <cstdint>
@@ -35,6 +36,7 @@ struct Header {
 struct Contribution {
     Header header;
     std::vector<double> records;
+    SortedPoints points;  ///< stays here, for the assignment; empty for DomainKind::points
 };
 
 /// Throws Error naming the option and its range when `options` can't be used.

@@ -1,6 +1,9 @@
+#include "agreement_mpi.hpp"
+#include "brackets.hpp"
 #include "contribution.hpp"
-#include "failure.hpp"
+#include "fragments.hpp"
 #include "mpi/communicator.hpp"
+#include "refinement_mpi.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/bisection.hpp>
@@ -8,54 +11,16 @@
 
 #include <algorithm>
 #include <cstring>
-#include <numeric>
+#include <limits>
 
 namespace rrcb {
 
 namespace {
 
-constexpr int root = 0;
-
-/// What the root tells everybody: who failed, or how it went.
-struct Verdict {
-    std::int32_t failing_rank = -1;
-    std::int32_t code = 0;
-};
-
-/// Text of `failure` on the failing rank, thrown on every rank. Collective.
-[[noreturn]] void fail_together(const Verdict& verdict, const Failure& failure, MPI_Comm comm) {
-    std::array<char, 512> text{};
-    failure.text.copy(text.data(), text.size() - 1);
-    mpi::check(
-        MPI_Bcast(text.data(), static_cast<int>(text.size()), MPI_CHAR, verdict.failing_rank, comm),
-        "MPI_Bcast");
-    throw Error(static_cast<ErrorCode>(verdict.code),
-                "rank " + std::to_string(verdict.failing_rank) + ": " + text.data());
-}
-
-/// The lowest failing rank, else what is wrong with the ranks together, as the root's failure.
-Verdict judge(std::span<const Header> headers, Failure& failure) {
-    for (std::size_t rank = 0; rank < headers.size(); ++rank)
-        if (headers[rank].failed != 0)
-            return {static_cast<std::int32_t>(rank), headers[rank].failed - 1};
-    failure = attempt([&] {
-        if (const auto difference = difference_between(headers))
-            throw Error(ErrorCode::invalid_argument, *difference);
-        std::int64_t length = 0;
-        for (const Header& header : headers) length += header.num_records * header.record_length;
-        mpi::to_int(length);
-    });
-    return failure.failed ? Verdict{root, static_cast<std::int32_t>(failure.code)} : Verdict{};
-}
-
-/// Headers of all ranks at the root; empty elsewhere. Collective.
-std::vector<Header> gather_headers(const Header& mine, MPI_Comm comm) {
-    const bool is_root = mpi::rank_of(comm) == root;
-    std::vector<Header> headers(is_root ? static_cast<std::size_t>(mpi::size_of(comm)) : 0);
-    mpi::check(MPI_Gather(&mine, sizeof(Header), MPI_BYTE, headers.data(), sizeof(Header), MPI_BYTE,
-                          root, comm),
-               "MPI_Gather");
-    return headers;
+/// The literal midpoint has no weight to aim at, and all points at the root need no second look.
+bool is_refined(const Options& options) {
+    return options.refine != Refine::none && options.cut_rule == CutRule::weighted_fraction &&
+           options.domain != DomainKind::points;
 }
 
 /// Records of all ranks at the root, in the order of the ranks; empty elsewhere. Collective.
@@ -80,11 +45,11 @@ std::vector<double> gather_records(std::span<const double> mine, std::span<const
     return records;
 }
 
-/// The decision of the root as one message: verdict, report, cuts.
+/// The decision of the root: how it went, and the cuts to start from.
 struct Decision {
     Verdict verdict;
     Report report;
-    Cuts cuts;
+    Bisection bisection;
 };
 
 Report report_of(std::span<const Header> headers, const Bisection& bisection,
@@ -97,6 +62,7 @@ Report report_of(std::span<const Header> headers, const Bisection& bisection,
     }
     report.all_weights_zero = report.num_points > 0 && report.total_weight == 0;
     report.estimated_imbalance = imbalance(bisection.part_weights, part_sizes);
+    report.measured_imbalance = std::numeric_limits<double>::quiet_NaN();
     report.surplus_parts =
         static_cast<int>(std::max(GlobalCount{0}, bisection.cuts.num_parts - report.num_points));
     return report;
@@ -105,71 +71,107 @@ Report report_of(std::span<const Header> headers, const Bisection& bisection,
 Failure decide(std::span<const Header> headers, std::span<const double> records,
                const Options& options, Decision& decision) {
     return attempt([&] {
-        Bisection bisection = bisect(build_domain(headers, records, options), headers[0].num_parts,
-                                     options.part_sizes, options.cut_rule);
-        decision.report = report_of(headers, bisection, options.part_sizes);
-        decision.cuts = std::move(bisection.cuts);
+        decision.bisection = bisect(build_domain(headers, records, options), options.part_sizes,
+                                    options.cut_rule, is_refined(options));
+        decision.report = report_of(headers, decision.bisection, options.part_sizes);
     });
 }
 
-/// Gives everybody the root's decision. Collective.
-void broadcast(Decision& decision, int dimension, int num_parts, MPI_Comm comm) {
-    struct Prefix {
-        Verdict verdict;
-        Report report;
-    };
-    const std::size_t tree_bytes = static_cast<std::size_t>(num_parts - 1) * sizeof(Cut);
-    std::vector<std::byte> message(sizeof(Prefix) + tree_bytes);
-    Prefix prefix{decision.verdict, decision.report};
-    std::memcpy(message.data(), &prefix, sizeof prefix);
-    std::memcpy(message.data() + sizeof prefix, decision.cuts.tree.data(),
-                decision.cuts.tree.size() * sizeof(Cut));
+template <class T>
+std::byte* copy_out(const T* from, std::size_t count, std::byte* to) {
+    if (count > 0) std::memcpy(to, from, count * sizeof(T));
+    return to + count * sizeof(T);
+}
+
+template <class T>
+const std::byte* copy_in(const std::byte* from, T* to, std::size_t count) {
+    if (count > 0) std::memcpy(to, from, count * sizeof(T));
+    return from + count * sizeof(T);
+}
+
+/// Gives everybody the root's decision as one message. Collective.
+void broadcast(Decision& decision, int dimension, const Options& options, MPI_Comm comm) {
+    std::vector<Cut>& tree = decision.bisection.cuts.tree;
+    std::vector<Bracket>& brackets = decision.bisection.brackets;
+    tree.resize(options.part_sizes.size() - 1);
+    brackets.resize(is_refined(options) ? tree.size() : 0);
+    std::vector<std::byte> message(sizeof(Verdict) + sizeof(Report) + tree.size() * sizeof(Cut) +
+                                   brackets.size() * sizeof(Bracket));
+    std::byte* to = copy_out(&decision.verdict, 1, message.data());
+    to = copy_out(&decision.report, 1, to);
+    to = copy_out(tree.data(), tree.size(), to);
+    copy_out(brackets.data(), brackets.size(), to);
     mpi::check(MPI_Bcast(message.data(), mpi::to_int(static_cast<std::int64_t>(message.size())),
                          MPI_BYTE, root, comm),
                "MPI_Bcast");
-    std::memcpy(&prefix, message.data(), sizeof prefix);
-    decision.verdict = prefix.verdict;
-    decision.report = prefix.report;
-    decision.cuts = {dimension, num_parts, {}};
-    decision.cuts.tree.resize(static_cast<std::size_t>(num_parts - 1));
-    std::memcpy(decision.cuts.tree.data(), message.data() + sizeof prefix, tree_bytes);
+    const std::byte* from = copy_in(message.data(), &decision.verdict, 1);
+    from = copy_in(from, &decision.report, 1);
+    from = copy_in(from, tree.data(), tree.size());
+    copy_in(from, brackets.data(), brackets.size());
+    decision.bisection.cuts.dimension = dimension;
+    decision.bisection.cuts.num_parts = static_cast<int>(options.part_sizes.size());
+}
+
+/// The options with nothing left to default: every part has its size.
+Options complete(Options options, int num_ranks) {
+    if (options.num_parts == 0) options.num_parts = num_ranks;
+    if (options.part_sizes.empty() && options.num_parts > 0)
+        options.part_sizes.assign(static_cast<std::size_t>(options.num_parts), 1.0);
+    return options;
+}
+
+/// Assigns the points by the cuts, refined where that was asked for. Collective then.
+void finish(Decision& decision, const Options& options, const Points& points, SortedPoints& sorted,
+            MPI_Comm comm, Balance& result) {
+    result.report = decision.report;
+    result.cuts = std::move(decision.bisection.cuts);
+    if (options.domain == DomainKind::points) {
+        assign(result.cuts, points, result.parts);
+    } else if (!is_refined(options) || decision.report.num_points == 0) {
+        assign(result.cuts, sorted, result.parts);
+    } else {
+        if (decision.report.all_weights_zero) sorted.weights.clear();
+        const double weight = decision.report.all_weights_zero
+                                  ? static_cast<double>(decision.report.num_points)
+                                  : decision.report.total_weight;
+        Estimate estimate{std::move(result.cuts), std::move(decision.bisection.brackets),
+                          options.part_sizes, weight};
+        const Measured measured = refine(estimate, options, sorted, comm, result.parts);
+        result.report.measured_imbalance = measured.imbalance;
+        result.report.rounds = measured.rounds;
+        result.cuts = std::move(estimate.cuts);
+    }
 }
 
 }  // namespace
 
-Balance balance(const Points& points, const Options& options, MPI_Comm user) {
+Balance balance(const Points& points, const Options& given, MPI_Comm user) {
     const MPI_Comm comm = mpi::duplicate_of(user);
-    const int num_parts = options.num_parts > 0 ? options.num_parts : mpi::size_of(comm);
-
+    Options options;
     Balance result;
     Contribution mine;
     Failure failure = attempt([&] {
+        options = complete(given, mpi::size_of(comm));
         check_points(points);
-        check_options(options, points.dimension, num_parts);
-        mine = contribute(points, options, num_parts);
+        check_options(options, points.dimension);
+        mine = contribute(points, options);
         result.parts.resize(points.count);
     });
     if (failure.failed) mine = {};
     mine.header.failed = failure.failed ? 1 + static_cast<std::int32_t>(failure.code) : 0;
-
     const std::vector<Header> headers = gather_headers(mine.header, comm);
-    const bool is_root = mpi::rank_of(comm) == root;
-    Verdict verdict = is_root ? judge(headers, failure) : Verdict{};
-    mpi::check(MPI_Bcast(&verdict, sizeof verdict, MPI_BYTE, root, comm), "MPI_Bcast");
-    if (verdict.failing_rank >= 0) fail_together(verdict, failure, comm);
+    agree(headers, failure, comm);
 
     const std::vector<double> records = gather_records(mine.records, headers, comm);
     Decision decision;
-    if (is_root) {
+    if (mpi::rank_of(comm) == root) {
         failure = decide(headers, records, options, decision);
         if (failure.failed) decision.verdict = {root, static_cast<std::int32_t>(failure.code)};
     }
-    broadcast(decision, points.dimension, num_parts, comm);
+    broadcast(decision, points.dimension, options, comm);
     if (decision.verdict.failing_rank >= 0) fail_together(decision.verdict, failure, comm);
 
-    assign(decision.cuts, points, result.parts);
-    result.cuts = std::move(decision.cuts);
-    result.report = decision.report;
+    finish(decision, options, points, mine.points, comm, result);
     return result;
 }
 

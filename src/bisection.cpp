@@ -1,3 +1,4 @@
+#include "brackets.hpp"
 #include "weighted_quantile.hpp"
 
 #include <rrcb/bisection.hpp>
@@ -62,6 +63,21 @@ Cut choose_cut(const StatisticalDomain& domain, double below, CutRule rule) {
     return weighted_quantile(domain, axis, below * weight);
 }
 
+/// Where the cut may lie when the domain is a little wrong: by more where it has fewer cells left.
+Bracket bracket_of(const StatisticalDomain& domain, const Cut& cut, double below, int depth) {
+    const double margin = std::min(0.25, 0.01 * std::exp2(depth / 2.0));
+    const double weight = weight_of(domain);
+    const auto axis = static_cast<std::size_t>(cut.axis);
+    const Box box = extent_of(domain);
+    const auto quantile = [&](double share, double end) {
+        if (!(share > 0 && share < 1 && weight > 0)) return end;
+        return weighted_quantile(domain, cut.axis, share * weight).at[axis];
+    };
+    return {std::min(quantile(below - margin, box.lower[axis]), cut.at[axis]),
+            std::max(quantile(below + margin, box.upper[axis]),
+                     std::nextafter(cut.at[axis], infinity))};
+}
+
 /// The axis that tells on which side of the cut a patch lies: later ones only where it is tied.
 int deciding_axis(const Cut& cut, const Patch& patch, int dimension) {
     const auto tied = [&](int axis) {
@@ -101,38 +117,50 @@ Halves split(const StatisticalDomain& domain, const Cut& cut) {
     return halves;
 }
 
-void bisect_node(StatisticalDomain domain, std::span<const double> sizes, CutRule rule,
-                 Bisection& result) {
+struct Task {
+    CutRule rule;
+    bool brackets;
+    Bisection result;
+};
+
+void bisect_node(StatisticalDomain domain, std::span<const double> sizes, int depth, Task& task) {
     if (sizes.size() == 1) {
-        result.part_weights.push_back(weight_of(domain));
+        task.result.part_weights.push_back(weight_of(domain));
         return;
     }
     const auto num_below = static_cast<std::size_t>(lower_parts(static_cast<int>(sizes.size())));
-    const double size_below =
-        std::accumulate(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(num_below), 0.0);
-    const double size =
-        size_below +
-        std::accumulate(sizes.begin() + static_cast<std::ptrdiff_t>(num_below), sizes.end(), 0.0);
-    const Cut cut = choose_cut(domain, size > 0 ? size_below / size : 0, rule);
-    result.cuts.tree.push_back(cut);
+    const double below = share_below(sizes);
+    const Cut cut = choose_cut(domain, below, task.rule);
+    task.result.cuts.tree.push_back(cut);
+    if (task.brackets) task.result.brackets.push_back(bracket_of(domain, cut, below, depth));
     Halves halves = split(domain, cut);
     domain.patches = {};
-    bisect_node(std::move(halves.lower), sizes.first(num_below), rule, result);
-    bisect_node(std::move(halves.upper), sizes.subspan(num_below), rule, result);
+    bisect_node(std::move(halves.lower), sizes.first(num_below), depth + 1, task);
+    bisect_node(std::move(halves.upper), sizes.subspan(num_below), depth + 1, task);
 }
 
 }  // namespace
 
+double share_below(std::span<const double> sizes) {
+    const auto middle = sizes.begin() + lower_parts(static_cast<int>(sizes.size()));
+    const double below = std::accumulate(sizes.begin(), middle, 0.0);
+    const double all = below + std::accumulate(middle, sizes.end(), 0.0);
+    return all > 0 ? below / all : 0;
+}
+
+Bisection bisect(StatisticalDomain domain, std::span<const double> part_sizes, CutRule rule,
+                 bool with_brackets) {
+    Task task{rule, with_brackets, {}};
+    task.result.cuts.dimension = domain.dimension;
+    task.result.cuts.num_parts = static_cast<int>(part_sizes.size());
+    bisect_node(std::move(domain), part_sizes, 0, task);
+    return std::move(task.result);
+}
+
 Bisection bisect(StatisticalDomain domain, int num_parts, std::span<const double> part_sizes,
                  CutRule rule) {
-    const std::vector<double> equal(part_sizes.empty() ? static_cast<std::size_t>(num_parts) : 0,
-                                    1.0);
-    Bisection result;
-    result.cuts.dimension = domain.dimension;
-    result.cuts.num_parts = num_parts;
-    result.cuts.tree.reserve(static_cast<std::size_t>(num_parts - 1));
-    bisect_node(std::move(domain), part_sizes.empty() ? equal : part_sizes, rule, result);
-    return result;
+    const std::vector<double> equal(static_cast<std::size_t>(num_parts), 1.0);
+    return bisect(std::move(domain), part_sizes.empty() ? equal : part_sizes, rule, false);
 }
 
 }  // namespace rrcb

@@ -113,15 +113,17 @@ std::vector<CellMoments> all_cells(std::span<const Header> headers,
 
 }  // namespace
 
-Contribution contribute(const Points& points, const Options& options, int num_parts) {
+Contribution contribute(const Points& points, const Options& options) {
     Contribution mine;
     Header& header = mine.header;
     header.dimension = points.dimension;
-    header.num_parts = num_parts;
+    header.num_parts = options.num_parts;
     header.cells_per_axis =
         options.support_mesh > 0 ? options.support_mesh : default_cells_per_axis(points.dimension);
     header.domain = static_cast<std::int32_t>(options.domain);
     header.cut_rule = static_cast<std::int32_t>(options.cut_rule);
+    header.refine = static_cast<std::int32_t>(options.refine);
+    header.imbalance_tolerance = options.imbalance_tolerance;
     header.sigma_multiplier = options.sigma_multiplier;
     header.sample_fraction = options.sample_fraction;
     header.seed = options.seed;
@@ -138,7 +140,8 @@ Contribution contribute(const Points& points, const Options& options, int num_pa
         header.box = bounding_box(points);
         const SupportMesh mesh =
             make_support_mesh(header.box, points.dimension, header.cells_per_axis);
-        for (const CellMoments& cell : cell_moments(points, mesh))
+        mine.points = sort_by_cell(points, mesh);
+        for (const CellMoments& cell : cell_moments(mine.points))
             append_moments(cell, points.dimension, mine.records);
     }
     header.num_records = static_cast<std::int64_t>(mine.records.size()) / header.record_length;
@@ -159,6 +162,9 @@ std::optional<std::string> difference_between(std::span<const Header> headers) {
         if (other.cells_per_axis != root.cells_per_axis) return differs("support_mesh");
         if (other.domain != root.domain) return differs("domain");
         if (other.cut_rule != root.cut_rule) return differs("cut_rule");
+        if (other.refine != root.refine) return differs("refine");
+        if (other.imbalance_tolerance != root.imbalance_tolerance)
+            return differs("imbalance_tolerance");
         if (other.sigma_multiplier != root.sigma_multiplier) return differs("sigma_multiplier");
         if (other.sample_fraction != root.sample_fraction) return differs("sample_fraction");
         if (other.seed != root.seed) return differs("seed");

@@ -2,6 +2,7 @@
 
 #include <rrcb/options.hpp>
 #include <rrcb/points.hpp>
+#include <rrcb/sorted_points.hpp>
 #include <rrcb/statistical_domain.hpp>
 
 #include <cstdint>
@@ -20,6 +21,9 @@ struct Header {
     std::int32_t cells_per_axis = 0;
     std::int32_t domain = 0;
     std::int32_t cut_rule = 0;
+    std::int32_t refine = 0;
+    std::int32_t unused = 0;
+    double imbalance_tolerance = 0;
     double sigma_multiplier = 0;
     double sample_fraction = 0;
     std::uint64_t seed = 0;
@@ -35,16 +39,17 @@ struct Header {
 struct Contribution {
     Header header;
     std::vector<double> records;
+    SortedPoints points;  ///< stays here, for the assignment; empty for DomainKind::points
 };
 
 /// Throws Error naming the option and its range when `options` can't be used.
-void check_options(const Options& options, int dimension, int num_parts);
+void check_options(const Options& options, int dimension);
 
 /// Throws Error naming the first object and how many there are when points are unusable.
 void check_points(const Points& points);
 
 /// Reduces checked points to what the root needs of them.
-Contribution contribute(const Points& points, const Options& options, int num_parts);
+Contribution contribute(const Points& points, const Options& options);
 
 /// Name of the first option that differs from the root's, with the rank; none when all agree.
 std::optional<std::string> difference_between(std::span<const Header> headers);

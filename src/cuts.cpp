@@ -1,3 +1,4 @@
+#include "descent.hpp"
 #include "point_layout.hpp"
 
 #include <rrcb/cuts.hpp>
@@ -10,19 +11,6 @@ namespace rrcb {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// A node on the way down: its place in the preorder and the parts below it.
-struct Descent {
-    std::size_t node = 0;
-    Part first = 0;
-    int num_parts = 1;
-
-    Descent lower() const { return {node + 1, first, lower_parts(num_parts)}; }
-    Descent upper() const {
-        const int below = lower_parts(num_parts);
-        return {node + static_cast<std::size_t>(below), first + below, num_parts - below};
-    }
-};
 
 /// The tree as a table for the loop over points: child 0 is below the plane, child 1 above. Parts
 /// are nodes that lead to themselves, so that every point takes the same number of steps.
@@ -48,7 +36,7 @@ std::int32_t tabulate(const Cuts& cuts, Descent at, int depth, Table& table) {
     const auto index = static_cast<std::int32_t>(table.nodes.size());
     table.nodes.emplace_back();
     table.depth = std::max(table.depth, depth);
-    if (at.num_parts == 1) {
+    if (at.is_part()) {
         table.nodes.back() = {infinity, 0, {index, index}, at.first};
         return index;
     }
@@ -73,7 +61,7 @@ void assign_by_planes(const Layout& x, const Table& table, std::span<Part> parts
 }
 
 void collect_touching(const Cuts& cuts, const Box& box, Descent at, std::vector<Part>& parts) {
-    if (at.num_parts == 1) {
+    if (at.is_part()) {
         parts.push_back(at.first);
         return;
     }
@@ -93,8 +81,8 @@ bool is_above(const Cut& cut, const Vector& position, int dimension) {
 }
 
 Part part_of(const Cuts& cuts, const Vector& position) {
-    Descent at{0, 0, cuts.num_parts};
-    while (at.num_parts > 1)
+    Descent at = root_of(cuts);
+    while (!at.is_part())
         at = is_above(cuts.tree[at.node], position, cuts.dimension) ? at.upper() : at.lower();
     return at.first;
 }
@@ -102,7 +90,7 @@ Part part_of(const Cuts& cuts, const Vector& position) {
 void assign(const Cuts& cuts, const Points& points, std::span<Part> parts) {
     if (points.count == 0) return;
     Table table;
-    tabulate(cuts, {0, 0, cuts.num_parts}, 0, table);
+    tabulate(cuts, root_of(cuts), 0, table);
     if (!table.plain) {
         for (LocalIndex i = 0; i < points.count; ++i) parts[i] = part_of(cuts, points.position(i));
         return;
@@ -115,8 +103,8 @@ Box box_of(const Cuts& cuts, Part part) {
     Box box;
     box.lower.fill(-infinity);
     box.upper.fill(infinity);
-    Descent at{0, 0, cuts.num_parts};
-    while (at.num_parts > 1) {
+    Descent at = root_of(cuts);
+    while (!at.is_part()) {
         const Cut& cut = cuts.tree[at.node];
         const auto axis = static_cast<std::size_t>(cut.axis);
         const bool above = part >= at.upper().first;
@@ -131,7 +119,7 @@ std::vector<Part> parts_touching(const Cuts& cuts, const Box& box) {
     std::vector<Part> parts;
     for (std::size_t a = 0; a < static_cast<std::size_t>(cuts.dimension); ++a)
         if (!(box.lower[a] <= box.upper[a])) return parts;
-    collect_touching(cuts, box, {0, 0, cuts.num_parts}, parts);
+    collect_touching(cuts, box, root_of(cuts), parts);
     return parts;
 }
 

@@ -19,7 +19,6 @@ void require(bool condition, const char* what) {
 }
 
 void check_part_sizes(std::span<const double> sizes, int num_parts) {
-    if (sizes.empty()) return;
     require(sizes.size() == static_cast<std::size_t>(num_parts),
             "part_sizes must hold one entry per part, or none for equal parts");
     double sum = 0;
@@ -86,13 +85,14 @@ void check_weights(const Points& points) {
 
 }  // namespace
 
-void check_options(const Options& options, int dimension, int num_parts) {
+void check_options(const Options& options, int dimension) {
     const int most_cells = dimension < 3 ? 4096 : 256;
-    require(options.num_parts >= 0, "num_parts must be positive, or 0 for one part per rank");
-    check_part_sizes(options.part_sizes, num_parts);
+    require(options.num_parts > 0, "num_parts must be positive, or 0 for one part per rank");
+    check_part_sizes(options.part_sizes, options.num_parts);
     if (options.support_mesh < 0 || options.support_mesh > most_cells)
         reject("support_mesh must be 1 ... " + std::to_string(most_cells) +
                " cells per axis, or 0 for the default");
+    require(options.imbalance_tolerance >= 1, "imbalance_tolerance must be at least 1");
     require(options.sigma_multiplier >= 0 && std::isfinite(options.sigma_multiplier),
             "sigma_multiplier must be finite and not negative");
     require(options.sample_fraction > 0 && options.sample_fraction <= 1,

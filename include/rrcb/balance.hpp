@@ -15,6 +15,8 @@ struct Report {
     GlobalCount num_records = 0;  ///< cells (or points, for DomainKind::points) the root received
     double total_weight = 0;      ///< over all ranks
     double estimated_imbalance = 1;  ///< as the statistical domain sees it, see quality.hpp
+    double measured_imbalance = 1;   ///< of the points themselves; NaN where it was not measured
+    int rounds = 0;                  ///< of counting what the ranks hold, for the refinement
     bool all_weights_zero = false;   ///< balanced by count instead
     int surplus_parts = 0;           ///< parts that must stay empty: more parts than points
 };
@@ -29,11 +31,11 @@ struct Balance {
 /// Divides the points of all ranks into parts of equal (or given relative) weight.
 ///
 /// Collective over `comm`: every rank calls it with the same options and dimension; a rank may
-/// hold no points (null arrays are legal) but states the dimension. Three messages of work: the
-/// statistics of the non-empty cells are gathered at rank 0, the cuts are broadcast, every rank
-/// assigns its own points; no point moves. The same input on the same ranks gives the same bits.
-/// The library communicates on a duplicate of `comm`, made at the first call, kept with it and
-/// freed with it.
+/// hold no points (null arrays are legal) but states the dimension. The statistics of
+/// the non-empty cells are gathered at rank 0, the cuts are broadcast, moved by what the ranks
+/// count around them (see Refine), and every rank assigns its own points; no point moves. The same
+/// input on the same ranks gives the same bits. The library communicates on a duplicate of `comm`,
+/// made at the first call, kept with it and freed with it.
 ///
 /// Throws Error on every rank alike: for NaN or infinite coordinates, negative, NaN or infinite
 /// weights, arrays of inconsistent length, options out of range or different between ranks.

@@ -8,9 +8,16 @@
 
 namespace rrcb {
 
+/// Range in which the cut of the real points is expected, across its axis.
+struct Bracket {
+    double lower = 0;
+    double upper = 0;
+};
+
 /// Cuts of a domain and the weight they leave in each part of it.
 struct Bisection {
     Cuts cuts;
+    std::vector<Bracket> brackets;     ///< of each cut; empty where they were not asked for
     std::vector<double> part_weights;  ///< length num_parts, as the domain sees it
 };
 

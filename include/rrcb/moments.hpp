@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/support_mesh.hpp>
+#include <rrcb/sorted_points.hpp>
 
 #include <vector>
 
@@ -30,12 +30,14 @@ struct CellMoments {
 /// variances (1979), equations 2.1, with weights in place of counts.
 Moments merge(const Moments& a, const Moments& b);
 
-/// Moments of every cell of `mesh` that holds weight, in the order of the cells. Not collective.
+/// Moments of every cell that holds weight, in the order of the cells. Not collective.
 ///
-/// One pass over the points, which must be finite and lie in the box of the mesh. Differences are
-/// taken from a position among the cell's own points, so the offset of the cloud costs no digits.
-/// When all points weigh 0 their moments are those of the same points with weight 1, under weight
-/// 0.
+/// Two passes over the points of a cell, the first relative to one of them, the second to their
+/// mean: neither the offset of the cloud nor the spread of the weights costs digits. When all
+/// points weigh 0 their moments are those of the same points with weight 1, under weight 0.
+std::vector<CellMoments> cell_moments(const SortedPoints& points);
+
+/// The same for points in any order, which must be finite and lie in the box of `mesh`.
 std::vector<CellMoments> cell_moments(const Points& points, const SupportMesh& mesh);
 
 }  // namespace rrcb

@@ -19,6 +19,13 @@ enum class CutRule {
     midpoint            ///< at that share of the extent: the literal reading of the paper
 };
 
+/// How far the estimated cuts are moved by what the ranks really hold.
+enum class Refine {
+    none,       ///< not at all: the estimate from the statistics stands
+    tolerance,  ///< until the measured imbalance is within `imbalance_tolerance`
+    exact       ///< to the weighted median: each cut within the weight of one object
+};
+
 /// How `balance` works; must be the same on every rank, which is checked.
 struct Options {
     int num_parts = 0;               ///< parts to make; 0: one per rank
@@ -27,6 +34,9 @@ struct Options {
     int support_mesh = 0;  ///< cells per axis of each rank's support mesh; 0: chosen by dimension
     DomainKind domain = DomainKind::analytic;
     CutRule cut_rule = CutRule::weighted_fraction;
+
+    Refine refine = Refine::tolerance;  ///< needs no points at the root; not used by points
+    double imbalance_tolerance = 1.01;  ///< tolerance: heaviest part / mean part to reach, >= 1
 
     double sigma_multiplier = 1.5;  ///< sampled: half-width of a cell's sampling box, in sigmas
     double sample_fraction = 1.0;   ///< sampled: points drawn per real point, in (0, 1]

@@ -1,4 +1,5 @@
 #include "../support/clouds.hpp"
+#include "../support/ranks.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/quality.hpp>
@@ -14,17 +15,8 @@
 namespace rrcb {
 namespace {
 
-int rank() {
-    int rank = 0;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    return rank;
-}
-
-int num_ranks() {
-    int size = 0;
-    MPI_Comm_size(MPI_COMM_WORLD, &size);
-    return size;
-}
+using test::num_ranks;
+using test::rank;
 
 std::vector<double> my_cloud(std::size_t count, int dimension) {
     return test::uniform_cloud(count, dimension, 100 + static_cast<unsigned>(rank()));
@@ -69,6 +61,7 @@ TEST(Balance, a_finer_mesh_brings_the_sampled_domain_nearer_to_the_points) {
     const Points points = interleaved_points(cloud, 2);
     Options options;
     options.domain = DomainKind::sampled;
+    options.refine = Refine::none;
     options.num_parts = 4;
     const auto imbalance_with = [&](int mesh) {
         options.support_mesh = mesh;

@@ -1,3 +1,5 @@
+#include "../support/ranks.hpp"
+
 #include <rrcb/error.hpp>
 #include <rrcb/plan.hpp>
 #include <rrcb/quality.hpp>
@@ -9,17 +11,8 @@
 namespace rrcb {
 namespace {
 
-int rank() {
-    int rank = 0;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    return rank;
-}
-
-int num_ranks() {
-    int size = 0;
-    MPI_Comm_size(MPI_COMM_WORLD, &size);
-    return size;
-}
+using test::num_ranks;
+using test::rank;
 
 TEST(RanksOfPart, remainder_goes_to_the_last_ranks) {
     // 7 parts on 3 ranks: 2, 2, 3.

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <rrcb/support_mesh.hpp>
+
+#include <vector>
+
+namespace rrcb {
+
+/// Copy of one rank's points in the order of the cells of its support mesh.
+///
+/// Points of one cell keep the order they came in. Cell c holds the entries first[c] up to, not
+/// including, first[c + 1].
+struct SortedPoints {
+    SupportMesh mesh;
+    std::vector<double> coordinates;   ///< interleaved
+    std::vector<double> weights;       ///< empty when every point weighs 1
+    std::vector<LocalIndex> original;  ///< index each entry had before
+    std::vector<LocalIndex> first;     ///< length num_cells + 1
+
+    int dimension() const { return mesh.dimension; }
+    LocalIndex count() const { return original.size(); }
+    double weight(LocalIndex i) const { return weights.empty() ? 1.0 : weights[i]; }
+    Vector position(LocalIndex i) const;
+};
+
+/// Sorts finite points that lie in the box of `mesh`, in two passes. Not collective.
+SortedPoints sort_by_cell(const Points& points, const SupportMesh& mesh);
+
+/// Box that holds the points sorted into a cell: the cell with a margin for the round-off of
+/// finding it. Not collective.
+Box enclosing_box(const SupportMesh& mesh, LocalIndex cell);
+
+}  // namespace rrcb

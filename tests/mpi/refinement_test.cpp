@@ -1,0 +1,211 @@
+#include "../support/clouds.hpp"
+#include "../support/ranks.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/quality.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+using test::num_ranks;
+using test::rank;
+
+/// The same cloud for any number of ranks: every rank makes all of it and keeps each P-th point.
+std::vector<double> share_of_cloud(
+    std::size_t count, int dimension,
+    const std::function<double(std::size_t i, int axis, double u)>& coordinate) {
+    std::mt19937_64 engine(97);
+    std::vector<double> mine;
+    for (std::size_t i = 0; i < count; ++i) {
+        for (int a = 0; a < dimension; ++a) {
+            const double x = coordinate(i, a, test::uniform(engine));
+            if (i % static_cast<std::size_t>(num_ranks()) == static_cast<std::size_t>(rank()))
+                mine.push_back(x);
+        }
+    }
+    return mine;
+}
+
+struct Cloud {
+    std::string name;
+    std::function<double(std::size_t i, int axis, double u)> coordinate;
+};
+
+const std::vector<Cloud>& clouds_without_coincident_points() {
+    static const std::vector<Cloud> clouds{
+        {"uniform", [](std::size_t, int, double u) { return u; }},
+        {"lattice",
+         [](std::size_t i, int axis, double) {
+             return static_cast<double>(axis == 0   ? i % 16
+                                        : axis == 1 ? i / 16 % 16
+                                                    : i / 256) +
+                    (axis == 1 ? 1e-3 * static_cast<double>(i / 256) : 0);
+         }},
+        {"power law", [](std::size_t, int, double u) { return std::pow(u, 9); }},
+        {"far clusters",
+         [](std::size_t i, int, double u) { return 1e6 * static_cast<double>(i % 2) + 1e-6 * u; }},
+        {"collinear",
+         [](std::size_t i, int axis, double) { return axis == 0 ? static_cast<double>(i) : 3.0; }},
+        {"far offset", [](std::size_t, int, double u) { return 1e9 + u; }},
+        {"subnormal", [](std::size_t i, int axis,
+                         double) { return 5e-324 * static_cast<double>(axis == 0 ? i : i % 7); }},
+        {"whole range", [](std::size_t, int, double u) { return (2 * u - 1) * 1.7e308; }}};
+    return clouds;
+}
+
+void expect_look_ups_agree(const Points& points, const Balance& result) {
+    for (LocalIndex i = 0; i < points.count; ++i)
+        ASSERT_EQ(result.parts[i], part_of(result.cuts, points.position(i)));
+}
+
+TEST(Refinement, exact_leaves_each_part_within_one_object_of_the_ideal) {
+    for (const Cloud& cloud : clouds_without_coincident_points()) {
+        for (const int dimension : {1, 2, 3}) {
+            if (dimension == 1 && cloud.name == "lattice") continue;  // coincident in 1-D
+            for (const int num_parts : {2, 5, 8}) {
+                const auto mine = share_of_cloud(4096, dimension, cloud.coordinate);
+                const Points points = interleaved_points(mine, dimension);
+                Options options;
+                options.refine = Refine::exact;
+                options.num_parts = num_parts;
+                const Balance result = balance(points, options, MPI_COMM_WORLD);
+                const auto weights = part_weights(points, result.parts, num_parts, MPI_COMM_WORLD);
+                for (const double weight : weights)
+                    EXPECT_LE(std::abs(weight - 4096.0 / num_parts), 1)
+                        << cloud.name << ", " << dimension << "-D, " << num_parts << " parts";
+                EXPECT_EQ(result.report.measured_imbalance, imbalance(weights));
+                expect_look_ups_agree(points, result);
+                const int levels = std::bit_width(static_cast<unsigned>(num_parts - 1));
+                EXPECT_LE(result.report.rounds, 6 * levels) << cloud.name;
+            }
+        }
+    }
+}
+
+TEST(Refinement, tolerance_is_met_and_measured) {
+    for (const Cloud& cloud : clouds_without_coincident_points()) {
+        for (const double tolerance : {1.1, 1.01}) {
+            const auto mine = share_of_cloud(4096, 2, cloud.coordinate);
+            const Points points = interleaved_points(mine, 2);
+            Options options;
+            options.num_parts = 6;
+            options.imbalance_tolerance = tolerance;
+            const Balance result = balance(points, options, MPI_COMM_WORLD);
+            const auto weights = part_weights(points, result.parts, 6, MPI_COMM_WORLD);
+            EXPECT_LE(imbalance(weights), tolerance) << cloud.name;
+            EXPECT_EQ(result.report.measured_imbalance, imbalance(weights)) << cloud.name;
+            EXPECT_LE(result.report.rounds, 4 * 3) << cloud.name;
+            expect_look_ups_agree(points, result);
+        }
+    }
+}
+
+TEST(Refinement, a_good_estimate_takes_one_look) {
+    const auto mine = share_of_cloud(100000, 2, [](std::size_t, int, double u) { return u; });
+    Options options;
+    options.num_parts = 4;
+    const Balance result = balance(interleaved_points(mine, 2), options, MPI_COMM_WORLD);
+    EXPECT_EQ(result.report.rounds, 1);
+}
+
+TEST(Refinement, exact_takes_two_rounds_a_level_on_a_smooth_cloud) {
+    const auto mine = share_of_cloud(40000, 2, [](std::size_t, int, double u) { return u; });
+    Options options;
+    options.refine = Refine::exact;
+    options.num_parts = 8;
+    const Balance result = balance(interleaved_points(mine, 2), options, MPI_COMM_WORLD);
+    EXPECT_LE(result.report.rounds, 2 * 3);
+}
+
+TEST(Refinement, weights_are_divided_to_within_the_heaviest_object) {
+    const auto mine = share_of_cloud(6000, 2, [](std::size_t, int, double u) { return u; });
+    std::vector<double> weights;
+    for (std::size_t i = 0; i < mine.size(); i += 2) weights.push_back(std::pow(1e3, mine[i]));
+    const Points points = interleaved_points(mine, 2, weights);
+    Options options;
+    options.refine = Refine::exact;
+    options.num_parts = 4;
+    options.part_sizes = {1, 2, 0, 3};
+    const Balance result = balance(points, options, MPI_COMM_WORLD);
+    const auto part_sums = part_weights(points, result.parts, 4, MPI_COMM_WORLD);
+    const double total = std::accumulate(part_sums.begin(), part_sums.end(), 0.0);
+    for (std::size_t p = 0; p < 4; ++p)
+        EXPECT_LE(std::abs(part_sums[p] - total * options.part_sizes[p] / 6), 1e3);
+    EXPECT_EQ(part_sums[2], 0);
+    expect_look_ups_agree(points, result);
+}
+
+TEST(Refinement, coincident_points_stay_together_on_the_nearer_side) {
+    // 30 points at 1, 50 at 2, 20 at 3: half of the weight lies inside the 50, 20 of which are
+    // missing below; the other side is 30 away.
+    std::vector<double> mine;
+    for (int i = 0; i < 100; ++i)
+        if (i % num_ranks() == rank()) mine.push_back(i < 30 ? 1 : i < 80 ? 2 : 3);
+    const Points points = interleaved_points(mine, 1);
+    Options options;
+    options.refine = Refine::exact;
+    options.num_parts = 2;
+    const Balance result = balance(points, options, MPI_COMM_WORLD);
+    EXPECT_EQ(part_weights(points, result.parts, 2, MPI_COMM_WORLD), (std::vector<double>{30, 70}));
+    expect_look_ups_agree(points, result);
+}
+
+TEST(Refinement, many_coincident_points_are_no_endless_search) {
+    const std::vector<double> same(6000, 0.7);
+    const Points points = interleaved_points(same, 3);
+    Options options;
+    options.refine = Refine::exact;
+    options.num_parts = 4;
+    const Balance result = balance(points, options, MPI_COMM_WORLD);
+    for (const Part part : result.parts) EXPECT_EQ(part, result.parts[0]);
+    EXPECT_EQ(result.report.measured_imbalance, 4);
+}
+
+TEST(Refinement, zero_weights_everywhere_mean_balance_by_count) {
+    const auto mine = share_of_cloud(4000, 2, [](std::size_t, int, double u) { return u * u; });
+    const std::vector<double> weights(mine.size() / 2, 0.0);
+    Options options;
+    options.refine = Refine::exact;
+    options.num_parts = 5;
+    const Balance result = balance(interleaved_points(mine, 2, weights), options, MPI_COMM_WORLD);
+    const auto counts = part_weights(interleaved_points(mine, 2), result.parts, 5, MPI_COMM_WORLD);
+    for (const double count : counts) EXPECT_LE(std::abs(count - 800), 1);
+}
+
+TEST(Refinement, leaves_a_literal_midpoint_alone) {
+    const auto mine = share_of_cloud(4000, 1, [](std::size_t, int, double u) { return u * u; });
+    Options options;
+    options.cut_rule = CutRule::midpoint;
+    options.num_parts = 2;
+    const Balance result = balance(interleaved_points(mine, 1), options, MPI_COMM_WORLD);
+    EXPECT_NEAR(result.cuts.tree[0].at[0], 0.5, 0.01);
+    EXPECT_TRUE(std::isnan(result.report.measured_imbalance));
+}
+
+TEST(Refinement, same_input_gives_the_same_bits) {
+    const auto mine =
+        share_of_cloud(5000, 2, [](std::size_t, int, double u) { return std::floor(u * 40); });
+    Options options;
+    options.refine = Refine::exact;
+    options.num_parts = 7;
+    const Points points = interleaved_points(mine, 2);
+    const Balance first = balance(points, options, MPI_COMM_WORLD);
+    const Balance second = balance(points, options, MPI_COMM_WORLD);
+    EXPECT_EQ(first.parts, second.parts);
+    for (std::size_t k = 0; k < first.cuts.tree.size(); ++k)
+        EXPECT_EQ(first.cuts.tree[k].at, second.cuts.tree[k].at);
+    expect_look_ups_agree(points, first);
+}
+
+}  // namespace
+}  // namespace rrcb

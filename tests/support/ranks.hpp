@@ -1,0 +1,23 @@
+#pragma once
+
+#include <mpi.h>
+
+namespace rrcb::test {
+
+inline int rank() {
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    return rank;
+}
+
+inline int num_ranks() {
+    int size = 0;
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    return size;
+}
+
+inline bool is_last_rank() {
+    return rank() == num_ranks() - 1;
+}
+
+}  // namespace rrcb::test

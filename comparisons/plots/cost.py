@@ -68,6 +68,7 @@ def _draw_workload(axes: Axes, rows: list[Measurement]) -> None:
 def _set_limits(axes: Axes, table: list[Measurement]) -> None:
     axes.set_xscale("log")
     axes.set_yscale("log")
+    axes.xaxis.set_major_formatter("{x:g}")
     axes.set_xlim(min(r.time_ms_min for r in table) / 2, max(r.time_ms_max for r in table) * 3)
     lowest = min(map(_excess, table))
     axes.set_ylim(lowest / (3 if lowest > FLOOR else 2), max(map(_excess, table)) * 4)

@@ -11,10 +11,7 @@ from matplotlib.collections import LineCollection, PatchCollection
 from matplotlib.patches import Rectangle
 
 from results import Columns, read_data, read_table, unique
-from style import length_ratio, part_colours, save, show_lengths
-
-MAX_POINTS = 60_000
-MARKER_AREA = 0.8
+from style import draw_cloud, length_ratio, part_colours, save, show_lengths
 
 
 def draw_support_mesh(directory: Path, picture: Path) -> bool:
@@ -22,7 +19,10 @@ def draw_support_mesh(directory: Path, picture: Path) -> bool:
     meshes = _by_workload(directory, "cells")
     if not meshes:
         return False
-    outlines = [{axis: cells["lower_" + axis] for axis in "xy"} for cells in meshes.values()]
+    outlines = [
+        {axis: np.append(cells["lower_" + axis], cells["upper_" + axis]) for axis in "xy"}
+        for cells in meshes.values()
+    ]
     height = length_ratio(outlines) * 8.3 + 0.5
     figure, axes = plt.subplots(
         len(meshes), 1, figsize=(9, height * len(meshes) + 0.4), squeeze=False, sharex=True
@@ -59,10 +59,8 @@ def draw_domains(directory: Path, picture: Path) -> bool:
     )
     for i, (workload, domains) in enumerate(pairs.items()):
         for j, (points, kind) in enumerate(zip(domains, ("real", "statistical"))):
-            chosen = slice(None, None, len(points["x"]) // MAX_POINTS + 1)
-            x, y = points["x"][chosen], points["y"][chosen]
-            axes[i, j].scatter(x, y, s=MARKER_AREA, color="#0067A5", linewidths=0)
-            axes[i, j].set_title(f"{workload}, {kind} domain ({len(x):,} points shown)")
+            shown = draw_cloud(axes[i, j], points, "#0067A5")
+            axes[i, j].set_title(f"{workload}, {kind} domain ({shown:,} points shown)")
             show_lengths(axes[i, j], i == len(pairs) - 1, j == 0)
     save(figure, picture)
     return True

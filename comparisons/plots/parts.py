@@ -10,10 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 
 from results import Columns, Measurement, read_data, read_table, unique
-from style import length_ratio, part_colours, save, show_lengths
+from style import draw_cloud, length_ratio, part_colours, save, show_lengths
 
-MAX_POINTS = 60_000
-MARKER_AREA = 0.55
 PANEL_WIDTH = 4.2
 
 
@@ -37,7 +35,7 @@ def draw_parts(directory: Path, picture: Path) -> bool:
         if key not in panels:
             axes[i, j].set_axis_off()
             continue
-        _draw_points(axes[i, j], panels[key])
+        draw_cloud(axes[i, j], panels[key], part_colours(panels[key]["part"]))
         _draw_boxes(axes[i, j], panels[key], read_data(directory, "boxes", *key[::-1]))
         axes[i, j].set_title(_title(rows[key]), fontsize=9)
     save(figure, picture)
@@ -55,18 +53,6 @@ def _arrange(keys: list[tuple[str, str]]) -> np.ndarray:
         for j, key in enumerate(row):
             grid[i, j] = key
     return grid
-
-
-def _draw_points(axes: Axes, points: Columns) -> None:
-    chosen = slice(None, None, len(points["x"]) // MAX_POINTS + 1)
-    axes.scatter(
-        points["x"][chosen],
-        points["y"][chosen],
-        c=part_colours(points["part"][chosen]),
-        s=MARKER_AREA,
-        linewidths=0,
-        rasterized=True,
-    )
 
 
 def _draw_boxes(axes: Axes, points: Columns, boxes: Columns | None) -> None:

@@ -29,7 +29,7 @@ def draw_simulation(directory: Path, picture: Path) -> bool:
         left = [start + length for start, length in zip(left, seconds)]
     for row, (run, end) in enumerate(zip(runs, left)):
         text = (
-            f" {run.wall:.1f} s, balancing {run.balance:.2f} s,"
+            f" {run.wall:.3g} s, balancing {run.balance:.2g} s,"
             f" mean imbalance {run.mean_imbalance:.3f}"
         )
         axes.text(end, row, text, va="center", fontsize=8)

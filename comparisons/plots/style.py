@@ -24,6 +24,9 @@ PART_COLOURS = (
 ).split()
 
 
+MAX_POINTS = 60_000
+
+
 @dataclass(frozen=True)
 class MethodStyle:
     colour: str
@@ -95,6 +98,20 @@ def length_ratio(clouds: Iterable[dict[str, np.ndarray]]) -> float:
         for axis in "xy"
     )
     return float(np.clip(height / max(width, 1e-300), 0.2, 1.2))
+
+
+def draw_cloud(axes: Axes, points: dict[str, np.ndarray], colours: np.ndarray | str) -> int:
+    """Draws at most MAX_POINTS of the points, evenly chosen; returns how many.
+
+    The markers are so large that all together cover about the area of the axes.
+    """
+    chosen = slice(None, None, len(points["x"]) // MAX_POINTS + 1)
+    x, y = points["x"][chosen], points["y"][chosen]
+    size = axes.get_position(original=True).size * axes.figure.get_size_inches() * 72
+    if not isinstance(colours, str):
+        colours = colours[chosen]
+    axes.scatter(x, y, c=colours, s=np.clip(size.prod() / len(x), 0.5, 20), linewidths=0)
+    return len(x)
 
 
 def place_labels(

@@ -19,10 +19,13 @@ bool read_number(std::string_view text, Number& number) {
     return error == std::errc() && stop == end;
 }
 
+/// In 1-D and 2-D; the balancer, which knows the dimension, takes fewer in 3-D.
+constexpr int most_cells = 4096;
+
 bool read_support_mesh(Options& options, std::string_view text) {
     int cells = 0;
     const bool automatic = text == "AUTO";
-    if (!automatic && (!read_number(text, cells) || cells < 1 || cells > 1024)) return false;
+    if (!automatic && (!read_number(text, cells) || cells < 1 || cells > most_cells)) return false;
     options.support_mesh = cells;
     return true;
 }
@@ -43,6 +46,17 @@ bool read_domain(Options& options, std::string_view text) {
 bool read_cut_rule(Options& options, std::string_view text) {
     if (text != "WEIGHTED" && text != "MIDPOINT") return false;
     options.cut_rule = text == "WEIGHTED" ? CutRule::weighted_fraction : CutRule::midpoint;
+    return true;
+}
+
+bool read_refine(Options& options, std::string_view text) {
+    constexpr std::pair<std::string_view, Refine> words[] = {{"AUTO", Refine::automatic},
+                                                             {"NONE", Refine::none},
+                                                             {"TOLERANCE", Refine::tolerance},
+                                                             {"EXACT", Refine::exact}};
+    const auto* word = std::ranges::find(words, text, &std::pair<std::string_view, Refine>::first);
+    if (word == std::end(words)) return false;
+    options.refine = word->second;
     return true;
 }
 
@@ -79,6 +93,7 @@ constexpr OwnParameter own_parameters[] = {
     {"RRCB_SUPPORT_MESH", read_support_mesh, reset<&Options::support_mesh>},
     {"RRCB_DOMAIN", read_domain, reset<&Options::domain>},
     {"RRCB_CUT_RULE", read_cut_rule, reset<&Options::cut_rule>},
+    {"RRCB_REFINE", read_refine, reset<&Options::refine>},
     {"RRCB_SIGMA_MULTIPLIER", read_sigma_multiplier, reset<&Options::sigma_multiplier>},
     {"RRCB_SAMPLE_FRACTION", read_sample_fraction, reset<&Options::sample_fraction>},
     {"RRCB_SEED", read_seed, reset<&Options::seed>},
@@ -112,6 +127,14 @@ int integer_or(std::string_view text, int minimum, int fallback) {
     return text == "DEFAULT" || value < minimum ? fallback : value;
 }
 
+/// Zoltan allows one tolerance per weight, as "[k]" behind the name; RRCB balances one weight.
+void note_tolerance(Options& options, std::string_view text) {
+    double value = 0;
+    options.imbalance_tolerance = read_number(text, value) && std::isfinite(value) && value >= 1
+                                      ? value
+                                      : Options{}.imbalance_tolerance;
+}
+
 ReturnLists return_lists(std::string_view text) {
     const auto has = [text](std::string_view word) { return text.find(word) != text.npos; };
     if (has("EXPORT")) return has("IMPORT") ? ReturnLists::all : ReturnLists::exports;
@@ -133,6 +156,7 @@ Setting set_own(Parameters& parameters, std::string_view name, std::string_view 
 
 void note_common(Parameters& parameters, std::string_view name, std::string_view value) {
     if (name == "LB_METHOD") parameters.rrcb = false;
+    if (name == "IMBALANCE_TOL") note_tolerance(parameters.options, value);
     if (name == "RETURN_LISTS") parameters.return_lists = return_lists(value);
     const auto* common = std::ranges::find(common_integers, name, &CommonInteger::name);
     if (common == std::end(common_integers)) return;

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <mpi.h>
+#include <mpm/simulation.hpp>
+#include <mpm/slope.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace mpm::test {
+
+inline int rank_of(MPI_Comm comm) {
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    return rank;
+}
+
+inline int size_of(MPI_Comm comm) {
+    int size = 1;
+    MPI_Comm_size(comm, &size);
+    return size;
+}
+
+/// A column of all points in the order of their ids, on every rank. Exact: ids have one owner.
+inline std::vector<double> gathered(const Simulation& simulation, const std::string& column,
+                                    MPI_Comm comm) {
+    std::vector<double> values(static_cast<std::size_t>(simulation.num_points()), 0.0);
+    const auto ids = simulation.particles()["id"];
+    const auto local = simulation.particles()[column];
+    for (std::size_t p = 0; p < ids.size(); ++p)
+        values[static_cast<std::size_t>(ids[p])] = local[p];
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
+                  comm);
+    return values;
+}
+
+/// Sum of a function of each point over all ranks.
+inline double summed(const Simulation& simulation, MPI_Comm comm,
+                     const std::function<double(std::size_t)>& value) {
+    double total = 0;
+    for (std::size_t p = 0; p < simulation.particles().size(); ++p) total += value(p);
+    MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_DOUBLE, MPI_SUM, comm);
+    return total;
+}
+
+/// Largest difference of two columns by the largest entry of the first.
+inline double relative_difference(const std::vector<double>& a, const std::vector<double>& b) {
+    double difference = a.size() == b.size() ? 0 : std::numeric_limits<double>::infinity();
+    double largest = 0;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+        difference = std::max(difference, std::abs(a[i] - b[i]));
+        largest = std::max(largest, std::abs(a[i]));
+    }
+    return difference / largest;
+}
+
+/// Boxes between vertical cuts (ascending, one less than ranks); points on a cut go up or down.
+inline Decomposition between_cuts(const std::vector<double>& cuts, bool ties_go_up = true) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Decomposition decomposition;
+    decomposition.boxes.assign(cuts.size() + 1, {{-infinity, -infinity}, {infinity, infinity}});
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+        decomposition.boxes[k].upper[0] = cuts[k];
+        decomposition.boxes[k + 1].lower[0] = cuts[k];
+    }
+    decomposition.owners = [cuts, ties_go_up](Positions at, std::span<int> owners) {
+        for (std::size_t i = 0; i < owners.size(); ++i) {
+            const auto cut = ties_go_up ? std::ranges::upper_bound(cuts, at.x[i])
+                                        : std::ranges::lower_bound(cuts, at.x[i]);
+            owners[i] = static_cast<int>(cut - cuts.begin());
+        }
+    };
+    return decomposition;
+}
+
+/// The slope at a fifth of the paper's resolution: 2,000 points.
+inline Scene coarse_slope() {
+    return slope_scene(22);
+}
+
+/// An elastic disk that flies and spins across an open grid of 24 x 10 m.
+inline Scene flying_disk() {
+    constexpr double centre_x = 4, centre_y = 4, radius = 2;
+    const Body disk{
+        .contains = [](double x,
+                       double y) { return std::hypot(x - centre_x, y - centre_y) <= radius; },
+        .points_per_cell = {3, 3},
+        .density = 1000,
+        .velocity =
+            [](double x, double y) {
+                return Vector{8 - (y - centre_y), 1 + (x - centre_x)};
+            }};
+    return {.name = "flying disk",
+            .grid = {.lower = {0, 0}, .spacing = 0.5, .num_cells = {48, 20}},
+            .bodies = {disk},
+            .walls = {},
+            .elastic = {.youngs_modulus = 1e6, .poissons_ratio = 0.3}};
+}
+
+}  // namespace mpm::test

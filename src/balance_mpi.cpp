@@ -112,11 +112,13 @@ void broadcast(Decision& decision, int dimension, const Options& options, MPI_Co
     decision.bisection.cuts.num_parts = static_cast<int>(options.part_sizes.size());
 }
 
-/// The options with nothing left to default: every part has its size.
+/// The options with nothing left to default, and every part with its size.
 Options complete(Options options, int num_ranks) {
     if (options.num_parts == 0) options.num_parts = num_ranks;
     if (options.part_sizes.empty() && options.num_parts > 0)
         options.part_sizes.assign(static_cast<std::size_t>(options.num_parts), 1.0);
+    if (options.refine == Refine::automatic)
+        options.refine = options.domain == DomainKind::sampled ? Refine::none : Refine::tolerance;
     return options;
 }
 

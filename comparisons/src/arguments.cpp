@@ -1,7 +1,7 @@
 #include "arguments.hpp"
 
 #include "cloud.hpp"
-#include "failure_mpi.hpp"
+#include "failure.hpp"
 #include "text.hpp"
 
 #include <Teuchos_CommandLineProcessor.hpp>
@@ -38,7 +38,7 @@ const std::map<std::string, std::string>& documentation() {
         {"methods", "methods, by commas: " + method_names()},
         {"lists", "lists Zoltan returns: PARTS (default), EXPORT or ALL"},
         {"steps", "steps of the simulation; the whole failure"},
-        {"every", "steps between rebalances"},
+        {"every", "steps between rebalances; 5"},
         {"repeats", "timed calls of each method; 7"},
         {"seed", "seed of the cloud; 1"},
         {"out", "folder of the results; comparisons/out"},

@@ -1,7 +1,7 @@
 #include "cloud.hpp"
 
 #include "counter_random.hpp"
-#include "failure_mpi.hpp"
+#include "failure.hpp"
 
 #include <algorithm>
 #include <cmath>

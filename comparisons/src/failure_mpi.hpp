@@ -1,5 +1,7 @@
 #pragma once
 
+#include "failure.hpp"
+
 #include <mpi.h>
 
 #include <exception>
@@ -7,12 +9,6 @@
 #include <string>
 
 namespace comparisons {
-
-/// A mistake of the user's or a step that cannot go on, thrown on every rank alike.
-class Failure : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
 
 /// The message of the lowest rank whose own message is not empty, on every rank.
 ///

@@ -1,5 +1,5 @@
 #include "comparison_mpi.hpp"
-#include "failure_mpi.hpp"
+#include "failure.hpp"
 #include "run_record.hpp"
 #include "scene_mpi.hpp"
 #include "workload_mpi.hpp"

@@ -1,6 +1,6 @@
 #include "method.hpp"
 
-#include "failure_mpi.hpp"
+#include "failure.hpp"
 #include "text.hpp"
 
 #include <algorithm>
@@ -13,6 +13,7 @@ namespace {
 using rrcb::CutRule;
 using rrcb::DomainKind;
 using rrcb::Options;
+using rrcb::Refine;
 
 struct Key {
     std::string_view name;
@@ -34,12 +35,26 @@ bool read_cut(Options& options, std::string_view text) {
     return true;
 }
 
+bool read_refine(Options& options, std::string_view text) {
+    if (text != "none" && text != "tolerance" && text != "exact") return false;
+    options.refine = text == "none"    ? Refine::none
+                     : text == "exact" ? Refine::exact
+                                       : Refine::tolerance;
+    return true;
+}
+
 constexpr Key keys[] = {
     {"mesh", "an integer, 1 ... 1024",
      [](Options& o, std::string_view text) {
          return store(text, o.support_mesh, [](int n) { return n >= 1 && n <= 1024; });
      }},
     {"cut", "weighted or midpoint", read_cut},
+    {"refine", "none, tolerance or exact", read_refine},
+    {"tol", "a number, 1 or more",
+     [](Options& o, std::string_view text) {
+         return store(text, o.imbalance_tolerance,
+                      [](double t) { return std::isfinite(t) && t >= 1; });
+     }},
     {"k", "a number above 0",
      [](Options& o, std::string_view text) {
          return store(text, o.sigma_multiplier, [](double k) { return std::isfinite(k) && k > 0; });
@@ -58,17 +73,23 @@ struct Entry {
     std::string_view name;
     std::string_view lb_method;
     std::optional<DomainKind> domain;
+    Refine refine;
     std::vector<std::string_view> keys;
 };
 
 const std::vector<Entry>& entries() {
     static const std::vector<Entry> table = {
-        {"zoltan-rcb", "RCB", {}, {}},
-        {"zoltan-rib", "RIB", {}, {}},
-        {"zoltan-hsfc", "HSFC", {}, {}},
-        {"root-rcb", "RRCB", DomainKind::points, {"cut"}},
-        {"rrcb-sampled", "RRCB", DomainKind::sampled, {"mesh", "cut", "k", "fraction", "seed"}},
-        {"rrcb", "RRCB", DomainKind::analytic, {"mesh", "cut"}},
+        {"zoltan-rcb", "RCB", {}, {}, {}},
+        {"zoltan-rib", "RIB", {}, {}, {}},
+        {"zoltan-hsfc", "HSFC", {}, {}, {}},
+        {"root-rcb", "RRCB", DomainKind::points, Refine::none, {"cut"}},
+        {"rrcb-sampled",
+         "RRCB",
+         DomainKind::sampled,
+         Refine::none,
+         {"mesh", "cut", "k", "fraction", "seed"}},
+        {"rrcb", "RRCB", DomainKind::analytic, Refine::automatic, {"mesh", "cut", "refine", "tol"}},
+        {"rrcb-exact", "RRCB", DomainKind::analytic, Refine::exact, {"mesh"}},
     };
     return table;
 }
@@ -133,6 +154,7 @@ Method read_method(std::string_view text) {
     if (entry.domain) {
         method.options = *entry.domain == DomainKind::sampled ? paper_options() : Options{};
         method.options->domain = *entry.domain;
+        method.options->refine = entry.refine;
     }
     if (bracket == text.npos) return method;
     if (!text.ends_with(']')) {
@@ -171,6 +193,11 @@ ZoltanParameters zoltan_parameters(const Method& method, Lists lists) {
     }
     parameters.emplace_back("RRCB_CUT_RULE",
                             options.cut_rule == CutRule::midpoint ? "MIDPOINT" : "WEIGHTED");
+    const char* const refinements[] = {"AUTO", "NONE", "TOLERANCE", "EXACT"};
+    parameters.emplace_back("RRCB_REFINE", refinements[static_cast<int>(options.refine)]);
+    if (options.imbalance_tolerance != Options{}.imbalance_tolerance) {
+        parameters.emplace_back("IMBALANCE_TOL", write_number(options.imbalance_tolerance));
+    }
     if (options.domain != DomainKind::sampled) return parameters;
     parameters.emplace_back("RRCB_SIGMA_MULTIPLIER", write_number(options.sigma_multiplier));
     parameters.emplace_back("RRCB_SAMPLE_FRACTION", write_number(options.sample_fraction));

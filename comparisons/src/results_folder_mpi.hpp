@@ -19,8 +19,6 @@ class ResultsFolder {
     /// Writes a file; `write` runs on rank 0 alone.
     void write(const std::string& name, const std::function<void(std::ostream&)>& write) const;
 
-    const std::filesystem::path& path() const { return path_; }
-
   private:
     std::filesystem::path path_;
     MPI_Comm comm_;

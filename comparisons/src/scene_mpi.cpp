@@ -38,7 +38,7 @@ int record_interval(int num_steps, std::size_t num_runs, MPI_Comm comm) {
 SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_Comm comm) {
     constexpr int quick_cells = 29;
     constexpr int quick_steps = 40;
-    constexpr int default_every = 10;
+    constexpr int default_every = 5;
     SimulationPlan plan{arguments.quick ? mpm::slope_scene(quick_cells) : mpm::slope_scene()};
     plan.num_steps = arguments.steps > 0 ? arguments.steps
                      : arguments.quick   ? quick_steps

@@ -1,6 +1,6 @@
 #include "zoltan_partitioner_mpi.hpp"
 
-#include "failure_mpi.hpp"
+#include "failure.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -21,6 +21,7 @@ enum class CutRule {
 
 /// How far the estimated cuts are moved by what the ranks really hold.
 enum class Refine {
+    automatic,  ///< tolerance for the analytic domain; none for sampled, the method of the paper
     none,       ///< not at all: the estimate from the statistics stands
     tolerance,  ///< until the measured imbalance is within `imbalance_tolerance`
     exact       ///< to the weighted median: each cut within the weight of one object
@@ -35,7 +36,7 @@ struct Options {
     DomainKind domain = DomainKind::analytic;
     CutRule cut_rule = CutRule::weighted_fraction;
 
-    Refine refine = Refine::tolerance;  ///< needs no points at the root; not used by points
+    Refine refine = Refine::automatic;  ///< no effect on DomainKind::points, CutRule::midpoint
     double imbalance_tolerance = 1.01;  ///< tolerance: heaviest part / mean part to reach, >= 1
 
     double sigma_multiplier = 1.5;  ///< sampled: half-width of a cell's sampling box, in sigmas

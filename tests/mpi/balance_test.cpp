@@ -61,7 +61,6 @@ TEST(Balance, a_finer_mesh_brings_the_sampled_domain_nearer_to_the_points) {
     const Points points = interleaved_points(cloud, 2);
     Options options;
     options.domain = DomainKind::sampled;
-    options.refine = Refine::none;
     options.num_parts = 4;
     const auto imbalance_with = [&](int mesh) {
         options.support_mesh = mesh;

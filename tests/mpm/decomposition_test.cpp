@@ -71,6 +71,16 @@ TEST(Decomposition, balanced_at_every_step_equals_never) {
     expect_same(balanced, run(soft_slope(), MPI_COMM_WORLD));
 }
 
+TEST(Decomposition, may_put_several_ranks_into_one_cell) {
+    std::vector<double> cuts;
+    for (int k = 1; k < size_of(MPI_COMM_WORLD); ++k) cuts.push_back(35.1 + 0.9 * k);
+    const Displacements narrow = run(soft_slope(), MPI_COMM_WORLD, [&](Simulation& simulation) {
+        if (simulation.step_count() == 0)
+            simulation.rebalance([&](Positions, MPI_Comm) { return between_cuts(cuts); });
+    });
+    expect_same(narrow, run(soft_slope(), MPI_COMM_SELF));
+}
+
 TEST(Decomposition, moves_every_point_to_one_rank_and_back) {
     constexpr double far_left = -1e3;
     Simulation simulation(soft_slope(), MPI_COMM_WORLD);

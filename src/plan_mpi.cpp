@@ -27,6 +27,13 @@ int destination_of(Part part, int num_parts, int rank, int num_ranks) {
     return ranks.first + rank % ranks.count;
 }
 
+/// First rank of a part with ranks to share out: those left over go to the parts before the last.
+int first_rank_of(Part part, int num_parts, int num_ranks) {
+    if (part == num_parts) return num_ranks;
+    const int left_over = num_ranks % num_parts;
+    return part * (num_ranks / num_parts) + std::max(0, part + left_over + 1 - num_parts);
+}
+
 void check_parts(std::span<const Part> parts, int num_parts, MPI_Comm comm) {
     const auto valid = [&](Part part) { return part >= 0 && part < num_parts; };
     const bool ok = std::all_of(parts.begin(), parts.end(), valid);
@@ -128,11 +135,8 @@ void list_imports(int senders, MPI_Comm comm, Plan& plan) {
 
 RankRange ranks_of_part(Part part, int num_parts, int num_ranks) {
     if (num_parts < num_ranks) {
-        // Ranks are divided among the parts as parts are among ranks in the other case.
-        const int share = num_ranks / num_parts;
-        const int first_larger = num_parts - num_ranks % num_parts;
-        const int first = part * share + std::max(0, part - first_larger);
-        return {first, part < first_larger ? share : share + 1};
+        const int first = first_rank_of(part, num_parts, num_ranks);
+        return {first, first_rank_of(part + 1, num_parts, num_ranks) - first};
     }
     const int share = num_parts / num_ranks;
     const int first_larger = num_ranks - num_parts % num_ranks;

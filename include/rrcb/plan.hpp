@@ -15,8 +15,11 @@ struct RankRange {
     int count = 1;
 };
 
-/// Ranks of a part: num_parts / num_ranks parts each, the remainder one more each on the last
-/// ranks; with fewer parts than ranks a part spreads over consecutive ranks. Not collective.
+/// Ranks of a part, as Zoltan 13.2 lays them out. Not collective.
+///
+/// num_parts / num_ranks parts each, the remainder one more each on the last ranks; with fewer
+/// parts than ranks a part spreads over consecutive ranks, the ranks left over one more each for
+/// the parts before the last.
 RankRange ranks_of_part(Part part, int num_parts, int num_ranks);
 
 /// Who sends what to whom; entry k of each list on this side describes one point.

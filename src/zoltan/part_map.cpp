@@ -9,30 +9,12 @@
 
 namespace rrcb::zoltan {
 
-namespace {
-
-/// First rank of a part when ranks are shared out to fewer parts: the ranks left over go one each
-/// to the parts before the last one, which is where Zoltan 13.2 puts them.
-int first_rank_of(int part, int num_parts, int num_ranks) {
-    if (part == num_parts) return num_ranks;
-    const int left_over = num_ranks % num_parts;
-    return part * (num_ranks / num_parts) + std::max(0, part + left_over + 1 - num_parts);
-}
-
-}  // namespace
-
 PartMap even_part_map(int num_parts, int num_ranks) {
     PartMap map;
     map.one_each = num_parts == num_ranks;
     map.ranks.reserve(static_cast<std::size_t>(num_parts));
-    for (int part = 0; part < num_parts; ++part) {
-        if (num_parts >= num_ranks) {
-            map.ranks.push_back(ranks_of_part(part, num_parts, num_ranks));
-        } else {
-            const int first = first_rank_of(part, num_parts, num_ranks);
-            map.ranks.push_back({first, first_rank_of(part + 1, num_parts, num_ranks) - first});
-        }
-    }
+    for (int part = 0; part < num_parts; ++part)
+        map.ranks.push_back(ranks_of_part(part, num_parts, num_ranks));
     return map;
 }
 

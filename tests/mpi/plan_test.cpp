@@ -24,12 +24,14 @@ TEST(RanksOfPart, remainder_goes_to_the_last_ranks) {
 }
 
 TEST(RanksOfPart, fewer_parts_than_ranks_spread_over_consecutive_ranks) {
-    // 3 parts on 7 ranks: ranks 0-1, 2-3, 4-6.
+    // 3 parts on 7 ranks: ranks 0-1, 2-4, 5-6; on 4 ranks: 0, 1-2, 3.
     EXPECT_EQ(ranks_of_part(0, 3, 7).first, 0);
     EXPECT_EQ(ranks_of_part(0, 3, 7).count, 2);
     EXPECT_EQ(ranks_of_part(1, 3, 7).first, 2);
-    EXPECT_EQ(ranks_of_part(2, 3, 7).first, 4);
-    EXPECT_EQ(ranks_of_part(2, 3, 7).count, 3);
+    EXPECT_EQ(ranks_of_part(2, 3, 7).first, 5);
+    EXPECT_EQ(ranks_of_part(2, 3, 7).count, 2);
+    EXPECT_EQ(ranks_of_part(1, 3, 4).first, 1);
+    EXPECT_EQ(ranks_of_part(1, 3, 4).count, 2);
 }
 
 TEST(Plan, imports_mirror_exports) {

@@ -6,8 +6,6 @@
 #include <rrcb/balance.hpp>
 
 #include <array>
-#include <cmath>
-#include <limits>
 #include <memory>
 
 namespace comparisons {
@@ -19,13 +17,16 @@ rrcb::Points points_of(mpm::Positions positions) {
     return rrcb::column_points(columns);
 }
 
+mpm::Box plane_box(const rrcb::Box& box) {
+    return {{box.lower[0], box.lower[1]}, {box.upper[0], box.upper[1]}};
+}
+
 mpm::Decomposition decompose(mpm::Positions positions, const rrcb::Options& options,
                              MPI_Comm comm) {
     rrcb::Balance balance = rrcb::balance(points_of(positions), options, comm);
     mpm::Decomposition decomposition;
     for (rrcb::Part part = 0; part < balance.cuts.num_parts; ++part) {
-        const rrcb::Box box = rrcb::box_of(balance.cuts, part);
-        decomposition.boxes.push_back({{box.lower[0], box.lower[1]}, {box.upper[0], box.upper[1]}});
+        decomposition.boxes.push_back(plane_box(rrcb::box_of(balance.cuts, part)));
     }
     decomposition.local_owners = std::move(balance.parts);
     decomposition.owners = [cuts = std::move(balance.cuts)](mpm::Positions at,
@@ -73,17 +74,11 @@ class ZoltanBalancer {
     }
 
     std::vector<mpm::Box> boxes(MPI_Comm comm) const {
-        constexpr double open = std::numeric_limits<double>::max();
-        const auto side = [](double x) {
-            return std::abs(x) < open ? x : std::copysign(INFINITY, x);
-        };
         int num_parts = 0;
         MPI_Comm_size(comm, &num_parts);
         std::vector<mpm::Box> boxes;
         for (int part = 0; part < num_parts; ++part) {
-            const rrcb::Box box = partitioner_->box_of(part);
-            boxes.push_back({{side(box.lower[0]), side(box.lower[1])},
-                             {side(box.upper[0]), side(box.upper[1])}});
+            boxes.push_back(plane_box(partitioner_->box_of(part)));
         }
         return boxes;
     }

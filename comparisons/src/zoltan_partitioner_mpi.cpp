@@ -3,6 +3,7 @@
 #include "failure.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace comparisons {
@@ -107,11 +108,20 @@ rrcb::Part ZoltanPartitioner::part_of(const rrcb::Vector& position) const {
 }
 
 rrcb::Box ZoltanPartitioner::box_of(rrcb::Part part) const {
-    int num_axes = 0;
-    rrcb::Box box;
-    const int code = Zoltan_RCB_Box(zoltan_, part, &num_axes, &box.lower[0], &box.lower[1],
-                                    &box.lower[2], &box.upper[0], &box.upper[1], &box.upper[2]);
-    if (code != ZOLTAN_OK) throw Failure("Zoltan_RCB_Box failed; it needs RCB and KEEP_CUTS=1");
+    constexpr double open = std::numeric_limits<double>::max();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    rrcb::Box box{{-open, -open, -open}, {open, open, open}};
+    int size = 0;
+    MPI_Comm_size(comm_, &size);
+    // Of a single part Zoltan says that its box is the origin.
+    if (size > 1) {
+        int num_axes = 0;
+        const int code = Zoltan_RCB_Box(zoltan_, part, &num_axes, &box.lower[0], &box.lower[1],
+                                        &box.lower[2], &box.upper[0], &box.upper[1], &box.upper[2]);
+        if (code != ZOLTAN_OK) throw Failure("Zoltan_RCB_Box failed; it needs RCB and KEEP_CUTS=1");
+    }
+    std::ranges::replace(box.lower, -open, -infinity);
+    std::ranges::replace(box.upper, open, infinity);
     return box;
 }
 

@@ -46,7 +46,7 @@ class ZoltanPartitioner {
     /// Part of a position by the kept cuts, -1 if Zoltan cannot tell. Not collective.
     rrcb::Part part_of(const rrcb::Vector& position) const;
 
-    /// Box of a part by the kept cuts; open sides are +-DBL_MAX. Throws Failure without KEEP_CUTS.
+    /// Box of a part by the kept cuts; open sides are +-infinity. Throws Failure without KEEP_CUTS.
     /// Not collective.
     rrcb::Box box_of(rrcb::Part part) const;
 

@@ -35,7 +35,7 @@ TEST_F(MeasurementTest, the_plug_in_is_active) {
 
 TEST_F(MeasurementTest, exact_methods_are_exact_with_any_lists) {
     // 1200 points divide evenly by 1, 2, 3 and 4 ranks, and no two share a coordinate.
-    const std::vector<Method> methods = read_methods("zoltan-rcb,zoltan-rib,root-rcb");
+    const std::vector<Method> methods = read_methods("zoltan-rcb,zoltan-rib,root-rcb,rrcb-exact");
     for (const Lists lists : {Lists::parts, Lists::exports, Lists::all}) {
         for (const Measurement& result : run(methods, lists)) {
             EXPECT_EQ(result.error, "") << result.method;

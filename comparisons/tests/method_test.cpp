@@ -1,6 +1,6 @@
 #include "method.hpp"
 
-#include "failure_mpi.hpp"
+#include "failure.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,11 +26,21 @@ TEST(Method, reads_parameters_in_brackets) {
                                        {"RRCB_DOMAIN", "SAMPLED"},
                                        {"RRCB_SUPPORT_MESH", "6"},
                                        {"RRCB_CUT_RULE", "MIDPOINT"},
+                                       {"RRCB_REFINE", "NONE"},
                                        {"RRCB_SIGMA_MULTIPLIER", "2"},
                                        {"RRCB_SAMPLE_FRACTION", "0.25"},
                                        {"RRCB_SEED", "9"}};
     EXPECT_EQ(zoltan_parameters(methods[0], Lists::exports), expected);
     EXPECT_EQ(methods[1].label, "zoltan-rcb");
+}
+
+TEST(Method, reads_how_far_to_refine) {
+    const ZoltanParameters expected = {{"DEBUG_LEVEL", "0"},          {"LB_METHOD", "RRCB"},
+                                       {"RETURN_LISTS", "PARTS"},     {"RRCB_DOMAIN", "ANALYTIC"},
+                                       {"RRCB_CUT_RULE", "WEIGHTED"}, {"RRCB_REFINE", "TOLERANCE"},
+                                       {"IMBALANCE_TOL", "1.001"}};
+    EXPECT_EQ(zoltan_parameters(read_method("rrcb[refine=tolerance,tol=1.001]"), Lists::parts),
+              expected);
 }
 
 TEST(Method, leaves_zoltan_at_its_defaults) {
@@ -43,8 +53,9 @@ TEST(Method, names_what_is_unknown) {
     EXPECT_EQ(
         error_of("zoltan-rcb,magic"),
         "--methods: unknown method 'magic'; choose from: zoltan-rcb, zoltan-rib, zoltan-hsfc, "
-        "root-rcb, rrcb-sampled, rrcb");
-    EXPECT_EQ(error_of("rrcb[k=2]"), "--methods: rrcb has no parameter 'k'; it takes mesh, cut");
+        "root-rcb, rrcb-sampled, rrcb, rrcb-exact");
+    EXPECT_EQ(error_of("rrcb[k=2]"),
+              "--methods: rrcb has no parameter 'k'; it takes mesh, cut, refine, tol");
     EXPECT_EQ(error_of("zoltan-rcb[mesh=2]"),
               "--methods: zoltan-rcb has no parameter 'mesh'; it takes none");
 }

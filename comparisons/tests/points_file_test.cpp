@@ -1,6 +1,6 @@
 #include "points_file.hpp"
 
-#include "failure_mpi.hpp"
+#include "failure.hpp"
 
 #include <gtest/gtest.h>
 

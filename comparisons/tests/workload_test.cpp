@@ -1,4 +1,4 @@
-#include "failure_mpi.hpp"
+#include "failure.hpp"
 #include "hilbert.hpp"
 #include "workload_mpi.hpp"
 

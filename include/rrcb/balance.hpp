@@ -41,4 +41,11 @@ struct Balance {
 /// weights, arrays of inconsistent length, options out of range or different between ranks.
 Balance balance(const Points& points, const Options& options, MPI_Comm comm);
 
+/// The same, searched from the cuts of an earlier call in place of statistics.
+///
+/// Collective over `comm`. For points that moved little since: no cells are gathered, and the axes
+/// of `previous` stay. `previous` must be the same on every rank and have the dimension and number
+/// of parts asked for. With Refine::none the cuts stay as they are.
+Balance balance(const Points& points, const Options& options, MPI_Comm comm, const Cuts& previous);
+
 }  // namespace rrcb

@@ -40,7 +40,8 @@ Number number(const std::string& option, const std::string& text, Number least) 
 ///
 /// Teuchos tells of some errors on rank 0 only; the code it returns is the same on all ranks.
 bool parse(int argc, char** argv, Arguments& arguments) {
-    std::string every = "10", end_time = "8", cells = "116", cohesion = "10e3";
+    std::string every = "10", end_time = "8", cohesion = "10e3";
+    std::string cells = std::to_string(mpm::paper_slope_cells);
     Teuchos::CommandLineProcessor parser(false, true);
     parser.setDocString("A slope that is too steep fails and runs out.");
     parser.setOption("balancer", &arguments.balancer, "none (equal slabs) or rrcb");

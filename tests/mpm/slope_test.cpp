@@ -52,6 +52,8 @@ TEST(Scene, is_refused_with_the_reason) {
     scene.elastic.poissons_ratio = 0.5;
     EXPECT_THROW(Simulation(scene, MPI_COMM_WORLD), std::invalid_argument);
     scene = coarse_slope();
+    scene.bodies.front().contains = [](double, double) { return false; };
+    EXPECT_THROW(Simulation(scene, MPI_COMM_WORLD), std::invalid_argument);
     scene.bodies.clear();
     EXPECT_THROW(Simulation(scene, MPI_COMM_WORLD), std::invalid_argument);
 }

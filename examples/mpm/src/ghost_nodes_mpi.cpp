@@ -17,14 +17,6 @@ void visit_rows(const GridPatch& patch, const NodeRange& range, Visit visit) {
         visit(patch.index(range.first[0], j), static_cast<std::size_t>(range.count[0]));
 }
 
-void add(const Node& from, Node& to) {
-    to.mass += from.mass;
-    for (std::size_t a = 0; a < 2; ++a) {
-        to.momentum[a] += from.momentum[a];
-        to.force[a] += from.force[a];
-    }
-}
-
 void add_range(const std::vector<Node>& from, const NodeRange& range, GridPatch& patch) {
     const Node* node = from.data();
     visit_rows(patch, range, [&](std::size_t first, std::size_t length) {

@@ -29,8 +29,8 @@ std::vector<Message> pack(const Particles& particles, const Leavers& leavers,
     return messages;
 }
 
-/// Ranks whose entry is not zero, but this one's.
-std::vector<int> others_with(std::span<const int> counts) {
+/// Ranks whose entry is not zero.
+std::vector<int> ranks_with(std::span<const int> counts) {
     std::vector<int> ranks;
     for (std::size_t rank = 0; rank < counts.size(); ++rank)
         if (counts[rank] > 0) ranks.push_back(static_cast<int>(rank));
@@ -47,7 +47,7 @@ Partners find_partners(const Leavers& leavers, MPI_Comm comm) {
     std::vector<int> outgoing(static_cast<std::size_t>(num_ranks)), incoming(outgoing.size());
     for (const int owner : leavers.owners) outgoing[static_cast<std::size_t>(owner)] = 1;
     MPI_Alltoall(outgoing.data(), 1, MPI_INT, incoming.data(), 1, MPI_INT, comm);
-    return {others_with(outgoing), others_with(incoming)};
+    return {ranks_with(outgoing), ranks_with(incoming)};
 }
 
 std::vector<double> receive(int sender, MPI_Comm comm) {

@@ -50,14 +50,6 @@ CellSums sum_run(const Source& from, const CellRun& run, double inverse_spacing)
     return sums;
 }
 
-void add(const Node& from, Node& to) {
-    to.mass += from.mass;
-    for (std::size_t a = 0; a < 2; ++a) {
-        to.momentum[a] += from.momentum[a];
-        to.force[a] += from.force[a];
-    }
-}
-
 }  // namespace
 
 void p2g(Particles& particles, const MotionColumns& motion, const StressColumns& stress,

@@ -32,6 +32,15 @@ void validate(const Scene& scene) {
     require(scene.elastic.youngs_modulus > 0, "scene: Young's modulus must be positive");
     require(scene.elastic.poissons_ratio > -1 && scene.elastic.poissons_ratio < 0.5,
             "scene: Poisson's ratio must lie between -1 and 0.5");
+    if (scene.mohr_coulomb) {
+        const MohrCoulomb& strength = *scene.mohr_coulomb;
+        require(strength.cohesion >= 0, "scene: the cohesion must not be negative");
+        require(strength.friction_angle >= 0 && strength.friction_angle < 90,
+                "scene: the friction angle must lie between 0 and 90 degrees");
+        require(strength.tension_cut_off >= 0, "scene: the tension cut-off must not be negative");
+    }
+    require(!scene.damping || scene.damping->rate >= 0,
+            "scene: the rate of damping must not be negative");
     require(scene.flip_fraction >= 0 && scene.flip_fraction <= 1,
             "scene: the FLIP fraction must lie in 0 ... 1");
     require(scene.courant_number > 0 && scene.courant_number <= 1,

@@ -58,7 +58,7 @@ double full_cell_mass(const Scene& scene, const Body& body) {
 }  // namespace
 
 struct Simulation::State {
-    State(const Scene& scene, MPI_Comm comm);
+    State(const Scene& scene, const Extent& extent, MPI_Comm comm);
     ~State() { MPI_Comm_free(&comm); }
 
     Positions positions() const { return {particles[motion.x], particles[motion.y]}; }
@@ -90,7 +90,7 @@ struct Simulation::State {
     double time = 0, time_step = 0, max_speed = 0;
 };
 
-Simulation::State::State(const Scene& the_scene, MPI_Comm user_comm)
+Simulation::State::State(const Scene& the_scene, const Extent& extent, MPI_Comm user_comm)
     : scene(the_scene),
       comm(duplicate(user_comm)),
       effects(build_effects(scene, particles)),
@@ -98,7 +98,6 @@ Simulation::State::State(const Scene& the_scene, MPI_Comm user_comm)
       least_mass(least_mass_fraction * max_over_bodies(scene, full_cell_mass)),
       ownership(scene.grid, comm) {
     patch.shape = scene.grid;
-    const Extent extent = extent_of(scene);
     num_points = extent.num_points;
     adopt(slabs(extent.box, size_of(comm)));
     place_points(scene, decomposition, rank_of(comm), motion, particles);
@@ -161,7 +160,10 @@ void Simulation::State::take_in(std::size_t num_arrived) {
 
 Simulation::Simulation(const Scene& scene, MPI_Comm comm) {
     validate(scene);
-    state_ = std::make_unique<State>(scene, comm);
+    const Extent extent = extent_of(scene);
+    if (extent.num_points == 0)
+        throw std::invalid_argument("scene: no body holds a point of the grid's lattice");
+    state_ = std::make_unique<State>(scene, extent, comm);
 }
 
 Simulation::~Simulation() = default;

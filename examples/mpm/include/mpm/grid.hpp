@@ -16,6 +16,14 @@ struct Node {
     Vector force{};
 };
 
+inline void add(const Node& from, Node& to) {
+    to.mass += from.mass;
+    for (std::size_t a = 0; a < 2; ++a) {
+        to.momentum[a] += from.momentum[a];
+        to.force[a] += from.force[a];
+    }
+}
+
 /// What the points read from a node.
 struct NodeMotion {
     Vector velocity{};         ///< at the end of the step

@@ -6,6 +6,7 @@
 #include <mpm/slope.hpp>
 
 #include <iostream>
+#include <memory>
 
 namespace comparisons {
 
@@ -60,6 +61,21 @@ Workload snapshot(const std::string& when, const mpm::Simulation& simulation) {
     return workload;
 }
 
+void take_snapshots(std::vector<Workload>& snapshots, const SimulationPlan& plan, int steps_done,
+                    const mpm::Simulation& simulation) {
+    if (steps_done == 0) snapshots.push_back(snapshot("start", simulation));
+    if (steps_done == plan.num_steps / 2) snapshots.push_back(snapshot("middle", simulation));
+    if (steps_done == plan.num_steps) snapshots.push_back(snapshot("end", simulation));
+}
+
+/// Turns are long enough that each simulation finds its points in the cache again.
+void run_in_turns(std::span<const std::unique_ptr<TimedSimulation>> simulations, int num_steps) {
+    constexpr int turn = 50;
+    for (int done = 0; done < num_steps; done += turn) {
+        for (const auto& simulation : simulations) simulation->advance(turn);
+    }
+}
+
 void print_and_write(const SimulationPlan& plan, std::span<const SimulationRun> runs,
                      const ResultsFolder& folder, MPI_Comm comm) {
     int rank = 0;
@@ -79,22 +95,24 @@ SceneRuns run_scene(const Arguments& arguments, const ResultsFolder& folder, Pro
     const std::vector<Contender> all = contenders(arguments.methods);
     const SimulationPlan plan = plan_scene(arguments, all.size(), comm);
     SceneRuns scene;
+    progress.start("simulations", static_cast<int>(all.size()) * plan.num_steps);
+    const auto observe = [&](int steps_done, const mpm::Simulation&) {
+        if (steps_done > 0) progress.advance();
+    };
+    const auto observe_slabs = [&](int steps_done, const mpm::Simulation& simulation) {
+        observe(steps_done, simulation);
+        take_snapshots(scene.snapshots, plan, steps_done, simulation);
+    };
+    std::vector<std::unique_ptr<TimedSimulation>> simulations;
     for (const Contender& contender : all) {
-        progress.start("simulation: " + contender.label, plan.num_steps);
-        const bool is_first = scene.runs.empty();
-        const auto observe = [&](int steps_done, const mpm::Simulation& simulation) {
-            if (steps_done > 0) progress.advance();
-            if (!is_first) return;
-            if (steps_done == 0) scene.snapshots.push_back(snapshot("start", simulation));
-            if (steps_done == plan.num_steps / 2) {
-                scene.snapshots.push_back(snapshot("middle", simulation));
-            }
-            if (steps_done == plan.num_steps) {
-                scene.snapshots.push_back(snapshot("end", simulation));
-            }
-        };
-        scene.runs.push_back(simulate(plan, contender.balancer, observe, comm));
-        scene.runs.back().method = contender.label;
+        const Observer observer = contender.balancer ? Observer(observe) : Observer(observe_slabs);
+        simulations.push_back(
+            std::make_unique<TimedSimulation>(plan, contender.balancer, observer, comm));
+    }
+    run_in_turns(simulations, plan.num_steps);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        scene.runs.push_back(simulations[i]->result());
+        scene.runs.back().method = all[i].label;
     }
     print_and_write(plan, scene.runs, folder, comm);
     return scene;

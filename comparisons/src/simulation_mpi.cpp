@@ -28,16 +28,14 @@ LoadRecord record_load(const mpm::Simulation& simulation, MPI_Comm comm) {
     return record;
 }
 
-void run_steps(SimulationRun& run, mpm::Simulation& simulation, const SimulationPlan& plan,
-               const std::optional<mpm::Balancer>& balancer, const Observer& observe,
-               MPI_Comm comm) {
-    for (int step = 0; step < plan.num_steps; ++step) {
-        if (balancer && step % plan.every == 0) {
-            run.balance_s += timed([&] { simulation.rebalance(*balancer); }, comm);
-        }
-        if (step % plan.record_every == 0) run.history.push_back(record_load(simulation, comm));
-        run.step_s += timed([&] { simulation.step(); }, comm);
-        observe(step + 1, simulation);
+/// Runs `action` unless an earlier one has failed; notes a failure, which all ranks see alike.
+template <typename Action>
+void unless_failed(SimulationRun& run, Action&& action) {
+    if (!run.error.empty()) return;
+    try {
+        action();
+    } catch (const std::runtime_error& error) {
+        run.error = error.what();
     }
 }
 
@@ -72,19 +70,40 @@ void note_imbalance(SimulationRun& run) {
 
 }  // namespace
 
-SimulationRun simulate(const SimulationPlan& plan, const std::optional<mpm::Balancer>& balancer,
-                       const Observer& observe, MPI_Comm comm) {
-    SimulationRun run;
-    try {
-        mpm::Simulation simulation(plan.scene, comm);
-        run.num_points = simulation.num_points();
-        observe(0, simulation);
-        run_steps(run, simulation, plan, balancer, observe, comm);
-        note_state(run, simulation, comm);
-        note_imbalance(run);
-    } catch (const std::runtime_error& error) {
-        run.error = error.what();
+TimedSimulation::TimedSimulation(const SimulationPlan& plan, std::optional<mpm::Balancer> balancer,
+                                 Observer observe, MPI_Comm comm)
+    : plan_(plan), balancer_(std::move(balancer)), observe_(std::move(observe)), comm_(comm) {
+    unless_failed(run_, [&] {
+        simulation_ = std::make_unique<mpm::Simulation>(plan.scene, comm);
+        run_.num_points = simulation_->num_points();
+        observe_(0, *simulation_);
+    });
+}
+
+void TimedSimulation::advance(int num_steps) {
+    const int end = std::min(plan_.num_steps, steps_done_ + num_steps);
+    unless_failed(run_, [&] {
+        while (steps_done_ < end) advance_one();
+    });
+}
+
+void TimedSimulation::advance_one() {
+    if (balancer_ && steps_done_ % plan_.every == 0) {
+        run_.balance_s += timed([&] { simulation_->rebalance(*balancer_); }, comm_);
     }
+    if (steps_done_ % plan_.record_every == 0) {
+        run_.history.push_back(record_load(*simulation_, comm_));
+    }
+    run_.step_s += timed([&] { simulation_->step(); }, comm_);
+    observe_(++steps_done_, *simulation_);
+}
+
+SimulationRun TimedSimulation::result() const {
+    SimulationRun run = run_;
+    unless_failed(run, [&] {
+        note_state(run, *simulation_, comm_);
+        note_imbalance(run);
+    });
     return run;
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,10 +46,33 @@ struct SimulationRun {
 /// Called before the first step and after every step.
 using Observer = std::function<void(int steps_done, const mpm::Simulation&)>;
 
-/// Runs the scene, rebalanced before step 0, every, 2 every, ...; without a balancer the slabs
-/// of the start stay. Collective over `comm`.
-SimulationRun simulate(const SimulationPlan& plan, const std::optional<mpm::Balancer>& balancer,
-                       const Observer& observe, MPI_Comm comm);
+/// A scene under one method, to be run in turns with others so that all meet the same noise.
+///
+/// Rebalanced before step 0, every, 2 every, ...; without a balancer the slabs of the start stay.
+/// All functions are collective over `comm`; a simulation that fails notes why and stands still.
+/// The plan must outlive it.
+class TimedSimulation {
+  public:
+    TimedSimulation(const SimulationPlan& plan, std::optional<mpm::Balancer> balancer,
+                    Observer observe, MPI_Comm comm);
+
+    /// Advances by `num_steps`, at most to the end of the plan.
+    void advance(int num_steps);
+
+    /// What it has cost so far.
+    SimulationRun result() const;
+
+  private:
+    void advance_one();
+
+    const SimulationPlan& plan_;
+    std::optional<mpm::Balancer> balancer_;
+    Observer observe_;
+    MPI_Comm comm_;
+    std::unique_ptr<mpm::Simulation> simulation_;
+    SimulationRun run_;
+    int steps_done_ = 0;
+};
 
 /// Steps of the scene's time with the time step of its start. Collective over `comm`.
 int steps_to_end(const mpm::Scene& scene, MPI_Comm comm);

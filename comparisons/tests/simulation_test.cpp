@@ -17,8 +17,11 @@ SimulationRun run(const std::optional<mpm::Balancer>& balancer) {
     Zoltan_Initialize(0, nullptr, &version);
     const SimulationPlan plan{
         .scene = mpm::slope_scene(22), .num_steps = 6, .every = 2, .record_every = 2};
-    return simulate(
+    TimedSimulation simulation(
         plan, balancer, [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
+    simulation.advance(4);
+    simulation.advance(4);
+    return simulation.result();
 }
 
 int num_ranks() {

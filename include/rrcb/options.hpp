@@ -1,5 +1,7 @@
 #pragma once
 
+#include <rrcb/stages.hpp>
+
 #include <cstdint>
 #include <vector>
 
@@ -39,14 +41,16 @@ struct Options {
     Refine refine = Refine::automatic;  ///< no effect on DomainKind::points, CutRule::midpoint
     double imbalance_tolerance = 1.01;  ///< tolerance: heaviest part / mean part to reach, >= 1
 
-    std::vector<int> grouped_axes;  ///< cross all of the first axis' cuts, then the next axis', ...;
-                                    ///< empty: each box across its own longest axis
-    std::vector<int> cut_axes;      ///< axis of each cut in the order of Cuts::tree; empty: free
-    bool plain_cuts = false;        ///< planes only: points on a plane stay together
+    std::vector<int> grouped_axes;  ///< cross all of the first axis' cuts, then the next axis',
+                                    ///< ...; empty: each box across its own longest axis
+    std::vector<int> cut_axes;  ///< axis of each cut in the order of Cuts::tree; empty: free
+    bool plain_cuts = false;    ///< planes only: points on a plane stay together
 
     double sigma_multiplier = 1.5;  ///< sampled: half-width of a cell's sampling box, in sigmas
     double sample_fraction = 1.0;   ///< sampled: points drawn per real point, in (0, 1]
     std::uint64_t seed = 1;         ///< sampled: the same seed gives the same points
+
+    StageObserver* observer = nullptr;  ///< of this rank alone, not compared; borrowed for the call
 };
 
 }  // namespace rrcb

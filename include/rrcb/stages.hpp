@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+
+namespace rrcb {
+
+/// What a call of `balance` goes through, in this order.
+enum class Stage {
+    moments,     ///< local: what this rank contributes, in place of its points
+    gather,      ///< the contributions travel to the root
+    bisection,   ///< local to the root, and seen there alone
+    broadcast,   ///< the cuts travel to every rank, which includes the wait for the root
+    refinement,  ///< the cuts are moved by what the ranks hold, and the points assigned by them
+    assignment   ///< local: the points assigned by the estimated cuts, where none are refined
+};
+
+inline constexpr std::array stages = {Stage::moments,   Stage::gather,     Stage::bisection,
+                                      Stage::broadcast, Stage::refinement, Stage::assignment};
+
+/// "moments", "gather", ...
+const char* name_of(Stage stage);
+
+/// Told, on its own rank, when a stage of `balance` begins and when it ends.
+///
+/// Every stage that begins also ends, in failing calls too; each does so at most once a call. The
+/// functions may not communicate over the communicator of the call, nor throw, since no rank may
+/// fail alone.
+class StageObserver {
+  public:
+    virtual ~StageObserver() = default;
+    virtual void begin(Stage stage) noexcept = 0;
+    virtual void end(Stage stage) noexcept = 0;
+};
+
+}  // namespace rrcb

@@ -4,6 +4,7 @@
 #include "fragments.hpp"
 #include "mpi/communicator.hpp"
 #include "refinement_mpi.hpp"
+#include "stage_scope.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/bisection.hpp>
@@ -127,9 +128,11 @@ void finish(Decision& decision, const Options& options, const Points& points, So
             MPI_Comm comm, Balance& result) {
     result.report = decision.report;
     result.cuts = std::move(decision.bisection.cuts);
+    const bool refined = is_refined(options) && decision.report.num_points > 0;
+    const StageScope stage(options.observer, refined ? Stage::refinement : Stage::assignment);
     if (options.domain == DomainKind::points) {
         assign(result.cuts, points, result.parts);
-    } else if (!is_refined(options) || decision.report.num_points == 0) {
+    } else if (!refined) {
         assign(result.cuts, sorted, result.parts);
     } else {
         if (decision.report.all_weights_zero) sorted.weights.clear();
@@ -153,6 +156,7 @@ Balance balance(const Points& points, const Options& given, MPI_Comm user) {
     Balance result;
     Contribution mine;
     Failure failure = attempt([&] {
+        const StageScope stage(given.observer, Stage::moments);
         options = complete(given, mpi::size_of(comm));
         check_points(points);
         check_options(options, points.dimension);
@@ -161,16 +165,24 @@ Balance balance(const Points& points, const Options& given, MPI_Comm user) {
     });
     if (failure.failed) mine = {};
     mine.header.failed = failure.failed ? 1 + static_cast<std::int32_t>(failure.code) : 0;
-    const std::vector<Header> headers = gather_headers(mine.header, comm);
-    agree(headers, failure, comm);
-
-    const std::vector<double> records = gather_records(mine.records, headers, comm);
+    std::vector<Header> headers;
+    std::vector<double> records;
+    {
+        const StageScope stage(given.observer, Stage::gather);
+        headers = gather_headers(mine.header, comm);
+        agree(headers, failure, comm);
+        records = gather_records(mine.records, headers, comm);
+    }
     Decision decision;
     if (mpi::rank_of(comm) == root) {
+        const StageScope stage(given.observer, Stage::bisection);
         failure = decide(headers, records, options, decision);
         if (failure.failed) decision.verdict = {root, static_cast<std::int32_t>(failure.code)};
     }
-    broadcast(decision, points.dimension, options, comm);
+    {
+        const StageScope stage(given.observer, Stage::broadcast);
+        broadcast(decision, points.dimension, options, comm);
+    }
     if (decision.verdict.failing_rank >= 0) fail_together(decision.verdict, failure, comm);
 
     finish(decision, options, points, mine.points, comm, result);

@@ -1,3 +1,4 @@
+#include "axis_choice.hpp"
 #include "brackets.hpp"
 #include "weighted_quantile.hpp"
 
@@ -30,20 +31,6 @@ Box extent_of(const StatisticalDomain& domain) {
     return box;
 }
 
-int longest_axis(const Box& box, int dimension) {
-    int longest = 0;
-    double half_extent = -1;
-    for (int axis = 0; axis < dimension; ++axis) {
-        const auto a = static_cast<std::size_t>(axis);
-        const double candidate = box.upper[a] / 2 - box.lower[a] / 2;
-        if (candidate > half_extent) {
-            half_extent = candidate;
-            longest = axis;
-        }
-    }
-    return longest;
-}
-
 Cut plane(int axis, double value) {
     Cut cut{axis, {}};
     cut.at.fill(-infinity);
@@ -51,31 +38,43 @@ Cut plane(int axis, double value) {
     return cut;
 }
 
+struct Task {
+    const Options& options;
+    AxisChoice axis_of;
+    bool with_brackets;
+    Bisection result;
+};
+
 /// The cut that leaves the share `below` (0 ... 1) of the domain's weight or extent below it.
-Cut choose_cut(const StatisticalDomain& domain, double below, CutRule rule) {
+Cut choose_cut(const StatisticalDomain& domain, double below, int depth, const Task& task) {
     const double weight = weight_of(domain);
     const Box box = extent_of(domain);
-    const int axis = domain.patches.empty() ? 0 : longest_axis(box, domain.dimension);
+    const int axis = task.axis_of(task.result.cuts.tree.size(), depth, box);
     const auto a = static_cast<std::size_t>(axis);
     if (below <= 0 || !(weight > 0)) return plane(axis, -infinity);
     if (below >= 1) return plane(axis, infinity);
-    if (rule == CutRule::midpoint) return plane(axis, std::lerp(box.lower[a], box.upper[a], below));
-    return weighted_quantile(domain, axis, below * weight);
+    if (task.options.cut_rule == CutRule::midpoint)
+        return plane(axis, std::lerp(box.lower[a], box.upper[a], below));
+    return weighted_quantile(domain, axis, below * weight, task.options.plain_cuts);
 }
 
-/// Where the cut may lie when the domain is a little wrong: by more where it has fewer cells left.
+/// Where the cut may lie when the domain is a little wrong.
 Bracket bracket_of(const StatisticalDomain& domain, const Cut& cut, double below, int depth) {
-    const double margin = std::min(0.25, 0.01 * std::exp2(depth / 2.0));
     const double weight = weight_of(domain);
     const auto axis = static_cast<std::size_t>(cut.axis);
     const Box box = extent_of(domain);
     const auto quantile = [&](double share, double end) {
         if (!(share > 0 && share < 1 && weight > 0)) return end;
-        return weighted_quantile(domain, cut.axis, share * weight).at[axis];
+        return weighted_quantile(domain, cut.axis, share * weight, true).at[axis];
     };
-    return {std::min(quantile(below - margin, box.lower[axis]), cut.at[axis]),
-            std::max(quantile(below + margin, box.upper[axis]),
-                     std::nextafter(cut.at[axis], infinity))};
+    if (domain.patches.empty()) return {};
+    const double margin = expected_error(depth);
+    const double value = std::clamp(cut.at[axis], box.lower[axis], box.upper[axis]);
+    const double lower =
+        std::clamp(quantile(below - margin, box.lower[axis]), box.lower[axis], value);
+    const double upper =
+        std::clamp(quantile(below + margin, box.upper[axis]), value, box.upper[axis]);
+    return {lower, std::nextafter(upper, infinity)};
 }
 
 /// The axis that tells on which side of the cut a patch lies: later ones only where it is tied.
@@ -117,12 +116,6 @@ Halves split(const StatisticalDomain& domain, const Cut& cut) {
     return halves;
 }
 
-struct Task {
-    CutRule rule;
-    bool brackets;
-    Bisection result;
-};
-
 void bisect_node(StatisticalDomain domain, std::span<const double> sizes, int depth, Task& task) {
     if (sizes.size() == 1) {
         task.result.part_weights.push_back(weight_of(domain));
@@ -130,9 +123,9 @@ void bisect_node(StatisticalDomain domain, std::span<const double> sizes, int de
     }
     const auto num_below = static_cast<std::size_t>(lower_parts(static_cast<int>(sizes.size())));
     const double below = share_below(sizes);
-    const Cut cut = choose_cut(domain, below, task.rule);
+    const Cut cut = choose_cut(domain, below, depth, task);
     task.result.cuts.tree.push_back(cut);
-    if (task.brackets) task.result.brackets.push_back(bracket_of(domain, cut, below, depth));
+    if (task.with_brackets) task.result.brackets.push_back(bracket_of(domain, cut, below, depth));
     Halves halves = split(domain, cut);
     domain.patches = {};
     bisect_node(std::move(halves.lower), sizes.first(num_below), depth + 1, task);
@@ -148,19 +141,26 @@ double share_below(std::span<const double> sizes) {
     return all > 0 ? below / all : 0;
 }
 
-Bisection bisect(StatisticalDomain domain, std::span<const double> part_sizes, CutRule rule,
-                 bool with_brackets) {
-    Task task{rule, with_brackets, {}};
+double expected_error(int depth) {
+    return std::min(0.25, 0.01 * std::exp2(depth / 2.0));
+}
+
+Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets) {
+    Task task{options, {options, extent_of(domain), domain.dimension}, with_brackets, {}};
     task.result.cuts.dimension = domain.dimension;
-    task.result.cuts.num_parts = static_cast<int>(part_sizes.size());
-    bisect_node(std::move(domain), part_sizes, 0, task);
+    task.result.cuts.num_parts = options.num_parts;
+    bisect_node(std::move(domain), options.part_sizes, 0, task);
     return std::move(task.result);
 }
 
 Bisection bisect(StatisticalDomain domain, int num_parts, std::span<const double> part_sizes,
                  CutRule rule) {
-    const std::vector<double> equal(static_cast<std::size_t>(num_parts), 1.0);
-    return bisect(std::move(domain), part_sizes.empty() ? equal : part_sizes, rule, false);
+    Options options;
+    options.num_parts = num_parts;
+    options.part_sizes.assign(part_sizes.begin(), part_sizes.end());
+    if (part_sizes.empty()) options.part_sizes.assign(static_cast<std::size_t>(num_parts), 1.0);
+    options.cut_rule = rule;
+    return bisect(std::move(domain), options, false);
 }
 
 }  // namespace rrcb

@@ -7,8 +7,11 @@ namespace rrcb {
 /// Share of a node's weight that belongs below its cut, from the relative sizes of its parts.
 double share_below(std::span<const double> sizes);
 
-/// As the public function, with one size per part; on request with the brackets of the cuts.
-Bisection bisect(StatisticalDomain domain, std::span<const double> part_sizes, CutRule rule,
-                 bool with_brackets);
+/// Share of a node's weight by which an estimated cut is expected to be off: more where a node,
+/// `depth` cuts below the root, has fewer cells left.
+double expected_error(int depth);
+
+/// As the public function, by complete options; on request with the brackets of the cuts.
+Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets);
 
 }  // namespace rrcb

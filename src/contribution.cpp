@@ -28,6 +28,23 @@ std::uint64_t hash_of(std::span<const double> values) {
     return hash;
 }
 
+std::vector<double> axis_options(const Options& options) {
+    std::vector<double> values{options.plain_cuts ? 1.0 : 0.0};
+    values.insert(values.end(), options.grouped_axes.begin(), options.grouped_axes.end());
+    values.push_back(-1);
+    values.insert(values.end(), options.cut_axes.begin(), options.cut_axes.end());
+    return values;
+}
+
+std::vector<double> values_of(const Cuts& cuts) {
+    std::vector<double> values;
+    for (const Cut& cut : cuts.tree) {
+        values.push_back(cut.axis);
+        values.insert(values.end(), cut.at.begin(), cut.at.end());
+    }
+    return values;
+}
+
 std::int64_t moments_length(int dimension) {
     return 3 + 2 * dimension;
 }
@@ -113,7 +130,7 @@ std::vector<CellMoments> all_cells(std::span<const Header> headers,
 
 }  // namespace
 
-Contribution contribute(const Points& points, const Options& options) {
+Contribution contribute(const Points& points, const Options& options, const Cuts* previous) {
     Contribution mine;
     Header& header = mine.header;
     header.dimension = points.dimension;
@@ -128,6 +145,8 @@ Contribution contribute(const Points& points, const Options& options) {
     header.sample_fraction = options.sample_fraction;
     header.seed = options.seed;
     header.part_sizes_hash = hash_of(options.part_sizes);
+    header.axes_hash = hash_of(axis_options(options));
+    header.previous_hash = previous ? hash_of(values_of(*previous)) : 0;
     header.num_points = static_cast<std::int64_t>(points.count);
     header.weight = points.weights.empty()
                         ? static_cast<double>(points.count)
@@ -141,8 +160,9 @@ Contribution contribute(const Points& points, const Options& options) {
         const SupportMesh mesh =
             make_support_mesh(header.box, points.dimension, header.cells_per_axis);
         mine.points = sort_by_cell(points, mesh);
-        for (const CellMoments& cell : cell_moments(mine.points))
-            append_moments(cell, points.dimension, mine.records);
+        if (previous == nullptr)
+            for (const CellMoments& cell : cell_moments(mine.points))
+                append_moments(cell, points.dimension, mine.records);
     }
     header.num_records = static_cast<std::int64_t>(mine.records.size()) / header.record_length;
     return mine;
@@ -162,6 +182,9 @@ std::optional<std::string> difference_between(std::span<const Header> headers) {
         if (other.cells_per_axis != root.cells_per_axis) return differs("support_mesh");
         if (other.domain != root.domain) return differs("domain");
         if (other.cut_rule != root.cut_rule) return differs("cut_rule");
+        if (other.axes_hash != root.axes_hash)
+            return differs("one of grouped_axes, cut_axes, plain_cuts");
+        if (other.previous_hash != root.previous_hash) return differs("previous");
         if (other.refine != root.refine) return differs("refine");
         if (other.imbalance_tolerance != root.imbalance_tolerance)
             return differs("imbalance_tolerance");

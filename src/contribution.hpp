@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rrcb/cuts.hpp>
 #include <rrcb/options.hpp>
 #include <rrcb/points.hpp>
 #include <rrcb/sorted_points.hpp>
@@ -28,6 +29,8 @@ struct Header {
     double sample_fraction = 0;
     std::uint64_t seed = 0;
     std::uint64_t part_sizes_hash = 0;
+    std::uint64_t axes_hash = 0;      ///< of what the options say of axes and planes
+    std::uint64_t previous_hash = 0;  ///< of the cuts of an earlier call; 0 without
     std::int64_t num_points = 0;
     std::int64_t num_records = 0;
     std::int64_t record_length = 0;  ///< doubles per record
@@ -48,8 +51,11 @@ void check_options(const Options& options, int dimension);
 /// Throws Error naming the first object and how many there are when points are unusable.
 void check_points(const Points& points);
 
-/// Reduces checked points to what the root needs of them.
-Contribution contribute(const Points& points, const Options& options);
+/// Throws Error when the cuts of an earlier call don't fit these options.
+void check_previous(const Cuts& previous, const Options& options, int dimension);
+
+/// Reduces checked points to what the root needs of them: with earlier cuts no records at all.
+Contribution contribute(const Points& points, const Options& options, const Cuts* previous);
 
 /// Name of the first option that differs from the root's, with the rank; none when all agree.
 std::optional<std::string> difference_between(std::span<const Header> headers);

@@ -17,6 +17,12 @@ std::size_t axis_index(const CutSearch& search, int tied) {
     return static_cast<std::size_t>(tied <= search.cut.axis ? tied - 1 : tied);
 }
 
+/// A bracket that takes in the largest double ends at infinity; its bins are as wide all the same.
+double bin_width(const CutSearch& search, int num_bins) {
+    const double upper = std::min(search.upper, std::numeric_limits<double>::max());
+    return upper / num_bins - search.lower / num_bins;
+}
+
 void finish(CutSearch& search, double value, double below) {
     search.cut.at[axis_index(search, search.tied)] = value;
     search.stage = CutSearch::done;
@@ -26,9 +32,9 @@ void finish(CutSearch& search, double value, double below) {
 /// Goes on along the next axis where all candidates share their coordinate on this one; ends where
 /// they share all of them, with the lot on the side that is nearer to the target.
 void break_tie(CutSearch& search, CutTarget& target, std::span<const double> extents,
-               std::span<const double> weights, int dimension) {
+               std::span<const double> weights) {
     const double value = extents[max_dimension + axis_index(search, search.tied)];
-    if (search.tied + 1 < dimension) {
+    if (search.tied + 1 < search.num_axes) {
         search.cut.at[axis_index(search, search.tied++)] = value;
         const std::size_t axis = axis_index(search, search.tied);
         search.lower = -extents[axis];
@@ -101,14 +107,14 @@ int current_axis(const CutSearch& search) {
 }
 
 double bin_edge(const CutSearch& search, int num_bins, int k) {
-    const double step = search.upper / num_bins - search.lower / num_bins;
+    const double step = bin_width(search, num_bins);
     return k == num_bins ? search.upper : std::min(search.lower + k * step, search.upper);
 }
 
 std::int32_t slot_of(const CutSearch& search, int num_bins, double value) {
     if (value < search.lower) return 0;
     if (!(value < search.upper)) return num_bins + 1;
-    const double step = search.upper / num_bins - search.lower / num_bins;
+    const double step = bin_width(search, num_bins);
     const double share = step > 0 ? (value - search.lower) / step : 0;
     int bin = static_cast<int>(std::clamp(share, 0.0, num_bins - 1.0));
     while (bin > 0 && value < bin_edge(search, num_bins, bin)) --bin;
@@ -183,7 +189,7 @@ void LocalSearch::append_candidates(std::vector<double>& records) const {
 }
 
 void decide(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
-            std::span<const double> histogram, int dimension) {
+            std::span<const double> histogram) {
     const auto weights = histogram.subspan(layout.num_extents, layout.num_slots());
     const auto axis = static_cast<std::size_t>(current_axis(search));
     if (!(target.target > 0)) {
@@ -192,7 +198,7 @@ void decide(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
     }
     if (search.stage == CutSearch::over_candidates &&
         -histogram[axis] == histogram[max_dimension + axis]) {
-        break_tie(search, target, histogram, weights, dimension);
+        break_tie(search, target, histogram, weights);
         return;
     }
     const Chosen chosen = choose(target.base, target.target, weights);
@@ -217,7 +223,8 @@ void decide_among(CutSearch& search, CutTarget& target, std::span<const double> 
                   int dimension) {
     std::vector<Candidate> candidates = read_candidates(records, dimension);
     std::vector<std::size_t> axes;
-    for (int tied = search.tied; tied < dimension; ++tied) axes.push_back(axis_index(search, tied));
+    for (int tied = search.tied; tied < search.num_axes; ++tied)
+        axes.push_back(axis_index(search, tied));
     const auto before = [&](const Candidate& a, const Candidate& b) {
         for (const std::size_t axis : axes)
             if (a.position[axis] != b.position[axis]) return a.position[axis] < b.position[axis];

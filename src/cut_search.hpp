@@ -16,6 +16,7 @@ struct CutSearch {
     enum Stage : std::int32_t { over_fragments, over_candidates, gathering, done };
     Stage stage = over_fragments;
     std::int32_t tied = 0;
+    std::int32_t num_axes = 1;  ///< that may break ties, its own included
     Cut cut;
     double lower = 0;
     double upper = 0;
@@ -79,7 +80,7 @@ class LocalSearch {
 
 /// Moves the search on by what the ranks counted; sets stage done when the cut is good enough.
 void decide(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
-            std::span<const double> histogram, int dimension);
+            std::span<const double> histogram);
 
 /// Ends the search with the best cut between the positions gathered: the weight below is as near
 /// to the target as these allow. Coincident points stay together.

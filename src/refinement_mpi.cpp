@@ -18,6 +18,8 @@ namespace rrcb {
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 /// A node of the current level: what of it lies here, and what it weighs over all ranks.
 struct Node {
     Descent at;
@@ -49,7 +51,8 @@ CutSearch start_search(const Node& node, const Context& context) {
     CutSearch search;
     const Cut& estimated = context.estimate.cuts.tree[node.at.node];
     search.cut.axis = estimated.axis;
-    search.cut.at.fill(-std::numeric_limits<double>::infinity());
+    search.num_axes = context.options.plain_cuts ? 1 : context.points.dimension();
+    search.cut.at.fill(-infinity);
     search.lower = context.estimate.brackets[node.at.node].lower;
     search.upper = context.estimate.brackets[node.at.node].upper;
     return search;
@@ -101,8 +104,7 @@ void count_and_decide(Level& level, const std::vector<CutSearch>& before, const 
         if (!is_counting(before[k])) continue;
         mine.resize(mine.size() + length);
         const std::span<double> histogram = std::span(mine).last(length);
-        std::fill_n(histogram.begin(), HistogramLayout::num_extents,
-                    -std::numeric_limits<double>::infinity());
+        std::fill_n(histogram.begin(), HistogramLayout::num_extents, -infinity);
         level.local[k].count(before[k], level.layout, histogram);
     }
     if (mine.empty()) return;
@@ -110,8 +112,7 @@ void count_and_decide(Level& level, const std::vector<CutSearch>& before, const 
     std::span<const double> left(joined);
     for (std::size_t k = 0; k < before.size() && context.is_root; ++k) {
         if (!is_counting(before[k])) continue;
-        decide(level.searches[k], level.targets[k], level.layout, left.first(length),
-               context.points.dimension());
+        decide(level.searches[k], level.targets[k], level.layout, left.first(length));
         left = left.subspan(length);
     }
 }
@@ -163,10 +164,14 @@ std::vector<Node> descend(std::vector<Node> nodes, const Level& level, Context& 
     auto search = level.searches.begin();
     for (Node& node : nodes) {
         Cut& cut = context.estimate.cuts.tree[node.at.node];
-        double below = share_below(context.sizes_of(node.at)) > 0 ? node.weight : 0;
+        double below = 0;
         if (needs_search(node, context)) {
             cut = search->cut;
             below = search++->below;
+        } else if (node.weight > 0) {
+            below = share_below(context.sizes_of(node.at)) > 0 ? node.weight : 0;
+            cut.at.fill(-infinity);
+            if (below > 0) cut.at[static_cast<std::size_t>(cut.axis)] = infinity;
         }
         auto [lower, upper] = split(node.fragments, cut, context.points);
         children.push_back({node.at.lower(), std::move(lower), below});

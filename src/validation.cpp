@@ -83,12 +83,40 @@ void check_weights(const Points& points) {
     reject("the sum of the weights overflows; scale them down");
 }
 
+void check_axes(const Options& options, int dimension) {
+    std::array<bool, max_dimension> named{};
+    for (const int axis : options.grouped_axes) {
+        require(axis >= 0 && axis < max_dimension && !named[static_cast<std::size_t>(axis)],
+                "grouped_axes must name each axis once, 0 ... 2, or be empty");
+        named[static_cast<std::size_t>(axis)] = true;
+    }
+    for (int axis = 0; axis < dimension && !options.grouped_axes.empty(); ++axis)
+        require(named[static_cast<std::size_t>(axis)],
+                "grouped_axes must name every axis of the points, or be empty");
+    require(options.cut_axes.empty() ||
+                options.cut_axes.size() + 1 == static_cast<std::size_t>(options.num_parts),
+            "cut_axes must hold one axis per cut, one less than there are parts, or be empty");
+    for (const int axis : options.cut_axes)
+        require(axis >= 0 && axis < dimension, "cut_axes must be axes of the points");
+}
+
 }  // namespace
+
+void check_previous(const Cuts& previous, const Options& options, int dimension) {
+    require(previous.dimension == dimension && previous.num_parts == options.num_parts &&
+                previous.tree.size() + 1 == static_cast<std::size_t>(options.num_parts),
+            "previous cuts must have the dimension and number of parts asked for");
+    for (const Cut& cut : previous.tree)
+        require(cut.axis >= 0 && cut.axis < dimension && !std::isnan(cut.at[0]) &&
+                    !std::isnan(cut.at[1]) && !std::isnan(cut.at[2]),
+                "previous cuts must cross axes of the points at numbers");
+}
 
 void check_options(const Options& options, int dimension) {
     const int most_cells = dimension < 3 ? 4096 : 256;
     require(options.num_parts > 0, "num_parts must be positive, or 0 for one part per rank");
     check_part_sizes(options.part_sizes, options.num_parts);
+    check_axes(options, dimension);
     if (options.support_mesh < 0 || options.support_mesh > most_cells)
         reject("support_mesh must be 1 ... " + std::to_string(most_cells) +
                " cells per axis, or 0 for the default");

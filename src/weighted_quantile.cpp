@@ -178,9 +178,9 @@ double fraction_below(double lower, double value, double upper) {
     return (value - lower) / extent;
 }
 
-Cut weighted_quantile(const StatisticalDomain& domain, int axis, double target) {
+Cut weighted_quantile(const StatisticalDomain& domain, int axis, double target, bool plain) {
     std::vector<int> axes{axis};
-    for (int a = 0; a < domain.dimension; ++a)
+    for (int a = 0; a < domain.dimension && !plain; ++a)
         if (a != axis) axes.push_back(a);
     std::vector<std::size_t> patches;
     for (std::size_t p = 0; p < domain.patches.size(); ++p)

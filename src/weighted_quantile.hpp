@@ -12,8 +12,8 @@ double fraction_below(double lower, double value, double upper);
 ///
 /// The cumulative weight along an axis is piecewise linear with jumps where patches have no
 /// extent; where the target falls into a jump the patches of that jump are divided along the other
-/// axes, and coincident points go to the side that is nearer to the target. Expected cost linear
-/// in the number of patches.
-Cut weighted_quantile(const StatisticalDomain& domain, int axis, double target);
+/// axes unless the cut is to be `plain`. Patches that can't be told apart go to the side that is
+/// nearer to the target. Expected cost linear in the number of patches.
+Cut weighted_quantile(const StatisticalDomain& domain, int axis, double target, bool plain);
 
 }  // namespace rrcb

@@ -103,6 +103,11 @@ TEST_F(Agreement, on_options_out_of_range) {
     with([](Options& o) { o.num_parts = 2, o.part_sizes = {1}; }, "part_sizes must hold one");
     with([](Options& o) { o.num_parts = 2, o.part_sizes = {0, 0}; }, "part_sizes must have a");
     with([](Options& o) { o.num_parts = 2, o.part_sizes = {2, -1}; }, "part_sizes must be finite");
+    with([](Options& o) { o.imbalance_tolerance = 0.9; }, "imbalance_tolerance must be at least 1");
+    with([](Options& o) { o.grouped_axes = {0, 0}; }, "grouped_axes must name each axis once");
+    with([](Options& o) { o.grouped_axes = {1, 2}; }, "grouped_axes must name every axis");
+    with([](Options& o) { o.num_parts = 3, o.cut_axes = {0}; }, "cut_axes must hold one axis");
+    with([](Options& o) { o.num_parts = 2, o.cut_axes = {1}; }, "cut_axes must be axes");
 }
 
 TEST_F(Agreement, on_options_that_differ_between_ranks) {
@@ -121,10 +126,25 @@ TEST_F(Agreement, on_options_that_differ_between_ranks) {
     with([](Options& o) { o.sigma_multiplier = 3; }, "sigma_multiplier");
     with([](Options& o) { o.sample_fraction = 0.5; }, "sample_fraction");
     with([](Options& o) { o.seed = 2; }, "seed");
+    with([](Options& o) { o.refine = Refine::exact; }, "refine");
+    with([](Options& o) { o.imbalance_tolerance = 2; }, "imbalance_tolerance");
+    with([](Options& o) { o.plain_cuts = true; }, "one of grouped_axes, cut_axes, plain_cuts");
     with([&](Options& o) { o.part_sizes.assign(static_cast<std::size_t>(num_ranks_), 2.0); },
          "part_sizes");
     const std::vector<double> empty;
     expect_error(interleaved_points(empty, last() ? 2 : 3), {}, "dimension differs");
+}
+
+TEST_F(Agreement, on_earlier_cuts_that_do_not_fit) {
+    const std::vector<double> x{0, 1, 2, 3};
+    Options options;
+    options.num_parts = 3;
+    const Cuts cuts = balance(interleaved_points(x, 2), options, MPI_COMM_WORLD).cuts;
+    options.num_parts = last() ? 4 : 3;
+    EXPECT_THROW(balance(interleaved_points(x, 2), options, MPI_COMM_WORLD, cuts), Error);
+    options.num_parts = 3;
+    EXPECT_THROW(balance(interleaved_points(x, 1), options, MPI_COMM_WORLD, cuts), Error);
+    EXPECT_EQ(balance(interleaved_points(x, 2), options, MPI_COMM_WORLD, cuts).parts.size(), 2u);
 }
 
 }  // namespace

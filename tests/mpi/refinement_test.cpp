@@ -10,6 +10,7 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -182,6 +183,39 @@ TEST(Refinement, zero_weights_everywhere_mean_balance_by_count) {
     for (const double count : counts) EXPECT_LE(std::abs(count - 800), 1);
 }
 
+TEST(Refinement, fewer_points_than_parts_leave_cuts_that_are_numbers) {
+    const std::vector<double> mine =
+        rank() == 0 ? std::vector<double>{0, 1, 2, 3} : std::vector<double>();
+    for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
+        for (const int num_parts : {3, 4, 9}) {
+            Options options;
+            options.refine = refine;
+            options.num_parts = num_parts;
+            const Points points = interleaved_points(mine, 2);
+            const Balance result = balance(points, options, MPI_COMM_WORLD);
+            for (const Cut& cut : result.cuts.tree)
+                for (const double value : cut.at) EXPECT_FALSE(std::isnan(value));
+            const auto weights = part_weights(points, result.parts, num_parts, MPI_COMM_WORLD);
+            EXPECT_EQ(*std::max_element(weights.begin(), weights.end()), 1);
+        }
+    }
+}
+
+TEST(Refinement, reaches_the_largest_double) {
+    std::vector<double> mine;
+    for (int i = 0; i < 40; ++i)
+        if (i % num_ranks() == rank())
+            mine.push_back((i % 4 - 1.5) / 1.5 * std::numeric_limits<double>::max());
+    const Points points = interleaved_points(mine, 1);
+    Options options;
+    options.refine = Refine::exact;
+    options.num_parts = 4;
+    const Balance result = balance(points, options, MPI_COMM_WORLD);
+    EXPECT_EQ(part_weights(points, result.parts, 4, MPI_COMM_WORLD),
+              (std::vector<double>{10, 10, 10, 10}));
+    expect_look_ups_agree(points, result);
+}
+
 TEST(Refinement, leaves_a_literal_midpoint_alone) {
     const auto mine = share_of_cloud(4000, 1, [](std::size_t, int, double u) { return u * u; });
     Options options;
@@ -205,6 +239,104 @@ TEST(Refinement, same_input_gives_the_same_bits) {
     for (std::size_t k = 0; k < first.cuts.tree.size(); ++k)
         EXPECT_EQ(first.cuts.tree[k].at, second.cuts.tree[k].at);
     expect_look_ups_agree(points, first);
+}
+
+TEST(EarlierCuts, of_the_same_points_are_found_good_at_one_look) {
+    const auto mine = share_of_cloud(4000, 2, [](std::size_t, int, double u) { return u * u; });
+    const Points points = interleaved_points(mine, 2);
+    Options options;
+    options.num_parts = 6;
+    const Balance first = balance(points, options, MPI_COMM_WORLD);
+    const Balance second = balance(points, options, MPI_COMM_WORLD, first.cuts);
+    EXPECT_EQ(second.report.rounds, 1);
+    EXPECT_EQ(second.report.num_records, 0);
+    EXPECT_EQ(second.parts, first.parts);
+}
+
+TEST(EarlierCuts, follow_a_cloud_that_moved) {
+    for (const double shift : {1e-3, 0.3, 1e6}) {
+        const auto still = share_of_cloud(4000, 2, [](std::size_t, int, double u) { return u; });
+        const auto moved = share_of_cloud(
+            4000, 2, [&](std::size_t, int axis, double u) { return u + (axis == 0 ? shift : 0); });
+        Options options;
+        options.refine = Refine::exact;
+        options.num_parts = 5;
+        const Balance first = balance(interleaved_points(still, 2), options, MPI_COMM_WORLD);
+        const Points points = interleaved_points(moved, 2);
+        const Balance second = balance(points, options, MPI_COMM_WORLD, first.cuts);
+        for (const double weight : part_weights(points, second.parts, 5, MPI_COMM_WORLD))
+            EXPECT_LE(std::abs(weight - 800), 1) << "shift " << shift;
+        expect_look_ups_agree(points, second);
+    }
+}
+
+TEST(EarlierCuts, make_room_for_other_part_sizes) {
+    const auto mine = share_of_cloud(4000, 2, [](std::size_t, int, double u) { return u; });
+    const Points points = interleaved_points(mine, 2);
+    Options options;
+    options.refine = Refine::exact;
+    options.num_parts = 4;
+    const Balance first = balance(points, options, MPI_COMM_WORLD);
+    options.part_sizes = {0, 2, 1, 1};
+    const Balance second = balance(points, options, MPI_COMM_WORLD, first.cuts);
+    const auto weights = part_weights(points, second.parts, 4, MPI_COMM_WORLD);
+    EXPECT_EQ(weights[0], 0);
+    EXPECT_NEAR(weights[1], 2000, 1);
+}
+
+TEST(GivenAxes, are_crossed_in_groups) {
+    // 8 parts of a box of 1 x 5: three cuts of the longest extent, all across y.
+    const auto mine = share_of_cloud(
+        8000, 2, [](std::size_t, int axis, double u) { return axis == 0 ? u : 5 * u; });
+    const Points points = interleaved_points(mine, 2);
+    Options options;
+    options.num_parts = 8;
+    options.grouped_axes = {0, 1};
+    const Balance tall = balance(points, options, MPI_COMM_WORLD);
+    for (const Cut& cut : tall.cuts.tree) EXPECT_EQ(cut.axis, 1);
+
+    // A square: two levels across one axis, one across the other, in the order asked for.
+    const auto square = share_of_cloud(8000, 2, [](std::size_t, int, double u) { return u; });
+    for (const int first : {0, 1}) {
+        options.grouped_axes = {first, 1 - first};
+        const Balance even = balance(interleaved_points(square, 2), options, MPI_COMM_WORLD);
+        EXPECT_EQ(even.cuts.tree[0].axis, first);
+        for (const std::size_t leaf_cut : {2u, 3u, 5u, 6u})
+            EXPECT_EQ(even.cuts.tree[leaf_cut].axis, 1 - first);
+    }
+}
+
+TEST(GivenAxes, of_each_cut_are_kept) {
+    const auto mine = share_of_cloud(4000, 3, [](std::size_t, int, double u) { return u; });
+    Options options;
+    options.num_parts = 4;
+    options.cut_axes = {2, 0, 1};
+    const Balance result = balance(interleaved_points(mine, 3), options, MPI_COMM_WORLD);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(result.cuts.tree[k].axis, options.cut_axes[k]);
+    EXPECT_LE(result.report.measured_imbalance, 1.01);
+}
+
+TEST(PlainCuts, keep_points_on_a_plane_together) {
+    // Columns of 100, 300 and 200 points: a plane can leave 100, 400 or 600 of them below.
+    std::vector<double> mine;
+    for (int i = 0; i < 600; ++i) {
+        if (i % num_ranks() != rank()) continue;
+        mine.push_back(i < 100 ? 0 : i < 400 ? 1000 : 2000);
+        mine.push_back(i);
+    }
+    const Points points = interleaved_points(mine, 2);
+    Options options;
+    options.refine = Refine::exact;
+    options.num_parts = 2;
+    options.plain_cuts = true;
+    const Balance plain = balance(points, options, MPI_COMM_WORLD);
+    EXPECT_EQ(part_weights(points, plain.parts, 2, MPI_COMM_WORLD),
+              (std::vector<double>{400, 200}));
+    EXPECT_EQ(plain.cuts.tree[0].at[1], -std::numeric_limits<double>::infinity());
+    options.plain_cuts = false;
+    const Balance tilted = balance(points, options, MPI_COMM_WORLD);
+    EXPECT_EQ(part_weights(points, tilted.parts, 2, MPI_COMM_WORLD),
+              (std::vector<double>{300, 300}));
 }
 
 }  // namespace

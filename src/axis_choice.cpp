@@ -1,0 +1,56 @@
+#include "axis_choice.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace rrcb {
+
+namespace {
+
+/// One axis per level: as many cuts across each as halving the longest extent asks for, in groups.
+std::vector<int> group_levels(std::span<const int> order, Box box, int dimension, int num_levels) {
+    std::array<int, max_dimension> cuts_across{};
+    for (int level = 0; level < num_levels; ++level) {
+        const auto a = static_cast<std::size_t>(longest_axis(box, dimension));
+        ++cuts_across[a];
+        box.upper[a] = box.lower[a] / 2 + box.upper[a] / 2;
+    }
+    std::vector<int> levels;
+    for (const int axis : order)
+        if (axis < dimension)
+            levels.insert(levels.end(),
+                          static_cast<std::size_t>(cuts_across[static_cast<std::size_t>(axis)]),
+                          axis);
+    return levels;
+}
+
+}  // namespace
+
+int longest_axis(const Box& box, int dimension) {
+    int longest = 0;
+    double half_extent = -1;
+    for (int axis = 0; axis < dimension; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        const double candidate = box.upper[a] / 2 - box.lower[a] / 2;
+        if (candidate > half_extent) {
+            half_extent = candidate;
+            longest = axis;
+        }
+    }
+    return longest;
+}
+
+AxisChoice::AxisChoice(const Options& options, const Box& box, int dimension)
+    : cut_axes_(options.cut_axes), dimension_(dimension) {
+    const int num_levels = std::bit_width(static_cast<unsigned>(options.num_parts - 1));
+    if (!options.grouped_axes.empty())
+        level_axes_ = group_levels(options.grouped_axes, box, dimension, num_levels);
+}
+
+int AxisChoice::operator()(std::size_t node, int depth, const Box& box) const {
+    if (!cut_axes_.empty()) return cut_axes_[node];
+    if (!level_axes_.empty()) return level_axes_[static_cast<std::size_t>(depth)];
+    return longest_axis(box, dimension_);
+}
+
+}  // namespace rrcb

@@ -28,6 +28,22 @@ int reject_value(const State& state, const std::string& name, const std::string&
     return ZOLTAN_WARN;
 }
 
+/// Sets a parameter of the plug-in's or of Zoltan's, whose call is `forward_it`.
+template <typename Forward>
+int set_parameter(State& state, const std::string& name, const char* raw_value,
+                  Forward forward_it) {
+    const std::string value = clean(raw_value);
+    if (name == "LB_METHOD" && value == "RRCB") return switch_to_rrcb(state);
+    const Setting setting = set_own(state.parameters, name, raw_value);
+    if (setting == Setting::accepted) return ZOLTAN_OK;
+    if (setting == Setting::defaulted) return reject_value(state, name, value);
+    const int code = forward_it();
+    // An unknown word for RETURN_LISTS is warned about, but sets the default.
+    const bool taken = code == ZOLTAN_OK || name == "RETURN_LISTS";
+    if (taken) note_common(state.parameters, name, value);
+    return code;
+}
+
 int set_parameter(Zoltan_Struct* zz, const char* raw_name, const char* raw_value, int index) {
     State* state = find_state(zz);
     const auto forward_it = [&] {
@@ -35,16 +51,10 @@ int set_parameter(Zoltan_Struct* zz, const char* raw_name, const char* raw_value
     };
     if (state == nullptr) return forward_it();
     return guarded("Zoltan_Set_Param", state, [&] {
-        const std::string name = clean(raw_name);
-        const std::string value = clean(raw_value);
-        if (name == "LB_METHOD" && value == "RRCB") return switch_to_rrcb(*state);
-        const Setting setting = set_own(state->parameters, name, value);
-        if (setting == Setting::accepted) return ZOLTAN_OK;
-        if (setting == Setting::defaulted) return reject_value(*state, name, value);
-        const int code = forward_it();
-        // An unknown word for RETURN_LISTS is warned about, but sets the default.
-        const bool taken = code == ZOLTAN_OK || name == "RETURN_LISTS";
-        if (taken) note_common(state->parameters, name, value);
+        std::string name = clean(raw_name);
+        const int code = set_parameter(*state, name, raw_value, forward_it);
+        if (index >= 0) name += '[' + std::to_string(index) + ']';
+        if (code == ZOLTAN_OK) state->parameters.given[name] = raw_value;
         return code;
     });
 }

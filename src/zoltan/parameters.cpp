@@ -78,25 +78,48 @@ bool read_seed(Options& options, std::string_view text) {
     return read_number(text, options.seed);
 }
 
+/// The one value whose case counts.
+constexpr std::string_view dump_folder_name = "RRCB_DUMP";
+
+bool read_folder(std::string& folder, std::string_view text) {
+    folder = text;
+    return true;
+}
+
+bool read_dump_when(bool& always, std::string_view text) {
+    if (text != "FAILURE" && text != "ALWAYS") return false;
+    always = text == "ALWAYS";
+    return true;
+}
+
 struct OwnParameter {
     std::string_view name;
-    bool (*read)(Options&, std::string_view);
-    void (*reset)(Options&);
+    bool (*read)(Parameters&, std::string_view);
+    void (*reset)(Parameters&);
 };
 
-template <auto field>
-void reset(Options& options) {
-    options.*field = Options{}.*field;
+template <auto field, bool (*read)(Options&, std::string_view)>
+constexpr OwnParameter of_balancer(std::string_view name) {
+    return {name, [](Parameters& p, std::string_view text) { return read(p.options, text); },
+            [](Parameters& p) { p.options.*field = Options{}.*field; }};
+}
+
+template <auto field, auto read>
+constexpr OwnParameter of_plug_in(std::string_view name) {
+    return {name, [](Parameters& p, std::string_view text) { return read(p.*field, text); },
+            [](Parameters& p) { p.*field = Parameters{}.*field; }};
 }
 
 constexpr OwnParameter own_parameters[] = {
-    {"RRCB_SUPPORT_MESH", read_support_mesh, reset<&Options::support_mesh>},
-    {"RRCB_DOMAIN", read_domain, reset<&Options::domain>},
-    {"RRCB_CUT_RULE", read_cut_rule, reset<&Options::cut_rule>},
-    {"RRCB_REFINE", read_refine, reset<&Options::refine>},
-    {"RRCB_SIGMA_MULTIPLIER", read_sigma_multiplier, reset<&Options::sigma_multiplier>},
-    {"RRCB_SAMPLE_FRACTION", read_sample_fraction, reset<&Options::sample_fraction>},
-    {"RRCB_SEED", read_seed, reset<&Options::seed>},
+    of_balancer<&Options::support_mesh, read_support_mesh>("RRCB_SUPPORT_MESH"),
+    of_balancer<&Options::domain, read_domain>("RRCB_DOMAIN"),
+    of_balancer<&Options::cut_rule, read_cut_rule>("RRCB_CUT_RULE"),
+    of_balancer<&Options::refine, read_refine>("RRCB_REFINE"),
+    of_balancer<&Options::sigma_multiplier, read_sigma_multiplier>("RRCB_SIGMA_MULTIPLIER"),
+    of_balancer<&Options::sample_fraction, read_sample_fraction>("RRCB_SAMPLE_FRACTION"),
+    of_balancer<&Options::seed, read_seed>("RRCB_SEED"),
+    of_plug_in<&Parameters::dump_folder, read_folder>(dump_folder_name),
+    of_plug_in<&Parameters::dump_always, read_dump_when>("RRCB_DUMP_WHEN"),
 };
 
 struct CommonInteger {
@@ -146,12 +169,21 @@ ReturnLists return_lists(std::string_view text) {
 
 }  // namespace
 
-Setting set_own(Parameters& parameters, std::string_view name, std::string_view value) {
+Setting set_own(Parameters& parameters, std::string_view name, const char* value) {
     const auto* own = std::ranges::find(own_parameters, name, &OwnParameter::name);
     if (own == std::end(own_parameters)) return Setting::unknown;
-    if (value != "DEFAULT" && own->read(parameters.options, value)) return Setting::accepted;
-    own->reset(parameters.options);
-    return value == "DEFAULT" ? Setting::accepted : Setting::defaulted;
+    const std::string upper = clean(value);
+    const bool is_default = upper == "DEFAULT";
+    const bool keeps_case = name == dump_folder_name;
+    if (!is_default && own->read(parameters, keeps_case ? value : upper)) return Setting::accepted;
+    own->reset(parameters);
+    return is_default ? Setting::accepted : Setting::defaulted;
+}
+
+std::vector<std::string_view> own_parameter_names() {
+    std::vector<std::string_view> names;
+    for (const OwnParameter& own : own_parameters) names.push_back(own.name);
+    return names;
 }
 
 void note_common(Parameters& parameters, std::string_view name, std::string_view value) {

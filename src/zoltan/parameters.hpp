@@ -2,8 +2,10 @@
 
 #include <rrcb/options.hpp>
 
+#include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rrcb::zoltan {
 
@@ -23,6 +25,10 @@ struct Parameters {
     int debug_level = 1;
     ReturnLists return_lists = ReturnLists::all;
     Options options;  ///< RRCB_* only; parts are filled in per call
+
+    std::string dump_folder;   ///< where the inputs of calls go; empty: nowhere
+    bool dump_always = false;  ///< the inputs of all calls, not only of failing ones
+    std::map<std::string, std::string> given;  ///< all that was set, as it was set
 };
 
 enum class Setting {
@@ -31,8 +37,11 @@ enum class Setting {
     unknown     ///< not one of RRCB's own parameters
 };
 
-/// Sets a parameter of RRCB's own (RRCB_...). Name and value are upper-cased.
-Setting set_own(Parameters& parameters, std::string_view name, std::string_view value);
+/// Sets a parameter of RRCB's own (RRCB_...). The name is upper-cased, the value as it was given.
+Setting set_own(Parameters& parameters, std::string_view name, const char* value);
+
+/// The names that set_own knows.
+std::vector<std::string_view> own_parameter_names();
 
 /// Notes a parameter that Zoltan itself has accepted, if it matters here. Upper-cased.
 void note_common(Parameters& parameters, std::string_view name, std::string_view value);

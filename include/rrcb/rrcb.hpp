@@ -9,6 +9,7 @@
 #include <rrcb/plan.hpp>
 #include <rrcb/points.hpp>
 #include <rrcb/quality.hpp>
+#include <rrcb/remap.hpp>
 #include <rrcb/stages.hpp>
 #include <rrcb/statistical_domain.hpp>
 #include <rrcb/support_mesh.hpp>

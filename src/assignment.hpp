@@ -1,0 +1,23 @@
+#pragma once
+
+#include <rrcb/points.hpp>
+
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+/// What is gained when a part gets a number; both in 0 ... num_parts - 1.
+struct Gain {
+    Part part = 0;
+    Part number = 0;
+    GlobalCount value = 0;
+};
+
+/// A number for each part, every number once, with the largest sum of gains.
+///
+/// The largest up to 128 parts, beyond that at least half of it. Gains of one pair add up. Among
+/// equals parts keep their number where they can. The order of `gains` does not matter.
+std::vector<Part> best_numbers(std::span<const Gain> gains, int num_parts);
+
+}  // namespace rrcb

@@ -57,7 +57,7 @@ Balance run(const Points& points, const Options& given, const Cuts* previous, MP
         check_points(points);
         check_options(options, points.dimension);
         if (previous) check_previous(*previous, options, points.dimension);
-        mine = contribute(points, options, previous);
+        mine = contribute(points, options, previous, mpi::size_of(comm));
         result.parts.resize(points.count);
     });
     if (failure.failed) mine = {};

@@ -12,11 +12,6 @@ namespace rrcb {
 
 namespace {
 
-/// Cells per axis that keep the estimate of a smooth cloud within about a percent.
-int default_cells_per_axis(int dimension) {
-    return dimension == 1 ? 64 : dimension == 2 ? 16 : 8;
-}
-
 std::uint64_t hash_of(std::span<const double> values) {
     std::uint64_t hash = 14695981039346656037u;  // FNV-1a
     for (const double value : values) {
@@ -130,13 +125,26 @@ std::vector<CellMoments> all_cells(std::span<const Header> headers,
 
 }  // namespace
 
-Contribution contribute(const Points& points, const Options& options, const Cuts* previous) {
+int automatic_cells_per_axis(int dimension, LocalIndex num_points, int num_ranks) {
+    constexpr double points_per_cell = 16;
+    constexpr double most_cells_at_root = 1 << 20;
+    const double most = dimension == 1 ? 64 : dimension == 2 ? 16 : 8;
+    const double cells =
+        std::min(static_cast<double>(num_points) / points_per_cell, most_cells_at_root / num_ranks);
+    return static_cast<int>(std::clamp(std::floor(std::pow(cells, 1.0 / dimension)), 1.0, most));
+}
+
+Contribution contribute(const Points& points, const Options& options, const Cuts* previous,
+                        int num_ranks) {
     Contribution mine;
     Header& header = mine.header;
     header.dimension = points.dimension;
     header.num_parts = options.num_parts;
+    header.support_mesh = options.support_mesh;
     header.cells_per_axis =
-        options.support_mesh > 0 ? options.support_mesh : default_cells_per_axis(points.dimension);
+        options.support_mesh > 0
+            ? options.support_mesh
+            : automatic_cells_per_axis(points.dimension, points.count, num_ranks);
     header.domain = static_cast<std::int32_t>(options.domain);
     header.cut_rule = static_cast<std::int32_t>(options.cut_rule);
     header.refine = static_cast<std::int32_t>(options.refine);
@@ -179,7 +187,7 @@ std::optional<std::string> difference_between(std::span<const Header> headers) {
         if (other.dimension != root.dimension) return differs("dimension");
         if (other.num_parts != root.num_parts) return differs("num_parts");
         if (other.part_sizes_hash != root.part_sizes_hash) return differs("part_sizes");
-        if (other.cells_per_axis != root.cells_per_axis) return differs("support_mesh");
+        if (other.support_mesh != root.support_mesh) return differs("support_mesh");
         if (other.domain != root.domain) return differs("domain");
         if (other.cut_rule != root.cut_rule) return differs("cut_rule");
         if (other.axes_hash != root.axes_hash)

@@ -34,7 +34,7 @@ struct Options {
     int num_parts = 0;               ///< parts to make; 0: one per rank
     std::vector<double> part_sizes;  ///< relative weight of each part, >= 0, some > 0; empty: equal
 
-    int support_mesh = 0;  ///< cells per axis of each rank's support mesh; 0: chosen by dimension
+    int support_mesh = 0;  ///< cells per axis of each rank's support mesh; 0: by points and ranks
     DomainKind domain = DomainKind::analytic;
     CutRule cut_rule = CutRule::weighted_fraction;
 

@@ -39,6 +39,8 @@ struct Vote {
     int num_global_parts = -1;
     int any_local_parts = 0;
     int any_part_sizes = 0;
+    int dumping_rank_from_last = 0;  ///< ranks - lowest rank with a folder
+    int dump_always = 0;
     std::array<int, same_on_all_ranks.size()> largest{};
     std::array<int, same_on_all_ranks.size()> negative_smallest{};
 };
@@ -53,6 +55,10 @@ Vote vote_of(const LocalStatus& local, const State& state) {
     vote.num_global_parts = parameters.num_global_parts;
     vote.any_local_parts = parameters.num_local_parts >= 0 ? 1 : 0;
     vote.any_part_sizes = state.part_sizes.empty() ? 0 : 1;
+    if (!parameters.dump_folder.empty()) {
+        vote.dumping_rank_from_last = state.communicator->size() - state.communicator->rank();
+        vote.dump_always = parameters.dump_always ? 1 : 0;
+    }
     for (std::size_t i = 0; i < same_on_all_ranks.size(); ++i) {
         vote.largest[i] = same_on_all_ranks[i].value(parameters);
         vote.negative_smallest[i] = -vote.largest[i];
@@ -74,6 +80,9 @@ Agreement agree(const LocalStatus& local, const State& state) {
     agreement.num_global_parts = vote.num_global_parts;
     agreement.any_local_parts = vote.any_local_parts != 0;
     agreement.any_part_sizes = vote.any_part_sizes != 0;
+    if (vote.dumping_rank_from_last > 0)
+        agreement.dumping_rank = state.communicator->size() - vote.dumping_rank_from_last;
+    agreement.dump_always = vote.dump_always != 0;
     for (std::size_t i = 0; i < same_on_all_ranks.size(); ++i) {
         if (vote.largest[i] != -vote.negative_smallest[i]) {
             agreement.differing = same_on_all_ranks[i].name;

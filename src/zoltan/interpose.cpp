@@ -1,3 +1,4 @@
+#include "dump_mpi.hpp"
 #include "export.hpp"
 #include "guard.hpp"
 #include "partition_mpi.hpp"
@@ -82,7 +83,7 @@ RRCB_EXPORT Zoltan_Struct* Zoltan_Create(MPI_Comm user) {
     Zoltan_Struct* zz = forward<&RealZoltan::create>(user);
     if (zz == nullptr || user == MPI_COMM_NULL) return zz;
     guarded("Zoltan_Create", nullptr, [&] {
-        add_state(zz, std::make_shared<Communicator>(user));
+        read_dump_environment(add_state(zz, std::make_shared<Communicator>(user)));
         return ZOLTAN_OK;
     });
     return zz;

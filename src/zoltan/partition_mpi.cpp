@@ -1,6 +1,7 @@
 #include "partition_mpi.hpp"
 
 #include "agreement_mpi.hpp"
+#include "dump_mpi.hpp"
 #include "failure.hpp"
 #include "layout_mpi.hpp"
 #include "lists_mpi.hpp"
@@ -132,12 +133,15 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
     Objects objects;
     const LocalStatus local = collect(zz, state, one_part_per_rank, objects);
     const Agreement agreement = agree(local, state);
+    dump(DumpReason::asked, agreement, state, {function, objects, local});
     if (agreement.failed()) {
+        dump(DumpReason::failure, agreement, state, {function, objects, local});
         if (rank == agreement.failing_rank) print_error(rank, function, local.text);
         return agreement.code;
     }
     const auto fail_everywhere = [&](int code, const std::string& text) {
         if (rank == 0) print_error(rank, function, text);
+        dump(DumpReason::failure, agreement, state, {function, objects, {code, text}});
         result = Partition{};
         return code;
     };
@@ -153,6 +157,9 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
     } catch (const Failure& failure) {
         return fail_everywhere(failure.code(), failure.what());
     } catch (const Error& error) {
+        result = Partition{};
+        // An error of MPI's may be this rank's alone; nothing more can be done together.
+        if (error.code() == ErrorCode::mpi) throw;
         const bool memory = error.code() == ErrorCode::out_of_memory;
         return fail_everywhere(memory ? ZOLTAN_MEMERR : ZOLTAN_FATAL, error.what());
     }

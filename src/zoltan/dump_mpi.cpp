@@ -1,0 +1,81 @@
+#include "dump_mpi.hpp"
+
+#include "dump_files.hpp"
+#include "message.hpp"
+
+#include <array>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+namespace rrcb::zoltan {
+
+namespace {
+
+/// A path as it travels; of fixed length, so that no rank can run out of memory before the others
+/// know.
+using PathText = std::array<char, 4096>;
+
+PathText choose_folder(const State& state, const DumpInput& input) {
+    PathText text{};
+    const std::filesystem::path folder = make_dump_folder(state.parameters.dump_folder);
+    const std::string name = std::filesystem::absolute(folder).string();
+    if (name.size() >= text.size()) throw std::length_error("the name of the folder is too long");
+    const int num_ranks = state.communicator->size();
+    write_dump(folder, DumpedCall{input.function, input.status.code, num_ranks, state.parameters});
+    name.copy(text.data(), name.size());
+    return text;
+}
+
+void write_mine(const std::filesystem::path& folder, const State& state, const DumpInput& input) {
+    // Needed where ranks do not share their file systems.
+    std::filesystem::create_directories(folder);
+    const Objects& objects = input.objects;
+    write_dump(folder,
+               DumpedRank{state.communicator->rank(), objects.points, objects.initial_parts.get(),
+                          state.part_sizes, input.status.text});
+}
+
+/// Runs a step of which the call must not notice when it fails.
+template <typename Step>
+void warn_once_if_failing(const State& state, const char* function, Step step) {
+    static bool warned = false;
+    try {
+        step();
+    } catch (const std::exception& error) {
+        if (!warned) {
+            print_warning(state.communicator->rank(), function,
+                          std::string("cannot write to RRCB_DUMP: ") + error.what());
+        }
+        warned = true;
+    }
+}
+
+}  // namespace
+
+void dump(DumpReason reason, const Agreement& agreement, const State& state,
+          const DumpInput& input) noexcept {
+    const bool is_time = agreement.dump_always == (reason == DumpReason::asked);
+    if (agreement.dumping_rank < 0 || !is_time) return;
+    const Communicator& comm = *state.communicator;
+    PathText folder{};
+    if (comm.rank() == agreement.dumping_rank)
+        warn_once_if_failing(state, input.function, [&] { folder = choose_folder(state, input); });
+    const int sent = MPI_Bcast(folder.data(), static_cast<int>(folder.size()), MPI_CHAR,
+                               agreement.dumping_rank, comm.get());
+    if (sent != MPI_SUCCESS || folder[0] == '\0') return;
+    warn_once_if_failing(state, input.function, [&] { write_mine(folder.data(), state, input); });
+}
+
+void read_dump_environment(State& state) {
+    for (const char* name : {"RRCB_DUMP", "RRCB_DUMP_WHEN"}) {
+        const char* value = std::getenv(name);
+        if (value == nullptr || set_own(state.parameters, name, value) == Setting::accepted)
+            continue;
+        print_warning(state.communicator->rank(), "Zoltan_Create",
+                      std::string("illegal value `") + value + "' of " + name +
+                          " in the environment; default value will be used.");
+    }
+}
+
+}  // namespace rrcb::zoltan

@@ -1,0 +1,98 @@
+#include "mpi_layer.hpp"
+#include "program.hpp"
+#include "ranks.hpp"
+
+#include <rrcb/rrcb.hpp>
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace rrcb {
+namespace {
+
+using zoltan_test::Outcome;
+using zoltan_test::Program;
+
+bool same_on_all_ranks(int value) {
+    int largest[2] = {value, -value};
+    MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    return largest[0] == -largest[1];
+}
+
+bool has_no_lists(const Outcome& outcome) {
+    return outcome.changes == 0 && outcome.imports.count == 0 && outcome.exports.count == 0;
+}
+
+struct Cloud : Program {
+    Cloud() { zoltan_test::scatter_points(*this, 200); }
+    Points points() const { return interleaved_points(coordinates, dimension); }
+};
+
+/// Counts the calls of a run in which none fails, then fails each of them on all ranks.
+void fail_each_call(const std::function<void()>& run, const std::function<void()>& expect) {
+    run();  // what is done once for a communicator does not count
+    mpi_layer::fail_call(0);
+    run();
+    const long num_calls = mpi_layer::counted_calls();
+    ASSERT_GT(num_calls, 0);
+    for (long call = 1; call <= num_calls; ++call) {
+        SCOPED_TRACE(call);
+        mpi_layer::fail_call(call);
+        expect();
+        mpi_layer::fail_call(0);
+        run();
+    }
+}
+
+TEST(FailingMpi, gives_all_ranks_one_code_and_no_lists_and_the_next_call_works) {
+    for (const char* refine : {"NONE", "TOLERANCE", "EXACT"}) {
+        SCOPED_TRACE(refine);
+        Cloud cloud;
+        cloud.set("LB_METHOD", "RRCB");
+        cloud.set("RRCB_REFINE", refine);
+        fail_each_call([&] { EXPECT_EQ(cloud.partition().code, ZOLTAN_OK); },
+                       [&] {
+                           const Outcome outcome = cloud.partition();
+                           EXPECT_EQ(outcome.code, ZOLTAN_FATAL);
+                           EXPECT_TRUE(same_on_all_ranks(outcome.code));
+                           EXPECT_TRUE(has_no_lists(outcome));
+                       });
+    }
+}
+
+TEST(FailingMpi, reaches_the_caller_of_balance_as_an_error_that_names_the_call) {
+    const Cloud cloud;
+    const Points points = cloud.points();
+    fail_each_call([&] { balance(points, Options{}, MPI_COMM_WORLD); },
+                   [&] {
+                       try {
+                           balance(points, Options{}, MPI_COMM_WORLD);
+                           ADD_FAILURE() << "nothing was thrown";
+                       } catch (const Error& error) {
+                           EXPECT_EQ(error.code(), ErrorCode::mpi);
+                           EXPECT_NE(std::string(error.what()).find("MPI_"), std::string::npos);
+                       }
+                   });
+}
+
+TEST(FailingMpi, makes_zoltan_create_give_a_handle_that_refuses_rrcb) {
+    // Only a communicator that returns errors lets the duplication fail.
+    MPI_Comm comm = MPI_COMM_NULL;
+    MPI_Comm_dup(MPI_COMM_WORLD, &comm);
+    MPI_Comm_set_errhandler(comm, MPI_ERRORS_RETURN);
+    mpi_layer::fail_call(0);
+    Zoltan_Struct* zz = Zoltan_Create(comm);
+    const long num_calls = mpi_layer::counted_calls();
+    Zoltan_Destroy(&zz);
+    mpi_layer::fail_call(num_calls);
+    zz = Zoltan_Create(comm);
+    mpi_layer::fail_call(0);
+    Zoltan_Set_Param(zz, "DEBUG_LEVEL", "0");
+    EXPECT_EQ(Zoltan_Set_Param(zz, "LB_METHOD", "RRCB"), ZOLTAN_FATAL);
+    Zoltan_Destroy(&zz);
+    MPI_Comm_free(&comm);
+}
+
+}  // namespace
+}  // namespace rrcb

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+
+/// A layer between a program and MPI, by MPI's profiling interface. It is preloaded or linked, in
+/// tests only.
+namespace mpi_layer {
+
+/// What all ranks of a collective call must have in common.
+struct Call {
+    char name[28] = "";
+    std::int32_t root = -1;
+    std::int64_t bytes = 0;  ///< 0 where ranks may give different lengths
+};
+
+Call call_of(const char* name, int root = -1, std::int64_t bytes = 0);
+std::int64_t bytes_of(int count, MPI_Datatype type);
+
+/// With RRCB_TEST_SEQUENCE in the environment: ends the program with a message naming what each
+/// rank calls when the ranks differ, instead of leaving it to hang. Collective on communicators
+/// as large as MPI_COMM_WORLD, without effect on others.
+void check_sequence(const Call& call, MPI_Comm comm);
+void start_checking();
+void stop_checking();
+
+/// Makes the `number`-th call from now on, counted from 1, return MPI_ERR_OTHER on this rank after
+/// it was carried out; 0 fails none. Counted are communicating calls under MPI_ERRORS_RETURN.
+__attribute__((visibility("default"))) void fail_call(long number);
+
+/// How many calls were counted since fail_call.
+__attribute__((visibility("default"))) long counted_calls();
+
+int after_call(int code, MPI_Comm comm);
+
+template <typename Body>
+int collective(const Call& call, MPI_Comm comm, Body body) {
+    check_sequence(call, comm);
+    return after_call(body(), comm);
+}
+
+}  // namespace mpi_layer

@@ -1,0 +1,70 @@
+#include "mpi_layer.hpp"
+
+using mpi_layer::after_call;
+using mpi_layer::call_of;
+using mpi_layer::collective;
+
+extern "C" {
+
+int MPI_Init(int* num_arguments, char*** arguments) {
+    const int code = PMPI_Init(num_arguments, arguments);
+    mpi_layer::start_checking();
+    return code;
+}
+
+int MPI_Init_thread(int* num_arguments, char*** arguments, int required, int* provided) {
+    const int code = PMPI_Init_thread(num_arguments, arguments, required, provided);
+    mpi_layer::start_checking();
+    return code;
+}
+
+int MPI_Finalize(void) {
+    mpi_layer::check_sequence(call_of("MPI_Finalize"), MPI_COMM_WORLD);
+    mpi_layer::stop_checking();
+    return PMPI_Finalize();
+}
+
+int MPI_Comm_dup(MPI_Comm comm, MPI_Comm* duplicate) {
+    return collective(call_of("MPI_Comm_dup"), comm,
+                      [&] { return PMPI_Comm_dup(comm, duplicate); });
+}
+
+int MPI_Comm_split(MPI_Comm comm, int color, int key, MPI_Comm* part) {
+    return collective(call_of("MPI_Comm_split"), comm,
+                      [&] { return PMPI_Comm_split(comm, color, key, part); });
+}
+
+int MPI_Comm_create(MPI_Comm comm, MPI_Group group, MPI_Comm* part) {
+    return collective(call_of("MPI_Comm_create"), comm,
+                      [&] { return PMPI_Comm_create(comm, group, part); });
+}
+
+int MPI_Comm_free(MPI_Comm* comm) {
+    mpi_layer::check_sequence(call_of("MPI_Comm_free"), *comm);
+    return PMPI_Comm_free(comm);
+}
+
+int MPI_Send(const void* data, int count, MPI_Datatype type, int to, int tag, MPI_Comm comm) {
+    return after_call(PMPI_Send(data, count, type, to, tag, comm), comm);
+}
+
+int MPI_Isend(const void* data, int count, MPI_Datatype type, int to, int tag, MPI_Comm comm,
+              MPI_Request* request) {
+    return after_call(PMPI_Isend(data, count, type, to, tag, comm, request), comm);
+}
+
+int MPI_Recv(void* data, int count, MPI_Datatype type, int from, int tag, MPI_Comm comm,
+             MPI_Status* status) {
+    return after_call(PMPI_Recv(data, count, type, from, tag, comm, status), comm);
+}
+
+int MPI_Irecv(void* data, int count, MPI_Datatype type, int from, int tag, MPI_Comm comm,
+              MPI_Request* request) {
+    return after_call(PMPI_Irecv(data, count, type, from, tag, comm, request), comm);
+}
+
+int MPI_Probe(int from, int tag, MPI_Comm comm, MPI_Status* status) {
+    return after_call(PMPI_Probe(from, tag, comm, status), comm);
+}
+
+}  // extern "C"

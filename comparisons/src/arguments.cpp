@@ -46,8 +46,9 @@ const std::map<std::string, std::string>& documentation() {
     return texts;
 }
 
-/// The help text if it was asked for, else empty.
-std::string parse(int argc, char** argv, Texts& texts) {
+/// The help text if it was asked for. Teuchos writes it, and what is wrong, on rank 0 only: the
+/// code it returns is what all ranks go by.
+std::optional<std::string> parse(int argc, char** argv, Texts& texts) {
     Teuchos::CommandLineProcessor processor(false);
     processor.setDocString("Compares RRCB with Zoltan's partitioners on the same points.\n");
     for (const auto& [name, text] : documentation()) {
@@ -61,9 +62,11 @@ std::string parse(int argc, char** argv, Texts& texts) {
     const auto result = processor.parse(argc, argv, &output);
     if (result == Teuchos::CommandLineProcessor::PARSE_HELP_PRINTED) return output.str();
     if (result != Teuchos::CommandLineProcessor::PARSE_SUCCESSFUL) {
-        throw Failure(std::string(trim(output.str().substr(output.str().find("Error,")))));
+        const std::string text = output.str();
+        const std::size_t error = std::min(text.find("Error,"), text.size());
+        throw Failure(std::string(trim(std::string_view(text).substr(error))));
     }
-    return {};
+    return std::nullopt;
 }
 
 template <typename Number>
@@ -123,7 +126,7 @@ Arguments read_arguments(int argc, char** argv) {
     Texts texts;
     arguments.help = parse(argc, argv, texts);
     arguments.version = texts.version;
-    if (!arguments.help.empty() || arguments.version) return arguments;
+    if (arguments.help || arguments.version) return arguments;
     if (texts.sweep) throw Failure("--sweep is not available yet; run one comparison at a time");
     check_combination(texts);
     arguments.quick = texts.quick;

@@ -6,6 +6,7 @@
 #include <rrcb/points.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ struct Arguments {
     std::string out = "comparisons/out";
     bool quick = false;
     bool progress = false;
-    std::string help;  ///< not empty: print this and stop
+    std::optional<std::string> help;  ///< print this and stop
     bool version = false;
 };
 

@@ -76,8 +76,8 @@ int compare(const Arguments& arguments, const std::string& command, MPI_Comm com
 int run(int argc, char** argv, MPI_Comm comm) {
     const Arguments arguments = read_arguments(argc, argv);
     const bool speaks = rank_of(comm) == 0;
-    if (!arguments.help.empty()) {
-        if (speaks) std::cout << arguments.help;
+    if (arguments.help) {
+        if (speaks) std::cout << *arguments.help;
         return 0;
     }
     if (arguments.version) {

@@ -35,7 +35,8 @@ struct Homes {
         Part last;
     };
     Numbers numbers_for(std::int32_t origin) const {
-        if (!by_rank) return {origin, origin + 1};
+        if (!by_rank && origin < num_parts()) return {origin, origin + 1};
+        if (!by_rank) return {0, 0};
         const auto found = std::ranges::equal_range(ranks_of_parts, origin, {}, &RankRange::first);
         return {static_cast<Part>(found.begin() - ranks_of_parts.begin()),
                 static_cast<Part>(found.end() - ranks_of_parts.begin())};

@@ -28,6 +28,10 @@ constexpr std::array same_on_all_ranks = {
     SameOnAllRanks{"NUM_LID_ENTRIES", [](const Parameters& p) { return p.num_lid_entries; }},
     SameOnAllRanks{"OBJ_WEIGHT_DIM", [](const Parameters& p) { return p.weight_dimension; }},
     SameOnAllRanks{"AUTO_MIGRATE", [](const Parameters& p) { return int{p.auto_migrate != 0}; }},
+    SameOnAllRanks{"REMAP", [](const Parameters& p) { return int{p.remap != 0}; }},
+    SameOnAllRanks{"RCB_REUSE", [](const Parameters& p) { return int{p.reuse_cuts != 0}; }},
+    SameOnAllRanks{"OBJ_WEIGHTS_COMPARABLE",
+                   [](const Parameters& p) { return int{p.weights_comparable != 0}; }},
     SameOnAllRanks{"RETURN_LISTS",
                    [](const Parameters& p) { return static_cast<int>(p.return_lists); }},
 };
@@ -39,6 +43,7 @@ struct Vote {
     int num_global_parts = -1;
     int any_local_parts = 0;
     int any_part_sizes = 0;
+    int lacks_cuts = 0;
     int dumping_rank_from_last = 0;  ///< ranks - lowest rank with a folder
     int dump_always = 0;
     std::array<int, same_on_all_ranks.size()> largest{};
@@ -55,6 +60,7 @@ Vote vote_of(const LocalStatus& local, const State& state) {
     vote.num_global_parts = parameters.num_global_parts;
     vote.any_local_parts = parameters.num_local_parts >= 0 ? 1 : 0;
     vote.any_part_sizes = state.part_sizes.empty() ? 0 : 1;
+    vote.lacks_cuts = state.kept ? 0 : 1;
     if (!parameters.dump_folder.empty()) {
         vote.dumping_rank_from_last = state.communicator->size() - state.communicator->rank();
         vote.dump_always = parameters.dump_always ? 1 : 0;
@@ -80,6 +86,7 @@ Agreement agree(const LocalStatus& local, const State& state) {
     agreement.num_global_parts = vote.num_global_parts;
     agreement.any_local_parts = vote.any_local_parts != 0;
     agreement.any_part_sizes = vote.any_part_sizes != 0;
+    agreement.all_kept_cuts = vote.lacks_cuts == 0;
     if (vote.dumping_rank_from_last > 0)
         agreement.dumping_rank = state.communicator->size() - vote.dumping_rank_from_last;
     agreement.dump_always = vote.dump_always != 0;

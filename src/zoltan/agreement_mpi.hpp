@@ -19,6 +19,7 @@ struct Agreement {
     int num_global_parts = -1;     ///< largest of all ranks, -1: set nowhere
     bool any_local_parts = false;  ///< NUM_LOCAL_PARTS is set somewhere
     bool any_part_sizes = false;   ///< Zoltan_LB_Set_Part_Sizes was called somewhere
+    bool all_kept_cuts = false;    ///< of the last call, on every rank
     int dumping_rank = -1;         ///< lowest rank with RRCB_DUMP, -1: none
     bool dump_always = false;      ///< RRCB_DUMP_WHEN is ALWAYS on a rank with RRCB_DUMP
     std::string differing;         ///< name of a parameter that differs between ranks

@@ -3,6 +3,7 @@
 #include "guard.hpp"
 #include "partition_mpi.hpp"
 #include "real_zoltan.hpp"
+#include "replacement.hpp"
 
 #include <memory>
 #include <string>
@@ -56,6 +57,7 @@ int set_parameter(Zoltan_Struct* zz, const char* raw_name, const char* raw_value
         const int code = set_parameter(*state, name, raw_value, forward_it);
         if (index >= 0) name += '[' + std::to_string(index) + ']';
         if (code == ZOLTAN_OK) state->parameters.given[name] = raw_value;
+        if (!state->parameters.rrcb) state->kept.reset();
         return code;
     });
 }
@@ -83,7 +85,10 @@ RRCB_EXPORT Zoltan_Struct* Zoltan_Create(MPI_Comm user) {
     Zoltan_Struct* zz = forward<&RealZoltan::create>(user);
     if (zz == nullptr || user == MPI_COMM_NULL) return zz;
     guarded("Zoltan_Create", nullptr, [&] {
-        read_dump_environment(add_state(zz, std::make_shared<Communicator>(user)));
+        State& state = add_state(zz, std::make_shared<Communicator>(user));
+        state.parameters.replace_rcb = replaces_rcb() && !InsideZoltan::now();
+        state.parameters.rrcb = state.parameters.replace_rcb;
+        read_dump_environment(state);
         return ZOLTAN_OK;
     });
     return zz;
@@ -129,6 +134,7 @@ RRCB_EXPORT int Zoltan_LB_Partition(
     ZOLTAN_ID_PTR* export_local_ids, int** export_procs, int** export_to_part) {
     State* state = rrcb_state(zz);
     if (state == nullptr) {
+        const InsideZoltan inside;
         return forward<&RealZoltan::lb_partition>(
             zz, changes, num_gid_entries, num_lid_entries, num_import, import_global_ids,
             import_local_ids, import_procs, import_to_part, num_export, export_global_ids,
@@ -156,6 +162,7 @@ RRCB_EXPORT int Zoltan_LB_Balance(Zoltan_Struct* zz, int* changes, int* num_gid_
                                   int** export_procs) {
     State* state = rrcb_state(zz);
     if (state == nullptr) {
+        const InsideZoltan inside;
         return forward<&RealZoltan::lb_balance>(zz, changes, num_gid_entries, num_lid_entries,
                                                 num_import, import_global_ids, import_local_ids,
                                                 import_procs, num_export, export_global_ids,

@@ -3,7 +3,6 @@
 #include "lookups.hpp"
 #include "real_zoltan.hpp"
 
-#include <algorithm>
 #include <cfloat>
 
 using namespace rrcb::zoltan;
@@ -15,20 +14,9 @@ void write_place(const Place& place, int* proc, int* part) {
     if (part != nullptr) *part = place.part;
 }
 
-/// What a box look-up writes; a null `values` is not asked for.
-void hand_out(const std::vector<int>& found, int* values, int* count) {
-    if (values != nullptr) std::ranges::copy(found, values);
-    *count = values == nullptr ? 0 : static_cast<int>(found.size());
-}
-
 void hand_out_failure(int* values, int* count) {
     if (values != nullptr) *values = -1;
     *count = 0;
-}
-
-int refuse(const char* function, const State& state) {
-    print_error(state.communicator->rank(), function, "not available with LB_METHOD=RRCB");
-    return ZOLTAN_FATAL;
 }
 
 }  // namespace
@@ -68,9 +56,8 @@ RRCB_EXPORT int Zoltan_LB_Box_PP_Assign(Zoltan_Struct* zz, double xmin, double y
     hand_out_failure(procs, num_procs);
     hand_out_failure(parts, num_parts);
     return guarded("Zoltan_LB_Box_PP_Assign", state, [&] {
-        const Touched touched = touched_by(*state, {{xmin, ymin, zmin}, {xmax, ymax, zmax}});
-        hand_out(touched.ranks, procs, num_procs);
-        hand_out(touched.parts, parts, num_parts);
+        find_touched(*state, {{xmin, ymin, zmin}, {xmax, ymax, zmax}},
+                     {procs, num_procs, parts, num_parts});
         return ZOLTAN_OK;
     });
 }
@@ -86,8 +73,8 @@ RRCB_EXPORT int Zoltan_LB_Box_Assign(Zoltan_Struct* zz, double xmin, double ymin
     hand_out_failure(procs, num_procs);
     return guarded("Zoltan_LB_Box_Assign", state, [&] {
         require_one_part_per_rank(*state, "Zoltan_LB_Box_PP_Assign");
-        const Touched touched = touched_by(*state, {{xmin, ymin, zmin}, {xmax, ymax, zmax}});
-        hand_out(touched.ranks, procs, num_procs);
+        find_touched(*state, {{xmin, ymin, zmin}, {xmax, ymax, zmax}},
+                     {procs, num_procs, nullptr, nullptr});
         return ZOLTAN_OK;
     });
 }
@@ -105,7 +92,7 @@ RRCB_EXPORT int Zoltan_RCB_Box(Zoltan_Struct* zz, int part, int* dimension, doub
     *xmax = *ymax = *zmax = DBL_MAX;
     return guarded("Zoltan_RCB_Box", state, [&] {
         const rrcb::Box region = region_of(*state, part);
-        *dimension = state->kept->cuts.dimension;
+        *dimension = kept_by(*state).cuts().dimension;
         *xmin = region.lower[0], *ymin = region.lower[1], *zmin = region.lower[2];
         *xmax = region.upper[0], *ymax = region.upper[1], *zmax = region.upper[2];
         return ZOLTAN_OK;
@@ -114,28 +101,13 @@ RRCB_EXPORT int Zoltan_RCB_Box(Zoltan_Struct* zz, int part, int* dimension, doub
 
 RRCB_EXPORT int Zoltan_RCB_Partition_Tree(Zoltan_Struct* zz, int node, int* parent, int* left_leaf,
                                           int* right_leaf) {
-    if (const State* state = rrcb_state(zz)) return refuse("Zoltan_RCB_Partition_Tree", *state);
-    return forward<&RealZoltan::rcb_partition_tree>(zz, node, parent, left_leaf, right_leaf);
-}
-
-RRCB_EXPORT size_t Zoltan_Serialize_Size(Zoltan_Struct const* zz) {
-    if (const State* state = rrcb_state(zz)) {
-        refuse("Zoltan_Serialize_Size", *state);
-        return 0;
+    const State* state = rrcb_state(zz);
+    if (state == nullptr) {
+        return forward<&RealZoltan::rcb_partition_tree>(zz, node, parent, left_leaf, right_leaf);
     }
-    return forward<&RealZoltan::serialize_size>(zz);
-}
-
-RRCB_EXPORT int Zoltan_Serialize(Zoltan_Struct const* zz, size_t size, char* buffer) {
-    if (const State* state = rrcb_state(zz)) return refuse("Zoltan_Serialize", *state);
-    return forward<&RealZoltan::serialize>(zz, size, buffer);
-}
-
-RRCB_EXPORT int Zoltan_Deserialize(Zoltan_Struct* zz, size_t size, char* buffer) {
-    // What the buffer holds comes from the real Zoltan and replaces every parameter.
-    if (State* state = find_state(zz)) {
-        state->parameters.rrcb = false;
-        state->deserialized = true;
-    }
-    return forward<&RealZoltan::deserialize>(zz, size, buffer);
+    return guarded("Zoltan_RCB_Partition_Tree", state, [&] {
+        const TreeNode found = tree_node_of(*state, node);
+        *parent = found.parent, *left_leaf = found.lower, *right_leaf = found.upper;
+        return ZOLTAN_OK;
+    });
 }

@@ -5,10 +5,27 @@
 #include <algorithm>
 #include <cfloat>
 #include <string>
+#include <vector>
 
 namespace rrcb::zoltan {
 
 namespace {
+
+/// Ranks of ascending parts, ascending.
+int write_ranks(const PartMap& map, const Part* parts, int num_parts, int* ranks) {
+    int count = 0;
+    for (int i = 0; i < num_parts; ++i) {
+        const RankRange& range = map.ranks[static_cast<std::size_t>(parts[i])];
+        // The ranks of parts ascend as well: only the last one can come twice.
+        const int next = count == 0 ? 0 : ranks[count - 1] + 1;
+        for (int r = std::max(range.first, next); r < range.first + range.count; ++r) {
+            ranks[count++] = r;
+        }
+    }
+    return count;
+}
+
+}  // namespace
 
 const Kept& kept_by(const State& state) {
     if (!state.kept) {
@@ -17,47 +34,51 @@ const Kept& kept_by(const State& state) {
     return *state.kept;
 }
 
-}  // namespace
-
 Place place_of(const State& state, const double* coordinates) {
     const Kept& kept = kept_by(state);
-    Vector position{};
-    std::copy_n(coordinates, kept.cuts.dimension, position.begin());
-    const Part part = part_of(kept.cuts, position);
-    return {kept.map.ranks[static_cast<std::size_t>(part)].first, part};
+    const Part part = kept.part_of(coordinates);
+    return {kept.map().ranks[static_cast<std::size_t>(part)].first, part};
 }
 
-Touched touched_by(const State& state, const Box& box) {
+void find_touched(const State& state, const Box& box, const Touched& touched) {
     const Kept& kept = kept_by(state);
-    Touched touched;
-    touched.parts = parts_touching(kept.cuts, box);
-    for (const Part part : touched.parts) {
-        const RankRange& range = kept.map.ranks[static_cast<std::size_t>(part)];
-        // Parts ascend, and so do their ranks: only the last one can come twice.
-        const int next = touched.ranks.empty() ? 0 : touched.ranks.back() + 1;
-        for (int r = std::max(range.first, next); r < range.first + range.count; ++r) {
-            touched.ranks.push_back(r);
-        }
+    // Stays between calls: programs make tens of thousands of them.
+    thread_local std::vector<Part> unasked;
+    Part* parts = touched.parts;
+    if (parts == nullptr) {
+        unasked.resize(static_cast<std::size_t>(kept.map().num_parts()));
+        parts = unasked.data();
     }
-    return touched;
+    const int count = kept.parts_touching(box, parts);
+    if (touched.parts != nullptr) *touched.num_parts = count;
+    if (touched.ranks == nullptr) return;
+    *touched.num_ranks = write_ranks(kept.map(), parts, count, touched.ranks);
 }
 
 Box region_of(const State& state, int part) {
     const Kept& kept = kept_by(state);
-    if (part < 0 || part >= kept.cuts.num_parts) {
+    if (part < 0 || part >= kept.cuts().num_parts) {
         throw Failure(ZOLTAN_FATAL, "Invalid part number " + std::to_string(part));
     }
-    Box box = box_of(kept.cuts, part);
+    Box box = kept.region_of(part);
     for (std::size_t a = 0; a < max_dimension; ++a) {
-        const bool used = static_cast<int>(a) < kept.cuts.dimension;
+        const bool used = static_cast<int>(a) < kept.cuts().dimension;
         box.lower[a] = used ? std::max(box.lower[a], -DBL_MAX) : -DBL_MAX;
         box.upper[a] = used ? std::min(box.upper[a], DBL_MAX) : DBL_MAX;
     }
     return box;
 }
 
+TreeNode tree_node_of(const State& state, int node) {
+    const Kept& kept = kept_by(state);
+    if (node < 0 || node >= kept.cuts().num_parts) {
+        throw Failure(ZOLTAN_FATAL, "Invalid tree node " + std::to_string(node));
+    }
+    return kept.tree_node(node);
+}
+
 void require_one_part_per_rank(const State& state, const char* alternative) {
-    if (kept_by(state).map.one_each) return;
+    if (kept_by(state).map().one_each) return;
     throw Failure(ZOLTAN_FATAL,
                   std::string("Non-uniform distribution of parts over processors is specified; "
                               "use ") +

@@ -4,9 +4,10 @@
 
 #include <rrcb/cuts.hpp>
 
-#include <vector>
-
 namespace rrcb::zoltan {
+
+/// What the last partition kept. Throws Failure when it kept no cuts. Not collective.
+const Kept& kept_by(const State& state);
 
 /// Part and lowest rank of a position; `coordinates` has one entry per dimension. Not collective.
 /// All look-ups throw Failure when no cuts were kept.
@@ -16,15 +17,22 @@ struct Place {
 };
 Place place_of(const State& state, const double* coordinates);
 
-/// Parts a closed box touches and the ranks that hold them, both ascending.
+/// Where a box look-up writes; arrays that are null are not asked for.
 struct Touched {
-    std::vector<int> ranks;
-    std::vector<int> parts;
+    int* ranks = nullptr;
+    int* num_ranks = nullptr;
+    int* parts = nullptr;
+    int* num_parts = nullptr;
 };
-Touched touched_by(const State& state, const Box& box);
+
+/// Parts a closed box touches and the ranks that hold them, both ascending.
+void find_touched(const State& state, const Box& box, const Touched& touched);
 
 /// Region of a part; open sides are +-DBL_MAX, as in Zoltan. Throws Failure for an unknown part.
 Box region_of(const State& state, int part);
+
+/// Throws Failure for an unknown node.
+TreeNode tree_node_of(const State& state, int node);
 
 /// Throws Failure unless part p is on rank p, which the look-ups without parts ask for.
 void require_one_part_per_rank(const State& state, const char* alternative);

@@ -3,6 +3,7 @@
 #include "callback.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace rrcb::zoltan {
@@ -18,6 +19,7 @@ class Collector {
     Objects collect() {
         read_count();
         read_dimension();
+        objects_.names_parts = tells_parts();
         if (objects_.count > 0) {
             const auto count = static_cast<std::size_t>(objects_.count);
             objects_.global_ids = ZoltanArray<ZOLTAN_ID_TYPE>(count * num_gid());
@@ -72,7 +74,8 @@ class Collector {
 
     void read_ids_and_weights(std::size_t count) {
         const int weight_dimension = parameters_.weight_dimension;
-        weights_ = weight_dimension == 0 ? nullptr : workspace_.callback_weights.get(count);
+        const auto stride = static_cast<std::size_t>(weight_dimension);
+        weights_ = stride == 0 ? nullptr : workspace_.callback_weights.get(count * stride);
         const auto list = callback<ZOLTAN_OBJ_LIST_FN>(zz_, ZOLTAN_OBJ_LIST_FN_TYPE);
         if (list) {
             int code = ZOLTAN_OK;
@@ -82,6 +85,19 @@ class Collector {
         } else {
             iterate_objects(count);
         }
+        if (weight_dimension > 1) check_weights(count * stride);
+    }
+
+    /// Several weights are summed; one that is at fault would hide in the sum.
+    void check_weights(std::size_t size) {
+        const auto valid = [](float weight) { return std::isfinite(weight) && weight >= 0; };
+        const float* fault = std::find_if_not(weights_, weights_ + size, valid);
+        if (fault == weights_ + size) return;
+        throw Failure(ZOLTAN_FATAL,
+                      "object " +
+                          std::to_string((fault - weights_) / parameters_.weight_dimension) +
+                          " has the weight " + std::to_string(*fault) +
+                          "; weights must be finite and not negative");
     }
 
     void iterate_objects(std::size_t count) {
@@ -99,7 +115,8 @@ class Collector {
         int found = first(gid, lid, global_id(0), local_id(0), wdim, weights_, &code);
         check(code, "ZOLTAN_FIRST_OBJ_FN");
         for (std::size_t i = 1; i < count && found != 0; ++i) {
-            float* weight = weights_ == nullptr ? nullptr : weights_ + i;
+            float* weight =
+                weights_ == nullptr ? nullptr : weights_ + i * static_cast<std::size_t>(wdim);
             found = next(gid, lid, global_id(i - 1), local_id(i - 1), global_id(i), local_id(i),
                          wdim, weight, &code);
             check(code, "ZOLTAN_NEXT_OBJ_FN");
@@ -116,7 +133,7 @@ class Collector {
         double* coordinates = workspace_.coordinates.get(count * dimension);
         read_geometry(count, coordinates);
         std::span<const double> weights;
-        if (weights_ != nullptr) {
+        if (parameters_.weight_dimension == 1) {
             double* converted = workspace_.weights.get(count);
             std::copy_n(weights_, count, converted);
             weights = {converted, count};
@@ -147,10 +164,15 @@ class Collector {
         }
     }
 
+    bool tells_parts() const {
+        return callback<ZOLTAN_PART_MULTI_FN>(zz_, ZOLTAN_PART_MULTI_FN_TYPE) ||
+               callback<ZOLTAN_PART_FN>(zz_, ZOLTAN_PART_FN_TYPE);
+    }
+
     void read_initial_parts(std::size_t count) {
         const auto multi = callback<ZOLTAN_PART_MULTI_FN>(zz_, ZOLTAN_PART_MULTI_FN_TYPE);
         const auto single = callback<ZOLTAN_PART_FN>(zz_, ZOLTAN_PART_FN_TYPE);
-        if (!multi && !single) return;
+        if (!objects_.names_parts) return;
         objects_.initial_parts = ZoltanArray<int>(count);
         const int gid = parameters_.num_gid_entries;
         const int lid = parameters_.num_lid_entries;

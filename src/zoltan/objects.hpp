@@ -19,7 +19,8 @@ struct Workspace {
 /// One rank's objects, as its callbacks describe them.
 struct Objects {
     int count = 0;
-    bool warned = false;  ///< a callback returned ZOLTAN_WARN
+    bool warned = false;       ///< a callback returned ZOLTAN_WARN
+    bool names_parts = false;  ///< a callback tells the part of each object
     ZoltanArray<ZOLTAN_ID_TYPE> global_ids;
     ZoltanArray<ZOLTAN_ID_TYPE> local_ids;  ///< null when ids have no local part
     ZoltanArray<int> initial_parts;         ///< null when no callback tells them

@@ -140,6 +140,16 @@ constexpr CommonInteger common_integers[] = {
     {"NUM_LOCAL_PARTITIONS", &Parameters::num_local_parts, 0},
     {"KEEP_CUTS", &Parameters::keep_cuts, any_integer},
     {"AUTO_MIGRATE", &Parameters::auto_migrate, any_integer},
+    {"REMAP", &Parameters::remap, any_integer},
+    {"RCB_REUSE", &Parameters::reuse_cuts, any_integer},
+    {"RCB_LOCK_DIRECTIONS", &Parameters::lock_directions, any_integer},
+    {"RCB_SET_DIRECTIONS", &Parameters::set_directions, any_integer},
+    {"RCB_RECTILINEAR_BLOCKS", &Parameters::rectilinear_blocks, any_integer},
+    {"OBJ_WEIGHTS_COMPARABLE", &Parameters::weights_comparable, any_integer},
+    {"RCB_MULTICRITERIA_NORM", &Parameters::multicriteria_norm, any_integer},
+    {"REDUCE_DIMENSIONS", &Parameters::reduce_dimensions, any_integer},
+    {"RCB_OUTPUT_LEVEL", &Parameters::output_level, any_integer},
+    {"FINAL_OUTPUT", &Parameters::final_output, any_integer},
     {"DEBUG_LEVEL", &Parameters::debug_level, 0},
 };
 
@@ -156,6 +166,12 @@ void note_tolerance(Options& options, std::string_view text) {
     options.imbalance_tolerance = read_number(text, value) && std::isfinite(value) && value >= 1
                                       ? value
                                       : Options{}.imbalance_tolerance;
+}
+
+void note_ratio(double& ratio, std::string_view text) {
+    double value = 0;
+    const bool usable = read_number(text, value) && std::isfinite(value) && value > 1;
+    ratio = usable ? value : Parameters{}.degenerate_ratio;
 }
 
 ReturnLists return_lists(std::string_view text) {
@@ -180,14 +196,16 @@ Setting set_own(Parameters& parameters, std::string_view name, const char* value
     return is_default ? Setting::accepted : Setting::defaulted;
 }
 
-std::vector<std::string_view> own_parameter_names() {
-    std::vector<std::string_view> names;
-    for (const OwnParameter& own : own_parameters) names.push_back(own.name);
+std::vector<const char*> own_parameter_names() {
+    std::vector<const char*> names;
+    // Views of literals, so a null byte follows.
+    for (const OwnParameter& own : own_parameters) names.push_back(own.name.data());
     return names;
 }
 
 void note_common(Parameters& parameters, std::string_view name, std::string_view value) {
-    if (name == "LB_METHOD") parameters.rrcb = false;
+    if (name == "LB_METHOD") parameters.rrcb = parameters.replace_rcb && value == "RCB";
+    if (name == "DEGENERATE_RATIO") note_ratio(parameters.degenerate_ratio, value);
     if (name == "IMBALANCE_TOL") note_tolerance(parameters.options, value);
     if (name == "RETURN_LISTS") parameters.return_lists = return_lists(value);
     const auto* common = std::ranges::find(common_integers, name, &CommonInteger::name);

@@ -14,7 +14,8 @@ enum class ReturnLists { none, imports, exports, all, parts, candidates };
 
 /// What the plug-in must know of a handle's parameters; the defaults are Zoltan's.
 struct Parameters {
-    bool rrcb = false;  ///< LB_METHOD is RRCB
+    bool rrcb = false;         ///< LB_METHOD is RRCB, or RCB where that is replaced
+    bool replace_rcb = false;  ///< RRCB answers LB_METHOD=RCB
     int num_gid_entries = 1;
     int num_lid_entries = 1;
     int weight_dimension = 0;
@@ -22,6 +23,17 @@ struct Parameters {
     int num_local_parts = -1;   ///< -1: not set
     int keep_cuts = 0;
     int auto_migrate = 0;
+    int remap = 1;
+    int reuse_cuts = 0;
+    int lock_directions = 0;
+    int set_directions = 0;
+    int rectilinear_blocks = 0;
+    int weights_comparable = 0;
+    int multicriteria_norm = 1;
+    int reduce_dimensions = 0;
+    double degenerate_ratio = 10;
+    int output_level = 0;
+    int final_output = 0;
     int debug_level = 1;
     ReturnLists return_lists = ReturnLists::all;
     Options options;  ///< RRCB_* only; parts are filled in per call
@@ -41,7 +53,7 @@ enum class Setting {
 Setting set_own(Parameters& parameters, std::string_view name, const char* value);
 
 /// The names that set_own knows.
-std::vector<std::string_view> own_parameter_names();
+std::vector<const char*> own_parameter_names();
 
 /// Notes a parameter that Zoltan itself has accepted, if it matters here. Upper-cased.
 void note_common(Parameters& parameters, std::string_view name, std::string_view value);

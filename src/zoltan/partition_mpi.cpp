@@ -6,11 +6,18 @@
 #include "layout_mpi.hpp"
 #include "lists_mpi.hpp"
 #include "message.hpp"
+#include "rcb_options.hpp"
+#include "renumber_mpi.hpp"
+#include "summary.hpp"
+#include "weights_mpi.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
 
+#include <cstdio>
 #include <new>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -20,10 +27,6 @@ namespace {
 
 void check_parameters(const State& state, bool one_part_per_rank) {
     const Parameters& parameters = state.parameters;
-    if (parameters.weight_dimension > 1) {
-        throw Failure(ZOLTAN_FATAL, "RRCB balances one weight per object; OBJ_WEIGHT_DIM is " +
-                                        std::to_string(parameters.weight_dimension));
-    }
     if (parameters.return_lists == ReturnLists::candidates) {
         throw Failure(ZOLTAN_FATAL, "RRCB makes no candidate lists; change RETURN_LISTS");
     }
@@ -54,26 +57,25 @@ LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Obj
     }
 }
 
-Options options_for(const State& state, const Layout& layout) {
-    Options options = state.parameters.options;
-    options.num_parts = layout.map.num_parts();
-    options.part_sizes = layout.part_sizes;
-    return options;
-}
-
 /// Messages and code for what is legal but not as good as it was asked for.
-int review(const Report& report, const State& state, const char* function) {
+int review(const Report& report, const Remap& remap, const State& state, const char* function) {
+    const Parameters& parameters = state.parameters;
     std::string text;
     if (report.all_weights_zero) text = "all weights are zero; balanced by number of objects";
     if (report.num_points > 0 && report.surplus_parts > 0) {
         text = std::to_string(report.surplus_parts) +
                " parts stay empty: there are more parts than objects";
     }
-    if (text.empty()) return ZOLTAN_OK;
-    if (state.communicator->rank() == 0 && state.parameters.debug_level > 0) {
-        print_warning(0, function, text);
+    if (state.communicator->rank() == 0) {
+        if (asks_for_summary(parameters)) std::printf("%s\n", summary(report, remap).c_str());
+        if (parameters.debug_level > 0) {
+            for (const std::string& shortcoming : shortcomings(parameters)) {
+                print_warning(0, function, shortcoming);
+            }
+            if (!text.empty()) print_warning(0, function, text);
+        }
     }
-    return ZOLTAN_WARN;
+    return text.empty() ? ZOLTAN_OK : ZOLTAN_WARN;
 }
 
 /// Drops or completes the lists as RETURN_LISTS asks.
@@ -100,27 +102,59 @@ int migrate(Zoltan_Struct* zz, const Partition& result) {
                           exports.parts.get());
 }
 
-int balance_objects(Zoltan_Struct* zz, State& state, const Agreement& agreement, Objects&& objects,
-                    const char* function, Partition& result) {
-    const Communicator& comm = *state.communicator;
-    const Parameters& parameters = state.parameters;
-    Layout layout = make_layout(agreement, state);
-    Balance balanced = balance(objects.points, options_for(state, layout), comm.get());
+/// One call of LB_Partition and the cuts of the call before it.
+struct Call {
+    Zoltan_Struct* zz;
+    State& state;
+    const char* function;
+    std::optional<Kept> previous;
+};
+
+Balance find_parts(const Call& call, const Layout& layout, const Objects& objects) {
+    const Parameters& parameters = call.state.parameters;
+    const MPI_Comm comm = call.state.communicator->get();
+    const int dimension = objects.points.dimension;
+    const bool fits = call.previous && call.previous->cuts().dimension == dimension &&
+                      call.previous->cuts().num_parts == layout.map.num_parts();
+    const Cuts* previous = fits ? &call.previous->cuts() : nullptr;
+    const Options options = make_options(parameters, layout, dimension, previous);
+    if (fits && starts_from_previous(parameters)) {
+        return balance(objects.points, options, comm, *previous);
+    }
+    return balance(objects.points, options, comm);
+}
+
+void make_lists(const Call& call, const Layout& layout, Objects&& objects,
+                std::span<const Part> parts, Partition& result) {
+    const Parameters& parameters = call.state.parameters;
+    const Communicator& comm = *call.state.communicator;
     if (parameters.return_lists == ReturnLists::none) {
         result.changes = true;
     } else {
         Exports exports =
-            make_exports(std::move(objects), parameters, balanced.parts, layout.map, comm.rank());
+            make_exports(std::move(objects), parameters, parts, layout.map, comm.rank());
         result.exports = std::move(exports.list);
         result.changes = any_rank(exports.moves, comm.get());
     }
-    select_lists(zz, parameters.return_lists, result);
-    if (parameters.keep_cuts != 0) {
-        state.kept = Kept{std::move(balanced.cuts), std::move(layout.map)};
+    select_lists(call.zz, parameters.return_lists, result);
+}
+
+int balance_objects(const Call& call, const Agreement& agreement, Objects&& objects,
+                    Partition& result) {
+    const Parameters& parameters = call.state.parameters;
+    const MPI_Comm comm = call.state.communicator->get();
+    Layout layout = make_layout(agreement, call.state);
+    combine_weights(parameters, call.state.workspace, comm, objects);
+    Balance balanced = find_parts(call, layout, objects);
+    Remap remap = renumber(parameters, layout, objects, balanced.parts, comm);
+    make_lists(call, layout, std::move(objects), balanced.parts, result);
+    const int code = review(balanced.report, remap, call.state, call.function);
+    if (keeps_cuts(parameters)) {
+        call.state.kept.emplace(std::move(balanced.cuts), std::move(layout.map),
+                                std::move(remap.numbers));
     }
-    const int code = review(balanced.report, state, function);
     if (parameters.auto_migrate == 0 || !result.changes) return code;
-    const int migrated = migrate(zz, result);
+    const int migrated = migrate(call.zz, result);
     return migrated == ZOLTAN_OK ? code : migrated;
 }
 
@@ -129,10 +163,11 @@ int balance_objects(Zoltan_Struct* zz, State& state, const Agreement& agreement,
 int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_part_per_rank,
               Partition& result) {
     const int rank = state.communicator->rank();
-    state.kept.reset();
     Objects objects;
     const LocalStatus local = collect(zz, state, one_part_per_rank, objects);
     const Agreement agreement = agree(local, state);
+    Call call{zz, state, function, std::exchange(state.kept, std::nullopt)};
+    if (!agreement.all_kept_cuts) call.previous.reset();
     dump(DumpReason::asked, agreement, state, {function, objects, local});
     if (agreement.failed()) {
         dump(DumpReason::failure, agreement, state, {function, objects, local});
@@ -151,8 +186,7 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
                                                  "all of them");
     }
     try {
-        const int code =
-            balance_objects(zz, state, agreement, std::move(objects), function, result);
+        const int code = balance_objects(call, agreement, std::move(objects), result);
         return code == ZOLTAN_OK ? agreement.code : code;
     } catch (const Failure& failure) {
         return fail_everywhere(failure.code(), failure.what());

@@ -1,10 +1,9 @@
 #pragma once
 
+#include "kept.hpp"
 #include "objects.hpp"
 #include "parameters.hpp"
 #include "part_map.hpp"
-
-#include <rrcb/cuts.hpp>
 
 #include <mpi.h>
 #include <zoltan.h>
@@ -40,18 +39,12 @@ struct PartSize {
     float size = 0;
 };
 
-/// What look-ups need of the last partition.
-struct Kept {
-    Cuts cuts;
-    PartMap map;
-};
-
 /// What the plug-in knows of one Zoltan_Struct beside what Zoltan keeps itself.
 struct State {
     std::shared_ptr<Communicator> communicator;
     Parameters parameters;
     std::vector<PartSize> part_sizes;
-    std::optional<Kept> kept;   ///< with KEEP_CUTS
+    std::optional<Kept> kept;   ///< with KEEP_CUTS, or what implies it
     bool deserialized = false;  ///< Zoltan's parameters were set behind the plug-in's back
     Workspace workspace;
 };

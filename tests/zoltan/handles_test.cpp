@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <malloc.h>
-#include <zoltan_partition_tree.h>
 
 // Counts the communicators that are alive in this process.
 static int num_communicators = 0;
@@ -195,17 +194,10 @@ TEST(Handles, migrate_automatically_as_with_rcb) {
     }
 }
 
-TEST(Handles, refuse_what_rrcb_cannot_do_yet) {
+TEST(Handles, refuse_the_lists_that_zoltan_makes_for_itself) {
     Program program;
     scatter_points(program, 100);
     program.set("LB_METHOD", "RRCB");
-    program.set("KEEP_CUTS", "1");
-    program.partition();
-    char buffer[64] = "";
-    int parent = 0, left = 0, right = 0;
-    EXPECT_EQ(Zoltan_Serialize_Size(program.zz), 0U);
-    EXPECT_EQ(Zoltan_Serialize(program.zz, sizeof(buffer), buffer), ZOLTAN_FATAL);
-    EXPECT_EQ(Zoltan_RCB_Partition_Tree(program.zz, 0, &parent, &left, &right), ZOLTAN_FATAL);
     program.set("RETURN_LISTS", "CANDIDATE LISTS");
     EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
 }

@@ -158,7 +158,7 @@ TEST(LookUps, without_kept_cuts_are_fatal) {
 TEST(LookUps, are_not_answered_from_cuts_of_a_call_that_failed) {
     KeptProgram program;
     program.partition();
-    program.set("OBJ_WEIGHT_DIM", "2");
+    program.set("RETURN_LISTS", "CANDIDATE LISTS");
     EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
     expect_no_cuts(program);
 }

@@ -71,6 +71,7 @@ TEST(Parameters, of_rrcb_reach_the_balancer) {
     program.set("RETURN_LISTS", "PARTS");
     program.set("NUM_GLOBAL_PARTS", "6");
     program.set("LB_METHOD", "RRCB");
+    program.set("RRCB_REFINE", "NONE");
     const auto defaults = program.partition().exports.parts;
     EXPECT_TRUE(differ(parts_with(program, "RRCB_SUPPORT_MESH", "2"), defaults));
     EXPECT_FALSE(differ(parts_with(program, "RRCB_SUPPORT_MESH", "NONSENSE"), defaults));
@@ -151,14 +152,6 @@ TEST(Parameters, of_the_domain_that_differ_between_ranks_are_fatal_everywhere) {
     scatter_points(program, 100);
     program.set("LB_METHOD", "RRCB");
     program.set("RRCB_SUPPORT_MESH", program.rank == 0 ? "4" : "5");
-    EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
-}
-
-TEST(Parameters, more_than_one_weight_is_fatal) {
-    Program program;
-    scatter_points(program, 100);
-    program.set("LB_METHOD", "RRCB");
-    program.set("OBJ_WEIGHT_DIM", "2");
     EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
 }
 

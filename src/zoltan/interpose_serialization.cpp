@@ -1,0 +1,84 @@
+#include "export.hpp"
+#include "guard.hpp"
+#include "real_zoltan.hpp"
+#include "serialization.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+using namespace rrcb::zoltan;
+
+namespace {
+
+/// Sets a parameter from how `Parameters::given` names it, with its index in brackets.
+int set_again(Zoltan_Struct* zz, const std::string& name, const std::string& value) {
+    const auto bracket = name.find('[');
+    if (bracket == name.npos) return Zoltan_Set_Param(zz, name.c_str(), value.c_str());
+    int index = 0;
+    std::from_chars(name.data() + bracket + 1, name.data() + name.size(), index);
+    return Zoltan_Set_Param_Vec(zz, name.substr(0, bracket).c_str(), value.c_str(), index);
+}
+
+/// Tells a handle all that the other one was told.
+int unpack(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
+    const bool replace_rcb = state.parameters.replace_rcb;
+    state.parameters = Parameters{};
+    state.parameters.replace_rcb = replace_rcb;
+    state.part_sizes.clear();
+    state.deserialized = false;
+    for (const auto& [name, value] : parcel.given) {
+        const int code = set_again(zz, name, value);
+        if (code != ZOLTAN_OK && code != ZOLTAN_WARN) return code;
+    }
+    for (PartSize& entry : parcel.part_sizes) {
+        const int code = Zoltan_LB_Set_Part_Sizes(zz, entry.global ? 1 : 0, 1, &entry.part, nullptr,
+                                                  &entry.size);
+        if (code != ZOLTAN_OK && code != ZOLTAN_WARN) return code;
+    }
+    state.parameters.rrcb = true;
+    state.kept = std::move(parcel.kept);
+    return ZOLTAN_OK;
+}
+
+}  // namespace
+
+RRCB_EXPORT size_t Zoltan_Serialize_Size(Zoltan_Struct const* zz) {
+    const State* state = rrcb_state(zz);
+    if (state == nullptr) return forward<&RealZoltan::serialize_size>(zz);
+    size_t size = 0;
+    guarded("Zoltan_Serialize_Size", state, [&] {
+        size = serialize(*state).size();
+        return ZOLTAN_OK;
+    });
+    return size;
+}
+
+RRCB_EXPORT int Zoltan_Serialize(Zoltan_Struct const* zz, size_t size, char* buffer) {
+    const State* state = rrcb_state(zz);
+    if (state == nullptr) return forward<&RealZoltan::serialize>(zz, size, buffer);
+    return guarded("Zoltan_Serialize", state, [&] {
+        const std::vector<char> bytes = serialize(*state);
+        if (bytes.size() > size) {
+            throw Failure(ZOLTAN_FATAL, "the buffer is too small; ask Zoltan_Serialize_Size");
+        }
+        std::ranges::copy(bytes, buffer);
+        return ZOLTAN_OK;
+    });
+}
+
+RRCB_EXPORT int Zoltan_Deserialize(Zoltan_Struct* zz, size_t size, char* buffer) {
+    State* state = find_state(zz);
+    if (state != nullptr && is_parcel({buffer, size})) {
+        return guarded("Zoltan_Deserialize", state, [&] {
+            return unpack(zz, *state, deserialize({buffer, size}));
+        });
+    }
+    // What the buffer holds comes from the real Zoltan and replaces every parameter.
+    if (state != nullptr) {
+        state->parameters.rrcb = false;
+        state->deserialized = true;
+        state->kept.reset();
+    }
+    return forward<&RealZoltan::deserialize>(zz, size, buffer);
+}

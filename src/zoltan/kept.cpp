@@ -1,0 +1,82 @@
+#include "kept.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace rrcb::zoltan {
+
+Kept::Kept(Cuts cuts, PartMap map, std::vector<Part> numbers)
+    : cuts_(std::move(cuts)),
+      map_(std::move(map)),
+      numbers_(std::move(numbers)),
+      tree_(numbers_.size()) {
+    nodes_.reserve(cuts_.tree.size());
+    root_ = build(0, cuts_.num_parts, -1);
+    if (cuts_.num_parts > 1) tree_[0].upper = lower_parts(cuts_.num_parts);
+}
+
+/// The nodes of a subtree in preorder, and its first as a child; `parent` as in TreeNode.
+std::int32_t Kept::build(Part first, int num_parts, int parent) {
+    if (num_parts == 1) return ~numbers_[static_cast<std::size_t>(first)];
+    const auto index = nodes_.size();
+    const Cut& cut = cuts_.tree[index];
+    nodes_.push_back({cut.at[static_cast<std::size_t>(cut.axis)], cut.axis, 0, 0});
+    // A node has the number of the first part above its cut.
+    const int below = lower_parts(num_parts);
+    const int above = num_parts - below;
+    const Part middle = first + below;
+    const auto name = [](Part start, int size) {
+        return size == 1 ? -start : start + lower_parts(size);
+    };
+    tree_[static_cast<std::size_t>(middle)] = {parent, name(first, below), name(middle, above)};
+    const std::int32_t lower = build(first, below, middle + 1);
+    const std::int32_t upper = build(middle, above, -(middle + 1));
+    nodes_[index].lower = lower;
+    nodes_[index].upper = upper;
+    return static_cast<std::int32_t>(index);
+}
+
+bool Kept::is_above(std::size_t cut, const double* position) const {
+    const Node& node = nodes_[cut];
+    const double x = position[node.axis];
+    if (x != node.plane) return x > node.plane;
+    Vector exact{};
+    std::copy_n(position, cuts_.dimension, exact.begin());
+    return rrcb::is_above(cuts_.tree[cut], exact, cuts_.dimension);
+}
+
+Part Kept::part_of(const double* coordinates) const {
+    std::int32_t at = root_;
+    while (at >= 0) {
+        const auto cut = static_cast<std::size_t>(at);
+        at = is_above(cut, coordinates) ? nodes_[cut].upper : nodes_[cut].lower;
+    }
+    return ~at;
+}
+
+int Kept::parts_touching(const Box& box, Part* parts) const {
+    for (std::size_t a = 0; a < static_cast<std::size_t>(cuts_.dimension); ++a) {
+        if (!(box.lower[a] <= box.upper[a])) return 0;
+    }
+    const int count = collect(root_, box, parts, 0);
+    std::sort(parts, parts + count);
+    return count;
+}
+
+int Kept::collect(std::int32_t at, const Box& box, Part* parts, int count) const {
+    if (at < 0) {
+        parts[count] = ~at;
+        return count + 1;
+    }
+    const auto cut = static_cast<std::size_t>(at);
+    if (!is_above(cut, box.lower.data())) count = collect(nodes_[cut].lower, box, parts, count);
+    if (is_above(cut, box.upper.data())) count = collect(nodes_[cut].upper, box, parts, count);
+    return count;
+}
+
+Box Kept::region_of(Part part) const {
+    const auto found = std::ranges::find(numbers_, part);
+    return box_of(cuts_, static_cast<Part>(found - numbers_.begin()));
+}
+
+}  // namespace rrcb::zoltan

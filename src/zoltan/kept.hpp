@@ -1,0 +1,63 @@
+#pragma once
+
+#include "part_map.hpp"
+
+#include <rrcb/cuts.hpp>
+
+#include <vector>
+
+namespace rrcb::zoltan {
+
+/// One cut of Zoltan_RCB_Partition_Tree: nodes by number, parts as the negative of theirs.
+struct TreeNode {
+    int parent = 0;  ///< number + 1, negative for a node above its parent's cut
+    int lower = 0;
+    int upper = 0;
+};
+
+/// What look-ups need of the last partition, laid out for them.
+class Kept {
+  public:
+    /// `numbers` is the new number of each part of `cuts`.
+    Kept(Cuts cuts, PartMap map, std::vector<Part> numbers);
+
+    const Cuts& cuts() const { return cuts_; }
+    const PartMap& map() const { return map_; }
+    const std::vector<Part>& numbers() const { return numbers_; }
+
+    /// Part of a position, one coordinate per dimension.
+    Part part_of(const double* coordinates) const;
+
+    /// Writes the parts a closed box touches, ascending; returns how many. `parts` has room for
+    /// all.
+    int parts_touching(const Box& box, Part* parts) const;
+
+    /// Region of a part, open sides +-infinity.
+    Box region_of(Part part) const;
+
+    /// Node 1 ... parts - 1 of the tree; node 0 stands above the root. In the numbers before they
+    /// were changed, as Zoltan has it.
+    const TreeNode& tree_node(int node) const { return tree_[static_cast<std::size_t>(node)]; }
+
+  private:
+    /// Index k is cut k; children below 0 are parts, the part p as ~p.
+    struct Node {
+        double plane = 0;
+        std::int32_t axis = 0;
+        std::int32_t lower = 0;
+        std::int32_t upper = 0;
+    };
+
+    std::int32_t build(Part first, int num_parts, int parent);
+    bool is_above(std::size_t cut, const double* position) const;
+    int collect(std::int32_t at, const Box& box, Part* parts, int count) const;
+
+    Cuts cuts_;
+    PartMap map_;
+    std::vector<Part> numbers_;
+    std::vector<Node> nodes_;
+    std::vector<TreeNode> tree_;
+    std::int32_t root_ = 0;
+};
+
+}  // namespace rrcb::zoltan

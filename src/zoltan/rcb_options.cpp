@@ -1,0 +1,74 @@
+#include "rcb_options.hpp"
+
+#include "weights_mpi.hpp"
+
+#include <array>
+
+namespace rrcb::zoltan {
+
+namespace {
+
+/// RCB_SET_DIRECTIONS 1 ... 6; out of bounds is taken as 1, as Zoltan does.
+std::vector<int> axis_order(int set_directions, int dimension) {
+    constexpr std::array<std::array<int, 3>, 6> orders = {
+        {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}}};
+    const bool known = set_directions >= 1 && set_directions <= 6;
+    std::vector<int> axes;
+    for (const int axis : orders[known ? static_cast<std::size_t>(set_directions - 1) : 0]) {
+        if (axis < dimension) axes.push_back(axis);
+    }
+    return axes;
+}
+
+std::vector<int> axes_of(const Cuts& cuts) {
+    std::vector<int> axes;
+    for (const Cut& cut : cuts.tree) axes.push_back(cut.axis);
+    return axes;
+}
+
+}  // namespace
+
+Options make_options(const Parameters& parameters, const Layout& layout, int dimension,
+                     const Cuts* previous) {
+    Options options = parameters.options;
+    options.num_parts = layout.map.num_parts();
+    options.part_sizes = layout.part_sizes;
+    options.plain_cuts = parameters.rectilinear_blocks != 0;
+    if (parameters.lock_directions != 0 && previous != nullptr) {
+        options.cut_axes = axes_of(*previous);
+    } else if (parameters.set_directions != 0) {
+        options.grouped_axes = axis_order(parameters.set_directions, dimension);
+    }
+    return options;
+}
+
+bool starts_from_previous(const Parameters& parameters) {
+    const Options& options = parameters.options;
+    const bool refines = options.refine != Refine::none && options.domain == DomainKind::analytic &&
+                         options.cut_rule == CutRule::weighted_fraction;
+    return parameters.reuse_cuts != 0 && refines;
+}
+
+bool keeps_cuts(const Parameters& parameters) {
+    return parameters.keep_cuts != 0 || parameters.reuse_cuts != 0 ||
+           parameters.lock_directions != 0;
+}
+
+std::vector<std::string> shortcomings(const Parameters& parameters) {
+    std::vector<std::string> texts;
+    if (parameters.set_directions < 0 || parameters.set_directions > 6) {
+        texts.emplace_back("Parameter RCB_SET_DIRECTIONS out of bounds; reset to 1.");
+    }
+    if (parameters.weight_dimension > most_weights) {
+        texts.emplace_back("Too many weights (" + std::to_string(parameters.weight_dimension) +
+                           ") were given; only the first " + std::to_string(most_weights) +
+                           " will be used.");
+    }
+    if (parameters.weight_dimension > 1 && parameters.multicriteria_norm != 1) {
+        texts.emplace_back(
+            "RCB_MULTICRITERIA_NORM: RRCB balances the sum of the weights, which is norm 1");
+    }
+    return texts;
+}
+
+}  // namespace rrcb::zoltan

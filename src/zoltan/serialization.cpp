@@ -1,0 +1,193 @@
+#include "serialization.hpp"
+
+#include "failure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+namespace rrcb::zoltan {
+
+namespace {
+
+constexpr std::array<char, 8> signature = {'R', 'R', 'C', 'B', 'h', 'n', 'd', '1'};
+
+struct Header {
+    std::array<char, 8> signature = zoltan::signature;
+    std::uint64_t size = 0;  ///< of what follows
+    std::uint64_t checksum = 0;
+};
+
+[[noreturn]] void refuse(const char* why) {
+    throw Failure(ZOLTAN_FATAL, std::string("the buffer of Zoltan_Serialize is ") + why);
+}
+
+/// FNV-1a, 64 bits (Fowler, Noll, Vo).
+std::uint64_t checksum_of(std::span<const char> bytes) {
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    for (const char byte : bytes) {
+        hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
+    }
+    return hash;
+}
+
+class Writer {
+  public:
+    template <typename T>
+    void value(const T& value) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        const auto* bytes = reinterpret_cast<const char*>(&value);
+        bytes_.insert(bytes_.end(), bytes, bytes + sizeof(T));
+    }
+    void text(const std::string& text) {
+        value<std::uint64_t>(text.size());
+        bytes_.insert(bytes_.end(), text.begin(), text.end());
+    }
+    template <typename T>
+    void list(const std::vector<T>& list) {
+        value<std::uint64_t>(list.size());
+        for (const T& entry : list) value(entry);
+    }
+    const std::vector<char>& bytes() const { return bytes_; }
+
+  private:
+    std::vector<char> bytes_;
+};
+
+class Reader {
+  public:
+    explicit Reader(std::span<const char> bytes) : bytes_(bytes) {}
+
+    template <typename T>
+    T value() {
+        T result;
+        std::memcpy(&result, take(sizeof(T)), sizeof(T));
+        return result;
+    }
+    std::string text() {
+        const auto size = value<std::uint64_t>();
+        return {take(size), size};
+    }
+    template <typename T>
+    std::vector<T> list() {
+        const auto size = value<std::uint64_t>();
+        if (size > bytes_.size() / sizeof(T)) refuse("truncated");
+        std::vector<T> result(size);
+        for (T& entry : result) entry = value<T>();
+        return result;
+    }
+
+  private:
+    const char* take(std::uint64_t size) {
+        if (size > bytes_.size()) refuse("truncated");
+        const char* start = bytes_.data();
+        bytes_ = bytes_.subspan(size);
+        return start;
+    }
+
+    std::span<const char> bytes_;
+};
+
+void write(Writer& writer, const Kept& kept) {
+    writer.value(kept.cuts().dimension);
+    writer.value<std::uint64_t>(kept.cuts().tree.size());
+    for (const Cut& cut : kept.cuts().tree) {
+        writer.value(cut.axis);
+        writer.value(cut.at);
+    }
+    writer.list(kept.numbers());
+    writer.list(kept.map().ranks);
+    writer.value(kept.map().one_each);
+}
+
+bool is_permutation(std::vector<Part> numbers) {
+    std::ranges::sort(numbers);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (numbers[i] != static_cast<Part>(i)) return false;
+    }
+    return true;
+}
+
+bool is_consistent(const Cuts& cuts, const PartMap& map, const std::vector<Part>& numbers) {
+    const auto valid_cut = [&](const Cut& cut) {
+        return cut.axis >= 0 && cut.axis < cuts.dimension;
+    };
+    const auto valid_range = [](const RankRange& range) {
+        return range.first >= 0 && range.count >= 1;
+    };
+    return cuts.dimension >= 1 && cuts.dimension <= max_dimension &&
+           cuts.tree.size() + 1 == numbers.size() && numbers.size() == map.ranks.size() &&
+           std::ranges::all_of(cuts.tree, valid_cut) &&
+           std::ranges::all_of(map.ranks, valid_range) && is_permutation(numbers);
+}
+
+Kept read_kept(Reader& reader) {
+    Cuts cuts;
+    cuts.dimension = reader.value<int>();
+    for (auto left = reader.value<std::uint64_t>(); left > 0; --left) {
+        const auto axis = reader.value<std::int32_t>();
+        cuts.tree.push_back({axis, reader.value<Vector>()});
+    }
+    auto numbers = reader.list<Part>();
+    PartMap map;
+    map.ranks = reader.list<RankRange>();
+    map.one_each = reader.value<bool>();
+    cuts.num_parts = static_cast<int>(numbers.size());
+    if (!is_consistent(cuts, map, numbers)) refuse("inconsistent");
+    return {std::move(cuts), std::move(map), std::move(numbers)};
+}
+
+}  // namespace
+
+std::vector<char> serialize(const State& state) {
+    Writer body;
+    body.value<std::uint64_t>(state.parameters.given.size());
+    for (const auto& [name, value] : state.parameters.given) {
+        body.text(name);
+        body.text(value);
+    }
+    body.value<std::uint64_t>(state.part_sizes.size());
+    for (const PartSize& entry : state.part_sizes) {
+        body.value(entry.part);
+        body.value(entry.global);
+        body.value(entry.size);
+    }
+    body.value(state.kept.has_value());
+    if (state.kept) write(body, *state.kept);
+
+    const Header header{signature, body.bytes().size(), checksum_of(body.bytes())};
+    std::vector<char> bytes(sizeof header + body.bytes().size());
+    std::memcpy(bytes.data(), &header, sizeof header);
+    std::ranges::copy(body.bytes(), bytes.data() + sizeof header);
+    return bytes;
+}
+
+bool is_parcel(std::span<const char> bytes) {
+    return bytes.size() >= signature.size() &&
+           std::equal(signature.begin(), signature.end(), bytes.begin());
+}
+
+Parcel deserialize(std::span<const char> bytes) {
+    if (bytes.size() < sizeof(Header)) refuse("truncated");
+    const auto header = Reader(bytes).value<Header>();
+    const auto body = bytes.subspan(sizeof(Header));
+    if (header.size > body.size()) refuse("truncated");
+    if (checksum_of(body.first(header.size)) != header.checksum) refuse("damaged");
+    Reader reader(body.first(header.size));
+    Parcel parcel;
+    for (auto left = reader.value<std::uint64_t>(); left > 0; --left) {
+        const std::string name = reader.text();
+        parcel.given[name] = reader.text();
+    }
+    for (auto left = reader.value<std::uint64_t>(); left > 0; --left) {
+        const auto part = reader.value<int>();
+        const auto global = reader.value<bool>();
+        parcel.part_sizes.push_back({part, global, reader.value<float>()});
+    }
+    if (reader.value<bool>()) parcel.kept = read_kept(reader);
+    return parcel;
+}
+
+}  // namespace rrcb::zoltan

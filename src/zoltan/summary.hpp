@@ -1,0 +1,18 @@
+#pragma once
+
+#include "parameters.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/remap.hpp>
+
+#include <string>
+
+namespace rrcb::zoltan {
+
+/// RCB_OUTPUT_LEVEL or FINAL_OUTPUT above 0, or DEBUG_LEVEL 10, from which Zoltan tells of REMAP.
+bool asks_for_summary(const Parameters& parameters);
+
+/// What RCB_OUTPUT_LEVEL prints: size, imbalance, rounds and what the new part numbers saved.
+std::string summary(const Report& report, const Remap& remap);
+
+}  // namespace rrcb::zoltan

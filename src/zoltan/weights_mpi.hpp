@@ -1,0 +1,19 @@
+#pragma once
+
+#include "objects.hpp"
+
+#include <mpi.h>
+
+namespace rrcb::zoltan {
+
+/// Further weights of an object are ignored, as in Zoltan.
+inline constexpr int most_weights = 4;
+
+/// Gives objects of several weights the one weight that norm 1 balances: their sum, each divided
+/// by its sum over all objects unless OBJ_WEIGHTS_COMPARABLE is set.
+///
+/// Collective over `comm` where OBJ_WEIGHT_DIM is above 1, one reduction; otherwise nothing.
+void combine_weights(const Parameters& parameters, Workspace& workspace, MPI_Comm comm,
+                     Objects& objects);
+
+}  // namespace rrcb::zoltan

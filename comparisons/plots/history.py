@@ -12,10 +12,11 @@ from results import Columns, read_history
 from style import PART_COLOURS, method_style, save
 
 FLOOR_PERCENT = 1e-3
+MOST_WINDOWS = 150  # lines that swing at every rebalance would run into one another
 
 
 def draw_history(directory: Path, picture: Path) -> bool:
-    """All methods together by their worst part, then every part of each method."""
+    """All methods together by their worst part, then every part of each method, in windows."""
     histories = read_history(directory)
     if not histories:
         return False
@@ -39,15 +40,22 @@ def _per_part(history: Columns) -> tuple[np.ndarray, np.ndarray]:
     return history["time"][first], unbalance
 
 
+def _windows(steps: int) -> np.ndarray:
+    """First step of each window of consecutive steps."""
+    return np.unique(np.linspace(0, steps, min(steps, MOST_WINDOWS), endpoint=False).astype(int))
+
+
 def _draw_worst(axes: Axes, histories: dict[str, Columns]) -> None:
     for method, history in histories.items():
         style = method_style(method)
         times, unbalance = _per_part(history)
         worst = np.maximum(np.nanmax(np.abs(unbalance), axis=0), FLOOR_PERCENT)
-        axes.plot(times, worst, color=style.colour, linestyle=style.line, label=method)
+        windows = _windows(len(times))
+        worst = np.maximum.reduceat(worst, windows)
+        axes.plot(times[windows], worst, color=style.colour, linestyle=style.line, label=method)
     axes.set_yscale("log")
     axes.set_ylabel("worst |Lu| [%]")
-    axes.set_title("Load unbalance Lu = (ideal − actual) / ideal of the worst part")
+    axes.set_title("Load unbalance Lu = (ideal − actual) / ideal of the worst part, worst step of each window")
     axes.grid(True, axis="y")
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=3.5)
 
@@ -55,10 +63,12 @@ def _draw_worst(axes: Axes, histories: dict[str, Columns]) -> None:
 def _draw_parts(axes: Axes, method: str, history: Columns) -> None:
     times, unbalance = _per_part(history)
     axes.axhline(0, color="#999999", linewidth=0.6)
-    lowest, highest = np.nanmin(unbalance, axis=0), np.nanmax(unbalance, axis=0)
-    axes.fill_between(times, lowest, highest, color="#DDDDDD", linewidth=0)
+    windows = _windows(len(times))
     for part, values in enumerate(unbalance):
         colour = PART_COLOURS[part % len(PART_COLOURS)]
-        axes.plot(times, values, color=colour, linewidth=0.8)
+        lowest = np.fmin.reduceat(values, windows)
+        highest = np.fmax.reduceat(values, windows)
+        axes.fill_between(times[windows], lowest, highest, color=colour, alpha=0.35, linewidth=0)
+        axes.plot(times[windows], (lowest + highest) / 2, color=colour, linewidth=0.9)
     axes.set_ylabel("Lu [%]")
-    axes.set_title(f"{method}: Lu of every part", fontsize=9, loc="left")
+    axes.set_title(f"{method}: Lu of every part, from least to most", fontsize=9, loc="left")

@@ -61,6 +61,7 @@ def read_table(directory: Path) -> list[Measurement]:
 
 
 def read_simulations(directory: Path) -> list[Simulation]:
+    """The runs that did not fail."""
     return [
         Simulation(
             method=row["method"],
@@ -73,6 +74,7 @@ def read_simulations(directory: Path) -> list[Simulation]:
             mean_imbalance=float(row["mean_imbalance"]),
         )
         for row in _rows(directory / "simulation.csv")
+        if not row.get("error")
     ]
 
 

@@ -1,39 +1,17 @@
 #include "balancer_mpi.hpp"
 
 #include "failure_mpi.hpp"
+#include "rrcb_balancer_mpi.hpp"
 #include "zoltan_partitioner_mpi.hpp"
 
-#include <rrcb/balance.hpp>
-
-#include <array>
 #include <memory>
 
 namespace comparisons {
 
 namespace {
 
-rrcb::Points points_of(mpm::Positions positions) {
-    const std::array<std::span<const double>, 2> columns{positions.x, positions.y};
-    return rrcb::column_points(columns);
-}
-
 mpm::Box plane_box(const rrcb::Box& box) {
     return {{box.lower[0], box.lower[1]}, {box.upper[0], box.upper[1]}};
-}
-
-mpm::Decomposition decompose(mpm::Positions positions, const rrcb::Options& options,
-                             MPI_Comm comm) {
-    rrcb::Balance balance = rrcb::balance(points_of(positions), options, comm);
-    mpm::Decomposition decomposition;
-    for (rrcb::Part part = 0; part < balance.cuts.num_parts; ++part) {
-        decomposition.boxes.push_back(plane_box(rrcb::box_of(balance.cuts, part)));
-    }
-    decomposition.local_owners = std::move(balance.parts);
-    decomposition.owners = [cuts = std::move(balance.cuts)](mpm::Positions at,
-                                                            std::span<int> owners) {
-        rrcb::assign(cuts, points_of(at), owners);
-    };
-    return decomposition;
 }
 
 /// Zoltan's handle and the points its callbacks see, kept from one balance to the next because
@@ -91,11 +69,7 @@ class ZoltanBalancer {
 }  // namespace
 
 std::optional<mpm::Balancer> make_balancer(const Method& method) {
-    if (method.options) {
-        return [options = *method.options](mpm::Positions positions, MPI_Comm comm) {
-            return decompose(positions, options, comm);
-        };
-    }
+    if (method.options) return rrcb_balancer(*method.options);
     if (method.lb_method != "RCB") return std::nullopt;
     auto zoltan = std::make_shared<ZoltanBalancer>(zoltan_parameters(method, Lists::parts));
     return [zoltan](mpm::Positions positions, MPI_Comm comm) {

@@ -13,8 +13,9 @@ rrcb::Points points_of(mpm::Positions positions) {
     return rrcb::column_points(columns);
 }
 
-mpm::Decomposition decompose(mpm::Positions positions, MPI_Comm comm) {
-    rrcb::Balance balance = rrcb::balance(points_of(positions), {}, comm);
+mpm::Decomposition decompose(mpm::Positions positions, const rrcb::Options& options,
+                             MPI_Comm comm) {
+    rrcb::Balance balance = rrcb::balance(points_of(positions), options, comm);
     mpm::Decomposition decomposition;
     for (rrcb::Part part = 0; part < balance.cuts.num_parts; ++part) {
         const rrcb::Box box = rrcb::box_of(balance.cuts, part);
@@ -30,6 +31,8 @@ mpm::Decomposition decompose(mpm::Positions positions, MPI_Comm comm) {
 
 }  // namespace
 
-mpm::Balancer rrcb_balancer() {
-    return decompose;
+mpm::Balancer rrcb_balancer(const rrcb::Options& options) {
+    return [options](mpm::Positions positions, MPI_Comm comm) {
+        return decompose(positions, options, comm);
+    };
 }

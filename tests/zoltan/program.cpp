@@ -30,7 +30,11 @@ void list_objects(void* data, int num_gid, int num_lid, ZOLTAN_ID_PTR gids, ZOLT
     for (int i = 0; i < program.size(); ++i) {
         write_object(program, i, gids + i * num_gid,
                      lids == nullptr ? nullptr : lids + i * num_lid);
-        if (weight_dimension > 0) weights[i] = program.weights[static_cast<std::size_t>(i)];
+        for (int k = 0; k < weight_dimension; ++k) {
+            weights[i * weight_dimension + k] = k == 0
+                                                    ? program.weights[static_cast<std::size_t>(i)]
+                                                    : program.further_weight(i, k);
+        }
     }
 }
 
@@ -158,11 +162,19 @@ void scatter_points(Program& program, int count) {
     }
 }
 
+std::vector<int> parts_by_object(const Outcome& outcome) {
+    std::vector<int> parts(outcome.exports.parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        parts[outcome.exports.local_ids[i][0]] = outcome.exports.parts[i];
+    }
+    return parts;
+}
+
 double imbalance(const Program& program, const Outcome& outcome, int num_parts) {
     std::vector<double> weights(static_cast<std::size_t>(num_parts), 0.0);
-    for (std::size_t i = 0; i < outcome.exports.parts.size(); ++i) {
-        weights[static_cast<std::size_t>(outcome.exports.parts[i])] +=
-            static_cast<double>(program.weights[i]);
+    const std::vector<int> parts = parts_by_object(outcome);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        weights[static_cast<std::size_t>(parts[i])] += static_cast<double>(program.weights[i]);
     }
     MPI_Allreduce(MPI_IN_PLACE, weights.data(), num_parts, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     double total = 0;

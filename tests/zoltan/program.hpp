@@ -42,6 +42,7 @@ struct Program {
     std::vector<double> coordinates;
     std::vector<float> weights;
     int gid_width = 1, lid_width = 1;
+    std::function<float(int object, int k)> further_weight;  ///< for OBJ_WEIGHT_DIM > 1, k >= 1
 
     /// Called at the start of each callback with its name; may set the code or throw.
     std::function<void(const std::string& callback, int& code)> fault;
@@ -66,6 +67,10 @@ struct Program {
 
 /// Points of all ranks over the same square, so that every rank sends to and gets from every other.
 void scatter_points(Program& program, int count);
+
+/// Part of each object in the program's order, which is not that of Zoltan's list, after a call
+/// with RETURN_LISTS=PARTS.
+std::vector<int> parts_by_object(const Outcome& outcome);
 
 /// Largest weight over mean weight of the parts after a call with RETURN_LISTS=PARTS.
 double imbalance(const Program& program, const Outcome& outcome, int num_parts);

@@ -1,0 +1,69 @@
+#include "../support/clouds.hpp"
+#include "../support/ranks.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/error.hpp>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+/// Writes "+moments -moments +gather ...".
+struct Recorder : StageObserver {
+    void begin(Stage stage) noexcept override { text += std::string(" +") + name_of(stage); }
+    void end(Stage stage) noexcept override { text += std::string(" -") + name_of(stage); }
+    std::string text;
+};
+
+/// The whole call up to the last stage; only the root bisects.
+std::string start_of_call() {
+    return std::string(" +moments -moments +gather -gather") +
+           (test::rank() == 0 ? " +bisection -bisection" : "") + " +broadcast -broadcast";
+}
+
+std::string stages_seen(const Options& asked, const std::vector<double>& coordinates) {
+    Recorder recorder;
+    Options options = asked;
+    options.observer = &recorder;
+    balance(interleaved_points(coordinates, 2), options, MPI_COMM_WORLD);
+    return recorder.text;
+}
+
+TEST(Stages, are_seen_in_their_order) {
+    const auto cloud = test::uniform_cloud(500, 2, static_cast<unsigned>(test::rank()));
+    Options options;
+    EXPECT_EQ(stages_seen(options, cloud), start_of_call() + " +refinement -refinement");
+    options.refine = Refine::none;
+    EXPECT_EQ(stages_seen(options, cloud), start_of_call() + " +assignment -assignment");
+    options.domain = DomainKind::points;
+    EXPECT_EQ(stages_seen(options, cloud), start_of_call() + " +assignment -assignment");
+}
+
+TEST(Stages, end_when_a_call_fails) {
+    auto cloud = test::uniform_cloud(500, 2, 1);
+    if (test::is_last_rank()) cloud[7] = std::numeric_limits<double>::quiet_NaN();
+    Recorder recorder;
+    Options options;
+    options.observer = &recorder;
+    EXPECT_THROW(balance(interleaved_points(cloud, 2), options, MPI_COMM_WORLD), Error);
+    EXPECT_EQ(recorder.text, " +moments -moments +gather -gather");
+}
+
+TEST(Stages, may_be_watched_on_one_rank_alone_and_change_nothing) {
+    const auto cloud = test::uniform_cloud(500, 2, static_cast<unsigned>(test::rank()));
+    const Points points = interleaved_points(cloud, 2);
+    Recorder recorder;
+    Options options;
+    const Balance unwatched = balance(points, options, MPI_COMM_WORLD);
+    if (test::is_last_rank()) options.observer = &recorder;
+    EXPECT_EQ(balance(points, options, MPI_COMM_WORLD).parts, unwatched.parts);
+    EXPECT_EQ(recorder.text.empty(), !test::is_last_rank());
+}
+
+}  // namespace
+}  // namespace rrcb

@@ -12,6 +12,10 @@ int RRCB_Zoltan_Active(void);
 /** Version of the library, as "major.minor.patch". Not collective; the string is static. */
 const char* RRCB_Version(void);
 
+/** Names of the parameters that the plug-in adds to Zoltan's, ended by NULL. Not collective; the
+ *  array is static. */
+const char* const* RRCB_Parameter_Names(void);
+
 #ifdef __cplusplus
 }
 #endif

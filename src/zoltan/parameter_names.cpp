@@ -1,0 +1,13 @@
+#include "export.hpp"
+#include "parameters.hpp"
+
+#include <rrcb/zoltan/rrcb_zoltan.h>
+
+RRCB_EXPORT const char* const* RRCB_Parameter_Names(void) {
+    static const std::vector<const char*> names = [] {
+        std::vector<const char*> list = rrcb::zoltan::own_parameter_names();
+        list.push_back(nullptr);
+        return list;
+    }();
+    return names.data();
+}

@@ -18,6 +18,7 @@ function(rrcb_leave_out_unless_found option package debian_package)
 endfunction()
 
 rrcb_leave_out_unless_found(RRCB_ZOLTAN Zoltan libtrilinos-zoltan-dev)
+rrcb_leave_out_unless_found(RRCB_TEUCHOS Teuchos libtrilinos-teuchos-dev)
 rrcb_leave_out_unless_found(RRCB_MPM Teuchos libtrilinos-teuchos-dev)
 if(RRCB_COMPARISONS AND NOT (RRCB_ZOLTAN AND RRCB_MPM))
   message(STATUS "RRCB_COMPARISONS: left out, because it compares RRCB with Zoltan on the slope"

@@ -1,6 +1,6 @@
-# Installs the library and the plug-in, so that find_package(rrcb) gives rrcb::rrcb and, where
-# Zoltan is found, rrcb::zoltan. The plug-in has an export file of its own: users without Zoltan
-# never read it.
+# Installs the libraries, so that find_package(rrcb) gives rrcb::rrcb and, where Zoltan and Teuchos
+# are found, rrcb::zoltan and rrcb::teuchos. These have export files of their own: users without
+# Trilinos never read them.
 set(RRCB_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/rrcb)
 
 install(TARGETS rrcb EXPORT rrcbTargets)
@@ -8,12 +8,19 @@ install(EXPORT rrcbTargets NAMESPACE rrcb:: DESTINATION ${RRCB_CONFIG_DIR})
 install(
   DIRECTORY ${PROJECT_SOURCE_DIR}/include/rrcb ${PROJECT_BINARY_DIR}/src/include/rrcb
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-  PATTERN zoltan EXCLUDE)
+  PATTERN zoltan EXCLUDE
+  PATTERN teuchos EXCLUDE)
 
 if(RRCB_ZOLTAN)
   install(TARGETS rrcb_zoltan EXPORT rrcbZoltanTargets)
   install(EXPORT rrcbZoltanTargets NAMESPACE rrcb:: DESTINATION ${RRCB_CONFIG_DIR})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/rrcb/zoltan
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rrcb)
+endif()
+if(RRCB_TEUCHOS)
+  install(TARGETS rrcb_teuchos EXPORT rrcbTeuchosTargets)
+  install(EXPORT rrcbTeuchosTargets NAMESPACE rrcb:: DESTINATION ${RRCB_CONFIG_DIR})
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/rrcb/teuchos
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rrcb)
 endif()
 

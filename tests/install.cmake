@@ -12,6 +12,7 @@ add_test(
     ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer ${consumer}
     --build-generator ${CMAKE_GENERATOR} --build-options -DCMAKE_PREFIX_PATH=${prefix}
     -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE} -DEXPECT_ZOLTAN=${RRCB_ZOLTAN}
+    -DEXPECT_TEUCHOS=${RRCB_TEUCHOS}
     "-DMPIEXEC_PREFLAGS=${RRCB_MPIEXEC_FLAGS}" --test-command ${CMAKE_CTEST_COMMAND}
     --output-on-failure --no-tests=error)
 add_test(

@@ -1,0 +1,169 @@
+#include "program.hpp"
+#include "regions.hpp"
+
+#include <gtest/gtest.h>
+#include <zoltan_partition_tree.h>
+
+#include <algorithm>
+
+namespace rrcb::zoltan_test {
+namespace {
+
+std::vector<char> bytes_of(const Zoltan_Struct* zz) {
+    std::vector<char> bytes(Zoltan_Serialize_Size(zz));
+    EXPECT_EQ(Zoltan_Serialize(zz, bytes.size(), bytes.data()), ZOLTAN_OK);
+    return bytes;
+}
+
+/// A handle with much to remember, partitioned.
+struct Sender : Program {
+    Sender() {
+        scatter_points(*this, 400);
+        set("LB_METHOD", "RRCB");
+        set("RRCB_CUT_RULE", "MIDPOINT");
+        set("KEEP_CUTS", "1");
+        set("NUM_GLOBAL_PARTS", "7");
+        set("RETURN_LISTS", "PARTS");
+        Zoltan_Set_Param_Vec(zz, "IMBALANCE_TOL", "1.05", 0);
+        int part = 2;
+        float size = 3;
+        Zoltan_LB_Set_Part_Sizes(zz, 1, 1, &part, nullptr, &size);
+        outcome = partition();
+    }
+    Outcome outcome;
+};
+
+void expect_same_look_ups(Sender& sender, Zoltan_Struct* handle) {
+    const std::vector<int> parts = parts_by_object(sender.outcome);
+    for (int i = 0; i < sender.size(); ++i) {
+        int rank = -1, part = -1;
+        double* position = &sender.coordinates[static_cast<std::size_t>(2 * i)];
+        ASSERT_EQ(Zoltan_LB_Point_PP_Assign(handle, position, &rank, &part), ZOLTAN_OK);
+        EXPECT_EQ(part, parts[static_cast<std::size_t>(i)]);
+    }
+    for (int part = 0; part < 7; ++part) {
+        const Region expected = region_of(sender.zz, part);
+        const Region found = region_of(handle, part);
+        EXPECT_EQ(found.lower, expected.lower);
+        EXPECT_EQ(found.upper, expected.upper);
+    }
+}
+
+TEST(Serialization, carries_parameters_sizes_and_cuts) {
+    Sender sender;
+    std::vector<char> bytes = bytes_of(sender.zz);
+    Zoltan_Struct* handle = Zoltan_Create(MPI_COMM_WORLD);
+    ASSERT_EQ(Zoltan_Deserialize(handle, bytes.size(), bytes.data()), ZOLTAN_OK);
+    expect_same_look_ups(sender, handle);
+    sender.register_callbacks(handle);
+    const Outcome again = sender.partition(handle);
+    EXPECT_EQ(again.code, ZOLTAN_OK);
+    EXPECT_EQ(again.exports.parts, sender.outcome.exports.parts);
+    EXPECT_EQ(bytes_of(handle), bytes);
+    Zoltan_Destroy(&handle);
+}
+
+TEST(Serialization, works_on_a_communicator_of_another_size) {
+    Sender sender;
+    std::vector<char> bytes = bytes_of(sender.zz);
+    Zoltan_Struct* alone = Zoltan_Create(MPI_COMM_SELF);
+    ASSERT_EQ(Zoltan_Deserialize(alone, bytes.size(), bytes.data()), ZOLTAN_OK);
+    expect_same_look_ups(sender, alone);
+    sender.register_callbacks(alone);
+    const Outcome outcome = sender.partition(alone);
+    EXPECT_EQ(outcome.code, ZOLTAN_OK);
+    EXPECT_EQ(outcome.exports.count, 400);
+    Zoltan_Destroy(&alone);
+}
+
+TEST(Serialization, works_before_the_first_partition) {
+    Program program;
+    program.set("LB_METHOD", "RRCB");
+    std::vector<char> bytes = bytes_of(program.zz);
+    Zoltan_Struct* handle = Zoltan_Create(MPI_COMM_WORLD);
+    ASSERT_EQ(Zoltan_Deserialize(handle, bytes.size(), bytes.data()), ZOLTAN_OK);
+    int rank = 0, part = 0;
+    double position[] = {0, 0};
+    EXPECT_EQ(Zoltan_LB_Point_PP_Assign(handle, position, &rank, &part), ZOLTAN_FATAL);
+    Zoltan_Destroy(&handle);
+}
+
+TEST(Serialization, refuses_a_truncated_or_changed_buffer_and_leaves_the_handle_as_it_was) {
+    Sender sender;
+    const std::vector<char> bytes = bytes_of(sender.zz);
+    Sender receiver;
+    for (std::size_t size = 8; size < bytes.size(); size += 5) {
+        std::vector<char> truncated(bytes.begin(), bytes.begin() + static_cast<long>(size));
+        ASSERT_EQ(Zoltan_Deserialize(receiver.zz, size, truncated.data()), ZOLTAN_FATAL) << size;
+    }
+    for (std::size_t at = 8; at < bytes.size(); at += 3) {
+        std::vector<char> changed = bytes;
+        changed[at] = static_cast<char>(changed[at] ^ 0x41);
+        ASSERT_EQ(Zoltan_Deserialize(receiver.zz, changed.size(), changed.data()), ZOLTAN_FATAL)
+            << at;
+    }
+    expect_same_look_ups(sender, receiver.zz);
+}
+
+TEST(Serialization, refuses_a_buffer_that_is_too_small_to_write) {
+    Sender sender;
+    std::vector<char> bytes(Zoltan_Serialize_Size(sender.zz));
+    EXPECT_EQ(Zoltan_Serialize(sender.zz, bytes.size() - 1, bytes.data()), ZOLTAN_FATAL);
+}
+
+/// The parts under a node, in order, found by the rules of zoltan_partition_tree.h.
+void collect_parts(Zoltan_Struct* zz, int node, int expected_parent, std::vector<int>& parts) {
+    int parent = 0, left = 0, right = 0;
+    ASSERT_EQ(Zoltan_RCB_Partition_Tree(zz, node, &parent, &left, &right), ZOLTAN_OK);
+    EXPECT_EQ(parent, expected_parent) << node;
+    if (left > 0) {
+        collect_parts(zz, left, node + 1, parts);
+    } else {
+        parts.push_back(-left);
+    }
+    if (right > 0) {
+        collect_parts(zz, right, -(node + 1), parts);
+    } else {
+        parts.push_back(-right);
+    }
+}
+
+TEST(PartitionTree, is_walked_by_the_rules_of_zoltan) {
+    for (const char* method : {"RCB", "RRCB"}) {
+        for (const int num_parts : {2, 3, 7, 16}) {
+            SCOPED_TRACE(method + std::to_string(num_parts));
+            Program program;
+            scatter_points(program, 400);
+            program.set("LB_METHOD", method);
+            program.set("KEEP_CUTS", "1");
+            program.set("NUM_GLOBAL_PARTS", std::to_string(num_parts));
+            program.partition();
+            int parent = 0, left = 0, root = 0;
+            ASSERT_EQ(Zoltan_RCB_Partition_Tree(program.zz, 0, &parent, &left, &root), ZOLTAN_OK);
+            std::vector<int> parts;
+            collect_parts(program.zz, root, -1, parts);
+            ASSERT_EQ(parts.size(), static_cast<std::size_t>(num_parts));
+            for (int part = 0; part < num_parts; ++part) {
+                EXPECT_EQ(parts[static_cast<std::size_t>(part)], part);
+            }
+        }
+    }
+}
+
+TEST(PartitionTree, needs_kept_cuts_and_a_node_that_is_there) {
+    Program program;
+    scatter_points(program, 100);
+    program.set("LB_METHOD", "RRCB");
+    program.set("NUM_GLOBAL_PARTS", "3");
+    program.partition();
+    int parent = 0, left = 0, right = 0;
+    EXPECT_EQ(Zoltan_RCB_Partition_Tree(program.zz, 1, &parent, &left, &right), ZOLTAN_FATAL);
+    program.set("KEEP_CUTS", "1");
+    program.partition();
+    EXPECT_EQ(Zoltan_RCB_Partition_Tree(program.zz, 2, &parent, &left, &right), ZOLTAN_OK);
+    EXPECT_EQ(Zoltan_RCB_Partition_Tree(program.zz, 3, &parent, &left, &right), ZOLTAN_FATAL);
+    EXPECT_EQ(Zoltan_RCB_Partition_Tree(program.zz, -1, &parent, &left, &right), ZOLTAN_FATAL);
+}
+
+}  // namespace
+}  // namespace rrcb::zoltan_test

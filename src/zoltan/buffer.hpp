@@ -62,6 +62,7 @@ class Scratch {
         }
         return data_.get();
     }
+    const T* data() const { return data_.get(); }  ///< null before the first get
 
   private:
     std::unique_ptr<T[]> data_;

@@ -42,7 +42,9 @@ void write_point(std::FILE* file, const DumpedRank& mine, LocalIndex i) {
     const Points& points = mine.points;
     for (int axis = 0; axis < points.dimension; ++axis)
         std::fprintf(file, "%a ", points.coordinate(i, axis));
-    if (!points.weights.empty()) std::fprintf(file, "%a ", points.weights[i]);
+    const auto num_weights = static_cast<std::size_t>(mine.weight_dimension);
+    for (std::size_t w = 0; w < num_weights; ++w)
+        std::fprintf(file, "%a ", static_cast<double>(mine.weights[i * num_weights + w]));
     if (mine.initial_parts != nullptr) std::fprintf(file, "%d", mine.initial_parts[i]);
     std::fputc('\n', file);
 }
@@ -79,7 +81,7 @@ void write_dump(const std::filesystem::path& folder, const DumpedRank& mine) {
         std::fprintf(file.get(), "part_size %s %d %a\n", size.global ? "global" : "local",
                      size.part, static_cast<double>(size.size));
     std::fprintf(file.get(), "dimension %d\nweights %d\nparts %d\nobjects %zu\n",
-                 mine.points.dimension, mine.points.weights.empty() ? 0 : 1,
+                 mine.points.dimension, mine.weight_dimension,
                  mine.initial_parts == nullptr ? 0 : 1, mine.points.count);
     for (LocalIndex i = 0; i < mine.points.count; ++i) write_point(file.get(), mine, i);
     finish(std::move(file), path);

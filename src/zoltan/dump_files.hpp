@@ -21,7 +21,9 @@ struct DumpedCall {
 /// What one rank got.
 struct DumpedRank {
     int rank;
-    const Points& points;
+    const Points& points;      ///< without their weights
+    int weight_dimension;      ///< weights per point
+    const float* weights;      ///< as the callbacks gave them, object by object
     const int* initial_parts;  ///< one per point, null when no callback tells them
     std::span<const PartSize> part_sizes;
     const std::string& message;  ///< of an error; empty: none

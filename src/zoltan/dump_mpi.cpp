@@ -31,9 +31,11 @@ void write_mine(const std::filesystem::path& folder, const State& state, const D
     // Needed where ranks do not share their file systems.
     std::filesystem::create_directories(folder);
     const Objects& objects = input.objects;
-    write_dump(folder,
-               DumpedRank{state.communicator->rank(), objects.points, objects.initial_parts.get(),
-                          state.part_sizes, input.status.text});
+    write_dump(
+        folder,
+        DumpedRank{state.communicator->rank(), objects.points, state.parameters.weight_dimension,
+                   state.workspace.callback_weights.data(), objects.initial_parts.get(),
+                   state.part_sizes, input.status.text});
 }
 
 /// Runs a step of which the call must not notice when it fails.

@@ -12,7 +12,7 @@ install(
   PATTERN teuchos EXCLUDE)
 
 if(RRCB_ZOLTAN)
-  install(TARGETS rrcb_zoltan EXPORT rrcbZoltanTargets)
+  install(TARGETS rrcb_zoltan rrcb_zoltan_static EXPORT rrcbZoltanTargets)
   install(EXPORT rrcbZoltanTargets NAMESPACE rrcb:: DESTINATION ${RRCB_CONFIG_DIR})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/rrcb/zoltan
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rrcb)

@@ -1,0 +1,37 @@
+# Zoltan as a static archive: the tests of the plug-in, compiled through the renaming header.
+if(NOT CMAKE_C_COMPILER_ID STREQUAL "GNU")
+  message(STATUS "Test of a static Zoltan: left out, because its archive needs gcc")
+  return()
+endif()
+
+file(REAL_PATH ${RRCB_ZOLTAN_LIBRARY} zoltan_library)
+execute_process(COMMAND ${CMAKE_NM} --dynamic --defined-only ${zoltan_library}
+                OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL " T Zoltan_[A-Za-z0-9_]+" functions "${symbols}")
+list(TRANSFORM functions REPLACE " T (.*)" "FORWARD(\\1)\n")
+list(JOIN functions "" functions)
+file(CONFIGURE OUTPUT zoltan_functions.h CONTENT "${functions}")
+
+add_library(zoltan_archive STATIC zoltan_archive.c)
+target_include_directories(zoltan_archive PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
+target_compile_definitions(zoltan_archive PRIVATE ZOLTAN_LIBRARY="${zoltan_library}")
+target_link_libraries(zoltan_archive PRIVATE ${CMAKE_DL_LIBS})
+
+rrcb_add_test(
+  NAME clients.static
+  SOURCES static_test.cpp ../zoltan/program.cpp ../zoltan/lists_test.cpp ../zoltan/lookups_test.cpp
+  LIBRARIES rrcb::zoltan_static zoltan_archive
+  RANKS 1 2 4
+  LABELS clients)
+target_compile_options(clients.static PRIVATE -include rrcb/zoltan/rrcb_zoltan_rename.h)
+target_include_directories(clients.static PRIVATE ../zoltan)
+target_include_directories(
+  clients.static SYSTEM PRIVATE $<TARGET_PROPERTY:Zoltan::zoltan,INTERFACE_INCLUDE_DIRECTORIES>)
+
+# An entry point that the header forgets would define a function of Zoltan's a second time.
+add_test(
+  NAME clients.static.renames_all
+  COMMAND
+    ${CMAKE_COMMAND} -D NM=${CMAKE_NM} -D ARCHIVE=$<TARGET_FILE:rrcb_zoltan_static> -D
+    PLUG_IN=$<TARGET_FILE:rrcb_zoltan> -P ${CMAKE_CURRENT_SOURCE_DIR}/renames_all.cmake)
+set_tests_properties(clients.static.renames_all PROPERTIES LABELS clients TIMEOUT 60)

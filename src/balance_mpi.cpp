@@ -45,6 +45,37 @@ void finish(Decision& decision, const Options& options, const Points& points, So
     }
 }
 
+/// What all ranks hand to the root; the headers and records count there.
+struct Gathered {
+    std::vector<Header> headers;
+    std::vector<double> records;
+};
+
+Gathered gather(const Contribution& mine, Failure& failure, const Options& options, MPI_Comm comm) {
+    const StageScope stage(options.observer, Stage::gather);
+    Gathered all;
+    all.headers = gather_headers(mine.header, comm);
+    agree(all.headers, failure, comm);
+    all.records = gather_records(mine.records, all.headers, comm);
+    return all;
+}
+
+/// The decision of the root, on every rank; throws what went wrong there on every rank.
+Decision decide_together(const Gathered& all, int dimension, const Options& options,
+                         const Cuts* previous, MPI_Comm comm) {
+    Decision decision;
+    Failure failure;
+    if (mpi::rank_of(comm) == root) {
+        const StageScope stage(options.observer, Stage::bisection);
+        failure = decide(all.headers, all.records, options, previous, decision);
+        if (failure.failed) decision.verdict = {root, static_cast<std::int32_t>(failure.code)};
+    }
+    const StageScope stage(options.observer, Stage::broadcast);
+    broadcast(decision, dimension, options, comm);
+    if (decision.verdict.failing_rank >= 0) fail_together(decision.verdict, failure, comm);
+    return decision;
+}
+
 Balance run(const Points& points, const Options& given, const Cuts* previous, MPI_Comm user) {
     const MPI_Comm comm = mpi::duplicate_of(user);
     Options options;
@@ -54,34 +85,16 @@ Balance run(const Points& points, const Options& given, const Cuts* previous, MP
         const StageScope stage(given.observer, Stage::moments);
         options = complete(given, mpi::size_of(comm));
         if (previous) options.domain = DomainKind::analytic;
-        check_points(points);
+        const Box box = check_points(points);
         check_options(options, points.dimension);
         if (previous) check_previous(*previous, options, points.dimension);
-        mine = contribute(points, options, previous, mpi::size_of(comm));
+        mine = contribute(points, box, options, previous, mpi::size_of(comm));
         result.parts.resize(points.count);
     });
     if (failure.failed) mine = {};
     mine.header.failed = failure.failed ? 1 + static_cast<std::int32_t>(failure.code) : 0;
-    std::vector<Header> headers;
-    std::vector<double> records;
-    {
-        const StageScope stage(given.observer, Stage::gather);
-        headers = gather_headers(mine.header, comm);
-        agree(headers, failure, comm);
-        records = gather_records(mine.records, headers, comm);
-    }
-    Decision decision;
-    if (mpi::rank_of(comm) == root) {
-        const StageScope stage(given.observer, Stage::bisection);
-        failure = decide(headers, records, options, previous, decision);
-        if (failure.failed) decision.verdict = {root, static_cast<std::int32_t>(failure.code)};
-    }
-    {
-        const StageScope stage(given.observer, Stage::broadcast);
-        broadcast(decision, points.dimension, options, comm);
-    }
-    if (decision.verdict.failing_rank >= 0) fail_together(decision.verdict, failure, comm);
-
+    const Gathered all = gather(mine, failure, options, comm);
+    Decision decision = decide_together(all, points.dimension, options, previous, comm);
     finish(decision, options, points, mine.points, comm, result);
     return result;
 }

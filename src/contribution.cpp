@@ -84,6 +84,25 @@ Patch read_point(std::span<const double> record, std::size_t dimension) {
     return patch;
 }
 
+/// What the options ask for, which must be the same on every rank.
+Header header_of(const Options& options, int dimension, const Cuts* previous) {
+    Header header;
+    header.dimension = dimension;
+    header.num_parts = options.num_parts;
+    header.support_mesh = options.support_mesh;
+    header.domain = static_cast<std::int32_t>(options.domain);
+    header.cut_rule = static_cast<std::int32_t>(options.cut_rule);
+    header.refine = static_cast<std::int32_t>(options.refine);
+    header.imbalance_tolerance = options.imbalance_tolerance;
+    header.sigma_multiplier = options.sigma_multiplier;
+    header.sample_fraction = options.sample_fraction;
+    header.seed = options.seed;
+    header.part_sizes_hash = hash_of(options.part_sizes);
+    header.axes_hash = hash_of(axis_options(options));
+    header.previous_hash = previous ? hash_of(values_of(*previous)) : 0;
+    return header;
+}
+
 /// Calls `visit(header, record)` for each record of all ranks.
 template <class Visit>
 void visit_records(std::span<const Header> headers, std::span<const double> records,
@@ -134,40 +153,27 @@ int automatic_cells_per_axis(int dimension, LocalIndex num_points, int num_ranks
     return static_cast<int>(std::clamp(std::floor(std::pow(cells, 1.0 / dimension)), 1.0, most));
 }
 
-Contribution contribute(const Points& points, const Options& options, const Cuts* previous,
-                        int num_ranks) {
+Contribution contribute(const Points& points, const Box& box, const Options& options,
+                        const Cuts* previous, int num_ranks) {
     Contribution mine;
     Header& header = mine.header;
-    header.dimension = points.dimension;
-    header.num_parts = options.num_parts;
-    header.support_mesh = options.support_mesh;
-    header.cells_per_axis =
-        options.support_mesh > 0
-            ? options.support_mesh
-            : automatic_cells_per_axis(points.dimension, points.count, num_ranks);
-    header.domain = static_cast<std::int32_t>(options.domain);
-    header.cut_rule = static_cast<std::int32_t>(options.cut_rule);
-    header.refine = static_cast<std::int32_t>(options.refine);
-    header.imbalance_tolerance = options.imbalance_tolerance;
-    header.sigma_multiplier = options.sigma_multiplier;
-    header.sample_fraction = options.sample_fraction;
-    header.seed = options.seed;
-    header.part_sizes_hash = hash_of(options.part_sizes);
-    header.axes_hash = hash_of(axis_options(options));
-    header.previous_hash = previous ? hash_of(values_of(*previous)) : 0;
+    header = header_of(options, points.dimension, previous);
+    header.box = box;
     header.num_points = static_cast<std::int64_t>(points.count);
     header.weight = points.weights.empty()
                         ? static_cast<double>(points.count)
                         : std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
+    header.cells_per_axis =
+        options.support_mesh > 0
+            ? options.support_mesh
+            : automatic_cells_per_axis(points.dimension, points.count, num_ranks);
     if (options.domain == DomainKind::points) {
         header.record_length = points.dimension + (points.weights.empty() ? 0 : 1);
         mine.records = point_records(points);
     } else {
         header.record_length = moments_length(points.dimension);
-        header.box = bounding_box(points);
-        const SupportMesh mesh =
-            make_support_mesh(header.box, points.dimension, header.cells_per_axis);
-        mine.points = sort_by_cell(points, mesh);
+        mine.points =
+            sort_by_cell(points, make_support_mesh(box, points.dimension, header.cells_per_axis));
         if (previous == nullptr)
             for (const CellMoments& cell : cell_moments(mine.points))
                 append_moments(cell, points.dimension, mine.records);

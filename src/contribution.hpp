@@ -48,8 +48,9 @@ struct Contribution {
 /// Throws Error naming the option and its range when `options` can't be used.
 void check_options(const Options& options, int dimension);
 
-/// Throws Error naming the first object and how many there are when points are unusable.
-void check_points(const Points& points);
+/// Box of the points; throws Error naming the first object and how many there are when they are
+/// unusable.
+Box check_points(const Points& points);
 
 /// Throws Error when the cuts of an earlier call don't fit these options.
 void check_previous(const Cuts& previous, const Options& options, int dimension);
@@ -60,8 +61,8 @@ void check_previous(const Cuts& previous, const Options& options, int dimension)
 int automatic_cells_per_axis(int dimension, LocalIndex num_points, int num_ranks);
 
 /// Reduces checked points to what the root needs of them: with earlier cuts no records at all.
-Contribution contribute(const Points& points, const Options& options, const Cuts* previous,
-                        int num_ranks);
+Contribution contribute(const Points& points, const Box& box, const Options& options,
+                        const Cuts* previous, int num_ranks);
 
 /// Name of the first option that differs from the root's, with the rank; none when all agree.
 std::optional<std::string> difference_between(std::span<const Header> headers);

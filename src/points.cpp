@@ -3,6 +3,7 @@
 #include <rrcb/points.hpp>
 
 #include <algorithm>
+#include <numeric>
 
 namespace rrcb {
 
@@ -18,19 +19,22 @@ Box box_of_layout(const Layout& x, LocalIndex count) {
         const auto a = static_cast<std::size_t>(axis);
         std::array<double, num_lanes> lower;
         std::array<double, num_lanes> upper;
+        std::array<double, num_lanes> poison{};  // 0 * x is 0 just for finite x
         lower.fill(box.lower[a]);
         upper.fill(box.upper[a]);
         const auto widen = [&](LocalIndex i, std::size_t lane) {
             const double value = x(i, axis);
             lower[lane] = value < lower[lane] ? value : lower[lane];
             upper[lane] = value > upper[lane] ? value : upper[lane];
+            poison[lane] += 0 * value;
         };
         LocalIndex i = 0;
         for (; i + num_lanes <= count; i += num_lanes)
             for (std::size_t lane = 0; lane < num_lanes; ++lane) widen(i + lane, lane);
         for (; i < count; ++i) widen(i, 0);
-        box.lower[a] = *std::min_element(lower.begin(), lower.end());
-        box.upper[a] = *std::max_element(upper.begin(), upper.end());
+        const double finite = std::accumulate(poison.begin(), poison.end(), 0.0);
+        box.lower[a] = *std::min_element(lower.begin(), lower.end()) + finite;
+        box.upper[a] = *std::max_element(upper.begin(), upper.end()) + finite;
     }
     return box;
 }

@@ -52,20 +52,20 @@ std::string tally(std::size_t bad) {
            " on this rank)";
 }
 
-void check_coordinates(const Points& points) {
+[[noreturn]] void reject_coordinates(const Points& points) {
     std::size_t bad = 0;
-    for (int axis = 0; axis < points.dimension; ++axis) {
-        const double* x = points.axes[static_cast<std::size_t>(axis)].data();
-        // x - x is 0 exactly for finite x; counting keeps the loop free of branches.
-        for (LocalIndex i = 0; i < points.count; ++i)
-            bad += !(x[i * points.stride] - x[i * points.stride] == 0);
+    LocalIndex first = points.count;
+    int first_axis = 0;
+    for (LocalIndex i = 0; i < points.count; ++i) {
+        for (int axis = 0; axis < points.dimension; ++axis) {
+            if (std::isfinite(points.coordinate(i, axis))) continue;
+            if (bad++ > 0) continue;
+            first = i;
+            first_axis = axis;
+        }
     }
-    if (bad == 0) return;
-    for (LocalIndex i = 0; i < points.count; ++i)
-        for (int axis = 0; axis < points.dimension; ++axis)
-            if (!std::isfinite(points.coordinate(i, axis)))
-                reject("coordinate of object " + std::to_string(i) + " on axis " +
-                       std::to_string(axis) + " is NaN or infinite" + tally(bad));
+    reject("coordinate of object " + std::to_string(first) + " on axis " +
+           std::to_string(first_axis) + " is NaN or infinite" + tally(bad));
 }
 
 void check_weights(const Points& points) {
@@ -127,12 +127,15 @@ void check_options(const Options& options, int dimension) {
             "sample_fraction must be in (0, 1]");
 }
 
-void check_points(const Points& points) {
+Box check_points(const Points& points) {
     require(points.dimension >= 1 && points.dimension <= max_dimension,
             "points must have 1, 2 or 3 dimensions, also on a rank without points");
     check_lengths(points);
-    check_coordinates(points);
     check_weights(points);
+    const Box box = bounding_box(points);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a)
+        if (std::isnan(box.lower[a])) reject_coordinates(points);
+    return box;
 }
 
 }  // namespace rrcb

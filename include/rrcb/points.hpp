@@ -57,6 +57,8 @@ Points column_points(std::span<const std::span<const double>> columns,
                      std::span<const double> weights = {});
 
 /// Smallest box that holds all points; the empty box when there are none. Not collective.
+///
+/// NaN on the axes on which a coordinate is NaN or infinite.
 Box bounding_box(const Points& points);
 
 }  // namespace rrcb

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace rrcb {
@@ -48,6 +49,19 @@ TEST(Points, bounding_box_takes_every_point_in_for_any_count) {
         EXPECT_EQ(box.upper[0], last);
         EXPECT_EQ(box.lower[1], -last * last);
         EXPECT_EQ(box.upper[1], 0);
+    }
+}
+
+TEST(Points, bounding_box_tells_of_coordinates_that_are_no_numbers) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const double bad : {std::nan(""), infinity, -infinity}) {
+        for (std::size_t place = 0; place < 9; ++place) {
+            std::vector<double> coordinates(18, 1.0);
+            coordinates[2 * place + 1] = bad;
+            const Box box = bounding_box(interleaved_points(coordinates, 2));
+            EXPECT_EQ(box.lower[0], 1);
+            EXPECT_TRUE(std::isnan(box.lower[1]));
+        }
     }
 }
 

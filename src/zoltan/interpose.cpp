@@ -86,8 +86,7 @@ RRCB_EXPORT Zoltan_Struct* Zoltan_Create(MPI_Comm user) {
     if (zz == nullptr || user == MPI_COMM_NULL) return zz;
     guarded("Zoltan_Create", nullptr, [&] {
         State& state = add_state(zz, std::make_shared<Communicator>(user));
-        state.parameters.replace_rcb = replaces_rcb() && !InsideZoltan::now();
-        state.parameters.rrcb = state.parameters.replace_rcb;
+        state.parameters = initial_parameters();
         read_dump_environment(state);
         return ZOLTAN_OK;
     });
@@ -134,7 +133,7 @@ RRCB_EXPORT int Zoltan_LB_Partition(
     ZOLTAN_ID_PTR* export_local_ids, int** export_procs, int** export_to_part) {
     State* state = rrcb_state(zz);
     if (state == nullptr) {
-        const InsideZoltan inside;
+        const InsideZoltan inside(find_state(zz));
         return forward<&RealZoltan::lb_partition>(
             zz, changes, num_gid_entries, num_lid_entries, num_import, import_global_ids,
             import_local_ids, import_procs, import_to_part, num_export, export_global_ids,
@@ -162,7 +161,7 @@ RRCB_EXPORT int Zoltan_LB_Balance(Zoltan_Struct* zz, int* changes, int* num_gid_
                                   int** export_procs) {
     State* state = rrcb_state(zz);
     if (state == nullptr) {
-        const InsideZoltan inside;
+        const InsideZoltan inside(find_state(zz));
         return forward<&RealZoltan::lb_balance>(zz, changes, num_gid_entries, num_lid_entries,
                                                 num_import, import_global_ids, import_local_ids,
                                                 import_procs, num_export, export_global_ids,

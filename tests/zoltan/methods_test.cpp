@@ -1,0 +1,161 @@
+#include "program.hpp"
+
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <cstdio>
+
+// Counts the communicators that are alive in this process.
+static int num_communicators = 0;
+
+extern "C" int MPI_Comm_dup(MPI_Comm comm, MPI_Comm* copy) {
+    ++num_communicators;
+    return PMPI_Comm_dup(comm, copy);
+}
+
+extern "C" int MPI_Comm_split(MPI_Comm comm, int color, int key, MPI_Comm* part) {
+    ++num_communicators;
+    return PMPI_Comm_split(comm, color, key, part);
+}
+
+extern "C" int MPI_Comm_free(MPI_Comm* comm) {
+    --num_communicators;
+    return PMPI_Comm_free(comm);
+}
+
+namespace rrcb::zoltan_test {
+namespace {
+
+/// One level of HIER, in which every rank has a part of its own.
+void use_hier(Program& program, const char* inner_method) {
+    static const char* inner = nullptr;
+    inner = inner_method;
+    ZOLTAN_HIER_NUM_LEVELS_FN* levels = [](void*, int* code) {
+        *code = ZOLTAN_OK;
+        return 1;
+    };
+    ZOLTAN_HIER_PART_FN* part = [](void* data, int, int* code) {
+        *code = ZOLTAN_OK;
+        return static_cast<Program*>(data)->rank;
+    };
+    ZOLTAN_HIER_METHOD_FN* method = [](void*, int, Zoltan_Struct* zz, int* code) {
+        *code = Zoltan_Set_Param(zz, "LB_METHOD", inner);
+        Zoltan_Set_Param(zz, "DEBUG_LEVEL", "0");
+    };
+    Zoltan_Set_Hier_Num_Levels_Fn(program.zz, levels, &program);
+    Zoltan_Set_Hier_Part_Fn(program.zz, part, &program);
+    Zoltan_Set_Hier_Method_Fn(program.zz, method, &program);
+}
+
+/// A path through the objects of each rank, for GRAPH.
+void use_graph(Program& program) {
+    ZOLTAN_NUM_EDGES_FN* count = [](void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR lid,
+                                    int* code) {
+        *code = ZOLTAN_OK;
+        const int last = static_cast<Program*>(data)->size() - 1;
+        const int i = static_cast<int>(*lid);
+        return (i > 0 ? 1 : 0) + (i < last ? 1 : 0);
+    };
+    ZOLTAN_EDGE_LIST_FN* list = [](void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR lid,
+                                   ZOLTAN_ID_PTR neighbours, int* ranks, int, float*, int* code) {
+        *code = ZOLTAN_OK;
+        const Program& self = *static_cast<Program*>(data);
+        const int i = static_cast<int>(*lid);
+        for (const int j : {i - 1, i + 1}) {
+            if (j < 0 || j >= self.size()) continue;
+            *neighbours++ = self.gid_word(j, 0);
+            *ranks++ = self.rank;
+        }
+    };
+    Zoltan_Set_Num_Edges_Fn(program.zz, count, &program);
+    Zoltan_Set_Edge_List_Fn(program.zz, list, &program);
+}
+
+struct AllMethods : Program {
+    AllMethods() {
+        scatter_points(*this, 300);
+        use_hier(*this, "RRCB");
+        use_graph(*this);
+        set("RETURN_LISTS", "EXPORT");
+        set("OBJ_WEIGHT_DIM", "1");
+        // Zoltan's numbers depend on those of the call before.
+        set("REMAP", "0");
+    }
+    ListCopy exports(const char* method) {
+        EXPECT_EQ(set("LB_METHOD", method), ZOLTAN_OK) << method;
+        const Outcome outcome = partition();
+        EXPECT_EQ(outcome.code, ZOLTAN_OK) << method;
+        return outcome.exports;
+    }
+};
+
+TEST(Methods, give_the_same_alone_and_after_each_other) {
+    const std::vector<const char*> methods = {"RCB", "RRCB", "HSFC", "HIER", "GRAPH", "RIB"};
+    std::vector<ListCopy> alone;
+    for (const char* method : methods) alone.push_back(AllMethods().exports(method));
+    AllMethods program;
+    for (int round = 0; round < 2; ++round) {
+        for (std::size_t m = 0; m < methods.size(); ++m) {
+            SCOPED_TRACE(methods[m]);
+            const ListCopy exports = program.exports(methods[m]);
+            // Graph partitioning is not deterministic from one call to the next.
+            if (std::string(methods[m]) == "GRAPH") continue;
+            EXPECT_EQ(exports.local_ids, alone[m].local_ids);
+            EXPECT_EQ(exports.parts, alone[m].parts);
+        }
+    }
+}
+
+TEST(Methods, hier_with_rrcb_inside_balances_as_rrcb_does) {
+    for (const char* inner : {"RCB", "RRCB"}) {
+        AllMethods program;
+        use_hier(program, inner);
+        program.set("LB_METHOD", "HIER");
+        program.set("RETURN_LISTS", "PARTS");
+        EXPECT_LT(imbalance(program, program.partition(), program.num_ranks), 1.05) << inner;
+    }
+}
+
+TEST(Methods, look_ups_need_a_partition_of_the_method_that_is_set) {
+    for (const char* method : {"RCB", "RRCB"}) {
+        Program program;
+        scatter_points(program, 100);
+        program.set("KEEP_CUTS", "1");
+        program.set("LB_METHOD", method);
+        program.partition();
+        program.set("LB_METHOD", "RIB");
+        program.set("LB_METHOD", method);
+        int rank = 0, part = 0;
+        EXPECT_EQ(Zoltan_LB_Point_PP_Assign(program.zz, program.coordinates.data(), &rank, &part),
+                  ZOLTAN_FATAL)
+            << method;
+    }
+}
+
+TEST(State, does_not_grow_over_two_thousand_partitions) {
+    constexpr int warm_up = 50, repeats = 2000;
+    Program program;
+    scatter_points(program, 50);
+    for (const char* method : {"RCB", "RRCB"}) {
+        program.set("LB_METHOD", method);
+        for (const char* name : {"KEEP_CUTS", "RCB_REUSE", "RCB_LOCK_DIRECTIONS"}) {
+            program.set(name, "1");
+        }
+        for (int i = 0; i < warm_up; ++i) program.partition();
+        const auto memory = mallinfo2().uordblks;
+        const int communicators = num_communicators;
+        for (int i = 0; i < repeats; ++i) program.partition();
+        const long grown = static_cast<long>(mallinfo2().uordblks) - static_cast<long>(memory);
+        if (program.rank == 0) {
+            std::printf("%-4s %d partitions: %ld bytes more, %d communicators more\n", method,
+                        repeats, grown, num_communicators - communicators);
+        }
+        if (std::string(method) == "RCB") continue;
+        EXPECT_EQ(num_communicators, communicators);
+        EXPECT_LT(grown, 4096);
+    }
+}
+
+}  // namespace
+}  // namespace rrcb::zoltan_test

@@ -1,0 +1,128 @@
+#include "program.hpp"
+#include "regions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+namespace rrcb::zoltan_test {
+namespace {
+
+/// Share of the objects of all ranks that leave their rank.
+double moved(const Program& program, const Outcome& outcome) {
+    double counts[2] = {0, double(program.size())};
+    for (std::size_t i = 0; i < outcome.exports.ranks.size(); ++i) {
+        if (outcome.exports.ranks[i] != program.rank) counts[0] += 1;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    return counts[0] / counts[1];
+}
+
+/// Stripes across x, dealt out so that rank r holds the stripe of number (r + 1) % ranks.
+struct Rotated : Program {
+    Rotated() {
+        scatter_points(*this, 1000);
+        for (std::size_t i = 0; i < coordinates.size(); i += 2) {
+            coordinates[i] += (rank + 1) % num_ranks;
+            coordinates[i + 1] *= 0.01;
+        }
+        set("RETURN_LISTS", "PARTS");
+    }
+};
+
+double moved_with(Program& program, const char* method, const char* remap) {
+    program.set("LB_METHOD", method);
+    program.set("REMAP", remap);
+    const Outcome outcome = program.partition();
+    EXPECT_EQ(outcome.code, ZOLTAN_OK);
+    return moved(program, outcome);
+}
+
+TEST(Remap, keeps_rotated_stripes_where_they_are) {
+    Rotated program;
+    if (program.num_ranks == 1) GTEST_SKIP() << "needs two ranks";
+    const double zoltan = moved_with(program, "RCB", "1");
+    const double without = moved_with(program, "RRCB", "0");
+    const double with = moved_with(program, "RRCB", "1");
+    if (program.rank == 0) {
+        std::printf("moved: %.4f without REMAP, %.4f with it, %.4f by Zoltan\n", without, with,
+                    zoltan);
+    }
+    EXPECT_GT(without, 0.9);
+    // The stripes hold equal weights; only what the tolerance of 1 % lets slip may move.
+    EXPECT_LT(with, 0.02 * program.num_ranks);
+    EXPECT_LE(with, zoltan + 0.02 * program.num_ranks);
+}
+
+TEST(Remap, moves_no_more_than_zoltans_on_scattered_points) {
+    // Both get the very cuts of the median; the numbers alone differ.
+    for (unsigned seed = 0; seed < 10; ++seed) {
+        Program program;
+        scatter_points(program, 500);
+        const double shift = double((7 * program.rank + 3 * static_cast<int>(seed)) % 5);
+        for (std::size_t i = 0; i < program.coordinates.size(); i += 2) {
+            program.coordinates[i] += 0.3 * shift;
+        }
+        program.set("RRCB_REFINE", "EXACT");
+        program.set("RETURN_LISTS", "PARTS");
+        EXPECT_LE(moved_with(program, "RRCB", "1"), moved_with(program, "RCB", "1") + 0.02) << seed;
+    }
+}
+
+TEST(Remap, finds_objects_by_the_new_numbers) {
+    Rotated program;
+    program.set("LB_METHOD", "RRCB");
+    program.set("KEEP_CUTS", "1");
+    const std::vector<int> parts = parts_by_object(program.partition());
+    for (int i = 0; i < program.size(); ++i) {
+        double* x = &program.coordinates[static_cast<std::size_t>(2 * i)];
+        int rank = -1, part = -1, num_ranks = -1, num_parts = -1;
+        Zoltan_LB_Point_PP_Assign(program.zz, x, &rank, &part);
+        EXPECT_EQ(part, parts[static_cast<std::size_t>(i)]);
+        EXPECT_EQ(rank, part);
+        std::vector<int> touched(static_cast<std::size_t>(program.num_ranks), -1);
+        std::vector<int> ranks(touched);
+        Zoltan_LB_Box_PP_Assign(program.zz, x[0], x[1], 0, x[0], x[1], 0, ranks.data(), &num_ranks,
+                                touched.data(), &num_parts);
+        ASSERT_EQ(num_parts, 1);
+        EXPECT_EQ(touched[0], part);
+        EXPECT_EQ(ranks[0], rank);
+        const Region region = region_of(program.zz, part);
+        EXPECT_LE(region.lower[0], x[0]);
+        EXPECT_GE(region.upper[0], x[0]);
+    }
+}
+
+TEST(Remap, keeps_the_numbers_of_parts_that_callbacks_name) {
+    Program program(1);
+    // Two groups on every rank, which callbacks name the wrong way round: 1, 0, 3, 2, ...
+    for (int i = 0; i < 20; ++i) program.add({2.0 * program.rank + (i % 2)});
+    ZOLTAN_PART_FN* part = [](void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR lid, int* code) {
+        *code = ZOLTAN_OK;
+        return 2 * static_cast<Program*>(data)->rank + 1 - static_cast<int>(*lid % 2);
+    };
+    Zoltan_Set_Part_Fn(program.zz, part, &program);
+    program.set("NUM_GLOBAL_PARTS", std::to_string(2 * program.num_ranks));
+    for (const char* method : {"RCB", "RRCB"}) {
+        program.set("LB_METHOD", method);
+        program.set("REMAP", "0");
+        EXPECT_EQ(program.partition().changes, 1) << method;
+        program.set("REMAP", "1");
+        EXPECT_EQ(program.partition().changes, 0) << method;
+    }
+}
+
+TEST(Remap, leaves_parts_of_different_sizes_and_parts_on_several_ranks) {
+    Rotated program;
+    program.set("LB_METHOD", "RRCB");
+    program.set("NUM_GLOBAL_PARTS", "2");
+    int part = 0;
+    float size = 3;
+    Zoltan_LB_Set_Part_Sizes(program.zz, 1, 1, &part, nullptr, &size);
+    const Outcome sized = program.partition();
+    program.set("REMAP", "0");
+    EXPECT_EQ(sized.exports.parts, program.partition().exports.parts);
+}
+
+}  // namespace
+}  // namespace rrcb::zoltan_test

@@ -9,11 +9,11 @@ namespace rrcb {
 
 namespace {
 
-/// The lowest failing rank, else what is wrong with the ranks together, as the root's failure.
-Verdict judge(std::span<const Header> headers, Failure& failure) {
+/// The lowest failing rank, else the root when the ranks do not fit together; none when all is
+/// well.
+int judge(std::span<const Header> headers, Failure& failure) {
     for (std::size_t rank = 0; rank < headers.size(); ++rank)
-        if (headers[rank].failed != 0)
-            return {static_cast<std::int32_t>(rank), headers[rank].failed - 1};
+        if (headers[rank].failed != 0) return static_cast<int>(rank);
     failure = attempt([&] {
         if (const auto difference = difference_between(headers))
             throw Error(ErrorCode::invalid_argument, *difference);
@@ -21,7 +21,7 @@ Verdict judge(std::span<const Header> headers, Failure& failure) {
         for (const Header& header : headers) length += header.num_records * header.record_length;
         mpi::to_int(length);
     });
-    return failure.failed ? Verdict{root, static_cast<std::int32_t>(failure.code)} : Verdict{};
+    return failure.failed ? root : no_rank;
 }
 
 }  // namespace
@@ -36,19 +36,28 @@ std::vector<Header> gather_headers(const Header& mine, MPI_Comm comm) {
 }
 
 void agree(std::span<const Header> headers, Failure& failure, MPI_Comm comm) {
-    Verdict verdict = mpi::rank_of(comm) == root ? judge(headers, failure) : Verdict{};
-    mpi::check(MPI_Bcast(&verdict, sizeof verdict, MPI_BYTE, root, comm), "MPI_Bcast");
-    if (verdict.failing_rank >= 0) fail_together(verdict, failure, comm);
+    int failing_rank = mpi::rank_of(comm) == root ? judge(headers, failure) : no_rank;
+    mpi::check(MPI_Bcast(&failing_rank, 1, MPI_INT, root, comm), "MPI_Bcast");
+    if (failing_rank != no_rank) fail_together(failing_rank, failure, comm);
 }
 
-void fail_together(const Verdict& verdict, const Failure& failure, MPI_Comm comm) {
-    std::array<char, 512> text{};
-    failure.text.copy(text.data(), text.size() - 1);
-    mpi::check(
-        MPI_Bcast(text.data(), static_cast<int>(text.size()), MPI_CHAR, verdict.failing_rank, comm),
-        "MPI_Bcast");
-    throw Error(static_cast<ErrorCode>(verdict.code),
-                "rank " + std::to_string(verdict.failing_rank) + ": " + text.data());
+void agree(const Failure& failure, MPI_Comm comm) {
+    const int num_ranks = mpi::size_of(comm);
+    int failing_rank = failure.failed ? mpi::rank_of(comm) : num_ranks;
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &failing_rank, 1, MPI_INT, MPI_MIN, comm),
+               "MPI_Allreduce");
+    if (failing_rank < num_ranks) fail_together(failing_rank, failure, comm);
+}
+
+void fail_together(int failing_rank, const Failure& failure, MPI_Comm comm) {
+    struct Notice {
+        ErrorCode code;
+        std::array<char, 512> text;
+    };
+    Notice notice{failure.code, {}};
+    failure.text.copy(notice.text.data(), notice.text.size() - 1);
+    mpi::check(MPI_Bcast(&notice, sizeof notice, MPI_BYTE, failing_rank, comm), "MPI_Bcast");
+    throw Error(notice.code, "rank " + std::to_string(failing_rank) + ": " + notice.text.data());
 }
 
 }  // namespace rrcb

@@ -20,29 +20,34 @@ Options complete(Options options, int num_ranks) {
     return options;
 }
 
-/// Assigns the points by the cuts, refined where that was asked for. Collective then.
-void finish(Decision& decision, const Options& options, const Points& points, SortedPoints& sorted,
-            MPI_Comm comm, Balance& result) {
-    result.report = decision.report;
-    result.cuts = std::move(decision.bisection.cuts);
-    const bool refined = is_refined(options) && decision.report.num_points > 0;
-    const StageScope stage(options.observer, refined ? Stage::refinement : Stage::assignment);
-    if (options.domain == DomainKind::points) {
-        assign(result.cuts, points, result.parts);
-    } else if (!refined) {
-        assign(result.cuts, sorted, result.parts);
-    } else {
-        if (decision.report.all_weights_zero) sorted.weights.clear();
-        const double weight = decision.report.all_weights_zero
-                                  ? static_cast<double>(decision.report.num_points)
-                                  : decision.report.total_weight;
-        Estimate estimate{std::move(result.cuts), std::move(decision.bisection.brackets),
-                          options.part_sizes, weight};
-        const Measured measured = refine(estimate, options, sorted, comm, result.parts);
-        result.report.measured_imbalance = measured.imbalance;
-        result.report.rounds = measured.rounds;
-        result.cuts = std::move(estimate.cuts);
-    }
+/// Assigns the points by the cuts as they are. Collective.
+void assign_together(const Options& options, const Points& points, const SortedPoints& sorted,
+                     MPI_Comm comm, Balance& result) {
+    const StageScope stage(options.observer, Stage::assignment);
+    const Failure failure = attempt([&] {
+        if (options.domain == DomainKind::points) {
+            assign(result.cuts, points, result.parts);
+        } else {
+            assign(result.cuts, sorted, result.parts);
+        }
+    });
+    agree(failure, comm);
+}
+
+/// Moves the cuts by what the ranks count, and assigns the points by them. Collective.
+void refine_together(Decision& decision, const Options& options, SortedPoints& sorted,
+                     MPI_Comm comm, Balance& result) {
+    const StageScope stage(options.observer, Stage::refinement);
+    Report& report = result.report;
+    if (report.all_weights_zero) sorted.weights.clear();
+    const double weight =
+        report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
+    Estimate estimate{std::move(result.cuts), std::move(decision.bisection.brackets),
+                      options.part_sizes, weight};
+    const Measured measured = refine(estimate, options, sorted, comm, result.parts);
+    report.measured_imbalance = measured.imbalance;
+    report.rounds = measured.rounds;
+    result.cuts = std::move(estimate.cuts);
 }
 
 /// What all ranks hand to the root; the headers and records count there.
@@ -68,11 +73,11 @@ Decision decide_together(const Gathered& all, int dimension, const Options& opti
     if (mpi::rank_of(comm) == root) {
         const StageScope stage(options.observer, Stage::bisection);
         failure = decide(all.headers, all.records, options, previous, decision);
-        if (failure.failed) decision.verdict = {root, static_cast<std::int32_t>(failure.code)};
+        if (failure.failed) decision.failing_rank = root;
     }
     const StageScope stage(options.observer, Stage::broadcast);
     broadcast(decision, dimension, options, comm);
-    if (decision.verdict.failing_rank >= 0) fail_together(decision.verdict, failure, comm);
+    if (decision.failing_rank != no_rank) fail_together(decision.failing_rank, failure, comm);
     return decision;
 }
 
@@ -92,10 +97,16 @@ Balance run(const Points& points, const Options& given, const Cuts* previous, MP
         result.parts.resize(points.count);
     });
     if (failure.failed) mine = {};
-    mine.header.failed = failure.failed ? 1 + static_cast<std::int32_t>(failure.code) : 0;
+    mine.header.failed = failure.failed;
     const Gathered all = gather(mine, failure, options, comm);
     Decision decision = decide_together(all, points.dimension, options, previous, comm);
-    finish(decision, options, points, mine.points, comm, result);
+    result.report = decision.report;
+    result.cuts = std::move(decision.bisection.cuts);
+    if (is_refined(options) && decision.report.num_points > 0) {
+        refine_together(decision, options, mine.points, comm, result);
+    } else {
+        assign_together(options, points, mine.points, comm, result);
+    }
     return result;
 }
 

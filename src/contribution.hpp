@@ -16,7 +16,7 @@ namespace rrcb {
 
 /// The first thing a rank tells the root: whether it can go on, and what its records mean.
 struct Header {
-    std::int32_t failed = 0;  ///< 0, or 1 + ErrorCode
+    std::int32_t failed = 0;  ///< 1: this rank can't
     std::int32_t dimension = 0;
     std::int32_t num_parts = 0;
     std::int32_t support_mesh = 0;    ///< as asked for

@@ -122,16 +122,16 @@ void broadcast(Decision& decision, int dimension, const Options& options, MPI_Co
     std::vector<Bracket>& brackets = decision.bisection.brackets;
     tree.resize(options.part_sizes.size() - 1);
     brackets.resize(is_refined(options) ? tree.size() : 0);
-    std::vector<std::byte> message(sizeof(Verdict) + sizeof(Report) + tree.size() * sizeof(Cut) +
+    std::vector<std::byte> message(sizeof(int) + sizeof(Report) + tree.size() * sizeof(Cut) +
                                    brackets.size() * sizeof(Bracket));
-    std::byte* to = copy_out(&decision.verdict, 1, message.data());
+    std::byte* to = copy_out(&decision.failing_rank, 1, message.data());
     to = copy_out(&decision.report, 1, to);
     to = copy_out(tree.data(), tree.size(), to);
     copy_out(brackets.data(), brackets.size(), to);
     mpi::check(MPI_Bcast(message.data(), mpi::to_int(static_cast<std::int64_t>(message.size())),
                          MPI_BYTE, root, comm),
                "MPI_Bcast");
-    const std::byte* from = copy_in(message.data(), &decision.verdict, 1);
+    const std::byte* from = copy_in(message.data(), &decision.failing_rank, 1);
     from = copy_in(from, &decision.report, 1);
     from = copy_in(from, tree.data(), tree.size());
     copy_in(from, brackets.data(), brackets.size());

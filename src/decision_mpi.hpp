@@ -12,7 +12,7 @@ namespace rrcb {
 
 /// The decision of the root: how it went, and the cuts to assign by or to start from.
 struct Decision {
-    Verdict verdict;
+    int failing_rank = no_rank;  ///< the root, when it could not decide
     Report report;
     Bisection bisection;
 };

@@ -48,7 +48,7 @@ Sides sides_of(const Box& box, const Cut& cut, int dimension) {
 }
 
 void assign_cell(const Cuts& cuts, const SortedPoints& points, LocalIndex cell,
-                 std::span<Part> parts) {
+                 std::span<Part> parts, std::span<double> part_weights) {
     const Box box = enclosing_box(points.mesh, cell);
     Descent at = root_of(cuts);
     while (!at.is_part()) {
@@ -56,8 +56,17 @@ void assign_cell(const Cuts& cuts, const SortedPoints& points, LocalIndex cell,
         if (sides.below && sides.above) break;
         at = sides.above ? at.upper() : at.lower();
     }
-    for (LocalIndex i = points.first[cell]; i < points.first[cell + 1]; ++i) {
-        parts[points.original[i]] = at.is_part() ? at.first : part_of(cuts, points.position(i));
+    const LocalIndex first = points.first[cell];
+    const LocalIndex last = points.first[cell + 1];
+    if (at.is_part()) {
+        part_weights[static_cast<std::size_t>(at.first)] += weight_of(points, first, last);
+        for (LocalIndex i = first; i < last; ++i) parts[points.original[i]] = at.first;
+        return;
+    }
+    for (LocalIndex i = first; i < last; ++i) {
+        const Part part = part_of(cuts, points.position(i));
+        part_weights[static_cast<std::size_t>(part)] += points.weight(i);
+        parts[points.original[i]] = part;
     }
 }
 
@@ -110,9 +119,12 @@ void write_part(const std::vector<Fragment>& fragments, Part part, const SortedP
             parts[points.original[i]] = part;
 }
 
-void assign(const Cuts& cuts, const SortedPoints& points, std::span<Part> parts) {
+std::vector<double> assign(const Cuts& cuts, const SortedPoints& points, std::span<Part> parts) {
+    std::vector<double> part_weights(static_cast<std::size_t>(cuts.num_parts));
     for (LocalIndex cell = 0; cell + 1 < points.first.size(); ++cell)
-        if (points.first[cell] < points.first[cell + 1]) assign_cell(cuts, points, cell, parts);
+        if (points.first[cell] < points.first[cell + 1])
+            assign_cell(cuts, points, cell, parts, part_weights);
+    return part_weights;
 }
 
 }  // namespace rrcb

@@ -34,7 +34,14 @@ struct Context {
     SortedPoints& points;
     MPI_Comm comm;
     bool is_root;
-    Measured measured;
+    Measured measured{};
+    Failure failure{};  ///< of this rank; it takes part with what it has until all can agree
+
+    /// Runs a step that touches only what is here, unless an earlier one failed.
+    template <class Step>
+    void locally(Step&& step) {
+        if (!failure.failed) failure = attempt(step);
+    }
 
     std::span<const double> sizes_of(const Descent& at) const {
         return std::span(estimate.part_sizes)
@@ -97,7 +104,7 @@ std::size_t count_in(const Level& level, CutSearch::Stage stage) {
                       [&](const CutSearch& search) { return search.stage == stage; }));
 }
 
-void count_and_decide(Level& level, const std::vector<CutSearch>& before, const Context& context) {
+void count_and_decide(Level& level, const std::vector<CutSearch>& before, Context& context) {
     const std::size_t length = level.layout.length();
     std::vector<double> mine;
     for (std::size_t k = 0; k < before.size(); ++k) {
@@ -105,7 +112,7 @@ void count_and_decide(Level& level, const std::vector<CutSearch>& before, const 
         mine.resize(mine.size() + length);
         const std::span<double> histogram = std::span(mine).last(length);
         std::fill_n(histogram.begin(), HistogramLayout::num_extents, -infinity);
-        level.local[k].count(before[k], level.layout, histogram);
+        context.locally([&] { level.local[k].count(before[k], level.layout, histogram); });
     }
     if (mine.empty()) return;
     const std::vector<double> joined = join_histograms(mine, level.layout, root, context.comm);
@@ -117,11 +124,13 @@ void count_and_decide(Level& level, const std::vector<CutSearch>& before, const 
     }
 }
 
-void gather_and_decide(Level& level, const std::vector<CutSearch>& before, const Context& context) {
+void gather_and_decide(Level& level, const std::vector<CutSearch>& before, Context& context) {
     std::vector<std::vector<double>> mine;
-    for (std::size_t k = 0; k < before.size(); ++k)
-        if (before[k].stage == CutSearch::gathering)
-            level.local[k].append_candidates(mine.emplace_back());
+    for (std::size_t k = 0; k < before.size(); ++k) {
+        if (before[k].stage != CutSearch::gathering) continue;
+        std::vector<double>& records = mine.emplace_back();
+        context.locally([&] { level.local[k].append_candidates(records); });
+    }
     if (mine.empty()) return;
     const auto lists = gather_candidates(mine, root, context.comm);
     auto list = lists.begin();
@@ -141,8 +150,11 @@ void run(Level& level, Context& context) {
                       mpi::to_int(static_cast<std::int64_t>(before.size() * sizeof(CutSearch))),
                       MPI_BYTE, root, context.comm),
             "MPI_Bcast");
-        for (std::size_t k = 0; k < before.size(); ++k)
-            level.local[k].keep_chosen(before[k], level.searches[k], level.layout.num_bins);
+        for (std::size_t k = 0; k < before.size(); ++k) {
+            context.locally([&] {
+                level.local[k].keep_chosen(before[k], level.searches[k], level.layout.num_bins);
+            });
+        }
         ++context.measured.rounds;
     }
 }
@@ -173,20 +185,18 @@ std::vector<Node> descend(std::vector<Node> nodes, const Level& level, Context& 
             cut.at.fill(-infinity);
             if (below > 0) cut.at[static_cast<std::size_t>(cut.axis)] = infinity;
         }
-        auto [lower, upper] = split(node.fragments, cut, context.points);
-        children.push_back({node.at.lower(), std::move(lower), below});
-        children.push_back({node.at.upper(), std::move(upper), node.weight - below});
+        std::pair<std::vector<Fragment>, std::vector<Fragment>> halves;
+        context.locally([&] { halves = split(node.fragments, cut, context.points); });
+        children.push_back({node.at.lower(), std::move(halves.first), below});
+        children.push_back({node.at.upper(), std::move(halves.second), node.weight - below});
     }
     return children;
 }
 
 /// True when the estimated cuts are good enough as they are; then `parts` is complete.
 bool accept_estimate(Context& context, std::span<Part> parts) {
-    assign(context.estimate.cuts, context.points, parts);
     std::vector<double> weights(context.estimate.part_sizes.size());
-    for (LocalIndex i = 0; i < context.points.count(); ++i)
-        weights[static_cast<std::size_t>(parts[context.points.original[i]])] +=
-            context.points.weight(i);
+    context.locally([&] { weights = assign(context.estimate.cuts, context.points, parts); });
     std::vector<double> sums(context.is_root ? weights.size() : 0);
     mpi::check(MPI_Reduce(weights.data(), sums.data(), static_cast<int>(weights.size()), MPI_DOUBLE,
                           MPI_SUM, root, context.comm),
@@ -198,21 +208,15 @@ bool accept_estimate(Context& context, std::span<Part> parts) {
     return measured <= context.options.imbalance_tolerance;
 }
 
-}  // namespace
-
-Measured refine(Estimate& estimate, const Options& options, SortedPoints& points, MPI_Comm comm,
-                std::span<Part> parts) {
-    Context context{estimate, options, points, comm, mpi::rank_of(comm) == root, {}};
-    if (options.refine == Refine::tolerance && accept_estimate(context, parts))
-        return context.measured;
-
-    std::vector<double> part_weights(estimate.part_sizes.size());
-    std::vector<Node> nodes{
-        {root_of(estimate.cuts), cell_fragments(points), estimate.total_weight}};
+/// Finds the cuts of one level after the other, and the parts at the end.
+void search_all_levels(Context& context, std::span<Part> parts) {
+    std::vector<double> part_weights(context.estimate.part_sizes.size());
+    std::vector<Node> nodes{{root_of(context.estimate.cuts), {}, context.estimate.total_weight}};
+    context.locally([&] { nodes[0].fragments = cell_fragments(context.points); });
     while (!nodes.empty()) {
         std::erase_if(nodes, [&](const Node& node) {
             if (!node.at.is_part()) return false;
-            write_part(node.fragments, node.at.first, points, parts);
+            write_part(node.fragments, node.at.first, context.points, parts);
             part_weights[static_cast<std::size_t>(node.at.first)] = node.weight;
             return true;
         });
@@ -220,7 +224,17 @@ Measured refine(Estimate& estimate, const Options& options, SortedPoints& points
         run(level, context);
         nodes = descend(std::move(nodes), level, context);
     }
-    context.measured.imbalance = imbalance(part_weights, estimate.part_sizes);
+    context.measured.imbalance = imbalance(part_weights, context.estimate.part_sizes);
+}
+
+}  // namespace
+
+Measured refine(Estimate& estimate, const Options& options, SortedPoints& points, MPI_Comm comm,
+                std::span<Part> parts) {
+    Context context{estimate, options, points, comm, mpi::rank_of(comm) == root};
+    const bool accepted = options.refine == Refine::tolerance && accept_estimate(context, parts);
+    if (!accepted) search_all_levels(context, parts);
+    agree(context.failure, comm);
     return context.measured;
 }
 

@@ -28,6 +28,7 @@ struct Measured {
 ///
 /// Collective over `comm`. Writes the part of each point, by its original index, into `parts`;
 /// entries of `points` change places within their cells. Without weight anywhere the cuts stay.
+/// A rank that fails on its own goes on with what it has; at the end all throw its error.
 Measured refine(Estimate& estimate, const Options& options, SortedPoints& points, MPI_Comm comm,
                 std::span<Part> parts);
 

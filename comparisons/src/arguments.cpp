@@ -35,6 +35,7 @@ const std::map<std::string, std::string>& documentation() {
         {"dim", "dimension of the cloud: 2 (default) or 3"},
         {"layout", "how points lie on the ranks: sorted (default) or scattered"},
         {"file", "CSV file of points: x,y[,z][,weight]"},
+        {"replay", "folder of a dump of the plug-in's (RRCB_DUMP)"},
         {"methods", "methods, by commas: " + method_names()},
         {"lists", "lists Zoltan returns: PARTS (default), EXPORT or ALL"},
         {"steps", "steps of the simulation; the whole failure"},
@@ -97,15 +98,17 @@ void read_choice(const Texts& texts, const std::string& name, Value& value,
 }
 
 void check_combination(const Texts& texts) {
-    const int sources = texts.given("scene") + texts.given("cloud") + texts.given("file");
-    if (sources > 1) throw Failure("give one of --scene, --cloud and --file only");
+    const int sources =
+        texts.given("scene") + texts.given("cloud") + texts.given("file") + texts.given("replay");
+    if (sources > 1) throw Failure("give one of --scene, --cloud, --file and --replay only");
     const auto needs = [&](const std::string& option, bool fits, const std::string& what) {
         if (texts.given(option) && !fits) throw Failure("--" + option + " goes with " + what);
     };
-    const bool is_scene = !texts.given("cloud") && !texts.given("file");
+    const bool is_scene = sources == 0 || texts.given("scene");
     needs("points", texts.given("cloud"), "--cloud only; remove it");
     needs("dim", texts.given("cloud"), "--cloud only; remove it");
-    needs("layout", !is_scene, "--cloud or --file only; remove it");
+    needs("layout", texts.given("cloud") || texts.given("file"),
+          "--cloud or --file only; remove it");
     needs("steps", is_scene, "--scene only; remove it");
     needs("every", is_scene, "--scene only; remove it");
 }
@@ -138,6 +141,7 @@ Arguments read_arguments(int argc, char** argv) {
     read_choice(texts, "scene", scene, {{"slope", 0}});
     arguments.cloud = texts["cloud"];
     arguments.file = texts["file"];
+    arguments.replay = texts["replay"];
     check_cloud(arguments.cloud);
     read_integer(texts, "ranks", arguments.ranks, 1, many);
     read_integer(texts, "points", arguments.points, {1}, {2'000'000'000});

@@ -14,9 +14,10 @@ namespace comparisons {
 
 /// What the user asks for; see README.md beside this folder for every option.
 struct Arguments {
-    int ranks = 0;      ///< 0: whatever the program was started with
-    std::string cloud;  ///< empty: not a cloud
-    std::string file;   ///< empty: not a file; with neither: the slope scene
+    int ranks = 0;       ///< 0: whatever the program was started with
+    std::string cloud;   ///< empty: not a cloud
+    std::string file;    ///< empty: not a file
+    std::string replay;  ///< folder of a dump; empty: none; with none of the three: the slope scene
     rrcb::GlobalCount points = 1'000'000;
     int dimension = 2;
     Layout layout = Layout::sorted;

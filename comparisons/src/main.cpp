@@ -1,5 +1,6 @@
 #include "comparison_mpi.hpp"
 #include "failure.hpp"
+#include "replay_mpi.hpp"
 #include "run_record.hpp"
 #include "scene_mpi.hpp"
 #include "workload_mpi.hpp"
@@ -36,6 +37,11 @@ void check_surroundings(const Arguments& arguments, MPI_Comm comm) {
 }
 
 Workload make_workload(const Arguments& arguments, MPI_Comm comm) {
+    if (!arguments.replay.empty()) {
+        Replay replay = read_replay(arguments.replay, comm);
+        if (rank_of(comm) == 0) std::cout << replay.note;
+        return std::move(replay.workload);
+    }
     if (!arguments.file.empty()) {
         return file_workload(arguments.file, arguments.layout, arguments.seed, comm);
     }
@@ -45,7 +51,7 @@ Workload make_workload(const Arguments& arguments, MPI_Comm comm) {
 
 std::vector<Workload> make_workloads(const Arguments& arguments, const ResultsFolder& folder,
                                      Progress& progress, bool& failed, MPI_Comm comm) {
-    if (!arguments.cloud.empty() || !arguments.file.empty()) {
+    if (!arguments.cloud.empty() || !arguments.file.empty() || !arguments.replay.empty()) {
         return {make_workload(arguments, comm)};
     }
     SceneRuns scene = run_scene(arguments, folder, progress, comm);

@@ -7,6 +7,7 @@
 #include <rrcb/rrcb.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 
@@ -206,6 +207,14 @@ void write_statistics(const ResultsFolder& folder, const Workload& workload,
     });
 }
 
+/// Dumps may hold points on a line, and points that are nowhere. Collective over `comm`.
+bool can_be_drawn(const Workload& workload, MPI_Comm comm) {
+    int is_finite =
+        std::ranges::all_of(workload.coordinates, [](double x) { return std::isfinite(x); });
+    MPI_Allreduce(MPI_IN_PLACE, &is_finite, 1, MPI_INT, MPI_MIN, comm);
+    return workload.dimension > 1 && is_finite != 0;
+}
+
 /// The first sampled method of the comparison, or the one of the paper.
 rrcb::Options sampled_options(std::span<const Method> methods) {
     for (const Method& method : methods) {
@@ -221,6 +230,7 @@ rrcb::Options sampled_options(std::span<const Method> methods) {
 void write_plot_data(const ResultsFolder& folder, const Workload& workload,
                      std::span<const Method> methods, std::span<const Measurement> measurements,
                      MPI_Comm comm) {
+    if (!can_be_drawn(workload, comm)) return;
     for (std::size_t m = 0; m < methods.size(); ++m) {
         if (!measurements[m].error.empty()) continue;
         write_points(folder, workload, measurements[m], comm);

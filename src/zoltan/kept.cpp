@@ -20,7 +20,7 @@ std::int32_t Kept::build(Part first, int num_parts, int parent) {
     if (num_parts == 1) return ~numbers_[static_cast<std::size_t>(first)];
     const auto index = nodes_.size();
     const Cut& cut = cuts_.tree[index];
-    nodes_.push_back({cut.at[static_cast<std::size_t>(cut.axis)], cut.axis, 0, 0});
+    nodes_.push_back({cut.at[static_cast<std::size_t>(cut.axis)], cut.axis, {}});
     // A node has the number of the first part above its cut.
     const int below = lower_parts(num_parts);
     const int above = num_parts - below;
@@ -31,15 +31,15 @@ std::int32_t Kept::build(Part first, int num_parts, int parent) {
     tree_[static_cast<std::size_t>(middle)] = {parent, name(first, below), name(middle, above)};
     const std::int32_t lower = build(first, below, middle + 1);
     const std::int32_t upper = build(middle, above, -(middle + 1));
-    nodes_[index].lower = lower;
-    nodes_[index].upper = upper;
+    nodes_[index].child = {lower, upper};
     return static_cast<std::int32_t>(index);
 }
 
 bool Kept::is_above(std::size_t cut, const double* position) const {
     const Node& node = nodes_[cut];
     const double x = position[node.axis];
-    if (x != node.plane) return x > node.plane;
+    if (x != node.plane) [[likely]]
+        return x > node.plane;
     Vector exact{};
     std::copy_n(position, cuts_.dimension, exact.begin());
     return rrcb::is_above(cuts_.tree[cut], exact, cuts_.dimension);
@@ -49,7 +49,8 @@ Part Kept::part_of(const double* coordinates) const {
     std::int32_t at = root_;
     while (at >= 0) {
         const auto cut = static_cast<std::size_t>(at);
-        at = is_above(cut, coordinates) ? nodes_[cut].upper : nodes_[cut].lower;
+        // As an index: positions in no order make branches that cannot be predicted.
+        at = nodes_[cut].child[is_above(cut, coordinates) ? 1 : 0];
     }
     return ~at;
 }
@@ -69,8 +70,8 @@ int Kept::collect(std::int32_t at, const Box& box, Part* parts, int count) const
         return count + 1;
     }
     const auto cut = static_cast<std::size_t>(at);
-    if (!is_above(cut, box.lower.data())) count = collect(nodes_[cut].lower, box, parts, count);
-    if (is_above(cut, box.upper.data())) count = collect(nodes_[cut].upper, box, parts, count);
+    if (!is_above(cut, box.lower.data())) count = collect(nodes_[cut].child[0], box, parts, count);
+    if (is_above(cut, box.upper.data())) count = collect(nodes_[cut].child[1], box, parts, count);
     return count;
 }
 

@@ -4,6 +4,7 @@
 
 #include <rrcb/cuts.hpp>
 
+#include <array>
 #include <vector>
 
 namespace rrcb::zoltan {
@@ -44,8 +45,7 @@ class Kept {
     struct Node {
         double plane = 0;
         std::int32_t axis = 0;
-        std::int32_t lower = 0;
-        std::int32_t upper = 0;
+        std::array<std::int32_t, 2> child{};  ///< below the cut, above it
     };
 
     std::int32_t build(Part first, int num_parts, int parent);

@@ -3,8 +3,15 @@
 #include "failure_mpi.hpp"
 
 #include <fstream>
+#include <sstream>
 
 namespace comparisons {
+
+namespace {
+
+constexpr int number_digits = 9;
+
+}  // namespace
 
 ResultsFolder::ResultsFolder(const std::filesystem::path& path, MPI_Comm comm)
     : path_(path), comm_(comm) {
@@ -26,12 +33,39 @@ void ResultsFolder::write(const std::string& name,
         [&] {
             const std::filesystem::path file = path_ / name;
             std::ofstream out(file);
-            out.precision(9);
+            out.precision(number_digits);
             write(out);
             out.close();
             if (!out) throw Failure(file.string() + ": cannot be written; is the disk full?");
         },
         comm_);
+}
+
+std::string ResultsFolder::from_root(const std::function<void(std::ostream&)>& write) const {
+    std::string text;
+    on_root(
+        [&] {
+            std::ostringstream out;
+            out.precision(number_digits);
+            write(out);
+            text = out.str();
+        },
+        comm_);
+    auto length = static_cast<int>(text.size());
+    MPI_Bcast(&length, 1, MPI_INT, 0, comm_);
+    text.resize(static_cast<std::size_t>(length));
+    MPI_Bcast(text.data(), length, MPI_CHAR, 0, comm_);
+    return text;
+}
+
+std::vector<std::string> ResultsFolder::read_lines(const std::string& name) const {
+    std::istringstream text(from_root([&](std::ostream& out) {
+        std::ifstream in(path_ / name);
+        if (in && in.peek() != std::ifstream::traits_type::eof()) out << in.rdbuf();
+    }));
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+    return lines;
 }
 
 }  // namespace comparisons

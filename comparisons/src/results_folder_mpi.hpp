@@ -6,6 +6,7 @@
 #include <functional>
 #include <ostream>
 #include <string>
+#include <vector>
 
 namespace comparisons {
 
@@ -18,6 +19,12 @@ class ResultsFolder {
 
     /// Writes a file; `write` runs on rank 0 alone.
     void write(const std::string& name, const std::function<void(std::ostream&)>& write) const;
+
+    /// What `write` writes on rank 0 alone, on every rank.
+    std::string from_root(const std::function<void(std::ostream&)>& write) const;
+
+    /// Lines of a file, on every rank; none when there is no such file.
+    std::vector<std::string> read_lines(const std::string& name) const;
 
   private:
     std::filesystem::path path_;

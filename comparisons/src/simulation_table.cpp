@@ -6,21 +6,32 @@
 
 namespace comparisons {
 
+std::string simulation_key(const SimulationPlan& plan, int num_ranks, std::int64_t num_points,
+                           const std::string& method) {
+    return csv_field(method) + ',' + std::to_string(num_ranks) + ',' + std::to_string(num_points) +
+           ',' + std::to_string(plan.num_steps) + ',' + std::to_string(plan.every);
+}
+
+std::string simulation_header() {
+    return "method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,"
+           "worst_imbalance,front_x_m,mass_kg,error";
+}
+
+void write_simulation(std::ostream& out, const SimulationPlan& plan, int num_ranks,
+                      const SimulationRun& run) {
+    out << simulation_key(plan, num_ranks, run.num_points, run.method) << ',';
+    if (run.error.empty()) {
+        out << run.wall_s << ',' << run.balance_s << ',' << run.step_s << ',' << run.mean_imbalance
+            << ',' << run.worst_imbalance << ',' << run.front_m << ',' << run.mass_kg << ",\n";
+    } else {
+        out << ",,,,,,," << csv_field(run.error) << '\n';
+    }
+}
+
 void write_simulations(std::ostream& out, const SimulationPlan& plan, int num_ranks,
                        std::span<const SimulationRun> runs) {
-    out << "method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,"
-           "worst_imbalance,front_x_m,mass_kg,error\n";
-    for (const SimulationRun& run : runs) {
-        out << csv_field(run.method) << ',' << num_ranks << ',' << run.num_points << ','
-            << plan.num_steps << ',' << plan.every << ',';
-        if (run.error.empty()) {
-            out << run.wall_s << ',' << run.balance_s << ',' << run.step_s << ','
-                << run.mean_imbalance << ',' << run.worst_imbalance << ',' << run.front_m << ','
-                << run.mass_kg << ",\n";
-        } else {
-            out << ",,,,,,," << csv_field(run.error) << '\n';
-        }
-    }
+    out << simulation_header() << '\n';
+    for (const SimulationRun& run : runs) write_simulation(out, plan, num_ranks, run);
 }
 
 void write_history(std::ostream& out, std::span<const SimulationRun> runs) {

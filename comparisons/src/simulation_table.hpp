@@ -2,10 +2,23 @@
 
 #include "simulation_mpi.hpp"
 
+#include <cstdint>
 #include <ostream>
 #include <span>
+#include <string>
 
 namespace comparisons {
+
+/// The fields a row of simulation.csv starts with, `method` to `every`: what was run.
+std::string simulation_key(const SimulationPlan& plan, int num_ranks, std::int64_t num_points,
+                           const std::string& method);
+
+/// Names of the columns of simulation.csv.
+std::string simulation_header();
+
+/// The row of one simulation, in the columns of simulation_header.
+void write_simulation(std::ostream& out, const SimulationPlan& plan, int num_ranks,
+                      const SimulationRun& run);
 
 /// simulation.csv: one row per simulation, columns as README.md describes them.
 void write_simulations(std::ostream& out, const SimulationPlan& plan, int num_ranks,

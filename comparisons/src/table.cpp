@@ -51,25 +51,35 @@ bool has_failures(std::span<const Comparison> comparisons) {
     });
 }
 
-void write_table(std::ostream& out, std::span<const Comparison> comparisons) {
-    out << "method,ranks,parts,points,dim,workload,layout,lists,repeats,time_ms_median,time_ms_min,"
+std::string row_key(const Comparison& comparison, const std::string& method) {
+    const std::string ranks = std::to_string(comparison.num_ranks);
+    return csv_field(method) + ',' + ranks + ',' + ranks + ',' +
+           std::to_string(comparison.num_points) + ',' + std::to_string(comparison.dimension) +
+           ',' + csv_field(comparison.workload) + ',' + comparison.layout + ',' +
+           lists_name(comparison.plan.lists) + ',' + std::to_string(comparison.plan.repeats);
+}
+
+std::string table_header() {
+    return "method,ranks,parts,points,dim,workload,layout,lists,repeats,time_ms_median,time_ms_min,"
            "time_ms_max,imbalance,lu_max_percent,messages,bytes,root_bytes_in,moved_fraction,"
-           "time_vs_zoltan_rcb,error\n";
-    for (const Comparison& comparison : comparisons) {
-        const double zoltan_rcb_ms = median_of_zoltan_rcb(comparison);
-        for (const Measurement& measurement : comparison.measurements) {
-            out << csv_field(measurement.method) << ',' << comparison.num_ranks << ','
-                << comparison.num_ranks << ',' << comparison.num_points << ','
-                << comparison.dimension << ',' << csv_field(comparison.workload) << ','
-                << comparison.layout << ',' << lists_name(comparison.plan.lists) << ','
-                << comparison.plan.repeats << ',';
-            if (measurement.error.empty()) {
-                write_result(out, measurement, zoltan_rcb_ms);
-            } else {
-                out << ",,,,,,,,,," << csv_field(measurement.error) << '\n';
-            }
+           "time_vs_zoltan_rcb,error";
+}
+
+void write_rows(std::ostream& out, const Comparison& comparison) {
+    const double zoltan_rcb_ms = median_of_zoltan_rcb(comparison);
+    for (const Measurement& measurement : comparison.measurements) {
+        out << row_key(comparison, measurement.method) << ',';
+        if (measurement.error.empty()) {
+            write_result(out, measurement, zoltan_rcb_ms);
+        } else {
+            out << ",,,,,,,,,," << csv_field(measurement.error) << '\n';
         }
     }
+}
+
+void write_table(std::ostream& out, std::span<const Comparison> comparisons) {
+    out << table_header() << '\n';
+    for (const Comparison& comparison : comparisons) write_rows(out, comparison);
 }
 
 void print_table(std::ostream& out, const Comparison& comparison) {

@@ -23,6 +23,15 @@ struct Comparison {
 /// True when some method of some comparison failed.
 bool has_failures(std::span<const Comparison> comparisons);
 
+/// The fields a row of table.csv starts with, `method` to `repeats`: what was measured.
+std::string row_key(const Comparison& comparison, const std::string& method);
+
+/// Names of the columns of table.csv.
+std::string table_header();
+
+/// The rows of one comparison, in the columns of table_header.
+void write_rows(std::ostream& out, const Comparison& comparison);
+
 /// table.csv: one row per method and workload, columns as README.md describes them.
 void write_table(std::ostream& out, std::span<const Comparison> comparisons);
 

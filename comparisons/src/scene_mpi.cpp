@@ -1,6 +1,7 @@
 #include "scene_mpi.hpp"
 
 #include "balancer_mpi.hpp"
+#include "failure.hpp"
 #include "simulation_table.hpp"
 
 #include <mpm/slope.hpp>
@@ -36,22 +37,9 @@ int record_interval(int num_steps, std::size_t num_runs, MPI_Comm comm) {
     return static_cast<int>(rows / max_rows) + 1;
 }
 
-SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_Comm comm) {
-    constexpr int quick_cells = 29;
-    constexpr int quick_steps = 40;
-    constexpr int default_every = 5;
-    SimulationPlan plan{arguments.quick ? mpm::slope_scene(quick_cells) : mpm::slope_scene()};
-    plan.num_steps = arguments.steps > 0 ? arguments.steps
-                     : arguments.quick   ? quick_steps
-                                         : steps_to_end(plan.scene, comm);
-    plan.every = arguments.every > 0 ? arguments.every : default_every;
-    plan.record_every = record_interval(plan.num_steps, num_runs, comm);
-    return plan;
-}
-
-Workload snapshot(const std::string& when, const mpm::Simulation& simulation) {
+Workload snapshot(const std::string& name, const mpm::Simulation& simulation) {
     Workload workload;
-    workload.name = "slope-" + when;
+    workload.name = name;
     workload.layout = "simulation";
     const mpm::Positions positions = simulation.positions();
     for (std::size_t i = 0; i < positions.x.size(); ++i) {
@@ -63,9 +51,12 @@ Workload snapshot(const std::string& when, const mpm::Simulation& simulation) {
 
 void take_snapshots(std::vector<Workload>& snapshots, const SimulationPlan& plan, int steps_done,
                     const mpm::Simulation& simulation) {
-    if (steps_done == 0) snapshots.push_back(snapshot("start", simulation));
-    if (steps_done == plan.num_steps / 2) snapshots.push_back(snapshot("middle", simulation));
-    if (steps_done == plan.num_steps) snapshots.push_back(snapshot("end", simulation));
+    const std::vector<std::string> names = snapshot_names();
+    for (int i = 0; i < static_cast<int>(names.size()); ++i) {
+        if (steps_done == plan.num_steps * i / 2) {
+            snapshots.push_back(snapshot(names[static_cast<std::size_t>(i)], simulation));
+        }
+    }
 }
 
 /// Turns are long enough that each simulation finds its points in the cache again.
@@ -89,6 +80,38 @@ void print_and_write(const SimulationPlan& plan, std::span<const SimulationRun> 
 }
 
 }  // namespace
+
+SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_Comm comm) {
+    constexpr int quick_cells = 29;
+    constexpr int quick_steps = 40;
+    constexpr int default_every = 5;
+    SimulationPlan plan{arguments.quick ? mpm::slope_scene(quick_cells) : mpm::slope_scene()};
+    plan.num_steps = arguments.steps > 0 ? arguments.steps
+                     : arguments.quick   ? quick_steps
+                                         : steps_to_end(plan.scene, comm);
+    plan.every = arguments.every > 0 ? arguments.every : default_every;
+    plan.record_every = record_interval(plan.num_steps, num_runs, comm);
+    return plan;
+}
+
+std::vector<std::string> snapshot_names() {
+    return {"slope-start", "slope-middle", "slope-end"};
+}
+
+std::vector<Workload> slope_snapshots(const SimulationPlan& plan, Progress& progress,
+                                      MPI_Comm comm) {
+    std::vector<Workload> snapshots;
+    progress.start("the slope fails", plan.num_steps);
+    const auto observe = [&](int steps_done, const mpm::Simulation& simulation) {
+        if (steps_done > 0) progress.advance();
+        take_snapshots(snapshots, plan, steps_done, simulation);
+    };
+    TimedSimulation simulation(plan, std::nullopt, observe, comm);
+    simulation.advance(plan.num_steps);
+    const std::string error = simulation.result().error;
+    if (!error.empty()) throw Failure("the slope: " + error);
+    return snapshots;
+}
 
 SceneRuns run_scene(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
                     MPI_Comm comm) {

@@ -7,6 +7,8 @@
 
 #include <mpi.h>
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 namespace comparisons {
@@ -18,6 +20,19 @@ struct SceneRuns {
     /// ranks: a distribution that favours no method.
     std::vector<Workload> snapshots;
 };
+
+/// How the slope is run: the options, or what they leave to the scene. `num_runs` simulations
+/// share the space of the history. Collective over `comm`.
+SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_Comm comm);
+
+/// The snapshots of SceneRuns, from a run without rebalancing alone. Collective over `comm`.
+///
+/// Throws Failure when the simulation fails.
+std::vector<Workload> slope_snapshots(const SimulationPlan& plan, Progress& progress,
+                                      MPI_Comm comm);
+
+/// Names of the snapshots, in their order.
+std::vector<std::string> snapshot_names();
 
 /// Runs the slope under every method that cuts along the axes, prints and writes their times and
 /// loads. Collective over `comm`.

@@ -168,12 +168,6 @@ void note_tolerance(Options& options, std::string_view text) {
                                       : Options{}.imbalance_tolerance;
 }
 
-void note_ratio(double& ratio, std::string_view text) {
-    double value = 0;
-    const bool usable = read_number(text, value) && std::isfinite(value) && value > 1;
-    ratio = usable ? value : Parameters{}.degenerate_ratio;
-}
-
 ReturnLists return_lists(std::string_view text) {
     const auto has = [text](std::string_view word) { return text.find(word) != text.npos; };
     if (has("EXPORT")) return has("IMPORT") ? ReturnLists::all : ReturnLists::exports;
@@ -205,7 +199,6 @@ std::vector<const char*> own_parameter_names() {
 
 void note_common(Parameters& parameters, std::string_view name, std::string_view value) {
     if (name == "LB_METHOD") parameters.rrcb = parameters.replace_rcb && value == "RCB";
-    if (name == "DEGENERATE_RATIO") note_ratio(parameters.degenerate_ratio, value);
     if (name == "IMBALANCE_TOL") note_tolerance(parameters.options, value);
     if (name == "RETURN_LISTS") parameters.return_lists = return_lists(value);
     const auto* common = std::ranges::find(common_integers, name, &CommonInteger::name);

@@ -68,6 +68,10 @@ std::vector<std::string> shortcomings(const Parameters& parameters) {
         texts.emplace_back(
             "RCB_MULTICRITERIA_NORM: RRCB balances the sum of the weights, which is norm 1");
     }
+    if (parameters.reduce_dimensions != 0) {
+        texts.emplace_back(
+            "REDUCE_DIMENSIONS: RRCB cuts across the coordinate axes, also of flat geometries");
+    }
     return texts;
 }
 

@@ -193,6 +193,24 @@ struct TwoWeights : Program {
     }
 };
 
+TEST(Shortcomings, are_told_and_do_not_change_the_code) {
+    Program program;
+    fill_box(program, {1, 1, 0}, 200);
+    program.set("LB_METHOD", "RRCB");
+    program.set("DEBUG_LEVEL", "1");
+    program.set("REDUCE_DIMENSIONS", "1");
+    program.set("RCB_OUTPUT_LEVEL", "1");
+    testing::internal::CaptureStderr();
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(program.partition().code, ZOLTAN_OK);
+    const std::string warnings = testing::internal::GetCapturedStderr();
+    const std::string output = testing::internal::GetCapturedStdout();
+    const bool first = program.rank == 0;
+    EXPECT_EQ(warnings.find("WARNING") != warnings.npos, first) << warnings;
+    EXPECT_EQ(warnings.find("REDUCE_DIMENSIONS") != warnings.npos, first) << warnings;
+    EXPECT_EQ(output.find("imbalance") != output.npos, first) << output;
+}
+
 TEST(Weights, of_two_kinds_are_balanced_in_their_normalised_sum) {
     for (const char* method : methods) {
         SCOPED_TRACE(method);

@@ -2,6 +2,7 @@
 
 #include "cloud.hpp"
 #include "failure.hpp"
+#include "sweep_settings.hpp"
 #include "text.hpp"
 
 #include <Teuchos_CommandLineProcessor.hpp>
@@ -56,7 +57,8 @@ std::optional<std::string> parse(int argc, char** argv, Texts& texts) {
         processor.setOption(name.c_str(), &texts.values[name], text.c_str());
     }
     processor.setOption("quick", "no-quick", &texts.quick, "a small run that tries everything");
-    processor.setOption("sweep", "no-sweep", &texts.sweep, "not available yet");
+    processor.setOption("sweep", "no-sweep", &texts.sweep,
+                        "what accuracy costs: a grid of settings on every cloud");
     processor.setOption("progress", "no-progress", &texts.progress, "show a progress bar");
     processor.setOption("version", "no-version", &texts.version, "print the versions");
     std::ostringstream output;
@@ -100,12 +102,15 @@ void read_choice(const Texts& texts, const std::string& name, Value& value,
 void check_combination(const Texts& texts) {
     const int sources =
         texts.given("scene") + texts.given("cloud") + texts.given("file") + texts.given("replay");
+    if (texts.sweep && sources > 0) {
+        throw Failure("--sweep has points of its own; remove --scene, --cloud, --file or --replay");
+    }
     if (sources > 1) throw Failure("give one of --scene, --cloud, --file and --replay only");
     const auto needs = [&](const std::string& option, bool fits, const std::string& what) {
         if (texts.given(option) && !fits) throw Failure("--" + option + " goes with " + what);
     };
     const bool is_scene = sources == 0 || texts.given("scene");
-    needs("points", texts.given("cloud"), "--cloud only; remove it");
+    needs("points", texts.given("cloud") || texts.sweep, "--cloud or --sweep only; remove it");
     needs("dim", texts.given("cloud"), "--cloud only; remove it");
     needs("layout", texts.given("cloud") || texts.given("file"),
           "--cloud or --file only; remove it");
@@ -113,9 +118,16 @@ void check_combination(const Texts& texts) {
     needs("every", is_scene, "--scene only; remove it");
 }
 
-void use_small_sizes(Arguments& arguments) {
-    arguments.points = 20'000;
-    arguments.repeats = 2;
+void use_default_sizes(Arguments& arguments) {
+    if (arguments.sweep) arguments.points = 200'000;
+    if (arguments.quick) arguments.points = 20'000;
+    if (arguments.sweep) arguments.repeats = 5;
+    if (arguments.quick) arguments.repeats = 2;
+}
+
+std::vector<Method> choose_methods(const Arguments& arguments, const std::string& text) {
+    if (!text.empty()) return read_methods(text);
+    return arguments.sweep && !arguments.quick ? cost_settings() : read_methods(method_names());
 }
 
 void check_cloud(const std::string& name) {
@@ -130,11 +142,11 @@ Arguments read_arguments(int argc, char** argv) {
     arguments.help = parse(argc, argv, texts);
     arguments.version = texts.version;
     if (arguments.help || arguments.version) return arguments;
-    if (texts.sweep) throw Failure("--sweep is not available yet; run one comparison at a time");
     check_combination(texts);
+    arguments.sweep = texts.sweep;
     arguments.quick = texts.quick;
     arguments.progress = texts.progress;
-    if (arguments.quick) use_small_sizes(arguments);
+    use_default_sizes(arguments);
 
     int scene = 0;
     constexpr int many = std::numeric_limits<int>::max();
@@ -148,7 +160,7 @@ Arguments read_arguments(int argc, char** argv) {
     read_integer(texts, "dim", arguments.dimension, 2, 3);
     read_choice<Layout>(texts, "layout", arguments.layout,
                         {{"sorted", Layout::sorted}, {"scattered", Layout::scattered}});
-    arguments.methods = read_methods(texts.given("methods") ? texts["methods"] : method_names());
+    arguments.methods = choose_methods(arguments, texts["methods"]);
     read_choice<Lists>(texts, "lists", arguments.lists,
                        {{"PARTS", Lists::parts}, {"EXPORT", Lists::exports}, {"ALL", Lists::all}});
     read_integer(texts, "steps", arguments.steps, 1, many);

@@ -28,6 +28,7 @@ struct Arguments {
     int repeats = 7;
     std::uint64_t seed = 1;
     std::string out = "comparisons/out";
+    bool sweep = false;  ///< the study of settings in place of one comparison
     bool quick = false;
     bool progress = false;
     std::optional<std::string> help;  ///< print this and stop

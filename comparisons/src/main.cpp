@@ -3,6 +3,7 @@
 #include "replay_mpi.hpp"
 #include "run_record.hpp"
 #include "scene_mpi.hpp"
+#include "sweep_mpi.hpp"
 #include "workload_mpi.hpp"
 
 #include <rrcb/error.hpp>
@@ -59,6 +60,18 @@ std::vector<Workload> make_workloads(const Arguments& arguments, const ResultsFo
     return std::move(scene.snapshots);
 }
 
+/// Every method on the points asked for; true when none failed.
+bool compare_all(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
+                 MPI_Comm comm) {
+    bool failed = false;
+    std::vector<Comparison> comparisons;
+    for (const Workload& workload : make_workloads(arguments, folder, progress, failed, comm)) {
+        comparisons.push_back(compare_methods(workload, arguments, folder, progress, comm));
+    }
+    folder.write("table.csv", [&](std::ostream& out) { write_table(out, comparisons); });
+    return !failed && !has_failures(comparisons);
+}
+
 int compare(const Arguments& arguments, const std::string& command, MPI_Comm comm) {
     check_surroundings(arguments, comm);
     const ResultsFolder folder(arguments.out, comm);
@@ -67,16 +80,12 @@ int compare(const Arguments& arguments, const std::string& command, MPI_Comm com
     folder.write("run.txt", [&](std::ostream& out) { out << record; });
     if (rank_of(comm) == 0) std::cout << record;
 
-    bool failed = false;
-    std::vector<Comparison> comparisons;
-    for (const Workload& workload : make_workloads(arguments, folder, progress, failed, comm)) {
-        comparisons.push_back(compare_methods(workload, arguments, folder, progress, comm));
-    }
-    folder.write("table.csv", [&](std::ostream& out) { write_table(out, comparisons); });
+    const bool succeeded = arguments.sweep ? run_sweep(arguments, folder, progress, comm)
+                                           : compare_all(arguments, folder, progress, comm);
     if (rank_of(comm) == 0) {
         std::cout << '\n' << definitions() << "Written to " << arguments.out << '\n';
     }
-    return failed || has_failures(comparisons) ? 1 : 0;
+    return succeeded ? 0 : 1;
 }
 
 int run(int argc, char** argv, MPI_Comm comm) {

@@ -1,0 +1,43 @@
+#include "sweep_settings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+namespace comparisons {
+namespace {
+
+std::set<std::string> labels(const std::vector<Method>& settings) {
+    std::set<std::string> names;
+    for (const Method& method : settings) names.insert(method.label);
+    return names;
+}
+
+TEST(SweepSettings, cover_every_method) {
+    const std::set<std::string> names = labels(cost_settings());
+    EXPECT_EQ(names.size(), cost_settings().size());
+    for (const Method& method : read_methods(method_names())) {
+        EXPECT_TRUE(std::ranges::any_of(names, [&](const std::string& name) {
+            return name == method.label || name.starts_with(method.label + '[');
+        })) << method.label;
+    }
+}
+
+TEST(SweepSettings, are_the_eighty_of_the_paper) {
+    const std::set<std::string> names = labels(paper_settings(false));
+    EXPECT_EQ(names.size(), 5U * 4U * 4U);
+    EXPECT_TRUE(names.contains("rrcb-sampled[mesh=2,k=1,fraction=1]"));
+    EXPECT_TRUE(names.contains("rrcb-sampled[mesh=10,k=2.5,fraction=0.125]"));
+}
+
+TEST(SweepSettings, quick_ones_are_among_the_paper_s) {
+    const std::set<std::string> names = labels(paper_settings(false));
+    for (const std::string& name : labels(paper_settings(true))) {
+        EXPECT_TRUE(names.contains(name)) << name;
+    }
+}
+
+}  // namespace
+}  // namespace comparisons

@@ -59,6 +59,12 @@ ZoltanParameters parameters_with(const std::string& folder, const std::string& w
     return parameters;
 }
 
+/// read_replay of what this program has dumped, once every rank has.
+Replay replay_own(const std::string& folder, MPI_Comm comm = MPI_COMM_WORLD) {
+    MPI_Barrier(MPI_COMM_WORLD);
+    return read_replay(folder, comm);
+}
+
 std::vector<rrcb::Part> parts_of(const Workload& workload, const ZoltanParameters& parameters) {
     ZoltanPartitioner partitioner(parameters, workload, MPI_COMM_WORLD);
     EXPECT_EQ(partitioner.partition(), ZOLTAN_OK);
@@ -69,7 +75,7 @@ TEST(Replay, of_a_call_that_succeeded_gives_its_parts_again) {
     const Folder folder;
     const Workload workload = uneven_workload();
     const auto parts = parts_of(workload, parameters_with(folder.path, "ALWAYS"));
-    const Replay replay = read_replay(folder.path + "/call-1/", MPI_COMM_WORLD);
+    const Replay replay = replay_own(folder.path + "/call-1/");
     EXPECT_EQ(replay.workload.name, "call-1");
     EXPECT_EQ(replay.workload.layout, "dump");
     EXPECT_EQ(replay.workload.coordinates, workload.coordinates);
@@ -88,7 +94,7 @@ TEST(Replay, of_a_call_that_failed_holds_what_made_it_fail) {
                                       MPI_COMM_WORLD);
         EXPECT_EQ(partitioner.partition(), ZOLTAN_FATAL);
     }
-    const Replay replay = read_replay(folder.path + "/call-1", MPI_COMM_WORLD);
+    const Replay replay = replay_own(folder.path + "/call-1");
     ASSERT_EQ(replay.workload.coordinates.size(), workload.coordinates.size());
     EXPECT_EQ(std::isnan(replay.workload.coordinates[5]), rank() == size() - 1);
     EXPECT_NE(replay.note.find("code -1"), std::string::npos) << replay.note;
@@ -101,8 +107,7 @@ TEST(Replay, on_another_number_of_ranks_deals_the_points_out_in_order) {
     const Folder folder;
     const Workload workload = uneven_workload();
     parts_of(workload, parameters_with(folder.path, "ALWAYS"));
-    MPI_Barrier(MPI_COMM_WORLD);
-    const Replay replay = read_replay(folder.path + "/call-1", MPI_COMM_SELF);
+    const Replay replay = replay_own(folder.path + "/call-1", MPI_COMM_SELF);
     const auto total = static_cast<std::size_t>(40 * size() * (size() + 1) / 2);
     EXPECT_EQ(replay.workload.coordinates,
               cloud_points({"slope", 400, 2, 1}, 0, static_cast<rrcb::GlobalCount>(total)));

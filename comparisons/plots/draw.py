@@ -14,6 +14,7 @@ from history import draw_history
 from parts import draw_parts
 from simulation import draw_simulation
 from style import use_style
+from sweep import draw_speed_up, draw_study, draw_sweep_bytes, draw_sweep_time
 
 PICTURES = {
     "time_against_imbalance.png": draw_cost,
@@ -22,6 +23,10 @@ PICTURES = {
     "statistical_domain.png": draw_domains,
     "unbalance_history.png": draw_history,
     "simulation_time.png": draw_simulation,
+    "sweep_time.png": draw_sweep_time,
+    "sweep_bytes.png": draw_sweep_bytes,
+    "study.png": draw_study,
+    "speed_up.png": draw_speed_up,
 }
 
 

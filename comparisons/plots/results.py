@@ -18,6 +18,7 @@ class Measurement:
 
     method: str
     workload: str
+    layout: str
     ranks: int
     points: int
     dimension: int
@@ -25,6 +26,11 @@ class Measurement:
     time_ms_min: float
     time_ms_max: float
     imbalance: float
+    lu_percent: float
+    messages: int
+    bytes: int
+    root_bytes_in: int
+    moved_fraction: float
 
 
 @dataclass(frozen=True)
@@ -41,12 +47,13 @@ class Simulation:
     mean_imbalance: float
 
 
-def read_table(directory: Path) -> list[Measurement]:
+def read_table(directory: Path, name: str = "table.csv") -> list[Measurement]:
     """The methods that did not fail, in the order of the table."""
     return [
         Measurement(
             method=row["method"],
             workload=row["workload"],
+            layout=row["layout"],
             ranks=int(row["ranks"]),
             points=int(row["points"]),
             dimension=int(row["dim"]),
@@ -54,13 +61,18 @@ def read_table(directory: Path) -> list[Measurement]:
             time_ms_min=float(row["time_ms_min"]),
             time_ms_max=float(row["time_ms_max"]),
             imbalance=float(row["imbalance"]),
+            lu_percent=float(row["lu_max_percent"]),
+            messages=int(row["messages"]),
+            bytes=int(row["bytes"]),
+            root_bytes_in=int(row["root_bytes_in"]),
+            moved_fraction=float(row["moved_fraction"]),
         )
-        for row in _rows(directory / "table.csv")
+        for row in _rows(directory / name)
         if not row.get("error")
     ]
 
 
-def read_simulations(directory: Path) -> list[Simulation]:
+def read_simulations(directory: Path, name: str = "simulation.csv") -> list[Simulation]:
     """The runs that did not fail."""
     return [
         Simulation(
@@ -73,7 +85,7 @@ def read_simulations(directory: Path) -> list[Simulation]:
             step=float(row["step_s"]),
             mean_imbalance=float(row["mean_imbalance"]),
         )
-        for row in _rows(directory / "simulation.csv")
+        for row in _rows(directory / name)
         if not row.get("error")
     ]
 

@@ -56,6 +56,18 @@ rank,cell,lower_x,lower_y,upper_x,upper_y,mean_x,mean_y,sigma_x,sigma_y,count
 1,0,2,0,3,1,2.5,0.5,0.5,0.5,2
 """,
     "data/statistical_slope-start.csv": "x,y\n0.2,0\n2.7,0.4\n",
+    "sweep.csv": """\
+method,ranks,parts,points,dim,workload,layout,lists,repeats,time_ms_median,time_ms_min,time_ms_max,\
+imbalance,lu_max_percent,messages,bytes,root_bytes_in,moved_fraction,time_vs_zoltan_rcb,error
+zoltan-rcb,2,2,4,2,uniform,sorted,PARTS,1,2.0,1.5,3.0,1.0,0,1,100,1,0,1,
+"rrcb-sampled[mesh=2,k=1.5,fraction=0.5]",2,2,4,2,slope-start,simulation,PARTS,1,1,1,1,1.5,50,1,1,1,0,1,
+"rrcb-sampled[mesh=4,k=1.5,fraction=0.5]",2,2,4,2,slope-start,simulation,PARTS,1,1,1,1,1.2,20,1,1,1,0,1,
+""",
+    "sweep_simulation.csv": """\
+method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,worst_imbalance,front_x_m,mass_kg,error
+serial,1,4,10,1,3.0,0.0,3.0,1.0,1.0,60,1,
+"rrcb-sampled[mesh=2,k=1.5,fraction=0.5]",2,4,10,1,2.0,0.1,1.8,1.0,1.1,60,1,
+""",
 }
 
 

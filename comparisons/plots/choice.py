@@ -1,0 +1,108 @@
+"""Which setting is the fastest within a tolerance: what accuracy costs, in numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from statistics import geometric_mean
+
+from results import Measurement
+
+TOLERANCES = ("1.10", "1.05", "1.01", "1.001", "exact")
+EVERYWHERE = "all of these"
+
+
+@dataclass(frozen=True)
+class Choice:
+    """The fastest setting on a case; none where no setting is within the tolerance."""
+
+    case: str
+    tolerance: str
+    setting: str = ""
+    time_ms: float | None = None
+    times_as_fast: float | None = None  # as Zoltan's RCB; over all cases the geometric mean
+    imbalance: float | None = None
+
+
+def cases(rows: list[Measurement]) -> dict[str, list[Measurement]]:
+    """Rows that measure the same points on the same ranks, by a name for them."""
+    sizes = {(row.points, row.ranks) for row in rows if row.layout != "simulation"}
+    result: dict[str, list[Measurement]] = {}
+    for row in rows:
+        name = f"{row.workload} {row.dimension}-D {row.layout}"
+        if len(sizes) > 1:
+            name += f", {row.points:,} points, {row.ranks} ranks"
+        result.setdefault(name, []).append(row)
+    return result
+
+
+def is_within(row: Measurement, tolerance: str) -> bool:
+    """Exact: no part has more than one point above the mean."""
+    limit = 1 + row.ranks / row.points if tolerance == "exact" else float(tolerance)
+    return row.imbalance <= limit * (1 + 1e-9)
+
+
+def fastest(rows: list[Measurement], tolerance: str) -> Measurement | None:
+    return min(
+        (row for row in rows if is_within(row, tolerance)), key=lambda r: r.time_ms, default=None
+    )
+
+
+def find_method(rows: list[Measurement], method: str) -> Measurement | None:
+    return next((row for row in rows if row.method == method), None)
+
+
+def pareto_front(
+    rows: list[Measurement], cost: Callable[[Measurement], float]
+) -> list[Measurement]:
+    """The rows that no other beats in both cost and imbalance, cheapest first."""
+    front: list[Measurement] = []
+    for row in sorted(rows, key=lambda r: (cost(r), r.imbalance)):
+        if not front or row.imbalance < front[-1].imbalance:
+            front.append(row)
+    return front
+
+
+def choices(rows: list[Measurement]) -> list[Choice]:
+    """For every tolerance: the setting to take everywhere, then the fastest one on each case."""
+    by_case = cases(rows)
+    everywhere = [_everywhere(by_case, tolerance) for tolerance in TOLERANCES]
+    return everywhere * (len(by_case) > 1) + [
+        _choose(case, rows, tolerance) for case, rows in by_case.items() for tolerance in TOLERANCES
+    ]
+
+
+def _choose(case: str, rows: list[Measurement], tolerance: str) -> Choice:
+    best = fastest(rows, tolerance)
+    if best is None:
+        return Choice(case, tolerance)
+    return Choice(
+        case, tolerance, best.method, best.time_ms, _speed(best, rows), best.imbalance
+    )
+
+
+def _speed(row: Measurement, rows: list[Measurement]) -> float | None:
+    reference = find_method(rows, "zoltan-rcb")
+    return reference.time_ms / row.time_ms if reference and row.time_ms > 0 else None
+
+
+def _everywhere(by_case: dict[str, list[Measurement]], tolerance: str) -> Choice:
+    """Within the tolerance on every case, and there the fastest in the geometric mean."""
+    settings = {row.method for rows in by_case.values() for row in rows}
+    candidates = []
+    for setting in sorted(settings):
+        found = [find_method(rows, setting) for rows in by_case.values()]
+        if not all(row and is_within(row, tolerance) and row.time_ms > 0 for row in found):
+            continue
+        speeds = [_speed(row, rows) for row, rows in zip(found, by_case.values())]
+        candidates.append(
+            Choice(
+                EVERYWHERE,
+                tolerance,
+                setting,
+                geometric_mean([row.time_ms for row in found]),
+                geometric_mean(speeds) if all(speeds) else None,
+                max(row.imbalance for row in found),
+            )
+        )
+    return min(candidates, key=lambda c: c.time_ms, default=Choice(EVERYWHERE, tolerance))

@@ -1,0 +1,138 @@
+"""A document of headings, text, tables and pictures, written as HTML and as Markdown."""
+
+from __future__ import annotations
+
+import base64
+import html
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+STYLE = """
+:root { color-scheme: light; }
+body { font: 16px/1.5 system-ui, sans-serif; color: #222; margin: 0 auto; max-width: 72rem;
+  padding: 1rem; }
+h1 { font-size: 1.7rem; line-height: 1.2; } h2 { font-size: 1.3rem; margin-top: 2.2rem; }
+.conclusion { border-left: 4px solid #0072B2; background: #F2F7FB; padding: .1rem 1rem; }
+.wide { overflow-x: auto; }
+table { border-collapse: collapse; font-size: .86rem; font-variant-numeric: tabular-nums; }
+caption { text-align: left; font-weight: 600; padding: .8rem 0 .3rem; }
+th, td { padding: .25rem .6rem; text-align: right; white-space: nowrap;
+  border-bottom: 1px solid #DDD; }
+th:first-child, td:first-child, .text { text-align: left; }
+figure { margin: 1.5rem 0; } figcaption { font-size: .9rem; color: #444; }
+img { display: block; width: 100%; height: auto; min-width: 44rem; }
+pre { font-size: .78rem; background: #F6F6F6; padding: .8rem; overflow-x: auto; }
+"""
+
+
+@dataclass
+class Document:
+    title: str
+    blocks: list[tuple] = field(default_factory=list)
+    summary: str = ""  # what is worth printing
+
+    def conclude(self, texts: list[str]) -> None:
+        self.blocks.append(("conclusion", texts))
+        self.summary += "\n" + "\n".join(texts) + "\n"
+
+    def heading(self, text: str) -> None:
+        self.blocks.append(("heading", text))
+
+    def paragraph(self, text: str) -> None:
+        self.blocks.append(("paragraph", text))
+
+    def listing(self, caption: str, text: str) -> None:
+        self.blocks.append(("listing", caption, text))
+
+    def picture(self, name: str, caption: str) -> None:
+        self.blocks.append(("picture", name, caption))
+
+    def table(self, caption: str, header: list[str], rows: list[list[str]]) -> None:
+        self.blocks.append(("table", caption, header, rows))
+
+    def summarise(self, caption: str, header: list[str], rows: list[list[str]]) -> None:
+        """A table that is worth printing too."""
+        self.table(caption, header, rows)
+        self.summary += f"\n{caption}\n\n{_columns([header, *rows])}\n"
+
+
+def write_html(document: Document, directory: Path) -> None:
+    body = "\n".join(_html_block(block, directory) for block in document.blocks)
+    title = html.escape(document.title)
+    (directory / "report.html").write_text(
+        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        f"<title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n"
+        f"{body}\n</body>\n</html>\n",
+        encoding="utf-8",
+    )
+
+
+def write_markdown(document: Document, directory: Path) -> None:
+    body = "\n\n".join(_markdown_block(block) for block in document.blocks)
+    (directory / "report.md").write_text(f"# {document.title}\n\n{body}\n", encoding="utf-8")
+
+
+def _html_block(block: tuple, directory: Path) -> str:
+    kind, *content = block
+    if kind == "conclusion":
+        texts = "".join(_tag("p", text) for text in content[0])
+        return f'<div class="conclusion">{texts}</div>'
+    if kind == "picture":
+        name, caption = content
+        data = base64.b64encode((directory / name).read_bytes()).decode("ascii")
+        image = f'<img alt="{html.escape(caption)}" src="data:image/png;base64,{data}">'
+        return f'<figure><div class="wide">{image}</div>{_tag("figcaption", caption)}</figure>'
+    if kind == "table":
+        return _html_table(*content)
+    if kind == "listing":
+        return _tag("p", content[0]) + _tag("pre", content[1])
+    return _tag("h2" if kind == "heading" else "p", content[0])
+
+
+def _html_table(caption: str, header: list[str], rows: list[list[str]]) -> str:
+    is_text = [not any(_is_number(row[c]) for row in rows) for c in range(len(header))]
+    lines = [
+        "<tr>" + "".join(_cell(tag, text, left) for text, left in zip(cells, is_text)) + "</tr>"
+        for tag, cells in [("th", header), *(("td", row) for row in rows)]
+    ]
+    return (
+        f'<div class="wide"><table>{_tag("caption", caption)}\n<thead>{lines[0]}</thead>\n<tbody>'
+        + "\n".join(lines[1:])
+        + "</tbody></table></div>"
+    )
+
+
+def _cell(tag: str, text: str, left: bool) -> str:
+    return f"<{tag}{' class=text' if left else ''}>{html.escape(text)}</{tag}>"
+
+
+def _is_number(text: str) -> bool:
+    return re.fullmatch(r"[-\d.,]+", text) is not None
+
+
+def _tag(name: str, text: str) -> str:
+    return f"<{name}>{html.escape(text)}</{name}>"
+
+
+def _markdown_block(block: tuple) -> str:
+    kind, *content = block
+    if kind == "conclusion":
+        return "\n".join(f"> {text}\n>" for text in content[0]).removesuffix("\n>")
+    if kind == "picture":
+        return f"![{content[1]}]({content[0]})\n\n*{content[1]}*"
+    if kind == "table":
+        caption, header, rows = content
+        lines = [header, ["---"] * len(header), *rows]
+        return f"**{caption}**\n\n" + "\n".join("| " + " | ".join(line) + " |" for line in lines)
+    if kind == "listing":
+        return f"{content[0]}:\n\n```\n{content[1].rstrip()}\n```"
+    return f"## {content[0]}" if kind == "heading" else content[0]
+
+
+def _columns(rows: list[list[str]]) -> str:
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    return "\n".join(
+        "  ".join(text.ljust(width) for text, width in zip(row, widths)).rstrip() for row in rows
+    )

@@ -1,0 +1,200 @@
+"""Writes the report of a run: report.py DIRECTORY makes report.html and report.md.
+
+report.html holds its pictures; report.md names them.
+"""
+
+from __future__ import annotations
+
+import os
+import platform
+import sys
+from datetime import datetime
+from pathlib import Path
+
+from choice import EVERYWHERE, Choice, cases, choices, find_method
+from document import Document, write_html, write_markdown
+from results import Measurement, Simulation, read_simulations, read_table
+from sentences import sentences
+from sweep import SIMULATIONS, read_clouds, read_snapshots
+
+COST = {
+    "time_against_imbalance.png": "What accuracy costs: the time of a call against the imbalance "
+    "it leaves; lower is better balanced, further left is faster."
+}
+PICTURES = {
+    "parts.png": "The points, coloured by part, with the boxes of the parts.",
+    "support_mesh.png": "A support mesh with the centroids and standard deviations of its cells.",
+    "statistical_domain.png": "The real points and the statistical domain that stands for them.",
+    "unbalance_history.png": "Load unbalance over the steps of the simulation.",
+    "simulation_time.png": "Where the time of the whole simulation goes.",
+}
+SWEEP_PICTURES = {
+    "sweep_time.png": "What accuracy costs in time: every setting on every cloud, and the front of "
+    "those that no other beats in both.",
+    "sweep_bytes.png": "What accuracy costs in traffic.",
+    "study.png": "The paper's parameters on snapshots of the failing slope: lines are means of the "
+    "snapshots, bands reach from least to most.",
+    "speed_up.png": "Speed-up of the simulation over the serial one under the paper's parameters.",
+}
+
+
+def main() -> int:
+    if len(sys.argv) != 2 or not (directory := Path(sys.argv[1])).is_dir():
+        print("usage: report.py DIRECTORY (with the files of a comparison)", file=sys.stderr)
+        return 2
+    record = _read_record(directory)
+    is_sweep = "--sweep" in record.get("arguments", "").split()
+    document = sweep_report(directory) if is_sweep else comparison_report(directory)
+    _add_machine(document, directory, record)
+    write_html(document, directory)
+    write_markdown(document, directory)
+    print(document.summary)
+    print(f"Report: {directory / 'report.html'}")
+    return 0
+
+
+def comparison_report(directory: Path) -> Document:
+    rows = read_table(directory)
+    document = Document("RRCB beside Zoltan's balancers")
+    document.conclude(sentences(rows))
+    _add_pictures(document, directory, COST)
+    document.heading("Every method on the same points")
+    for case, measured in cases(rows).items():
+        document.table(_title(case, measured), *_method_table(measured))
+    _add_simulations(document, read_simulations(directory), "none")
+    _add_pictures(document, directory, PICTURES)
+    return document
+
+
+def sweep_report(directory: Path) -> Document:
+    clouds = read_clouds(directory)
+    document = Document("What accuracy costs")
+    document.conclude(sentences(clouds))
+    document.heading("Which setting for which tolerance")
+    chosen = choices(clouds)
+    everywhere = [choice for choice in chosen if choice.case == EVERYWHERE]
+    if everywhere:
+        caption = "Within the tolerance on every cloud, fastest in the mean"
+        document.summarise(caption, *_choice_table(everywhere))
+    _add_pictures(document, directory, SWEEP_PICTURES)
+    document.heading("The clouds one by one")
+    on_each = [choice for choice in chosen if choice.case != EVERYWHERE]
+    document.table("Fastest within the tolerance", *_choice_table(on_each))
+    document.heading("The failing slope")
+    for case, measured in cases(read_snapshots(directory)).items():
+        document.table(_title(case, measured), *_method_table(measured))
+    _add_simulations(document, read_simulations(directory, SIMULATIONS), "serial")
+    return document
+
+
+def _read_record(directory: Path) -> dict[str, str]:
+    """The lines `name: value` of run.txt."""
+    path = directory / "run.txt"
+    lines = path.read_text().splitlines() if path.exists() else []
+    return dict(line.split(": ", 1) for line in lines if ": " in line)
+
+
+def _add_pictures(document: Document, directory: Path, pictures: dict[str, str]) -> None:
+    for name, caption in pictures.items():
+        if (directory / name).exists():
+            document.picture(name, caption)
+
+
+def _title(case: str, rows: list[Measurement]) -> str:
+    return f"{case}: {rows[0].points:,} points, {rows[0].ranks} ranks"
+
+
+def _method_table(rows: list[Measurement]) -> tuple[list[str], list[list[str]]]:
+    header = ["method", "imbalance", "worst Lu %", "time ms", "times as fast", "bytes", "messages"]
+    header += ["into root", "moved %"]
+    reference = find_method(rows, "zoltan-rcb")
+    table = [
+        [
+            row.method,
+            f"{row.imbalance:.5f}",
+            f"{row.lu_percent:.3f}",
+            f"{row.time_ms:.2f}",
+            f"{reference.time_ms / row.time_ms:.2f}" if reference and row.time_ms > 0 else "–",
+            f"{row.bytes:,}",
+            f"{row.messages:,}",
+            f"{row.root_bytes_in:,}",
+            f"{100 * row.moved_fraction:.1f}",
+        ]
+        for row in rows
+    ]
+    return header, table
+
+
+def _choice_table(chosen: list[Choice]) -> tuple[list[str], list[list[str]]]:
+    header = ["cloud", "imbalance ≤", "fastest setting", "time ms", "times as fast", "imbalance"]
+    table = [
+        [
+            choice.case,
+            choice.tolerance,
+            choice.setting or "none",
+            _number(choice.time_ms, 2),
+            _number(choice.times_as_fast, 2),
+            _number(choice.imbalance, 5),
+        ]
+        for choice in chosen
+    ]
+    return header, table
+
+
+def _number(value: float | None, digits: int) -> str:
+    return "–" if value is None else f"{value:.{digits}f}"
+
+
+def _add_simulations(document: Document, runs: list[Simulation], reference: str) -> None:
+    if not runs:
+        return
+    base = next((run for run in runs if run.method == reference), None)
+    header = ["method", "ranks", f"times as fast as {reference}", "wall s", "balance s", "step s"]
+    header.append("mean imbalance")
+    table = [
+        [
+            run.method,
+            str(run.ranks),
+            f"{base.wall / run.wall:.2f}" if base and run.wall > 0 else "–",
+            f"{run.wall:.3f}",
+            f"{run.balance:.3f}",
+            f"{run.step:.3f}",
+            f"{run.mean_imbalance:.4f}",
+        ]
+        for run in runs
+    ]
+    caption = f"Simulations: {runs[-1].points:,} points, {runs[-1].steps:,} steps"
+    document.table(caption, header, table)
+
+
+def _add_machine(document: Document, directory: Path, record: dict[str, str]) -> None:
+    document.heading("Machine, versions and arguments")
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
+    facts = [
+        ["processor", _processor()],
+        ["cores", str(os.cpu_count())],
+        ["memory", f"{memory:.1f} GiB"],
+        ["system", platform.platform()],
+        ["written", datetime.now().astimezone().isoformat(timespec="seconds")],
+        ["arguments", record.get("arguments", "") or "none"],
+    ]
+    document.table("Machine", ["what", "value"], facts)
+    if (directory / "run.txt").exists():
+        document.listing("run.txt", (directory / "run.txt").read_text())
+    document.paragraph(
+        "imbalance: heaviest part / mean part. Lu: (ideal − actual) / ideal of a part. time: slowest"
+        " rank, median of the repeats. times as fast: Zoltan RCB's time / this method's. bytes and"
+        " messages: of one call over all ranks. into root: bytes that rank 0 receives."
+        " moved: weight that changes rank. exact: no part holds more than one point above the mean."
+    )
+
+
+def _processor() -> str:
+    path = Path("/proc/cpuinfo")
+    lines = path.read_text().splitlines() if path.exists() else []
+    models = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
+    return models[0] if models else platform.machine()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

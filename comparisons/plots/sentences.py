@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from statistics import median
+from statistics import geometric_mean
 
 from choice import cases, fastest, find_method
 from results import Measurement
@@ -12,7 +12,7 @@ Case = list[Measurement]
 
 
 def sentences(rows: list[Measurement]) -> list[str]:
-    """Each number is the median over the workloads that have it."""
+    """Each number is the geometric mean over the workloads that have it."""
     by_case = list(cases(rows).values())
     return [_cost_of_exactness(by_case), _beside_zoltan(by_case), _beside_the_paper(by_case)]
 
@@ -23,8 +23,8 @@ def _cost_of_exactness(by_case: list[Case]) -> str:
         return "No method balanced any of the workloads exactly, so exactness has no price here."
     return (
         f"Exact balance took {_times(_ratio(pairs, _time))} the time of the fastest setting within"
-        f" ten per cent ({_middle([exact.time_ms for _, exact in pairs])} ms against"
-        f" {_middle([rough.time_ms for rough, _ in pairs])} ms) and"
+        f" ten per cent ({_mean([exact.time_ms for _, exact in pairs])} ms against"
+        f" {_mean([rough.time_ms for rough, _ in pairs])} ms) and"
         f" {_times(_ratio(pairs, _bytes))} its bytes{_of(pairs, by_case)}."
     )
 
@@ -36,7 +36,7 @@ def _beside_zoltan(by_case: list[Case]) -> str:
     return (
         f"Zoltan's RCB needed {_times(_ratio(pairs, _time))} the time of the fastest exactly"
         f" balanced RRCB and {_times(_ratio(pairs, _bytes))} its bytes, while its own imbalance was"
-        f" {_middle([zoltan.imbalance for _, zoltan in pairs], 6)}{_of(pairs, by_case)}."
+        f" {_mean([zoltan.imbalance for _, zoltan in pairs], 6)}{_of(pairs, by_case)}."
     )
 
 
@@ -46,9 +46,9 @@ def _beside_the_paper(by_case: list[Case]) -> str:
         return "The paper's RRCB was not measured beside a setting of RRCB at least as balanced."
     return (
         f"The paper's RRCB at its most accurate left an imbalance of"
-        f" {_middle([paper.imbalance for paper, _ in pairs], 5)}; RRCB at least as balanced took"
+        f" {_mean([paper.imbalance for paper, _ in pairs], 5)}; RRCB at least as balanced took"
         f" {_times(_ratio(pairs, _time))} its time and left"
-        f" {_middle([ours.imbalance for _, ours in pairs], 5)}{_of(pairs, by_case)}."
+        f" {_mean([ours.imbalance for _, ours in pairs], 5)}{_of(pairs, by_case)}."
     )
 
 
@@ -93,19 +93,19 @@ def _bytes(row: Measurement) -> float:
 def _ratio(
     pairs: list[tuple[Measurement, Measurement]], value: Callable[[Measurement], float]
 ) -> float:
-    """Second over first, in the median."""
-    return median(value(second) / value(first) for first, second in pairs)
+    """Second over first; the ratio of the means is the mean of the ratios."""
+    return geometric_mean([value(second) / value(first) for first, second in pairs])
 
 
 def _times(ratio: float) -> str:
     return f"{ratio:.3g} times"
 
 
-def _middle(values: list[float], digits: int = 2) -> str:
-    return f"{median(values):.{digits}f}"
+def _mean(values: list[float], digits: int = 2) -> str:
+    return f"{geometric_mean(values):.{digits}f}"
 
 
 def _of(pairs: list, by_case: list[Case]) -> str:
     if len(by_case) == 1:
         return ""
-    return f" (medians of {len(pairs)} of {len(by_case)} workloads)"
+    return f" (geometric means over {len(pairs)} of {len(by_case)} workloads)"

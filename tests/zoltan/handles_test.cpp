@@ -152,9 +152,9 @@ TEST(Handles, free_every_communicator_and_do_not_gather_more_by_repeated_calls) 
         Zoltan_Struct* copy = Zoltan_Copy(program.zz);
         program.partition(copy);
         const int after_first = num_communicators;
-        for (int i = 0; i < 20; ++i) program.partition();
+        repeat(program, 20);
         const auto memory = mallinfo2().uordblks;
-        for (int i = 0; i < 200; ++i) program.partition();
+        repeat(program, 200);
         EXPECT_EQ(num_communicators, after_first);
         EXPECT_LT(mallinfo2().uordblks, memory + 50000);
         Zoltan_Destroy(&copy);

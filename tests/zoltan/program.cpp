@@ -170,6 +170,13 @@ std::vector<int> parts_by_object(const Outcome& outcome) {
     return parts;
 }
 
+void repeat(Program& program, int times) {
+    for (int i = 0; i < times; ++i) {
+        program.partition();
+        MPI_Barrier(MPI_COMM_WORLD);
+    }
+}
+
 double imbalance(const Program& program, const Outcome& outcome, int num_parts) {
     std::vector<double> weights(static_cast<std::size_t>(num_parts), 0.0);
     const std::vector<int> parts = parts_by_object(outcome);

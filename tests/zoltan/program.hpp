@@ -68,6 +68,10 @@ struct Program {
 /// Points of all ranks over the same square, so that every rank sends to and gets from every other.
 void scatter_points(Program& program, int count);
 
+/// Partitions in step: a rank that lags behind makes MPI keep the messages of the others, and
+/// memory grow by what is not the plug-in's.
+void repeat(Program& program, int times);
+
 /// Part of each object in the program's order, which is not that of Zoltan's list, after a call
 /// with RETURN_LISTS=PARTS.
 std::vector<int> parts_by_object(const Outcome& outcome);

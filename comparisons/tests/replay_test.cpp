@@ -1,3 +1,4 @@
+#include "../../tests/support/ranks.hpp"
 #include "cloud.hpp"
 #include "failure.hpp"
 #include "replay_mpi.hpp"
@@ -13,18 +14,6 @@
 namespace comparisons {
 namespace {
 
-int rank() {
-    int rank = 0;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    return rank;
-}
-
-int size() {
-    int size = 0;
-    MPI_Comm_size(MPI_COMM_WORLD, &size);
-    return size;
-}
-
 /// A new folder for dumps, the same on all ranks; gone when the test ends.
 struct Folder {
     Folder() {
@@ -36,16 +25,17 @@ struct Folder {
     }
     ~Folder() {
         MPI_Barrier(MPI_COMM_WORLD);
-        if (rank() == 0) std::filesystem::remove_all(path);
+        if (rrcb::test::rank() == 0) std::filesystem::remove_all(path);
     }
     std::string path;
 };
 
 /// Points of a cloud, more of them on higher ranks, that weigh 1, 2, 3, 1, ...
 Workload uneven_workload() {
-    const rrcb::GlobalCount first = 40 * rank() * (rank() + 1) / 2;
+    const rrcb::GlobalCount first = 40 * rrcb::test::rank() * (rrcb::test::rank() + 1) / 2;
     Workload workload;
-    workload.coordinates = cloud_points({"slope", 400, 2, 1}, first, first + 40 * (rank() + 1));
+    workload.coordinates =
+        cloud_points({"slope", 400, 2, 1}, first, first + 40 * (rrcb::test::rank() + 1));
     workload.weighted = true;
     for (std::size_t i = 0; i < workload.coordinates.size() / 2; ++i)
         workload.weights.push_back(1.0 + static_cast<double>(i % 3));
@@ -88,7 +78,8 @@ TEST(Replay, of_a_call_that_succeeded_gives_its_parts_again) {
 TEST(Replay, of_a_call_that_failed_holds_what_made_it_fail) {
     const Folder folder;
     Workload workload = uneven_workload();
-    if (rank() == size() - 1) workload.coordinates[5] = std::numeric_limits<double>::quiet_NaN();
+    if (rrcb::test::rank() == rrcb::test::num_ranks() - 1)
+        workload.coordinates[5] = std::numeric_limits<double>::quiet_NaN();
     {
         ZoltanPartitioner partitioner(parameters_with(folder.path, "FAILURE"), workload,
                                       MPI_COMM_WORLD);
@@ -96,7 +87,8 @@ TEST(Replay, of_a_call_that_failed_holds_what_made_it_fail) {
     }
     const Replay replay = replay_own(folder.path + "/call-1");
     ASSERT_EQ(replay.workload.coordinates.size(), workload.coordinates.size());
-    EXPECT_EQ(std::isnan(replay.workload.coordinates[5]), rank() == size() - 1);
+    EXPECT_EQ(std::isnan(replay.workload.coordinates[5]),
+              rrcb::test::rank() == rrcb::test::num_ranks() - 1);
     EXPECT_NE(replay.note.find("code -1"), std::string::npos) << replay.note;
     EXPECT_NE(replay.note.find("dump: rank 0: "), std::string::npos) << replay.note;
     EXPECT_NE(replay.note.find("1 coordinates or weights are not finite"), std::string::npos)
@@ -108,19 +100,23 @@ TEST(Replay, on_another_number_of_ranks_deals_the_points_out_in_order) {
     const Workload workload = uneven_workload();
     parts_of(workload, parameters_with(folder.path, "ALWAYS"));
     const Replay replay = replay_own(folder.path + "/call-1", MPI_COMM_SELF);
-    const auto total = static_cast<std::size_t>(40 * size() * (size() + 1) / 2);
+    const auto total =
+        static_cast<std::size_t>(40 * rrcb::test::num_ranks() * (rrcb::test::num_ranks() + 1) / 2);
     EXPECT_EQ(replay.workload.coordinates,
               cloud_points({"slope", 400, 2, 1}, 0, static_cast<rrcb::GlobalCount>(total)));
     EXPECT_EQ(replay.workload.weights.size(), total);
-    EXPECT_EQ(replay.note.find("dealt out in order to 1") == std::string::npos, size() == 1);
+    EXPECT_EQ(replay.note.find("dealt out in order to 1") == std::string::npos,
+              rrcb::test::num_ranks() == 1);
 }
 
 TEST(Replay, of_a_dump_that_is_not_whole_fails_on_every_rank) {
     const Folder folder;
     parts_of(uneven_workload(), parameters_with(folder.path, "ALWAYS"));
     MPI_Barrier(MPI_COMM_WORLD);
-    const std::string last = folder.path + "/call-1/rank-" + std::to_string(size() - 1) + ".txt";
-    if (rank() == 0) std::filesystem::resize_file(last, std::filesystem::file_size(last) - 30);
+    const std::string last =
+        folder.path + "/call-1/rank-" + std::to_string(rrcb::test::num_ranks() - 1) + ".txt";
+    if (rrcb::test::rank() == 0)
+        std::filesystem::resize_file(last, std::filesystem::file_size(last) - 30);
     MPI_Barrier(MPI_COMM_WORLD);
     for (const bool is_there : {true, false}) {
         try {
@@ -130,7 +126,7 @@ TEST(Replay, of_a_dump_that_is_not_whole_fails_on_every_rank) {
             EXPECT_TRUE(std::string(failure.what()).starts_with(last)) << failure.what();
         }
         MPI_Barrier(MPI_COMM_WORLD);
-        if (rank() == 0 && is_there) std::filesystem::remove(last);
+        if (rrcb::test::rank() == 0 && is_there) std::filesystem::remove(last);
         MPI_Barrier(MPI_COMM_WORLD);
     }
 }

@@ -1,5 +1,7 @@
 #include "traffic.hpp"
 
+#include "../../tests/support/ranks.hpp"
+
 #include <gtest/gtest.h>
 #include <mpi.h>
 
@@ -19,44 +21,33 @@ std::array<std::int64_t, 3> totals(Communicate&& communicate) {
     return sums;
 }
 
-int rank() {
-    int rank = 0;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    return rank;
-}
-
-int size() {
-    int size = 0;
-    MPI_Comm_size(MPI_COMM_WORLD, &size);
-    return size;
-}
-
 using Expected = std::array<std::int64_t, 3>;
 
 TEST(Traffic, counts_a_ring_of_messages_once_each) {
-    const int n = size();
+    const int n = rrcb::test::num_ranks();
     const auto ring = [&] {
         const std::array<double, 5> out{};
         std::array<double, 5> in{};
         MPI_Request request = MPI_REQUEST_NULL;
-        MPI_Irecv(in.data(), 5, MPI_DOUBLE, (rank() + n - 1) % n, 0, MPI_COMM_WORLD, &request);
-        MPI_Send(out.data(), 5, MPI_DOUBLE, (rank() + 1) % n, 0, MPI_COMM_WORLD);
+        MPI_Irecv(in.data(), 5, MPI_DOUBLE, (rrcb::test::rank() + n - 1) % n, 0, MPI_COMM_WORLD,
+                  &request);
+        MPI_Send(out.data(), 5, MPI_DOUBLE, (rrcb::test::rank() + 1) % n, 0, MPI_COMM_WORLD);
         MPI_Wait(&request, MPI_STATUS_IGNORE);
     };
     EXPECT_EQ(totals(ring), (Expected{n, 40 * n, 40}));
 }
 
 TEST(Traffic, counts_messages_into_the_root_whatever_the_communicator) {
-    const int n = size();
+    const int n = rrcb::test::num_ranks();
     // In the reversed communicator the root of the world is the last rank.
     MPI_Comm reversed = MPI_COMM_NULL;
-    MPI_Comm_split(MPI_COMM_WORLD, 0, -rank(), &reversed);
+    MPI_Comm_split(MPI_COMM_WORLD, 0, -rrcb::test::rank(), &reversed);
     const auto send_to_last = [&] {
         const std::array<int, 3> out{};
         std::array<int, 3> in{};
         MPI_Request request = MPI_REQUEST_NULL;
         MPI_Isend(out.data(), 3, MPI_INT, n - 1, 0, reversed, &request);
-        for (int r = 0; rank() == 0 && r < n; ++r) {
+        for (int r = 0; rrcb::test::rank() == 0 && r < n; ++r) {
             MPI_Recv(in.data(), 3, MPI_INT, r, 0, reversed, MPI_STATUS_IGNORE);
         }
         MPI_Wait(&request, MPI_STATUS_IGNORE);
@@ -66,12 +57,12 @@ TEST(Traffic, counts_messages_into_the_root_whatever_the_communicator) {
 }
 
 TEST(Traffic, counts_sendrecv_and_leaves_out_the_null_rank) {
-    const int n = size();
+    const int n = rrcb::test::num_ranks();
     const auto shift_up = [&] {
         const char out = 'a';
         char in = 'b';
-        const int to = rank() + 1 < n ? rank() + 1 : MPI_PROC_NULL;
-        const int from = rank() > 0 ? rank() - 1 : MPI_PROC_NULL;
+        const int to = rrcb::test::rank() + 1 < n ? rrcb::test::rank() + 1 : MPI_PROC_NULL;
+        const int from = rrcb::test::rank() > 0 ? rrcb::test::rank() - 1 : MPI_PROC_NULL;
         MPI_Sendrecv(&out, 1, MPI_CHAR, to, 0, &in, 1, MPI_CHAR, from, 0, MPI_COMM_WORLD,
                      MPI_STATUS_IGNORE);
     };
@@ -79,7 +70,7 @@ TEST(Traffic, counts_sendrecv_and_leaves_out_the_null_rank) {
 }
 
 TEST(Traffic, counts_what_ranks_hand_in_and_get_out_of_collectives) {
-    const int n = size();
+    const int n = rrcb::test::num_ranks();
     std::array<double, 2> pair{};
     std::vector<double> all(2 * static_cast<std::size_t>(n));
     EXPECT_EQ(totals([&] { MPI_Barrier(MPI_COMM_WORLD); }), (Expected{n, 0, 0}));
@@ -105,7 +96,7 @@ TEST(Traffic, counts_what_ranks_hand_in_and_get_out_of_collectives) {
 }
 
 TEST(Traffic, counts_unequal_pieces) {
-    const int n = size();
+    const int n = rrcb::test::num_ranks();
     // Rank r hands in r + 1 bytes: n (n + 1) / 2 in all.
     std::vector<int> counts;
     std::vector<int> starts;
@@ -117,13 +108,13 @@ TEST(Traffic, counts_unequal_pieces) {
     const std::vector<char> mine(static_cast<std::size_t>(n));
     std::vector<char> all(static_cast<std::size_t>(sum));
     EXPECT_EQ(totals([&] {
-                  MPI_Gatherv(mine.data(), rank() + 1, MPI_CHAR, all.data(), counts.data(),
-                              starts.data(), MPI_CHAR, 0, MPI_COMM_WORLD);
+                  MPI_Gatherv(mine.data(), rrcb::test::rank() + 1, MPI_CHAR, all.data(),
+                              counts.data(), starts.data(), MPI_CHAR, 0, MPI_COMM_WORLD);
               }),
               (Expected{n, 2 * sum, sum}));
     EXPECT_EQ(totals([&] {
-                  MPI_Allgatherv(mine.data(), rank() + 1, MPI_CHAR, all.data(), counts.data(),
-                                 starts.data(), MPI_CHAR, MPI_COMM_WORLD);
+                  MPI_Allgatherv(mine.data(), rrcb::test::rank() + 1, MPI_CHAR, all.data(),
+                                 counts.data(), starts.data(), MPI_CHAR, MPI_COMM_WORLD);
               }),
               (Expected{n, sum + n * sum, sum}));
 }

@@ -1,3 +1,4 @@
+#include "../../tests/support/ranks.hpp"
 #include "failure.hpp"
 #include "hilbert.hpp"
 #include "workload_mpi.hpp"
@@ -12,21 +13,9 @@
 namespace comparisons {
 namespace {
 
-int rank() {
-    int rank = 0;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    return rank;
-}
-
-int size() {
-    int size = 0;
-    MPI_Comm_size(MPI_COMM_WORLD, &size);
-    return size;
-}
-
 std::vector<int> counts_of_all(std::size_t mine) {
     const int count = static_cast<int>(mine);
-    std::vector<int> counts(static_cast<std::size_t>(size()));
+    std::vector<int> counts(static_cast<std::size_t>(rrcb::test::num_ranks()));
     MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, MPI_COMM_WORLD);
     return counts;
 }
@@ -44,8 +33,8 @@ std::vector<std::array<double, 3>> all_points(const Workload& workload) {
     std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
     std::vector<std::array<double, 3>> all(static_cast<std::size_t>(starts.back() + counts.back()) /
                                            3);
-    MPI_Allgatherv(mine.data(), counts[static_cast<std::size_t>(rank())], MPI_DOUBLE, all.data(),
-                   counts.data(), starts.data(), MPI_DOUBLE, MPI_COMM_WORLD);
+    MPI_Allgatherv(mine.data(), counts[static_cast<std::size_t>(rrcb::test::rank())], MPI_DOUBLE,
+                   all.data(), counts.data(), starts.data(), MPI_DOUBLE, MPI_COMM_WORLD);
     std::ranges::sort(all);
     return all;
 }
@@ -57,7 +46,8 @@ TEST(Workload, holds_the_same_points_at_any_number_of_ranks) {
                 const Cloud cloud{name, 1003, dimension, 5};
                 Workload serial;
                 serial.dimension = dimension;
-                if (rank() == 0) serial.coordinates = cloud_points(cloud, 0, cloud.num_points);
+                if (rrcb::test::rank() == 0)
+                    serial.coordinates = cloud_points(cloud, 0, cloud.num_points);
                 EXPECT_EQ(all_points(cloud_workload(cloud, layout, MPI_COMM_WORLD)),
                           all_points(serial))
                     << name << ' ' << layout_name(layout) << ' ' << dimension;
@@ -90,7 +80,7 @@ TEST(Workload, sorted_pieces_are_equal_and_follow_the_curve) {
     std::uint64_t last_before = 0;
     const std::uint64_t last = places.back();
     MPI_Exscan(&last, &last_before, 1, MPI_UINT64_T, MPI_MAX, MPI_COMM_WORLD);
-    EXPECT_LE(rank() == 0 ? 0 : last_before, places.front());
+    EXPECT_LE(rrcb::test::rank() == 0 ? 0 : last_before, places.front());
 }
 
 TEST(Workload, neighbours_on_the_curve_are_neighbours_in_space) {
@@ -115,8 +105,9 @@ TEST(Workload, neighbours_on_the_curve_are_neighbours_in_space) {
 }
 
 TEST(Workload, weights_of_a_file_travel_with_their_points) {
-    const std::string file = testing::TempDir() + "rrcb_weights_" + std::to_string(size()) + ".csv";
-    if (rank() == 0) {
+    const std::string file =
+        testing::TempDir() + "rrcb_weights_" + std::to_string(rrcb::test::num_ranks()) + ".csv";
+    if (rrcb::test::rank() == 0) {
         std::ofstream out(file);
         out << "x,y,weight\n";
         for (int i = 0; i < 50; ++i) out << i << ',' << -i << ',' << 2 * i << '\n';

@@ -27,27 +27,6 @@ extern "C" int MPI_Comm_free(MPI_Comm* comm) {
 namespace rrcb::zoltan_test {
 namespace {
 
-/// One level of HIER, in which every rank has a part of its own.
-void use_hier(Program& program, const char* inner_method) {
-    static const char* inner = nullptr;
-    inner = inner_method;
-    ZOLTAN_HIER_NUM_LEVELS_FN* levels = [](void*, int* code) {
-        *code = ZOLTAN_OK;
-        return 1;
-    };
-    ZOLTAN_HIER_PART_FN* part = [](void* data, int, int* code) {
-        *code = ZOLTAN_OK;
-        return static_cast<Program*>(data)->rank;
-    };
-    ZOLTAN_HIER_METHOD_FN* method = [](void*, int, Zoltan_Struct* zz, int* code) {
-        *code = Zoltan_Set_Param(zz, "LB_METHOD", inner);
-        Zoltan_Set_Param(zz, "DEBUG_LEVEL", "0");
-    };
-    Zoltan_Set_Hier_Num_Levels_Fn(program.zz, levels, &program);
-    Zoltan_Set_Hier_Part_Fn(program.zz, part, &program);
-    Zoltan_Set_Hier_Method_Fn(program.zz, method, &program);
-}
-
 /// A path through the objects of each rank, for GRAPH.
 void use_graph(Program& program) {
     ZOLTAN_NUM_EDGES_FN* count = [](void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR lid,
@@ -109,7 +88,6 @@ TEST(Methods, hier_with_rrcb_inside_balances_as_rrcb_does) {
     for (const char* inner : {"RCB", "RRCB"}) {
         AllMethods program;
         use_hier(program, inner);
-        program.set("LB_METHOD", "HIER");
         program.set("RETURN_LISTS", "PARTS");
         EXPECT_LT(imbalance(program, program.partition(), program.num_ranks), 1.05) << inner;
     }

@@ -170,6 +170,27 @@ std::vector<int> parts_by_object(const Outcome& outcome) {
     return parts;
 }
 
+void use_hier(Program& program, const char* inner_method) {
+    static const char* inner = nullptr;
+    inner = inner_method;
+    ZOLTAN_HIER_NUM_LEVELS_FN* levels = [](void*, int* code) {
+        *code = ZOLTAN_OK;
+        return 1;
+    };
+    ZOLTAN_HIER_PART_FN* part = [](void* data, int, int* code) {
+        *code = ZOLTAN_OK;
+        return static_cast<Program*>(data)->rank;
+    };
+    ZOLTAN_HIER_METHOD_FN* method = [](void*, int, Zoltan_Struct* zz, int* code) {
+        *code = Zoltan_Set_Param(zz, "LB_METHOD", inner);
+        Zoltan_Set_Param(zz, "DEBUG_LEVEL", "0");
+    };
+    Zoltan_Set_Hier_Num_Levels_Fn(program.zz, levels, &program);
+    Zoltan_Set_Hier_Part_Fn(program.zz, part, &program);
+    Zoltan_Set_Hier_Method_Fn(program.zz, method, &program);
+    program.set("LB_METHOD", "HIER");
+}
+
 void repeat(Program& program, int times) {
     for (int i = 0; i < times; ++i) {
         program.partition();

@@ -68,6 +68,10 @@ struct Program {
 /// Points of all ranks over the same square, so that every rank sends to and gets from every other.
 void scatter_points(Program& program, int count);
 
+/// Sets LB_METHOD to HIER with one level, in which every rank has a part of its own; Zoltan makes
+/// the handle for it, which gets `inner_method` (a literal).
+void use_hier(Program& program, const char* inner_method);
+
 /// Partitions in step: a rank that lags behind makes MPI keep the messages of the others, and
 /// memory grow by what is not the plug-in's.
 void repeat(Program& program, int times);

@@ -71,30 +71,10 @@ TEST(Replacement, lets_zoltan_evaluate) {
     EXPECT_EQ(program.parts(), before);
 }
 
-/// One level of HIER that partitions into one part per rank; Zoltan makes the handle for it.
-void use_hier(Program& program) {
-    ZOLTAN_HIER_NUM_LEVELS_FN* levels = [](void*, int* code) {
-        *code = ZOLTAN_OK;
-        return 1;
-    };
-    ZOLTAN_HIER_PART_FN* part = [](void* data, int, int* code) {
-        *code = ZOLTAN_OK;
-        return static_cast<Program*>(data)->rank;
-    };
-    ZOLTAN_HIER_METHOD_FN* method = [](void*, int, Zoltan_Struct* zz, int* code) {
-        *code = Zoltan_Set_Param(zz, "LB_METHOD", "RCB");
-        Zoltan_Set_Param(zz, "DEBUG_LEVEL", "0");
-    };
-    Zoltan_Set_Hier_Num_Levels_Fn(program.zz, levels, &program);
-    Zoltan_Set_Hier_Part_Fn(program.zz, part, &program);
-    Zoltan_Set_Hier_Method_Fn(program.zz, method, &program);
-    program.set("LB_METHOD", "HIER");
-}
-
 TEST(Replacement, leaves_the_handles_that_zoltan_makes_for_itself) {
     Program program;
     scatter_points(program, 300);
-    use_hier(program);
+    use_hier(program, "RCB");
     const Outcome outcome = program.partition();
     EXPECT_EQ(outcome.code, ZOLTAN_OK);
     EXPECT_EQ(outcome.exports.count > 0, program.num_ranks > 1);

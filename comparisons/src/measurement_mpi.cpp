@@ -1,9 +1,11 @@
 #include "measurement_mpi.hpp"
 
 #include "failure_mpi.hpp"
-#include "zoltan_partitioner_mpi.hpp"
+#include "partitioner_mpi.hpp"
 
 #include <rrcb/quality.hpp>
+
+#include <zoltan.h>
 
 #include <algorithm>
 #include <memory>
@@ -14,7 +16,7 @@ namespace {
 
 /// A method under measurement; without a partitioner once it has failed.
 struct Candidate {
-    std::unique_ptr<ZoltanPartitioner> partitioner;
+    std::unique_ptr<Partitioner> partitioner;
     Measurement measurement;
 };
 
@@ -23,8 +25,7 @@ Candidate make_candidate(const Workload& workload, const Method& method, Lists l
     Candidate candidate;
     candidate.measurement.method = method.label;
     try {
-        candidate.partitioner =
-            std::make_unique<ZoltanPartitioner>(zoltan_parameters(method, lists), workload, comm);
+        candidate.partitioner = make_partitioner(method, workload, lists, comm);
     } catch (const Failure& failure) {
         candidate.measurement.error = failure.what();
     }

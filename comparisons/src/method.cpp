@@ -82,6 +82,9 @@ const std::vector<Entry>& entries() {
         {"zoltan-rcb", "RCB", {}, {}, {}},
         {"zoltan-rib", "RIB", {}, {}, {}},
         {"zoltan-hsfc", "HSFC", {}, {}, {}},
+#ifdef RRCB_HAS_ZOLTAN2
+        {"zoltan2-mj", multijagged, {}, {}, {}},
+#endif
         {"root-rcb", "RRCB", DomainKind::points, Refine::none, {"cut"}},
         {"rrcb-sampled",
          "RRCB",
@@ -182,6 +185,10 @@ const char* lists_name(Lists lists) {
 }
 
 ZoltanParameters zoltan_parameters(const Method& method, Lists lists) {
+    if (method.lb_method == multijagged) {
+        return {{"algorithm", multijagged},
+                {"imbalance_tolerance", write_number(multijagged_tolerance)}};
+    }
     ZoltanParameters parameters = {
         {"DEBUG_LEVEL", "0"}, {"LB_METHOD", method.lb_method}, {"RETURN_LISTS", lists_name(lists)}};
     if (!method.options) return parameters;

@@ -17,6 +17,11 @@ struct Method {
     std::optional<rrcb::Options> options;  ///< of our own methods; none for Zoltan's
 };
 
+/// `lb_method` of Zoltan2's multijagged, which is none of Zoltan's, and the imbalance asked of it:
+/// that of rrcb.
+inline constexpr const char* multijagged = "multijagged";
+inline constexpr double multijagged_tolerance = 1.01;
+
 /// Which lists are asked of Zoltan_LB_Partition (RETURN_LISTS).
 enum class Lists { parts, exports, all };
 

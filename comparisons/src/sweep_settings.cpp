@@ -43,7 +43,8 @@ std::vector<Method> sampled(const Values& meshes, const Values& multipliers,
 }  // namespace
 
 std::vector<Method> cost_settings() {
-    std::vector<Method> settings = read_methods("zoltan-rcb,zoltan-rib,zoltan-hsfc,root-rcb");
+    std::vector<Method> settings = read_methods(method_names());
+    std::erase_if(settings, [](const Method& method) { return method.label.starts_with("rrcb"); });
     for (Method& method : sampled({"4", "10", "32"}, {"1.5"}, {"1", "0.125"})) {
         settings.push_back(std::move(method));
     }

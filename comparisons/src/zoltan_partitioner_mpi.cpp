@@ -63,7 +63,7 @@ ZoltanPartitioner::ZoltanPartitioner(const ZoltanParameters& parameters, const W
 }
 
 ZoltanPartitioner::~ZoltanPartitioner() {
-    free_lists();
+    ZoltanPartitioner::free_lists();
     Zoltan_Destroy(&zoltan_);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "method.hpp"
+#include "partitioner.hpp"
 #include "workload.hpp"
 
 #include <rrcb/points.hpp>
@@ -22,26 +23,18 @@ struct NumberedPoints {
 ///
 /// Makes one part per rank. The workload must outlive it and may change between calls, followed by
 /// number_points.
-class ZoltanPartitioner {
+class ZoltanPartitioner : public Partitioner {
   public:
     /// Collective over `comm`. Throws Failure when Zoltan refuses a parameter.
     ZoltanPartitioner(const ZoltanParameters& parameters, const Workload& workload, MPI_Comm comm);
-    ~ZoltanPartitioner();
-    ZoltanPartitioner(const ZoltanPartitioner&) = delete;
-    ZoltanPartitioner& operator=(const ZoltanPartitioner&) = delete;
+    ~ZoltanPartitioner() override;
 
     /// Numbers the points anew after the workload has changed. Collective.
     void number_points();
 
-    /// Zoltan_LB_Partition; lists of an earlier call must have been freed. Collective; returns
-    /// Zoltan's code on this rank.
-    int partition();
-
-    /// Part of every local point as the export lists tell. Not collective.
-    std::vector<rrcb::Part> parts() const;
-
-    /// Zoltan_LB_Free_Part; nothing when there are no lists. Not collective.
-    void free_lists();
+    int partition() override;  ///< Zoltan_LB_Partition
+    std::vector<rrcb::Part> parts() const override;
+    void free_lists() override;  ///< Zoltan_LB_Free_Part
 
     /// Part of a position by the kept cuts, -1 if Zoltan cannot tell. Not collective.
     rrcb::Part part_of(const rrcb::Vector& position) const;

@@ -1,0 +1,83 @@
+#include "multijagged_mpi.hpp"
+
+#include <Kokkos_Core.hpp>
+#include <Zoltan2_BasicVectorAdapter.hpp>
+#include <Zoltan2_PartitioningProblem.hpp>
+
+#include <cstdlib>
+#include <numeric>
+
+namespace comparisons {
+
+namespace {
+
+using Adapter = Zoltan2::BasicVectorAdapter<Zoltan2::BasicUserTypes<double, int, long long>>;
+
+void start_kokkos() {
+    if (Kokkos::is_initialized()) return;
+    Kokkos::initialize();
+    std::atexit([] { Kokkos::finalize(); });
+}
+
+std::vector<long long> numbered(std::size_t count, MPI_Comm comm) {
+    const auto mine = static_cast<long long>(count);
+    long long end = mine;
+    MPI_Scan(MPI_IN_PLACE, &end, 1, MPI_LONG_LONG, MPI_SUM, comm);
+    std::vector<long long> ids(count);
+    std::iota(ids.begin(), ids.end(), end - mine);
+    return ids;
+}
+
+Adapter make_adapter(const MultijaggedPoints& points, const std::vector<long long>& ids) {
+    std::vector<const double*> axes;
+    for (int axis = 0; axis < points.dimension; ++axis) axes.push_back(points.coordinates + axis);
+    std::vector<int> strides(axes.size(), points.dimension);
+    std::vector<const double*> weights;
+    std::vector<int> weight_strides;
+    if (points.weights != nullptr) {
+        weights.push_back(points.weights);
+        weight_strides.push_back(1);
+    }
+    return Adapter(static_cast<int>(points.count), ids.data(), axes, strides, weights,
+                   weight_strides);
+}
+
+Teuchos::ParameterList parameters_of(double tolerance) {
+    Teuchos::ParameterList parameters;
+    parameters.set("algorithm", "multijagged");
+    parameters.set("imbalance_tolerance", tolerance);
+    return parameters;
+}
+
+}  // namespace
+
+struct Multijagged::Problem {
+    Problem(const MultijaggedPoints& points, double tolerance, MPI_Comm comm)
+        : ids(numbered(points.count, comm)),
+          adapter(make_adapter(points, ids)),
+          parameters(parameters_of(tolerance)),
+          problem(&adapter, &parameters, comm) {}
+
+    std::vector<long long> ids;
+    Adapter adapter;
+    Teuchos::ParameterList parameters;
+    Zoltan2::PartitioningProblem<Adapter> problem;
+};
+
+Multijagged::Multijagged(const MultijaggedPoints& points, double tolerance, MPI_Comm comm) {
+    start_kokkos();
+    problem_ = std::make_unique<Problem>(points, tolerance, comm);
+}
+
+Multijagged::~Multijagged() = default;
+
+void Multijagged::partition() {
+    problem_->problem.solve();
+}
+
+std::vector<int> Multijagged::parts() const {
+    const int* parts = problem_->problem.getSolution().getPartListView();
+    return {parts, parts + problem_->ids.size()};
+}
+
+}  // namespace comparisons

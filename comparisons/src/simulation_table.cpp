@@ -4,6 +4,8 @@
 
 #include <rrcb/quality.hpp>
 
+#include <thread>
+
 namespace comparisons {
 
 std::string simulation_key(const SimulationPlan& plan, int num_ranks, std::int64_t num_points,
@@ -66,6 +68,11 @@ void print_simulations(std::ostream& out, const SimulationPlan& plan, int num_ra
                         fixed(run.worst_imbalance, 4), fixed(run.front_m, 2)});
     }
     print_columns(out, rows);
+    const int num_cores = static_cast<int>(std::thread::hardware_concurrency());
+    if (num_cores > 0 && num_cores < num_ranks) {
+        out << num_ranks << " ranks share " << num_cores
+            << " cores: while one waits another works, so unbalance hardly costs time here.\n";
+    }
 }
 
 }  // namespace comparisons

@@ -43,8 +43,8 @@ struct Options {
 
     std::vector<int> grouped_axes;  ///< cross all of the first axis' cuts, then the next axis',
                                     ///< ...; empty: each box across its own longest axis
-    std::vector<int> cut_axes;  ///< axis of each cut in the order of Cuts::tree; empty: free
-    bool plain_cuts = false;    ///< planes only: points on a plane stay together
+    std::vector<int> cut_axes;      ///< axis of each cut in the order of Cuts::tree; empty: free
+    bool plain_cuts = false;        ///< planes only: points on a plane stay together
 
     double sigma_multiplier = 1.5;  ///< sampled: half-width of a cell's sampling box, in sigmas
     double sample_fraction = 1.0;   ///< sampled: points drawn per real point, in (0, 1]

@@ -1,7 +1,5 @@
 // The headers for Teuchos, twice, and the library behind them.
 #include <rrcb/teuchos/parameters.hpp>
-#include <rrcb/teuchos/parameters.hpp>
-#include <rrcb/teuchos/time_monitor.hpp>
 #include <rrcb/teuchos/time_monitor.hpp>
 
 int main() {

@@ -68,20 +68,13 @@ CellMoments read_moments(std::span<const double> record, const SupportMesh& mesh
     return cell;
 }
 
+/// Coordinates of all points, then their weights if they have any.
 std::vector<double> point_records(const Points& points) {
     std::vector<double> records;
-    for (LocalIndex i = 0; i < points.count; ++i) {
+    for (LocalIndex i = 0; i < points.count; ++i)
         for (int a = 0; a < points.dimension; ++a) records.push_back(points.coordinate(i, a));
-        if (!points.weights.empty()) records.push_back(points.weights[i]);
-    }
+    records.insert(records.end(), points.weights.begin(), points.weights.end());
     return records;
-}
-
-Patch read_point(std::span<const double> record, std::size_t dimension) {
-    Patch patch{{}, {}, record.size() > dimension ? record[dimension] : 1.0};
-    std::copy_n(record.begin(), dimension, patch.lower.begin());
-    patch.upper = patch.lower;
-    return patch;
 }
 
 /// What the options ask for, which must be the same on every rank.
@@ -116,16 +109,22 @@ void visit_records(std::span<const Header> headers, std::span<const double> reco
 
 StatisticalDomain points_as_domain(std::span<const Header> headers,
                                    std::span<const double> records) {
-    StatisticalDomain domain{headers[0].dimension, {}};
-    const auto dimension = static_cast<std::size_t>(domain.dimension);
+    StatisticalDomain all{headers[0].dimension, {}};
     double weight = 0;
-    visit_records(headers, records, [&](const Header&, std::span<const double> record) {
-        domain.patches.push_back(read_point(record, dimension));
-        weight += domain.patches.back().weight;
-    });
+    for (const Header& header : headers) {
+        const auto length = static_cast<std::size_t>(header.num_records * header.record_length);
+        const auto num_coordinates =
+            static_cast<std::size_t>(header.num_records * header.dimension);
+        const std::span<const double> mine = records.first(length);
+        const StatisticalDomain domain = point_domain(interleaved_points(
+            mine.first(num_coordinates), header.dimension, mine.subspan(num_coordinates)));
+        all.patches.insert(all.patches.end(), domain.patches.begin(), domain.patches.end());
+        for (const Patch& patch : domain.patches) weight += patch.weight;
+        records = records.subspan(length);
+    }
     if (weight == 0)
-        for (Patch& patch : domain.patches) patch.weight = 1;
-    return domain;
+        for (Patch& patch : all.patches) patch.weight = 1;
+    return all;
 }
 
 std::vector<CellMoments> all_cells(std::span<const Header> headers,

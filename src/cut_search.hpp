@@ -70,8 +70,6 @@ class LocalSearch {
     /// Position and weight of each candidate, one after the other.
     void append_candidates(std::vector<double>& records) const;
 
-    std::size_t num_candidates() const { return candidates_.size(); }
-
   private:
     std::span<const Fragment> fragments_;
     const SortedPoints& points_;

@@ -1,14 +1,7 @@
 # cmake -D OUTPUT=regex [-D FAILS=TRUE] -P expect.cmake -- command ...
 #
 # Fails unless the command prints what matches, and ends with 0, or with FAILS with another code.
-set(command "")
-foreach(index RANGE 1 ${CMAKE_ARGC})
-  if(after_dashes AND index LESS CMAKE_ARGC)
-    list(APPEND command ${CMAKE_ARGV${index}})
-  elseif(CMAKE_ARGV${index} STREQUAL "--")
-    set(after_dashes TRUE)
-  endif()
-endforeach()
+include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/rrcb_command_after_dashes.cmake)
 
 execute_process(COMMAND ${command} OUTPUT_VARIABLE output ERROR_VARIABLE output
                 RESULT_VARIABLE result)

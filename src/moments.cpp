@@ -13,6 +13,15 @@ struct Sums {
     double weight = 0;
     std::array<double, Dimension> first{};
     std::array<double, Dimension> second{};
+
+    Sums& operator+=(const Sums& other) {
+        weight += other.weight;
+        for (std::size_t a = 0; a < Dimension; ++a) {
+            first[a] += other.first[a];
+            second[a] += other.second[a];
+        }
+        return *this;
+    }
 };
 
 struct Unweighted {
@@ -24,12 +33,24 @@ struct Weighted {
     double operator()(LocalIndex i) const { return weights[i]; }
 };
 
+struct Entries {
+    LocalIndex first;
+    LocalIndex last;
+};
+
+/// Long ranges in halves: one running sum would lose a digit for every tenfold of the points.
 template <std::size_t Dimension, class Weight>
-Sums<Dimension> sum_about(const SortedPoints& points, LocalIndex cell, const Weight& weight,
+Sums<Dimension> sum_about(const SortedPoints& points, Entries entries, const Weight& weight,
                           const std::array<double, Dimension>& origin) {
+    constexpr LocalIndex most_at_once = 64;
     Sums<Dimension> sums;
+    if (entries.last - entries.first > most_at_once) {
+        const LocalIndex middle = entries.first + (entries.last - entries.first) / 2;
+        sums = sum_about(points, {entries.first, middle}, weight, origin);
+        return sums += sum_about(points, {middle, entries.last}, weight, origin);
+    }
     const double* x = points.coordinates.data();
-    for (LocalIndex i = points.first[cell]; i < points.first[cell + 1]; ++i) {
+    for (LocalIndex i = entries.first; i < entries.last; ++i) {
         const double w = weight(i);
         sums.weight += w;
         for (std::size_t a = 0; a < Dimension; ++a) {
@@ -43,17 +64,18 @@ Sums<Dimension> sum_about(const SortedPoints& points, LocalIndex cell, const Wei
 
 template <std::size_t Dimension, class Weight>
 Moments moments_of_cell(const SortedPoints& points, LocalIndex cell, const Weight& weight) {
+    const Entries entries{points.first[cell], points.first[cell + 1]};
     Moments moments;
-    moments.count = static_cast<GlobalCount>(points.first[cell + 1] - points.first[cell]);
+    moments.count = static_cast<GlobalCount>(entries.last - entries.first);
     const Vector& scale = points.mesh.scale;
     std::array<double, Dimension> origin;
     for (std::size_t a = 0; a < Dimension; ++a)
-        origin[a] = points.coordinates[points.first[cell] * Dimension + a] * scale[a];
-    Sums<Dimension> sums = sum_about(points, cell, weight, origin);
+        origin[a] = points.coordinates[entries.first * Dimension + a] * scale[a];
+    Sums<Dimension> sums = sum_about(points, entries, weight, origin);
     moments.weight = sums.weight;
     if (!(sums.weight > 0)) return moments;
     for (std::size_t a = 0; a < Dimension; ++a) origin[a] += sums.first[a] / sums.weight;
-    sums = sum_about(points, cell, weight, origin);
+    sums = sum_about(points, entries, weight, origin);
     for (std::size_t a = 0; a < Dimension; ++a) {
         // `origin` is the mean rounded to a coordinate; what is left of it is taken off again.
         const double rest = sums.first[a] / sums.weight;

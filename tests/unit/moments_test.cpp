@@ -1,10 +1,10 @@
 #include "../support/clouds.hpp"
+#include "moments_reference.hpp"
 
 #include <rrcb/moments.hpp>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -12,60 +12,7 @@
 namespace rrcb {
 namespace {
 
-struct Reference {
-    long double weight = 0;
-    std::vector<long double> mean;
-    std::vector<long double> deviation;
-};
-
-// Two passes in long double, relative to one of the points.
-Reference reference_of(const Points& points, const std::vector<LocalIndex>& members) {
-    Reference reference;
-    for (const LocalIndex i : members) reference.weight += points.weight(i);
-    for (int axis = 0; axis < points.dimension; ++axis) {
-        const long double origin = points.coordinate(members[0], axis);
-        long double sum = 0;
-        for (const LocalIndex i : members)
-            sum += points.weight(i) * (points.coordinate(i, axis) - origin);
-        const long double mean = sum / reference.weight;
-        long double square = 0;
-        for (const LocalIndex i : members) {
-            const long double difference = points.coordinate(i, axis) - origin - mean;
-            square += points.weight(i) * difference * difference;
-        }
-        reference.mean.push_back(origin + mean);
-        reference.deviation.push_back(std::sqrt(square / reference.weight));
-    }
-    return reference;
-}
-
-void expect_reference_moments(const Points& points, int cells_per_axis) {
-    const SupportMesh mesh =
-        make_support_mesh(bounding_box(points), points.dimension, cells_per_axis);
-    std::vector<std::vector<LocalIndex>> members(num_cells(mesh));
-    for (LocalIndex i = 0; i < points.count; ++i)
-        members[cell_of(mesh, points.position(i))].push_back(i);
-    std::size_t next = 0;
-    const std::vector<CellMoments> cells = cell_moments(points, mesh);
-    for (LocalIndex cell = 0; cell < members.size(); ++cell) {
-        if (members[cell].empty()) continue;
-        EXPECT_EQ(cells.at(next).cell, cell);
-        const Moments& moments = cells.at(next++).moments;
-        EXPECT_EQ(moments.count, static_cast<GlobalCount>(members[cell].size()));
-        const Reference reference = reference_of(points, members[cell]);
-        EXPECT_NEAR(moments.weight, static_cast<double>(reference.weight), 1e-13 * moments.weight);
-        for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a) {
-            const auto mean = static_cast<double>(reference.mean[a]);
-            const auto deviation = static_cast<double>(reference.deviation[a]);
-            // A mean can't be finer than the coordinates it is made of.
-            const double largest = std::max(std::abs(cells.at(next - 1).box.lower[a]),
-                                            std::abs(cells.at(next - 1).box.upper[a]));
-            EXPECT_NEAR(moments.mean[a], mean, 1e-15 * largest + 1e-14 * deviation);
-            EXPECT_NEAR(moments.deviation[a], deviation, 1e-12 * deviation);
-        }
-    }
-    EXPECT_EQ(next, cells.size());
-}
+using test::expect_reference_moments;
 
 TEST(Moments, of_four_points_worked_out_by_hand) {
     const std::vector<double> x{0, 1, 4, 5};

@@ -33,6 +33,20 @@ struct Weighted {
     double operator()(LocalIndex i) const { return weights[i]; }
 };
 
+struct Scaled {
+    const double* weights;
+    double scale;
+    double operator()(LocalIndex i) const { return weights[i] * scale; }
+};
+
+/// Power of two with which weights times squares of lengths neither overflow nor vanish.
+double safe_scale(double heaviest) {
+    constexpr int harmless_exponent = 200;
+    const int exponent = std::ilogb(heaviest);
+    if (std::abs(exponent) <= harmless_exponent) return 1;
+    return std::ldexp(1.0, std::clamp(-exponent, -1000, 1000));
+}
+
 struct Entries {
     LocalIndex first;
     LocalIndex last;
@@ -100,11 +114,16 @@ std::vector<CellMoments> moments_of_cells(const SortedPoints& points, const Weig
 template <std::size_t Dimension>
 std::vector<CellMoments> moments_by_weight(const SortedPoints& points) {
     if (points.weights.empty()) return moments_of_cells<Dimension>(points, Unweighted{});
-    const bool weightless = std::none_of(points.weights.begin(), points.weights.end(),
-                                         [](double weight) { return weight > 0; });
-    if (!weightless) return moments_of_cells<Dimension>(points, Weighted{points.weights.data()});
-    auto cells = moments_of_cells<Dimension>(points, Unweighted{});
-    for (CellMoments& cell : cells) cell.moments.weight = 0;
+    const double heaviest = *std::max_element(points.weights.begin(), points.weights.end());
+    if (!(heaviest > 0)) {
+        auto cells = moments_of_cells<Dimension>(points, Unweighted{});
+        for (CellMoments& cell : cells) cell.moments.weight = 0;
+        return cells;
+    }
+    const double scale = safe_scale(heaviest);
+    if (scale == 1) return moments_of_cells<Dimension>(points, Weighted{points.weights.data()});
+    auto cells = moments_of_cells<Dimension>(points, Scaled{points.weights.data(), scale});
+    for (CellMoments& cell : cells) cell.moments.weight /= scale;
     return cells;
 }
 

@@ -53,6 +53,19 @@ TEST(Moments, keep_their_digits_at_any_offset) {
     }
 }
 
+TEST(Moments, survive_extreme_weights) {
+    for (const double magnitude : {5e-324, 1e-300, 1e300}) {
+        const std::vector<double> x{0, 4e6};
+        const std::vector<double> weights{3 * magnitude, magnitude};
+        const std::array<std::span<const double>, 1> columns{x};
+        const Points points = column_points(columns, weights);
+        const auto cells = cell_moments(points, make_support_mesh(bounding_box(points), 1, 1));
+        EXPECT_EQ(cells[0].moments.weight, 3 * magnitude + magnitude);
+        EXPECT_DOUBLE_EQ(cells[0].moments.mean[0], 1e6);
+        EXPECT_DOUBLE_EQ(cells[0].moments.deviation[0], 1e6 * std::sqrt(3.0));
+    }
+}
+
 TEST(Moments, survive_extreme_magnitudes) {
     for (const double magnitude : {1e-300, 1e-200, 1e200, 1e300}) {
         std::vector<double> coordinates = test::uniform_cloud(500, 2, 5);

@@ -3,6 +3,7 @@
 #include "mpi/communicator.hpp"
 
 #include <array>
+#include <cmath>
 #include <string>
 
 namespace rrcb {
@@ -17,6 +18,11 @@ int judge(std::span<const Header> headers, Failure& failure) {
     failure = attempt([&] {
         if (const auto difference = difference_between(headers))
             throw Error(ErrorCode::invalid_argument, *difference);
+        double weight = 0;
+        for (const Header& header : headers) weight += header.weight;
+        if (std::isinf(weight))
+            throw Error(ErrorCode::invalid_argument,
+                        "the sum of the weights of all ranks overflows; scale them down");
         std::int64_t length = 0;
         for (const Header& header : headers) length += header.num_records * header.record_length;
         mpi::to_int(length);

@@ -73,6 +73,13 @@ TEST_F(Agreement, on_weights_whose_sum_overflows) {
     expect_error(interleaved_points(x, 1, weights), {}, last_rank() + "the sum of the weights");
 }
 
+TEST_F(Agreement, on_weights_whose_sum_over_the_ranks_overflows) {
+    const std::vector<double> x{0};
+    const std::vector<double> weights{1.7e308};
+    if (num_ranks_ > 1)
+        expect_error(interleaved_points(x, 1, weights), {}, "weights of all ranks overflows");
+}
+
 TEST_F(Agreement, on_arrays_that_do_not_fit) {
     const std::vector<double> x(last() ? 5 : 4);
     expect_error(interleaved_points(x, 2), {}, "multiple of the dimension");

@@ -47,6 +47,7 @@ void refine_together(Decision& decision, const Options& options, SortedPoints& s
     const Measured measured = refine(estimate, options, sorted, comm, result.parts);
     report.measured_imbalance = measured.imbalance;
     report.rounds = measured.rounds;
+    report.coincident_cuts = measured.coincident_cuts;
     result.cuts = std::move(estimate.cuts);
 }
 

@@ -96,6 +96,11 @@ Header header_of(const Options& options, int dimension, const Cuts* previous) {
     return header;
 }
 
+double heaviest_of(const Points& points) {
+    if (points.count == 0) return 0;
+    return points.weights.empty() ? 1 : *std::ranges::max_element(points.weights);
+}
+
 /// Calls `visit(header, record)` for each record of all ranks.
 template <class Visit>
 void visit_records(std::span<const Header> headers, std::span<const double> records,
@@ -162,6 +167,7 @@ Contribution contribute(const Points& points, const Box& box, const Options& opt
     header.weight = points.weights.empty()
                         ? static_cast<double>(points.count)
                         : std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
+    header.heaviest = heaviest_of(points);
     header.cells_per_axis =
         options.support_mesh > 0
             ? options.support_mesh

@@ -35,7 +35,8 @@ struct Header {
     std::int64_t num_records = 0;
     std::int64_t record_length = 0;  ///< doubles per record
     double weight = 0;
-    Box box;  ///< of the support mesh
+    double heaviest = 0;  ///< weight of one point
+    Box box;              ///< of the support mesh
 };
 
 /// What one rank hands to the root: the moments of its cells, or its points, as plain doubles.

@@ -43,6 +43,7 @@ void break_tie(CutSearch& search, CutTarget& target, std::span<const double> ext
     }
     double weight = 0;
     for (const double w : weights) weight += w;
+    search.coincident = 1;
     const bool above = target.target - target.base < weight / 2;
     finish(search, above ? value : std::nextafter(value, infinity),
            target.base + (above ? 0 : weight));
@@ -80,6 +81,35 @@ std::vector<Candidate> read_candidates(std::span<const double> records, int dime
         candidates[k].weight = records[k * (d + 1) + d];
     }
     return candidates;
+}
+
+/// How many of the candidates are to lie below the cut.
+struct Division {
+    std::size_t num_below = 0;
+    double below = 0;         ///< weight of the node below the cut
+    bool coincident = false;  ///< the target lies among candidates that no cut tells apart
+};
+
+/// The division of sorted candidates that comes nearest to the target.
+template <class Before>
+Division best_division(std::span<const Candidate> sorted, const Before& before,
+                       const CutTarget& target) {
+    Division best{0, target.base, false};
+    double below = target.base;
+    double below_group = below;
+    std::size_t group = 0;
+    for (std::size_t k = 0; k < sorted.size(); ++k) {
+        below += sorted[k].weight;
+        if (k + 1 < sorted.size() && !before(sorted[k], sorted[k + 1])) continue;
+        if (k > group && below_group < target.target && target.target < below)
+            best.coincident = true;
+        below_group = below;
+        group = k + 1;
+        if (std::abs(below - target.target) >= std::abs(best.below - target.target)) continue;
+        best.num_below = group;
+        best.below = below;
+    }
+    return best;
 }
 
 /// A slot of the histogram that the target falls into, with the weight below it.
@@ -232,20 +262,11 @@ void decide_among(CutSearch& search, CutTarget& target, std::span<const double> 
     };
     std::stable_sort(candidates.begin(), candidates.end(), before);
 
-    double below = target.base;
-    double best_below = below;
-    std::size_t best = 0;
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-        below += candidates[k].weight;
-        const bool divisible =
-            k + 1 == candidates.size() || before(candidates[k], candidates[k + 1]);
-        if (!divisible || std::abs(below - target.target) >= std::abs(best_below - target.target))
-            continue;
-        best_below = below;
-        best = k + 1;
-    }
+    const Division division = best_division(candidates, before, target);
+    const std::size_t best = division.num_below;
+    search.coincident = division.coincident ? 1 : 0;
     if (best == 0 || best == candidates.size()) {
-        finish(search, best == 0 ? search.lower : search.upper, best_below);
+        finish(search, best == 0 ? search.lower : search.upper, division.below);
         return;
     }
     const Vector& last_below = candidates[best - 1].position;
@@ -257,7 +278,7 @@ void decide_among(CutSearch& search, CutTarget& target, std::span<const double> 
     }
     const std::size_t axis = axis_index(search, search.tied);
     const double middle = last_below[axis] / 2 + first_above[axis] / 2;
-    finish(search, middle > last_below[axis] ? middle : first_above[axis], best_below);
+    finish(search, middle > last_below[axis] ? middle : first_above[axis], division.below);
 }
 
 }  // namespace rrcb

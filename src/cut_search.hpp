@@ -20,8 +20,9 @@ struct CutSearch {
     Cut cut;
     double lower = 0;
     double upper = 0;
-    std::int32_t chosen = 0;  ///< slot of the histogram that the search goes on in
-    double below = 0;         ///< weight of the node below the cut, once done
+    std::int32_t chosen = 0;      ///< slot of the histogram that the search goes on in
+    double below = 0;             ///< weight of the node below the cut, once done
+    std::int32_t coincident = 0;  ///< 1: points that no cut tells apart hold the target, once done
 };
 
 /// What only the root knows of it.

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 
 namespace rrcb {
 
@@ -17,15 +18,28 @@ namespace {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
+/// Of a partition with the heaviest point alone in the largest part.
+double least_imbalance(double heaviest, double weight, std::span<const double> part_sizes) {
+    if (!(weight > 0)) return 1;
+    const double sizes = std::accumulate(part_sizes.begin(), part_sizes.end(), 0.0);
+    return std::max(1.0, heaviest / weight * (sizes / *std::ranges::max_element(part_sizes)));
+}
+
 Report report_of(std::span<const Header> headers, const Bisection& bisection,
                  std::span<const double> part_sizes) {
     Report report;
+    double heaviest = 0;
     for (const Header& header : headers) {
+        heaviest = std::max(heaviest, header.heaviest);
         report.num_points += header.num_points;
         report.num_records += header.num_records;
         report.total_weight += header.weight;
     }
     report.all_weights_zero = report.num_points > 0 && report.total_weight == 0;
+    report.least_imbalance =
+        report.all_weights_zero
+            ? least_imbalance(1, static_cast<double>(report.num_points), part_sizes)
+            : least_imbalance(heaviest, report.total_weight, part_sizes);
     report.estimated_imbalance =
         bisection.part_weights.empty() ? not_known : imbalance(bisection.part_weights, part_sizes);
     report.measured_imbalance = not_known;

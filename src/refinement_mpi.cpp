@@ -179,7 +179,8 @@ std::vector<Node> descend(std::vector<Node> nodes, const Level& level, Context& 
         double below = 0;
         if (needs_search(node, context)) {
             cut = search->cut;
-            below = search++->below;
+            below = search->below;
+            context.measured.coincident_cuts += search++->coincident;
         } else if (node.weight > 0) {
             below = share_below(context.sizes_of(node.at)) > 0 ? node.weight : 0;
             cut.at.fill(-infinity);

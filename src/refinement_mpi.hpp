@@ -21,7 +21,8 @@ struct Estimate {
 /// How good the parts really are, and what it took to know; the same on every rank.
 struct Measured {
     double imbalance = 1;
-    int rounds = 0;  ///< of counting and deciding
+    int rounds = 0;           ///< of counting and deciding
+    int coincident_cuts = 0;  ///< that keep points together which the target divides
 };
 
 /// Moves the cuts of `estimate` until the parts of the real points are as even as asked.

@@ -16,9 +16,12 @@ struct Report {
     double total_weight = 0;      ///< over all ranks
     double estimated_imbalance = 1;  ///< as the statistical domain sees it, see quality.hpp
     double measured_imbalance = 1;   ///< of the points themselves; NaN where it was not measured
-    int rounds = 0;                  ///< of counting what the ranks hold, for the refinement
-    bool all_weights_zero = false;   ///< balanced by count instead
-    int surplus_parts = 0;           ///< parts that must stay empty: more parts than points
+    double least_imbalance = 1;  ///< no partition is better: of the heaviest point in a part alone
+    int coincident_cuts = 0;  ///< that met points no allowed cut can tell apart, where the balance
+                              ///< asked for divides them; counted by the refinement
+    int rounds = 0;           ///< of counting what the ranks hold, for the refinement
+    bool all_weights_zero = false;  ///< balanced by count instead
+    int surplus_parts = 0;          ///< parts that must stay empty: more parts than points
 };
 
 /// The new partition; every rank gets the same cuts and the parts of its own points.

@@ -72,6 +72,7 @@ int review(const Report& report, const Remap& remap, const State& state, const c
             for (const std::string& shortcoming : shortcomings(parameters)) {
                 print_warning(0, function, shortcoming);
             }
+            for (const std::string& limit : limits(report)) print_warning(0, function, limit);
             if (!text.empty()) print_warning(0, function, text);
         }
     }

@@ -18,6 +18,11 @@ std::string format(const char* text, Arguments... arguments) {
     return line;
 }
 
+double imbalance_of(const Report& report) {
+    return std::isnan(report.measured_imbalance) ? report.estimated_imbalance
+                                                 : report.measured_imbalance;
+}
+
 }  // namespace
 
 bool asks_for_summary(const Parameters& parameters) {
@@ -28,14 +33,29 @@ bool asks_for_summary(const Parameters& parameters) {
 
 std::string summary(const Report& report, const Remap& remap) {
     const bool measured = !std::isnan(report.measured_imbalance);
-    std::string text = format("RRCB: %lld objects in %zu parts, imbalance %.4f (%s), %d rounds",
-                              static_cast<long long>(report.num_points), remap.numbers.size(),
-                              measured ? report.measured_imbalance : report.estimated_imbalance,
-                              measured ? "measured" : "estimated", report.rounds);
+    std::string text =
+        format("RRCB: %lld objects in %zu parts, imbalance %.4f (%s), %d rounds",
+               static_cast<long long>(report.num_points), remap.numbers.size(),
+               imbalance_of(report), measured ? "measured" : "estimated", report.rounds);
     if (remap.identity) return text;
     return text + format("; REMAP keeps %.1f %% of the objects in place instead of %.1f %%",
                          percent(remap.kept_after, remap.num_points),
                          percent(remap.kept_before, remap.num_points));
+}
+
+std::vector<std::string> limits(const Report& report) {
+    std::vector<std::string> texts;
+    if (report.least_imbalance > 1 && report.surplus_parts == 0) {
+        texts.push_back(format("one object outweighs a part: the imbalance is %.4f, at best %.4f",
+                               imbalance_of(report), report.least_imbalance));
+    }
+    if (report.coincident_cuts > 0) {
+        texts.push_back(
+            format("%d cuts met objects in one place, which stay together; the "
+                   "imbalance is %.4f",
+                   report.coincident_cuts, imbalance_of(report)));
+    }
+    return texts;
 }
 
 }  // namespace rrcb::zoltan

@@ -6,6 +6,7 @@
 #include <rrcb/remap.hpp>
 
 #include <string>
+#include <vector>
 
 namespace rrcb::zoltan {
 
@@ -14,5 +15,8 @@ bool asks_for_summary(const Parameters& parameters);
 
 /// What RCB_OUTPUT_LEVEL prints: size, imbalance, rounds and what the new part numbers saved.
 std::string summary(const Report& report, const Remap& remap);
+
+/// What kept the parts from the balance asked for, a sentence each.
+std::vector<std::string> limits(const Report& report);
 
 }  // namespace rrcb::zoltan

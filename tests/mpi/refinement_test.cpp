@@ -158,6 +158,7 @@ TEST(Refinement, coincident_points_stay_together_on_the_nearer_side) {
     options.num_parts = 2;
     const Balance result = balance(points, options, MPI_COMM_WORLD);
     EXPECT_EQ(part_weights(points, result.parts, 2, MPI_COMM_WORLD), (std::vector<double>{30, 70}));
+    EXPECT_EQ(result.report.coincident_cuts, 1);
     expect_look_ups_agree(points, result);
 }
 
@@ -170,6 +171,7 @@ TEST(Refinement, many_coincident_points_are_no_endless_search) {
     const Balance result = balance(points, options, MPI_COMM_WORLD);
     for (const Part part : result.parts) EXPECT_EQ(part, result.parts[0]);
     EXPECT_EQ(result.report.measured_imbalance, 4);
+    EXPECT_EQ(result.report.coincident_cuts, 2);  // of the whole, and of the half with all points
 }
 
 TEST(Refinement, zero_weights_everywhere_mean_balance_by_count) {
@@ -333,10 +335,12 @@ TEST(PlainCuts, keep_points_on_a_plane_together) {
     EXPECT_EQ(part_weights(points, plain.parts, 2, MPI_COMM_WORLD),
               (std::vector<double>{400, 200}));
     EXPECT_EQ(plain.cuts.tree[0].at[1], -std::numeric_limits<double>::infinity());
+    EXPECT_EQ(plain.report.coincident_cuts, 1);
     options.plain_cuts = false;
     const Balance tilted = balance(points, options, MPI_COMM_WORLD);
     EXPECT_EQ(part_weights(points, tilted.parts, 2, MPI_COMM_WORLD),
               (std::vector<double>{300, 300}));
+    EXPECT_EQ(tilted.report.coincident_cuts, 0);
 }
 
 }  // namespace

@@ -1,0 +1,217 @@
+// What holds for every call of rrcb::balance, whatever the points and the options.
+#include "../support/ranks.hpp"
+#include "check_mpi.hpp"
+#include "expectations.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/plan.hpp>
+#include <rrcb/quality.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <tuple>
+
+namespace rrcb::test {
+namespace {
+
+constexpr int num_cases = 200;
+
+/// A case, this rank's points of it, and the answer.
+struct Answer {
+    explicit Answer(const Case& input)
+        : cloud(cloud_of(input, num_ranks())),
+          mine(cloud.of_rank(rank())),
+          options(input.options()),
+          result(balance(mine.points(), options, MPI_COMM_WORLD)) {
+        parts = gathered(result.parts);
+    }
+
+    /// Parts of all points of the cloud from those of each rank's. Collective.
+    std::vector<Part> gathered(const std::vector<Part>& my_parts) const {
+        std::vector<Part> all(cloud.size(), 0);
+        const std::vector<LocalIndex> held = cloud.held_by(rank());
+        if (my_parts.size() != held.size()) throw std::runtime_error("not one part per point");
+        for (LocalIndex k = 0; k < held.size(); ++k) all[held[k]] = my_parts[k];
+        MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_INT, MPI_SUM,
+                      MPI_COMM_WORLD);
+        return all;
+    }
+
+    Cloud cloud;
+    Cloud mine;
+    Options options;
+    Balance result;
+    std::vector<Part> parts;
+};
+
+std::string first_of(std::initializer_list<std::string> faults) {
+    for (const std::string& fault : faults)
+        if (!fault.empty()) return fault;
+    return {};
+}
+
+std::string fault_of_report(const Answer& answer) {
+    const Report& report = answer.result.report;
+    const std::vector<double> weights = part_weights(answer.mine.points(), answer.result.parts,
+                                                     answer.options.num_parts, MPI_COMM_WORLD);
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    if (report.num_points != static_cast<GlobalCount>(answer.cloud.size())) return "wrong count";
+    if (!(std::abs(report.total_weight - total) <= 1e-12 * total)) return "wrong total weight";
+    if (std::isnan(report.measured_imbalance) || report.all_weights_zero) return {};
+    const double measured = imbalance(weights, answer.options.part_sizes);
+    if (measured == report.measured_imbalance) return {};
+    if (std::abs(measured - report.measured_imbalance) <= 1e-9 * measured) return {};
+    return "imbalance " + std::to_string(measured) + ", reported as " +
+           std::to_string(report.measured_imbalance);
+}
+
+TEST(Balance, gives_every_point_one_part_that_look_ups_find) {
+    expect_for_all_cases(
+        [](const Case& input) {
+            const Answer answer(input);
+            return first_of({fault_of_range(answer.parts, answer.options.num_parts),
+                             fault_of_look_ups(answer.cloud, answer.parts, answer.result.cuts),
+                             fault_of_report(answer)});
+        },
+        num_cases);
+}
+
+TEST(Balance, is_within_the_tolerance_or_one_object) {
+    expect_for_all_cases(
+        [](const Case& input) -> std::string {
+            const Answer answer(input);
+            if (is_exact(answer.options))
+                return fault_of_exact_cuts(answer.cloud, answer.parts, answer.options);
+            if (!is_to_tolerance(answer.options)) return {};
+            return fault_of_heaviest_part(answer.cloud, answer.parts, answer.options,
+                                          answer.options.imbalance_tolerance);
+        },
+        num_cases);
+}
+
+bool same_bits(const Cuts& a, const Cuts& b) {
+    if (a.tree.size() != b.tree.size()) return false;
+    for (std::size_t k = 0; k < a.tree.size(); ++k)
+        if (a.tree[k].axis != b.tree[k].axis ||
+            std::memcmp(&a.tree[k].at, &b.tree[k].at, sizeof(Vector)) != 0)
+            return false;
+    return true;
+}
+
+TEST(Balance, gives_the_same_bits_twice_and_on_all_ranks) {
+    expect_for_all_cases(
+        [](const Case& input) -> std::string {
+            const Answer first(input);
+            const Answer second(input);
+            Cuts at_root = first.result.cuts;
+            MPI_Bcast(at_root.tree.data(), static_cast<int>(at_root.tree.size() * sizeof(Cut)),
+                      MPI_BYTE, 0, MPI_COMM_WORLD);
+            if (!same_bits(first.result.cuts, at_root)) return "other cuts than at the root";
+            if (!same_bits(first.result.cuts, second.result.cuts)) return "other cuts";
+            return first.parts == second.parts ? "" : "other parts";
+        },
+        num_cases);
+}
+
+/// From rank, index there, to rank, part: what a list says of one point.
+using Transfer = std::array<int, 4>;
+
+std::vector<Transfer> gathered(const std::vector<Transfer>& mine) {
+    std::vector<int> sizes(static_cast<std::size_t>(num_ranks()));
+    const auto size = static_cast<int>(4 * mine.size());
+    MPI_Allgather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, MPI_COMM_WORLD);
+    std::vector<int> starts(sizes.size());
+    std::exclusive_scan(sizes.begin(), sizes.end(), starts.begin(), 0);
+    std::vector<Transfer> all(static_cast<std::size_t>(starts.back() + sizes.back()) / 4);
+    MPI_Allgatherv(mine.data(), size, MPI_INT, all.data(), sizes.data(), starts.data(), MPI_INT,
+                   MPI_COMM_WORLD);
+    std::ranges::sort(all);
+    return all;
+}
+
+std::vector<Transfer> exports_of(const Plan& plan) {
+    std::vector<Transfer> transfers;
+    for (std::size_t k = 0; k < plan.export_indices.size(); ++k)
+        transfers.push_back({rank(), static_cast<int>(plan.export_indices[k]),
+                             plan.export_ranks.at(k), plan.export_parts.at(k)});
+    return gathered(transfers);
+}
+
+std::vector<Transfer> imports_of(const Plan& plan) {
+    std::vector<Transfer> transfers;
+    for (std::size_t k = 0; k < plan.import_indices.size(); ++k)
+        transfers.push_back({plan.import_ranks.at(k), static_cast<int>(plan.import_indices[k]),
+                             rank(), plan.import_parts.at(k)});
+    return gathered(transfers);
+}
+
+/// Every point whose part is not on its rank leaves it once, for a rank of that part.
+std::string fault_of_exports(const Answer& answer, const std::vector<Transfer>& exports) {
+    auto next = exports.begin();
+    for (int from = 0; from < num_ranks(); ++from) {
+        const std::vector<LocalIndex> held = answer.cloud.held_by(from);
+        for (int index = 0; index < static_cast<int>(held.size()); ++index) {
+            const Part part = answer.parts[held[static_cast<std::size_t>(index)]];
+            const RankRange home = ranks_of_part(part, answer.options.num_parts, num_ranks());
+            if (from >= home.first && from < home.first + home.count) continue;
+            const std::string who =
+                "point " + std::to_string(index) + " of rank " + std::to_string(from);
+            if (next == exports.end() || (*next)[0] != from || (*next)[1] != index)
+                return who + " does not leave";
+            if ((*next)[2] < home.first || (*next)[2] >= home.first + home.count)
+                return who + " leaves for the wrong rank";
+            if ((*next++)[3] != part) return who + " leaves for the wrong part";
+        }
+    }
+    return next == exports.end() ? "" : "more points leave than have to";
+}
+
+TEST(Plan, moves_every_point_that_has_to_move_once) {
+    expect_for_all_cases(
+        [](const Case& input) -> std::string {
+            const Answer answer(input);
+            const Plan lists = plan(answer.result.parts, answer.options.num_parts, MPI_COMM_WORLD);
+            const std::vector<Transfer> exports = exports_of(lists);
+            if (exports != imports_of(lists)) return "exports are not the imports";
+            return fault_of_exports(answer, exports);
+        },
+        num_cases);
+}
+
+/// The points where their parts are.
+Cloud migrated(const Answer& answer) {
+    Cloud cloud = answer.cloud;
+    for (LocalIndex i = 0; i < cloud.size(); ++i)
+        cloud.owners[i] =
+            ranks_of_part(answer.parts[i], answer.options.num_parts, num_ranks()).first;
+    return cloud;
+}
+
+/// True where a second call has nothing to mend: the cuts are taken as they are, or they reached
+/// the tolerance. An exact search may choose anew between cuts that are equally near.
+bool is_settled(const Answer& answer) {
+    if (answer.options.domain != DomainKind::analytic || is_exact(answer.options)) return false;
+    if (!is_to_tolerance(answer.options)) return true;
+    return answer.result.report.measured_imbalance <= answer.options.imbalance_tolerance;
+}
+
+TEST(Balance, moves_nothing_when_called_again_with_its_own_cuts) {
+    expect_for_all_cases(
+        [](const Case& input) -> std::string {
+            Answer answer(input);
+            if (!is_settled(answer)) return {};
+            answer.cloud = migrated(answer);
+            const Cloud mine = answer.cloud.of_rank(rank());
+            const Balance again =
+                balance(mine.points(), answer.options, MPI_COMM_WORLD, answer.result.cuts);
+            return answer.gathered(again.parts) == answer.parts ? "" : "points change their parts";
+        },
+        num_cases);
+}
+
+}  // namespace
+}  // namespace rrcb::test

@@ -1,0 +1,249 @@
+// What holds for every call through Zoltan's interface, whatever the objects and the parameters.
+#include "../support/ranks.hpp"
+#include "../zoltan/program.hpp"
+#include "check_mpi.hpp"
+#include "expectations.hpp"
+
+#include <rrcb/plan.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <optional>
+
+namespace rrcb::test {
+namespace {
+
+using zoltan_test::ListCopy;
+using zoltan_test::Outcome;
+using zoltan_test::Program;
+
+constexpr int num_cases = 200;
+
+/// Digit of a case's free number, 0 ... base - 1.
+int digit(const Case& input, int place, int base) {
+    return (input.shape.choice >> (3 * place)) % base;
+}
+
+/// The points as the callbacks tell them: weights are floats.
+Cloud told_cloud(const Case& input) {
+    Cloud cloud = cloud_of(input, num_ranks());
+    for (double& weight : cloud.weights) weight = static_cast<double>(static_cast<float>(weight));
+    return cloud;
+}
+
+void set_part_sizes(Program& program, const std::vector<std::int32_t>& sizes) {
+    std::vector<int> numbers(sizes.size());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    std::vector<float> values(sizes.begin(), sizes.end());
+    std::vector<int> first_weights(sizes.size(), 0);
+    const int mine = rank() == 0 ? static_cast<int>(sizes.size()) : 0;
+    Zoltan_LB_Set_Part_Sizes(program.zz, 1, mine, numbers.data(), first_weights.data(),
+                             values.data());
+}
+
+void set_parameters(Program& program, const Case& input) {
+    constexpr std::array domains = {"ANALYTIC", "SAMPLED", "POINTS"};
+    constexpr std::array refinements = {"AUTO", "NONE", "TOLERANCE", "EXACT"};
+    const Case::Shape& shape = input.shape;
+    program.set("LB_METHOD", "RRCB");
+    program.set("NUM_GLOBAL_PARTS", std::to_string(shape.num_parts));
+    program.set("OBJ_WEIGHT_DIM", shape.weights == Weights::none ? "0" : "1");
+    program.set("RRCB_DOMAIN", domains[static_cast<std::size_t>(shape.domain)]);
+    program.set("RRCB_REFINE", refinements[static_cast<std::size_t>(shape.refine)]);
+    program.set("RRCB_CUT_RULE", shape.cut_rule == CutRule::midpoint ? "MIDPOINT" : "WEIGHTED");
+    program.set("IMBALANCE_TOL", std::to_string(shape.tolerance));
+    program.set("RCB_RECTILINEAR_BLOCKS", std::to_string(shape.plain_cuts));
+    program.set("KEEP_CUTS", "1");
+    program.set("REMAP", std::to_string(digit(input, 0, 2)));
+    program.set("NUM_GID_ENTRIES", std::to_string(2 + digit(input, 1, 2)));
+    program.set("NUM_LID_ENTRIES", std::to_string(1 + digit(input, 2, 2)));
+    if (!input.part_sizes.empty()) set_part_sizes(program, input.part_sizes);
+}
+
+/// A program with this rank's objects of a case.
+struct Caller {
+    explicit Caller(const Case& input)
+        : cloud(told_cloud(input)), program(cloud.dimension), options(input.options()) {
+        const Cloud mine = cloud.of_rank(rank());
+        const Points points = mine.points();
+        for (LocalIndex i = 0; i < mine.size(); ++i) {
+            const Vector x = points.position(i);
+            program.add({x.begin(), x.begin() + cloud.dimension},
+                        static_cast<float>(points.weight(i)));
+        }
+        set_parameters(program, input);
+    }
+
+    Outcome call(const char* lists) {
+        program.set("RETURN_LISTS", lists);
+        const Outcome outcome = program.partition();
+        if (outcome.code != ZOLTAN_OK && outcome.code != ZOLTAN_WARN)
+            throw std::runtime_error("code " + std::to_string(outcome.code));
+        return outcome;
+    }
+
+    Cloud cloud;
+    Program program;
+    Options options;
+};
+
+/// Parts of the local objects from a list that names all of them; none when it does not.
+std::optional<std::vector<Part>> my_parts(const Program& program, const ListCopy& list) {
+    if (list.count != program.size()) return {};
+    std::vector<Part> parts(static_cast<std::size_t>(list.count), -1);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        const std::size_t object = list.global_ids[k][0];
+        if (object >= parts.size() || parts[object] != -1) return {};
+        for (std::size_t w = 0; w < list.global_ids[k].size(); ++w)
+            if (list.global_ids[k][w] != program.gid_word(static_cast<int>(object), int(w)))
+                return {};
+        parts[object] = list.parts[k];
+    }
+    return parts;
+}
+
+/// Parts of all objects of the cloud. Collective.
+std::vector<Part> all_parts(const Cloud& cloud, const std::vector<Part>& mine) {
+    std::vector<Part> all(cloud.size(), 0);
+    const std::vector<LocalIndex> held = cloud.held_by(rank());
+    for (LocalIndex k = 0; k < held.size(); ++k) all[held[k]] = mine[k];
+    MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_INT, MPI_SUM,
+                  MPI_COMM_WORLD);
+    return all;
+}
+
+std::string fault_of_look_ups(Program& program, const std::vector<Part>& parts) {
+    for (int i = 0; i < program.size(); ++i) {
+        std::array<double, 3> x{};
+        std::copy_n(program.coordinates.begin() + i * program.dimension, program.dimension,
+                    x.begin());
+        const std::string who = "object " + std::to_string(i);
+        const Part assigned = parts[static_cast<std::size_t>(i)];
+        int owner = -1;
+        int part = -1;
+        if (Zoltan_LB_Point_PP_Assign(program.zz, x.data(), &owner, &part) != ZOLTAN_OK ||
+            part != assigned)
+            return who + " is looked up in another part";
+        std::vector<int> owners(100);
+        std::vector<int> touched(100);
+        int num_owners = 0;
+        int num_touched = 0;
+        Zoltan_LB_Box_PP_Assign(program.zz, x[0], x[1], x[2], x[0], x[1], x[2], owners.data(),
+                                &num_owners, touched.data(), &num_touched);
+        if (num_touched != 1 || touched[0] != assigned) return who + "'s box touches other parts";
+        if (std::find(owners.begin(), owners.begin() + num_owners, owner) ==
+            owners.begin() + num_owners)
+            return who + "'s box touches other ranks";
+    }
+    return {};
+}
+
+TEST(ZoltanCall, gives_every_object_one_part_that_look_ups_find) {
+    expect_for_all_cases(
+        [](const Case& input) -> std::string {
+            Caller caller(input);
+            const Outcome outcome = caller.call("PARTS");
+            const auto parts = my_parts(caller.program, outcome.exports);
+            if (!parts) throw std::runtime_error("an object is missing, doubled or renamed");
+            const std::string fault = fault_of_range(*parts, caller.options.num_parts);
+            return fault.empty() ? fault_of_look_ups(caller.program, *parts) : fault;
+        },
+        num_cases);
+}
+
+TEST(ZoltanCall, is_within_the_tolerance_or_one_object) {
+    expect_for_all_cases(
+        [](const Case& input) -> std::string {
+            Caller caller(input);
+            const auto mine = my_parts(caller.program, caller.call("PARTS").exports);
+            if (!mine) throw std::runtime_error("an object is missing, doubled or renamed");
+            const std::vector<Part> parts = all_parts(caller.cloud, *mine);
+            if (!is_to_tolerance(caller.options)) return {};
+            const double tolerance =
+                is_exact(caller.options) ? 1 : caller.options.imbalance_tolerance;
+            return fault_of_heaviest_part(caller.cloud, parts, caller.options, tolerance);
+        },
+        num_cases);
+}
+
+TEST(ZoltanCall, answers_alike_twice) {
+    expect_for_all_cases(
+        [](const Case& input) -> std::string {
+            Caller first(input);
+            Caller second(input);
+            const Outcome a = first.call("PARTS");
+            const Outcome b = second.call("PARTS");
+            return a.exports.parts == b.exports.parts && a.code == b.code ? "" : "other parts";
+        },
+        num_cases);
+}
+
+/// From rank, object there, to rank, part.
+using Transfer = std::array<int, 4>;
+
+/// What the lists of all ranks say, ascending. Collective.
+std::vector<Transfer> transfers_of(const ListCopy& list, bool is_export) {
+    std::vector<Transfer> mine;
+    for (std::size_t k = 0; k < list.ranks.size(); ++k) {
+        const auto object = static_cast<int>(list.global_ids[k][0]);
+        const auto home = static_cast<int>(list.global_ids[k][1]);
+        mine.push_back({home, object, is_export ? list.ranks[k] : rank(), list.parts[k]});
+    }
+    std::vector<int> sizes(static_cast<std::size_t>(num_ranks()));
+    const auto size = static_cast<int>(4 * mine.size());
+    MPI_Allgather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, MPI_COMM_WORLD);
+    std::vector<int> starts(sizes.size());
+    std::exclusive_scan(sizes.begin(), sizes.end(), starts.begin(), 0);
+    std::vector<Transfer> all(static_cast<std::size_t>(starts.back() + sizes.back()) / 4);
+    MPI_Allgatherv(mine.data(), size, MPI_INT, all.data(), sizes.data(), starts.data(), MPI_INT,
+                   MPI_COMM_WORLD);
+    std::ranges::sort(all);
+    return all;
+}
+
+/// Every object whose part is on other ranks leaves for one of them, once.
+std::string fault_of_exports(const Caller& caller, const std::vector<Part>& parts,
+                             const std::vector<Transfer>& exports) {
+    std::map<std::pair<int, int>, Transfer> by_object;
+    for (const Transfer& transfer : exports)
+        if (!by_object.insert({{transfer[0], transfer[1]}, transfer}).second)
+            return "an object leaves twice";
+    for (int home = 0; home < num_ranks(); ++home) {
+        const std::vector<LocalIndex> held = caller.cloud.held_by(home);
+        for (std::size_t k = 0; k < held.size(); ++k) {
+            const Part part = parts[held[k]];
+            const RankRange ranks = ranks_of_part(part, caller.options.num_parts, num_ranks());
+            const auto is_home = [&](int rank) {
+                return rank >= ranks.first && rank < ranks.first + ranks.count;
+            };
+            const auto found = by_object.find({home, static_cast<int>(k)});
+            if (found == by_object.end() && !is_home(home)) return "an object does not leave";
+            if (found == by_object.end()) continue;
+            if (found->second[3] != part) return "an object leaves for another part";
+            if (!is_home(found->second[2])) return "an object leaves for a wrong rank";
+        }
+    }
+    return {};
+}
+
+TEST(ZoltanCall, exports_what_others_import) {
+    expect_for_all_cases(
+        [](const Case& input) -> std::string {
+            Caller caller(input);
+            const auto mine = my_parts(caller.program, caller.call("PARTS").exports);
+            if (!mine) throw std::runtime_error("an object is missing, doubled or renamed");
+            const std::vector<Part> parts = all_parts(caller.cloud, *mine);
+            const Outcome lists = caller.call("ALL");
+            const std::vector<Transfer> exports = transfers_of(lists.exports, true);
+            if (exports != transfers_of(lists.imports, false)) return "exports are not the imports";
+            return fault_of_exports(caller, parts, exports);
+        },
+        num_cases);
+}
+
+}  // namespace
+}  // namespace rrcb::test

@@ -2,8 +2,8 @@
 
 #include "mpi/communicator.hpp"
 
-#include <array>
 #include <cmath>
+#include <new>
 #include <string>
 
 namespace rrcb {
@@ -56,14 +56,14 @@ void agree(const Failure& failure, MPI_Comm comm) {
 }
 
 void fail_together(int failing_rank, const Failure& failure, MPI_Comm comm) {
-    struct Notice {
-        ErrorCode code;
-        std::array<char, 512> text;
-    };
-    Notice notice{failure.code, {}};
-    failure.text.copy(notice.text.data(), notice.text.size() - 1);
-    mpi::check(MPI_Bcast(&notice, sizeof notice, MPI_BYTE, failing_rank, comm), "MPI_Bcast");
-    throw Error(notice.code, "rank " + std::to_string(failing_rank) + ": " + notice.text.data());
+    Failure theirs = failure;
+    mpi::check(MPI_Bcast(&theirs, sizeof theirs, MPI_BYTE, failing_rank, comm), "MPI_Bcast");
+    try {
+        throw Error(theirs.code,
+                    "rank " + std::to_string(failing_rank) + ": " + theirs.text.data());
+    } catch (const std::bad_alloc&) {
+        throw Error(theirs.code);
+    }
 }
 
 }  // namespace rrcb

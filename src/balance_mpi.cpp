@@ -6,6 +6,8 @@
 
 #include <rrcb/balance.hpp>
 
+#include <optional>
+
 namespace rrcb {
 
 namespace {
@@ -36,15 +38,14 @@ void assign_together(const Options& options, const Points& points, const SortedP
 
 /// Moves the cuts by what the ranks count, and assigns the points by them. Collective.
 void refine_together(Decision& decision, const Options& options, SortedPoints& sorted,
-                     MPI_Comm comm, Balance& result) {
+                     RefinementRoom& room, MPI_Comm comm, Balance& result) {
     const StageScope stage(options.observer, Stage::refinement);
     Report& report = result.report;
     if (report.all_weights_zero) sorted.weights.clear();
     const double weight =
         report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
-    Estimate estimate{std::move(result.cuts), std::move(decision.bisection.brackets),
-                      options.part_sizes, weight};
-    const Measured measured = refine(estimate, options, sorted, comm, result.parts);
+    Estimate estimate{std::move(result.cuts), std::move(decision.bisection.brackets), weight};
+    const Measured measured = refine(estimate, options, sorted, room, comm, result.parts);
     report.measured_imbalance = measured.imbalance;
     report.rounds = measured.rounds;
     report.coincident_cuts = measured.coincident_cuts;
@@ -87,6 +88,7 @@ Balance run(const Points& points, const Options& given, const Cuts* previous, MP
     Options options;
     Balance result;
     Contribution mine;
+    std::optional<RefinementRoom> room;
     Failure failure = attempt([&] {
         const StageScope stage(given.observer, Stage::moments);
         options = complete(given, mpi::size_of(comm));
@@ -96,6 +98,8 @@ Balance run(const Points& points, const Options& given, const Cuts* previous, MP
         if (previous) check_previous(*previous, options, points.dimension);
         mine = contribute(points, box, options, previous, mpi::size_of(comm));
         result.parts.resize(points.count);
+        if (is_refined(options))
+            room.emplace(options, points.dimension, mpi::rank_of(comm) == root);
     });
     if (failure.failed) mine = {};
     mine.header.failed = failure.failed;
@@ -104,7 +108,7 @@ Balance run(const Points& points, const Options& given, const Cuts* previous, MP
     result.report = decision.report;
     result.cuts = std::move(decision.bisection.cuts);
     if (is_refined(options) && decision.report.num_points > 0) {
-        refine_together(decision, options, mine.points, comm, result);
+        refine_together(decision, options, mine.points, *room, comm, result);
     } else {
         assign_together(options, points, mine.points, comm, result);
     }

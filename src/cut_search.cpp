@@ -245,6 +245,7 @@ void decide(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
     const double count =
         histogram[layout.num_extents + layout.num_slots() + static_cast<std::size_t>(chosen.slot)];
     target.base = chosen.below;
+    target.num_candidates = static_cast<GlobalCount>(count);
     narrow(search, layout.num_bins, chosen.slot,
            {-histogram[axis], histogram[max_dimension + axis]}, count);
 }

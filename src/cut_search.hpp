@@ -13,7 +13,7 @@ namespace rrcb {
 /// The cut lies in [lower, upper) of the axis number `tied` of its axes: its own first, then the
 /// others in ascending order. Along the axes before that one it is already fixed in `cut`.
 struct CutSearch {
-    enum Stage : std::int32_t { over_fragments, over_candidates, gathering, done };
+    enum Stage : std::int32_t { over_fragments, over_candidates, gathering, done, abandoned };
     Stage stage = over_fragments;
     std::int32_t tied = 0;
     std::int32_t num_axes = 1;  ///< that may break ties, its own included
@@ -27,9 +27,10 @@ struct CutSearch {
 
 /// What only the root knows of it.
 struct CutTarget {
-    double target = 0;  ///< weight that belongs below the cut
-    double slack = 0;   ///< how far from it the weight below may be
-    double base = 0;    ///< weight of the node below `lower`
+    double target = 0;               ///< weight that belongs below the cut
+    double slack = 0;                ///< how far from it the weight below may be
+    double base = 0;                 ///< weight of the node below `lower`
+    GlobalCount num_candidates = 0;  ///< points of all ranks that are left, once gathering
 };
 
 /// Number of the axis a search works on.
@@ -38,13 +39,14 @@ int current_axis(const CutSearch& search);
 /// Weights and counts along the bracket of one search, added up over the ranks.
 ///
 /// Slot 0 is what lies below the bracket, the last slot what lies above it. A message is
-/// 2 * max_dimension entries of which the largest counts (minus the lower, then the upper ends of
-/// the extent) and 2 * num_slots entries to be summed.
+/// num_extents entries of which the largest counts (minus the lower, then the upper ends of the
+/// extent, then 1 where the rank has failed) and 2 * num_slots entries to be summed.
 struct HistogramLayout {
     int num_bins = 64;
 
     std::size_t num_slots() const { return static_cast<std::size_t>(num_bins) + 2; }
-    static constexpr std::size_t num_extents = 2 * max_dimension;
+    static constexpr std::size_t failed = 2 * max_dimension;
+    static constexpr std::size_t num_extents = failed + 1;
     std::size_t length() const { return num_extents + 2 * num_slots(); }
 };
 
@@ -70,6 +72,8 @@ class LocalSearch {
 
     /// Position and weight of each candidate, one after the other.
     void append_candidates(std::vector<double>& records) const;
+
+    std::size_t num_candidates() const { return candidates_.size(); }
 
   private:
     std::span<const Fragment> fragments_;

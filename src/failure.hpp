@@ -2,18 +2,25 @@
 
 #include <rrcb/error.hpp>
 
+#include <array>
 #include <exception>
 #include <new>
-#include <string>
+#include <string_view>
 
 namespace rrcb {
 
-/// An error held back until the ranks have agreed on it.
+/// An error held back until the ranks have agreed on it; it takes no memory to hold it.
 struct Failure {
     bool failed = false;
     ErrorCode code = ErrorCode::internal;
-    std::string text;
+    std::array<char, 512> text{};  ///< cut short where it is longer; ends with a 0
 };
+
+inline Failure failure_of(ErrorCode code, std::string_view text) {
+    Failure failure{true, code};
+    text.copy(failure.text.data(), failure.text.size() - 1);
+    return failure;
+}
 
 /// Runs one local step; what it throws is held back so that the rank can go on to the agreement.
 template <class Step>
@@ -22,13 +29,13 @@ Failure attempt(Step&& step) {
         step();
         return {};
     } catch (const Error& error) {
-        return {true, error.code(), error.what()};
+        return failure_of(error.code(), error.what());
     } catch (const std::bad_alloc&) {
-        return {true, ErrorCode::out_of_memory, "out of memory"};
+        return failure_of(ErrorCode::out_of_memory, "out of memory");
     } catch (const std::exception& error) {
-        return {true, ErrorCode::internal, error.what()};
+        return failure_of(ErrorCode::internal, error.what());
     } catch (...) {
-        return {true, ErrorCode::internal, "unknown exception"};
+        return failure_of(ErrorCode::internal, "unknown exception");
     }
 }
 

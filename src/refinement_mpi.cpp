@@ -2,9 +2,6 @@
 
 #include "agreement_mpi.hpp"
 #include "brackets.hpp"
-#include "cut_search.hpp"
-#include "descent.hpp"
-#include "histogram_mpi.hpp"
 #include "mpi/communicator.hpp"
 
 #include <rrcb/quality.hpp>
@@ -20,22 +17,18 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A node of the current level: what of it lies here, and what it weighs over all ranks.
-struct Node {
-    Descent at;
-    std::vector<Fragment> fragments;
-    double weight = 0;
-};
-
 /// What the functions of the refinement share.
 struct Context {
     Estimate& estimate;
     const Options& options;
     SortedPoints& points;
+    RefinementRoom& room;
     MPI_Comm comm;
     bool is_root;
     Measured measured{};
-    Failure failure{};  ///< of this rank; it takes part with what it has until all can agree
+    Failure failure{};  ///< of this rank; it takes part with nothing until all have been told
+    bool told_of_failure = false;  ///< of another rank; at the root only
+    bool abandoned = false;        ///< the root told all to stop
 
     /// Runs a step that touches only what is here, unless an earlier one failed.
     template <class Step>
@@ -44,7 +37,7 @@ struct Context {
     }
 
     std::span<const double> sizes_of(const Descent& at) const {
-        return std::span(estimate.part_sizes)
+        return std::span(options.part_sizes)
             .subspan(static_cast<std::size_t>(at.first), static_cast<std::size_t>(at.num_parts));
     }
 };
@@ -75,7 +68,7 @@ CutTarget target_of(const Node& node, const Context& context) {
         target.slack = context.points.weights.empty() ? 0.5 : 0;
         return target;
     }
-    const auto& all = context.estimate.part_sizes;
+    const auto& all = context.options.part_sizes;
     const double ideal =
         context.estimate.total_weight * (std::accumulate(sizes.begin(), sizes.end(), 0.0) /
                                          std::accumulate(all.begin(), all.end(), 0.0));
@@ -86,95 +79,121 @@ CutTarget target_of(const Node& node, const Context& context) {
     return target;
 }
 
-/// The searches of one level, in step on all ranks.
-struct Level {
-    std::vector<CutSearch> searches;
-    std::vector<CutTarget> targets;
-    std::vector<LocalSearch> local;
-    HistogramLayout layout;
-};
-
 bool is_counting(const CutSearch& search) {
     return search.stage == CutSearch::over_fragments || search.stage == CutSearch::over_candidates;
 }
 
-std::size_t count_in(const Level& level, CutSearch::Stage stage) {
-    return static_cast<std::size_t>(
-        std::count_if(level.searches.begin(), level.searches.end(),
-                      [&](const CutSearch& search) { return search.stage == stage; }));
+bool is_gathering(const CutSearch& search) {
+    return search.stage == CutSearch::gathering;
 }
 
-void count_and_decide(Level& level, const std::vector<CutSearch>& before, Context& context) {
-    const std::size_t length = level.layout.length();
-    std::vector<double> mine;
-    for (std::size_t k = 0; k < before.size(); ++k) {
-        if (!is_counting(before[k])) continue;
-        mine.resize(mine.size() + length);
-        const std::span<double> histogram = std::span(mine).last(length);
-        std::fill_n(histogram.begin(), HistogramLayout::num_extents, -infinity);
-        context.locally([&] { level.local[k].count(before[k], level.layout, histogram); });
-    }
-    if (mine.empty()) return;
-    const std::vector<double> joined = join_histograms(mine, level.layout, root, context.comm);
-    std::span<const double> left(joined);
-    for (std::size_t k = 0; k < before.size() && context.is_root; ++k) {
-        if (!is_counting(before[k])) continue;
-        decide(level.searches[k], level.targets[k], level.layout, left.first(length));
-        left = left.subspan(length);
-    }
+bool is_over(const CutSearch& search) {
+    return search.stage == CutSearch::done || search.stage == CutSearch::abandoned;
 }
 
-void gather_and_decide(Level& level, const std::vector<CutSearch>& before, Context& context) {
-    std::vector<std::vector<double>> mine;
-    for (std::size_t k = 0; k < before.size(); ++k) {
-        if (before[k].stage != CutSearch::gathering) continue;
-        std::vector<double>& records = mine.emplace_back();
-        context.locally([&] { level.local[k].append_candidates(records); });
+void count_and_decide(Context& context) {
+    RefinementRoom& room = context.room;
+    Histograms& histograms = room.histograms;
+    histograms.clear();
+    for (std::size_t k = 0; k < room.searches.size(); ++k) {
+        if (!is_counting(room.searches[k])) continue;
+        const std::span<double> histogram = histograms.add();
+        context.locally(
+            [&] { room.local[k].count(room.searches[k], histograms.layout(), histogram); });
+        histogram[HistogramLayout::failed] = context.failure.failed ? 1 : 0;
     }
-    if (mine.empty()) return;
-    const auto lists = gather_candidates(mine, root, context.comm);
-    auto list = lists.begin();
-    for (std::size_t k = 0; k < before.size() && context.is_root; ++k)
-        if (before[k].stage == CutSearch::gathering)
-            decide_among(level.searches[k], level.targets[k], *list++, context.points.dimension());
+    if (histograms.size() == 0) return;
+    histograms.join(root, context.comm);
+    if (!context.is_root) return;
+    context.told_of_failure |= histograms.any_failed();
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < room.searches.size(); ++k)
+        if (is_counting(room.before[k]))
+            decide(room.searches[k], room.targets[k], histograms.layout(),
+                   histograms.joined(next++));
+}
+
+void gather_and_decide(Context& context) {
+    RefinementRoom& room = context.room;
+    Candidates& candidates = room.candidates;
+    const auto num_lists = std::ranges::count_if(room.before, is_gathering);
+    if (num_lists == 0) return;
+    candidates.clear();
+    context.locally([&] {
+        for (std::size_t k = 0; k < room.before.size(); ++k)
+            if (is_gathering(room.before[k])) candidates.add(room.local[k]);
+    });
+    if (context.failure.failed) candidates.lose(static_cast<std::size_t>(num_lists));
+    candidates.gather(root, context.comm);
+    if (!context.is_root) return;
+    context.told_of_failure |= candidates.any_failed();
+    if (context.told_of_failure) return;
+    context.locally([&] {
+        const auto lists = candidates.lists();
+        auto list = lists.begin();
+        for (std::size_t k = 0; k < room.before.size(); ++k)
+            if (is_gathering(room.before[k]))
+                decide_among(room.searches[k], room.targets[k], *list++,
+                             context.points.dimension());
+    });
+}
+
+/// The last word of the root in a round: it ends all searches where a rank can't go on, and before
+/// others send their candidates it makes sure that there is room for them.
+void conclude(Context& context) {
+    RefinementRoom& room = context.room;
+    std::size_t num_lists = 0;
+    GlobalCount num_points = 0;
+    for (std::size_t k = 0; k < room.searches.size(); ++k) {
+        if (!is_gathering(room.searches[k])) continue;
+        ++num_lists;
+        num_points += room.targets[k].num_candidates;
+    }
+    context.locally(
+        [&] { room.candidates.expect(num_lists, num_points, mpi::size_of(context.comm)); });
+    if (!context.failure.failed && !context.told_of_failure) return;
+    for (CutSearch& search : room.searches) search.stage = CutSearch::abandoned;
 }
 
 /// Searches all cuts of a level at once.
-void run(Level& level, Context& context) {
-    while (count_in(level, CutSearch::done) < level.searches.size()) {
-        const std::vector<CutSearch> before = level.searches;
-        count_and_decide(level, before, context);
-        gather_and_decide(level, before, context);
-        mpi::check(
-            MPI_Bcast(level.searches.data(),
-                      mpi::to_int(static_cast<std::int64_t>(before.size() * sizeof(CutSearch))),
-                      MPI_BYTE, root, context.comm),
-            "MPI_Bcast");
-        for (std::size_t k = 0; k < before.size(); ++k) {
-            context.locally([&] {
-                level.local[k].keep_chosen(before[k], level.searches[k], level.layout.num_bins);
-            });
-        }
+void search_level(Context& context) {
+    RefinementRoom& room = context.room;
+    while (!std::ranges::all_of(room.searches, is_over)) {
+        room.before = room.searches;
+        count_and_decide(context);
+        gather_and_decide(context);
+        if (context.is_root) conclude(context);
+        mpi::broadcast(std::as_writable_bytes(std::span(room.searches)), root, context.comm);
+        context.abandoned = room.searches[0].stage == CutSearch::abandoned;
+        if (context.abandoned) return;
+        context.locally([&] {
+            for (std::size_t k = 0; k < room.local.size(); ++k)
+                room.local[k].keep_chosen(room.before[k], room.searches[k],
+                                          room.histograms.layout().num_bins);
+        });
         ++context.measured.rounds;
     }
 }
 
-Level start_level(const std::vector<Node>& nodes, const Context& context) {
-    Level level;
-    for (const Node& node : nodes) {
+void start_level(Context& context) {
+    RefinementRoom& room = context.room;
+    room.searches.clear();
+    room.targets.clear();
+    room.local.clear();
+    for (const Node& node : room.nodes) {
         if (!needs_search(node, context)) continue;
-        level.searches.push_back(start_search(node, context));
-        level.targets.push_back(target_of(node, context));
-        level.local.emplace_back(node.fragments, context.points);
+        room.searches.push_back(start_search(node, context));
+        room.targets.push_back(target_of(node, context));
+        room.local.emplace_back(node.fragments, context.points);
     }
-    return level;
 }
 
-/// The nodes below, with the cuts that the level found.
-std::vector<Node> descend(std::vector<Node> nodes, const Level& level, Context& context) {
-    std::vector<Node> children;
-    auto search = level.searches.begin();
-    for (Node& node : nodes) {
+/// Goes on with the nodes below, by the cuts that the level found.
+void descend(Context& context) {
+    RefinementRoom& room = context.room;
+    room.children.clear();
+    auto search = room.searches.begin();
+    for (Node& node : room.nodes) {
         Cut& cut = context.estimate.cuts.tree[node.at.node];
         double below = 0;
         if (needs_search(node, context)) {
@@ -188,21 +207,26 @@ std::vector<Node> descend(std::vector<Node> nodes, const Level& level, Context& 
         }
         std::pair<std::vector<Fragment>, std::vector<Fragment>> halves;
         context.locally([&] { halves = split(node.fragments, cut, context.points); });
-        children.push_back({node.at.lower(), std::move(halves.first), below});
-        children.push_back({node.at.upper(), std::move(halves.second), node.weight - below});
+        room.children.push_back({node.at.lower(), std::move(halves.first), below});
+        room.children.push_back({node.at.upper(), std::move(halves.second), node.weight - below});
     }
-    return children;
+    std::swap(room.nodes, room.children);
 }
 
 /// True when the estimated cuts are good enough as they are; then `parts` is complete.
 bool accept_estimate(Context& context, std::span<Part> parts) {
-    std::vector<double> weights(context.estimate.part_sizes.size());
-    context.locally([&] { weights = assign(context.estimate.cuts, context.points, parts); });
-    std::vector<double> sums(context.is_root ? weights.size() : 0);
-    mpi::check(MPI_Reduce(weights.data(), sums.data(), static_cast<int>(weights.size()), MPI_DOUBLE,
+    RefinementRoom& room = context.room;
+    const auto num_parts = static_cast<int>(room.part_weights.size());
+    context.locally([&] {
+        std::ranges::copy(assign(context.estimate.cuts, context.points, parts),
+                          room.part_weights.begin());
+    });
+    mpi::check(MPI_Reduce(room.part_weights.data(), room.sums.data(), num_parts, MPI_DOUBLE,
                           MPI_SUM, root, context.comm),
                "MPI_Reduce");
-    double measured = context.is_root ? imbalance(sums, context.estimate.part_sizes) : 0;
+    double measured = infinity;
+    if (context.is_root)
+        context.locally([&] { measured = imbalance(room.sums, context.options.part_sizes); });
     mpi::check(MPI_Bcast(&measured, 1, MPI_DOUBLE, root, context.comm), "MPI_Bcast");
     ++context.measured.rounds;
     context.measured.imbalance = measured;
@@ -211,28 +235,32 @@ bool accept_estimate(Context& context, std::span<Part> parts) {
 
 /// Finds the cuts of one level after the other, and the parts at the end.
 void search_all_levels(Context& context, std::span<Part> parts) {
-    std::vector<double> part_weights(context.estimate.part_sizes.size());
-    std::vector<Node> nodes{{root_of(context.estimate.cuts), {}, context.estimate.total_weight}};
+    RefinementRoom& room = context.room;
+    std::vector<Node>& nodes = room.nodes;
+    nodes.push_back({root_of(context.estimate.cuts), {}, context.estimate.total_weight});
     context.locally([&] { nodes[0].fragments = cell_fragments(context.points); });
     while (!nodes.empty()) {
         std::erase_if(nodes, [&](const Node& node) {
             if (!node.at.is_part()) return false;
             write_part(node.fragments, node.at.first, context.points, parts);
-            part_weights[static_cast<std::size_t>(node.at.first)] = node.weight;
+            room.part_weights[static_cast<std::size_t>(node.at.first)] = node.weight;
             return true;
         });
-        Level level = start_level(nodes, context);
-        run(level, context);
-        nodes = descend(std::move(nodes), level, context);
+        start_level(context);
+        search_level(context);
+        if (context.abandoned) return;
+        descend(context);
     }
-    context.measured.imbalance = imbalance(part_weights, context.estimate.part_sizes);
+    context.locally([&] {
+        context.measured.imbalance = imbalance(room.part_weights, context.options.part_sizes);
+    });
 }
 
 }  // namespace
 
-Measured refine(Estimate& estimate, const Options& options, SortedPoints& points, MPI_Comm comm,
-                std::span<Part> parts) {
-    Context context{estimate, options, points, comm, mpi::rank_of(comm) == root};
+Measured refine(Estimate& estimate, const Options& options, SortedPoints& points,
+                RefinementRoom& room, MPI_Comm comm, std::span<Part> parts) {
+    Context context{estimate, options, points, room, comm, mpi::rank_of(comm) == root};
     const bool accepted = options.refine == Refine::tolerance && accept_estimate(context, parts);
     if (!accepted) search_all_levels(context, parts);
     agree(context.failure, comm);

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "refinement_room.hpp"
+
 #include <rrcb/bisection.hpp>
-#include <rrcb/options.hpp>
-#include <rrcb/sorted_points.hpp>
 
 #include <mpi.h>
 
@@ -13,9 +13,8 @@ namespace rrcb {
 /// What the refinement starts from; the same on every rank.
 struct Estimate {
     Cuts cuts;
-    std::vector<Bracket> brackets;   ///< one per cut
-    std::vector<double> part_sizes;  ///< one per part
-    double total_weight = 0;         ///< over all ranks
+    std::vector<Bracket> brackets;  ///< one per cut
+    double total_weight = 0;        ///< over all ranks
 };
 
 /// How good the parts really are, and what it took to know; the same on every rank.
@@ -27,10 +26,12 @@ struct Measured {
 
 /// Moves the cuts of `estimate` until the parts of the real points are as even as asked.
 ///
-/// Collective over `comm`. Writes the part of each point, by its original index, into `parts`;
-/// entries of `points` change places within their cells. Without weight anywhere the cuts stay.
-/// A rank that fails on its own goes on with what it has; at the end all throw its error.
-Measured refine(Estimate& estimate, const Options& options, SortedPoints& points, MPI_Comm comm,
-                std::span<Part> parts);
+/// Collective over `comm`. `options` are complete, `room` is made by them. Writes the part of each
+/// point, by its original index, into `parts`; entries of `points` change places within their
+/// cells. Without weight anywhere the cuts stay. A rank that fails on its own takes part with
+/// nothing until the root, told of it by the next histograms or candidates, ends all searches; then
+/// all throw its error.
+Measured refine(Estimate& estimate, const Options& options, SortedPoints& points,
+                RefinementRoom& room, MPI_Comm comm, std::span<Part> parts);
 
 }  // namespace rrcb

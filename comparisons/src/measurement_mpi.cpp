@@ -52,8 +52,10 @@ double timed_call(Candidate& candidate, MPI_Comm comm) {
 
 Traffic over_all_ranks(Traffic traffic, MPI_Comm comm) {
     std::int64_t sums[] = {traffic.messages, traffic.bytes, traffic.root_bytes_in};
+    std::int64_t most[] = {traffic.collectives, traffic.communicators};
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_INT64_T, MPI_SUM, comm);
-    return {sums[0], sums[1], sums[2]};
+    MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_INT64_T, MPI_MAX, comm);
+    return {sums[0], sums[1], sums[2], most[0], most[1]};
 }
 
 void count_and_judge(Candidate& candidate, const Workload& workload, MPI_Comm comm) {

@@ -21,7 +21,8 @@ struct Measurement {
     double imbalance = 0;
     double worst_unbalance_percent = 0;
     double moved_fraction = 0;
-    Traffic traffic;                ///< of one call, over all ranks
+    Traffic traffic;                ///< of one call: messages and bytes of all ranks, the most
+                                    ///< collectives and communicators of any rank
     std::vector<rrcb::Part> parts;  ///< of this rank's points
 };
 

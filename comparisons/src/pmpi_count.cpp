@@ -2,6 +2,8 @@
 
 #include "traffic.hpp"
 
+#include <ctime>
+
 namespace comparisons {
 
 namespace {
@@ -37,6 +39,12 @@ Traffic stop_counting_traffic() {
     return traffic;
 }
 
+double processor_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 std::int64_t bytes_of(std::int64_t count, MPI_Datatype type) {
     int size = 0;
     PMPI_Type_size(type, &size);
@@ -51,10 +59,23 @@ void count_message(int count, MPI_Datatype type, int destination, MPI_Comm comm)
     if (world_rank(destination, comm) == 0) traffic.root_bytes_in += bytes;
 }
 
+InMpi::InMpi() {
+    if (counting) start_ = processor_seconds();
+}
+
+InMpi::~InMpi() {
+    if (counting) traffic.seconds_in_mpi += processor_seconds() - start_;
+}
+
+void count_communicator() {
+    if (counting) ++traffic.communicators;
+}
+
 void count_collective(std::int64_t bytes_in, std::int64_t bytes_out) {
     int rank = 0;
     PMPI_Comm_rank(MPI_COMM_WORLD, &rank);
     ++traffic.messages;
+    ++traffic.collectives;
     traffic.bytes += bytes_in + bytes_out;
     if (rank == 0) traffic.root_bytes_in += bytes_out;
 }
@@ -62,35 +83,41 @@ void count_collective(std::int64_t bytes_in, std::int64_t bytes_out) {
 }  // namespace comparisons
 
 using comparisons::count_message;
+using comparisons::InMpi;
 
 extern "C" {
 
 int MPI_Send(const void* data, int count, MPI_Datatype type, int destination, int tag,
              MPI_Comm comm) {
+    const InMpi in_mpi;
     count_message(count, type, destination, comm);
     return PMPI_Send(data, count, type, destination, tag, comm);
 }
 
 int MPI_Ssend(const void* data, int count, MPI_Datatype type, int destination, int tag,
               MPI_Comm comm) {
+    const InMpi in_mpi;
     count_message(count, type, destination, comm);
     return PMPI_Ssend(data, count, type, destination, tag, comm);
 }
 
 int MPI_Rsend(const void* data, int count, MPI_Datatype type, int destination, int tag,
               MPI_Comm comm) {
+    const InMpi in_mpi;
     count_message(count, type, destination, comm);
     return PMPI_Rsend(data, count, type, destination, tag, comm);
 }
 
 int MPI_Isend(const void* data, int count, MPI_Datatype type, int destination, int tag,
               MPI_Comm comm, MPI_Request* request) {
+    const InMpi in_mpi;
     count_message(count, type, destination, comm);
     return PMPI_Isend(data, count, type, destination, tag, comm, request);
 }
 
 int MPI_Irsend(const void* data, int count, MPI_Datatype type, int destination, int tag,
                MPI_Comm comm, MPI_Request* request) {
+    const InMpi in_mpi;
     count_message(count, type, destination, comm);
     return PMPI_Irsend(data, count, type, destination, tag, comm, request);
 }
@@ -98,6 +125,7 @@ int MPI_Irsend(const void* data, int count, MPI_Datatype type, int destination, 
 int MPI_Sendrecv(const void* data, int count, MPI_Datatype type, int destination, int tag,
                  void* received, int max_received, MPI_Datatype received_type, int source,
                  int received_tag, MPI_Comm comm, MPI_Status* status) {
+    const InMpi in_mpi;
     count_message(count, type, destination, comm);
     return PMPI_Sendrecv(data, count, type, destination, tag, received, max_received, received_type,
                          source, received_tag, comm, status);

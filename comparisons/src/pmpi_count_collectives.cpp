@@ -6,7 +6,9 @@ namespace {
 
 using comparisons::bytes_of;
 using comparisons::count_collective;
+using comparisons::count_communicator;
 using comparisons::counting_traffic;
+using comparisons::InMpi;
 
 int rank_in(MPI_Comm comm) {
     int rank = 0;
@@ -29,11 +31,13 @@ std::int64_t sum(const int counts[], MPI_Comm comm) {
 extern "C" {
 
 int MPI_Barrier(MPI_Comm comm) {
+    const InMpi in_mpi;
     if (counting_traffic()) count_collective(0, 0);
     return PMPI_Barrier(comm);
 }
 
 int MPI_Bcast(void* data, int count, MPI_Datatype type, int root, MPI_Comm comm) {
+    const InMpi in_mpi;
     if (counting_traffic()) {
         const std::int64_t bytes = bytes_of(count, type);
         const bool is_root = rank_in(comm) == root;
@@ -44,6 +48,7 @@ int MPI_Bcast(void* data, int count, MPI_Datatype type, int root, MPI_Comm comm)
 
 int MPI_Reduce(const void* data, void* result, int count, MPI_Datatype type, MPI_Op op, int root,
                MPI_Comm comm) {
+    const InMpi in_mpi;
     if (counting_traffic()) {
         const std::int64_t bytes = bytes_of(count, type);
         count_collective(bytes, rank_in(comm) == root ? bytes : 0);
@@ -53,26 +58,40 @@ int MPI_Reduce(const void* data, void* result, int count, MPI_Datatype type, MPI
 
 int MPI_Allreduce(const void* data, void* result, int count, MPI_Datatype type, MPI_Op op,
                   MPI_Comm comm) {
+    const InMpi in_mpi;
     if (counting_traffic()) count_collective(bytes_of(count, type), bytes_of(count, type));
     return PMPI_Allreduce(data, result, count, type, op, comm);
 }
 
 int MPI_Reduce_scatter(const void* data, void* result, const int counts[], MPI_Datatype type,
                        MPI_Op op, MPI_Comm comm) {
+    const InMpi in_mpi;
     if (counting_traffic()) {
         count_collective(bytes_of(sum(counts, comm), type), bytes_of(counts[rank_in(comm)], type));
     }
     return PMPI_Reduce_scatter(data, result, counts, type, op, comm);
 }
 
+int MPI_Reduce_scatter_block(const void* data, void* result, int count, MPI_Datatype type,
+                             MPI_Op op, MPI_Comm comm) {
+    const InMpi in_mpi;
+    if (counting_traffic()) {
+        const std::int64_t out = bytes_of(count, type);
+        count_collective(out * size_of(comm), out);
+    }
+    return PMPI_Reduce_scatter_block(data, result, count, type, op, comm);
+}
+
 int MPI_Scan(const void* data, void* result, int count, MPI_Datatype type, MPI_Op op,
              MPI_Comm comm) {
+    const InMpi in_mpi;
     if (counting_traffic()) count_collective(bytes_of(count, type), bytes_of(count, type));
     return PMPI_Scan(data, result, count, type, op, comm);
 }
 
 int MPI_Exscan(const void* data, void* result, int count, MPI_Datatype type, MPI_Op op,
                MPI_Comm comm) {
+    const InMpi in_mpi;
     if (counting_traffic()) {
         const std::int64_t bytes = bytes_of(count, type);
         count_collective(bytes, rank_in(comm) == 0 ? 0 : bytes);
@@ -82,6 +101,7 @@ int MPI_Exscan(const void* data, void* result, int count, MPI_Datatype type, MPI
 
 int MPI_Gather(const void* data, int count, MPI_Datatype type, void* gathered, int gathered_count,
                MPI_Datatype gathered_type, int root, MPI_Comm comm) {
+    const InMpi in_mpi;
     if (counting_traffic()) {
         const bool is_root = rank_in(comm) == root;
         const std::int64_t out = is_root ? bytes_of(gathered_count, gathered_type) : 0;
@@ -92,6 +112,7 @@ int MPI_Gather(const void* data, int count, MPI_Datatype type, void* gathered, i
 
 int MPI_Gatherv(const void* data, int count, MPI_Datatype type, void* gathered, const int counts[],
                 const int starts[], MPI_Datatype gathered_type, int root, MPI_Comm comm) {
+    const InMpi in_mpi;
     if (counting_traffic()) {
         const bool is_root = rank_in(comm) == root;
         const std::int64_t in =
@@ -103,6 +124,7 @@ int MPI_Gatherv(const void* data, int count, MPI_Datatype type, void* gathered, 
 
 int MPI_Allgather(const void* data, int count, MPI_Datatype type, void* gathered,
                   int gathered_count, MPI_Datatype gathered_type, MPI_Comm comm) {
+    const InMpi in_mpi;
     if (counting_traffic()) {
         const std::int64_t out = bytes_of(gathered_count, gathered_type);
         count_collective(data == MPI_IN_PLACE ? out : bytes_of(count, type), out * size_of(comm));
@@ -113,6 +135,7 @@ int MPI_Allgather(const void* data, int count, MPI_Datatype type, void* gathered
 int MPI_Allgatherv(const void* data, int count, MPI_Datatype type, void* gathered,
                    const int counts[], const int starts[], MPI_Datatype gathered_type,
                    MPI_Comm comm) {
+    const InMpi in_mpi;
     if (counting_traffic()) {
         const std::int64_t in = data == MPI_IN_PLACE
                                     ? bytes_of(counts[rank_in(comm)], gathered_type)
@@ -124,6 +147,7 @@ int MPI_Allgatherv(const void* data, int count, MPI_Datatype type, void* gathere
 
 int MPI_Scatter(const void* data, int count, MPI_Datatype type, void* received, int received_count,
                 MPI_Datatype received_type, int root, MPI_Comm comm) {
+    const InMpi in_mpi;
     if (counting_traffic()) {
         const std::int64_t in = rank_in(comm) == root ? bytes_of(count, type) : 0;
         count_collective(in * size_of(comm),
@@ -135,6 +159,7 @@ int MPI_Scatter(const void* data, int count, MPI_Datatype type, void* received, 
 int MPI_Scatterv(const void* data, const int counts[], const int starts[], MPI_Datatype type,
                  void* received, int received_count, MPI_Datatype received_type, int root,
                  MPI_Comm comm) {
+    const InMpi in_mpi;
     if (counting_traffic()) {
         const std::int64_t in = rank_in(comm) == root ? bytes_of(sum(counts, comm), type) : 0;
         count_collective(in, received == MPI_IN_PLACE ? bytes_of(counts[root], type)
@@ -146,6 +171,7 @@ int MPI_Scatterv(const void* data, const int counts[], const int starts[], MPI_D
 
 int MPI_Alltoall(const void* data, int count, MPI_Datatype type, void* received, int received_count,
                  MPI_Datatype received_type, MPI_Comm comm) {
+    const InMpi in_mpi;
     if (counting_traffic()) {
         const std::int64_t out = bytes_of(received_count, received_type) * size_of(comm);
         count_collective(data == MPI_IN_PLACE ? out : bytes_of(count, type) * size_of(comm), out);
@@ -156,12 +182,36 @@ int MPI_Alltoall(const void* data, int count, MPI_Datatype type, void* received,
 int MPI_Alltoallv(const void* data, const int counts[], const int starts[], MPI_Datatype type,
                   void* received, const int received_counts[], const int received_starts[],
                   MPI_Datatype received_type, MPI_Comm comm) {
+    const InMpi in_mpi;
     if (counting_traffic()) {
         const std::int64_t out = bytes_of(sum(received_counts, comm), received_type);
         count_collective(data == MPI_IN_PLACE ? out : bytes_of(sum(counts, comm), type), out);
     }
     return PMPI_Alltoallv(data, counts, starts, type, received, received_counts, received_starts,
                           received_type, comm);
+}
+
+int MPI_Comm_dup(MPI_Comm comm, MPI_Comm* made) {
+    const InMpi in_mpi;
+    count_communicator();
+    return PMPI_Comm_dup(comm, made);
+}
+
+int MPI_Comm_split(MPI_Comm comm, int colour, int key, MPI_Comm* made) {
+    const InMpi in_mpi;
+    count_communicator();
+    return PMPI_Comm_split(comm, colour, key, made);
+}
+
+int MPI_Comm_create(MPI_Comm comm, MPI_Group group, MPI_Comm* made) {
+    const InMpi in_mpi;
+    count_communicator();
+    return PMPI_Comm_create(comm, group, made);
+}
+
+int MPI_Comm_free(MPI_Comm* comm) {
+    const InMpi in_mpi;
+    return PMPI_Comm_free(comm);
 }
 
 }  // extern "C"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace comparisons {
 
@@ -11,10 +12,10 @@ namespace {
 
 /// Seconds `action` takes on this rank, all ranks starting together.
 template <typename Action>
-double timed(Action&& action, MPI_Comm comm) {
+double timed(Action&& action, PhaseLog& log, MPI_Comm comm) {
     MPI_Barrier(comm);
     const double start = MPI_Wtime();
-    action();
+    log.record(action);
     return MPI_Wtime() - start;
 }
 
@@ -89,13 +90,21 @@ void TimedSimulation::advance(int num_steps) {
 
 void TimedSimulation::advance_one() {
     if (balancer_ && steps_done_ % plan_.every == 0) {
-        run_.balance_s += timed([&] { simulation_->rebalance(*balancer_); }, comm_);
+        run_.balance_s += timed([&] { simulation_->rebalance(*balancer_); }, balances_, comm_);
     }
     if (steps_done_ % plan_.record_every == 0) {
         run_.history.push_back(record_load(*simulation_, comm_));
     }
-    run_.step_s += timed([&] { simulation_->step(); }, comm_);
+    loads_.push_back(static_cast<double>(simulation_->positions().x.size()));
+    run_.step_s += timed([&] { simulation_->step(); }, steps_, comm_);
     observe_(++steps_done_, *simulation_);
+}
+
+double TimedSimulation::path_points() const {
+    std::vector<double> most = loads_;
+    MPI_Allreduce(MPI_IN_PLACE, most.data(), static_cast<int>(most.size()), MPI_DOUBLE, MPI_MAX,
+                  comm_);
+    return std::accumulate(most.begin(), most.end(), 0.0);
 }
 
 SimulationRun TimedSimulation::result() const {
@@ -103,6 +112,9 @@ SimulationRun TimedSimulation::result() const {
     unless_failed(run, [&] {
         note_state(run, *simulation_, comm_);
         note_imbalance(run);
+        run.path_points = path_points();
+        run.step_cost = steps_.cost(comm_);
+        run.balance_cost = balances_.cost(comm_);
     });
     return run;
 }

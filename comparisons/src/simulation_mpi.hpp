@@ -1,5 +1,6 @@
 #pragma once
 
+#include "phase_log_mpi.hpp"
 #include "progress.hpp"
 
 #include <mpm/simulation.hpp>
@@ -38,8 +39,11 @@ struct SimulationRun {
     double step_s = 0;     ///< steps, slowest rank
     double mean_imbalance = 1;
     double worst_imbalance = 1;
-    double front_m = 0;  ///< largest x of a point that has moved a metre
-    double mass_kg = 0;  ///< per metre of depth, at the end
+    double front_m = 0;      ///< largest x of a point that has moved a metre
+    double mass_kg = 0;      ///< per metre of depth, at the end
+    double path_points = 0;  ///< most points on a rank, summed over the steps
+    PathCost step_cost;
+    PathCost balance_cost;
     std::vector<LoadRecord> history;
 };
 
@@ -64,6 +68,7 @@ class TimedSimulation {
 
   private:
     void advance_one();
+    double path_points() const;
 
     const SimulationPlan& plan_;
     std::optional<mpm::Balancer> balancer_;
@@ -71,6 +76,9 @@ class TimedSimulation {
     MPI_Comm comm_;
     std::unique_ptr<mpm::Simulation> simulation_;
     SimulationRun run_;
+    PhaseLog steps_;
+    PhaseLog balances_;
+    std::vector<double> loads_;  ///< points on this rank in each step
     int steps_done_ = 0;
 };
 

@@ -8,6 +8,14 @@
 
 namespace comparisons {
 
+namespace {
+
+void write_cost(std::ostream& out, const PathCost& cost) {
+    out << ',' << cost.work_s << ',' << cost.path_s << ',' << cost.network_s;
+}
+
+}  // namespace
+
 std::string simulation_key(const SimulationPlan& plan, int num_ranks, std::int64_t num_points,
                            const std::string& method) {
     return csv_field(method) + ',' + std::to_string(num_ranks) + ',' + std::to_string(num_points) +
@@ -16,7 +24,8 @@ std::string simulation_key(const SimulationPlan& plan, int num_ranks, std::int64
 
 std::string simulation_header() {
     return "method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,"
-           "worst_imbalance,front_x_m,mass_kg,error";
+           "worst_imbalance,front_x_m,mass_kg,path_points,step_work_s,step_path_s,step_network_s,"
+           "balance_work_s,balance_path_s,balance_network_s,error";
 }
 
 void write_simulation(std::ostream& out, const SimulationPlan& plan, int num_ranks,
@@ -24,9 +33,13 @@ void write_simulation(std::ostream& out, const SimulationPlan& plan, int num_ran
     out << simulation_key(plan, num_ranks, run.num_points, run.method) << ',';
     if (run.error.empty()) {
         out << run.wall_s << ',' << run.balance_s << ',' << run.step_s << ',' << run.mean_imbalance
-            << ',' << run.worst_imbalance << ',' << run.front_m << ',' << run.mass_kg << ",\n";
+            << ',' << run.worst_imbalance << ',' << run.front_m << ',' << run.mass_kg << ','
+            << write_number(run.path_points);
+        write_cost(out, run.step_cost);
+        write_cost(out, run.balance_cost);
+        out << ",\n";
     } else {
-        out << ",,,,,,," << csv_field(run.error) << '\n';
+        out << std::string(14, ',') << csv_field(run.error) << '\n';
     }
 }
 

@@ -21,6 +21,7 @@ void write_result(std::ostream& out, const Measurement& measurement, double zolt
     out << middle << ',' << min << ',' << max << ',' << measurement.imbalance << ','
         << measurement.worst_unbalance_percent << ',' << measurement.traffic.messages << ','
         << measurement.traffic.bytes << ',' << measurement.traffic.root_bytes_in << ','
+        << measurement.traffic.collectives << ',' << measurement.traffic.communicators << ','
         << measurement.moved_fraction << ',';
     if (zoltan_rcb_ms > 0) out << middle / zoltan_rcb_ms;
     out << ",\n";
@@ -61,8 +62,8 @@ std::string row_key(const Comparison& comparison, const std::string& method) {
 
 std::string table_header() {
     return "method,ranks,parts,points,dim,workload,layout,lists,repeats,time_ms_median,time_ms_min,"
-           "time_ms_max,imbalance,lu_max_percent,messages,bytes,root_bytes_in,moved_fraction,"
-           "time_vs_zoltan_rcb,error";
+           "time_ms_max,imbalance,lu_max_percent,messages,bytes,root_bytes_in,collectives,"
+           "communicators,moved_fraction,time_vs_zoltan_rcb,error";
 }
 
 void write_rows(std::ostream& out, const Comparison& comparison) {
@@ -72,7 +73,7 @@ void write_rows(std::ostream& out, const Comparison& comparison) {
         if (measurement.error.empty()) {
             write_result(out, measurement, zoltan_rcb_ms);
         } else {
-            out << ",,,,,,,,,," << csv_field(measurement.error) << '\n';
+            out << std::string(12, ',') << csv_field(measurement.error) << '\n';
         }
     }
 }

@@ -10,12 +10,20 @@ namespace comparisons {
 /// message on each rank that takes part, with the bytes the rank hands in and the bytes it gets
 /// out. `root_bytes_in` is what rank 0 of MPI_COMM_WORLD receives, counted where it is known:
 /// at the sender, or as what rank 0 gets out of a collective. Summed over the ranks these are the
-/// totals.
+/// totals. `collectives` are those among the messages; `communicators` are the calls that make
+/// one, whose messages and bytes are the MPI library's own affair. `seconds_in_mpi` is the
+/// processor time inside MPI, waiting in a loop included.
 struct Traffic {
     std::int64_t messages = 0;
     std::int64_t bytes = 0;
     std::int64_t root_bytes_in = 0;
+    std::int64_t collectives = 0;
+    std::int64_t communicators = 0;
+    double seconds_in_mpi = 0;
 };
+
+/// Processor time this thread has used, in s; not collective.
+double processor_seconds();
 
 /// Starts counting on this rank, from zero. Not collective.
 ///

@@ -9,7 +9,7 @@ list(POP_FRONT lines header)
 string(
   CONCAT columns "method,ranks,parts,points,dim,workload,layout,lists,repeats,time_ms_median,"
          "time_ms_min,time_ms_max,imbalance,lu_max_percent,messages,bytes,root_bytes_in,"
-         "moved_fraction,time_vs_zoltan_rcb,error")
+         "collectives,communicators,moved_fraction,time_vs_zoltan_rcb,error")
 if(NOT header STREQUAL columns)
   message(FATAL_ERROR "columns of ${TABLE}:\n${header}\ninstead of\n${columns}")
 endif()
@@ -18,7 +18,7 @@ if(NOT rows EQUAL ROWS)
   message(FATAL_ERROR "${rows} rows in ${TABLE} instead of ${ROWS}")
 endif()
 foreach(line IN LISTS lines)
-  # Names without commas, 18 numbers or words, and an empty error.
+  # Names without commas, 20 numbers or words, and an empty error.
   if(NOT line MATCHES "^([^,]+,)+$" OR line MATCHES "nan|inf")
     message(FATAL_ERROR "a row of ${TABLE} lacks a value:\n${line}")
   endif()

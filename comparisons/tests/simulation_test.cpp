@@ -53,6 +53,11 @@ TEST(Simulation, exact_methods_share_the_points_out_to_one_a_level) {
         for (const LoadRecord& record : result.history) {
             for (const double points : record.points) EXPECT_NEAR(points, mean, levels) << name;
         }
+        constexpr double steps = 6;
+        EXPECT_NEAR(result.path_points, steps * mean, steps * levels) << name;
+        EXPECT_GT(result.step_cost.path_s, 0) << name;
+        EXPECT_LE(result.step_cost.path_s, result.step_cost.work_s) << name;
+        EXPECT_GE(result.step_cost.path_s * num_ranks(), result.step_cost.work_s) << name;
     }
 }
 

@@ -14,7 +14,7 @@ Measurement measured(const std::string& method, std::vector<double> times) {
     measurement.imbalance = 1.25;
     measurement.worst_unbalance_percent = 25;
     measurement.moved_fraction = 0.5;
-    measurement.traffic = {3, 400, 50};
+    measurement.traffic = {3, 400, 50, 6, 7};
     return measurement;
 }
 
@@ -37,10 +37,10 @@ TEST(Table, writes_the_columns_of_the_contract) {
     EXPECT_EQ(out.str(),
               "method,ranks,parts,points,dim,workload,layout,lists,repeats,time_ms_median,"
               "time_ms_min,time_ms_max,imbalance,lu_max_percent,messages,bytes,root_bytes_in,"
-              "moved_fraction,time_vs_zoltan_rcb,error\n"
-              "zoltan-rcb,4,4,1000,2,slope,sorted,ALL,3,8,4,9,1.25,25,3,400,50,0.5,1,\n"
-              "rrcb,4,4,1000,2,slope,sorted,ALL,3,2,1,6,1.25,25,3,400,50,0.5,0.25,\n"
-              "\"rrcb-sampled[mesh=4,k=2]\",4,4,1000,2,slope,sorted,ALL,3,,,,,,,,,,,"
+              "collectives,communicators,moved_fraction,time_vs_zoltan_rcb,error\n"
+              "zoltan-rcb,4,4,1000,2,slope,sorted,ALL,3,8,4,9,1.25,25,3,400,50,6,7,0.5,1,\n"
+              "rrcb,4,4,1000,2,slope,sorted,ALL,3,2,1,6,1.25,25,3,400,50,6,7,0.5,0.25,\n"
+              "\"rrcb-sampled[mesh=4,k=2]\",4,4,1000,2,slope,sorted,ALL,3,,,,,,,,,,,,,"
               "\"it said \"\"no\"\"\"\n");
 }
 

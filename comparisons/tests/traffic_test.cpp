@@ -119,6 +119,55 @@ TEST(Traffic, counts_unequal_pieces) {
               (Expected{n, sum + n * sum, sum}));
 }
 
+TEST(Traffic, counts_collectives_and_communicators_apart) {
+    start_counting_traffic();
+    MPI_Barrier(MPI_COMM_WORLD);
+    MPI_Comm halves = MPI_COMM_NULL;
+    MPI_Comm_split(MPI_COMM_WORLD, rrcb::test::rank() % 2, 0, &halves);
+    MPI_Barrier(halves);
+    const int out = rrcb::test::rank();
+    int in = -1;
+    MPI_Sendrecv(&out, 1, MPI_INT, out, 0, &in, 1, MPI_INT, out, 0, MPI_COMM_WORLD,
+                 MPI_STATUS_IGNORE);
+    const Traffic traffic = stop_counting_traffic();
+    MPI_Comm_free(&halves);
+    EXPECT_EQ(traffic.messages, 3);
+    EXPECT_EQ(traffic.collectives, 2);
+    EXPECT_EQ(traffic.communicators, 1);
+}
+
+TEST(Traffic, counts_a_block_scattered_by_a_reduction) {
+    const int n = rrcb::test::num_ranks();
+    // Every rank hands in n times 8 bytes and gets 8 out.
+    const std::vector<double> mine(static_cast<std::size_t>(n));
+    double block = 0;
+    EXPECT_EQ(totals([&] {
+                  MPI_Reduce_scatter_block(mine.data(), &block, 1, MPI_DOUBLE, MPI_SUM,
+                                           MPI_COMM_WORLD);
+              }),
+              (Expected{n, 8 * n * n + 8 * n, 8}));
+}
+
+TEST(Traffic, tells_waiting_from_working) {
+    constexpr double busy_s = 0.05;
+    const auto work = [] {
+        const double end = processor_seconds() + busy_s;
+        while (processor_seconds() < end) {
+        }
+    };
+    start_counting_traffic();
+    const double start = processor_seconds();
+    if (rrcb::test::rank() == 0) work();
+    MPI_Barrier(MPI_COMM_WORLD);
+    const double elapsed = processor_seconds() - start;
+    const double work_s = elapsed - stop_counting_traffic().seconds_in_mpi;
+    if (rrcb::test::rank() == 0) {
+        EXPECT_GE(work_s, busy_s);
+    } else {
+        EXPECT_LT(work_s, busy_s / 2);
+    }
+}
+
 TEST(Traffic, counts_nothing_unless_asked) {
     MPI_Barrier(MPI_COMM_WORLD);
     start_counting_traffic();

@@ -18,6 +18,8 @@ enum class ErrorCode {
 class Error : public std::runtime_error {
   public:
     Error(ErrorCode code, const std::string& what) : std::runtime_error(what), code_(code) {}
+    /// Without a text, where there is no memory for one.
+    explicit Error(ErrorCode code) noexcept : std::runtime_error(""), code_(code) {}
     ErrorCode code() const noexcept { return code_; }
 
   private:

@@ -2,6 +2,7 @@
 
 #include <rrcb/error.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -51,6 +52,14 @@ MPI_Comm duplicate_of(MPI_Comm user) {
     check(MPI_Comm_set_errhandler(duplicate, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
     check(MPI_Comm_set_attr(user, key, new MPI_Comm(duplicate)), "MPI_Comm_set_attr");
     return duplicate;
+}
+
+void broadcast(std::span<std::byte> bytes, int root, MPI_Comm comm) {
+    while (!bytes.empty()) {
+        const std::size_t size = std::min(bytes.size(), longest_message);
+        check(MPI_Bcast(bytes.data(), static_cast<int>(size), MPI_BYTE, root, comm), "MPI_Bcast");
+        bytes = bytes.subspan(size);
+    }
 }
 
 int rank_of(MPI_Comm comm) {

@@ -2,7 +2,9 @@
 
 #include <mpi.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -14,11 +16,17 @@ void check(int code, const char* call);
 /// Narrows a count to MPI's int; throws Error when it does not fit.
 int to_int(std::int64_t count);
 
+/// Bytes in one message at most; tests lower it.
+inline std::size_t longest_message = std::numeric_limits<int>::max();
+
 /// The library's own duplicate of the caller's communicator; errors on it return.
 ///
 /// Collective when called for the first time with `user`: the duplicate is kept as an attribute
 /// of it and freed with it.
 MPI_Comm duplicate_of(MPI_Comm user);
+
+/// MPI_Bcast of any number of bytes. Collective over `comm`; as many on each rank.
+void broadcast(std::span<std::byte> bytes, int root, MPI_Comm comm);
 
 int rank_of(MPI_Comm comm);
 int size_of(MPI_Comm comm);

@@ -1,0 +1,56 @@
+#include "phase_log_mpi.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+namespace comparisons {
+
+namespace {
+
+/// Sum over the phases of the largest value on any rank.
+double sum_of_largest(std::vector<double> values, MPI_Comm comm) {
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX,
+                  comm);
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+}  // namespace
+
+double network_seconds(const Traffic& traffic, int num_ranks, const Network& network) {
+    const int rounds = std::bit_width(static_cast<unsigned>(num_ranks - 1));
+    const auto to_one = static_cast<double>(traffic.messages - traffic.collectives);
+    const auto among_all = static_cast<double>(traffic.collectives + traffic.communicators);
+    const double latencies = to_one + among_all * rounds;
+    return latencies * network.latency_s +
+           static_cast<double>(traffic.bytes) / network.bytes_per_second;
+}
+
+PhaseLog::Recording::Recording(PhaseLog& log) : log_(log) {
+    start_counting_traffic();
+    start_ = processor_seconds();
+}
+
+PhaseLog::Recording::~Recording() {
+    const double elapsed = processor_seconds() - start_;
+    const Traffic traffic = stop_counting_traffic();
+    log_.work_s_.push_back(std::max(0.0, elapsed - traffic.seconds_in_mpi));
+    log_.traffic_.push_back(traffic);
+}
+
+PathCost PhaseLog::cost(MPI_Comm comm) const {
+    int num_ranks = 1;
+    MPI_Comm_size(comm, &num_ranks);
+    std::vector<double> network_s;
+    for (const Traffic& traffic : traffic_) {
+        network_s.push_back(network_seconds(traffic, num_ranks, Network{}));
+    }
+    PathCost cost;
+    cost.work_s = std::accumulate(work_s_.begin(), work_s_.end(), 0.0);
+    MPI_Allreduce(MPI_IN_PLACE, &cost.work_s, 1, MPI_DOUBLE, MPI_SUM, comm);
+    cost.path_s = sum_of_largest(work_s_, comm);
+    cost.network_s = sum_of_largest(std::move(network_s), comm);
+    return cost;
+}
+
+}  // namespace comparisons

@@ -1,0 +1,20 @@
+#include "refinement_room.hpp"
+
+namespace rrcb {
+
+RefinementRoom::RefinementRoom(const Options& options, int dimension, bool is_root)
+    : part_weights(options.part_sizes.size()),
+      sums(is_root ? options.part_sizes.size() : 0),
+      histograms(HistogramLayout{}, options.part_sizes.size() / 2, is_root),
+      candidates(dimension, options.part_sizes.size() / 2) {
+    const std::size_t num_parts = options.part_sizes.size();
+    nodes.reserve(num_parts);
+    children.reserve(num_parts);
+    // A node that is searched has two parts or more.
+    searches.reserve(num_parts / 2);
+    before.reserve(num_parts / 2);
+    targets.reserve(num_parts / 2);
+    local.reserve(num_parts / 2);
+}
+
+}  // namespace rrcb

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "candidates_mpi.hpp"
+#include "descent.hpp"
+#include "histogram_mpi.hpp"
+
+#include <rrcb/options.hpp>
+
+#include <vector>
+
+namespace rrcb {
+
+/// A node of the current level: what of it lies here, and what it weighs over all ranks.
+struct Node {
+    Descent at;
+    std::vector<Fragment> fragments;
+    double weight = 0;
+};
+
+/// What the messages of a refinement need, and what tells their lengths. Made before the first of
+/// them: a rank that runs out of memory later can still take part until all have been told.
+struct RefinementRoom {
+    /// By complete options. Not collective. Throws Error or std::bad_alloc.
+    RefinementRoom(const Options& options, int dimension, bool is_root);
+
+    std::vector<double> part_weights;  ///< one per part
+    std::vector<double> sums;          ///< of all ranks, at the root
+    std::vector<Node> nodes;           ///< of the current level; capacity for any
+    std::vector<Node> children;        ///< of the next one
+
+    // The searches of the current level, in step on all ranks; capacity for any.
+    std::vector<CutSearch> searches;
+    std::vector<CutSearch> before;  ///< the searches before the root decided
+    std::vector<CutTarget> targets;
+    std::vector<LocalSearch> local;
+
+    Histograms histograms;
+    Candidates candidates;
+};
+
+}  // namespace rrcb

@@ -1,0 +1,60 @@
+#include "memory_layer.hpp"
+
+#include <cstdlib>
+#include <new>
+
+namespace memory_layer {
+
+namespace {
+
+long failing_allocation = 0;
+Shortage failing = Shortage::once;
+long num_counted = 0;
+bool is_counting = true;
+long num_live = 0;
+
+}  // namespace
+
+bool next_fails() {
+    if (!is_counting) return false;
+    ++num_counted;
+    if (failing_allocation == 0) return false;
+    return num_counted == failing_allocation ||
+           (failing == Shortage::lasting && num_counted > failing_allocation);
+}
+
+void fail_allocation(long number, Shortage shortage) {
+    failing_allocation = number;
+    failing = shortage;
+    num_counted = 0;
+}
+
+void count_allocations(bool counting) {
+    is_counting = counting;
+}
+
+long counted_allocations() {
+    return num_counted;
+}
+
+long live_blocks() {
+    return num_live;
+}
+
+}  // namespace memory_layer
+
+void* operator new(std::size_t size) {
+    void* block = memory_layer::next_fails() ? nullptr : std::malloc(size == 0 ? 1 : size);
+    if (block == nullptr) throw std::bad_alloc();
+    ++memory_layer::num_live;
+    return block;
+}
+
+void operator delete(void* block) noexcept {
+    if (block != nullptr) --memory_layer::num_live;
+    std::free(block);
+}
+
+void operator delete(void* block, std::size_t) noexcept {
+    operator delete(block);
+}

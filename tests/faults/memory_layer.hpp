@@ -1,0 +1,24 @@
+#pragma once
+
+/// The program's allocations, of which chosen ones fail; linked in tests only.
+namespace memory_layer {
+
+enum class Shortage {
+    once,    ///< the one allocation fails
+    lasting  ///< and all after it
+};
+
+/// Makes the `number`-th allocation from now on, counted from 1, fail on this rank; 0 fails none.
+/// Counted are those by operator new, and by Zoltan's allocator from the plug-in.
+void fail_allocation(long number, Shortage shortage = Shortage::once);
+
+/// Counts and fails nothing while `counting` is false.
+void count_allocations(bool counting);
+
+/// How many allocations were counted since fail_allocation.
+long counted_allocations();
+
+/// How many blocks of operator new are in use.
+long live_blocks();
+
+}  // namespace memory_layer

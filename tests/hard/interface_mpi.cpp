@@ -1,0 +1,105 @@
+#include "interface_mpi.hpp"
+
+#include "../support/ranks.hpp"
+#include "checks_mpi.hpp"
+#include "methods.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/plan.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rrcb::hard_test {
+
+namespace {
+
+using test::num_ranks;
+using test::rank;
+
+Options options_of(const Method& method, int num_parts) {
+    Options options;
+    options.num_parts = num_parts;
+    options.domain = method.domain;
+    options.refine = method.refine;
+    options.imbalance_tolerance = asked_tolerance;
+    return options;
+}
+
+void expect_look_ups_agree(const Points& points, const Balance& result) {
+    for (LocalIndex i = 0; i < points.count; ++i) {
+        const Vector x = points.position(i);
+        ASSERT_EQ(part_of(result.cuts, x), result.parts[i]);
+        const std::vector<Part> touched = parts_touching(result.cuts, {x, x});
+        ASSERT_EQ(touched, std::vector<Part>{result.parts[i]});
+    }
+}
+
+void expect_lists_conserve_points(const Balance& result) {
+    const Plan lists = plan(result.parts, result.cuts.num_parts, MPI_COMM_WORLD);
+    std::vector<std::uint64_t> leaving;
+    std::vector<std::uint64_t> arriving;
+    for (std::size_t k = 0; k < lists.export_indices.size(); ++k)
+        leaving.push_back(
+            journey(lists.export_indices[k], rank(), lists.export_ranks[k], lists.export_parts[k]));
+    for (std::size_t k = 0; k < lists.import_indices.size(); ++k)
+        arriving.push_back(
+            journey(lists.import_indices[k], lists.import_ranks[k], rank(), lists.import_parts[k]));
+    expect_same_in_all(leaving, arriving);
+    const auto stays = [&](Part part) {
+        return ranks_of_part(part, result.cuts.num_parts, num_ranks()).first == rank();
+    };
+    EXPECT_EQ(lists.export_indices.size() +
+                  static_cast<std::size_t>(std::ranges::count_if(result.parts, stays)),
+              result.parts.size());
+}
+
+/// Once every point is where its part is, the cuts stand and nothing moves again.
+void expect_nothing_moves_again(const Cloud& cloud, std::span<const Part> all, const Balance& first,
+                                const Options& options) {
+    std::vector<int> owners;
+    for (const Part part : all)
+        owners.push_back(ranks_of_part(part, options.num_parts, num_ranks()).first);
+    const Share share = share_of(cloud, owners, rank());
+    const Balance second = balance(share.points(), options, MPI_COMM_WORLD, first.cuts);
+    for (std::size_t k = 0; k < share.numbers.size(); ++k)
+        ASSERT_EQ(second.parts[k], all[static_cast<std::size_t>(share.numbers[k])]);
+}
+
+void check(const Cloud& cloud, const Method& method, int count, int num_parts) {
+    const auto owners = owners_of(cloud, count, Layout::scattered, num_ranks());
+    const Share share = share_of(cloud, owners, rank());
+    const Options options = options_of(method, num_parts);
+    const Balance result = balance(share.points(), options, MPI_COMM_WORLD);
+    expect_same_on_all_ranks(std::as_bytes(std::span(result.cuts.tree)));
+    expect_look_ups_agree(share.points(), result);
+    expect_lists_conserve_points(result);
+    const std::vector<Part> all = join_parts(share, result.parts, count, num_parts);
+    if (method.balances()) expect_balanced(cloud, all, num_parts, method.tolerance());
+
+    const double imbalance = imbalance_of(cloud, all, num_parts);
+    const Report& report = result.report;
+    EXPECT_EQ(report.num_points, count);
+    EXPECT_EQ(report.surplus_parts, std::max(0, num_parts - count));
+    EXPECT_LE(report.least_imbalance, imbalance * (1 + 1e-12));
+    if (!std::isnan(report.measured_imbalance)) {
+        EXPECT_NEAR(report.measured_imbalance, imbalance, 1e-12 * imbalance);
+    }
+    if (method.keeps_good_cuts() && report.measured_imbalance <= asked_tolerance)
+        expect_nothing_moves_again(cloud, all, result, options);
+}
+
+}  // namespace
+
+void check_interface(const Cloud& cloud) {
+    const int num_parts = parts_for(num_ranks());
+    const int count = cloud.count(num_parts);
+    for (const Method& method : methods) {
+        SCOPED_TRACE(std::string(method.domain_name) + " " + method.refine_name);
+        check(cloud, method, count, num_parts);
+    }
+}
+
+}  // namespace rrcb::hard_test

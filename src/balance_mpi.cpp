@@ -1,11 +1,13 @@
 #include "decision_mpi.hpp"
 #include "fragments.hpp"
+#include "merge_tree_mpi.hpp"
 #include "mpi/communicator.hpp"
 #include "refinement_mpi.hpp"
 #include "stage_scope.hpp"
 
 #include <rrcb/balance.hpp>
 
+#include <algorithm>
 #include <optional>
 
 namespace rrcb {
@@ -22,95 +24,91 @@ Options complete(Options options, int num_ranks) {
     return options;
 }
 
+/// What all ranks contributed, at the root. Collective.
+void gather(Contribution& mine, const Options& options, int dimension, Member& me) {
+    const StageScope stage(options.observer, Stage::gather);
+    MergeTree tree{mpi::size_of(me.comm)};
+    // All points at the root, as in the paper: there is nothing to gain from a stop on the way.
+    if (options.domain == DomainKind::points) tree.radix = std::max(2, tree.num_ranks);
+    merge_up(mine, dimension, tree, most_cells(options), me);
+}
+
+/// The decision of the root, on every rank; throws what went wrong on one of them on all.
+/// Collective.
+void decide_together(const Contribution& all, const Options& options, const Cuts* previous,
+                     Decision& decision, Member& me) {
+    if (mpi::rank_of(me.comm) == root) {
+        const StageScope stage(options.observer, Stage::bisection);
+        decision.verdict.failing_rank = all.summary.failing_rank;
+        me.locally([&] {
+            if (all.summary.failing_rank == no_rank) decide(all, options, previous, decision);
+        });
+        if (me.failure.failed) decision.verdict.failing_rank = root;
+    }
+    const StageScope stage(options.observer, Stage::broadcast);
+    broadcast(decision, me);
+}
+
 /// Assigns the points by the cuts as they are. Collective.
 void assign_together(const Options& options, const Points& points, const SortedPoints& sorted,
-                     MPI_Comm comm, Balance& result) {
+                     Balance& result, Member& me) {
     const StageScope stage(options.observer, Stage::assignment);
-    const Failure failure = attempt([&] {
+    me.locally([&] {
         if (options.domain == DomainKind::points) {
             assign(result.cuts, points, result.parts);
         } else {
             assign(result.cuts, sorted, result.parts);
         }
     });
-    agree(failure, comm);
+    agree(me);
 }
 
 /// Moves the cuts by what the ranks count, and assigns the points by them. Collective.
 void refine_together(Decision& decision, const Options& options, SortedPoints& sorted,
-                     RefinementRoom& room, MPI_Comm comm, Balance& result) {
+                     RefinementRoom& room, Balance& result, Member& me) {
     const StageScope stage(options.observer, Stage::refinement);
     Report& report = result.report;
     if (report.all_weights_zero) sorted.weights.clear();
     const double weight =
         report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
     Estimate estimate{std::move(result.cuts), std::move(decision.bisection.brackets), weight};
-    const Measured measured = refine(estimate, options, sorted, room, comm, result.parts);
+    const Measured measured = refine(estimate, options, sorted, room, result.parts, me);
     report.measured_imbalance = measured.imbalance;
     report.rounds = measured.rounds;
     report.coincident_cuts = measured.coincident_cuts;
     result.cuts = std::move(estimate.cuts);
 }
 
-/// What all ranks hand to the root; the headers and records count there.
-struct Gathered {
-    std::vector<Header> headers;
-    std::vector<double> records;
-};
-
-Gathered gather(const Contribution& mine, Failure& failure, const Options& options, MPI_Comm comm) {
-    const StageScope stage(options.observer, Stage::gather);
-    Gathered all;
-    all.headers = gather_headers(mine.header, comm);
-    agree(all.headers, failure, comm);
-    all.records = gather_records(mine.records, all.headers, comm);
-    return all;
-}
-
-/// The decision of the root, on every rank; throws what went wrong there on every rank.
-Decision decide_together(const Gathered& all, int dimension, const Options& options,
-                         const Cuts* previous, MPI_Comm comm) {
-    Decision decision;
-    Failure failure;
-    if (mpi::rank_of(comm) == root) {
-        const StageScope stage(options.observer, Stage::bisection);
-        failure = decide(all.headers, all.records, options, previous, decision);
-        if (failure.failed) decision.failing_rank = root;
-    }
-    const StageScope stage(options.observer, Stage::broadcast);
-    broadcast(decision, dimension, options, comm);
-    if (decision.failing_rank != no_rank) fail_together(decision.failing_rank, failure, comm);
-    return decision;
-}
-
 Balance run(const Points& points, const Options& given, const Cuts* previous, MPI_Comm user) {
-    const MPI_Comm comm = mpi::duplicate_of(user);
+    Member me{mpi::duplicate_of(user)};
     Options options;
     Balance result;
+    SortedPoints sorted;
     Contribution mine;
+    Decision decision;
     std::optional<RefinementRoom> room;
-    Failure failure = attempt([&] {
+    me.locally([&] {
         const StageScope stage(given.observer, Stage::moments);
-        options = complete(given, mpi::size_of(comm));
+        options = complete(given, mpi::size_of(me.comm));
         if (previous) options.domain = DomainKind::analytic;
         const Box box = check_points(points);
         check_options(options, points.dimension);
         if (previous) check_previous(*previous, options, points.dimension);
-        mine = contribute(points, box, options, previous, mpi::size_of(comm));
+        make_room(decision, options, points.dimension);
         result.parts.resize(points.count);
         if (is_refined(options))
-            room.emplace(options, points.dimension, mpi::rank_of(comm) == root);
+            room.emplace(options, points.dimension, mpi::rank_of(me.comm) == root);
+        sorted = sort_by_options(points, box, options);
+        mine = contribute(points, box, sorted, options, previous);
     });
-    if (failure.failed) mine = {};
-    mine.header.failed = failure.failed;
-    const Gathered all = gather(mine, failure, options, comm);
-    Decision decision = decide_together(all, points.dimension, options, previous, comm);
-    result.report = decision.report;
+    gather(mine, options, points.dimension, me);
+    decide_together(mine, options, previous, decision, me);
+    result.report = decision.verdict.report;
     result.cuts = std::move(decision.bisection.cuts);
-    if (is_refined(options) && decision.report.num_points > 0) {
-        refine_together(decision, options, mine.points, *room, comm, result);
+    if (is_refined(options) && result.report.num_points > 0) {
+        refine_together(decision, options, sorted, *room, result, me);
     } else {
-        assign_together(options, points, mine.points, comm, result);
+        assign_together(options, points, sorted, result, me);
     }
     return result;
 }

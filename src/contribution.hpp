@@ -1,49 +1,42 @@
 #pragma once
 
-#include <rrcb/cuts.hpp>
-#include <rrcb/options.hpp>
+#include "request.hpp"
+
 #include <rrcb/points.hpp>
 #include <rrcb/sorted_points.hpp>
 #include <rrcb/statistical_domain.hpp>
 
 #include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
 #include <vector>
 
 namespace rrcb {
 
-/// The first thing a rank tells the root: whether it can go on, and what its records mean.
-struct Header {
-    std::int32_t failed = 0;  ///< 1: this rank can't
-    std::int32_t dimension = 0;
-    std::int32_t num_parts = 0;
-    std::int32_t support_mesh = 0;    ///< as asked for
-    std::int32_t cells_per_axis = 0;  ///< of this rank's mesh
-    std::int32_t domain = 0;
-    std::int32_t cut_rule = 0;
-    std::int32_t refine = 0;
-    double imbalance_tolerance = 0;
-    double sigma_multiplier = 0;
-    double sample_fraction = 0;
-    std::uint64_t seed = 0;
-    std::uint64_t part_sizes_hash = 0;
-    std::uint64_t axes_hash = 0;      ///< of what the options say of axes and planes
-    std::uint64_t previous_hash = 0;  ///< of the cuts of an earlier call; 0 without
+inline constexpr int no_rank = -1;
+
+/// What one rank, or all ranks of a subtree, say in short: whether they can go on, what they ask
+/// for, and their totals.
+struct Summary {
+    std::int32_t first_rank = 0;            ///< lowest of the ranks it speaks for
+    std::int32_t failing_rank = no_rank;    ///< lowest of those that can't go on
+    std::int32_t differing_rank = no_rank;  ///< one that asks for something else than ...
+    std::int32_t reference_rank = no_rank;  ///< ... this one
+    std::uint64_t difference = 0;           ///< index in request_names
+    Request request{};                      ///< of the first rank
     std::int64_t num_points = 0;
-    std::int64_t num_records = 0;
-    std::int64_t record_length = 0;  ///< doubles per record
+    std::int64_t num_cells = 0;  ///< or points, where these are the records
+    std::int64_t num_doubles = 0;
     double weight = 0;
     double heaviest = 0;  ///< weight of one point
-    Box box;              ///< of the support mesh
+    Box box;              ///< of the points
+
+    bool is_usable() const { return failing_rank == no_rank && differing_rank == no_rank; }
 };
 
-/// What one rank hands to the root: the moments of its cells, or its points, as plain doubles.
+/// What one rank, or all ranks of a subtree, hand to the root: the moments of their cells, or
+/// their points, see cell_records.hpp.
 struct Contribution {
-    Header header;
+    Summary summary;
     std::vector<double> records;
-    SortedPoints points;  ///< stays here, for the assignment; empty for DomainKind::points
 };
 
 /// Throws Error naming the option and its range when `options` can't be used.
@@ -57,19 +50,29 @@ Box check_points(const Points& points);
 void check_previous(const Cuts& previous, const Options& options, int dimension);
 
 /// Cells per axis of a rank's mesh where the options leave it open: enough for about a percent of
-/// error on a smooth cloud, not so many that cells are nearly empty, and not more over all ranks
-/// than the root can take in.
-int automatic_cells_per_axis(int dimension, LocalIndex num_points, int num_ranks);
+/// error on a smooth cloud, not so many that cells are nearly empty.
+int automatic_cells_per_axis(int dimension, LocalIndex num_points);
+
+/// Sorts checked points by the cells of the support mesh that the options ask for; leaves them
+/// out where no cells are needed.
+SortedPoints sort_by_options(const Points& points, const Box& box, const Options& options);
 
 /// Reduces checked points to what the root needs of them: with earlier cuts no records at all.
-Contribution contribute(const Points& points, const Box& box, const Options& options,
-                        const Cuts* previous, int num_ranks);
+Contribution contribute(const Points& points, const Box& box, const SortedPoints& sorted,
+                        const Options& options, const Cuts* previous);
 
-/// Name of the first option that differs from the root's, with the rank; none when all agree.
-std::optional<std::string> difference_between(std::span<const Header> headers);
+/// Most cells that the options let a subtree hand on: a fixed number, whatever the number of
+/// ranks, unless the mesh was asked for.
+std::size_t most_cells(const Options& options);
 
-/// The domain the root bisects, from everybody's headers and records in the order of the ranks.
-StatisticalDomain build_domain(std::span<const Header> headers, std::span<const double> records,
-                               const Options& options);
+/// Adds the totals of the ranks that follow, and what stands in their way.
+void join(Summary& mine, const Summary& next);
+
+/// Takes in the records of the ranks that follow, already at the end of `mine.records`: joins the
+/// summaries, and coarsens where there are too many cells. Not collective.
+void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t most);
+
+/// The domain the root bisects, from what everybody contributed.
+StatisticalDomain build_domain(const Contribution& all, const Options& options, int dimension);
 
 }  // namespace rrcb

@@ -4,6 +4,7 @@
 #include "descent.hpp"
 #include "mpi/communicator.hpp"
 
+#include <rrcb/error.hpp>
 #include <rrcb/quality.hpp>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
+#include <string>
 
 namespace rrcb {
 
@@ -25,27 +27,36 @@ double least_imbalance(double heaviest, double weight, std::span<const double> p
     return std::max(1.0, heaviest / weight * (sizes / *std::ranges::max_element(part_sizes)));
 }
 
-Report report_of(std::span<const Header> headers, const Bisection& bisection,
+Report report_of(const Summary& summary, const Bisection& bisection,
                  std::span<const double> part_sizes) {
     Report report;
-    double heaviest = 0;
-    for (const Header& header : headers) {
-        heaviest = std::max(heaviest, header.heaviest);
-        report.num_points += header.num_points;
-        report.num_records += header.num_records;
-        report.total_weight += header.weight;
-    }
+    report.num_points = summary.num_points;
+    report.num_records = summary.num_cells;
+    report.total_weight = summary.weight;
     report.all_weights_zero = report.num_points > 0 && report.total_weight == 0;
     report.least_imbalance =
         report.all_weights_zero
             ? least_imbalance(1, static_cast<double>(report.num_points), part_sizes)
-            : least_imbalance(heaviest, report.total_weight, part_sizes);
+            : least_imbalance(summary.heaviest, report.total_weight, part_sizes);
     report.estimated_imbalance =
         bisection.part_weights.empty() ? not_known : imbalance(bisection.part_weights, part_sizes);
     report.measured_imbalance = not_known;
     report.surplus_parts =
         static_cast<int>(std::max(GlobalCount{0}, bisection.cuts.num_parts - report.num_points));
     return report;
+}
+
+/// Throws Error when the ranks do not fit together.
+void check_together(const Summary& summary) {
+    if (summary.differing_rank != no_rank)
+        throw Error(ErrorCode::invalid_argument,
+                    std::string(request_names[summary.difference]) + " differs between rank " +
+                        std::to_string(summary.reference_rank) + " and rank " +
+                        std::to_string(summary.differing_rank) +
+                        "; give the same value on every rank");
+    if (!std::isfinite(summary.weight))
+        throw Error(ErrorCode::invalid_argument,
+                    "the sum of the weights of all ranks overflows; scale them down");
 }
 
 /// Earlier cuts with brackets about them, as wide as estimated cuts of an even cloud would have.
@@ -66,16 +77,9 @@ void bracket_previous(const Cuts& cuts, Descent at, Box box, int depth,
     bracket_previous(cuts, at.upper(), box, depth + 1, brackets);
 }
 
-Bisection reuse(const Cuts& previous, std::span<const Header> headers, bool with_brackets) {
+Bisection reuse(const Cuts& previous, const Box& box, bool with_brackets) {
     Bisection bisection;
     bisection.cuts = previous;
-    Box box;
-    for (const Header& header : headers) {
-        for (std::size_t a = 0; a < max_dimension; ++a) {
-            box.lower[a] = std::min(box.lower[a], header.box.lower[a]);
-            box.upper[a] = std::max(box.upper[a], header.box.upper[a]);
-        }
-    }
     if (with_brackets && box.lower[0] <= box.upper[0])
         bracket_previous(previous, root_of(previous), box, 0, bisection.brackets);
     return bisection;
@@ -100,57 +104,39 @@ bool is_refined(const Options& options) {
            options.domain != DomainKind::points;
 }
 
-std::vector<double> gather_records(std::span<const double> mine, std::span<const Header> headers,
-                                   MPI_Comm comm) {
-    std::vector<int> counts;
-    std::vector<int> offsets;
-    std::vector<double> records;
-    if (mpi::rank_of(comm) == root) {
-        std::int64_t offset = 0;
-        for (const Header& header : headers) {
-            offsets.push_back(mpi::to_int(offset));
-            counts.push_back(mpi::to_int(header.num_records * header.record_length));
-            offset += counts.back();
-        }
-        records.resize(static_cast<std::size_t>(offset));
-    }
-    mpi::check(
-        MPI_Gatherv(mine.data(), mpi::to_int(static_cast<std::int64_t>(mine.size())), MPI_DOUBLE,
-                    records.data(), counts.data(), offsets.data(), MPI_DOUBLE, root, comm),
-        "MPI_Gatherv");
-    return records;
+void make_room(Decision& decision, const Options& options, int dimension) {
+    const std::size_t num_cuts = options.part_sizes.size() - 1;
+    Bisection& bisection = decision.bisection;
+    bisection.cuts.dimension = dimension;
+    bisection.cuts.num_parts = static_cast<int>(options.part_sizes.size());
+    bisection.cuts.tree.resize(num_cuts);
+    bisection.brackets.resize(is_refined(options) ? num_cuts : 0);
+    decision.message.resize(num_cuts * sizeof(Cut) + bisection.brackets.size() * sizeof(Bracket));
 }
 
-Failure decide(std::span<const Header> headers, std::span<const double> records,
-               const Options& options, const Cuts* previous, Decision& decision) {
-    return attempt([&] {
-        decision.bisection = previous ? reuse(*previous, headers, is_refined(options))
-                                      : bisect(build_domain(headers, records, options), options,
-                                               is_refined(options));
-        decision.report = report_of(headers, decision.bisection, options.part_sizes);
-    });
+void decide(const Contribution& all, const Options& options, const Cuts* previous,
+            Decision& decision) {
+    check_together(all.summary);
+    const int dimension = decision.bisection.cuts.dimension;
+    const bool with_brackets = is_refined(options);
+    Bisection& bisection = decision.bisection;
+    bisection = previous ? reuse(*previous, all.summary.box, with_brackets)
+                         : bisect(build_domain(all, options, dimension), options, with_brackets);
+    bisection.brackets.resize(with_brackets ? bisection.cuts.tree.size() : 0);
+    decision.verdict.report = report_of(all.summary, bisection, options.part_sizes);
 }
 
-void broadcast(Decision& decision, int dimension, const Options& options, MPI_Comm comm) {
+void broadcast(Decision& decision, const Member& me) {
+    Verdict& verdict = decision.verdict;
+    mpi::check(MPI_Bcast(&verdict, sizeof verdict, MPI_BYTE, root, me.comm), "MPI_Bcast");
+    if (verdict.failing_rank != no_rank) fail_together(verdict.failing_rank, me);
     std::vector<Cut>& tree = decision.bisection.cuts.tree;
     std::vector<Bracket>& brackets = decision.bisection.brackets;
-    tree.resize(options.part_sizes.size() - 1);
-    brackets.resize(is_refined(options) ? tree.size() : 0);
-    std::vector<std::byte> message(sizeof(int) + sizeof(Report) + tree.size() * sizeof(Cut) +
-                                   brackets.size() * sizeof(Bracket));
-    std::byte* to = copy_out(&decision.failing_rank, 1, message.data());
-    to = copy_out(&decision.report, 1, to);
-    to = copy_out(tree.data(), tree.size(), to);
+    std::byte* to = copy_out(tree.data(), tree.size(), decision.message.data());
     copy_out(brackets.data(), brackets.size(), to);
-    mpi::check(MPI_Bcast(message.data(), mpi::to_int(static_cast<std::int64_t>(message.size())),
-                         MPI_BYTE, root, comm),
-               "MPI_Bcast");
-    const std::byte* from = copy_in(message.data(), &decision.failing_rank, 1);
-    from = copy_in(from, &decision.report, 1);
-    from = copy_in(from, tree.data(), tree.size());
+    mpi::broadcast(decision.message, root, me.comm);
+    const std::byte* from = copy_in(decision.message.data(), tree.data(), tree.size());
     copy_in(from, brackets.data(), brackets.size());
-    decision.bisection.cuts.dimension = dimension;
-    decision.bisection.cuts.num_parts = static_cast<int>(options.part_sizes.size());
 }
 
 }  // namespace rrcb

@@ -10,26 +10,33 @@
 
 namespace rrcb {
 
+/// What the root tells first: whether there are cuts, and what it saw.
+struct Verdict {
+    std::int32_t failing_rank = no_rank;
+    Report report;
+};
+
 /// The decision of the root: how it went, and the cuts to assign by or to start from.
 struct Decision {
-    int failing_rank = no_rank;  ///< the root, when it could not decide
-    Report report;
+    Verdict verdict;
     Bisection bisection;
+    std::vector<std::byte> message;  ///< the bisection on its way
 };
 
 /// True when the cuts are to be moved by what the ranks count: the literal midpoint has no weight
 /// to aim at, and all points at the root need no second look.
 bool is_refined(const Options& options);
 
-/// Records of all ranks at the root, in the order of the ranks; empty elsewhere. Collective.
-std::vector<double> gather_records(std::span<const double> mine, std::span<const Header> headers,
-                                   MPI_Comm comm);
+/// Makes room for the cuts that the root will send. Not collective.
+void make_room(Decision& decision, const Options& options, int dimension);
 
-/// Bisects, at the root, what the ranks contributed; or takes the cuts of an earlier call.
-Failure decide(std::span<const Header> headers, std::span<const double> records,
-               const Options& options, const Cuts* previous, Decision& decision);
+/// Bisects, at the root, what the ranks contributed; or takes the cuts of an earlier call. Throws
+/// Error when the ranks do not fit together.
+void decide(const Contribution& all, const Options& options, const Cuts* previous,
+            Decision& decision);
 
-/// Gives everybody the root's decision as one message. Collective.
-void broadcast(Decision& decision, int dimension, const Options& options, MPI_Comm comm);
+/// Gives everybody the root's decision, or throws everywhere why there is none. Collective.
+///
+void broadcast(Decision& decision, const Member& me);
 
 }  // namespace rrcb

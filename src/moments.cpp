@@ -130,6 +130,12 @@ std::vector<CellMoments> moments_by_weight(const SortedPoints& points) {
 }  // namespace
 
 Moments merge(const Moments& a, const Moments& b) {
+    if (a.weight == 0 && b.weight == 0 && a.count > 0 && b.count > 0) {
+        Moments joint = merge({a.count, static_cast<double>(a.count), a.mean, a.deviation},
+                              {b.count, static_cast<double>(b.count), b.mean, b.deviation});
+        joint.weight = 0;
+        return joint;
+    }
     if (!(b.weight > 0)) return {a.count + b.count, a.weight, a.mean, a.deviation};
     if (!(a.weight > 0)) return {a.count + b.count, b.weight, b.mean, b.deviation};
     Moments joint{a.count + b.count, a.weight + b.weight, {}, {}};

@@ -23,18 +23,11 @@ struct Context {
     const Options& options;
     SortedPoints& points;
     RefinementRoom& room;
-    MPI_Comm comm;
+    Member& me;
     bool is_root;
     Measured measured{};
-    Failure failure{};  ///< of this rank; it takes part with nothing until all have been told
     bool told_of_failure = false;  ///< of another rank; at the root only
     bool abandoned = false;        ///< the root told all to stop
-
-    /// Runs a step that touches only what is here, unless an earlier one failed.
-    template <class Step>
-    void locally(Step&& step) {
-        if (!failure.failed) failure = attempt(step);
-    }
 
     std::span<const double> sizes_of(const Descent& at) const {
         return std::span(options.part_sizes)
@@ -98,12 +91,12 @@ void count_and_decide(Context& context) {
     for (std::size_t k = 0; k < room.searches.size(); ++k) {
         if (!is_counting(room.searches[k])) continue;
         const std::span<double> histogram = histograms.add();
-        context.locally(
+        context.me.locally(
             [&] { room.local[k].count(room.searches[k], histograms.layout(), histogram); });
-        histogram[HistogramLayout::failed] = context.failure.failed ? 1 : 0;
+        histogram[HistogramLayout::failed] = context.me.failure.failed ? 1 : 0;
     }
     if (histograms.size() == 0) return;
-    histograms.join(root, context.comm);
+    histograms.join(root, context.me.comm);
     if (!context.is_root) return;
     context.told_of_failure |= histograms.any_failed();
     std::size_t next = 0;
@@ -119,16 +112,16 @@ void gather_and_decide(Context& context) {
     const auto num_lists = std::ranges::count_if(room.before, is_gathering);
     if (num_lists == 0) return;
     candidates.clear();
-    context.locally([&] {
+    context.me.locally([&] {
         for (std::size_t k = 0; k < room.before.size(); ++k)
             if (is_gathering(room.before[k])) candidates.add(room.local[k]);
     });
-    if (context.failure.failed) candidates.lose(static_cast<std::size_t>(num_lists));
-    candidates.gather(root, context.comm);
+    if (context.me.failure.failed) candidates.lose(static_cast<std::size_t>(num_lists));
+    candidates.gather(root, context.me.comm);
     if (!context.is_root) return;
     context.told_of_failure |= candidates.any_failed();
     if (context.told_of_failure) return;
-    context.locally([&] {
+    context.me.locally([&] {
         const auto lists = candidates.lists();
         auto list = lists.begin();
         for (std::size_t k = 0; k < room.before.size(); ++k)
@@ -149,9 +142,9 @@ void conclude(Context& context) {
         ++num_lists;
         num_points += room.targets[k].num_candidates;
     }
-    context.locally(
-        [&] { room.candidates.expect(num_lists, num_points, mpi::size_of(context.comm)); });
-    if (!context.failure.failed && !context.told_of_failure) return;
+    context.me.locally(
+        [&] { room.candidates.expect(num_lists, num_points, mpi::size_of(context.me.comm)); });
+    if (!context.me.failure.failed && !context.told_of_failure) return;
     for (CutSearch& search : room.searches) search.stage = CutSearch::abandoned;
 }
 
@@ -163,10 +156,10 @@ void search_level(Context& context) {
         count_and_decide(context);
         gather_and_decide(context);
         if (context.is_root) conclude(context);
-        mpi::broadcast(std::as_writable_bytes(std::span(room.searches)), root, context.comm);
+        mpi::broadcast(std::as_writable_bytes(std::span(room.searches)), root, context.me.comm);
         context.abandoned = room.searches[0].stage == CutSearch::abandoned;
         if (context.abandoned) return;
-        context.locally([&] {
+        context.me.locally([&] {
             for (std::size_t k = 0; k < room.local.size(); ++k)
                 room.local[k].keep_chosen(room.before[k], room.searches[k],
                                           room.histograms.layout().num_bins);
@@ -206,7 +199,7 @@ void descend(Context& context) {
             if (below > 0) cut.at[static_cast<std::size_t>(cut.axis)] = infinity;
         }
         std::pair<std::vector<Fragment>, std::vector<Fragment>> halves;
-        context.locally([&] { halves = split(node.fragments, cut, context.points); });
+        context.me.locally([&] { halves = split(node.fragments, cut, context.points); });
         room.children.push_back({node.at.lower(), std::move(halves.first), below});
         room.children.push_back({node.at.upper(), std::move(halves.second), node.weight - below});
     }
@@ -217,17 +210,17 @@ void descend(Context& context) {
 bool accept_estimate(Context& context, std::span<Part> parts) {
     RefinementRoom& room = context.room;
     const auto num_parts = static_cast<int>(room.part_weights.size());
-    context.locally([&] {
+    context.me.locally([&] {
         std::ranges::copy(assign(context.estimate.cuts, context.points, parts),
                           room.part_weights.begin());
     });
     mpi::check(MPI_Reduce(room.part_weights.data(), room.sums.data(), num_parts, MPI_DOUBLE,
-                          MPI_SUM, root, context.comm),
+                          MPI_SUM, root, context.me.comm),
                "MPI_Reduce");
     double measured = infinity;
     if (context.is_root)
-        context.locally([&] { measured = imbalance(room.sums, context.options.part_sizes); });
-    mpi::check(MPI_Bcast(&measured, 1, MPI_DOUBLE, root, context.comm), "MPI_Bcast");
+        context.me.locally([&] { measured = imbalance(room.sums, context.options.part_sizes); });
+    mpi::check(MPI_Bcast(&measured, 1, MPI_DOUBLE, root, context.me.comm), "MPI_Bcast");
     ++context.measured.rounds;
     context.measured.imbalance = measured;
     return measured <= context.options.imbalance_tolerance;
@@ -238,7 +231,7 @@ void search_all_levels(Context& context, std::span<Part> parts) {
     RefinementRoom& room = context.room;
     std::vector<Node>& nodes = room.nodes;
     nodes.push_back({root_of(context.estimate.cuts), {}, context.estimate.total_weight});
-    context.locally([&] { nodes[0].fragments = cell_fragments(context.points); });
+    context.me.locally([&] { nodes[0].fragments = cell_fragments(context.points); });
     while (!nodes.empty()) {
         std::erase_if(nodes, [&](const Node& node) {
             if (!node.at.is_part()) return false;
@@ -251,7 +244,7 @@ void search_all_levels(Context& context, std::span<Part> parts) {
         if (context.abandoned) return;
         descend(context);
     }
-    context.locally([&] {
+    context.me.locally([&] {
         context.measured.imbalance = imbalance(room.part_weights, context.options.part_sizes);
     });
 }
@@ -259,11 +252,11 @@ void search_all_levels(Context& context, std::span<Part> parts) {
 }  // namespace
 
 Measured refine(Estimate& estimate, const Options& options, SortedPoints& points,
-                RefinementRoom& room, MPI_Comm comm, std::span<Part> parts) {
-    Context context{estimate, options, points, room, comm, mpi::rank_of(comm) == root};
+                RefinementRoom& room, std::span<Part> parts, Member& me) {
+    Context context{estimate, options, points, room, me, mpi::rank_of(me.comm) == root};
     const bool accepted = options.refine == Refine::tolerance && accept_estimate(context, parts);
     if (!accepted) search_all_levels(context, parts);
-    agree(context.failure, comm);
+    agree(me);
     return context.measured;
 }
 

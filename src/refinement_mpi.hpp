@@ -1,10 +1,9 @@
 #pragma once
 
+#include "member.hpp"
 #include "refinement_room.hpp"
 
 #include <rrcb/bisection.hpp>
-
-#include <mpi.h>
 
 #include <span>
 
@@ -26,12 +25,12 @@ struct Measured {
 
 /// Moves the cuts of `estimate` until the parts of the real points are as even as asked.
 ///
-/// Collective over `comm`. `options` are complete, `room` is made by them. Writes the part of each
+/// Collective. `options` are complete, `room` is made by them. Writes the part of each
 /// point, by its original index, into `parts`; entries of `points` change places within their
 /// cells. Without weight anywhere the cuts stay. A rank that fails on its own takes part with
 /// nothing until the root, told of it by the next histograms or candidates, ends all searches; then
 /// all throw its error.
 Measured refine(Estimate& estimate, const Options& options, SortedPoints& points,
-                RefinementRoom& room, MPI_Comm comm, std::span<Part> parts);
+                RefinementRoom& room, std::span<Part> parts, Member& me);
 
 }  // namespace rrcb

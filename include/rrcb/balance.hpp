@@ -11,9 +11,9 @@ namespace rrcb {
 
 /// What the balancer saw and expects; the same on every rank.
 struct Report {
-    GlobalCount num_points = 0;   ///< over all ranks
-    GlobalCount num_records = 0;  ///< cells (or points, for DomainKind::points) the root received
-    double total_weight = 0;      ///< over all ranks
+    GlobalCount num_points = 0;      ///< over all ranks
+    GlobalCount num_records = 0;     ///< cells (or points, for DomainKind::points) bisected
+    double total_weight = 0;         ///< over all ranks
     double estimated_imbalance = 1;  ///< as the statistical domain sees it, see quality.hpp
     double measured_imbalance = 1;   ///< of the points themselves; NaN where it was not measured
     double least_imbalance = 1;  ///< no partition is better: of the heaviest point in a part alone
@@ -35,8 +35,9 @@ struct Balance {
 ///
 /// Collective over `comm`: every rank calls it with the same options and dimension; a rank may
 /// hold no points (null arrays are legal) but states the dimension. The statistics of
-/// the non-empty cells are gathered at rank 0, the cuts are broadcast, moved by what the ranks
-/// count around them (see Refine), and every rank assigns its own points; no point moves. The same
+/// the non-empty cells travel up a tree of ranks to rank 0, merged on the way where there are too
+/// many; the cuts are broadcast, moved by what the ranks count around them (see Refine), and every
+/// rank assigns its own points; no point moves. The same
 /// input on the same ranks gives the same bits. The library communicates on a duplicate of `comm`,
 /// made at the first call, kept with it and freed with it.
 ///

@@ -27,7 +27,8 @@ struct CellMoments {
 /// Moments of the union of two disjoint sets of points.
 ///
 /// Chan, Golub, LeVeque: Updating formulae and a pairwise algorithm for computing sample
-/// variances (1979), equations 2.1, with weights in place of counts.
+/// variances (1979), equations 2.1, with weights in place of counts; with counts, under weight 0,
+/// where neither set has weight.
 Moments merge(const Moments& a, const Moments& b);
 
 /// Moments of every cell that holds weight, in the order of the cells. Not collective.

@@ -76,6 +76,41 @@ TEST(FailingMpi, reaches_the_caller_of_balance_as_an_error_that_names_the_call) 
                    });
 }
 
+/// The error of a call of `balance` in which that message fails on that rank.
+void expect_error_of(int rank, long message, const Points& points) {
+    mpi_layer::fail_message(rank == test::rank() ? message : 0);
+    try {
+        balance(points, Options{}, MPI_COMM_WORLD);
+        ADD_FAILURE() << "nothing was thrown";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::mpi);
+        EXPECT_NE(std::string(error.what()).find("rank " + std::to_string(rank) + ": MPI_"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
+TEST(FailingMpi, of_one_rank_while_cells_travel_reaches_the_callers_of_all) {
+    const Cloud cloud;
+    const Points points = cloud.points();
+    mpi_layer::fail_message(0);
+    balance(points, Options{}, MPI_COMM_WORLD);
+    const long mine = mpi_layer::counted_messages();
+    for (int rank = 0; rank < test::num_ranks(); ++rank) {
+        long num_messages = mine;
+        MPI_Bcast(&num_messages, 1, MPI_LONG, rank, MPI_COMM_WORLD);
+        if (test::num_ranks() > 1) {
+            EXPECT_GT(num_messages, 0);
+        }
+        for (long message = 1; message <= num_messages; ++message) {
+            SCOPED_TRACE("rank " + std::to_string(rank) + ", message " + std::to_string(message));
+            expect_error_of(rank, message, points);
+            mpi_layer::fail_message(0);
+            balance(points, Options{}, MPI_COMM_WORLD);
+        }
+    }
+}
+
 TEST(FailingMpi, makes_zoltan_create_give_a_handle_that_refuses_rrcb) {
     // Only a communicator that returns errors lets the duplication fail.
     MPI_Comm comm = MPI_COMM_NULL;

@@ -12,8 +12,17 @@ namespace {
 
 MPI_Comm checking_comm = MPI_COMM_NULL;
 long num_checked = 0;
-long failing_call = 0;
-long num_counted = 0;
+
+/// Calls of one kind: how many there were, and which of them fails.
+struct Counter {
+    long failing = 0;
+    long counted = 0;
+
+    int after(int code, MPI_Comm comm);
+};
+
+Counter collectives;
+Counter messages;
 
 int size_of(MPI_Comm comm) {
     int size = 0;
@@ -68,6 +77,11 @@ bool returns_errors(MPI_Comm comm) {
     return returns;
 }
 
+int Counter::after(int code, MPI_Comm comm) {
+    if (comm == MPI_COMM_NULL || !returns_errors(comm)) return code;
+    return ++counted == failing ? MPI_ERR_OTHER : code;
+}
+
 }  // namespace
 
 Call call_of(const char* name, int root, std::int64_t bytes) {
@@ -105,17 +119,27 @@ void stop_checking() {
 }
 
 void fail_call(long number) {
-    failing_call = number;
-    num_counted = 0;
+    collectives = {number, 0};
 }
 
 long counted_calls() {
-    return num_counted;
+    return collectives.counted;
+}
+
+void fail_message(long number) {
+    messages = {number, 0};
+}
+
+long counted_messages() {
+    return messages.counted;
 }
 
 int after_call(int code, MPI_Comm comm) {
-    if (comm == MPI_COMM_NULL || !returns_errors(comm)) return code;
-    return ++num_counted == failing_call ? MPI_ERR_OTHER : code;
+    return collectives.after(code, comm);
+}
+
+int after_message(int code, MPI_Comm comm) {
+    return messages.after(code, comm);
 }
 
 }  // namespace mpi_layer

@@ -25,14 +25,20 @@ void check_sequence(const Call& call, MPI_Comm comm);
 void start_checking();
 void stop_checking();
 
-/// Makes the `number`-th call from now on, counted from 1, return MPI_ERR_OTHER on this rank after
-/// it was carried out; 0 fails none. Counted are communicating calls under MPI_ERRORS_RETURN.
+/// Makes the `number`-th collective call from now on, counted from 1, return MPI_ERR_OTHER on this
+/// rank after it was carried out; 0 fails none. Counted are calls under MPI_ERRORS_RETURN.
 __attribute__((visibility("default"))) void fail_call(long number);
 
 /// How many calls were counted since fail_call.
 __attribute__((visibility("default"))) long counted_calls();
 
+/// The same for messages between two ranks, sent or received, which the ranks have in different
+/// numbers.
+__attribute__((visibility("default"))) void fail_message(long number);
+__attribute__((visibility("default"))) long counted_messages();
+
 int after_call(int code, MPI_Comm comm);
+int after_message(int code, MPI_Comm comm);
 
 template <typename Body>
 int collective(const Call& call, MPI_Comm comm, Body body) {

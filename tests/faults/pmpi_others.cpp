@@ -1,6 +1,6 @@
 #include "mpi_layer.hpp"
 
-using mpi_layer::after_call;
+using mpi_layer::after_message;
 using mpi_layer::call_of;
 using mpi_layer::collective;
 
@@ -45,26 +45,26 @@ int MPI_Comm_free(MPI_Comm* comm) {
 }
 
 int MPI_Send(const void* data, int count, MPI_Datatype type, int to, int tag, MPI_Comm comm) {
-    return after_call(PMPI_Send(data, count, type, to, tag, comm), comm);
+    return after_message(PMPI_Send(data, count, type, to, tag, comm), comm);
 }
 
 int MPI_Isend(const void* data, int count, MPI_Datatype type, int to, int tag, MPI_Comm comm,
               MPI_Request* request) {
-    return after_call(PMPI_Isend(data, count, type, to, tag, comm, request), comm);
+    return after_message(PMPI_Isend(data, count, type, to, tag, comm, request), comm);
 }
 
 int MPI_Recv(void* data, int count, MPI_Datatype type, int from, int tag, MPI_Comm comm,
              MPI_Status* status) {
-    return after_call(PMPI_Recv(data, count, type, from, tag, comm, status), comm);
+    return after_message(PMPI_Recv(data, count, type, from, tag, comm, status), comm);
 }
 
 int MPI_Irecv(void* data, int count, MPI_Datatype type, int from, int tag, MPI_Comm comm,
               MPI_Request* request) {
-    return after_call(PMPI_Irecv(data, count, type, from, tag, comm, request), comm);
+    return after_message(PMPI_Irecv(data, count, type, from, tag, comm, request), comm);
 }
 
 int MPI_Probe(int from, int tag, MPI_Comm comm, MPI_Status* status) {
-    return after_call(PMPI_Probe(from, tag, comm, status), comm);
+    return after_message(PMPI_Probe(from, tag, comm, status), comm);
 }
 
 }  // extern "C"

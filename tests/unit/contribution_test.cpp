@@ -8,22 +8,78 @@ namespace rrcb {
 namespace {
 
 TEST(AutomaticMesh, has_a_cell_for_every_sixteen_points_up_to_a_limit) {
-    EXPECT_EQ(automatic_cells_per_axis(2, 0, 4), 1);
-    EXPECT_EQ(automatic_cells_per_axis(2, 15, 4), 1);
-    EXPECT_EQ(automatic_cells_per_axis(2, 16 * 49, 4), 7);
-    EXPECT_EQ(automatic_cells_per_axis(2, 1000000, 4), 16);
-    EXPECT_EQ(automatic_cells_per_axis(3, 16 * 27, 4), 3);
-    EXPECT_EQ(automatic_cells_per_axis(3, 1000000, 4), 8);
-    EXPECT_EQ(automatic_cells_per_axis(1, 1000000, 4), 64);
+    EXPECT_EQ(automatic_cells_per_axis(2, 0), 1);
+    EXPECT_EQ(automatic_cells_per_axis(2, 15), 1);
+    EXPECT_EQ(automatic_cells_per_axis(2, 16 * 49), 7);
+    EXPECT_EQ(automatic_cells_per_axis(2, 1000000), 16);
+    EXPECT_EQ(automatic_cells_per_axis(3, 16 * 27), 3);
+    EXPECT_EQ(automatic_cells_per_axis(3, 1000000), 8);
+    EXPECT_EQ(automatic_cells_per_axis(1, 1000000), 64);
 }
 
-TEST(AutomaticMesh, never_sends_the_root_more_than_a_million_cells) {
-    for (const int dimension : {1, 2, 3}) {
-        for (int num_ranks = 1; num_ranks <= 1 << 20; num_ranks *= 2) {
-            const int cells = automatic_cells_per_axis(dimension, 1u << 30, num_ranks);
-            EXPECT_LE(std::pow(cells, dimension) * num_ranks, 1 << 20) << num_ranks;
-        }
-    }
+Options asking_for_mesh(int cells) {
+    Options options;
+    options.support_mesh = cells;
+    return options;
+}
+
+TEST(MostCells, is_a_fixed_number_unless_the_mesh_was_asked_for) {
+    EXPECT_EQ(most_cells(Options{}), 8192u);
+    EXPECT_GT(most_cells(asking_for_mesh(500)), std::size_t{1} << 62);
+    Options options;
+    options.domain = DomainKind::points;
+    EXPECT_GT(most_cells(options), std::size_t{1} << 62);
+}
+
+Summary summary_of(int rank, int num_parts) {
+    Options options;
+    options.num_parts = num_parts;
+    Summary summary;
+    summary.first_rank = rank;
+    summary.request = request_of(options, 2, nullptr);
+    summary.num_points = 10;
+    summary.weight = 2.5;
+    return summary;
+}
+
+TEST(Summaries, add_up) {
+    Summary all = summary_of(0, 4);
+    Summary next = summary_of(1, 4);
+    all.box.lower = {1, 2, 0};
+    all.box.upper = {3, 4, 0};
+    next.box.lower = {-1, 3, 0};
+    next.box.upper = {2, 5, 0};
+    join(all, next);
+    EXPECT_TRUE(all.is_usable());
+    EXPECT_EQ(all.num_points, 20);
+    EXPECT_EQ(all.weight, 5);
+    EXPECT_EQ(all.box.lower, (Vector{-1, 2, 0}));
+    EXPECT_EQ(all.box.upper, (Vector{3, 5, 0}));
+}
+
+TEST(Summaries, keep_the_first_rank_that_fails) {
+    Summary all = summary_of(0, 4);
+    Summary next = summary_of(3, 4);
+    next.failing_rank = 5;
+    join(all, next);
+    next.failing_rank = 7;
+    join(all, next);
+    EXPECT_FALSE(all.is_usable());
+    EXPECT_EQ(all.failing_rank, 5);
+}
+
+TEST(Summaries, tell_the_first_two_ranks_that_differ) {
+    Summary all = summary_of(0, 4);
+    join(all, summary_of(1, 4));
+    EXPECT_TRUE(all.is_usable());
+    Summary subtree = summary_of(8, 4);
+    join(subtree, summary_of(9, 6));
+    join(subtree, summary_of(10, 7));
+    join(all, subtree);
+    EXPECT_FALSE(all.is_usable());
+    EXPECT_EQ(all.reference_rank, 8);
+    EXPECT_EQ(all.differing_rank, 9);
+    EXPECT_EQ(request_names[all.difference], "num_parts");
 }
 
 }  // namespace

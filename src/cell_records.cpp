@@ -1,0 +1,162 @@
+#include "cell_records.hpp"
+
+#include <rrcb/support_mesh.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rrcb {
+
+namespace {
+
+/// What a block of records begins with.
+struct BlockOfCells {
+    double num_cells = 0;
+    double cells_per_axis = 0;  ///< of the mesh; 0 for a lattice
+    double exponent = 0;        ///< of the lattice
+};
+
+struct BlockOfPoints {
+    double num_points = 0;
+    double has_weights = 0;
+};
+
+template <class T>
+void append(const T& block, std::vector<double>& records) {
+    const auto* first = reinterpret_cast<const double*>(&block);
+    records.insert(records.end(), first, first + sizeof(T) / sizeof(double));
+}
+
+void append(const Vector& x, int dimension, std::vector<double>& records) {
+    records.insert(records.end(), x.begin(), x.begin() + dimension);
+}
+
+std::span<const double> take(std::span<const double>& records, std::size_t count) {
+    const auto taken = records.first(count);
+    records = records.subspan(count);
+    return taken;
+}
+
+template <class T>
+T take_block(std::span<const double>& records) {
+    T block;
+    const auto taken = take(records, sizeof(T) / sizeof(double));
+    std::copy(taken.begin(), taken.end(), reinterpret_cast<double*>(&block));
+    return block;
+}
+
+Vector take_vector(std::span<const double>& records, int dimension) {
+    Vector x{};
+    const auto taken = take(records, static_cast<std::size_t>(dimension));
+    std::copy(taken.begin(), taken.end(), x.begin());
+    return x;
+}
+
+/// Number, count, weight, then mean and deviation per axis.
+void append_cell(const CellMoments& cell, int dimension, std::vector<double>& records) {
+    records.push_back(static_cast<double>(cell.cell));
+    records.push_back(static_cast<double>(cell.moments.count));
+    records.push_back(cell.moments.weight);
+    append(cell.moments.mean, dimension, records);
+    append(cell.moments.deviation, dimension, records);
+}
+
+CellMoments take_cell(std::span<const double>& records, int dimension) {
+    CellMoments cell;
+    const auto taken = take(records, 3);
+    cell.cell = static_cast<LocalIndex>(taken[0]);
+    cell.moments.count = static_cast<GlobalCount>(taken[1]);
+    cell.moments.weight = taken[2];
+    cell.moments.mean = take_vector(records, dimension);
+    cell.moments.deviation = take_vector(records, dimension);
+    return cell;
+}
+
+Box box_of_cube(const Vector& cube, int exponent) {
+    Box box;
+    for (std::size_t a = 0; a < cube.size(); ++a) {
+        box.lower[a] = std::ldexp(cube[a], exponent);
+        box.upper[a] = std::ldexp(cube[a] + 1, exponent);
+    }
+    return box;
+}
+
+}  // namespace
+
+Vector cube_of(const Vector& position, int dimension, int exponent) {
+    Vector cube{};
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+        cube[a] = std::floor(std::ldexp(position[a], -exponent));
+    return cube;
+}
+
+void append_cells(std::span<const CellMoments> cells, const SupportMesh& mesh,
+                  std::vector<double>& records) {
+    const int cells_per_axis = *std::max_element(mesh.cells.begin(), mesh.cells.end());
+    append(BlockOfCells{static_cast<double>(cells.size()), static_cast<double>(cells_per_axis), 0},
+           records);
+    append(mesh.box.lower, mesh.dimension, records);
+    append(mesh.box.upper, mesh.dimension, records);
+    for (const CellMoments& cell : cells) append_cell(cell, mesh.dimension, records);
+}
+
+void append_cells(const CellSet& merged, int dimension, std::vector<double>& records) {
+    append(BlockOfCells{static_cast<double>(merged.cells.size()), 0,
+                        static_cast<double>(merged.exponent)},
+           records);
+    for (const CellMoments& cell : merged.cells) append_cell(cell, dimension, records);
+}
+
+CellSet read_cells(std::span<const double> records, int dimension) {
+    CellSet all;
+    while (!records.empty()) {
+        const auto block = take_block<BlockOfCells>(records);
+        const bool on_mesh = block.cells_per_axis > 0;
+        const int exponent = static_cast<int>(block.exponent);
+        SupportMesh mesh;
+        if (on_mesh) {
+            Box box;
+            box.lower = take_vector(records, dimension);
+            box.upper = take_vector(records, dimension);
+            mesh = make_support_mesh(box, dimension, static_cast<int>(block.cells_per_axis));
+        } else {
+            all.exponent = std::max(all.exponent, exponent);
+        }
+        for (double k = 0; k < block.num_cells; ++k) {
+            CellMoments cell = take_cell(records, dimension);
+            cell.box = on_mesh
+                           ? cell_box(mesh, cell.cell)
+                           : box_of_cube(cube_of(cell.moments.mean, dimension, exponent), exponent);
+            all.cells.push_back(cell);
+        }
+    }
+    return all;
+}
+
+void append_points(const Points& points, std::vector<double>& records) {
+    append(BlockOfPoints{static_cast<double>(points.count), points.weights.empty() ? 0.0 : 1.0},
+           records);
+    for (LocalIndex i = 0; i < points.count; ++i)
+        append(points.position(i), points.dimension, records);
+    records.insert(records.end(), points.weights.begin(), points.weights.end());
+}
+
+StatisticalDomain read_points(std::span<const double> records, int dimension) {
+    StatisticalDomain all{dimension, {}};
+    while (!records.empty()) {
+        const auto block = take_block<BlockOfPoints>(records);
+        const auto count = static_cast<std::size_t>(block.num_points);
+        const auto coordinates = take(records, count * static_cast<std::size_t>(dimension));
+        const auto weights = take(records, block.has_weights != 0 ? count : 0);
+        const StatisticalDomain domain =
+            point_domain(interleaved_points(coordinates, dimension, weights));
+        all.patches.insert(all.patches.end(), domain.patches.begin(), domain.patches.end());
+    }
+    const bool weightless = std::all_of(all.patches.begin(), all.patches.end(),
+                                        [](const Patch& patch) { return patch.weight == 0; });
+    if (weightless)
+        for (Patch& patch : all.patches) patch.weight = 1;
+    return all;
+}
+
+}  // namespace rrcb

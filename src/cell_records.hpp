@@ -1,0 +1,42 @@
+#pragma once
+
+#include <rrcb/moments.hpp>
+#include <rrcb/statistical_domain.hpp>
+
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+/// Cells of several ranks, of their support meshes or of a lattice.
+///
+/// The lattice of an exponent e divides all of space into cubes with edges of 2^e and corners at
+/// multiples of 2^e, so that the cubes of a greater exponent are unions of those of a smaller one.
+struct CellSet {
+    std::vector<CellMoments> cells;
+    int exponent = no_lattice;  ///< the greatest of those that cells were merged on
+
+    static constexpr int no_lattice = std::numeric_limits<int>::min();
+};
+
+/// Appends the cells of a support mesh to what travels to the root, as plain doubles.
+void append_cells(std::span<const CellMoments> cells, const SupportMesh& mesh,
+                  std::vector<double>& records);
+
+/// Appends cells that were merged on the lattice of their exponent.
+void append_cells(const CellSet& merged, int dimension, std::vector<double>& records);
+
+/// What was appended, in its order; a cell of a lattice gets the cube of its mean as its box.
+CellSet read_cells(std::span<const double> records, int dimension);
+
+/// Appends the points themselves.
+void append_points(const Points& points, std::vector<double>& records);
+
+/// The domain of all points that were appended; where none has weight, each weighs 1.
+StatisticalDomain read_points(std::span<const double> records, int dimension);
+
+/// Cube of the lattice of `exponent` that holds a position, in units of its edge.
+Vector cube_of(const Vector& position, int dimension, int exponent);
+
+}  // namespace rrcb

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "contribution.hpp"
+#include "member.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace rrcb {
+
+/// The tree along which contributions travel to rank 0, each rank taking in those of the ranks
+/// that follow it before it hands all on.
+///
+/// A rank that is a multiple of radix^k takes in, for each smaller power s of the radix, the
+/// subtrees of s ranks each that begin s, 2 s, ... (radix - 1) s after it.
+struct MergeTree {
+    int num_ranks = 1;
+    int radix = 8;
+
+    /// Calls `visit(child)` in the order in which a rank takes its children in: by rank.
+    template <class Visit>
+    void for_each_child(int rank, Visit&& visit) const {
+        for (std::int64_t stride = 1; stride < num_ranks && rank % (stride * radix) == 0;
+             stride *= radix)
+            for (std::int64_t child = rank + stride;
+                 child < std::min<std::int64_t>(num_ranks, rank + stride * radix); child += stride)
+                visit(static_cast<int>(child));
+    }
+
+    /// The rank that takes in what `rank` (> 0) contributes.
+    int parent(int rank) const {
+        std::int64_t stride = radix;
+        while (rank % stride == 0) stride *= radix;
+        return static_cast<int>(rank - rank % stride);
+    }
+};
+
+/// Gives the root what all ranks contributed, merged on the way. Collective over `comm`.
+///
+/// A rank that failed, before or here, sends its number in place of records. What fails only when
+/// it has sent stays with it for the next agreement.
+void merge_up(Contribution& mine, int dimension, const MergeTree& tree, std::size_t most,
+              Member& me);
+
+}  // namespace rrcb

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <rrcb/cuts.hpp>
+#include <rrcb/options.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace rrcb {
+
+/// What the options can be told apart by, in the order in which they are compared.
+inline constexpr std::array<std::string_view, 13> request_names = {
+    "dimension",
+    "num_parts",
+    "part_sizes",
+    "support_mesh",
+    "domain",
+    "cut_rule",
+    "one of grouped_axes, cut_axes, plain_cuts",
+    "previous",
+    "refine",
+    "imbalance_tolerance",
+    "sigma_multiplier",
+    "sample_fraction",
+    "seed"};
+
+/// What a rank asks for, which must be the same on every rank: the bits of each value, or a hash.
+using Request = std::array<std::uint64_t, request_names.size()>;
+
+Request request_of(const Options& options, int dimension, const Cuts* previous);
+
+/// Index in `request_names` of the first value in which two ranks differ.
+std::optional<std::size_t> first_difference(const Request& a, const Request& b);
+
+}  // namespace rrcb

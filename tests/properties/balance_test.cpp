@@ -18,7 +18,7 @@
 namespace rrcb::test {
 namespace {
 
-constexpr int num_cases = 200;
+constexpr int num_cases = 100;
 
 /// A case, this rank's points of it, and the answer.
 struct Answer {

@@ -21,7 +21,7 @@ using zoltan_test::ListCopy;
 using zoltan_test::Outcome;
 using zoltan_test::Program;
 
-constexpr int num_cases = 200;
+constexpr int num_cases = 100;
 
 /// Digit of a case's free number, 0 ... base - 1.
 int digit(const Case& input, int place, int base) {

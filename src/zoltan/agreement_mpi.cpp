@@ -3,6 +3,8 @@
 #include "mpi/communicator.hpp"
 
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <utility>
 
 namespace rrcb::zoltan {
@@ -16,6 +18,15 @@ int severity(int code) {
         if (codes[i] == code) return static_cast<int>(i);
     }
     return severity(ZOLTAN_FATAL);
+}
+
+/// Equal values give equal numbers; the balancer compares the values themselves.
+int fold(std::uint64_t value) {
+    return static_cast<int>(static_cast<std::uint32_t>(value ^ (value >> 32)));
+}
+
+int fold(double value) {
+    return fold(std::bit_cast<std::uint64_t>(value));
 }
 
 struct SameOnAllRanks {
@@ -34,9 +45,28 @@ constexpr std::array same_on_all_ranks = {
                    [](const Parameters& p) { return int{p.weights_comparable != 0}; }},
     SameOnAllRanks{"RETURN_LISTS",
                    [](const Parameters& p) { return static_cast<int>(p.return_lists); }},
+    SameOnAllRanks{"RCB_LOCK_DIRECTIONS",
+                   [](const Parameters& p) { return int{p.lock_directions != 0}; }},
+    SameOnAllRanks{"RCB_SET_DIRECTIONS", [](const Parameters& p) { return p.set_directions; }},
+    SameOnAllRanks{"RCB_RECTILINEAR_BLOCKS",
+                   [](const Parameters& p) { return int{p.rectilinear_blocks != 0}; }},
+    SameOnAllRanks{"IMBALANCE_TOL",
+                   [](const Parameters& p) { return fold(p.options.imbalance_tolerance); }},
+    SameOnAllRanks{"RRCB_DOMAIN",
+                   [](const Parameters& p) { return static_cast<int>(p.options.domain); }},
+    SameOnAllRanks{"RRCB_REFINE",
+                   [](const Parameters& p) { return static_cast<int>(p.options.refine); }},
+    SameOnAllRanks{"RRCB_CUT_RULE",
+                   [](const Parameters& p) { return static_cast<int>(p.options.cut_rule); }},
+    SameOnAllRanks{"RRCB_SUPPORT_MESH", [](const Parameters& p) { return p.options.support_mesh; }},
+    SameOnAllRanks{"RRCB_SIGMA_MULTIPLIER",
+                   [](const Parameters& p) { return fold(p.options.sigma_multiplier); }},
+    SameOnAllRanks{"RRCB_SAMPLE_FRACTION",
+                   [](const Parameters& p) { return fold(p.options.sample_fraction); }},
+    SameOnAllRanks{"RRCB_SEED", [](const Parameters& p) { return fold(p.options.seed); }},
 };
 
-/// Reduced by maximum; a minimum travels as the maximum of the negative.
+/// Reduced by maximum; a minimum travels as the maximum of the complement.
 struct Vote {
     int severity = 0;
     int failing_rank_from_last = 0;  ///< ranks - lowest failing rank
@@ -47,7 +77,7 @@ struct Vote {
     int dumping_rank_from_last = 0;  ///< ranks - lowest rank with a folder
     int dump_always = 0;
     std::array<int, same_on_all_ranks.size()> largest{};
-    std::array<int, same_on_all_ranks.size()> negative_smallest{};
+    std::array<int, same_on_all_ranks.size()> complement_of_smallest{};
 };
 
 Vote vote_of(const LocalStatus& local, const State& state) {
@@ -67,7 +97,7 @@ Vote vote_of(const LocalStatus& local, const State& state) {
     }
     for (std::size_t i = 0; i < same_on_all_ranks.size(); ++i) {
         vote.largest[i] = same_on_all_ranks[i].value(parameters);
-        vote.negative_smallest[i] = -vote.largest[i];
+        vote.complement_of_smallest[i] = ~vote.largest[i];
     }
     return vote;
 }
@@ -91,7 +121,7 @@ Agreement agree(const LocalStatus& local, const State& state) {
         agreement.dumping_rank = state.communicator->size() - vote.dumping_rank_from_last;
     agreement.dump_always = vote.dump_always != 0;
     for (std::size_t i = 0; i < same_on_all_ranks.size(); ++i) {
-        if (vote.largest[i] != -vote.negative_smallest[i]) {
+        if (vote.largest[i] != ~vote.complement_of_smallest[i] && agreement.differing.empty()) {
             agreement.differing = same_on_all_ranks[i].name;
         }
     }

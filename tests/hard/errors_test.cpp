@@ -1,0 +1,126 @@
+#include "../support/ranks.hpp"
+#include "checks_mpi.hpp"
+#include "methods.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/error.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <functional>
+#include <limits>
+
+namespace rrcb::hard_test {
+namespace {
+
+using test::is_last_rank;
+using test::num_ranks;
+using test::rank;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Every method gives every rank the same error, which holds `expected`, and then works again.
+void expect_error(const std::string& expected,
+                  const std::function<void(Share& share, Options& options)>& break_it) {
+    const Cloud& cloud = find_cloud("weights_across_the_positions");
+    const auto owners = owners_of(cloud, 200, Layout::scattered, num_ranks());
+    const Share fine = share_of(cloud, owners, rank());
+    for (const Method& method : methods) {
+        SCOPED_TRACE(std::string(method.domain_name) + " " + method.refine_name);
+        Options options;
+        options.domain = method.domain;
+        options.refine = method.refine;
+        Share broken = fine;
+        Options broken_options = options;
+        break_it(broken, broken_options);
+        std::array<char, 512> text{};
+        try {
+            balance(broken.points(), broken_options, MPI_COMM_WORLD);
+        } catch (const Error& error) {
+            std::string(error.what()).copy(text.data(), text.size() - 1);
+        }
+        EXPECT_NE(std::string(text.data()).find(expected), std::string::npos)
+            << "instead of " << expected << ": " << text.data();
+        expect_same_on_all_ranks(std::as_bytes(std::span(text)));
+        const Balance next = balance(fine.points(), options, MPI_COMM_WORLD);
+        EXPECT_EQ(next.report.num_points, 200);
+    }
+}
+
+std::string last_rank() {
+    return "rank " + std::to_string(num_ranks() - 1) + ": ";
+}
+
+TEST(Errors, a_coordinate_that_is_nan) {
+    expect_error(last_rank() + "coordinate of object 3 on axis 0 is NaN or infinite (1 such value",
+                 [](Share& share, Options&) {
+                     if (is_last_rank()) share.coordinates[3] = nan;
+                 });
+}
+
+TEST(Errors, all_coordinates_are_nan) {
+    expect_error("rank 0: coordinate of object 0 on axis 0", [](Share& share, Options&) {
+        share.coordinates.assign(share.coordinates.size(), nan);
+    });
+}
+
+TEST(Errors, a_coordinate_that_is_infinite) {
+    for (const double bad : {infinity, -infinity})
+        expect_error(last_rank() + "coordinate of object 0 on axis 0", [&](Share& share, Options&) {
+            if (is_last_rank()) share.coordinates[0] = bad;
+        });
+}
+
+TEST(Errors, a_weight_that_is_negative) {
+    expect_error(last_rank() + "weight of object 2 is negative, NaN or infinite (1 such value",
+                 [](Share& share, Options&) {
+                     if (is_last_rank()) share.weights[2] = -1e-300;
+                 });
+}
+
+TEST(Errors, a_weight_that_is_nan_or_infinite) {
+    for (const double bad : {nan, infinity})
+        expect_error(last_rank() + "weight of object 2", [&](Share& share, Options&) {
+            if (is_last_rank()) share.weights[2] = bad;
+        });
+}
+
+TEST(Errors, of_several_ranks_are_told_by_the_lowest) {
+    expect_error("rank 0: weight of object 1",
+                 [](Share& share, Options&) { share.weights[rank() == 0 ? 1 : 0] = nan; });
+}
+
+TEST(Errors, options_that_differ_between_ranks) {
+    if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
+    const auto differs = [](const std::string& name, const std::function<void(Options&)>& change) {
+        expect_error(name + " differs between rank 0 and rank " + std::to_string(num_ranks() - 1),
+                     [&](Share&, Options& options) {
+                         if (is_last_rank()) change(options);
+                     });
+    };
+    differs("num_parts", [](Options& o) { o.num_parts = 99; });
+    differs("cut_rule", [](Options& o) { o.cut_rule = CutRule::midpoint; });
+    differs("imbalance_tolerance", [](Options& o) { o.imbalance_tolerance = 1.5; });
+    differs("seed", [](Options& o) { o.seed = 77; });
+    differs("domain", [](Options& o) {
+        o.domain = o.domain == DomainKind::points ? DomainKind::analytic : DomainKind::points;
+    });
+    differs("refine",
+            [](Options& o) { o.refine = o.refine == Refine::none ? Refine::exact : Refine::none; });
+}
+
+TEST(Errors, a_tree_of_earlier_cuts_that_differs_between_ranks) {
+    if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
+    const std::vector<double> x{0.5 + rank(), 1.25 + rank()};
+    const Points points = interleaved_points(x, 1);
+    Cuts cuts = balance(points, {}, MPI_COMM_WORLD).cuts;
+    const Cuts same = cuts;
+    if (is_last_rank()) cuts.tree[0].at[0] += 1;
+    EXPECT_THROW(balance(points, {}, MPI_COMM_WORLD, cuts), Error);
+    EXPECT_EQ(balance(points, {}, MPI_COMM_WORLD, same).parts.size(), 2u);
+}
+
+}  // namespace
+}  // namespace rrcb::hard_test

@@ -23,13 +23,16 @@ std::vector<double> ideal_weights(std::span<const double> part_weights,
 }  // namespace
 
 double imbalance(std::span<const double> part_weights, std::span<const double> part_sizes) {
-    const std::vector<double> ideal = ideal_weights(part_weights, part_sizes);
+    const double total = std::accumulate(part_weights.begin(), part_weights.end(), 0.0);
+    const double sizes = std::accumulate(part_sizes.begin(), part_sizes.end(), 0.0);
     double worst = 0;
-    for (std::size_t p = 0; p < ideal.size(); ++p) {
-        if (part_weights[p] > 0) {
-            worst = std::max(worst, ideal[p] > 0 ? part_weights[p] / ideal[p]
-                                                 : std::numeric_limits<double>::infinity());
-        }
+    for (std::size_t p = 0; p < part_weights.size(); ++p) {
+        if (!(part_weights[p] > 0)) continue;
+        // Shares, since a part of a tiny weight may be no number that a double holds.
+        const double ideal = part_sizes.empty() ? 1 / static_cast<double>(part_weights.size())
+                                                : part_sizes[p] / sizes;
+        worst = std::max(worst, ideal > 0 ? part_weights[p] / total / ideal
+                                          : std::numeric_limits<double>::infinity());
     }
     return worst > 0 ? worst : 1;
 }

@@ -13,6 +13,11 @@ TEST(Quality, imbalance_is_heaviest_over_mean) {
     EXPECT_DOUBLE_EQ(imbalance(std::vector<double>{5, 5}), 1);
 }
 
+TEST(Quality, imbalance_of_subnormal_weights_keeps_its_digits) {
+    const double unit = 5e-324;
+    EXPECT_DOUBLE_EQ(imbalance(std::vector<double>{2 * unit, unit, unit, unit}), 8.0 / 5);
+}
+
 TEST(Quality, imbalance_is_relative_to_the_sizes_asked_for) {
     const std::vector<double> sizes{1, 3};
     EXPECT_DOUBLE_EQ(imbalance(std::vector<double>{25, 75}, sizes), 1);

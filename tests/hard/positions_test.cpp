@@ -1,10 +1,79 @@
 #include "hard_clouds.hpp"
 
+#include <rrcb/balance.hpp>
+#include <rrcb/quality.hpp>
+
+#include <cmath>
+
 namespace rrcb::hard_test {
 namespace {
 
+using test::num_ranks;
+
 INSTANTIATE_TEST_SUITE_P(Positions, HardCloud,
                          testing::ValuesIn(names_of(clouds_hard_by_position())), name_of);
+
+TEST(Positions, that_coincide_are_told_in_the_report) {
+    Options options;
+    options.num_parts = 4;
+    for (const Refine refine : {Refine::tolerance, Refine::exact}) {
+        options.refine = refine;
+        const Share one_place = scattered_share(find_cloud("coincident"));
+        const Report report = balance(one_place.points(), options, MPI_COMM_WORLD).report;
+        EXPECT_EQ(report.measured_imbalance, 4);
+        EXPECT_EQ(report.coincident_cuts, 2);  // of all points, and of the half that holds them
+        const Share lattice = scattered_share(find_cloud("lattice"));
+        EXPECT_EQ(balance(lattice.points(), options, MPI_COMM_WORLD).report.coincident_cuts, 0);
+    }
+}
+
+TEST(Positions, that_moments_cannot_tell_are_measured_and_refined) {
+    // Two equal clumps per cell look like a density that is even between them.
+    Cloud cloud = find_cloud("coincident");
+    cloud.position = [](int i) {
+        return Vector{uniform(i, 0) < 0.7 ? 0.1 * uniform(i, 1) : 1 - 0.1 * uniform(i, 1),
+                      0.01 * uniform(i, 2)};
+    };
+    const Share share = scattered_share(cloud);
+    Options options;
+    options.num_parts = 4;
+    options.support_mesh = 1;
+    options.refine = Refine::none;
+    const Balance blind = balance(share.points(), options, MPI_COMM_WORLD);
+    const auto weights = part_weights(share.points(), blind.parts, 4, MPI_COMM_WORLD);
+    EXPECT_NEAR(blind.report.estimated_imbalance, 1, 1e-9);
+    EXPECT_TRUE(std::isnan(blind.report.measured_imbalance));
+    EXPECT_GT(imbalance(weights), 1.1);
+
+    options.refine = Refine::tolerance;
+    options.imbalance_tolerance = asked_tolerance;
+    const Report report = balance(share.points(), options, MPI_COMM_WORLD).report;
+    EXPECT_NEAR(report.estimated_imbalance, 1, 1e-9);
+    EXPECT_LE(report.measured_imbalance, asked_tolerance);
+    EXPECT_GT(report.rounds, 1);
+}
+
+TEST(Positions, outside_every_earlier_box_are_divided_from_earlier_cuts) {
+    const Share earlier = scattered_share(find_cloud("spiral"));
+    Options options;
+    options.num_parts = parts_for(num_ranks());
+    const Cuts cuts = balance(earlier.points(), options, MPI_COMM_WORLD).cuts;
+    for (const double distance : {-1e7, 3e3, 1e150}) {
+        Share later = earlier;
+        for (double& x : later.coordinates) x = distance + std::abs(distance) * 1e-3 * x;
+        for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
+            options.refine = refine;
+            const Balance result = balance(later.points(), options, MPI_COMM_WORLD, cuts);
+            for (LocalIndex i = 0; i < result.parts.size(); ++i)
+                ASSERT_EQ(result.parts[i], part_of(result.cuts, later.points().position(i)));
+            const auto weights =
+                part_weights(later.points(), result.parts, options.num_parts, MPI_COMM_WORLD);
+            if (refine == Refine::none) continue;
+            EXPECT_EQ(result.report.measured_imbalance, imbalance(weights));
+            EXPECT_LE(imbalance(weights), 1.01 + options.num_parts / 600.0);
+        }
+    }
+}
 
 }  // namespace
 }  // namespace rrcb::hard_test

@@ -2,6 +2,7 @@
 #include "fragments.hpp"
 #include "merge_tree_mpi.hpp"
 #include "mpi/communicator.hpp"
+#include "mpi/duplicate.hpp"
 #include "refinement_mpi.hpp"
 #include "stage_scope.hpp"
 

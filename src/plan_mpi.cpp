@@ -1,4 +1,6 @@
+#include "agreement_mpi.hpp"
 #include "mpi/communicator.hpp"
+#include "mpi/duplicate.hpp"
 
 #include <rrcb/error.hpp>
 #include <rrcb/plan.hpp>
@@ -34,17 +36,11 @@ int first_rank_of(Part part, int num_parts, int num_ranks) {
     return part * (num_ranks / num_parts) + std::max(0, part + left_over + 1 - num_parts);
 }
 
-void check_parts(std::span<const Part> parts, int num_parts, MPI_Comm comm) {
-    const auto valid = [&](Part part) { return part >= 0 && part < num_parts; };
-    const bool ok = std::all_of(parts.begin(), parts.end(), valid);
-    const int rank = mpi::rank_of(comm);
-    int failing_rank = ok ? mpi::size_of(comm) : rank;
-    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &failing_rank, 1, MPI_INT, MPI_MIN, comm),
-               "MPI_Allreduce");
-    if (failing_rank < mpi::size_of(comm))
-        throw Error(ErrorCode::invalid_argument, "rank " + std::to_string(failing_rank) +
-                                                     ": a part is outside 0 ... " +
-                                                     std::to_string(num_parts - 1));
+void check_parts(std::span<const Part> parts, int num_parts) {
+    const auto is_none = [&](Part part) { return part < 0 || part >= num_parts; };
+    if (std::ranges::any_of(parts, is_none))
+        throw Error(ErrorCode::invalid_argument,
+                    "a part is outside 0 ... " + std::to_string(num_parts - 1));
 }
 
 void list_exports(std::span<const Part> parts, int num_parts, MPI_Comm comm, Plan& plan) {
@@ -59,72 +55,99 @@ void list_exports(std::span<const Part> parts, int num_parts, MPI_Comm comm, Pla
     }
 }
 
-/// Notices for one destination after the other, and how many each rank is to get.
-struct Outbox {
-    std::vector<Notice> notices;
-    std::vector<int> counts;
+std::size_t most_notices() {
+    return mpi::longest_message / sizeof(Notice);
+}
+
+/// Messages of this rank, with room for all that comes and goes.
+struct Exchange {
+    std::vector<Notice> outbox;  ///< for one destination after the other
+    std::vector<Notice> inbox;   ///< in the order of arrival
+    struct Message {
+        int source;
+        std::size_t first;  ///< in the inbox
+        std::size_t count;
+    };
+    std::vector<Message> arrived;
+    std::vector<MPI_Request> requests;
 };
 
-Outbox sort_by_destination(const Plan& plan, int num_ranks) {
-    Outbox outbox{std::vector<Notice>(plan.export_indices.size()),
-                  std::vector<int>(static_cast<std::size_t>(num_ranks))};
-    for (const int destination : plan.export_ranks)
-        ++outbox.counts[static_cast<std::size_t>(destination)];
-    std::vector<std::size_t> next(outbox.counts.size());
-    std::exclusive_scan(outbox.counts.begin(), outbox.counts.end(), next.begin(), std::size_t{0});
+/// Fills the outbox, and `counts` with the number of notices for each rank.
+void sort_by_destination(const Plan& plan, std::span<std::int64_t> counts, Exchange& exchange) {
+    exchange.outbox.resize(plan.export_indices.size());
+    for (const int destination : plan.export_ranks) ++counts[static_cast<std::size_t>(destination)];
+    std::vector<std::size_t> next(counts.size());
+    std::exclusive_scan(counts.begin(), counts.end(), next.begin(), std::size_t{0});
     for (std::size_t k = 0; k < plan.export_indices.size(); ++k) {
         const auto destination = static_cast<std::size_t>(plan.export_ranks[k]);
-        outbox.notices[next[destination]++] = {plan.export_indices[k], plan.export_parts[k]};
+        exchange.outbox[next[destination]++] = {plan.export_indices[k], plan.export_parts[k]};
     }
-    return outbox;
+    const std::size_t most = counts.size() + exchange.outbox.size() / most_notices();
+    exchange.requests.reserve(
+        static_cast<std::size_t>(mpi::to_int(static_cast<std::int64_t>(most))));
 }
 
-/// Sends one message to each destination; returns the requests. `outbox` must outlive them.
-std::vector<MPI_Request> send(const Outbox& outbox, MPI_Comm comm) {
-    std::vector<MPI_Request> requests;
-    std::size_t offset = 0;
-    for (std::size_t destination = 0; destination < outbox.counts.size(); ++destination) {
-        const auto count = static_cast<std::size_t>(outbox.counts[destination]);
-        if (count == 0) continue;
-        mpi::check(
-            MPI_Isend(outbox.notices.data() + offset,
-                      mpi::to_int(static_cast<std::int64_t>(count * sizeof(Notice))), MPI_BYTE,
-                      static_cast<int>(destination), plan_tag, comm, &requests.emplace_back()),
-            "MPI_Isend");
-        offset += count;
-    }
-    return requests;
-}
-
-int count_senders(const Outbox& outbox, MPI_Comm comm) {
-    std::vector<int> sends(outbox.counts.size());
-    std::transform(outbox.counts.begin(), outbox.counts.end(), sends.begin(),
-                   [](int count) { return count > 0 ? 1 : 0; });
-    int senders = 0;
-    mpi::check(MPI_Reduce_scatter_block(sends.data(), &senders, 1, MPI_INT, MPI_SUM, comm),
+/// How many notices come to this rank. Collective: one reduction.
+std::size_t count_imports(std::span<const std::int64_t> counts, MPI_Comm comm) {
+    std::int64_t num_imports = 0;
+    mpi::check(MPI_Reduce_scatter_block(counts.data(), &num_imports, 1, MPI_INT64_T, MPI_SUM, comm),
                "MPI_Reduce_scatter_block");
-    return senders;
+    return static_cast<std::size_t>(num_imports);
 }
 
-/// Receives `senders` messages and lists them by rank, whatever the order of arrival.
-void list_imports(int senders, MPI_Comm comm, Plan& plan) {
-    std::vector<std::pair<int, std::vector<Notice>>> inbox;
-    for (int k = 0; k < senders; ++k) {
-        MPI_Status status;
-        mpi::check(MPI_Probe(MPI_ANY_SOURCE, plan_tag, comm, &status), "MPI_Probe");
-        int bytes = 0;
-        mpi::check(MPI_Get_count(&status, MPI_BYTE, &bytes), "MPI_Get_count");
-        auto& [source, notices] = inbox.emplace_back(status.MPI_SOURCE, std::vector<Notice>());
-        notices.resize(static_cast<std::size_t>(bytes) / sizeof(Notice));
-        mpi::check(
-            MPI_Recv(notices.data(), bytes, MPI_BYTE, source, plan_tag, comm, MPI_STATUS_IGNORE),
-            "MPI_Recv");
+void make_room(std::size_t num_imports, std::size_t num_ranks, Exchange& exchange, Plan& plan) {
+    exchange.inbox.resize(num_imports);
+    exchange.arrived.reserve(std::min(num_imports, num_ranks + num_imports / most_notices()));
+    plan.import_ranks.reserve(num_imports);
+    plan.import_indices.reserve(num_imports);
+    plan.import_parts.reserve(num_imports);
+}
+
+void send_all(std::span<const std::int64_t> counts, Exchange& exchange, Member& me) {
+    const Notice* next = exchange.outbox.data();
+    for (std::size_t destination = 0; destination < counts.size(); ++destination) {
+        auto left = static_cast<std::size_t>(counts[destination]);
+        while (left > 0) {
+            const std::size_t count = std::min(left, most_notices());
+            MPI_Request& request = exchange.requests.emplace_back(MPI_REQUEST_NULL);
+            me.always([&] {
+                mpi::check(MPI_Isend(next, static_cast<int>(count * sizeof(Notice)), MPI_BYTE,
+                                     static_cast<int>(destination), plan_tag, me.comm, &request),
+                           "MPI_Isend");
+            });
+            next += count;
+            left -= count;
+        }
     }
-    std::sort(inbox.begin(), inbox.end(),
-              [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (const auto& [source, notices] : inbox) {
-        for (const Notice& notice : notices) {
-            plan.import_ranks.push_back(source);
+}
+
+void receive_all(Exchange& exchange, Member& me) {
+    std::size_t first = 0;
+    while (first < exchange.inbox.size()) {
+        const std::size_t most = std::min(exchange.inbox.size() - first, most_notices());
+        MPI_Status status{};
+        int bytes = 0;
+        me.always([&] {
+            mpi::check(MPI_Recv(&exchange.inbox[first], static_cast<int>(most * sizeof(Notice)),
+                                MPI_BYTE, MPI_ANY_SOURCE, plan_tag, me.comm, &status),
+                       "MPI_Recv");
+        });
+        if (MPI_Get_count(&status, MPI_BYTE, &bytes) != MPI_SUCCESS || bytes <= 0) return;
+        const std::size_t count = static_cast<std::size_t>(bytes) / sizeof(Notice);
+        exchange.arrived.push_back({status.MPI_SOURCE, first, count});
+        first += count;
+    }
+}
+
+/// Lists what arrived by rank, whatever the order of arrival.
+void list_imports(Exchange& exchange, Plan& plan) {
+    std::ranges::sort(exchange.arrived, [](const auto& a, const auto& b) {
+        return std::pair(a.source, a.first) < std::pair(b.source, b.first);
+    });
+    for (const Exchange::Message& message : exchange.arrived) {
+        for (const Notice& notice :
+             std::span(exchange.inbox).subspan(message.first, message.count)) {
+            plan.import_ranks.push_back(message.source);
             plan.import_indices.push_back(notice.index);
             plan.import_parts.push_back(notice.part);
         }
@@ -147,16 +170,30 @@ RankRange ranks_of_part(Part part, int num_parts, int num_ranks) {
 }
 
 Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm user) {
-    const MPI_Comm comm = mpi::duplicate_of(user);
-    check_parts(parts, num_parts, comm);
+    auto& [comm, counts] = mpi::duplicate_with(user);
+    Member me{comm};
     Plan result;
-    list_exports(parts, num_parts, comm, result);
-    const Outbox outbox = sort_by_destination(result, mpi::size_of(comm));
-    const int senders = count_senders(outbox, comm);
-    std::vector<MPI_Request> requests = send(outbox, comm);
-    list_imports(senders, comm, result);
-    mpi::check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE),
-               "MPI_Waitall");
+    Exchange exchange;
+    std::ranges::fill(counts, 0);
+    me.locally([&] {
+        check_parts(parts, num_parts);
+        list_exports(parts, num_parts, comm, result);
+        sort_by_destination(result, counts, exchange);
+    });
+    if (me.failure.failed) std::ranges::fill(counts, 0);
+    const std::size_t num_imports = count_imports(counts, comm);
+    me.locally([&] { make_room(num_imports, counts.size(), exchange, result); });
+    agree(me);
+    send_all(counts, exchange, me);
+    receive_all(exchange, me);
+    me.always([&] {
+        mpi::check(MPI_Waitall(static_cast<int>(exchange.requests.size()), exchange.requests.data(),
+                               MPI_STATUSES_IGNORE),
+                   "MPI_Waitall");
+    });
+    // Of messages between two ranks nobody else hears any more.
+    if (me.failure.failed) throw Error(me.failure.code, me.failure.text.data());
+    list_imports(exchange, result);
     return result;
 }
 

@@ -1,4 +1,5 @@
 #include "mpi/communicator.hpp"
+#include "mpi/duplicate.hpp"
 
 #include <rrcb/plan.hpp>
 #include <rrcb/quality.hpp>

@@ -1,10 +1,16 @@
+#include "remap_mpi.hpp"
+
+#include "agreement_mpi.hpp"
 #include "assignment.hpp"
 #include "mpi/communicator.hpp"
+#include "mpi/duplicate.hpp"
 
-#include <rrcb/remap.hpp>
+#include <rrcb/error.hpp>
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -12,15 +18,8 @@ namespace rrcb {
 
 namespace {
 
-constexpr int root = 0;
 constexpr std::size_t overlaps_per_part = 16;
-
-/// How many points of one origin, a rank or an earlier part, go to a part.
-struct Overlap {
-    std::int32_t origin = 0;
-    Part part = 0;
-    GlobalCount count = 0;
-};
+constexpr int none_failed = -1;
 
 /// Where points stay.
 struct Homes {
@@ -82,37 +81,37 @@ std::vector<Overlap> overlaps_by_part(std::span<const Part> parts, std::span<con
 }
 
 /// A fixed number of overlaps from each rank, so that one gather carries all. Unused entries count
-/// 0; the first holds the number of points. Collective over `comm`.
-std::vector<Overlap> gather(std::vector<Overlap> mine, std::size_t num_points, int num_parts,
-                            MPI_Comm comm) {
-    const int num_ranks = mpi::size_of(comm);
-    const std::size_t parts_per_rank = static_cast<std::size_t>((num_parts - 1) / num_ranks + 1);
-    const std::size_t limit = overlaps_per_part * parts_per_rank;
-    keep_largest(limit, mine);
-    mine.resize(limit);
-    mine.insert(mine.begin(), {0, 0, static_cast<GlobalCount>(num_points)});
-    const bool is_root = mpi::rank_of(comm) == root;
-    std::vector<Overlap> all(is_root ? mine.size() * static_cast<std::size_t>(num_ranks) : 0);
-    const int bytes = mpi::to_int(static_cast<std::int64_t>(mine.size() * sizeof(Overlap)));
-    mpi::check(MPI_Gather(mine.data(), bytes, MPI_BYTE, all.data(), bytes, MPI_BYTE, root, comm),
+/// 0; the first holds the number of points, and 1 as its part where the rank has failed.
+/// Collective.
+void gather(std::vector<Overlap> mine, std::size_t num_points, RemapRoom& room, const Member& me) {
+    keep_largest(room.mine.size() - 1, mine);
+    std::ranges::fill(room.mine, Overlap{});
+    room.mine[0] = {0, me.failure.failed ? 1 : 0, static_cast<GlobalCount>(num_points)};
+    std::ranges::copy(mine, room.mine.begin() + 1);
+    const int bytes = static_cast<int>(room.mine.size() * sizeof(Overlap));
+    mpi::check(MPI_Gather(room.mine.data(), bytes, MPI_BYTE, room.all.data(), bytes, MPI_BYTE, root,
+                          me.comm),
                "MPI_Gather");
-    return all;
+}
+
+int lowest_failing_rank(const RemapRoom& room) {
+    for (std::size_t i = 0; i < room.all.size(); i += room.mine.size())
+        if (room.all[i].part != 0) return static_cast<int>(i / room.mine.size());
+    return none_failed;
 }
 
 /// Takes the number of points out of what was gathered.
-GlobalCount extract_num_points(std::vector<Overlap>& gathered, int num_ranks) {
-    const std::size_t stride = gathered.size() / static_cast<std::size_t>(num_ranks);
+GlobalCount extract_num_points(RemapRoom& room) {
     GlobalCount num_points = 0;
-    for (std::size_t i = 0; i < gathered.size(); i += stride) {
-        num_points += std::exchange(gathered[i].count, 0);
-    }
-    std::erase_if(gathered, [](const Overlap& overlap) { return overlap.count == 0; });
+    for (std::size_t i = 0; i < room.all.size(); i += room.mine.size())
+        num_points += std::exchange(room.all[i].count, 0);
     return num_points;
 }
 
 std::vector<Gain> gains_of(std::span<const Overlap> overlaps, const Homes& homes) {
     std::vector<Gain> gains;
     for (const Overlap& overlap : overlaps) {
+        if (overlap.count == 0) continue;
         const auto [first, last] = homes.numbers_for(overlap.origin);
         for (Part number = first; number < last; ++number) {
             gains.push_back({overlap.part, number, overlap.count});
@@ -125,6 +124,7 @@ GlobalCount kept(std::span<const Overlap> overlaps, std::span<const Part> number
                  const Homes& homes) {
     GlobalCount sum = 0;
     for (const Overlap& overlap : overlaps) {
+        if (overlap.count == 0) continue;
         const auto [first, last] = homes.numbers_for(overlap.origin);
         const Part number = numbers[static_cast<std::size_t>(overlap.part)];
         if (number >= first && number < last) sum += overlap.count;
@@ -133,63 +133,113 @@ GlobalCount kept(std::span<const Overlap> overlaps, std::span<const Part> number
 }
 
 /// The root's decision.
-Remap decide(std::vector<Overlap> gathered, int num_ranks, const Homes& homes) {
+Remap decide(RemapRoom& room, const Homes& homes) {
     Remap remap;
-    remap.num_points = extract_num_points(gathered, num_ranks);
+    remap.num_points = extract_num_points(room);
     std::vector<Part> unchanged(static_cast<std::size_t>(homes.num_parts()));
     std::iota(unchanged.begin(), unchanged.end(), 0);
-    remap.numbers = best_numbers(gains_of(gathered, homes), homes.num_parts());
-    remap.kept_before = kept(gathered, unchanged, homes);
-    remap.kept_after = kept(gathered, remap.numbers, homes);
+    remap.numbers = best_numbers(gains_of(room.all, homes), homes.num_parts());
+    remap.kept_before = kept(room.all, unchanged, homes);
+    remap.kept_after = kept(room.all, remap.numbers, homes);
     if (remap.kept_after > remap.kept_before) return remap;
     remap.numbers = std::move(unchanged);
     remap.kept_after = remap.kept_before;
     return remap;
 }
 
+/// The decision of the root, or the lowest rank that failed, on its way to all ranks.
 /// Collective over `comm`: one broadcast.
-void share(Remap& remap, MPI_Comm comm) {
-    std::vector<GlobalCount> message(remap.numbers.begin(), remap.numbers.end());
-    message.insert(message.end(), {remap.num_points, remap.kept_before, remap.kept_after});
-    mpi::check(MPI_Bcast(message.data(), mpi::to_int(static_cast<std::int64_t>(message.size())),
-                         MPI_INT64_T, root, comm),
-               "MPI_Bcast");
-    const std::size_t num_parts = remap.numbers.size();
-    for (std::size_t p = 0; p < num_parts; ++p) remap.numbers[p] = static_cast<Part>(message[p]);
-    remap.num_points = message[num_parts];
-    remap.kept_before = message[num_parts + 1];
-    remap.kept_after = message[num_parts + 2];
+int share(int failing_rank, Remap& remap, RemapRoom& room, MPI_Comm comm) {
+    const std::size_t num_parts = room.numbers.size();
+    std::ranges::copy(remap.numbers, room.decision.begin());
+    const std::span tail = std::span(room.decision).last<4>();
+    tail[0] = failing_rank;
+    tail[1] = remap.num_points;
+    tail[2] = remap.kept_before;
+    tail[3] = remap.kept_after;
+    mpi::broadcast(std::as_writable_bytes(std::span(room.decision)), root, comm);
+    for (std::size_t p = 0; p < num_parts; ++p)
+        room.numbers[p] = static_cast<Part>(room.decision[p]);
+    remap.numbers = std::move(room.numbers);
+    remap.num_points = tail[1];
+    remap.kept_before = tail[2];
+    remap.kept_after = tail[3];
     remap.identity = remap.kept_after == remap.kept_before;
+    return static_cast<int>(tail[0]);
 }
 
-/// Collective over `comm`.
-Remap remap(std::vector<Overlap> overlaps, std::size_t num_points, const Homes& homes,
-            MPI_Comm comm) {
-    const int num_parts = homes.num_parts();
-    std::vector<Overlap> gathered = gather(std::move(overlaps), num_points, num_parts, comm);
-    Remap result;
-    result.numbers.resize(static_cast<std::size_t>(num_parts));
-    if (mpi::rank_of(comm) == root) {
-        result = decide(std::move(gathered), mpi::size_of(comm), homes);
-    }
-    share(result, comm);
-    return result;
+void check_arguments(std::span<const Part> parts, const PreviousParts& previous,
+                     std::size_t num_parts) {
+    if (num_parts == 0)
+        throw Error(ErrorCode::invalid_argument,
+                    "ranks_of_parts is empty; give one entry per part");
+    if (previous && previous->size() != parts.size())
+        throw Error(ErrorCode::invalid_argument,
+                    "previous has " + std::to_string(previous->size()) + " entries, parts has " +
+                        std::to_string(parts.size()) + "; give one of each per point");
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (parts[i] < 0 || static_cast<std::size_t>(parts[i]) >= num_parts)
+            throw Error(ErrorCode::invalid_argument,
+                        "part " + std::to_string(parts[i]) + " of point " + std::to_string(i) +
+                            " is none of the " + std::to_string(num_parts) + " parts");
+}
+
+/// The public functions: with a look at the arguments, and room of their own. Collective.
+Remap remap_alone(std::span<const Part> parts, const PreviousParts& previous,
+                  std::span<const RankRange> ranks_of_parts, MPI_Comm user) {
+    Member me{mpi::duplicate_of(user)};
+    std::optional<RemapRoom> room;
+    me.locally([&] {
+        check_arguments(parts, previous, ranks_of_parts.size());
+        room.emplace(static_cast<int>(ranks_of_parts.size()), mpi::size_of(me.comm),
+                     mpi::rank_of(me.comm) == root);
+    });
+    agree(me);
+    return remap(parts, previous, ranks_of_parts, *room, me);
 }
 
 }  // namespace
 
+RemapRoom::RemapRoom(int num_parts, int num_ranks, bool is_root) {
+    const auto parts_per_rank = static_cast<std::size_t>((num_parts - 1) / num_ranks + 1);
+    mine.resize(1 + overlaps_per_part * parts_per_rank);
+    mpi::to_int(static_cast<std::int64_t>(mine.size() * sizeof(Overlap)));
+    if (is_root) all.resize(mine.size() * static_cast<std::size_t>(num_ranks));
+    numbers.resize(static_cast<std::size_t>(num_parts));
+    decision.resize(numbers.size() + 4);
+}
+
+Remap remap(std::span<const Part> parts, const PreviousParts& previous,
+            std::span<const RankRange> ranks_of_parts, RemapRoom& room, Member& me) {
+    const Homes homes{ranks_of_parts, !previous};
+    const int rank = mpi::rank_of(me.comm);
+    std::vector<Overlap> overlaps;
+    me.locally([&] {
+        overlaps = previous ? overlaps_by_part(parts, *previous, homes.num_parts())
+                            : overlaps_by_rank(parts, homes.num_parts(), rank);
+    });
+    gather(std::move(overlaps), parts.size(), room, me);
+    Remap result;
+    int failing_rank = none_failed;
+    if (rank == root) {
+        failing_rank = lowest_failing_rank(room);
+        me.locally([&] {
+            if (failing_rank == none_failed) result = decide(room, homes);
+        });
+        if (me.failure.failed) failing_rank = root;
+    }
+    failing_rank = share(failing_rank, result, room, me.comm);
+    if (failing_rank != none_failed) fail_together(failing_rank, me);
+    return result;
+}
+
 Remap remap(std::span<const Part> parts, std::span<const RankRange> ranks_of_parts, MPI_Comm user) {
-    const MPI_Comm comm = mpi::duplicate_of(user);
-    const Homes homes{ranks_of_parts, true};
-    return remap(overlaps_by_rank(parts, homes.num_parts(), mpi::rank_of(comm)), parts.size(),
-                 homes, comm);
+    return remap_alone(parts, std::nullopt, ranks_of_parts, user);
 }
 
 Remap remap(std::span<const Part> parts, std::span<const Part> previous,
             std::span<const RankRange> ranks_of_parts, MPI_Comm user) {
-    const Homes homes{ranks_of_parts, false};
-    return remap(overlaps_by_part(parts, previous, homes.num_parts()), parts.size(), homes,
-                 mpi::duplicate_of(user));
+    return remap_alone(parts, previous, ranks_of_parts, user);
 }
 
 }  // namespace rrcb

@@ -20,8 +20,9 @@ struct Remap {
 
 /// Numbers the parts of a new partition so that few points leave their rank.
 ///
-/// Collective over `comm`: one gather, one broadcast. `parts` is the new part of each local point,
-/// `ranks_of_parts` has one entry per part, ascending, with one rank each, the same on every rank.
+/// Collective over `comm`: one reduction, one gather, one broadcast. `parts` is the new part of each
+/// local point, `ranks_of_parts` has one entry per part, ascending, with one rank each, the same on
+/// every rank. Throws Error on every rank when one names a part that is none, or has no memory.
 ///
 /// Every rank tells the root its heaviest overlaps, 16 per part it holds, so up to 16 parts all
 /// of them; counts are of what was told. The root finds the permutation that keeps most: up to 128
@@ -32,7 +33,8 @@ Remap remap(std::span<const Part> parts, std::span<const RankRange> ranks_of_par
 
 /// The same, so that few points change the number of their part.
 ///
-/// `previous` is the part each local point was in; numbers that are no part any more count nothing.
+/// `previous` is the part each local point was in, as long as `parts`; numbers that are no part any
+/// more count nothing.
 Remap remap(std::span<const Part> parts, std::span<const Part> previous,
             std::span<const RankRange> ranks_of_parts, MPI_Comm comm);
 

@@ -8,24 +8,6 @@
 
 namespace rrcb::mpi {
 
-namespace {
-
-int free_duplicate(MPI_Comm, int, void* duplicate, void*) {
-    MPI_Comm* comm = static_cast<MPI_Comm*>(duplicate);
-    const int code = MPI_Comm_free(comm);
-    delete comm;
-    return code;
-}
-
-int create_key() {
-    int key = MPI_KEYVAL_INVALID;
-    check(MPI_Comm_create_keyval(MPI_COMM_NULL_COPY_FN, free_duplicate, &key, nullptr),
-          "MPI_Comm_create_keyval");
-    return key;
-}
-
-}  // namespace
-
 void check(int code, const char* call) {
     if (code == MPI_SUCCESS) return;
     char text[MPI_MAX_ERROR_STRING] = "";
@@ -39,19 +21,6 @@ int to_int(std::int64_t count) {
         throw Error(ErrorCode::mpi, "a message of " + std::to_string(count) +
                                         " items exceeds the range of MPI's counts");
     return static_cast<int>(count);
-}
-
-MPI_Comm duplicate_of(MPI_Comm user) {
-    static const int key = create_key();
-    void* attribute = nullptr;
-    int found = 0;
-    check(MPI_Comm_get_attr(user, key, &attribute, &found), "MPI_Comm_get_attr");
-    if (found) return *static_cast<MPI_Comm*>(attribute);
-    MPI_Comm duplicate = MPI_COMM_NULL;
-    check(MPI_Comm_dup(user, &duplicate), "MPI_Comm_dup");
-    check(MPI_Comm_set_errhandler(duplicate, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
-    check(MPI_Comm_set_attr(user, key, new MPI_Comm(duplicate)), "MPI_Comm_set_attr");
-    return duplicate;
 }
 
 void broadcast(std::span<std::byte> bytes, int root, MPI_Comm comm) {

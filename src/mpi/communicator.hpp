@@ -19,12 +19,6 @@ int to_int(std::int64_t count);
 /// Bytes in one message at most; tests lower it.
 inline std::size_t longest_message = std::numeric_limits<int>::max();
 
-/// The library's own duplicate of the caller's communicator; errors on it return.
-///
-/// Collective when called for the first time with `user`: the duplicate is kept as an attribute
-/// of it and freed with it.
-MPI_Comm duplicate_of(MPI_Comm user);
-
 /// MPI_Bcast of any number of bytes. Collective over `comm`; as many on each rank.
 void broadcast(std::span<std::byte> bytes, int root, MPI_Comm comm);
 

@@ -26,21 +26,10 @@ std::vector<double> cloud_here(int dimension) {
     return test::uniform_cloud(120, dimension, static_cast<unsigned>(test::rank() + 1));
 }
 
-/// Lets memory run short in the refinement alone.
-class InRefinement : public StageObserver {
-  public:
-    void begin(Stage stage) noexcept override {
-        memory_layer::count_allocations(stage == Stage::refinement);
-    }
-    void end(Stage) noexcept override { memory_layer::count_allocations(false); }
-};
-
 /// Balances again and again by `options`, from `previous` if given.
-void fail_in_balance(Options options, const Cuts* previous = nullptr) {
+void fail_in_balance(const Options& options, const Cuts* previous = nullptr) {
     const std::vector<double> coordinates = cloud_here(2);
     const Points points = interleaved_points(coordinates, 2);
-    InRefinement observer;
-    options.observer = &observer;
     const auto call = [&] {
         return previous ? balance(points, options, MPI_COMM_WORLD, *previous)
                         : balance(points, options, MPI_COMM_WORLD);
@@ -65,6 +54,15 @@ Options refining(Refine refine) {
     return options;
 }
 
+TEST(FailingMemory, in_estimated_cuts) {
+    for (const DomainKind domain :
+         {DomainKind::analytic, DomainKind::sampled, DomainKind::points}) {
+        Options options = refining(Refine::none);
+        options.domain = domain;
+        fail_in_balance(options);
+    }
+}
+
 TEST(FailingMemory, in_cuts_refined_to_a_tolerance) {
     fail_in_balance(refining(Refine::tolerance));
 }
@@ -78,6 +76,56 @@ TEST(FailingMemory, in_cuts_from_an_earlier_call) {
     const std::vector<double> coordinates = cloud_here(2);
     const Cuts previous = balance(interleaved_points(coordinates, 2), options, MPI_COMM_WORLD).cuts;
     fail_in_balance(options, &previous);
+}
+
+/// Parts that send points from every rank to every other.
+std::vector<Part> parts_here() {
+    std::vector<Part> parts(60);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        parts[i] = static_cast<Part>(i) % (2 * test::num_ranks());
+    return parts;
+}
+
+TEST(FailingMemory, in_a_plan) {
+    const std::vector<Part> parts = parts_here();
+    const Plan expected = plan(parts, 2 * test::num_ranks(), MPI_COMM_WORLD);
+    Plan result;
+    FailingMemory(
+        {ok, static_cast<int>(ErrorCode::out_of_memory)},
+        [&] {
+            result = {};
+            return code_of([&] { result = plan(parts, 2 * test::num_ranks(), MPI_COMM_WORLD); });
+        },
+        [&] {
+            EXPECT_EQ(result.export_indices, expected.export_indices);
+            EXPECT_EQ(result.import_indices, expected.import_indices);
+            EXPECT_EQ(result.import_ranks, expected.import_ranks);
+        })
+        .run();
+}
+
+TEST(FailingMemory, in_new_part_numbers) {
+    const std::vector<Part> parts = parts_here();
+    const std::vector<Part> previous(parts.rbegin(), parts.rend());
+    std::vector<RankRange> ranks;
+    for (Part part = 0; part < 2 * test::num_ranks(); ++part)
+        ranks.push_back(ranks_of_part(part, 2 * test::num_ranks(), test::num_ranks()));
+    for (const bool on_rank : {true, false}) {
+        const auto call = [&] {
+            return on_rank ? remap(parts, ranks, MPI_COMM_WORLD)
+                           : remap(parts, previous, ranks, MPI_COMM_WORLD);
+        };
+        const std::vector<Part> expected = call().numbers;
+        std::vector<Part> numbers;
+        FailingMemory(
+            {ok, static_cast<int>(ErrorCode::out_of_memory)},
+            [&] {
+                numbers = {};
+                return code_of([&] { numbers = call().numbers; });
+            },
+            [&] { EXPECT_EQ(numbers, expected); })
+            .run();
+    }
 }
 
 }  // namespace

@@ -10,13 +10,11 @@ namespace {
 long failing_allocation = 0;
 Shortage failing = Shortage::once;
 long num_counted = 0;
-bool is_counting = true;
 long num_live = 0;
 
 }  // namespace
 
 bool next_fails() {
-    if (!is_counting) return false;
     ++num_counted;
     if (failing_allocation == 0) return false;
     return num_counted == failing_allocation ||
@@ -27,10 +25,6 @@ void fail_allocation(long number, Shortage shortage) {
     failing_allocation = number;
     failing = shortage;
     num_counted = 0;
-}
-
-void count_allocations(bool counting) {
-    is_counting = counting;
 }
 
 long counted_allocations() {

@@ -12,9 +12,6 @@ enum class Shortage {
 /// Counted are those by operator new, and by Zoltan's allocator from the plug-in.
 void fail_allocation(long number, Shortage shortage = Shortage::once);
 
-/// Counts and fails nothing while `counting` is false.
-void count_allocations(bool counting);
-
 /// How many allocations were counted since fail_allocation.
 long counted_allocations();
 

@@ -1,5 +1,6 @@
 #include "mpi_layer.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -23,6 +24,8 @@ struct Counter {
 
 Counter collectives;
 Counter messages;
+Counter local_calls;
+std::int64_t longest = 0;
 
 int size_of(MPI_Comm comm) {
     int size = 0;
@@ -120,6 +123,7 @@ void stop_checking() {
 
 void fail_call(long number) {
     collectives = {number, 0};
+    longest = 0;
 }
 
 long counted_calls() {
@@ -134,12 +138,32 @@ long counted_messages() {
     return messages.counted;
 }
 
+void fail_local_call(long number) {
+    local_calls = {number, 0};
+}
+
+long counted_local_calls() {
+    return local_calls.counted;
+}
+
+std::int64_t longest_message() {
+    return longest;
+}
+
+void note_message(std::int64_t bytes) {
+    longest = std::max(longest, bytes);
+}
+
 int after_call(int code, MPI_Comm comm) {
     return collectives.after(code, comm);
 }
 
 int after_message(int code, MPI_Comm comm) {
     return messages.after(code, comm);
+}
+
+bool next_local_call_fails() {
+    return ++local_calls.counted == local_calls.failing;
 }
 
 }  // namespace mpi_layer

@@ -37,13 +37,28 @@ __attribute__((visibility("default"))) long counted_calls();
 __attribute__((visibility("default"))) void fail_message(long number);
 __attribute__((visibility("default"))) long counted_messages();
 
+/// The same for calls that make or set something on this rank alone: types, reductions, attributes.
+/// The one that fails is not carried out.
+__attribute__((visibility("default"))) void fail_local_call(long number);
+__attribute__((visibility("default"))) long counted_local_calls();
+
+/// Bytes of the longest broadcast or message between two ranks since fail_call, on this rank.
+__attribute__((visibility("default"))) std::int64_t longest_message();
+
+void note_message(std::int64_t bytes);
 int after_call(int code, MPI_Comm comm);
 int after_message(int code, MPI_Comm comm);
+bool next_local_call_fails();
 
 template <typename Body>
 int collective(const Call& call, MPI_Comm comm, Body body) {
     check_sequence(call, comm);
     return after_call(body(), comm);
+}
+
+template <typename Body>
+int local_call(Body body) {
+    return next_local_call_fails() ? MPI_ERR_OTHER : body();
 }
 
 }  // namespace mpi_layer

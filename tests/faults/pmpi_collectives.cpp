@@ -11,6 +11,7 @@ int MPI_Barrier(MPI_Comm comm) {
 }
 
 int MPI_Bcast(void* data, int count, MPI_Datatype type, int root, MPI_Comm comm) {
+    mpi_layer::note_message(bytes_of(count, type));
     return collective(call_of("MPI_Bcast", root, bytes_of(count, type)), comm,
                       [&] { return PMPI_Bcast(data, count, type, root, comm); });
 }

@@ -3,6 +3,7 @@
 using mpi_layer::after_message;
 using mpi_layer::call_of;
 using mpi_layer::collective;
+using mpi_layer::local_call;
 
 extern "C" {
 
@@ -45,11 +46,13 @@ int MPI_Comm_free(MPI_Comm* comm) {
 }
 
 int MPI_Send(const void* data, int count, MPI_Datatype type, int to, int tag, MPI_Comm comm) {
+    mpi_layer::note_message(mpi_layer::bytes_of(count, type));
     return after_message(PMPI_Send(data, count, type, to, tag, comm), comm);
 }
 
 int MPI_Isend(const void* data, int count, MPI_Datatype type, int to, int tag, MPI_Comm comm,
               MPI_Request* request) {
+    mpi_layer::note_message(mpi_layer::bytes_of(count, type));
     return after_message(PMPI_Isend(data, count, type, to, tag, comm, request), comm);
 }
 
@@ -65,6 +68,26 @@ int MPI_Irecv(void* data, int count, MPI_Datatype type, int from, int tag, MPI_C
 
 int MPI_Probe(int from, int tag, MPI_Comm comm, MPI_Status* status) {
     return after_message(PMPI_Probe(from, tag, comm, status), comm);
+}
+
+int MPI_Type_contiguous(int count, MPI_Datatype element, MPI_Datatype* type) {
+    return local_call([&] { return PMPI_Type_contiguous(count, element, type); });
+}
+
+int MPI_Type_commit(MPI_Datatype* type) {
+    return local_call([&] { return PMPI_Type_commit(type); });
+}
+
+int MPI_Op_create(MPI_User_function* function, int commutes, MPI_Op* operation) {
+    return local_call([&] { return PMPI_Op_create(function, commutes, operation); });
+}
+
+int MPI_Comm_set_errhandler(MPI_Comm comm, MPI_Errhandler handler) {
+    return local_call([&] { return PMPI_Comm_set_errhandler(comm, handler); });
+}
+
+int MPI_Comm_set_attr(MPI_Comm comm, int key, void* value) {
+    return local_call([&] { return PMPI_Comm_set_attr(comm, key, value); });
 }
 
 }  // extern "C"

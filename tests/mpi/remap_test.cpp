@@ -1,10 +1,12 @@
 #include "ranks.hpp"
 
+#include <rrcb/error.hpp>
 #include <rrcb/remap.hpp>
 
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <string>
 
 namespace rrcb {
 namespace {
@@ -75,6 +77,30 @@ TEST(Remap, takes_ranks_without_points) {
     const Remap nothing = remap({}, ranks_of(num_ranks()), MPI_COMM_WORLD);
     EXPECT_TRUE(nothing.identity);
     EXPECT_EQ(nothing.num_points, 0);
+}
+
+TEST(Remap, refuses_on_all_ranks_what_one_gets_wrong) {
+    const auto expect_error = [](const std::vector<Part>& parts, const std::vector<Part>& previous,
+                                 const std::string& expected) {
+        try {
+            remap(parts, previous, ranks_of(num_ranks()), MPI_COMM_WORLD);
+            ADD_FAILURE() << "expected: " << expected;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
+            EXPECT_EQ(error.what(), "rank " + std::to_string(num_ranks() - 1) + ": " + expected);
+        }
+    };
+    const std::string number = std::to_string(num_ranks());
+    const std::vector<Part> fine{0, 0, 0};
+    const std::vector<Part> too_few{0, 0};
+    for (const Part bad : {-1, num_ranks()}) {
+        const std::vector<Part> wrong{0, bad, 0};
+        expect_error(
+            test::is_last_rank() ? wrong : fine, fine,
+            "part " + std::to_string(bad) + " of point 1 is none of the " + number + " parts");
+    }
+    expect_error(fine, test::is_last_rank() ? too_few : fine,
+                 "previous has 2 entries, parts has 3; give one of each per point");
 }
 
 }  // namespace

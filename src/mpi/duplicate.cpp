@@ -1,0 +1,73 @@
+#include "mpi/duplicate.hpp"
+
+#include "agreement_mpi.hpp"
+#include "mpi/communicator.hpp"
+
+#include <memory>
+
+namespace rrcb::mpi {
+
+namespace {
+
+int free_duplicate(MPI_Comm, int, void* attribute, void*) {
+    const std::unique_ptr<Duplicate> duplicate(static_cast<Duplicate*>(attribute));
+    return MPI_Comm_free(&duplicate->comm);
+}
+
+int create_key() {
+    int key = MPI_KEYVAL_INVALID;
+    check(MPI_Comm_create_keyval(MPI_COMM_NULL_COPY_FN, free_duplicate, &key, nullptr),
+          "MPI_Comm_create_keyval");
+    return key;
+}
+
+int key() {
+    static const int key = create_key();
+    return key;
+}
+
+/// Null when there is none. Without a key this rank, and so no rank, has one for any communicator
+/// that they share.
+Duplicate* find(MPI_Comm user) {
+    void* attribute = nullptr;
+    int found = 0;
+    const Failure failure = attempt([] { key(); });
+    if (failure.failed) return nullptr;
+    check(MPI_Comm_get_attr(user, key(), &attribute, &found), "MPI_Comm_get_attr");
+    return found != 0 ? static_cast<Duplicate*>(attribute) : nullptr;
+}
+
+void keep(std::unique_ptr<Duplicate>& duplicate, MPI_Comm user) {
+    check(MPI_Comm_set_errhandler(duplicate->comm, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+    duplicate->per_rank.resize(static_cast<std::size_t>(size_of(user)));
+    check(MPI_Comm_set_attr(user, key(), duplicate.get()), "MPI_Comm_set_attr");
+    duplicate.release();
+}
+
+}  // namespace
+
+Duplicate& duplicate_with(MPI_Comm user) {
+    if (Duplicate* found = find(user)) return *found;
+    MPI_Comm comm = MPI_COMM_NULL;
+    std::unique_ptr<Duplicate> duplicate;
+    Member me{user};
+    me.always([&] { check(MPI_Comm_dup(user, &comm), "MPI_Comm_dup"); });
+    me.locally([&] {
+        duplicate = std::make_unique<Duplicate>();
+        duplicate->comm = comm;
+        keep(duplicate, user);
+    });
+    try {
+        agree(me);
+    } catch (...) {
+        if (!me.failure.failed) {
+            MPI_Comm_delete_attr(user, key());
+        } else if (comm != MPI_COMM_NULL) {
+            MPI_Comm_free(&comm);
+        }
+        throw;
+    }
+    return *find(user);
+}
+
+}  // namespace rrcb::mpi

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace rrcb::mpi {
+
+/// What the library keeps with a caller's communicator; freed with it.
+struct Duplicate {
+    MPI_Comm comm = MPI_COMM_NULL;       ///< for the library's messages alone; errors on it return
+    std::vector<std::int64_t> per_rank;  ///< a number for each rank, to send when memory is short
+};
+
+/// The duplicate kept with `user`.
+///
+/// Collective over `user` when called for the first time with it: one more reduction, so that all
+/// ranks throw the same Error when one of them fails; then nothing is kept.
+Duplicate& duplicate_with(MPI_Comm user);
+
+inline MPI_Comm duplicate_of(MPI_Comm user) {
+    return duplicate_with(user).comm;
+}
+
+}  // namespace rrcb::mpi

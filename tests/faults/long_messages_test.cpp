@@ -1,0 +1,94 @@
+// What exceeds MPI's counts, with a limit low enough to be exceeded here.
+#include "candidates_mpi.hpp"
+#include "clouds.hpp"
+#include "mpi/communicator.hpp"
+#include "mpi_layer.hpp"
+#include "ranks.hpp"
+
+#include <rrcb/rrcb.hpp>
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace rrcb {
+namespace {
+
+constexpr std::size_t limit = 64;
+
+/// Lowers the limit in its scope, and sees to it that the messages keep to it.
+class ShortMessages {
+  public:
+    ShortMessages() {
+        mpi::longest_message = limit;
+        mpi_layer::fail_call(0);
+    }
+    ~ShortMessages() {
+        mpi::longest_message = before_;
+        EXPECT_LE(mpi_layer::longest_message(), static_cast<std::int64_t>(limit));
+    }
+    ShortMessages(const ShortMessages&) = delete;
+    ShortMessages& operator=(const ShortMessages&) = delete;
+
+  private:
+    std::size_t before_ = mpi::longest_message;
+};
+
+TEST(LongMessages, are_broadcast_in_pieces) {
+    for (const std::size_t size : {std::size_t{0}, limit - 1, limit, 10 * limit + 1}) {
+        std::vector<std::byte> expected(size);
+        for (std::size_t i = 0; i < size; ++i) expected[i] = static_cast<std::byte>(i % 251);
+        const bool sends = test::is_last_rank();
+        std::vector<std::byte> bytes = sends ? expected : std::vector<std::byte>(size);
+        const ShortMessages pieces;
+        mpi::broadcast(bytes, test::num_ranks() - 1, MPI_COMM_WORLD);
+        EXPECT_EQ(bytes, expected);
+    }
+}
+
+TEST(LongMessages, give_the_same_plan_in_pieces) {
+    const int num_ranks = test::num_ranks();
+    std::vector<Part> parts(static_cast<std::size_t>(50 + 7 * test::rank()));
+    std::iota(parts.begin(), parts.end(), test::rank());
+    for (Part& part : parts) part %= num_ranks;
+    const Plan expected = plan(parts, num_ranks, MPI_COMM_WORLD);
+    const ShortMessages pieces;
+    const Plan result = plan(parts, num_ranks, MPI_COMM_WORLD);
+    EXPECT_EQ(result.export_indices, expected.export_indices);
+    EXPECT_EQ(result.export_ranks, expected.export_ranks);
+    EXPECT_EQ(result.import_ranks, expected.import_ranks);
+    EXPECT_EQ(result.import_indices, expected.import_indices);
+    EXPECT_EQ(result.import_parts, expected.import_parts);
+}
+
+TEST(LongMessages, give_the_same_numbers_of_parts_in_pieces) {
+    const int num_parts = 7 * test::num_ranks();
+    std::vector<Part> parts(100);
+    std::iota(parts.begin(), parts.end(), 3 * test::rank());
+    for (Part& part : parts) part %= num_parts;
+    std::vector<RankRange> ranks;
+    for (Part part = 0; part < num_parts; ++part)
+        ranks.push_back(ranks_of_part(part, num_parts, test::num_ranks()));
+    const Remap expected = remap(parts, ranks, MPI_COMM_WORLD);
+    const ShortMessages pieces;
+    const Remap result = remap(parts, ranks, MPI_COMM_WORLD);
+    EXPECT_EQ(result.numbers, expected.numbers);
+    EXPECT_EQ(result.kept_after, expected.kept_after);
+}
+
+TEST(LongMessages, of_more_candidates_than_mpi_counts_are_refused_before_they_are_sent) {
+    Candidates candidates(2, 1);
+    candidates.expect(1, 1000, test::num_ranks());
+    for (const GlobalCount too_many : {GlobalCount{1} << 31, GlobalCount{1} << 40}) {
+        try {
+            candidates.expect(1, too_many, test::num_ranks());
+            ADD_FAILURE() << "room for " << too_many;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::mpi);
+            EXPECT_NE(std::string(error.what()).find(std::to_string(too_many)), std::string::npos);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace rrcb

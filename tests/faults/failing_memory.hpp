@@ -41,13 +41,14 @@ class FailingMemory {
         fail(0, 0, memory_layer::Shortage::once);
         succeed();
         const long live_before = memory_layer::live_blocks();
+        const int step = num_ranks() > 3 ? 5 : 1;  // few ranks try all, more of them a sample
         for (const int faulty : std::set{0, num_ranks() / 2, num_ranks() - 1}) {
             const int num_allocations = largest(rank() == faulty ? num_allocations_ : 0);
             ASSERT_GT(num_allocations, 0);
             int num_failed = 0;
             for (const auto shortage :
                  {memory_layer::Shortage::once, memory_layer::Shortage::lasting})
-                for (int number = 1; number <= num_allocations; ++number)
+                for (int number = 1; number <= num_allocations; number += step)
                     num_failed += fail(faulty, number, shortage);
             EXPECT_GT(num_failed, 0);
         }

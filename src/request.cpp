@@ -1,5 +1,7 @@
 #include "request.hpp"
 
+#include "arithmetic.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <vector>
@@ -59,7 +61,8 @@ Request request_of(const Options& options, int dimension, const Cuts* previous) 
             bits_of(options.imbalance_tolerance),
             bits_of(options.sigma_multiplier),
             bits_of(options.sample_fraction),
-            options.seed};
+            options.seed,
+            arithmetic_in_use()};
 }
 
 std::optional<std::size_t> first_difference(const Request& a, const Request& b) {

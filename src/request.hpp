@@ -10,8 +10,8 @@
 
 namespace rrcb {
 
-/// What the options can be told apart by, in the order in which they are compared.
-inline constexpr std::array<std::string_view, 13> request_names = {
+/// What the options can be told apart by, and the arithmetic, in the order of the comparison.
+inline constexpr std::array<std::string_view, 14> request_names = {
     "dimension",
     "num_parts",
     "part_sizes",
@@ -24,7 +24,8 @@ inline constexpr std::array<std::string_view, 13> request_names = {
     "imbalance_tolerance",
     "sigma_multiplier",
     "sample_fraction",
-    "seed"};
+    "seed",
+    "the floating-point environment (rounding, subnormal numbers)"};
 
 /// What a rank asks for, which must be the same on every rank: the bits of each value, or a hash.
 using Request = std::array<std::uint64_t, request_names.size()>;

@@ -42,7 +42,8 @@ struct Balance {
 /// made at the first call, kept with it and freed with it.
 ///
 /// Throws Error on every rank alike: for NaN or infinite coordinates, negative, NaN or infinite
-/// weights, arrays of inconsistent length, options out of range or different between ranks.
+/// weights, arrays of inconsistent length, options out of range or different between ranks, ranks
+/// that round differently or treat subnormal numbers differently.
 Balance balance(const Points& points, const Options& options, MPI_Comm comm);
 
 /// The same, searched from the cuts of an earlier call in place of statistics.

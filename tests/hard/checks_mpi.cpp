@@ -53,6 +53,15 @@ std::vector<Part> join_parts(const Share& share, std::span<const Part> parts, in
     return all;
 }
 
+std::vector<double> numbers_of(const Cuts& cuts) {
+    std::vector<double> numbers;
+    for (const Cut& cut : cuts.tree) {
+        numbers.push_back(cut.axis);
+        numbers.insert(numbers.end(), cut.at.begin(), cut.at.end());
+    }
+    return numbers;
+}
+
 void expect_same_on_all_ranks(std::span<const std::byte> values) {
     std::vector<std::byte> of_root(values.begin(), values.end());
     MPI_Bcast(of_root.data(), static_cast<int>(of_root.size()), MPI_BYTE, 0, MPI_COMM_WORLD);

@@ -16,6 +16,9 @@ namespace rrcb::hard_test {
 std::vector<Part> join_parts(const Share& share, std::span<const Part> parts, int count,
                              int num_parts);
 
+/// Axis and position of every cut.
+std::vector<double> numbers_of(const Cuts& cuts);
+
 /// The bytes of `values` must be the same on every rank. Collective.
 void expect_same_on_all_ranks(std::span<const std::byte> values);
 

@@ -13,8 +13,10 @@ from domains import draw_domains, draw_support_mesh
 from history import draw_history
 from parts import draw_parts
 from simulation import draw_simulation
+from sources import draw_sources
+from speed_up import draw_ranks, draw_speed_up, draw_study_history, write_speed_ups
 from style import use_style
-from sweep import draw_speed_up, draw_study, draw_sweep_bytes, draw_sweep_time
+from sweep import draw_study, draw_sweep_bytes, draw_sweep_time
 
 PICTURES = {
     "time_against_imbalance.png": draw_cost,
@@ -25,8 +27,11 @@ PICTURES = {
     "simulation_time.png": draw_simulation,
     "sweep_time.png": draw_sweep_time,
     "sweep_bytes.png": draw_sweep_bytes,
+    "error_sources.png": draw_sources,
     "study.png": draw_study,
     "speed_up.png": draw_speed_up,
+    "ranks.png": draw_ranks,
+    "study_history.png": draw_study_history,
 }
 
 
@@ -35,6 +40,7 @@ def main() -> int:
         print("usage: draw.py DIRECTORY (with the table.csv of a comparison)", file=sys.stderr)
         return 2
     use_style()
+    write_speed_ups(directory)
     for name, draw in PICTURES.items():
         if draw(directory, directory / name):
             print(f"Picture: {directory / name}")

@@ -11,11 +11,14 @@ import sys
 from datetime import datetime
 from pathlib import Path
 
+from automatic import automatic_sentence, automatic_table, judgements, write_automatic
 from choice import EVERYWHERE, Choice, cases, choices, find_method
 from document import Document, write_html, write_markdown
 from results import Measurement, Simulation, read_simulations, read_table
 from sentences import sentences
-from sweep import SIMULATIONS, read_clouds, read_snapshots
+from sources import read_sources, source_table
+from speed_up import OTHERS, SIMULATIONS, STANDARD, read_speed_ups
+from sweep import read_clouds, read_snapshots
 
 COST = {
     "time_against_imbalance.png": "What accuracy costs: the time of a call against the imbalance "
@@ -32,9 +35,22 @@ SWEEP_PICTURES = {
     "sweep_time.png": "What accuracy costs in time: every setting on every cloud, and the front of "
     "those that no other beats in both.",
     "sweep_bytes.png": "What accuracy costs in traffic.",
+}
+SOURCE_PICTURES = {
+    "error_sources.png": "Imbalance when what is bisected goes from all points to a sample of them:"
+    " the support mesh adds what lies between the points and the cells, another half-width than √3 σ"
+    " what lies between cells and boxes, the sampling what lies above the boxes (lines: means over"
+    " three seeds, bands: least to most).",
+}
+STUDY_PICTURES = {
     "study.png": "The paper's parameters on snapshots of the failing slope: lines are means of the "
     "snapshots, bands reach from least to most.",
-    "speed_up.png": "Speed-up of the simulation over the serial one under the paper's parameters.",
+    "speed_up.png": "Figure 5 of the paper: speed-up of the simulation over the serial one."
+    " Top, with a core for every rank, reckoned from the processor time of each rank outside MPI and"
+    " a network of 1.5 µs and 12 GB/s; middle, by the points of the fullest rank alone; bottom, as"
+    " the clock on this machine saw it.",
+    "ranks.png": "Table 1 of the paper: speed-up over the number of ranks.",
+    "study_history.png": "Figure 6 of the paper: worst |Lu| of the parts over the simulation.",
 }
 
 
@@ -68,6 +84,7 @@ def comparison_report(directory: Path) -> Document:
 
 def sweep_report(directory: Path) -> Document:
     clouds = read_clouds(directory)
+    write_automatic(directory, clouds)
     document = Document("What accuracy costs")
     document.conclude(sentences(clouds))
     document.heading("Which setting for which tolerance")
@@ -77,14 +94,73 @@ def sweep_report(directory: Path) -> Document:
         caption = "Within the tolerance on every cloud, fastest in the mean"
         document.summarise(caption, *_choice_table(everywhere))
     _add_pictures(document, directory, SWEEP_PICTURES)
-    document.heading("The clouds one by one")
     on_each = [choice for choice in chosen if choice.case != EVERYWHERE]
-    document.table("Fastest within the tolerance", *_choice_table(on_each))
+    if on_each:
+        document.summarise("Fastest within the tolerance, cloud by cloud", *_choice_table(on_each))
+    _add_automatic(document, clouds)
+    _add_sources(document, directory)
     document.heading("The failing slope")
+    _add_pictures(document, directory, STUDY_PICTURES)
+    _add_speed_ups(document, directory)
     for case, measured in cases(read_snapshots(directory)).items():
         document.table(_title(case, measured), *_method_table(measured))
     _add_simulations(document, read_simulations(directory, SIMULATIONS), "serial")
     return document
+
+
+def _add_automatic(document: Document, clouds: list[Measurement]) -> None:
+    found = judgements(clouds)
+    if not found:
+        return
+    document.heading("Is the automatic choice a good one?")
+    document.paragraph(automatic_sentence(found))
+    document.summarise("RRCB's own mesh beside the best one tried", *automatic_table(found))
+
+
+def _add_sources(document: Document, directory: Path) -> None:
+    rows = read_sources(directory)
+    if not rows:
+        return
+    document.heading("Where the error comes from")
+    size = f"{rows[0].points:,} points, {rows[0].ranks} ranks"
+    caption = f"Imbalance beyond 1 in %, geometric mean of the clouds: {size}"
+    document.summarise(caption, *source_table(rows))
+    _add_pictures(document, directory, SOURCE_PICTURES)
+
+
+def _add_speed_ups(document: Document, directory: Path) -> None:
+    speed_ups = read_speed_ups(directory)
+    if not speed_ups:
+        return
+    run = speed_ups[-1].run
+    header = ["method", "ranks", "critical path", "rebalanced at every step", "points", "wall"]
+    header.append("mean imbalance")
+    table = [
+        [
+            s.run.method,
+            str(s.run.ranks),
+            f"{s.critical_path:.2f}",
+            f"{s.every_step:.2f}",
+            f"{s.points:.2f}",
+            f"{s.wall:.2f}",
+            f"{s.run.mean_imbalance:.4f}",
+        ]
+        for s in sorted(speed_ups, key=lambda s: s.run.ranks)
+        if s.run.method in (*OTHERS, "serial", STANDARD)
+    ]
+    caption = (
+        f"Speed-up over the serial simulation: {run.points:,} points, {run.steps:,} steps,"
+        f" rebalanced every {run.every}"
+    )
+    document.summarise(caption, header, table)
+    document.paragraph(
+        "critical path: serial work / (work of the slowest rank of each step and rebalance + its"
+        " messages on a network of 1.5 µs and 12 GB/s), where work is processor time outside MPI:"
+        " what a core for every rank would give; at every step: the same, with the measured cost of"
+        " a rebalance after each step. points: all points / points of the fullest rank, which"
+        f" leaves all costs out. wall: by the clock, here with {os.cpu_count()} cores: where ranks"
+        " share cores it hides unbalance. speed_up.csv has every setting."
+    )
 
 
 def _read_record(directory: Path) -> dict[str, str]:

@@ -30,6 +30,8 @@ class Measurement:
     messages: int
     bytes: int
     root_bytes_in: int
+    collectives: int
+    communicators: int
     moved_fraction: float
 
 
@@ -45,6 +47,13 @@ class Simulation:
     balance: float
     step: float
     mean_imbalance: float
+    worst_imbalance: float
+    every: int
+    path_points: float
+    step_path: float
+    step_network: float
+    balance_path: float
+    balance_network: float
 
 
 def read_table(directory: Path, name: str = "table.csv") -> list[Measurement]:
@@ -65,9 +74,11 @@ def read_table(directory: Path, name: str = "table.csv") -> list[Measurement]:
             messages=int(row["messages"]),
             bytes=int(row["bytes"]),
             root_bytes_in=int(row["root_bytes_in"]),
+            collectives=int(row["collectives"]),
+            communicators=int(row["communicators"]),
             moved_fraction=float(row["moved_fraction"]),
         )
-        for row in _rows(directory / name)
+        for row in read_rows(directory / name)
         if not row.get("error")
     ]
 
@@ -84,15 +95,31 @@ def read_simulations(directory: Path, name: str = "simulation.csv") -> list[Simu
             balance=float(row["balance_s"]),
             step=float(row["step_s"]),
             mean_imbalance=float(row["mean_imbalance"]),
+            worst_imbalance=float(row["worst_imbalance"]),
+            every=int(row["every"]),
+            path_points=float(row["path_points"]),
+            step_path=float(row["step_path_s"]),
+            step_network=float(row["step_network_s"]),
+            balance_path=float(row["balance_path_s"]),
+            balance_network=float(row["balance_network_s"]),
         )
-        for row in _rows(directory / name)
+        for row in read_rows(directory / name)
         if not row.get("error")
     ]
 
 
 def read_history(directory: Path) -> dict[str, Columns]:
     """Per method, in the order of the file: the columns step, time, part and lu_percent."""
-    rows = _rows(directory / "history.csv")
+    return _histories(read_rows(directory / "history.csv"))
+
+
+def read_study_history(directory: Path) -> dict[str, Columns]:
+    """The same of the paper's settings, which have a file each."""
+    files = sorted((directory / "data").glob("history_rrcb-sampled_*.csv"))
+    return _histories([row for file in files for row in read_rows(file)])
+
+
+def _histories(rows: list[dict[str, str]]) -> dict[str, Columns]:
     names = ("step", "time", "part", "lu_percent")
     return {
         method: {
@@ -121,7 +148,7 @@ def unique(values: list[str]) -> list[str]:
     return list(dict.fromkeys(values))
 
 
-def _rows(path: Path) -> list[dict[str, str]]:
+def read_rows(path: Path) -> list[dict[str, str]]:
     if not path.exists():
         return []
     with path.open(newline="") as file:

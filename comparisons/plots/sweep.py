@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from pathlib import Path
 
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from choice import cases, pareto_front
 from cost import FLOOR
-from results import Measurement, read_simulations, read_table, unique
-from style import PART_COLOURS, method_style, save
+from results import Measurement, read_table, unique
+from settings import SETTING, draw_lines, legend_above, setting_of, values_of
+from style import method_style, save
 
 SWEEP = "sweep.csv"
-SIMULATIONS = "sweep_simulation.csv"
-SETTING = re.compile(r"rrcb-sampled\[mesh=(\d+),k=([\d.]+),fraction=([\d.]+)\]")
-MARKERS = "osD^vP"
 
 
 def read_clouds(directory: Path) -> list[Measurement]:
@@ -67,7 +63,7 @@ def _draw_costs(
     methods = unique([row.method.split("[")[0] for rows in panels.values() for row in rows])
     handles = [_mark(method) for method in methods]
     handles.append(Line2D([], [], color="#444444", linewidth=1, label="Pareto front"))
-    _legend_above(figure, handles)
+    legend_above(figure, handles)
     save(figure, picture)
     return True
 
@@ -113,14 +109,14 @@ def draw_study(directory: Path, picture: Path) -> bool:
     rows = [row for row in read_snapshots(directory) if SETTING.fullmatch(row.method)]
     if not rows:
         return False
-    fractions = _values(rows, 3)
+    fractions = values_of([row.method for row in rows], 3)
     figure, grid = plt.subplots(
         2, len(fractions), figsize=(2.8 * len(fractions) + 0.6, 5.6), squeeze=False, sharey="row"
     )
     for column, fraction in enumerate(fractions):
-        chosen = [row for row in rows if _setting(row.method)[2] == fraction]
-        _draw_lines(grid[0, column], chosen, lambda row: row.lu_percent)
-        _draw_lines(grid[1, column], chosen, lambda row: row.time_ms)
+        chosen = [row for row in rows if setting_of(row.method)[2] == fraction]
+        draw_lines(grid[0, column], chosen, lambda r: r.method, lambda r: r.lu_percent)
+        draw_lines(grid[1, column], chosen, lambda r: r.method, lambda r: r.time_ms)
         grid[0, column].set_title(f"{100 * fraction:g} % of the points")
         grid[1, column].set_xlabel("support mesh, cells per axis")
     grid[0, 0].set_ylabel("worst |Lu| [%]")
@@ -128,89 +124,6 @@ def draw_study(directory: Path, picture: Path) -> bool:
     for axes in grid.flat:
         axes.set_yscale("log")
         axes.yaxis.set_major_formatter("{x:g}")
-    _legend_above(figure, grid[0, 0].get_legend_handles_labels()[0])
+    legend_above(figure, grid[0, 0].get_legend_handles_labels()[0])
     save(figure, picture)
     return True
-
-
-def draw_speed_up(directory: Path, picture: Path) -> bool:
-    """Figure 5 of the paper: the simulation beside the serial one."""
-    runs = read_simulations(directory, SIMULATIONS)
-    serial = next((run for run in runs if run.method == "serial"), None)
-    rows = [run for run in runs if SETTING.fullmatch(run.method)]
-    if serial is None or not rows:
-        return False
-    fractions = _values(rows, 3)
-    figure, grid = plt.subplots(
-        1, len(fractions), figsize=(2.8 * len(fractions) + 0.6, 3.6), squeeze=False, sharey=True
-    )
-    for axes, fraction in zip(grid[0], fractions):
-        chosen = [row for row in rows if _setting(row.method)[2] == fraction]
-        _draw_lines(axes, chosen, lambda run: serial.wall / run.wall)
-        for method in ("none", "zoltan-rcb", "rrcb"):
-            other = next((run for run in runs if run.method == method), None)
-            if other:
-                style = method_style(method)
-                axes.axhline(
-                    serial.wall / other.wall, color=style.colour, linestyle="--", linewidth=0.9
-                )
-                axes.annotate(
-                    method,
-                    (1, serial.wall / other.wall),
-                    xycoords=("axes fraction", "data"),
-                    ha="right",
-                    va="bottom",
-                    fontsize=7,
-                    color=style.colour,
-                )
-        axes.set_title(f"{100 * fraction:g} % of the points")
-        axes.set_xlabel("support mesh, cells per axis")
-    grid[0, 0].set_ylabel(f"speed-up over serial, {rows[0].ranks} ranks, {rows[0].steps} steps")
-    grid[0, 0].set_ylim(bottom=0)
-    _legend_above(figure, grid[0, 0].get_legend_handles_labels()[0])
-    save(figure, picture)
-    return True
-
-
-def _setting(method: str) -> tuple[float, float, float]:
-    mesh, multiplier, fraction = SETTING.fullmatch(method).groups()
-    return float(mesh), float(multiplier), float(fraction)
-
-
-def _values(rows: list, field: int) -> list[float]:
-    return sorted({_setting(row.method)[field - 1] for row in rows}, reverse=True)
-
-
-def _draw_lines(axes: Axes, rows: list, value: Callable) -> None:
-    """A line per multiplier k over the mesh, with a band where a setting has several rows."""
-    for number, multiplier in enumerate(sorted(_values(rows, 2))):
-        by_mesh: dict[float, list[float]] = {}
-        for row in rows:
-            mesh, k, _ = _setting(row.method)
-            if k == multiplier:
-                by_mesh.setdefault(mesh, []).append(value(row))
-        meshes = sorted(by_mesh)
-        colour = PART_COLOURS[number]
-        axes.plot(
-            meshes,
-            [sum(by_mesh[mesh]) / len(by_mesh[mesh]) for mesh in meshes],
-            color=colour,
-            marker=MARKERS[number % len(MARKERS)],
-            markersize=4,
-            label=f"k = {multiplier:g}",
-        )
-        axes.fill_between(
-            meshes,
-            [min(by_mesh[mesh]) for mesh in meshes],
-            [max(by_mesh[mesh]) for mesh in meshes],
-            color=colour,
-            alpha=0.12,
-            linewidth=0,
-        )
-    axes.set_xticks(sorted(_values(rows, 1)))
-    axes.grid(True)
-
-
-def _legend_above(figure: Figure, handles: list) -> None:
-    figure.suptitle(" ", fontsize=13)  # the layout keeps room for a title, not for a legend
-    figure.legend(handles=handles, loc="upper center", ncol=len(handles))

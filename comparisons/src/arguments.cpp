@@ -7,6 +7,7 @@
 
 #include <Teuchos_CommandLineProcessor.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -43,6 +44,7 @@ const std::map<std::string, std::string>& documentation() {
         {"every", "steps between rebalances; 5"},
         {"repeats", "timed calls of each method; 7"},
         {"seed", "seed of the cloud; 1"},
+        {"only", "parts of the sweep, by commas: clouds, sources, snapshots, ranks, simulations"},
         {"out", "folder of the results; comparisons/out"},
     };
     return texts;
@@ -102,8 +104,8 @@ void read_choice(const Texts& texts, const std::string& name, Value& value,
 void check_combination(const Texts& texts) {
     const int sources =
         texts.given("scene") + texts.given("cloud") + texts.given("file") + texts.given("replay");
-    if (texts.sweep && sources > 0) {
-        throw Failure("--sweep has points of its own; remove --scene, --cloud, --file or --replay");
+    if (texts.sweep && sources > texts.given("cloud")) {
+        throw Failure("--sweep has points of its own; remove --scene, --file or --replay");
     }
     if (sources > 1) throw Failure("give one of --scene, --cloud, --file and --replay only");
     const auto needs = [&](const std::string& option, bool fits, const std::string& what) {
@@ -111,9 +113,10 @@ void check_combination(const Texts& texts) {
     };
     const bool is_scene = sources == 0 || texts.given("scene");
     needs("points", texts.given("cloud") || texts.sweep, "--cloud or --sweep only; remove it");
-    needs("dim", texts.given("cloud"), "--cloud only; remove it");
-    needs("layout", texts.given("cloud") || texts.given("file"),
-          "--cloud or --file only; remove it");
+    needs("dim", texts.given("cloud") || texts.sweep, "--cloud or --sweep only; remove it");
+    needs("layout", texts.given("cloud") || texts.given("file") || texts.sweep,
+          "--cloud, --file or --sweep only; remove it");
+    needs("only", texts.sweep, "--sweep only; remove it");
     needs("steps", is_scene, "--scene only; remove it");
     needs("every", is_scene, "--scene only; remove it");
 }
@@ -128,6 +131,23 @@ void use_default_sizes(Arguments& arguments) {
 std::vector<Method> choose_methods(const Arguments& arguments, const std::string& text) {
     if (!text.empty()) return read_methods(text);
     return arguments.sweep && !arguments.quick ? cost_settings() : read_methods(method_names());
+}
+
+/// What of the sweep is asked for.
+void choose_sweep(const Texts& texts, Arguments& arguments) {
+    if (texts.given("cloud")) arguments.swept.names = {arguments.cloud};
+    if (texts.given("dim")) arguments.swept.dimensions = {arguments.dimension};
+    if (texts.given("layout")) arguments.swept.layouts = {arguments.layout};
+    if (!texts.given("only")) return;
+    std::vector<std::string> chosen;
+    for (const std::string_view part : split(texts["only"], ',')) {
+        chosen.emplace_back(trim(part));
+        if (std::ranges::find(arguments.only, chosen.back()) == arguments.only.end()) {
+            throw Failure("--only: unknown part '" + chosen.back() +
+                          "'; choose from: clouds, sources, snapshots, ranks, simulations");
+        }
+    }
+    arguments.only = chosen;
 }
 
 void check_cloud(const std::string& name) {
@@ -169,6 +189,7 @@ Arguments read_arguments(int argc, char** argv) {
     read_integer<std::uint64_t>(texts, "seed", arguments.seed, 0,
                                 std::numeric_limits<std::uint64_t>::max());
     if (texts.given("out")) arguments.out = texts["out"];
+    choose_sweep(texts, arguments);
     return arguments;
 }
 

@@ -12,6 +12,13 @@
 
 namespace comparisons {
 
+/// The clouds of a sweep: every combination.
+struct SweptClouds {
+    std::vector<std::string> names{"slope", "clusters", "lattice", "uniform"};
+    std::vector<int> dimensions{2, 3};
+    std::vector<Layout> layouts{Layout::sorted, Layout::scattered};
+};
+
 /// What the user asks for; see README.md beside this folder for every option.
 struct Arguments {
     int ranks = 0;       ///< 0: whatever the program was started with
@@ -29,6 +36,8 @@ struct Arguments {
     std::uint64_t seed = 1;
     std::string out = "comparisons/out";
     bool sweep = false;  ///< the study of settings in place of one comparison
+    SweptClouds swept;
+    std::vector<std::string> only{"clouds", "sources", "snapshots", "ranks", "simulations"};
     bool quick = false;
     bool progress = false;
     std::optional<std::string> help;  ///< print this and stop

@@ -10,10 +10,11 @@ namespace comparisons {
 
 /// What accuracy costs, and the paper's parameter study. Collective over `comm`.
 ///
-/// Measures `arguments.methods` on every cloud, in two and three dimensions, sorted and scattered;
-/// then the paper's settings of rrcb-sampled on snapshots of the failing slope (both in sweep.csv)
-/// and in simulations of it beside a serial one (sweep_simulation.csv). What these files hold from
-/// an earlier run is not measured again. True when nothing failed.
+/// The parts of it that `arguments.only` names: `clouds`, every method and setting on every cloud;
+/// `sources`, where the error of an estimate comes from (error_sources.csv); `snapshots`, the
+/// paper's settings on the failing slope (with the clouds in sweep.csv); `simulations` of it under
+/// these, and `ranks`, under the standard ones (both sweep_simulation.csv). What these files hold
+/// from an earlier run is not measured again. True when nothing failed.
 bool run_sweep(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
                MPI_Comm comm);
 

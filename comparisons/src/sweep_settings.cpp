@@ -8,21 +8,19 @@ namespace {
 
 using Values = std::vector<std::string>;
 
+/// Brackets with what is not empty of two parameters.
+std::string bracket(const std::string& first, const std::string& second) {
+    if (first.empty() && second.empty()) return "";
+    return '[' + first + (first.empty() || second.empty() ? "" : ",") + second + ']';
+}
+
 void add_rrcb(std::vector<Method>& settings) {
-    const Values meshes = {"4", "8", "16", "32"};
-    for (const std::string& mesh : meshes) {
-        settings.push_back(read_method("rrcb[mesh=" + mesh + ",refine=none]"));
-    }
-    settings.push_back(read_method("rrcb[refine=none]"));
-    for (const std::string tolerance : {"1.1", "1.05", "1.01", "1.001"}) {
-        settings.push_back(read_method("rrcb[tol=" + tolerance + "]"));
-        for (const std::string mesh : {"8", "32"}) {
-            settings.push_back(read_method("rrcb[mesh=" + mesh + ",tol=" + tolerance + "]"));
+    for (const std::string mesh : {"", "mesh=2", "mesh=4", "mesh=8", "mesh=16", "mesh=32"}) {
+        for (const std::string refinement :
+             {"refine=none", "tol=1.1", "tol=1.05", "", "tol=1.001"}) {
+            settings.push_back(read_method("rrcb" + bracket(mesh, refinement)));
         }
-    }
-    settings.push_back(read_method("rrcb-exact"));
-    for (const std::string& mesh : meshes) {
-        settings.push_back(read_method("rrcb-exact[mesh=" + mesh + "]"));
+        settings.push_back(read_method("rrcb-exact" + bracket(mesh, "")));
     }
 }
 
@@ -56,6 +54,18 @@ std::vector<Method> paper_settings(bool quick) {
     if (quick) return sampled({"2", "10"}, {"1.5"}, {"1", "0.125"});
     return sampled({"2", "4", "6", "8", "10"}, {"1", "1.5", "2", "2.5"},
                    {"1", "0.5", "0.25", "0.125"});
+}
+
+std::vector<Method> standard_settings() {
+    return read_methods(
+        "zoltan-rcb,root-rcb,rrcb,rrcb-exact,rrcb-sampled[mesh=4,k=1.5,fraction=1]");
+}
+
+std::vector<Method> study_settings(bool quick) {
+    std::vector<Method> settings = standard_settings();
+    settings.pop_back();
+    for (Method& method : paper_settings(quick)) settings.push_back(std::move(method));
+    return settings;
 }
 
 }  // namespace comparisons

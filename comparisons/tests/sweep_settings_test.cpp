@@ -25,6 +25,30 @@ TEST(SweepSettings, cover_every_method) {
     }
 }
 
+TEST(SweepSettings, try_every_mesh_with_every_tolerance) {
+    const std::set<std::string> names = labels(cost_settings());
+    for (const char* name :
+         {"rrcb", "rrcb[refine=none]", "rrcb[tol=1.1]", "rrcb[mesh=8]", "rrcb[mesh=32,tol=1.001]",
+          "rrcb[mesh=2,refine=none]", "rrcb-exact", "rrcb-exact[mesh=16]"}) {
+        EXPECT_TRUE(names.contains(name)) << name;
+    }
+    EXPECT_EQ(std::ranges::count_if(names,
+                                    [](const std::string& n) {
+                                        return n.starts_with("rrcb[") ||
+                                               n.starts_with("rrcb-exact[") || n == "rrcb" ||
+                                               n == "rrcb-exact";
+                                    }),
+              6 * 6);
+}
+
+TEST(SweepSettings, name_the_standard_ones_as_the_paper_s_grid_does) {
+    const std::set<std::string> all = labels(study_settings(false));
+    for (const std::string& name : labels(standard_settings())) {
+        EXPECT_TRUE(all.contains(name)) << name;
+    }
+    EXPECT_EQ(all.size(), 80U + 4U);
+}
+
 TEST(SweepSettings, are_the_eighty_of_the_paper) {
     const std::set<std::string> names = labels(paper_settings(false));
     EXPECT_EQ(names.size(), 5U * 4U * 4U);

@@ -1,0 +1,160 @@
+"""Where the error of an estimate comes from: from the points to the samples, stage by stage."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import geometric_mean
+
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+
+from cost import FLOOR
+from results import read_rows, unique
+from settings import legend_above
+from style import save
+
+OF_THE_PAPER = 1.5
+
+
+@dataclass(frozen=True)
+class Source:
+    """A row of error_sources.csv."""
+
+    case: str
+    domain: str
+    mesh: int
+    k: float
+    fraction: float
+    seed: int
+    points: int
+    ranks: int
+    imbalance: float
+
+    @property
+    def excess(self) -> float:
+        return max(self.imbalance - 1, FLOOR)
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A line of the picture and the rows it is drawn of."""
+
+    label: str
+    colour: str
+    line: str
+    takes: Callable[[Source], bool]
+
+
+def _boxes(k: float) -> Callable[[Source], bool]:
+    return lambda row: row.domain == "boxes" and abs(row.k - k) < 1e-6
+
+
+def _sampled(fraction: float) -> Callable[[Source], bool]:
+    return lambda row: row.domain == "sampled" and row.fraction == fraction
+
+
+STAGES = (
+    Stage("cells: √3 σ, kept inside the cell", "#0072B2", "-", lambda r: r.domain == "cells"),
+    Stage("boxes of √3 σ", "#56B4E9", "--", _boxes(3**0.5)),
+    Stage("boxes of 1 σ", "#009E73", ":", _boxes(1)),
+    Stage("boxes of 1.5 σ", "#009E73", "-", _boxes(OF_THE_PAPER)),
+    Stage("boxes of 2.5 σ", "#009E73", "-.", _boxes(2.5)),
+    Stage("samples of 1.5 σ, 400 %", "#E69F00", "--", _sampled(4)),
+    Stage("samples of 1.5 σ, 100 %", "#D55E00", "-", _sampled(1)),
+    Stage("samples of 1.5 σ, 12.5 %", "#CC79A7", "-.", _sampled(0.125)),
+)
+
+
+def read_sources(directory: Path) -> list[Source]:
+    return [
+        Source(
+            f"{row['workload']} {row['dim']}-D {row['layout']}",
+            row["domain"],
+            int(row["mesh"]),
+            float(row["k"]),
+            float(row["fraction"]),
+            int(row["seed"]),
+            int(row["points"]),
+            int(row["ranks"]),
+            float(row["imbalance"]),
+        )
+        for row in read_rows(directory / "error_sources.csv")
+        if not row["error"]
+    ]
+
+
+def draw_sources(directory: Path, picture: Path) -> bool:
+    """A panel per cloud: the imbalance each stage leaves, over the support mesh."""
+    rows = read_sources(directory)
+    if not rows:
+        return False
+    names = unique([row.case for row in rows])
+    columns = min(4, len(names))
+    lines = -(-len(names) // columns)
+    figure, grid = plt.subplots(
+        lines,
+        columns,
+        figsize=(3.1 * columns + 0.6, 2.5 * lines + 1.1),
+        squeeze=False,
+        sharex=True,
+        sharey=True,
+    )
+    for axes, name in zip(grid.flat, names):
+        _draw_case(axes, [row for row in rows if row.case == name])
+        axes.set_title(name, fontsize=9)
+    for axes in grid.flat[len(names) :]:
+        axes.set_visible(False)
+    for axes in grid[-1]:
+        axes.set_xlabel("support mesh, cells per axis")
+    for axes in grid[:, 0]:
+        axes.set_ylabel("imbalance − 1 (≥ $10^{-6}$)")
+    legend_above(figure, grid[0, 0].get_legend_handles_labels()[0], inches=2.4)
+    save(figure, picture)
+    return True
+
+
+def _draw_case(axes: Axes, rows: list[Source]) -> None:
+    exact = next(row for row in rows if row.domain == "points")
+    axes.axhline(exact.excess, color="#000000", linewidth=0.8, label="all points")
+    for stage in STAGES:
+        by_mesh = _by_mesh([row for row in rows if stage.takes(row)])
+        if not by_mesh:
+            continue
+        meshes = list(by_mesh)
+        middle = [geometric_mean(values) for values in by_mesh.values()]
+        axes.plot(
+            meshes, middle, color=stage.colour, linestyle=stage.line, marker=".", label=stage.label
+        )
+        axes.fill_between(
+            meshes,
+            [min(values) for values in by_mesh.values()],
+            [max(values) for values in by_mesh.values()],
+            color=stage.colour,
+            alpha=0.15,
+            linewidth=0,
+        )
+    axes.set_xscale("log", base=2)
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.set_yscale("log")
+    axes.grid(True)
+
+
+def _by_mesh(rows: list[Source]) -> dict[int, list[float]]:
+    meshes = sorted({row.mesh for row in rows})
+    return {mesh: [row.excess for row in rows if row.mesh == mesh] for mesh in meshes}
+
+
+def source_table(rows: list[Source]) -> tuple[list[str], list[list[str]]]:
+    """Geometric mean over the clouds of the imbalance beyond 1 in percent, per mesh and stage."""
+    meshes = sorted({row.mesh for row in rows if row.mesh > 0})
+    header = ["what is bisected", *(f"mesh {mesh}" for mesh in meshes)]
+    exact = [row.excess for row in rows if row.domain == "points"]
+    table = [["all points", *([f"{100 * geometric_mean(exact):.3g}"] * len(meshes))]]
+    for stage in STAGES:
+        by_mesh = _by_mesh([row for row in rows if stage.takes(row)])
+        if by_mesh:
+            values = [f"{100 * geometric_mean(by_mesh[mesh]):.3g}" for mesh in meshes]
+            table.append([stage.label, *values])
+    return header, table

@@ -1,0 +1,163 @@
+#include "error_sources_mpi.hpp"
+
+#include "text.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/bisection.hpp>
+#include <rrcb/quality.hpp>
+
+#include <cmath>
+#include <numeric>
+
+namespace comparisons {
+
+namespace {
+
+/// Moments of the cells of every rank, at rank 0.
+std::vector<rrcb::CellMoments> gather_cells(const rrcb::Points& points, int mesh, MPI_Comm comm) {
+    int rank = 0;
+    int size = 1;
+    MPI_Comm_rank(comm, &rank);
+    MPI_Comm_size(comm, &size);
+    std::vector<rrcb::CellMoments> mine;
+    if (points.count > 0) {
+        mine = rrcb::cell_moments(
+            points, rrcb::make_support_mesh(rrcb::bounding_box(points), points.dimension, mesh));
+    }
+    const int bytes = static_cast<int>(mine.size() * sizeof(rrcb::CellMoments));
+    std::vector<int> counts(static_cast<std::size_t>(size));
+    std::vector<int> starts(counts.size());
+    MPI_Gather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, comm);
+    std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
+    const auto sum = static_cast<std::size_t>(std::accumulate(counts.begin(), counts.end(), 0));
+    std::vector<rrcb::CellMoments> all(rank == 0 ? sum / sizeof(rrcb::CellMoments) : 0);
+    MPI_Gatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(), starts.data(), MPI_BYTE, 0,
+                comm);
+    return all;
+}
+
+rrcb::StatisticalDomain domain_of(const SourceSetting& setting,
+                                  std::span<const rrcb::CellMoments> cells, int dimension) {
+    if (setting.source == Source::cells) return rrcb::analytic_domain(cells, dimension);
+    if (setting.source == Source::boxes) return box_domain(cells, dimension, setting.k);
+    rrcb::Options options;
+    options.sigma_multiplier = setting.k;
+    options.sample_fraction = setting.fraction;
+    options.seed = setting.seed;
+    return rrcb::sampled_domain(cells, dimension, options);
+}
+
+/// Cuts of the domain of everybody's cells, on every rank.
+rrcb::Cuts cut_cells(const SourceSetting& setting, const rrcb::Points& points, MPI_Comm comm) {
+    int rank = 0;
+    int num_parts = 1;
+    MPI_Comm_rank(comm, &rank);
+    MPI_Comm_size(comm, &num_parts);
+    const std::vector<rrcb::CellMoments> cells = gather_cells(points, setting.mesh, comm);
+    rrcb::Cuts cuts{points.dimension, num_parts, {}};
+    if (rank == 0) {
+        cuts = rrcb::bisect(domain_of(setting, cells, points.dimension), num_parts, {},
+                            rrcb::CutRule::weighted_fraction)
+                   .cuts;
+    }
+    cuts.tree.resize(static_cast<std::size_t>(num_parts) - 1);
+    MPI_Bcast(cuts.tree.data(), static_cast<int>(cuts.tree.size() * sizeof(rrcb::Cut)), MPI_BYTE, 0,
+              comm);
+    return cuts;
+}
+
+std::string name_of(Source source) {
+    const char* const names[] = {"points", "cells", "boxes", "sampled"};
+    return names[static_cast<int>(source)];
+}
+
+std::string source_key(const Workload& workload, rrcb::GlobalCount num_points, int num_ranks,
+                       const SourceSetting& setting) {
+    return workload.name + ',' + workload.layout + ',' + std::to_string(workload.dimension) + ',' +
+           std::to_string(num_points) + ',' + std::to_string(num_ranks) + ',' +
+           name_of(setting.source) + ',' + std::to_string(setting.mesh) + ',' +
+           write_number(setting.k) + ',' + write_number(setting.fraction) + ',' +
+           std::to_string(setting.seed);
+}
+
+}  // namespace
+
+rrcb::StatisticalDomain box_domain(std::span<const rrcb::CellMoments> cells, int dimension,
+                                   double k) {
+    rrcb::StatisticalDomain domain{dimension, {}};
+    for (const rrcb::CellMoments& cell : cells) {
+        rrcb::Patch patch{{}, {}, cell.moments.weight};
+        for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
+            patch.lower[a] = cell.moments.mean[a] - k * cell.moments.deviation[a];
+            patch.upper[a] = cell.moments.mean[a] + k * cell.moments.deviation[a];
+        }
+        domain.patches.push_back(patch);
+    }
+    return domain;
+}
+
+std::vector<double> source_part_weights(const SourceSetting& setting, const rrcb::Points& points,
+                                        MPI_Comm comm) {
+    int num_parts = 1;
+    MPI_Comm_size(comm, &num_parts);
+    std::vector<rrcb::Part> parts(points.count);
+    if (setting.source == Source::points) {
+        rrcb::Options options;
+        options.domain = rrcb::DomainKind::points;
+        parts = rrcb::balance(points, options, comm).parts;
+    } else {
+        rrcb::assign(cut_cells(setting, points, comm), points, parts);
+    }
+    return rrcb::part_weights(points, parts, num_parts, comm);
+}
+
+std::vector<SourceSetting> source_settings(bool quick) {
+    // The fractions of the paper, and one so large that hardly any noise is left.
+    const std::vector<double> fractions =
+        quick ? std::vector<double>{1} : std::vector<double>{4, 1, 0.5, 0.25, 0.125};
+    const std::vector<int> meshes = quick ? std::vector{4} : std::vector{2, 4, 6, 8, 10, 16, 32};
+    constexpr double of_the_paper = 1.5;
+    std::vector<SourceSetting> settings = {{}};
+    for (const int mesh : meshes) {
+        settings.push_back({Source::cells, mesh});
+        for (const double k : {1.0, of_the_paper, std::sqrt(3.0), 2.0, 2.5}) {
+            settings.push_back({Source::boxes, mesh, k});
+        }
+        for (const double fraction : fractions) {
+            for (const std::uint64_t seed : {1, 2, 3}) {
+                settings.push_back({Source::sampled, mesh, of_the_paper, fraction, seed});
+            }
+        }
+    }
+    return settings;
+}
+
+void find_error_sources(const Sweep& sweep) {
+    // The sampled domain of a large fraction takes long, and noise hardly depends on the number.
+    const rrcb::GlobalCount num_points = std::max<rrcb::GlobalCount>(1, sweep.arguments.points / 4);
+    SavedRows rows(sweep.folder, "error_sources.csv",
+                   "workload,layout,dim,points,ranks,domain,mesh,k,fraction,seed,imbalance,"
+                   "lu_max_percent,error",
+                   10);
+    on_each_cloud(sweep, num_points, [&](const Workload& workload) {
+        std::vector<SourceSetting> settings = source_settings(sweep.arguments.quick);
+        const auto key = [&](const SourceSetting& setting) {
+            return source_key(workload, num_points, sweep.num_ranks, setting);
+        };
+        std::erase_if(settings, [&](const SourceSetting& s) { return rows.has(key(s)); });
+        if (settings.empty()) return true;
+        sweep.progress.start(workload.name + ": sources", static_cast<int>(settings.size()));
+        std::string text;
+        for (const SourceSetting& setting : settings) {
+            const std::vector<double> weights =
+                source_part_weights(setting, workload.points(), sweep.comm);
+            text += key(setting) + ',' + write_number(rrcb::imbalance(weights)) + ',' +
+                    write_number(rrcb::worst_load_unbalance_percent(weights)) + ",\n";
+            sweep.progress.advance();
+        }
+        rows.add([&](std::ostream& out) { out << text; });
+        return true;
+    });
+}
+
+}  // namespace comparisons

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "sweep_part_mpi.hpp"
+
+#include <rrcb/moments.hpp>
+#include <rrcb/statistical_domain.hpp>
+
+namespace comparisons {
+
+/// What the root bisects, stage by stage further from the points.
+enum class Source {
+    points,  ///< all of them: what the bisection itself leaves
+    cells,   ///< a uniform patch per cell, with its moments: what the support mesh adds
+    boxes,   ///< the patch is mean +- k sigma: what another half-width than sqrt(3) sigma adds
+    sampled  ///< pseudo-random points in these boxes: what the sampling adds
+};
+
+/// One domain to bisect.
+struct SourceSetting {
+    Source source = Source::points;
+    int mesh = 0;         ///< of points: 0
+    double k = 0;         ///< of boxes and sampled
+    double fraction = 0;  ///< of sampled; may be above 1
+    std::uint64_t seed = 0;
+};
+
+/// A uniform patch in mean +- k sigma per cell, unlike analytic_domain not kept inside the cell:
+/// what sampled_domain becomes with ever more points. Not collective.
+rrcb::StatisticalDomain box_domain(std::span<const rrcb::CellMoments> cells, int dimension,
+                                   double k);
+
+/// Weight of every part when the bisection of that domain is applied to the points. Collective.
+std::vector<double> source_part_weights(const SourceSetting& setting, const rrcb::Points& points,
+                                        MPI_Comm comm);
+
+/// The settings of error_sources.csv; `quick` leaves a few.
+std::vector<SourceSetting> source_settings(bool quick);
+
+/// Where the imbalance of an estimate comes from, on each cloud: error_sources.csv. Collective.
+void find_error_sources(const Sweep& sweep);
+
+}  // namespace comparisons

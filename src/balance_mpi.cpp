@@ -15,11 +15,9 @@ namespace rrcb {
 
 namespace {
 
-/// The options with nothing left to default, and every part with its size.
+/// The options with nothing left to default but the sizes of equal parts.
 Options complete(Options options, int num_ranks) {
     if (options.num_parts == 0) options.num_parts = num_ranks;
-    if (options.part_sizes.empty() && options.num_parts > 0)
-        options.part_sizes.assign(static_cast<std::size_t>(options.num_parts), 1.0);
     if (options.refine == Refine::automatic)
         options.refine = options.domain == DomainKind::sampled ? Refine::none : Refine::tolerance;
     return options;
@@ -72,7 +70,8 @@ void refine_together(Decision& decision, const Options& options, SortedPoints& s
     if (report.all_weights_zero) sorted.weights.clear();
     const double weight =
         report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
-    Estimate estimate{std::move(result.cuts), std::move(decision.bisection.brackets), weight};
+    Estimate estimate{std::move(result.cuts), std::move(decision.bisection.brackets), weight,
+                      decision.verdict.grain};
     const Measured measured = refine(estimate, options, sorted, room, result.parts, me);
     report.measured_imbalance = measured.imbalance;
     report.rounds = measured.rounds;
@@ -95,12 +94,16 @@ Balance run(const Points& points, const Options& given, const Cuts* previous, MP
         const Box box = check_points(points);
         check_options(options, points.dimension);
         if (previous) check_previous(*previous, options, points.dimension);
+        mine.summary = summarize(points, box);
+        mine.summary.request = request_of(options, points.dimension, previous);
+        if (options.part_sizes.empty())
+            options.part_sizes.assign(static_cast<std::size_t>(options.num_parts), 1.0);
         make_room(decision, options, points.dimension);
         result.parts.resize(points.count);
         if (is_refined(options))
             room.emplace(options, points.dimension, mpi::rank_of(me.comm) == root);
         sorted = sort_by_options(points, box, options);
-        mine = contribute(points, box, sorted, options, previous);
+        if (!previous) add_records(points, sorted, options, mine);
     });
     gather(mine, options, points.dimension, me);
     decide_together(mine, options, previous, decision, me);

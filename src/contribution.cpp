@@ -41,11 +41,6 @@ void coarsen_records(Contribution& all, int dimension, std::size_t most) {
     all.summary.num_cells = static_cast<std::int64_t>(merged.cells.size());
 }
 
-double heaviest_of(const Points& points) {
-    if (points.count == 0) return 0;
-    return points.weights.empty() ? 1 : *std::ranges::max_element(points.weights);
-}
-
 }  // namespace
 
 int automatic_cells_per_axis(int dimension, LocalIndex num_points) {
@@ -63,27 +58,34 @@ SortedPoints sort_by_options(const Points& points, const Box& box, const Options
     return sort_by_cell(points, make_support_mesh(box, points.dimension, cells_per_axis));
 }
 
-Contribution contribute(const Points& points, const Box& box, const SortedPoints& sorted,
-                        const Options& options, const Cuts* previous) {
-    Contribution mine;
-    Summary& summary = mine.summary;
-    summary.request = request_of(options, points.dimension, previous);
+Summary summarize(const Points& points, const Box& box) {
+    Summary summary;
     summary.box = box;
     summary.num_points = static_cast<std::int64_t>(points.count);
     summary.weight = points.weights.empty()
                          ? static_cast<double>(points.count)
                          : std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
-    summary.heaviest = heaviest_of(points);
-    if (previous != nullptr || points.count == 0) return mine;
+    if (points.count > 0) {
+        const auto [lightest, heaviest] = points.weights.empty()
+                                              ? std::ranges::min_max_result{1.0, 1.0}
+                                              : std::ranges::minmax(points.weights);
+        summary.lightest = lightest;
+        summary.heaviest = heaviest;
+    }
+    return summary;
+}
+
+void add_records(const Points& points, const SortedPoints& sorted, const Options& options,
+                 Contribution& mine) {
+    if (points.count == 0) return;
     if (options.domain == DomainKind::points) {
         append_points(points, mine.records);
-        summary.num_cells = summary.num_points;
+        mine.summary.num_cells = mine.summary.num_points;
     } else {
         const std::vector<CellMoments> cells = cell_moments(sorted);
         append_cells(cells, sorted.mesh, mine.records);
-        summary.num_cells = static_cast<std::int64_t>(cells.size());
+        mine.summary.num_cells = static_cast<std::int64_t>(cells.size());
     }
-    return mine;
 }
 
 std::size_t most_cells(const Options& options) {
@@ -99,6 +101,7 @@ void join(Summary& mine, const Summary& next) {
     mine.num_points += next.num_points;
     mine.num_cells += next.num_cells;
     mine.weight += next.weight;
+    mine.lightest = std::min(mine.lightest, next.lightest);
     mine.heaviest = std::max(mine.heaviest, next.heaviest);
 }
 

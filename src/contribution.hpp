@@ -7,6 +7,7 @@
 #include <rrcb/statistical_domain.hpp>
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace rrcb {
@@ -26,8 +27,9 @@ struct Summary {
     std::int64_t num_cells = 0;  ///< or points, where these are the records
     std::int64_t num_doubles = 0;
     double weight = 0;
-    double heaviest = 0;  ///< weight of one point
-    Box box;              ///< of the points
+    double lightest = std::numeric_limits<double>::infinity();  ///< weight of one point
+    double heaviest = 0;
+    Box box;  ///< of the points
 
     bool is_usable() const { return failing_rank == no_rank && differing_rank == no_rank; }
 };
@@ -57,9 +59,12 @@ int automatic_cells_per_axis(int dimension, LocalIndex num_points);
 /// out where no cells are needed.
 SortedPoints sort_by_options(const Points& points, const Box& box, const Options& options);
 
-/// Reduces checked points to what the root needs of them: with earlier cuts no records at all.
-Contribution contribute(const Points& points, const Box& box, const SortedPoints& sorted,
-                        const Options& options, const Cuts* previous);
+/// Totals of checked points.
+Summary summarize(const Points& points, const Box& box);
+
+/// Reduces checked points to what the root needs of them.
+void add_records(const Points& points, const SortedPoints& sorted, const Options& options,
+                 Contribution& mine);
 
 /// Most cells that the options let a subtree hand on: a fixed number, whatever the number of
 /// ranks, unless the mesh was asked for.

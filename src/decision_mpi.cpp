@@ -27,6 +27,11 @@ double least_imbalance(double heaviest, double weight, std::span<const double> p
     return std::max(1.0, heaviest / weight * (sizes / *std::ranges::max_element(part_sizes)));
 }
 
+double grain_of(const Summary& summary) {
+    if (summary.weight == 0) return 1;
+    return summary.lightest == summary.heaviest ? summary.heaviest : 0;
+}
+
 Report report_of(const Summary& summary, const Bisection& bisection,
                  std::span<const double> part_sizes) {
     Report report;
@@ -123,6 +128,7 @@ void decide(const Contribution& all, const Options& options, const Cuts* previou
     bisection = previous ? reuse(*previous, all.summary.box, with_brackets)
                          : bisect(build_domain(all, options, dimension), options, with_brackets);
     bisection.brackets.resize(with_brackets ? bisection.cuts.tree.size() : 0);
+    decision.verdict.grain = grain_of(all.summary);
     decision.verdict.report = report_of(all.summary, bisection, options.part_sizes);
 }
 

@@ -13,6 +13,7 @@ namespace rrcb {
 /// What the root tells first: whether there are cuts, and what it saw.
 struct Verdict {
     std::int32_t failing_rank = no_rank;
+    double grain = 0;  ///< weight of each point where all weigh the same, else 0
     Report report;
 };
 

@@ -25,6 +25,7 @@ struct Context {
     RefinementRoom& room;
     Member& me;
     bool is_root;
+    double weight_per_size;  ///< of a part
     Measured measured{};
     bool told_of_failure = false;  ///< of another rank; at the root only
     bool abandoned = false;        ///< the root told all to stop
@@ -51,6 +52,18 @@ CutSearch start_search(const Node& node, const Context& context) {
     return search;
 }
 
+/// The tolerance with which the smallest of the parts still holds whole points, where all of them
+/// weigh the same: where 16.16 points are allowed it can have no more than 16.
+double attainable_tolerance(std::span<const double> sizes, const Context& context) {
+    const double tolerance = context.options.imbalance_tolerance;
+    const double grain = context.estimate.grain;
+    if (grain == 0) return tolerance;
+    double smallest = infinity;
+    for (const double size : sizes)
+        if (size > 0) smallest = std::min(smallest, size * context.weight_per_size);
+    return std::max(1.0, std::floor(tolerance * smallest / grain) * grain / smallest);
+}
+
 /// Target of a node's cut. A part may end up too heavy by the tolerance in all; what is left of it
 /// at this node is shared evenly by the levels below.
 CutTarget target_of(const Node& node, const Context& context) {
@@ -58,17 +71,15 @@ CutTarget target_of(const Node& node, const Context& context) {
     CutTarget target;
     target.target = share_below(sizes) * node.weight;
     if (context.options.refine == Refine::exact) {
-        target.slack = context.points.weights.empty() ? 0.5 : 0;
+        target.slack = context.estimate.grain / 2;
         return target;
     }
-    const auto& all = context.options.part_sizes;
-    const double ideal =
-        context.estimate.total_weight * (std::accumulate(sizes.begin(), sizes.end(), 0.0) /
-                                         std::accumulate(all.begin(), all.end(), 0.0));
+    const double ideal = context.weight_per_size * std::accumulate(sizes.begin(), sizes.end(), 0.0);
     const int levels = std::bit_width(static_cast<unsigned>(node.at.num_parts - 1));
     const double growth =
-        std::pow(context.options.imbalance_tolerance * ideal / node.weight, 1.0 / levels);
-    target.slack = std::max(0.0, growth - 1) * std::min(target.target, node.weight - target.target);
+        std::pow(attainable_tolerance(sizes, context) * ideal / node.weight, 1.0 / levels);
+    target.slack = std::max(context.estimate.grain / 2,
+                            (growth - 1) * std::min(target.target, node.weight - target.target));
     return target;
 }
 
@@ -253,7 +264,11 @@ void search_all_levels(Context& context, std::span<Part> parts) {
 
 Measured refine(Estimate& estimate, const Options& options, SortedPoints& points,
                 RefinementRoom& room, std::span<Part> parts, Member& me) {
-    Context context{estimate, options, points, room, me, mpi::rank_of(me.comm) == root};
+    const auto& sizes = options.part_sizes;
+    const double weight_per_size =
+        estimate.total_weight / std::accumulate(sizes.begin(), sizes.end(), 0.0);
+    Context context{estimate,       options, points, room, me, mpi::rank_of(me.comm) == root,
+                    weight_per_size};
     const bool accepted = options.refine == Refine::tolerance && accept_estimate(context, parts);
     if (!accepted) search_all_levels(context, parts);
     agree(me);

@@ -14,6 +14,7 @@ struct Estimate {
     Cuts cuts;
     std::vector<Bracket> brackets;  ///< one per cut
     double total_weight = 0;        ///< over all ranks
+    double grain = 0;               ///< weight of each point where all weigh the same, else 0
 };
 
 /// How good the parts really are, and what it took to know; the same on every rank.

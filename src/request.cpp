@@ -19,12 +19,10 @@ std::uint64_t bits_of(int value) {
 }
 
 std::uint64_t hash_of(std::span<const double> values) {
-    std::uint64_t hash = 14695981039346656037u;  // FNV-1a
+    std::uint64_t hash = values.size();
     for (const double value : values) {
-        for (int byte = 0; byte < 8; ++byte) {
-            hash ^= bits_of(value) >> (8 * byte) & 0xff;
-            hash *= 1099511628211u;
-        }
+        hash = (hash ^ bits_of(value)) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
     }
     return hash;
 }

@@ -30,6 +30,7 @@ inline constexpr std::array<std::string_view, 14> request_names = {
 /// What a rank asks for, which must be the same on every rank: the bits of each value, or a hash.
 using Request = std::array<std::uint64_t, request_names.size()>;
 
+/// Of options in which empty `part_sizes` still stand for equal parts.
 Request request_of(const Options& options, int dimension, const Cuts* previous);
 
 /// Index in `request_names` of the first value in which two ranks differ.

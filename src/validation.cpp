@@ -19,6 +19,7 @@ void require(bool condition, const char* what) {
 }
 
 void check_part_sizes(std::span<const double> sizes, int num_parts) {
+    if (sizes.empty()) return;
     require(sizes.size() == static_cast<std::size_t>(num_parts),
             "part_sizes must hold one entry per part, or none for equal parts");
     double sum = 0;

@@ -1,0 +1,110 @@
+// Many sub-domains in one process, through the code that ranks run: each makes its contribution,
+// the contributions merge up the tree of so many ranks, the root bisects what arrives, and the cuts
+// are refined by what all sub-domains hold.
+#include "../support/clouds.hpp"
+#include "decision_mpi.hpp"
+#include "merge_tree_mpi.hpp"
+#include "refinement_mpi.hpp"
+
+#include <rrcb/quality.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace rrcb {
+namespace {
+
+constexpr std::size_t points_per_rank = 16;
+
+/// A square lattice of sub-domains, each with its points spread evenly over a unit square.
+struct VirtualRanks {
+    int side;
+    Options options;
+    std::vector<double> coordinates{};
+    std::size_t longest_message = 0;  ///< in doubles
+    std::size_t root_in = 0;          ///< doubles that rank 0 received
+
+    explicit VirtualRanks(int ranks_per_side) : side(ranks_per_side) {
+        options.num_parts = num_ranks();
+        options.part_sizes.assign(static_cast<std::size_t>(num_ranks()), 1.0);
+        options.refine = Refine::tolerance;
+        coordinates =
+            test::uniform_cloud(points_per_rank * static_cast<std::size_t>(num_ranks()), 2, 1);
+        for (std::size_t i = 0; i < coordinates.size(); i += 2) {
+            const auto rank = static_cast<int>(i / (2 * points_per_rank));
+            coordinates[i] += rank % side;
+            coordinates[i + 1] += rank / side;
+        }
+    }
+
+    int num_ranks() const { return side * side; }
+
+    Points points() const { return interleaved_points(coordinates, 2); }
+
+    Points points_of(int rank) const {
+        return interleaved_points(
+            std::span(coordinates)
+                .subspan(2 * points_per_rank * static_cast<std::size_t>(rank), 2 * points_per_rank),
+            2);
+    }
+
+    /// What a rank sends to its parent.
+    Contribution contribution_of(int rank) {
+        const Points mine = points_of(rank);
+        const Box box = check_points(mine);
+        Contribution all{summarize(mine, box), {}};
+        add_records(mine, sort_by_options(mine, box, options), options, all);
+        all.summary.first_rank = rank;
+        MergeTree{num_ranks()}.for_each_child(rank, [&](int child) {
+            const Contribution theirs = contribution_of(child);
+            const std::size_t length = theirs.records.size();
+            longest_message = std::max(longest_message, length);
+            root_in += rank == 0 ? length : 0;
+            all.records.insert(all.records.end(), theirs.records.begin(), theirs.records.end());
+            absorb(all, theirs.summary, 2, most_cells(options));
+        });
+        return all;
+    }
+};
+
+class ManyRanks : public testing::TestWithParam<int> {};
+
+TEST_P(ManyRanks, send_the_root_a_bounded_number_of_cells_and_are_balanced_all_the_same) {
+    VirtualRanks ranks(GetParam());
+    const Contribution all = ranks.contribution_of(0);
+    const std::size_t most = most_cells(ranks.options);
+    const std::size_t doubles_per_cell = 3 + 2 * 2;
+    EXPECT_LE(all.summary.num_cells, static_cast<std::int64_t>(most));
+    EXPECT_LE(ranks.longest_message, most * doubles_per_cell + 100);
+    // Seven children in each of the six levels that the tree of 8^6 ranks has.
+    EXPECT_LE(ranks.root_in, 6 * 7 * most * doubles_per_cell);
+
+    Decision decision;
+    make_room(decision, ranks.options, 2);
+    decide(all, ranks.options, nullptr, decision);
+    const Points points = ranks.points();
+    SortedPoints sorted = sort_by_options(points, bounding_box(points), ranks.options);
+    RefinementRoom room(ranks.options, 2, true);
+    std::vector<Part> parts(points.count);
+    Estimate estimate{decision.bisection.cuts, decision.bisection.brackets,
+                      static_cast<double>(points.count), decision.verdict.grain};
+    Member me{MPI_COMM_SELF};
+    const Measured measured = refine(estimate, ranks.options, sorted, room, parts, me);
+
+    std::vector<double> weights(ranks.options.part_sizes.size());
+    for (const Part part : parts) weights[static_cast<std::size_t>(part)] += 1;
+    EXPECT_LE(imbalance(weights, ranks.options.part_sizes), 1.01);
+    EXPECT_EQ(imbalance(weights, ranks.options.part_sizes), measured.imbalance);
+    RecordProperty("rounds", measured.rounds);
+    RecordProperty("cells", static_cast<int>(all.summary.num_cells));
+    RecordProperty("root_kilobytes", static_cast<int>(ranks.root_in * sizeof(double) / 1000));
+    RecordProperty("longest_message_kilobytes",
+                   static_cast<int>(ranks.longest_message * sizeof(double) / 1000));
+}
+
+INSTANTIATE_TEST_SUITE_P(From16To65536, ManyRanks, testing::Values(4, 16, 64, 256));
+
+}  // namespace
+}  // namespace rrcb

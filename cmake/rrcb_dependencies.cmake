@@ -25,3 +25,12 @@ if(RRCB_COMPARISONS AND NOT (RRCB_ZOLTAN AND RRCB_MPM))
                  " (needs RRCB_ZOLTAN and RRCB_MPM)")
   set(RRCB_COMPARISONS OFF)
 endif()
+
+if(RRCB_BENCHMARKS)
+  find_package(benchmark QUIET)
+  if(NOT benchmark_FOUND)
+    message(STATUS "RRCB_BENCHMARKS: left out, because Google Benchmark was not found"
+                   " (Debian package libbenchmark-dev)")
+    set(RRCB_BENCHMARKS OFF)
+  endif()
+endif()

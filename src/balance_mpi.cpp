@@ -1,5 +1,5 @@
+#include "binned_assignment.hpp"
 #include "decision_mpi.hpp"
-#include "fragments.hpp"
 #include "merge_tree_mpi.hpp"
 #include "mpi/communicator.hpp"
 #include "mpi/duplicate.hpp"
@@ -49,30 +49,30 @@ void decide_together(const Contribution& all, const Options& options, const Cuts
 }
 
 /// Assigns the points by the cuts as they are. Collective.
-void assign_together(const Options& options, const Points& points, const SortedPoints& sorted,
+void assign_together(const Options& options, const Points& points, const BinnedPoints& binned,
                      Balance& result, Member& me) {
     const StageScope stage(options.observer, Stage::assignment);
     me.locally([&] {
         if (options.domain == DomainKind::points) {
             assign(result.cuts, points, result.parts);
         } else {
-            assign(result.cuts, sorted, result.parts);
+            assign(result.cuts, binned, result.parts);
         }
     });
     agree(me);
 }
 
 /// Moves the cuts by what the ranks count, and assigns the points by them. Collective.
-void refine_together(Decision& decision, const Options& options, SortedPoints& sorted,
+void refine_together(Decision& decision, const Options& options, BinnedPoints& binned,
                      RefinementRoom& room, Balance& result, Member& me) {
     const StageScope stage(options.observer, Stage::refinement);
     Report& report = result.report;
-    if (report.all_weights_zero) sorted.weights.clear();
+    if (report.all_weights_zero) binned.points.weights = {};
     const double weight =
         report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
     Estimate estimate{std::move(result.cuts), std::move(decision.bisection.brackets), weight,
                       decision.verdict.grain};
-    const Measured measured = refine(estimate, options, sorted, room, result.parts, me);
+    const Measured measured = refine(estimate, options, binned, room, result.parts, me);
     report.measured_imbalance = measured.imbalance;
     report.rounds = measured.rounds;
     report.coincident_cuts = measured.coincident_cuts;
@@ -83,7 +83,7 @@ Balance run(const Points& points, const Options& given, const Cuts* previous, MP
     Member me{mpi::duplicate_of(user)};
     Options options;
     Balance result;
-    SortedPoints sorted;
+    BinnedPoints binned;
     Contribution mine;
     Decision decision;
     std::optional<RefinementRoom> room;
@@ -102,17 +102,17 @@ Balance run(const Points& points, const Options& given, const Cuts* previous, MP
         result.parts.resize(points.count);
         if (is_refined(options))
             room.emplace(options, points.dimension, mpi::rank_of(me.comm) == root);
-        sorted = sort_by_options(points, box, options);
-        if (!previous) add_records(points, sorted, options, mine);
+        binned = bin_by_options(points, box, options);
+        if (!previous) add_records(points, binned, options, mine);
     });
     gather(mine, options, points.dimension, me);
     decide_together(mine, options, previous, decision, me);
     result.report = decision.verdict.report;
     result.cuts = std::move(decision.bisection.cuts);
     if (is_refined(options) && result.report.num_points > 0) {
-        refine_together(decision, options, sorted, *room, result, me);
+        refine_together(decision, options, binned, *room, result, me);
     } else {
-        assign_together(options, points, sorted, result, me);
+        assign_together(options, points, binned, result, me);
     }
     return result;
 }

@@ -50,12 +50,12 @@ int automatic_cells_per_axis(int dimension, LocalIndex num_points) {
     return static_cast<int>(std::clamp(std::floor(std::pow(cells, 1.0 / dimension)), 1.0, most));
 }
 
-SortedPoints sort_by_options(const Points& points, const Box& box, const Options& options) {
+BinnedPoints bin_by_options(const Points& points, const Box& box, const Options& options) {
     if (options.domain == DomainKind::points) return {};
     const int cells_per_axis = options.support_mesh > 0
                                    ? options.support_mesh
                                    : automatic_cells_per_axis(points.dimension, points.count);
-    return sort_by_cell(points, make_support_mesh(box, points.dimension, cells_per_axis));
+    return bin_by_cell(points, make_support_mesh(box, points.dimension, cells_per_axis));
 }
 
 Summary summarize(const Points& points, const Box& box) {
@@ -75,15 +75,15 @@ Summary summarize(const Points& points, const Box& box) {
     return summary;
 }
 
-void add_records(const Points& points, const SortedPoints& sorted, const Options& options,
+void add_records(const Points& points, const BinnedPoints& binned, const Options& options,
                  Contribution& mine) {
     if (points.count == 0) return;
     if (options.domain == DomainKind::points) {
         append_points(points, mine.records);
         mine.summary.num_cells = mine.summary.num_points;
     } else {
-        const std::vector<CellMoments> cells = cell_moments(sorted);
-        append_cells(cells, sorted.mesh, mine.records);
+        const std::vector<CellMoments> cells = cell_moments(binned);
+        append_cells(cells, binned.mesh, mine.records);
         mine.summary.num_cells = static_cast<std::int64_t>(cells.size());
     }
 }

@@ -2,8 +2,8 @@
 
 #include "request.hpp"
 
+#include <rrcb/binned_points.hpp>
 #include <rrcb/points.hpp>
-#include <rrcb/sorted_points.hpp>
 #include <rrcb/statistical_domain.hpp>
 
 #include <cstdint>
@@ -55,15 +55,15 @@ void check_previous(const Cuts& previous, const Options& options, int dimension)
 /// error on a smooth cloud, not so many that cells are nearly empty.
 int automatic_cells_per_axis(int dimension, LocalIndex num_points);
 
-/// Sorts checked points by the cells of the support mesh that the options ask for; leaves them
-/// out where no cells are needed.
-SortedPoints sort_by_options(const Points& points, const Box& box, const Options& options);
+/// Finds the cells of checked points in the support mesh that the options ask for; nothing where
+/// no cells are needed.
+BinnedPoints bin_by_options(const Points& points, const Box& box, const Options& options);
 
 /// Totals of checked points.
 Summary summarize(const Points& points, const Box& box);
 
 /// Reduces checked points to what the root needs of them.
-void add_records(const Points& points, const SortedPoints& sorted, const Options& options,
+void add_records(const Points& points, const BinnedPoints& binned, const Options& options,
                  Contribution& mine);
 
 /// Most cells that the options let a subtree hand on: a fixed number, whatever the number of

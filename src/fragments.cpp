@@ -1,6 +1,6 @@
 #include "fragments.hpp"
 
-#include "descent.hpp"
+#include "sides.hpp"
 
 #include <algorithm>
 
@@ -35,39 +35,6 @@ LocalIndex partition(const Fragment& fragment, const Cut& cut, SortedPoints& poi
         }
     }
     return front;
-}
-
-/// Sides of a cut that a box reaches; both only when the cut crosses it.
-struct Sides {
-    bool below;
-    bool above;
-};
-
-Sides sides_of(const Box& box, const Cut& cut, int dimension) {
-    return {!is_above(cut, box.lower, dimension), is_above(cut, box.upper, dimension)};
-}
-
-void assign_cell(const Cuts& cuts, const SortedPoints& points, LocalIndex cell,
-                 std::span<Part> parts, std::span<double> part_weights) {
-    const Box box = enclosing_box(points.mesh, cell);
-    Descent at = root_of(cuts);
-    while (!at.is_part()) {
-        const Sides sides = sides_of(box, cuts.tree[at.node], cuts.dimension);
-        if (sides.below && sides.above) break;
-        at = sides.above ? at.upper() : at.lower();
-    }
-    const LocalIndex first = points.first[cell];
-    const LocalIndex last = points.first[cell + 1];
-    if (at.is_part()) {
-        part_weights[static_cast<std::size_t>(at.first)] += weight_of(points, first, last);
-        for (LocalIndex i = first; i < last; ++i) parts[points.original[i]] = at.first;
-        return;
-    }
-    for (LocalIndex i = first; i < last; ++i) {
-        const Part part = part_of(cuts, points.position(i));
-        part_weights[static_cast<std::size_t>(part)] += points.weight(i);
-        parts[points.original[i]] = part;
-    }
 }
 
 }  // namespace
@@ -117,14 +84,6 @@ void write_part(const std::vector<Fragment>& fragments, Part part, const SortedP
     for (const Fragment& fragment : fragments)
         for (LocalIndex i = fragment.first; i < fragment.last; ++i)
             parts[points.original[i]] = part;
-}
-
-std::vector<double> assign(const Cuts& cuts, const SortedPoints& points, std::span<Part> parts) {
-    std::vector<double> part_weights(static_cast<std::size_t>(cuts.num_parts));
-    for (LocalIndex cell = 0; cell + 1 < points.first.size(); ++cell)
-        if (points.first[cell] < points.first[cell + 1])
-            assign_cell(cuts, points, cell, parts, part_weights);
-    return part_weights;
 }
 
 }  // namespace rrcb

@@ -29,8 +29,4 @@ std::pair<std::vector<Fragment>, std::vector<Fragment>> split(
 void write_part(const std::vector<Fragment>& fragments, Part part, const SortedPoints& points,
                 std::span<Part> parts);
 
-/// Part of every point by the cuts, into `parts` (length points.count()): whole cells at once,
-/// points one by one only in cells that a cut crosses. Returns what each part weighs here.
-std::vector<double> assign(const Cuts& cuts, const SortedPoints& points, std::span<Part> parts);
-
 }  // namespace rrcb

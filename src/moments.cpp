@@ -1,3 +1,6 @@
+#include "lane_sums.hpp"
+#include "point_layout.hpp"
+
 #include <rrcb/moments.hpp>
 
 #include <algorithm>
@@ -7,15 +10,14 @@ namespace rrcb {
 
 namespace {
 
-/// Sums of w, w d and w d^2 over the points of a cell, d relative to `origin`, in scaled lengths.
+/// Sums of w d and w d^2 over points, d relative to the centroid of their cell as far as it is
+/// known, in scaled lengths.
 template <std::size_t Dimension>
 struct Sums {
-    double weight = 0;
     std::array<double, Dimension> first{};
     std::array<double, Dimension> second{};
 
     Sums& operator+=(const Sums& other) {
-        weight += other.weight;
         for (std::size_t a = 0; a < Dimension; ++a) {
             first[a] += other.first[a];
             second[a] += other.second[a];
@@ -24,106 +26,93 @@ struct Sums {
     }
 };
 
+template <std::size_t Dimension>
+using Positions = std::vector<std::array<double, Dimension>>;
+
+/// Centroid of every cell that holds weight, in scaled lengths, to the round-off of the mesh.
+template <std::size_t Dimension>
+Positions<Dimension> centroids(const BinnedPoints& binned) {
+    const SupportMesh& mesh = binned.mesh;
+    Positions<Dimension> result(binned.counts.size());
+    for (LocalIndex cell = 0; cell < result.size(); ++cell) {
+        const double weight = binned.scaled_weight(cell);
+        if (!(weight > 0)) continue;
+        LocalIndex rest = cell;
+        for (std::size_t a = 0; a < Dimension; ++a) {
+            const auto cells = static_cast<LocalIndex>(mesh.cells[a]);
+            const double offset =
+                static_cast<double>(rest % cells) + binned.offsets[cell * Dimension + a] / weight;
+            rest /= cells;
+            result[cell][a] = mesh.box.lower[a] * mesh.scale[a];
+            if (mesh.cells_per_length[a] > 0) result[cell][a] += offset / mesh.cells_per_length[a];
+        }
+    }
+    return result;
+}
+
 struct Unweighted {
     double operator()(LocalIndex) const { return 1; }
 };
 
 struct Weighted {
     const double* weights;
-    double operator()(LocalIndex i) const { return weights[i]; }
-};
-
-struct Scaled {
-    const double* weights;
     double scale;
     double operator()(LocalIndex i) const { return weights[i] * scale; }
 };
 
-/// Power of two with which weights times squares of lengths neither overflow nor vanish.
-double safe_scale(double heaviest) {
-    constexpr int harmless_exponent = 200;
-    const int exponent = std::ilogb(heaviest);
-    if (std::abs(exponent) <= harmless_exponent) return 1;
-    return std::ldexp(1.0, std::clamp(-exponent, -1000, 1000));
-}
-
-struct Entries {
-    LocalIndex first;
-    LocalIndex last;
-};
-
-/// Long ranges in halves: one running sum would lose a digit for every tenfold of the points.
-template <std::size_t Dimension, class Weight>
-Sums<Dimension> sum_about(const SortedPoints& points, Entries entries, const Weight& weight,
-                          const std::array<double, Dimension>& origin) {
-    constexpr LocalIndex most_at_once = 64;
-    Sums<Dimension> sums;
-    if (entries.last - entries.first > most_at_once) {
-        const LocalIndex middle = entries.first + (entries.last - entries.first) / 2;
-        sums = sum_about(points, {entries.first, middle}, weight, origin);
-        return sums += sum_about(points, {middle, entries.last}, weight, origin);
-    }
-    const double* x = points.coordinates.data();
-    for (LocalIndex i = entries.first; i < entries.last; ++i) {
-        const double w = weight(i);
-        sums.weight += w;
-        for (std::size_t a = 0; a < Dimension; ++a) {
-            const double d = x[i * Dimension + a] * points.mesh.scale[a] - origin[a];
-            sums.first[a] += w * d;
-            sums.second[a] += w * d * d;
+/// The sums of every cell about its `origins`.
+template <class Layout, class Weight>
+auto sums_about(const Positions<static_cast<std::size_t>(Layout::dimension)>& origins,
+                const Layout& x, const BinnedPoints& binned, const Weight& weight) {
+    constexpr auto dimension = static_cast<std::size_t>(Layout::dimension);
+    std::array<double, dimension> scale;
+    std::copy_n(binned.mesh.scale.begin(), dimension, scale.begin());
+    LaneSums<Sums<dimension>> sums(origins.size());
+    in_ranges(binned.points.count, sums.interval(), [&](LocalIndex begin, LocalIndex end) {
+        for (LocalIndex i = begin; i < end; ++i) {
+            const std::size_t cell = binned.cells[i];
+            const std::array<double, dimension>& origin = origins[cell];
+            Sums<dimension>& sum = sums.of(cell, i);
+            const double w = weight(i);
+            for (std::size_t a = 0; a < dimension; ++a) {
+                const double d = x(i, static_cast<int>(a)) * scale[a] - origin[a];
+                sum.first[a] += w * d;
+                sum.second[a] += w * d * d;
+            }
         }
-    }
-    return sums;
-}
-
-template <std::size_t Dimension, class Weight>
-Moments moments_of_cell(const SortedPoints& points, LocalIndex cell, const Weight& weight) {
-    const Entries entries{points.first[cell], points.first[cell + 1]};
-    Moments moments;
-    moments.count = static_cast<GlobalCount>(entries.last - entries.first);
-    const Vector& scale = points.mesh.scale;
-    std::array<double, Dimension> origin;
-    for (std::size_t a = 0; a < Dimension; ++a)
-        origin[a] = points.coordinates[entries.first * Dimension + a] * scale[a];
-    Sums<Dimension> sums = sum_about(points, entries, weight, origin);
-    moments.weight = sums.weight;
-    if (!(sums.weight > 0)) return moments;
-    for (std::size_t a = 0; a < Dimension; ++a) origin[a] += sums.first[a] / sums.weight;
-    sums = sum_about(points, entries, weight, origin);
-    for (std::size_t a = 0; a < Dimension; ++a) {
-        // `origin` is the mean rounded to a coordinate; what is left of it is taken off again.
-        const double rest = sums.first[a] / sums.weight;
-        moments.mean[a] = (origin[a] + rest) / scale[a];
-        moments.deviation[a] =
-            std::sqrt(std::max(0.0, sums.second[a] / sums.weight - rest * rest)) / scale[a];
-    }
-    return moments;
-}
-
-template <std::size_t Dimension, class Weight>
-std::vector<CellMoments> moments_of_cells(const SortedPoints& points, const Weight& weight) {
-    std::vector<CellMoments> cells;
-    for (LocalIndex cell = 0; cell + 1 < points.first.size(); ++cell) {
-        if (points.first[cell] == points.first[cell + 1]) continue;
-        const Moments moments = moments_of_cell<Dimension>(points, cell, weight);
-        if (moments.weight > 0) cells.push_back({cell, cell_box(points.mesh, cell), moments});
-    }
-    return cells;
+        sums.empty_lanes();
+    });
+    return sums.totals();
 }
 
 template <std::size_t Dimension>
-std::vector<CellMoments> moments_by_weight(const SortedPoints& points) {
-    if (points.weights.empty()) return moments_of_cells<Dimension>(points, Unweighted{});
-    const double heaviest = *std::max_element(points.weights.begin(), points.weights.end());
-    if (!(heaviest > 0)) {
-        auto cells = moments_of_cells<Dimension>(points, Unweighted{});
-        for (CellMoments& cell : cells) cell.moments.weight = 0;
-        return cells;
+CellMoments moments_of(const BinnedPoints& binned, LocalIndex cell,
+                       const std::array<double, Dimension>& origin, const Sums<Dimension>& sums) {
+    const Vector& scale = binned.mesh.scale;
+    const double weight = binned.scaled_weight(cell);
+    CellMoments result{cell, cell_box(binned.mesh, cell), {}};
+    result.moments.count = static_cast<GlobalCount>(binned.counts[cell]);
+    result.moments.weight = weight / binned.weight_scale;
+    for (std::size_t a = 0; a < Dimension; ++a) {
+        // `origin` is the mean rounded to a coordinate; what is left of it is taken off again.
+        const double rest = sums.first[a] / weight;
+        result.moments.mean[a] = (origin[a] + rest) / scale[a];
+        result.moments.deviation[a] =
+            std::sqrt(std::max(0.0, sums.second[a] / weight - rest * rest)) / scale[a];
     }
-    const double scale = safe_scale(heaviest);
-    if (scale == 1) return moments_of_cells<Dimension>(points, Weighted{points.weights.data()});
-    auto cells = moments_of_cells<Dimension>(points, Scaled{points.weights.data(), scale});
-    for (CellMoments& cell : cells) cell.moments.weight /= scale;
+    return result;
+}
+
+template <class Layout, class Weight>
+std::vector<CellMoments> moments_of_cells(const Layout& x, const BinnedPoints& binned,
+                                          const Weight& weight) {
+    constexpr auto dimension = static_cast<std::size_t>(Layout::dimension);
+    const Positions<dimension> origins = centroids<dimension>(binned);
+    const auto sums = sums_about(origins, x, binned, weight);
+    std::vector<CellMoments> cells;
+    for (LocalIndex cell = 0; cell < binned.counts.size(); ++cell)
+        if (binned.scaled_weight(cell) > 0)
+            cells.push_back(moments_of(binned, cell, origins[cell], sums[cell]));
     return cells;
 }
 
@@ -151,13 +140,28 @@ Moments merge(const Moments& a, const Moments& b) {
     return joint;
 }
 
-std::vector<CellMoments> cell_moments(const SortedPoints& points) {
-    if (points.dimension() == 1) return moments_by_weight<1>(points);
-    return points.dimension() == 2 ? moments_by_weight<2>(points) : moments_by_weight<3>(points);
+std::vector<CellMoments> cell_moments(const BinnedPoints& binned) {
+    const Points& points = binned.points;
+    const bool weightless =
+        !points.weights.empty() &&
+        std::ranges::none_of(binned.weights, [](double weight) { return weight > 0; });
+    if (weightless) {
+        Points unweighted = points;
+        unweighted.weights = {};
+        auto cells = cell_moments(bin_by_cell(unweighted, binned.mesh));
+        for (CellMoments& cell : cells) cell.moments.weight = 0;
+        return cells;
+    }
+    return visit_layout(points, [&](const auto& x) {
+        return points.weights.empty()
+                   ? moments_of_cells(x, binned, Unweighted{})
+                   : moments_of_cells(x, binned,
+                                      Weighted{points.weights.data(), binned.weight_scale});
+    });
 }
 
 std::vector<CellMoments> cell_moments(const Points& points, const SupportMesh& mesh) {
-    return cell_moments(sort_by_cell(points, mesh));
+    return cell_moments(bin_by_cell(points, mesh));
 }
 
 }  // namespace rrcb

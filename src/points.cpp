@@ -1,40 +1,41 @@
-#include "point_layout.hpp"
-
 #include <rrcb/points.hpp>
 
 #include <algorithm>
-#include <numeric>
 
 namespace rrcb {
 
 namespace {
 
-// Independent lanes, as the order of a minimum is free and the compiler may not know it.
-constexpr std::size_t num_lanes = 4;
+// Independent lanes, as the order of a minimum is free and the compiler may not know it; a multiple
+// of every stride, so that a lane keeps to one axis.
+constexpr std::size_t num_lanes = 6;
 
-template <class Layout>
-Box box_of_layout(const Layout& x, LocalIndex count) {
+/// Smallest and largest of the values, entry k of axis k % stride; NaN in place of infinities.
+Box box_of_values(std::span<const double> values, std::size_t stride) {
+    std::array<double, num_lanes> lower;
+    std::array<double, num_lanes> upper;
+    std::array<double, num_lanes> poison{};  // 0 * x is 0 just for finite x
+    lower.fill(Box{}.lower[0]);
+    upper.fill(Box{}.upper[0]);
+    const auto widen = [&](double value, std::size_t lane) {
+        lower[lane] = lower[lane] < value ? lower[lane] : value;
+        upper[lane] = upper[lane] > value ? upper[lane] : value;
+        poison[lane] += 0 * value;
+    };
+    const double* value = values.data();
+    std::size_t k = 0;
+    for (; k + num_lanes <= values.size(); k += num_lanes)
+        for (std::size_t lane = 0; lane < num_lanes; ++lane) widen(value[k + lane], lane);
+    for (std::size_t lane = 0; k < values.size(); ++k, ++lane) widen(value[k], lane);
     Box box;
-    for (int axis = 0; axis < Layout::dimension; ++axis) {
-        const auto a = static_cast<std::size_t>(axis);
-        std::array<double, num_lanes> lower;
-        std::array<double, num_lanes> upper;
-        std::array<double, num_lanes> poison{};  // 0 * x is 0 just for finite x
-        lower.fill(box.lower[a]);
-        upper.fill(box.upper[a]);
-        const auto widen = [&](LocalIndex i, std::size_t lane) {
-            const double value = x(i, axis);
-            lower[lane] = value < lower[lane] ? value : lower[lane];
-            upper[lane] = value > upper[lane] ? value : upper[lane];
-            poison[lane] += 0 * value;
-        };
-        LocalIndex i = 0;
-        for (; i + num_lanes <= count; i += num_lanes)
-            for (std::size_t lane = 0; lane < num_lanes; ++lane) widen(i + lane, lane);
-        for (; i < count; ++i) widen(i, 0);
-        const double finite = std::accumulate(poison.begin(), poison.end(), 0.0);
-        box.lower[a] = *std::min_element(lower.begin(), lower.end()) + finite;
-        box.upper[a] = *std::max_element(upper.begin(), upper.end()) + finite;
+    for (std::size_t lane = 0; lane < num_lanes; ++lane) {
+        const std::size_t a = lane % stride;
+        box.lower[a] = std::min(box.lower[a], lower[lane]);
+        box.upper[a] = std::max(box.upper[a], upper[lane]);
+    }
+    for (std::size_t lane = 0; lane < num_lanes; ++lane) {
+        box.lower[lane % stride] += poison[lane];
+        box.upper[lane % stride] += poison[lane];
     }
     return box;
 }
@@ -66,7 +67,15 @@ Points column_points(std::span<const std::span<const double>> columns,
 }
 
 Box bounding_box(const Points& points) {
-    return visit_layout(points, [&](const auto& x) { return box_of_layout(x, points.count); });
+    if (points.stride > 1)
+        return box_of_values(points.axes[0].first(points.count * points.stride), points.stride);
+    Box box;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a) {
+        const Box axis = box_of_values(points.axes[a].first(points.count), 1);
+        box.lower[a] = axis.lower[0];
+        box.upper[a] = axis.upper[0];
+    }
+    return box;
 }
 
 }  // namespace rrcb

@@ -1,6 +1,7 @@
 #include "refinement_mpi.hpp"
 
 #include "agreement_mpi.hpp"
+#include "binned_assignment.hpp"
 #include "brackets.hpp"
 #include "mpi/communicator.hpp"
 
@@ -21,11 +22,12 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 struct Context {
     Estimate& estimate;
     const Options& options;
-    SortedPoints& points;
+    const BinnedPoints& binned;
     RefinementRoom& room;
     Member& me;
     bool is_root;
     double weight_per_size;  ///< of a part
+    SortedPoints points{};   ///< where cuts are searched
     Measured measured{};
     bool told_of_failure = false;  ///< of another rank; at the root only
     bool abandoned = false;        ///< the root told all to stop
@@ -45,7 +47,7 @@ CutSearch start_search(const Node& node, const Context& context) {
     CutSearch search;
     const Cut& estimated = context.estimate.cuts.tree[node.at.node];
     search.cut.axis = estimated.axis;
-    search.num_axes = context.options.plain_cuts ? 1 : context.points.dimension();
+    search.num_axes = context.options.plain_cuts ? 1 : context.binned.dimension();
     search.cut.at.fill(-infinity);
     search.lower = context.estimate.brackets[node.at.node].lower;
     search.upper = context.estimate.brackets[node.at.node].upper;
@@ -138,7 +140,7 @@ void gather_and_decide(Context& context) {
         for (std::size_t k = 0; k < room.before.size(); ++k)
             if (is_gathering(room.before[k]))
                 decide_among(room.searches[k], room.targets[k], *list++,
-                             context.points.dimension());
+                             context.binned.dimension());
     });
 }
 
@@ -222,7 +224,7 @@ bool accept_estimate(Context& context, std::span<Part> parts) {
     RefinementRoom& room = context.room;
     const auto num_parts = static_cast<int>(room.part_weights.size());
     context.me.locally([&] {
-        std::ranges::copy(assign(context.estimate.cuts, context.points, parts),
+        std::ranges::copy(assign(context.estimate.cuts, context.binned, parts),
                           room.part_weights.begin());
     });
     mpi::check(MPI_Reduce(room.part_weights.data(), room.sums.data(), num_parts, MPI_DOUBLE,
@@ -242,7 +244,10 @@ void search_all_levels(Context& context, std::span<Part> parts) {
     RefinementRoom& room = context.room;
     std::vector<Node>& nodes = room.nodes;
     nodes.push_back({root_of(context.estimate.cuts), {}, context.estimate.total_weight});
-    context.me.locally([&] { nodes[0].fragments = cell_fragments(context.points); });
+    context.me.locally([&] {
+        context.points = sort_by_cell(context.binned);
+        nodes[0].fragments = cell_fragments(context.points);
+    });
     while (!nodes.empty()) {
         std::erase_if(nodes, [&](const Node& node) {
             if (!node.at.is_part()) return false;
@@ -262,12 +267,12 @@ void search_all_levels(Context& context, std::span<Part> parts) {
 
 }  // namespace
 
-Measured refine(Estimate& estimate, const Options& options, SortedPoints& points,
+Measured refine(Estimate& estimate, const Options& options, const BinnedPoints& binned,
                 RefinementRoom& room, std::span<Part> parts, Member& me) {
     const auto& sizes = options.part_sizes;
     const double weight_per_size =
         estimate.total_weight / std::accumulate(sizes.begin(), sizes.end(), 0.0);
-    Context context{estimate,       options, points, room, me, mpi::rank_of(me.comm) == root,
+    Context context{estimate,       options, binned, room, me, mpi::rank_of(me.comm) == root,
                     weight_per_size};
     const bool accepted = options.refine == Refine::tolerance && accept_estimate(context, parts);
     if (!accepted) search_all_levels(context, parts);

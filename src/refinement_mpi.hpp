@@ -26,12 +26,12 @@ struct Measured {
 
 /// Moves the cuts of `estimate` until the parts of the real points are as even as asked.
 ///
-/// Collective. `options` are complete, `room` is made by them. Writes the part of each
-/// point, by its original index, into `parts`; entries of `points` change places within their
-/// cells. Without weight anywhere the cuts stay. A rank that fails on its own takes part with
-/// nothing until the root, told of it by the next histograms or candidates, ends all searches; then
-/// all throw its error.
-Measured refine(Estimate& estimate, const Options& options, SortedPoints& points,
+/// Collective. `options` are complete, `room` is made by them. Writes the part of each point into
+/// `parts`; where the estimate is not good enough it works on a sorted copy of the points. Without
+/// weight anywhere the cuts stay. A rank that fails on its own takes part with nothing until the
+/// root, told of it by the next histograms or candidates, ends all searches; then all throw its
+/// error.
+Measured refine(Estimate& estimate, const Options& options, const BinnedPoints& binned,
                 RefinementRoom& room, std::span<Part> parts, Member& me);
 
 }  // namespace rrcb

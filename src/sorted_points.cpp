@@ -10,42 +10,13 @@ namespace rrcb {
 
 namespace {
 
-/// Cell of every point, and how many points each cell holds in counts[cell + 1].
 template <class Layout>
-std::vector<std::uint32_t> cells_of(const Layout& x, LocalIndex count, const SupportMesh& mesh,
-                                    std::vector<LocalIndex>& counts) {
-    constexpr auto dimension = static_cast<std::size_t>(Layout::dimension);
-    std::array<double, dimension> lower;
-    std::array<double, dimension> scale;
-    std::array<double, dimension> cells_per_length;
-    std::array<std::int32_t, dimension> cells;
-    for (std::size_t a = 0; a < dimension; ++a) {
-        scale[a] = mesh.scale[a];
-        lower[a] = mesh.box.lower[a] * scale[a];
-        cells_per_length[a] = mesh.cells_per_length[a];
-        cells[a] = mesh.cells[a];
-    }
-    std::vector<std::uint32_t> cell_of_point(count);
-    for (LocalIndex i = 0; i < count; ++i) {
-        std::int32_t cell = 0;
-        for (std::size_t a = dimension; a-- > 0;) {
-            const double offset = x(i, static_cast<int>(a)) * scale[a] - lower[a];
-            const auto layer = static_cast<std::int32_t>(offset * cells_per_length[a]);
-            cell = cell * cells[a] + std::min(layer, cells[a] - 1);
-        }
-        cell_of_point[i] = static_cast<std::uint32_t>(cell);
-        ++counts[static_cast<std::size_t>(cell) + 1];
-    }
-    return cell_of_point;
-}
-
-template <class Layout>
-void scatter(const Layout& x, const Points& points, std::span<const std::uint32_t> cell_of_point,
-             SortedPoints& sorted) {
+void scatter(const Layout& x, const BinnedPoints& binned, SortedPoints& sorted) {
     constexpr auto dimension = static_cast<std::size_t>(Layout::dimension);
     std::vector<LocalIndex> next(sorted.first.begin(), sorted.first.end() - 1);
+    const Points& points = binned.points;
     for (LocalIndex i = 0; i < points.count; ++i) {
-        const LocalIndex place = next[cell_of_point[i]]++;
+        const LocalIndex place = next[binned.cells[i]]++;
         for (std::size_t a = 0; a < dimension; ++a)
             sorted.coordinates[place * dimension + a] = x(i, static_cast<int>(a));
         sorted.original[place] = i;
@@ -62,19 +33,16 @@ Vector SortedPoints::position(LocalIndex i) const {
     return x;
 }
 
-SortedPoints sort_by_cell(const Points& points, const SupportMesh& mesh) {
+SortedPoints sort_by_cell(const BinnedPoints& binned) {
+    const Points& points = binned.points;
     SortedPoints sorted;
-    sorted.mesh = mesh;
-    sorted.first.resize(num_cells(mesh) + 1);
-    if (points.count == 0) return sorted;
+    sorted.mesh = binned.mesh;
+    sorted.first.resize(binned.counts.size() + 1);
+    std::partial_sum(binned.counts.begin(), binned.counts.end(), sorted.first.begin() + 1);
     sorted.coordinates.resize(points.count * static_cast<std::size_t>(points.dimension));
     sorted.weights.resize(points.weights.size());
     sorted.original.resize(points.count);
-    visit_layout(points, [&](const auto& x) {
-        const auto cell_of_point = cells_of(x, points.count, mesh, sorted.first);
-        std::partial_sum(sorted.first.begin(), sorted.first.end(), sorted.first.begin());
-        scatter(x, points, cell_of_point, sorted);
-    });
+    visit_layout(points, [&](const auto& x) { scatter(x, binned, sorted); });
     return sorted;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/sorted_points.hpp>
+#include <rrcb/binned_points.hpp>
 
 #include <vector>
 
@@ -33,10 +33,11 @@ Moments merge(const Moments& a, const Moments& b);
 
 /// Moments of every cell that holds weight, in the order of the cells. Not collective.
 ///
-/// Two passes over the points of a cell, the first relative to one of them, the second to their
-/// mean: neither the offset of the cloud nor the spread of the weights costs digits. When all
-/// points weigh 0 their moments are those of the same points with weight 1, under weight 0.
-std::vector<CellMoments> cell_moments(const SortedPoints& points);
+/// The second of two passes: the first found the centroids relative to the cells, this one sums
+/// relative to the centroids: neither the offset of the cloud nor the spread of the weights costs
+/// digits. When all points weigh 0 their moments are those of the same points with weight 1, under
+/// weight 0.
+std::vector<CellMoments> cell_moments(const BinnedPoints& binned);
 
 /// The same for points in any order, which must be finite and lie in the box of `mesh`.
 std::vector<CellMoments> cell_moments(const Points& points, const SupportMesh& mesh);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/support_mesh.hpp>
+#include <rrcb/binned_points.hpp>
 
 #include <vector>
 
@@ -23,8 +23,8 @@ struct SortedPoints {
     Vector position(LocalIndex i) const;
 };
 
-/// Sorts finite points that lie in the box of `mesh`, in two passes. Not collective.
-SortedPoints sort_by_cell(const Points& points, const SupportMesh& mesh);
+/// Sorts points whose cells are known, in one pass. Not collective.
+SortedPoints sort_by_cell(const BinnedPoints& binned);
 
 /// Box that holds the points sorted into a cell: the cell with a margin for the round-off of
 /// finding it. Not collective.

@@ -55,7 +55,7 @@ struct VirtualRanks {
         const Points mine = points_of(rank);
         const Box box = check_points(mine);
         Contribution all{summarize(mine, box), {}};
-        add_records(mine, sort_by_options(mine, box, options), options, all);
+        add_records(mine, bin_by_options(mine, box, options), options, all);
         all.summary.first_rank = rank;
         MergeTree{num_ranks()}.for_each_child(rank, [&](int child) {
             const Contribution theirs = contribution_of(child);
@@ -85,13 +85,13 @@ TEST_P(ManyRanks, send_the_root_a_bounded_number_of_cells_and_are_balanced_all_t
     make_room(decision, ranks.options, 2);
     decide(all, ranks.options, nullptr, decision);
     const Points points = ranks.points();
-    SortedPoints sorted = sort_by_options(points, bounding_box(points), ranks.options);
+    const BinnedPoints binned = bin_by_options(points, bounding_box(points), ranks.options);
     RefinementRoom room(ranks.options, 2, true);
     std::vector<Part> parts(points.count);
     Estimate estimate{decision.bisection.cuts, decision.bisection.brackets,
                       static_cast<double>(points.count), decision.verdict.grain};
     Member me{MPI_COMM_SELF};
-    const Measured measured = refine(estimate, ranks.options, sorted, room, parts, me);
+    const Measured measured = refine(estimate, ranks.options, binned, room, parts, me);
 
     std::vector<double> weights(ranks.options.part_sizes.size());
     for (const Part part : parts) weights[static_cast<std::size_t>(part)] += 1;

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <rrcb/support_mesh.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace rrcb {
+
+/// One rank's points with the cell of a support mesh that each of them lies in.
+struct BinnedPoints {
+    SupportMesh mesh;
+    Points points;                     ///< borrowed
+    std::vector<std::uint32_t> cells;  ///< of each point
+    std::vector<LocalIndex> counts;    ///< points in each cell of the mesh
+    double weight_scale = 1;      ///< power of two that keeps sums of weighted squares in range
+    std::vector<double> weights;  ///< of each cell, scaled; empty when every point weighs 1
+    /// Sum over the points of a cell of their distance from its lower faces, in cells, times their
+    /// scaled weight; `dimension` entries per cell.
+    std::vector<double> offsets;
+
+    int dimension() const { return mesh.dimension; }
+    double scaled_weight(LocalIndex cell) const {
+        return weights.empty() ? static_cast<double>(counts[cell]) : weights[cell];
+    }
+};
+
+/// Finds the cells of finite points that lie in the box of `mesh`, in one pass. Not collective.
+BinnedPoints bin_by_cell(const Points& points, const SupportMesh& mesh);
+
+}  // namespace rrcb

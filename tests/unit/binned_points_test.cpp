@@ -1,0 +1,129 @@
+#include "../support/clouds.hpp"
+#include "binned_assignment.hpp"
+
+#include <rrcb/sorted_points.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+BinnedPoints bin(const Points& points, int cells_per_axis) {
+    return bin_by_cell(points,
+                       make_support_mesh(bounding_box(points), points.dimension, cells_per_axis));
+}
+
+/// The coordinates of interleaved points, one axis after the other.
+std::vector<double> by_column(const std::vector<double>& interleaved, std::size_t dimension) {
+    std::vector<double> columns;
+    for (std::size_t a = 0; a < dimension; ++a)
+        for (std::size_t k = a; k < interleaved.size(); k += dimension)
+            columns.push_back(interleaved[k]);
+    return columns;
+}
+
+Points view_of_columns(const std::vector<double>& columns, std::size_t dimension) {
+    std::vector<std::span<const double>> axes;
+    const std::size_t count = columns.size() / dimension;
+    for (std::size_t a = 0; a < dimension; ++a)
+        axes.push_back(std::span(columns).subspan(a * count, count));
+    return column_points(axes);
+}
+
+TEST(BinnedPoints, cells_are_those_of_the_mesh) {
+    for (const int dimension : {1, 2, 3}) {
+        for (const int cells : {1, 3, 8, 40}) {
+            const auto d = static_cast<std::size_t>(dimension);
+            const std::vector<double> all = test::uniform_cloud(5003, dimension, 3);
+            const std::vector<double> columns = by_column(all, d);
+            const BinnedPoints binned = bin(interleaved_points(all, dimension), cells);
+            EXPECT_EQ(bin(view_of_columns(columns, d), cells).cells, binned.cells);
+            std::vector<LocalIndex> counts(num_cells(binned.mesh));
+            for (LocalIndex i = 0; i < binned.points.count; ++i) {
+                const LocalIndex cell = cell_of(binned.mesh, binned.points.position(i));
+                EXPECT_EQ(binned.cells[i], cell);
+                ++counts[cell];
+            }
+            EXPECT_EQ(binned.counts, counts);
+        }
+    }
+}
+
+TEST(BinnedPoints, faces_belong_to_the_cell_above_and_those_of_the_box_to_the_last) {
+    const std::vector<double> x{0, 1, 1, 2, 3, 4};
+    const std::array<std::span<const double>, 1> columns{x};
+    const std::vector<double> weights{1, 2, 4, 8, 16, 32};
+    const BinnedPoints binned = bin(column_points(columns, weights), 4);
+    EXPECT_EQ(binned.cells, (std::vector<std::uint32_t>{0, 1, 1, 2, 3, 3}));
+    EXPECT_EQ(binned.counts, (std::vector<LocalIndex>{1, 2, 1, 2}));
+    EXPECT_EQ(binned.weights, (std::vector<double>{1, 6, 8, 48}));
+    EXPECT_EQ(binned.offsets, (std::vector<double>{0, 0, 0, 32}));
+}
+
+TEST(BinnedPoints, are_sorted_by_cell_in_the_order_they_came_in) {
+    const std::vector<double> x{3, 0, 2, 3, 1, 0};
+    const std::array<std::span<const double>, 1> columns{x};
+    const std::vector<double> weights{1, 2, 3, 4, 5, 6};
+    const SortedPoints sorted = sort_by_cell(bin(column_points(columns, weights), 3));
+    EXPECT_EQ(sorted.original, (std::vector<LocalIndex>{1, 5, 4, 0, 2, 3}));
+    EXPECT_EQ(sorted.coordinates, (std::vector<double>{0, 0, 1, 3, 2, 3}));
+    EXPECT_EQ(sorted.weights, (std::vector<double>{2, 6, 5, 1, 3, 4}));
+    EXPECT_EQ(sorted.first, (std::vector<LocalIndex>{0, 2, 3, 6}));
+}
+
+/// Points of a lattice, so that many lie on the cuts, in an order that jumps.
+std::vector<double> lattice(int side) {
+    std::vector<double> coordinates;
+    const int count = side * side;
+    for (int i = 0; i < count; ++i) {
+        const int k = static_cast<int>(static_cast<std::int64_t>(i) * 7919 % count);
+        coordinates.push_back(k % side);
+        coordinates.push_back(k / side);
+    }
+    return coordinates;
+}
+
+void expect_look_up(const Cuts& cuts, const BinnedPoints& binned) {
+    const Points& points = binned.points;
+    std::vector<Part> parts(points.count, -1);
+    const std::vector<double> weights = assign(cuts, binned, parts);
+    std::vector<double> expected(static_cast<std::size_t>(cuts.num_parts));
+    for (LocalIndex i = 0; i < points.count; ++i) {
+        const Part part = part_of(cuts, points.position(i));
+        EXPECT_EQ(parts[i], part) << "point " << i;
+        expected[static_cast<std::size_t>(part)] += points.weight(i);
+    }
+    EXPECT_EQ(weights, expected);
+}
+
+TEST(BinnedPoints, are_assigned_as_the_look_up_has_it) {
+    const std::vector<double> coordinates = lattice(60);
+    std::vector<double> weights(60 * 60);
+    std::iota(weights.begin(), weights.end(), 1);
+    // The second pair of cuts meets the first in the middle of a cell; ties are split by position.
+    const std::vector<Cuts> cases{
+        {2, 1, {}},
+        {2, 2, {{0, {30, -infinity, 0}}}},
+        {2, 2, {{0, {29, 17, 0}}}},
+        {2, 4, {{0, {29, 17, 0}}, {1, {-infinity, 31, 0}}, {1, {12, 31, 0}}}},
+        {2, 4, {{0, {29, -infinity, 0}}, {0, {28, 3, 0}}, {0, {30, -infinity, 0}}}},
+        {2, 3, {{0, {-infinity, -infinity, 0}}, {1, {5, infinity, 0}}}},
+    };
+    for (const Cuts& cuts : cases) {
+        for (const int cells : {1, 5, 16}) {
+            SCOPED_TRACE(std::to_string(cuts.num_parts) + " parts, mesh " + std::to_string(cells));
+            expect_look_up(cuts, bin(interleaved_points(coordinates, 2), cells));
+            expect_look_up(cuts, bin(interleaved_points(coordinates, 2, weights), cells));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace rrcb

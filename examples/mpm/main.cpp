@@ -1,146 +1,148 @@
+#include "arguments.hpp"
 #include "rrcb_balancer_mpi.hpp"
+#include "scene_file/scene_file_mpi.hpp"
+#ifdef RRCB_MPM_ZOLTAN
+#include "zoltan_balancer_mpi.hpp"
 
-#include <Teuchos_CommandLineProcessor.hpp>
+#include <zoltan.h>
+#endif
+
 #include <mpi.h>
+#include <mpm/history_mpi.hpp>
 #include <mpm/simulation.hpp>
-#include <mpm/slope.hpp>
+#include <mpm/vtk_mpi.hpp>
 #include <unistd.h>
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <optional>
 #include <stdexcept>
-#include <string>
 
 namespace {
 
-struct Arguments {
-    std::string balancer = "rrcb";
-    int every = 0;
-    double end_time = 0;
-    int cells = 0;
-    double cohesion = 0;
-};
-
-/// The number an option was given; throws what is wrong with the text.
-template <typename Number>
-Number number(const std::string& option, const std::string& text, Number least) {
-    Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || !(value >= least) ||
-        !std::isfinite(static_cast<double>(value)))
-        throw std::invalid_argument("--" + option + ": '" + text +
-                                    "' is not a number of at least " + std::to_string(least));
-    return value;
+int rank_in(MPI_Comm comm) {
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    return rank;
 }
 
-/// False when the user only asked for help; throws what is wrong with the arguments.
-///
-/// Teuchos tells of some errors on rank 0 only; the code it returns is the same on all ranks.
-bool parse(int argc, char** argv, Arguments& arguments) {
-    std::string every = "10", end_time = "8", cohesion = "10e3";
-    std::string cells = std::to_string(mpm::paper_slope_cells);
-    Teuchos::CommandLineProcessor parser(false, true);
-    parser.setDocString("A slope that is too steep fails and runs out.");
-    parser.setOption("balancer", &arguments.balancer, "none (equal slabs) or rrcb");
-    parser.setOption("every", &every, "steps between two rebalances");
-    parser.setOption("end-time", &end_time, "simulated seconds");
-    parser.setOption("cells", &cells, "cells across the 110 m of the slope");
-    parser.setOption("cohesion", &cohesion, "Pa");
-    const auto outcome = parser.parse(argc, argv);
-    if (outcome == Teuchos::CommandLineProcessor::PARSE_HELP_PRINTED) return false;
-    if (outcome != Teuchos::CommandLineProcessor::PARSE_SUCCESSFUL)
-        throw std::invalid_argument("an option is not known; --help lists them all");
-    if (arguments.balancer != "none" && arguments.balancer != "rrcb")
-        throw std::invalid_argument("--balancer: '" + arguments.balancer +
-                                    "' is neither none nor rrcb");
-    arguments.every = number("every", every, 1);
-    arguments.end_time = number("end-time", end_time, 0.0);
-    arguments.cells = number("cells", cells, 11);
-    arguments.cohesion = number("cohesion", cohesion, 0.0);
-    return true;
-}
-
-struct Summary {
-    double largest_displacement = 0;  ///< m
-    double front = 0;                 ///< largest x of a point that has moved a metre, m
-    double imbalance = 1;             ///< points of the heaviest rank / mean
-};
-
-Summary summarize(const mpm::Simulation& simulation, MPI_Comm comm) {
-    const mpm::Particles& particles = simulation.particles();
-    const auto x = particles["x"];
-    const auto across = particles["displacement_x"], up = particles["displacement_y"];
-    double worst[3] = {0, 0, static_cast<double>(particles.size())};
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-        const double displacement = std::hypot(across[p], up[p]);
-        worst[0] = std::max(worst[0], displacement);
-        if (displacement > 1) worst[1] = std::max(worst[1], x[p]);
+std::optional<mpm::Balancer> make_balancer(const std::string& name) {
+    if (name == "none") return std::nullopt;
+    if (name == "zoltan-rcb") {
+#ifdef RRCB_MPM_ZOLTAN
+        return zoltan_rcb_balancer();
+#else
+        throw std::invalid_argument("--balancer=zoltan-rcb: built without Zoltan");
+#endif
     }
-    MPI_Allreduce(MPI_IN_PLACE, worst, 3, MPI_DOUBLE, MPI_MAX, comm);
-    int num_ranks = 1;
-    MPI_Comm_size(comm, &num_ranks);
-    return {worst[0], worst[1],
-            worst[2] * num_ranks / static_cast<double>(simulation.num_points())};
+    rrcb::Options options;
+    if (name == "rrcb-exact") options.refine = rrcb::Refine::exact;
+    return rrcb_balancer(options);
 }
 
-void show_progress(const mpm::Simulation& simulation, double end_time) {
-    if (!isatty(STDERR_FILENO) || simulation.step_count() % 20 != 0) return;
-    std::fprintf(stderr, "\r%6.2f of %.2f s", std::min(simulation.time(), end_time), end_time);
-}
-
-void print_start(const mpm::Simulation& simulation) {
-    std::printf("slope: %lld material points\nkernels:",
-                static_cast<long long>(simulation.num_points()));
-    for (const std::string& name : simulation.kernels()) std::printf(" %s", name.c_str());
+void print_words(const char* title, const std::vector<std::string>& words) {
+    std::printf("%s:", title);
+    for (const std::string& word : words) std::printf(" %s", word.c_str());
     std::printf("\n");
 }
 
-void print_end(const mpm::Simulation& simulation, const Summary& summary, double seconds) {
-    const double steps = static_cast<double>(simulation.step_count());
-    const double point_steps = steps * static_cast<double>(simulation.num_points());
-    std::printf("%lld steps to %.3f s in %.2f s: %.1f million point-steps/s\n",
-                static_cast<long long>(simulation.step_count()), simulation.time(), seconds,
-                point_steps / seconds * 1e-6);
-    std::printf("largest displacement %.3f m, front at x = %.2f m, imbalance %.4f\n",
-                summary.largest_displacement, summary.front, summary.imbalance);
+/// What a step of a scene does, owns and sends.
+void list_kernels(const mpm::Simulation& simulation) {
+    const auto& columns = simulation.particles().column_names();
+    print_words("kernels", simulation.kernels());
+    print_words("columns", columns);
+    std::printf("%zu bytes per point\n%zu bytes per migrated point\n%zu doubles per ghost node\n",
+                columns.size() * sizeof(double), columns.size() * sizeof(double),
+                simulation.doubles_per_ghost_node());
 }
 
-void run(const Arguments& arguments, MPI_Comm comm) {
-    int rank = 0;
-    MPI_Comm_rank(comm, &rank);
-    mpm::Scene scene = mpm::slope_scene(arguments.cells);
-    scene.mohr_coulomb->cohesion = arguments.cohesion;
-    mpm::Simulation simulation(scene, comm);
-    if (rank == 0) print_start(simulation);
-
-    const mpm::Balancer balancer = rrcb_balancer();
-    const double start = MPI_Wtime();
-    while (simulation.time() < arguments.end_time) {
-        if (arguments.balancer == "rrcb" && simulation.step_count() % arguments.every == 0)
-            simulation.rebalance(balancer);
-        simulation.step();
-        if (rank == 0) show_progress(simulation, arguments.end_time);
+/// Writes what the output plan asks for, into a folder that is there on rank 0's machine.
+class Recorder {
+  public:
+    Recorder(const std::string& folder, const mpm::SceneFile& file, MPI_Comm comm)
+        : plan_(file.output) {
+        std::error_code error;
+        if (rank_in(comm) == 0) std::filesystem::create_directories(folder, error);
+        mpm::fail_together(error ? folder + ": " + error.message() : "", comm);
+        history_.emplace(folder + "/history.csv", file.scene, comm);
+        vtk_.emplace(folder, file.scene, comm);
     }
-    const double seconds = MPI_Wtime() - start;
-    const Summary summary = summarize(simulation, comm);
-    if (rank == 0) print_end(simulation, summary, seconds);
+
+    void record(const mpm::Simulation& simulation, bool is_last) {
+        if (is_due(plan_.history_every, simulation, is_last)) history_->write(simulation);
+        if (is_due(plan_.vtk_every, simulation, is_last)) vtk_->write(simulation);
+    }
+
+  private:
+    static bool is_due(int every, const mpm::Simulation& simulation, bool is_last) {
+        return every > 0 && (is_last || simulation.step_count() % every == 0);
+    }
+
+    mpm::OutputPlan plan_;
+    std::optional<mpm::History> history_;
+    std::optional<mpm::VtkSeries> vtk_;
+};
+
+void show_progress(const mpm::Simulation& simulation, double end_time, bool is_last) {
+    if (!isatty(STDERR_FILENO) || (simulation.step_count() % 20 != 0 && !is_last)) return;
+    std::fprintf(stderr, "\r%10.4g of %.4g s, step %lld, %lld points%s", simulation.time(),
+                 end_time, static_cast<long long>(simulation.step_count()),
+                 static_cast<long long>(simulation.num_points()), is_last ? "\n" : "");
+}
+
+void simulate(mpm::Simulation& simulation, const Arguments& arguments, Recorder& recorder,
+              MPI_Comm comm) {
+    const std::optional<mpm::Balancer> balancer = make_balancer(arguments.balancer);
+    for (bool is_last = false; !is_last;) {
+        is_last = !(simulation.time() < arguments.end_time);
+        if (balancer && !is_last && simulation.step_count() % arguments.every == 0)
+            simulation.rebalance(*balancer);
+        recorder.record(simulation, is_last);
+        if (rank_in(comm) == 0) show_progress(simulation, arguments.end_time, is_last);
+        if (!is_last) simulation.step();
+    }
+}
+
+void print_end(const mpm::Simulation& simulation, const Arguments& arguments, double seconds) {
+    const auto steps = static_cast<double>(simulation.step_count());
+    std::printf("%s: %lld points, %lld steps to %.6g s in %.2f s (%.1f million point-steps/s)\n",
+                arguments.scene.c_str(), static_cast<long long>(simulation.num_points()),
+                static_cast<long long>(simulation.step_count()), simulation.time(), seconds,
+                steps * static_cast<double>(simulation.num_points()) / seconds * 1e-6);
+    std::printf("history: %s/history.csv\n", arguments.out.c_str());
+}
+
+void run(Arguments arguments, MPI_Comm comm) {
+    mpm::SceneFile file = mpm::read_scene(arguments.scene, comm);
+    if (arguments.cell_size > 0) mpm::resize_cells(file.scene, arguments.cell_size);
+    if (arguments.vtk_every >= 0) file.output.vtk_every = arguments.vtk_every;
+    if (!(arguments.end_time > 0)) arguments.end_time = file.scene.end_time;
+    mpm::Simulation simulation(file.scene, comm);
+    if (arguments.list_kernels) {
+        if (rank_in(comm) == 0) list_kernels(simulation);
+        return;
+    }
+    Recorder recorder(arguments.out, file, comm);
+    const double start = MPI_Wtime();
+    simulate(simulation, arguments, recorder, comm);
+    if (rank_in(comm) == 0) print_end(simulation, arguments, MPI_Wtime() - start);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     MPI_Init(&argc, &argv);
-    int rank = 0;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+#ifdef RRCB_MPM_ZOLTAN
+    float version = 0;
+    Zoltan_Initialize(argc, argv, &version);
+#endif
     int exit_code = 0;
     try {
-        Arguments arguments;
-        if (parse(argc, argv, arguments)) run(arguments, MPI_COMM_WORLD);
+        const std::optional<Arguments> arguments = read_arguments(argc, argv);
+        if (arguments) run(*arguments, MPI_COMM_WORLD);
     } catch (const std::exception& error) {
-        if (rank == 0) std::fprintf(stderr, "rrcb_mpm: %s\n", error.what());
+        if (rank_in(MPI_COMM_WORLD) == 0) std::fprintf(stderr, "rrcb_mpm: %s\n", error.what());
         exit_code = 1;
     }
     MPI_Finalize();

@@ -9,8 +9,8 @@
 namespace {
 
 rrcb::Points points_of(mpm::Positions positions) {
-    const std::array<std::span<const double>, 2> columns{positions.x, positions.y};
-    return rrcb::column_points(columns);
+    const std::array<std::span<const double>, 3> columns{positions.x, positions.y, positions.z};
+    return rrcb::column_points(std::span(columns).first(positions.z.empty() ? 2 : 3));
 }
 
 mpm::Decomposition decompose(mpm::Positions positions, const rrcb::Options& options,
@@ -19,7 +19,7 @@ mpm::Decomposition decompose(mpm::Positions positions, const rrcb::Options& opti
     mpm::Decomposition decomposition;
     for (rrcb::Part part = 0; part < balance.cuts.num_parts; ++part) {
         const rrcb::Box box = rrcb::box_of(balance.cuts, part);
-        decomposition.boxes.push_back({{box.lower[0], box.lower[1]}, {box.upper[0], box.upper[1]}});
+        decomposition.boxes.push_back({box.lower, box.upper});
     }
     decomposition.local_owners = std::move(balance.parts);
     decomposition.owners = [cuts = std::move(balance.cuts)](mpm::Positions at,

@@ -11,21 +11,18 @@ constexpr double length = 25, modulus = 100, amplitude = 0.1;
 
 /// Mode 1 of a bar held at x = 0: E = 100, density 1, hence wave speed 10 and period 4 L / c = 10.
 Scene bar() {
-    return {
-        .name = "bar",
-        .grid = {.lower = {0, 0}, .spacing = 1, .num_cells = {28, 1}},
-        .bodies =
-            {{.contains = [](double x, double) { return x < length; },
-              .points_per_cell = {2, 2},
-              .density = 1,
-              .velocity =
-                  [](double x, double) {
-                      return Vector{amplitude * std::sin(std::numbers::pi * x / (2 * length)), 0};
-                  }}},
-        .walls = {.left = Wall::roller, .bottom = Wall::roller, .top = Wall::roller},
-        .elastic = {.youngs_modulus = modulus, .poissons_ratio = 0},
-        .flip_fraction = 1,
-        .courant_number = 0.1};
+    return {.name = "bar",
+            .grid = {.lower = {0, 0}, .spacing = 1, .num_cells = {28, 1}},
+            .materials = {elastic_material("rubber", 1, modulus, 0)},
+            .bodies = {{.contains = box_region({{0, 0}, {length, 1}}),
+                        .points_per_cell = {2, 2, 1},
+                        .material = "rubber",
+                        .velocity = velocity_field(
+                            {.sine_amplitude = {amplitude, 0},
+                             .sine_wave_number = {std::numbers::pi / (2 * length), 0}})}},
+            .walls = {.left = Wall::roller, .bottom = Wall::roller, .top = Wall::roller},
+            .flip_fraction = 1,
+            .courant_number = 0.1};
 }
 
 double mean_velocity(const Simulation& simulation) {

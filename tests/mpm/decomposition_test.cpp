@@ -33,8 +33,9 @@ Displacements run(const Scene& scene, MPI_Comm comm, const BeforeStep& before_st
 /// The slope, already failing: most of its points yield within the steps of the test.
 Scene soft_slope() {
     Scene scene = coarse_slope();
-    scene.mohr_coulomb->cohesion = 1e3;
-    scene.mohr_coulomb->tension_cut_off = 1e3;
+    Parameters& soil = scene.materials.front().parameters;
+    soil["cohesion"] = 1e3;
+    soil["tension_cut_off"] = 1e3;
     return scene;
 }
 

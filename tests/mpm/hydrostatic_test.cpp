@@ -14,13 +14,12 @@ Scene column(int cells_up) {
     return {
         .name = "column",
         .grid = {.lower = {0, 0}, .spacing = spacing, .num_cells = {2 * cells_up, cells_up + 2}},
-        .bodies = {{.contains = [](double, double y) { return y < height; },
-                    .points_per_cell = {2, 2},
-                    .density = density}},
+        .materials = {elastic_material("soil", density, modulus, 0)},
+        .bodies = {{.contains = half_space_region({0, height}, {0, 1}),
+                    .points_per_cell = {2, 2, 1},
+                    .material = "soil"}},
         .walls = {.left = Wall::roller, .right = Wall::roller, .bottom = Wall::fixed},
-        .elastic = {.youngs_modulus = modulus, .poissons_ratio = 0},
-        .gravity = Vector{0, -gravity},
-        .damping = Damping{.rate = 740, .until = 1}};
+        .effects = {gravity_effect(gravity), {"damping", {{"rate", 740.0}, {"until", 1.0}}}}};
 }
 
 /// Largest error of the vertical stress at the points' own depths, by the stress at the base.

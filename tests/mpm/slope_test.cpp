@@ -30,8 +30,9 @@ TEST(Slope, fails_and_runs_out) {
 
 TEST(Slope, stays_with_ten_times_the_cohesion) {
     Scene strong = slope_scene(44);
-    strong.mohr_coulomb->cohesion *= 10;
-    strong.mohr_coulomb->tension_cut_off *= 10;
+    Parameters& soil = strong.materials.front().parameters;
+    soil["cohesion"] = 100e3;
+    soil["tension_cut_off"] = 274.8e3;
     EXPECT_LT(slip_of(strong, 4), 0.5);
 }
 
@@ -40,8 +41,8 @@ TEST(Slope, builds_only_what_the_scene_names) {
     EXPECT_EQ(Simulation(scene, MPI_COMM_WORLD).kernels(),
               (std::vector<std::string>{"p2g", "ghost_nodes", "gravity", "walls", "move_nodes",
                                         "g2p", "elastic", "drucker_prager", "migrate"}));
-    scene.gravity.reset();
-    scene.mohr_coulomb.reset();
+    scene.effects.clear();
+    scene.materials.front() = elastic_material("soil", 2100, 70e6, 0.3);
     EXPECT_EQ(Simulation(scene, MPI_COMM_WORLD).kernels(),
               (std::vector<std::string>{"p2g", "ghost_nodes", "walls", "move_nodes", "g2p",
                                         "elastic", "migrate"}));
@@ -49,10 +50,10 @@ TEST(Slope, builds_only_what_the_scene_names) {
 
 TEST(Scene, is_refused_with_the_reason) {
     Scene scene = coarse_slope();
-    scene.elastic.poissons_ratio = 0.5;
+    scene.materials.front().parameters["poissons_ratio"] = 0.5;
     EXPECT_THROW(Simulation(scene, MPI_COMM_WORLD), std::invalid_argument);
     scene = coarse_slope();
-    scene.bodies.front().contains = [](double, double) { return false; };
+    scene.bodies.front().contains = [](const Vector&) { return false; };
     EXPECT_THROW(Simulation(scene, MPI_COMM_WORLD), std::invalid_argument);
     scene.bodies.clear();
     EXPECT_THROW(Simulation(scene, MPI_COMM_WORLD), std::invalid_argument);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mpi.h>
+#include <mpm/region.hpp>
 #include <mpm/simulation.hpp>
 #include <mpm/slope.hpp>
 
@@ -62,7 +63,8 @@ inline double relative_difference(const std::vector<double>& a, const std::vecto
 inline Decomposition between_cuts(const std::vector<double>& cuts, bool ties_go_up = true) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Decomposition decomposition;
-    decomposition.boxes.assign(cuts.size() + 1, {{-infinity, -infinity}, {infinity, infinity}});
+    decomposition.boxes.assign(cuts.size() + 1,
+                               {{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}});
     for (std::size_t k = 0; k < cuts.size(); ++k) {
         decomposition.boxes[k].upper[0] = cuts[k];
         decomposition.boxes[k + 1].lower[0] = cuts[k];
@@ -77,6 +79,21 @@ inline Decomposition between_cuts(const std::vector<double>& cuts, bool ties_go_
     return decomposition;
 }
 
+/// An elastic material as a scene names it.
+inline Material elastic_material(const std::string& name, double density, double youngs_modulus,
+                                 double poissons_ratio) {
+    return {name,
+            "elastic",
+            {{"density", density},
+             {"youngs_modulus", youngs_modulus},
+             {"poissons_ratio", poissons_ratio}}};
+}
+
+/// Gravity in two dimensions as a scene names it.
+inline Effect gravity_effect(double acceleration) {
+    return {"gravity", {{"acceleration", std::vector<double>{0, -acceleration}}}};
+}
+
 /// The slope at a fifth of the paper's resolution: 2,000 points.
 inline Scene coarse_slope() {
     return slope_scene(22);
@@ -86,19 +103,15 @@ inline Scene coarse_slope() {
 inline Scene flying_disk() {
     constexpr double centre_x = 4, centre_y = 4, radius = 2;
     const Body disk{
-        .contains = [](double x,
-                       double y) { return std::hypot(x - centre_x, y - centre_y) <= radius; },
-        .points_per_cell = {3, 3},
-        .density = 1000,
-        .velocity =
-            [](double x, double y) {
-                return Vector{8 - (y - centre_y), 1 + (x - centre_x)};
-            }};
+        .contains = ball_region({centre_x, centre_y}, radius),
+        .points_per_cell = {3, 3, 1},
+        .material = "rubber",
+        .velocity = velocity_field(
+            {.constant = {8, 1}, .rotation_rate = 1, .rotation_centre = {centre_x, centre_y}})};
     return {.name = "flying disk",
             .grid = {.lower = {0, 0}, .spacing = 0.5, .num_cells = {48, 20}},
-            .bodies = {disk},
-            .walls = {},
-            .elastic = {.youngs_modulus = 1e6, .poissons_ratio = 0.3}};
+            .materials = {elastic_material("rubber", 1000, 1e6, 0.3)},
+            .bodies = {disk}};
 }
 
 }  // namespace mpm::test

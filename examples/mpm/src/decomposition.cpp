@@ -14,23 +14,35 @@ std::vector<double> equal_cuts(double lower, double upper, int num_slabs) {
     return cuts;
 }
 
+std::size_t longest_axis(const Box& extent) {
+    std::size_t longest = 0;
+    for (std::size_t axis = 1; axis < 3; ++axis)
+        if (extent.upper[axis] - extent.lower[axis] > extent.upper[longest] - extent.lower[longest])
+            longest = axis;
+    return longest;
+}
+
+std::span<const double> column(const Positions& positions, std::size_t axis) {
+    return axis == 0 ? positions.x : axis == 1 ? positions.y : positions.z;
+}
+
 }  // namespace
 
 Decomposition slabs(const Box& extent, int num_ranks) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const std::size_t axis =
-        extent.upper[1] - extent.lower[1] > extent.upper[0] - extent.lower[0] ? 1 : 0;
+    const std::size_t axis = longest_axis(extent);
     const std::vector<double> cuts = equal_cuts(extent.lower[axis], extent.upper[axis], num_ranks);
 
     Decomposition decomposition;
-    decomposition.boxes.assign(static_cast<std::size_t>(num_ranks),
-                               Box{{-infinity, -infinity}, {infinity, infinity}});
+    decomposition.boxes.assign(
+        static_cast<std::size_t>(num_ranks),
+        Box{{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}});
     for (std::size_t k = 0; k < cuts.size(); ++k) {
         decomposition.boxes[k].upper[axis] = cuts[k];
         decomposition.boxes[k + 1].lower[axis] = cuts[k];
     }
     decomposition.owners = [axis, cuts](Positions positions, std::span<int> owners) {
-        const std::span<const double> along = axis == 0 ? positions.x : positions.y;
+        const std::span<const double> along = column(positions, axis);
         for (std::size_t i = 0; i < along.size(); ++i)
             owners[i] = static_cast<int>(std::ranges::upper_bound(cuts, along[i]) - cuts.begin());
     };

@@ -7,83 +7,112 @@ namespace mpm {
 namespace {
 
 constexpr int ghost_tag = 1;
-constexpr int doubles_per_node = sizeof(Node) / sizeof(double);
-static_assert(sizeof(Node) == 5 * sizeof(double));
 
-/// Calls visit(index of the first node of a row in the patch, length) for each row of a range.
-template <typename Visit>
-void visit_rows(const GridPatch& patch, const NodeRange& range, Visit visit) {
-    for (int j = range.first[1]; j < range.first[1] + range.count[1]; ++j)
-        visit(patch.index(range.first[0], j), static_cast<std::size_t>(range.count[0]));
+template <int D>
+std::size_t width_of(const GridPatch<D>& patch) {
+    static_assert(sizeof(Node<D>) == (1 + 2 * D) * sizeof(double));
+    return 1 + 2 * D + patch.fields.size();
 }
 
-void add_range(const std::vector<Node>& from, const NodeRange& range, GridPatch& patch) {
-    const Node* node = from.data();
-    visit_rows(patch, range, [&](std::size_t first, std::size_t length) {
-        for (std::size_t n = first; n < first + length; ++n) add(*node++, patch.sums[n]);
-    });
+/// Copies the sums and fields of nodes into a message.
+template <int D>
+void pack(const GridPatch<D>& patch, const std::vector<std::size_t>& nodes,
+          std::vector<double>& message) {
+    message.resize(nodes.size() * width_of(patch));
+    double* to = message.data();
+    for (const std::size_t n : nodes) {
+        const Node<D>& node = patch.sums[n];
+        *to++ = node.mass;
+        to = std::copy(node.momentum.begin(), node.momentum.end(), to);
+        to = std::copy(node.force.begin(), node.force.end(), to);
+        for (const std::vector<double>& field : patch.fields) *to++ = field[n];
+    }
+}
+
+/// Adds a message to the sums and fields of nodes.
+template <int D>
+void unpack(const std::vector<double>& message, const std::vector<std::size_t>& nodes,
+            GridPatch<D>& patch) {
+    const double* from = message.data();
+    for (const std::size_t n : nodes) {
+        Node<D>& node = patch.sums[n];
+        node.mass += *from++;
+        for (double& component : node.momentum) component += *from++;
+        for (double& component : node.force) component += *from++;
+        for (std::vector<double>& field : patch.fields) field[n] += *from++;
+    }
 }
 
 }  // namespace
 
-GhostNodes::GhostNodes(std::span<const NodeRange> patches, MPI_Comm comm) : comm_(comm) {
+template <int D>
+GhostNodes<D>::GhostNodes(std::span<const NodeRange<D>> patches, MPI_Comm comm) : comm_(comm) {
     MPI_Comm_rank(comm, &rank_);
-    const NodeRange& mine = patches[static_cast<std::size_t>(rank_)];
-    GridPatch numbering{.shape = {}, .nodes = mine, .sums = {}, .motion = {}};
+    GridPatch<D> numbering;
+    numbering.nodes = patches[static_cast<std::size_t>(rank_)];
     for (int rank = 0; rank < static_cast<int>(patches.size()); ++rank) {
-        const NodeRange range = intersection(mine, patches[static_cast<std::size_t>(rank)]);
+        const NodeRange<D> range =
+            intersection<D>(numbering.nodes, patches[static_cast<std::size_t>(rank)]);
         if (rank == rank_ || range.empty()) continue;
         ranks_.push_back(rank);
-        ranges_.push_back(range);
-        outgoing_.emplace_back();
-        visit_rows(numbering, range, [&](std::size_t first, std::size_t length) {
-            for (std::size_t n = first; n < first + length; ++n) shared_.push_back(n);
-            outgoing_.back().resize(outgoing_.back().size() + length);
+        nodes_.emplace_back();
+        visit_nodes<D>(range, [&](const std::array<int, D>& node) {
+            nodes_.back().push_back(numbering.index(node));
         });
+        shared_.insert(shared_.end(), nodes_.back().begin(), nodes_.back().end());
     }
-    incoming_ = outgoing_;
+    outgoing_.resize(ranks_.size());
+    incoming_.resize(ranks_.size());
     requests_.resize(2 * ranks_.size());
     std::ranges::sort(shared_);
     shared_.erase(std::ranges::unique(shared_).begin(), shared_.end());
-    own_.resize(shared_.size());
 }
 
-void GhostNodes::sum(GridPatch& patch) {
+template <int D>
+void GhostNodes<D>::sum(GridPatch<D>& patch) {
     exchange(patch);
     take_out_own(patch);
-    const auto add_own = [&] {
-        for (std::size_t k = 0; k < shared_.size(); ++k) add(own_[k], patch.sums[shared_[k]]);
-    };
     std::size_t neighbour = 0;
     for (; neighbour < ranks_.size() && ranks_[neighbour] < rank_; ++neighbour)
-        add_range(incoming_[neighbour], ranges_[neighbour], patch);
-    add_own();
+        unpack(incoming_[neighbour], nodes_[neighbour], patch);
+    unpack(own_, shared_, patch);
     for (; neighbour < ranks_.size(); ++neighbour)
-        add_range(incoming_[neighbour], ranges_[neighbour], patch);
+        unpack(incoming_[neighbour], nodes_[neighbour], patch);
 }
 
-void GhostNodes::exchange(const GridPatch& patch) {
+template <int D>
+void GhostNodes<D>::mark_counted(GridPatch<D>& patch) const {
+    patch.is_counted.assign(patch.sums.size(), 1);
+    for (std::size_t k = 0; k < ranks_.size() && ranks_[k] < rank_; ++k)
+        for (const std::size_t n : nodes_[k]) patch.is_counted[n] = 0;
+}
+
+template <int D>
+void GhostNodes<D>::exchange(const GridPatch<D>& patch) {
     const std::size_t num_neighbours = ranks_.size();
     for (std::size_t k = 0; k < num_neighbours; ++k) {
-        MPI_Irecv(incoming_[k].data(), static_cast<int>(incoming_[k].size()) * doubles_per_node,
-                  MPI_DOUBLE, ranks_[k], ghost_tag, comm_, &requests_[k]);
+        incoming_[k].resize(nodes_[k].size() * width_of(patch));
+        MPI_Irecv(incoming_[k].data(), static_cast<int>(incoming_[k].size()), MPI_DOUBLE, ranks_[k],
+                  ghost_tag, comm_, &requests_[k]);
     }
     for (std::size_t k = 0; k < num_neighbours; ++k) {
-        Node* node = outgoing_[k].data();
-        visit_rows(patch, ranges_[k], [&](std::size_t first, std::size_t length) {
-            node = std::copy_n(patch.sums.data() + first, length, node);
-        });
-        MPI_Isend(outgoing_[k].data(), static_cast<int>(outgoing_[k].size()) * doubles_per_node,
-                  MPI_DOUBLE, ranks_[k], ghost_tag, comm_, &requests_[num_neighbours + k]);
+        pack(patch, nodes_[k], outgoing_[k]);
+        MPI_Isend(outgoing_[k].data(), static_cast<int>(outgoing_[k].size()), MPI_DOUBLE, ranks_[k],
+                  ghost_tag, comm_, &requests_[num_neighbours + k]);
     }
     MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
 }
 
-void GhostNodes::take_out_own(GridPatch& patch) {
-    for (std::size_t k = 0; k < shared_.size(); ++k) {
-        own_[k] = patch.sums[shared_[k]];
-        patch.sums[shared_[k]] = {};
+template <int D>
+void GhostNodes<D>::take_out_own(GridPatch<D>& patch) {
+    pack(patch, shared_, own_);
+    for (const std::size_t n : shared_) {
+        patch.sums[n] = {};
+        for (std::vector<double>& field : patch.fields) field[n] = 0;
     }
 }
+
+template class GhostNodes<2>;
+template class GhostNodes<3>;
 
 }  // namespace mpm

@@ -1,4 +1,5 @@
 #include <mpm/lattice.hpp>
+#include <mpm/material.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -7,58 +8,100 @@ namespace mpm {
 
 namespace {
 
+std::array<int, 3> num_points_along(const Scene& scene, const Body& body) {
+    std::array<int, 3> count{1, 1, 1};
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
+        count[a] = scene.grid.num_cells[a] * body.points_per_cell[a];
+    return count;
+}
+
+/// Distance of the points; in two dimensions a metre along z.
 Vector lattice_spacing(const Scene& scene, const Body& body) {
-    return {scene.grid.spacing / body.points_per_cell[0],
-            scene.grid.spacing / body.points_per_cell[1]};
+    Vector step{1, 1, 1};
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
+        step[a] = scene.grid.spacing / body.points_per_cell[a];
+    return step;
 }
 
 template <typename Visit>
-void visit_lattice(const Scene& scene, Visit visit) {
-    std::int64_t id = 0;
-    for (const Body& body : scene.bodies) {
-        const Vector step = lattice_spacing(scene, body);
-        for (int j = 0; j < scene.grid.num_cells[1] * body.points_per_cell[1]; ++j)
-            for (int i = 0; i < scene.grid.num_cells[0] * body.points_per_cell[0]; ++i) {
-                const double x = scene.grid.lower[0] + (i + 0.5) * step[0];
-                const double y = scene.grid.lower[1] + (j + 0.5) * step[1];
-                if (body.contains(x, y)) visit(body, Vector{x, y}, id++);
+void visit_body(const Scene& scene, const Body& body, Visit visit) {
+    const Vector step = lattice_spacing(scene, body);
+    const std::array<int, 3> count = num_points_along(scene, body);
+    for (int k = 0; k < count[2]; ++k)
+        for (int j = 0; j < count[1]; ++j)
+            for (int i = 0; i < count[0]; ++i) {
+                Vector at{scene.grid.lower[0] + (i + 0.5) * step[0],
+                          scene.grid.lower[1] + (j + 0.5) * step[1], 0};
+                if (scene.dimension == 3) at[2] = scene.grid.lower[2] + (k + 0.5) * step[2];
+                if (body.contains(at)) visit(at);
             }
-    }
 }
+
+/// Writes one point of a body into a row of columns.
+class RowWriter {
+  public:
+    RowWriter(const Scene& scene, const MotionColumns& motion, const Particles& particles)
+        : scene_(scene), motion_(motion), row_(particles.initial_row()) {
+        if (particles.has_column("material")) material_ = particles.find_column("material");
+    }
+
+    std::span<const double> write(const Body& body, const Vector& at, std::int64_t id) {
+        const Vector velocity = body.velocity ? body.velocity(at) : Vector{};
+        for (std::size_t a = 0; a < static_cast<std::size_t>(scene_.dimension); ++a) {
+            row_[motion_.position[a]] = at[a];
+            row_[motion_.velocity[a]] = velocity[a];
+        }
+        row_[motion_.volume] = volume_;
+        row_[motion_.mass] = mass_;
+        row_[motion_.id] = static_cast<double>(id);
+        return row_;
+    }
+
+    void start(const Body& body) {
+        const std::size_t number = material_of(scene_, body);
+        const Vector step = lattice_spacing(scene_, body);
+        volume_ = step[0] * step[1] * step[2];
+        mass_ = values_of(scene_.materials[number], scene_.dimension).number("density") * volume_;
+        if (material_) row_[*material_] = static_cast<double>(number);
+    }
+
+  private:
+    const Scene& scene_;
+    const MotionColumns& motion_;
+    std::vector<double> row_;
+    std::optional<Column> material_;
+    double volume_ = 0, mass_ = 0;
+};
 
 }  // namespace
 
 Extent extent_of(const Scene& scene) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Extent extent{0, {{infinity, infinity}, {-infinity, -infinity}}};
-    visit_lattice(scene, [&](const Body&, const Vector& at, std::int64_t) {
-        ++extent.num_points;
-        for (std::size_t a = 0; a < 2; ++a) {
-            extent.box.lower[a] = std::min(extent.box.lower[a], at[a]);
-            extent.box.upper[a] = std::max(extent.box.upper[a], at[a]);
-        }
-    });
+    Extent extent{0, {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}}};
+    for (const Body& body : scene.bodies)
+        visit_body(scene, body, [&](const Vector& at) {
+            ++extent.num_points;
+            for (std::size_t a = 0; a < 3; ++a) {
+                extent.box.lower[a] = std::min(extent.box.lower[a], at[a]);
+                extent.box.upper[a] = std::max(extent.box.upper[a], at[a]);
+            }
+        });
     return extent;
 }
 
 void place_points(const Scene& scene, const Decomposition& decomposition, int rank,
                   const MotionColumns& motion, Particles& particles) {
-    std::vector<double> row(particles.column_names().size());
-    visit_lattice(scene, [&](const Body& body, const Vector& at, std::int64_t id) {
-        int owner = 0;
-        decomposition.owners({{&at[0], 1}, {&at[1], 1}}, {&owner, 1});
-        if (owner != rank) return;
-        const Vector step = lattice_spacing(scene, body);
-        const Vector velocity = body.velocity ? body.velocity(at[0], at[1]) : Vector{};
-        row[motion.x] = at[0];
-        row[motion.y] = at[1];
-        row[motion.velocity_x] = velocity[0];
-        row[motion.velocity_y] = velocity[1];
-        row[motion.volume] = step[0] * step[1];
-        row[motion.mass] = body.density * row[motion.volume];
-        row[motion.id] = static_cast<double>(id);
-        particles.append(row);
-    });
+    RowWriter writer(scene, motion, particles);
+    std::int64_t id = 0;
+    for (const Body& body : scene.bodies) {
+        writer.start(body);
+        visit_body(scene, body, [&](const Vector& at) {
+            int owner = 0;
+            decomposition.owners({{&at[0], 1}, {&at[1], 1}, {&at[2], 1}}, {&owner, 1});
+            if (owner == rank) particles.append(writer.write(body, at, id));
+            ++id;
+        });
+    }
 }
 
 }  // namespace mpm

@@ -14,22 +14,37 @@ Ownership::Ownership(const GridShape& grid, MPI_Comm comm)
     num_ranks_ = static_cast<std::size_t>(num_ranks);
 }
 
+/// Whether a point lies in the box along all axes.
+template <int D>
+bool is_inside(const Box& box, const std::array<const double*, 3>& at, std::size_t p) {
+    for (std::size_t a = 0; a < D; ++a)
+        if (!(at[a][p] >= box.lower[a] && at[a][p] <= box.upper[a])) return false;
+    return true;
+}
+
+template <int D>
+void Ownership::find_outside(const Box& box, Positions positions) {
+    const std::array<const double*, 3> at{positions.x.data(), positions.y.data(),
+                                          positions.z.data()};
+    for (std::size_t p = 0; p < positions.size(); ++p) {
+        if (is_inside<D>(box, at, p) && is_inside<D>(grid_, at, p)) continue;
+        if (!is_inside<D>(grid_, at, p)) return report(Fault::left_grid);
+        leavers_.points.push_back(p);
+        for (std::size_t a = 0; a < D; ++a) at_[a].push_back(at[a][p]);
+    }
+}
+
 void Ownership::find_leavers(const Decomposition& decomposition, Positions positions,
                              std::span<const int> neighbours) {
     leavers_.points.clear();
-    x_.clear();
-    y_.clear();
+    for (std::vector<double>& column : at_) column.clear();
     const Box& box = decomposition.boxes[static_cast<std::size_t>(rank_)];
-    for (std::size_t p = 0; p < positions.x.size(); ++p) {
-        const double x = positions.x[p], y = positions.y[p];
-        if (contains(box, x, y) && contains(grid_, x, y)) continue;
-        if (!contains(grid_, x, y)) return report(Fault::left_grid);
-        leavers_.points.push_back(p);
-        x_.push_back(x);
-        y_.push_back(y);
-    }
-    leavers_.owners.resize(x_.size());
-    if (x_.empty() || !ask_owners(decomposition, {x_, y_})) return;
+    if (positions.z.empty())
+        find_outside<2>(box, positions);
+    else
+        find_outside<3>(box, positions);
+    leavers_.owners.resize(leavers_.points.size());
+    if (leavers_.points.empty() || !ask_owners(decomposition, {at_[0], at_[1], at_[2]})) return;
     leavers_.owners.assign(owners_.begin(), owners_.end());
     for (const int owner : leavers_.owners) {
         const bool near = std::ranges::binary_search(neighbours, owner);
@@ -75,7 +90,7 @@ bool Ownership::check_owners(const Decomposition& decomposition, Positions posit
         const auto owner = static_cast<std::size_t>(owners_[p]);
         if (owner >= num_ranks_)
             report(Fault::no_owner);
-        else if (!contains(decomposition.boxes[owner], positions.x[p], positions.y[p]))
+        else if (!contains(decomposition.boxes[owner], positions[p]))
             report(Fault::misplaced);
     }
     return fault_ == Fault::none;

@@ -5,12 +5,17 @@
 
 namespace mpm {
 
-Column Particles::add_column(std::string_view name) {
+Column Particles::add_column(std::string_view name, double initial) {
     const auto found = std::ranges::find(names_, name);
     if (found != names_.end()) return static_cast<Column>(found - names_.begin());
     names_.emplace_back(name);
-    columns_.emplace_back(size_, 0.0);
+    initial_.push_back(initial);
+    columns_.emplace_back(size_, initial);
     return columns_.size() - 1;
+}
+
+bool Particles::has_column(std::string_view name) const {
+    return std::ranges::find(names_, name) != names_.end();
 }
 
 Column Particles::find_column(std::string_view name) const {
@@ -54,16 +59,28 @@ void Particles::reorder(std::span<const std::size_t> order) {
     }
 }
 
-MotionColumns add_motion_columns(Particles& particles) {
-    return {.x = particles.add_column("x"),
-            .y = particles.add_column("y"),
-            .velocity_x = particles.add_column("velocity_x"),
-            .velocity_y = particles.add_column("velocity_y"),
-            .displacement_x = particles.add_column("displacement_x"),
-            .displacement_y = particles.add_column("displacement_y"),
-            .mass = particles.add_column("mass"),
-            .volume = particles.add_column("volume"),
-            .id = particles.add_column("id")};
+MotionColumns add_motion_columns(Particles& particles, int dimension) {
+    constexpr std::array<char, 3> axes{'x', 'y', 'z'};
+    const auto add_triple = [&](const std::string& prefix) {
+        std::array<Column, 3> columns{};
+        for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+            columns[a] = particles.add_column(prefix + axes[a]);
+        return columns;
+    };
+    MotionColumns motion;
+    motion.position = add_triple("");
+    motion.velocity = add_triple("velocity_");
+    motion.displacement = add_triple("displacement_");
+    motion.mass = particles.add_column("mass");
+    motion.volume = particles.add_column("volume");
+    motion.id = particles.add_column("id");
+    return motion;
+}
+
+Positions positions_of(const Particles& particles, const MotionColumns& motion, int dimension) {
+    Positions positions{particles[motion.position[0]], particles[motion.position[1]]};
+    if (dimension == 3) positions.z = particles[motion.position[2]];
+    return positions;
 }
 
 }  // namespace mpm

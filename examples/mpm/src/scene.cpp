@@ -1,3 +1,5 @@
+#include <mpm/effect.hpp>
+#include <mpm/material.hpp>
 #include <mpm/scene.hpp>
 
 #include <cmath>
@@ -7,44 +9,66 @@ namespace mpm {
 
 namespace {
 
-void require(bool condition, const char* text) {
-    if (!condition) throw std::invalid_argument(text);
+void require(bool condition, const std::string& text) {
+    if (!condition) throw std::invalid_argument("scene: " + text);
+}
+
+void check_grid(const Scene& scene) {
+    require(scene.dimension == 2 || scene.dimension == 3, "the dimension must be 2 or 3");
+    require(scene.grid.spacing > 0 && std::isfinite(scene.grid.spacing),
+            "the size of a cell must be positive");
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a) {
+        require(std::isfinite(scene.grid.lower[a]), "the domain must have a finite lower corner");
+        require(scene.grid.num_cells[a] > 0, "the domain needs a cell along each axis");
+    }
+}
+
+void check_body(const Scene& scene, const Body& body) {
+    require(static_cast<bool>(body.contains), "a body has no shape");
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
+        require(body.points_per_cell[a] > 0,
+                "a body needs at least one point per cell along each axis");
+    material_of(scene, body);
+}
+
+void check_walls(const Walls& walls) {
+    for (const Wall* wall :
+         {&walls.left, &walls.right, &walls.bottom, &walls.top, &walls.back, &walls.front})
+        require(wall->friction >= 0 && std::isfinite(wall->friction),
+                "the friction of a wall must not be negative");
+}
+
+void check_transfer(const Scene& scene) {
+    require(scene.flip_fraction >= 0 && scene.flip_fraction <= 1,
+            "the FLIP fraction must lie in 0 ... 1");
+    require(scene.courant_number > 0 && scene.courant_number <= 1,
+            "the Courant number must lie in 0 ... 1");
+    if (scene.shape_function != ShapeFunction::gimp) return;
+    require(scene.transfer != Transfer::apic, "APIC works with linear and quadratic shapes only");
+    for (const Body& body : scene.bodies)
+        for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
+            require(body.points_per_cell[a] == scene.bodies.front().points_per_cell[a] &&
+                        body.points_per_cell[a] > 1,
+                    "GIMP needs the same number of points per cell in all bodies, at least 2 "
+                    "along each axis");
 }
 
 }  // namespace
 
-double Elastic::wave_speed(double density) const {
-    return std::sqrt((bulk_modulus() + 4 * shear_modulus() / 3) / density);
+void validate(const Scene& scene) {
+    check_grid(scene);
+    require(!scene.bodies.empty(), "there is no body");
+    for (const Material& material : scene.materials) values_of(material, scene.dimension);
+    for (const Body& body : scene.bodies) check_body(scene, body);
+    check_walls(scene.walls);
+    check_transfer(scene);
+    effect_values(scene);
 }
 
-void validate(const Scene& scene) {
-    require(scene.grid.spacing > 0 && std::isfinite(scene.grid.spacing),
-            "scene: the grid's spacing must be positive");
-    require(scene.grid.num_cells[0] > 0 && scene.grid.num_cells[1] > 0,
-            "scene: the grid needs a cell along each axis");
-    require(!scene.bodies.empty(), "scene: there is no body");
-    for (const Body& body : scene.bodies) {
-        require(static_cast<bool>(body.contains), "scene: a body has no shape");
-        require(body.points_per_cell[0] > 0 && body.points_per_cell[1] > 0,
-                "scene: a body needs at least one point per cell along each axis");
-        require(body.density > 0, "scene: the density of a body must be positive");
-    }
-    require(scene.elastic.youngs_modulus > 0, "scene: Young's modulus must be positive");
-    require(scene.elastic.poissons_ratio > -1 && scene.elastic.poissons_ratio < 0.5,
-            "scene: Poisson's ratio must lie between -1 and 0.5");
-    if (scene.mohr_coulomb) {
-        const MohrCoulomb& strength = *scene.mohr_coulomb;
-        require(strength.cohesion >= 0, "scene: the cohesion must not be negative");
-        require(strength.friction_angle >= 0 && strength.friction_angle < 90,
-                "scene: the friction angle must lie between 0 and 90 degrees");
-        require(strength.tension_cut_off >= 0, "scene: the tension cut-off must not be negative");
-    }
-    require(!scene.damping || scene.damping->rate >= 0,
-            "scene: the rate of damping must not be negative");
-    require(scene.flip_fraction >= 0 && scene.flip_fraction <= 1,
-            "scene: the FLIP fraction must lie in 0 ... 1");
-    require(scene.courant_number > 0 && scene.courant_number <= 1,
-            "scene: the Courant number must lie in 0 ... 1");
+Parameters* find_effect(Scene& scene, const std::string& name) {
+    for (Effect& effect : scene.effects)
+        if (effect.name == name) return &effect.parameters;
+    return nullptr;
 }
 
 }  // namespace mpm

@@ -19,18 +19,24 @@ Scene slope_scene(int cells_across) {
     const double spacing = length / cells_across;
     // Lattice points on the face itself belong to the slope, whatever the rounding.
     const double tolerance = 1e-9 * spacing;
-    const Body soil{.contains = [=](double x, double y) { return y <= ground(x) + tolerance; },
-                    .points_per_cell = {5, 4},
-                    .density = 2100};
+    const Body soil{
+        .contains = [=](const Vector& at) { return at[1] <= ground(at[0]) + tolerance; },
+        .points_per_cell = {5, 4, 1},
+        .material = "soil"};
     const int cells_up = static_cast<int>(std::ceil((crest - base) / spacing)) + 1;
     return {.name = "slope",
             .grid = {.lower = {0, base}, .spacing = spacing, .num_cells = {cells_across, cells_up}},
+            .materials = {{"soil",
+                           "drucker_prager",
+                           {{"density", 2100.0},
+                            {"youngs_modulus", 70e6},
+                            {"poissons_ratio", 0.3},
+                            {"cohesion", 10e3},
+                            {"friction_angle", 20.0},
+                            {"tension_cut_off", 27.48e3}}}},
             .bodies = {soil},
             .walls = {.left = Wall::roller, .right = Wall::roller, .bottom = Wall::fixed},
-            .elastic = {.youngs_modulus = 70e6, .poissons_ratio = 0.3},
-            .mohr_coulomb =
-                MohrCoulomb{.cohesion = 10e3, .friction_angle = 20, .tension_cut_off = 27.48e3},
-            .gravity = Vector{0, -9.81},
+            .effects = {{"gravity", {{"acceleration", std::vector<double>{0, -9.81}}}}},
             .end_time = 8};
 }
 

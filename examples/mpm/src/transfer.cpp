@@ -1,43 +1,37 @@
-#include <mpm/transfer.hpp>
-
-#include <algorithm>
+#include "transfer.hpp"
 
 namespace mpm {
 
-void find_cell_runs(const Particles& particles, const MotionColumns& motion, const GridPatch& patch,
-                    std::vector<CellRun>& runs) {
-    runs.clear();
-    const std::span<const double> x = particles[motion.x], y = particles[motion.y];
-    const GridShape& shape = patch.shape;
-    int last_i = -1, last_j = -1;
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-        const int i = cell_of(shape, x[p], 0), j = cell_of(shape, y[p], 1);
-        if (i != last_i || j != last_j || p % block_size == 0) {
-            if (!runs.empty()) runs.back().end = p;
-            runs.push_back(
-                {p,
-                 p,
-                 patch.index(i, j),
-                 {shape.lower[0] + i * shape.spacing, shape.lower[1] + j * shape.spacing}});
-            last_i = i;
-            last_j = j;
-        }
-    }
-    if (!runs.empty()) runs.back().end = particles.size();
+namespace {
+
+template <int D, class Shape>
+std::unique_ptr<Transfers<D>> make(const Scene& scene, Particles& particles) {
+    if (scene.transfer == Transfer::apic)
+        return std::make_unique<TransfersOf<D, Shape, true>>(scene, particles);
+    return std::make_unique<TransfersOf<D, Shape, false>>(scene, particles);
 }
 
-void sort_by_cell(Particles& particles, const MotionColumns& motion, const GridPatch& patch) {
-    const std::span<const double> x = particles[motion.x], y = particles[motion.y];
-    std::vector<std::size_t> cells(particles.size());
-    std::vector<std::size_t> places(patch.sums.size() + 1);
-    for (std::size_t p = 0; p < cells.size(); ++p) {
-        cells[p] = patch.index(cell_of(patch.shape, x[p], 0), cell_of(patch.shape, y[p], 1));
-        ++places[cells[p] + 1];
-    }
-    for (std::size_t c = 1; c < places.size(); ++c) places[c] += places[c - 1];
-    std::vector<std::size_t> order(cells.size());
-    for (std::size_t p = 0; p < cells.size(); ++p) order[places[cells[p]]++] = p;
-    particles.reorder(order);
+}  // namespace
+
+GimpShape::GimpShape(const Scene& scene) {
+    for (std::size_t a = 0; a < half_size.size(); ++a)
+        half_size[a] = 0.5 / scene.bodies.front().points_per_cell[a];
 }
+
+template <int D>
+std::unique_ptr<Transfers<D>> make_transfers(const Scene& scene, Particles& particles) {
+    switch (scene.shape_function) {
+        case ShapeFunction::linear:
+            return make<D, LinearShape>(scene, particles);
+        case ShapeFunction::quadratic:
+            return make<D, QuadraticShape>(scene, particles);
+        case ShapeFunction::gimp:
+            break;
+    }
+    return std::make_unique<TransfersOf<D, GimpShape, false>>(scene, particles);
+}
+
+template std::unique_ptr<Transfers<2>> make_transfers<2>(const Scene&, Particles&);
+template std::unique_ptr<Transfers<3>> make_transfers<3>(const Scene&, Particles&);
 
 }  // namespace mpm

@@ -1,36 +1,19 @@
 #pragma once
 
 #include <mpi.h>
+#include <mpm/vector.hpp>
 
-#include <array>
 #include <functional>
 #include <span>
 #include <vector>
 
 namespace mpm {
 
-using Vector = std::array<double, 2>;
-
-/// Closed axis-aligned box in metres; open sides are +-infinity, lower above upper is empty.
-struct Box {
-    Vector lower{};
-    Vector upper{};
-};
-
-inline bool contains(const Box& box, double x, double y) {
-    return x >= box.lower[0] && x <= box.upper[0] && y >= box.lower[1] && y <= box.upper[1];
-}
-
-/// Borrowed positions of material points in metres; both columns have the same length.
-struct Positions {
-    std::span<const double> x;
-    std::span<const double> y;
-};
-
 /// Who owns which part of space.
 ///
-/// The closed boxes cover the grid and share at most their faces. A point on a face may be with
-/// either side; it stays where it is until it has left its owner's closed box.
+/// In two dimensions the third components of the boxes are 0. The closed boxes cover the grid and
+/// share at most their faces. A point on a face may be with either side; it stays where it is until
+/// it has left its owner's closed box.
 struct Decomposition {
     /// One box per rank, the same on every rank.
     std::vector<Box> boxes;

@@ -7,6 +7,13 @@
 
 namespace mpm {
 
+/// Strength in terms of Mohr-Coulomb.
+struct MohrCoulomb {
+    double cohesion = 0;         ///< Pa
+    double friction_angle = 0;   ///< degrees
+    double tension_cut_off = 0;  ///< Pa, mean stress; the cone's apex where that is less
+};
+
 /// Cone sqrt(J2) + friction * mean <= cohesion with mean <= tension; flows at constant volume.
 struct DruckerPrager {
     double friction = 0;
@@ -18,21 +25,25 @@ struct DruckerPrager {
 /// friction sin(phi), cohesion c cos(phi).
 DruckerPrager matched_cone(const MohrCoulomb& strength);
 
+/// The cone inside Mohr-Coulomb's pyramid, through the edges of triaxial extension:
+/// friction 6 sin(phi) / (sqrt(3) (3 + sin(phi))), cohesion likewise with c cos(phi).
+DruckerPrager inner_cone(const MohrCoulomb& strength);
+
 /// The admissible stress a trial stress returns to.
 ///
 /// Without dilation the shear return keeps the mean stress, so beyond the tension limit it ends
 /// outside still, and both branches meet: the mean is cut to the limit, then the deviator to the
 /// cone.
-inline Stress returned(const DruckerPrager& cone, const Stress& trial) {
-    const double mean = (trial.xx + trial.yy + trial.zz) / 3;
-    const double xx = trial.xx - mean, yy = trial.yy - mean, zz = trial.zz - mean;
-    const double tau = std::sqrt(0.5 * (xx * xx + yy * yy + zz * zz) + trial.xy * trial.xy);
-    const double new_mean = mean < cone.tension ? mean : cone.tension;
+template <int D>
+inline Stress<D> returned(const DruckerPrager& cone, const Stress<D>& trial) {
+    const double old_mean = mean(trial);
+    const Stress<D> shear = deviator(trial, old_mean);
+    const double tau = std::sqrt(second_invariant(shear));
+    const double new_mean = old_mean < cone.tension ? old_mean : cone.tension;
     const double strength = cone.cohesion - cone.friction * new_mean;
     const double least = std::numeric_limits<double>::min();
     const double ratio = strength / (tau > least ? tau : least);
-    const double scale = ratio < 1 ? ratio : 1;
-    return {new_mean + scale * xx, new_mean + scale * yy, new_mean + scale * zz, scale * trial.xy};
+    return composed(new_mean, ratio < 1 ? ratio : 1, shear);
 }
 
 }  // namespace mpm

@@ -4,39 +4,50 @@
 
 #include <array>
 #include <cstddef>
-#include <functional>
 #include <vector>
 
 namespace mpm {
 
-/// What the points sum on a node, and neighbours sum over ranks: five doubles in one message.
+template <int D>
+using Components = std::array<double, D>;
+
+/// What the points sum on a node, and neighbours sum over ranks in one message: five doubles in
+/// two dimensions, seven in three.
+template <int D>
 struct Node {
     double mass = 0;
-    Vector momentum{};
-    Vector force{};
+    Components<D> momentum{};
+    Components<D> force{};
 };
 
-inline void add(const Node& from, Node& to) {
+template <int D>
+inline void add(const Node<D>& from, Node<D>& to) {
     to.mass += from.mass;
-    for (std::size_t a = 0; a < 2; ++a) {
+    for (std::size_t a = 0; a < D; ++a) {
         to.momentum[a] += from.momentum[a];
         to.force[a] += from.force[a];
     }
 }
 
 /// What the points read from a node.
+template <int D>
 struct NodeMotion {
-    Vector velocity{};         ///< at the end of the step
-    Vector velocity_change{};  ///< over the step
-    Vector strain_velocity{};  ///< the velocity whose gradient strains the points, see move_nodes
+    Components<D> velocity{};         ///< at the end of the step
+    Components<D> velocity_change{};  ///< over the step
+    Components<D> strain_velocity{};  ///< whose gradient strains the points, see move_nodes
 };
 
-/// Rectangle of nodes, numbered over the whole grid.
+/// Box of nodes, numbered over the whole grid.
+template <int D>
 struct NodeRange {
-    std::array<int, 2> first{};
-    std::array<int, 2> count{};
+    std::array<int, D> first{};
+    std::array<int, D> count{};
 
-    bool empty() const { return count[0] <= 0 || count[1] <= 0; }
+    bool empty() const {
+        for (const int n : count)
+            if (n <= 0) return true;
+        return false;
+    }
 };
 
 /// Cell of a coordinate inside the grid; the upper face belongs to the last cell.
@@ -45,37 +56,76 @@ inline int cell_of(const GridShape& shape, double coordinate, std::size_t axis) 
     return cell < shape.num_cells[axis] ? cell : shape.num_cells[axis] - 1;
 }
 
-NodeRange intersection(const NodeRange& a, const NodeRange& b);
+template <int D>
+NodeRange<D> intersection(const NodeRange<D>& a, const NodeRange<D>& b);
 
-/// Nodes of all cells a closed box touches; none when it lies outside the grid.
-NodeRange nodes_of(const GridShape& shape, const Box& box);
+/// Nodes of all cells a closed box touches, and `margin` more on each side; none when the box lies
+/// outside the grid.
+template <int D>
+NodeRange<D> nodes_of(const GridShape& shape, const Box& box, int margin = 0);
 
-/// One rank's piece of the background grid; nodes are numbered row by row.
+/// One rank's piece of the background grid; nodes are numbered along x first.
+template <int D>
 struct GridPatch {
     GridShape shape;
-    NodeRange nodes;
-    std::vector<Node> sums;
-    std::vector<NodeMotion> motion;
+    int margin = 0;  ///< layers of nodes beyond the grid's sides
+    NodeRange<D> nodes;
+    std::vector<Node<D>> sums;
+    std::vector<NodeMotion<D>> motion;
+    std::vector<std::vector<double>> fields;  ///< more sums of the points, of the effects
+    /// Whether this rank stands for a node where ranks add up; empty unless an effect asks.
+    std::vector<char> is_counted;
 
     /// Number within the patch of a node of the whole grid.
-    std::size_t index(int i, int j) const {
-        return static_cast<std::size_t>(j - nodes.first[1]) *
-                   static_cast<std::size_t>(nodes.count[0]) +
-               static_cast<std::size_t>(i - nodes.first[0]);
+    std::size_t index(const std::array<int, D>& node) const {
+        std::size_t index = 0;
+        for (std::size_t a = D; a-- > 0;)
+            index = index * static_cast<std::size_t>(nodes.count[a]) +
+                    static_cast<std::size_t>(node[a] - nodes.first[a]);
+        return index;
+    }
+
+    Vector position(const std::array<int, D>& node) const {
+        Vector at{};
+        for (std::size_t a = 0; a < D; ++a) at[a] = shape.lower[a] + node[a] * shape.spacing;
+        return at;
     }
 };
 
-/// Makes the patch hold other nodes; their values are undefined.
-void resize(GridPatch& patch, const NodeRange& nodes);
+/// Calls visit(first node, length) for each row along x of a range of nodes.
+template <int D, typename Visit>
+void visit_rows(const NodeRange<D>& range, Visit visit) {
+    if (range.empty()) return;
+    std::array<int, D> node = range.first;
+    for (;;) {
+        visit(node, static_cast<std::size_t>(range.count[0]));
+        std::size_t axis = 1;
+        while (axis < D && ++node[axis] == range.first[axis] + range.count[axis]) {
+            node[axis] = range.first[axis];
+            ++axis;
+        }
+        if (axis == D) return;
+    }
+}
 
-/// A kernel that changes the sums of all nodes of a patch, at a time in seconds.
-using NodeKernel = std::function<void(GridPatch&, double time)>;
+/// Calls visit(node) for each node of a range.
+template <int D, typename Visit>
+void visit_nodes(const NodeRange<D>& range, Visit visit) {
+    visit_rows<D>(range, [&](std::array<int, D> node, std::size_t length) {
+        for (std::size_t k = 0; k < length; ++k, ++node[0]) visit(node);
+    });
+}
+
+/// Makes the patch hold other nodes; their values are undefined.
+template <int D>
+void resize(GridPatch<D>& patch, const NodeRange<D>& nodes);
 
 /// Velocities at the end of a step from the sums.
 ///
 /// A node that only the rim of a point's cell touches has next to no mass but a finite force. Its
 /// acceleration is harmless where it is weighted by the same small shape function, but not in
 /// the velocity gradient; there a mass of at least `least_mass` is used. Momentum stays exact.
-void move_nodes(GridPatch& patch, double time_step, double least_mass);
+template <int D>
+void move_nodes(GridPatch<D>& patch, double time_step, double least_mass);
 
 }  // namespace mpm

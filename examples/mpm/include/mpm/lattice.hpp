@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mpm/decomposition.hpp>
 #include <mpm/particles.hpp>
 #include <mpm/scene.hpp>
 
@@ -15,7 +16,8 @@ struct Extent {
 
 Extent extent_of(const Scene& scene);
 
-/// Appends the scene's points that `rank` owns; columns other than those of motion are zero.
+/// Appends the scene's points that `rank` owns; columns other than those of
+/// motion and `material` start with their initial values.
 void place_points(const Scene& scene, const Decomposition& decomposition, int rank,
                   const MotionColumns& motion, Particles& particles);
 

@@ -5,7 +5,7 @@
 #include <mpm/migration_mpi.hpp>
 #include <mpm/scene.hpp>
 
-#include <cstdint>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -40,6 +40,8 @@ class Ownership {
 
     static void throw_fault(Fault fault);
     void report(Fault fault);
+    template <int D>
+    void find_outside(const Box& box, Positions positions);
     bool ask_owners(const Decomposition& decomposition, Positions positions);
     bool check_owners(const Decomposition& decomposition, Positions positions);
 
@@ -48,7 +50,7 @@ class Ownership {
     std::size_t num_ranks_ = 1;
     Box grid_;
     Leavers leavers_;
-    std::vector<double> x_, y_;  ///< positions of the leavers
+    std::array<std::vector<double>, 3> at_;  ///< positions of the leavers
     std::vector<int> owners_;
     Reach reach_ = Reach::nowhere;
     Fault fault_ = Fault::none;

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <mpm/decomposition.hpp>
+#include <mpm/vector.hpp>
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -19,8 +20,10 @@ using Column = std::size_t;
 /// points is no property: it changes whenever points are sorted or migrate.
 class Particles {
   public:
-    /// Adds a column, or finds the one of this name.
-    Column add_column(std::string_view name);
+    /// Adds a column, or finds the one of this name; new points start with `initial`.
+    Column add_column(std::string_view name, double initial = 0);
+    /// Whether there is a column of this name.
+    bool has_column(std::string_view name) const;
     /// Finds a column; throws std::out_of_range when nobody has added it.
     Column find_column(std::string_view name) const;
     const std::vector<std::string>& column_names() const { return names_; }
@@ -35,6 +38,8 @@ class Particles {
         return (*this)[find_column(name)];
     }
 
+    /// A row of what new points start with.
+    std::vector<double> initial_row() const { return initial_; }
     /// Appends rows, each of one value per column in the order of the columns.
     void append(std::span<const double> rows);
     /// Copies one point into a row of one value per column.
@@ -46,21 +51,25 @@ class Particles {
 
   private:
     std::vector<std::string> names_;
+    std::vector<double> initial_;
     std::vector<std::vector<double>> columns_;
     std::vector<double> scratch_;
     std::size_t size_ = 0;
 };
 
-/// The columns every scene has.
+/// The columns every scene has; of each triple the first two in two dimensions.
 struct MotionColumns {
-    Column x, y;                            ///< position, m
-    Column velocity_x, velocity_y;          ///< m/s
-    Column displacement_x, displacement_y;  ///< m, since the start
-    Column mass;                            ///< kg per metre of depth
-    Column volume;                          ///< m^3 per metre of depth
-    Column id;  ///< the number of the point in the scene, the same for any number of ranks
+    std::array<Column, 3> position{};      ///< x, y, z, m
+    std::array<Column, 3> velocity{};      ///< velocity_x, ..., m/s
+    std::array<Column, 3> displacement{};  ///< displacement_x, ..., m, since the start
+    Column mass = 0;                       ///< kg; per metre of depth in two dimensions
+    Column volume = 0;                     ///< m^3; per metre of depth in two dimensions
+    Column id = 0;  ///< the number of the point in the scene, the same for any number of ranks
 };
 
-MotionColumns add_motion_columns(Particles& particles);
+MotionColumns add_motion_columns(Particles& particles, int dimension);
+
+/// Borrowed positions of all points.
+Positions positions_of(const Particles& particles, const MotionColumns& motion, int dimension);
 
 }  // namespace mpm

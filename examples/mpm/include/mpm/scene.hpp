@@ -1,82 +1,100 @@
 #pragma once
 
-#include <mpm/decomposition.hpp>
+#include <mpm/parameters.hpp>
+#include <mpm/vector.hpp>
 
 #include <array>
-#include <cstddef>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace mpm {
 
-/// Background grid of square cells.
+/// Background grid of square or cubic cells.
 struct GridShape {
     Vector lower{};      ///< m
     double spacing = 1;  ///< m
-    std::array<int, 2> num_cells{};
+    std::array<int, 3> num_cells{};
 
     Vector upper() const {
-        return {lower[0] + num_cells[0] * spacing, lower[1] + num_cells[1] * spacing};
+        return {lower[0] + num_cells[0] * spacing, lower[1] + num_cells[1] * spacing,
+                lower[2] + num_cells[2] * spacing};
     }
 };
 
+/// Whether a body fills a position.
+using Region = std::function<bool(const Vector&)>;
+
+/// Velocity in m/s at a position; none: at rest.
+using VelocityField = std::function<Vector(const Vector&)>;
+
 /// Material points on a lattice, at the centres of equal parts of the grid's cells.
 struct Body {
-    std::function<bool(double x, double y)> contains;
-    std::array<int, 2> points_per_cell{2, 2};
-    double density = 1;                                       ///< kg/m^3
-    std::function<Vector(double x, double y)> velocity = {};  ///< m/s at the start; none: at rest
+    Region contains;
+    std::array<int, 3> points_per_cell{2, 2, 2};
+    std::string material;
+    VelocityField velocity = {};  ///< at the start
 };
 
-struct Elastic {
-    double youngs_modulus = 0;  ///< Pa
-    double poissons_ratio = 0;
-
-    double bulk_modulus() const { return youngs_modulus / (3 * (1 - 2 * poissons_ratio)); }
-    double shear_modulus() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }
-    /// Speed of pressure waves in m/s.
-    double wave_speed(double density) const;
+/// A model of a material by name, with its parameters; see material.hpp.
+struct Material {
+    std::string name;
+    std::string model;
+    Parameters parameters;
 };
 
-/// Strength in terms of Mohr-Coulomb; flows at constant volume (angle of dilation 0).
-struct MohrCoulomb {
-    double cohesion = 0;         ///< Pa
-    double friction_angle = 0;   ///< degrees
-    double tension_cut_off = 0;  ///< Pa, mean stress; the cone's apex where that is less
-};
+/// A side of the domain.
+struct Wall {
+    enum Kind {
+        open,       ///< free; a point that reaches it has left the grid, which is an error
+        roller,     ///< no velocity across the wall
+        fixed,      ///< no velocity
+        frictional  ///< none into the wall, and Coulomb friction along it
+    };
 
-/// A force against the motion, rate * momentum, until a time.
-struct Damping {
-    double rate = 0;   ///< 1/s
-    double until = 0;  ///< s
-};
+    Wall(Kind the_kind = open, double the_friction = 0) : kind(the_kind), friction(the_friction) {}
 
-enum class Wall {
-    open,    ///< free; a point that reaches it has left the grid, which is an error
-    roller,  ///< no velocity across the wall
-    fixed    ///< no velocity
+    Kind kind;
+    double friction;  ///< coefficient of a frictional wall
 };
 
 struct Walls {
-    Wall left = Wall::open;
-    Wall right = Wall::open;
-    Wall bottom = Wall::open;
-    Wall top = Wall::open;
+    Wall left = {}, right = {};  ///< across x
+    Wall bottom = {}, top = {};  ///< across y
+    Wall back = {}, front = {};  ///< across z
 };
 
-/// All a simulation needs to know, in SI units and plane strain. An effect left out is not built.
+/// An effect by name, with its parameters; see effect.hpp.
+struct Effect {
+    std::string name;
+    Parameters parameters;
+};
+
+enum class ShapeFunction {
+    linear,     ///< 2 nodes along an axis
+    quadratic,  ///< B-spline, 3 nodes
+    gimp        ///< linear, averaged over the box of a point (uGIMP), 3 nodes
+};
+
+enum class Transfer {
+    flip,  ///< points carry their velocity, see flip_fraction
+    apic   ///< points carry an affine velocity field
+};
+
+/// All a simulation needs to know, in SI units. An effect that is not named is not built.
+///
+/// Two dimensions are plane strain, per metre of depth; y points up.
 struct Scene {
     std::string name;
+    int dimension = 2;
     GridShape grid;
+    std::vector<Material> materials;
     std::vector<Body> bodies;
-    Walls walls;
-    Elastic elastic;
-    std::optional<MohrCoulomb> mohr_coulomb = {};
-    std::optional<Vector> gravity = {};  ///< m/s^2
-    std::optional<Damping> damping = {};
+    Walls walls = {};
+    std::vector<Effect> effects = {};
 
+    ShapeFunction shape_function = ShapeFunction::linear;
+    Transfer transfer = Transfer::flip;
     /// Share of the velocity that is carried by the points (FLIP); the rest is read back from the
     /// grid (PIC) and filters what the grid cannot see. One per cent of PIC calms cell-crossing
     /// noise within 0.2 s at the slope's step and leaves waves longer than a few cells alone.
@@ -87,5 +105,8 @@ struct Scene {
 
 /// Throws std::invalid_argument that names what is wrong with a scene.
 void validate(const Scene& scene);
+
+/// The named parameters of a scene's effect, or none when the scene does not name it.
+Parameters* find_effect(Scene& scene, const std::string& name);
 
 }  // namespace mpm

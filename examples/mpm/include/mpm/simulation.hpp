@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,19 @@ namespace mpm {
 
 struct RebalanceReport {
     std::int64_t moved_points = 0;  ///< over all ranks
+};
+
+/// Sums over all points. In two dimensions all but `num_points` are per metre of depth.
+struct Totals {
+    std::int64_t num_points = 0;
+    double mass = 0;              ///< kg
+    Vector center{};              ///< of mass, m
+    Vector momentum{};            ///< kg m/s
+    double kinetic_energy = 0;    ///< J
+    double strain_energy = 0;     ///< elastic, J
+    double potential_energy = 0;  ///< of gravity at its full strength, J; 0 at the origin
+    std::optional<double> dissipated_energy = {};  ///< J, where an effect keeps account of it
+    std::int64_t num_migrated = 0;  ///< changes of rank since the start, rebalances included
 };
 
 /// A scene, advanced in time by all ranks of a communicator.
@@ -50,10 +64,16 @@ class Simulation {
 
     /// Names of the kernels of a step in their order, the communication among them.
     std::vector<std::string> kernels() const;
+    /// Doubles in a message per shared node.
+    std::size_t doubles_per_ghost_node() const;
+    /// Sums over the points of all ranks. Collective.
+    Totals totals() const;
+
+    /// What a simulation of either dimension can do; private to the library.
+    class Model;
 
   private:
-    struct State;
-    std::unique_ptr<State> state_;
+    std::unique_ptr<Model> model_;
 };
 
 }  // namespace mpm

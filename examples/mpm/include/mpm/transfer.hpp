@@ -1,12 +1,12 @@
 #pragma once
 
-#include <mpm/elastic.hpp>
 #include <mpm/grid.hpp>
 #include <mpm/particles.hpp>
+#include <mpm/stress.hpp>
 
 #include <array>
 #include <cstddef>
-#include <functional>
+#include <memory>
 #include <vector>
 
 namespace mpm {
@@ -14,44 +14,100 @@ namespace mpm {
 /// Points are advanced in blocks of this size, so that what is between kernels stays in cache.
 inline constexpr std::size_t block_size = 512;
 
-/// Consecutive points of one block in the same cell.
+/// Consecutive points of one block that share their nodes.
+template <int D>
 struct CellRun {
     std::size_t begin, end;
-    std::size_t node;  ///< of the cell's lower left corner, in the patch
-    Vector corner;     ///< its position, m
+    std::size_t node;      ///< the lowest of their nodes, in the patch
+    Components<D> corner;  ///< its position, m
 };
 
-/// Velocity gradients of one block of points, 1/s; xy is the derivative of x-velocity along y.
-struct VelocityGradients {
-    std::array<double, block_size> xx, xy, yx, yy;
-};
+/// Velocity gradients of one block of points, 1/s; [i][j] is component i along axis j.
+template <int D>
+using VelocityGradients = std::array<std::array<std::array<double, block_size>, D>, D>;
 
-/// One block of points on its way through the point kernels.
+/// Points on their way through the point kernels: a block, or the part of it in one material.
+template <int D>
 struct PointBlock {
     std::size_t begin, end;
-    double time_step;
-    VelocityGradients gradients;
+    std::size_t block_begin;  ///< where the block begins whose gradients these are
+    double time;              ///< at the start of the step, s
+    double time_step;         ///< s
+    VelocityGradients<D>* gradients;
+
+    std::size_t size() const { return end - begin; }
+    /// One entry of the gradients, from the first point on.
+    double* gradient(std::size_t i, std::size_t j) const {
+        return (*gradients)[i][j].data() + (begin - block_begin);
+    }
 };
 
-/// A kernel that advances one block of points.
-using PointKernel = std::function<void(Particles&, const PointBlock&)>;
+/// Gradient of the displacement over the step of the point k of a block.
+template <int D>
+struct StepGradients {
+    explicit StepGradients(const PointBlock<D>& block) : time_step(block.time_step) {
+        for (std::size_t i = 0; i < D; ++i)
+            for (std::size_t j = 0; j < D; ++j) entry[i][j] = block.gradient(i, j);
+    }
+    DisplacementGradient<D> operator[](std::size_t k) const {
+        if constexpr (D == 2)
+            return {{{time_step * entry[0][0][k], time_step * entry[0][1][k]},
+                     {time_step * entry[1][0][k], time_step * entry[1][1][k]}}};
+        else
+            return {{{time_step * entry[0][0][k], time_step * entry[0][1][k],
+                      time_step * entry[0][2][k]},
+                     {time_step * entry[1][0][k], time_step * entry[1][1][k],
+                      time_step * entry[1][2][k]},
+                     {time_step * entry[2][0][k], time_step * entry[2][1][k],
+                      time_step * entry[2][2][k]}}};
+    }
+    double time_step;
+    std::array<std::array<const double*, D>, D> entry;
+};
 
-/// Groups the points by cells; runs are long when the points are sorted by cell.
-void find_cell_runs(const Particles& particles, const MotionColumns& motion, const GridPatch& patch,
-                    std::vector<CellRun>& runs);
+/// The columns the transfers read and change.
+template <int D>
+struct TransferColumns {
+    MotionColumns motion;
+    StressColumns<D> stress;
+    std::array<std::array<Column, D>, D> affine{};  ///< APIC only: velocity gradient, 1/s
+};
 
-/// Orders the points by cell, keeping the order within a cell.
-void sort_by_cell(Particles& particles, const MotionColumns& motion, const GridPatch& patch);
+/// The transfers between points and nodes, made for a dimension, shape function and kind.
+template <int D>
+class Transfers {
+  public:
+    virtual ~Transfers() = default;
 
-/// Particles to grid: overwrites the patch with the sums of mass, momentum and internal force.
-void p2g(Particles& particles, const MotionColumns& motion, const StressColumns& stress,
-         const std::vector<CellRun>& runs, GridPatch& patch);
+    /// Layers of nodes the points touch beyond their cells.
+    virtual int margin() const = 0;
 
-/// Grid to particles: moves the points of the runs of one block and reads their velocity gradients.
-///
-/// Runs from `first_run` on; returns the first run of the next block.
-std::size_t g2p(Particles& particles, const MotionColumns& motion, const GridPatch& patch,
-                const std::vector<CellRun>& runs, std::size_t first_run, double flip_fraction,
-                PointBlock& block);
+    /// Groups the points by their nodes; runs are long when the points are sorted.
+    virtual void find_runs(const Particles& particles, const GridPatch<D>& patch,
+                           std::vector<CellRun<D>>& runs) const = 0;
+
+    /// Orders the points by their nodes, keeping the order among equals.
+    virtual void sort(Particles& particles, const GridPatch<D>& patch) const = 0;
+
+    /// Particles to grid: overwrites the patch with the sums of mass, momentum, internal force.
+    virtual void p2g(Particles& particles, const std::vector<CellRun<D>>& runs,
+                     GridPatch<D>& patch) const = 0;
+
+    /// Grid to particles: moves the points of one block and reads their velocity gradients.
+    ///
+    /// Takes runs from `first_run` on; returns the first run of the next block.
+    virtual std::size_t g2p(Particles& particles, const GridPatch<D>& patch,
+                            const std::vector<CellRun<D>>& runs, std::size_t first_run,
+                            const PointBlock<D>& block) const = 0;
+
+    /// Adds a column of the points, weighted by the shape functions, to a field of the nodes.
+    virtual void gather(const Particles& particles, Column column,
+                        const std::vector<CellRun<D>>& runs, GridPatch<D>& patch,
+                        std::vector<double>& field) const = 0;
+};
+
+/// The transfers a scene asks for; adds the columns they need.
+template <int D>
+std::unique_ptr<Transfers<D>> make_transfers(const Scene& scene, Particles& particles);
 
 }  // namespace mpm

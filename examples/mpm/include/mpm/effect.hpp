@@ -1,0 +1,45 @@
+#pragma once
+
+#include <mpm/kernels.hpp>
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mpm {
+
+/// What an effect has at hand to put itself into the step.
+template <int D>
+struct EffectBuilder {
+    const Scene& scene;
+    const Values& values;  ///< its parameters, checked
+    Particles& particles;  ///< to add columns to
+    Stages<D>& stages;     ///< to add kernels to
+};
+
+/// An effect: one file in src/effects, named in CMakeLists.txt.
+struct EffectKind {
+    std::string name;
+    std::vector<Rule> rules;  ///< of its parameters
+    void (*build_2)(const EffectBuilder<2>&);
+    void (*build_3)(const EffectBuilder<3>&);
+};
+
+/// All effects there are, in the order they enter a stage.
+std::span<const EffectKind> effect_kinds();
+
+/// The parameters of each effect of a scene, checked, by the number of its kind.
+///
+/// Throws std::invalid_argument for one that is not known, named twice, or has wrong parameters.
+std::vector<std::optional<Values>> effect_values(const Scene& scene);
+
+/// The stages of a scene: its effects, and its walls unless all are open.
+template <int D>
+Stages<D> build_stages(const Scene& scene, Particles& particles);
+
+/// Holds the nodes on the sides of the domain.
+template <int D>
+NodeKernel<D> wall_kernel(const Walls& walls);
+
+}  // namespace mpm

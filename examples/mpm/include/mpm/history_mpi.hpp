@@ -1,0 +1,36 @@
+#pragma once
+
+#include <mpi.h>
+#include <mpm/simulation.hpp>
+
+#include <fstream>
+#include <string>
+
+namespace mpm {
+
+/// The history of a simulation as a table: sums, energies and load, one row per call.
+class History {
+  public:
+    /// Rank 0 opens the file. Collective; throws std::runtime_error on all ranks when it cannot.
+    History(const std::string& path, const Scene& scene, MPI_Comm comm);
+
+    /// Appends the present state. Collective.
+    ///
+    /// `front_x` is the largest x of a point that has moved by more than a cell (the lower side of
+    /// the domain while there is none), `top_y` the largest y of all, `imbalance` the points of the
+    /// heaviest rank by the mean, `migrated` the changes of rank since the last row. The dissipated
+    /// energy is empty where no effect keeps account of it.
+    void write(const Simulation& simulation);
+
+  private:
+    double cell_size_;
+    double lower_x_;
+    MPI_Comm comm_;
+    std::ofstream file_;  ///< on rank 0
+    std::int64_t num_migrated_ = 0;
+};
+
+/// Throws std::runtime_error with the text on all ranks when it is not empty on rank 0.
+void fail_together(const std::string& text, MPI_Comm comm);
+
+}  // namespace mpm

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <mpi.h>
+#include <mpm/transfer.hpp>
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mpm {
+
+/// The time at the start of a step and its length, s.
+struct StepTime {
+    double time;
+    double time_step;
+};
+
+/// Changes the nodes of a patch. Shared nodes hold the same bits on all ranks, and must after it.
+template <int D>
+using NodeKernel = std::function<void(GridPatch<D>&, const StepTime&)>;
+
+/// Changes the velocity gradients of a block, given its runs.
+template <int D>
+using GradientKernel =
+    std::function<void(const GridPatch<D>&, std::span<const CellRun<D>>, const PointBlock<D>&)>;
+
+/// Advances a block of points; called for all points of a step, never for one.
+template <int D>
+using PointKernel = std::function<void(Particles&, const PointBlock<D>&)>;
+
+/// Collective work at the end of a step.
+using StepKernel = std::function<void(const StepTime&, MPI_Comm)>;
+
+template <typename Kernel>
+struct Named {
+    std::string name;
+    Kernel kernel;
+};
+
+/// A column of the points that is summed on the nodes into a field of the patch, one double more
+/// in the message per shared node.
+struct NodeField {
+    std::string name;
+    Column column;
+};
+
+/// Where in a step kernels can go, in the order of the step. An empty stage is a loop over nothing.
+template <int D>
+struct Stages {
+    std::vector<NodeField> fields;                        ///< summed with mass, momentum and force
+    std::vector<Named<NodeKernel<D>>> forces;             ///< on the sums over all ranks
+    std::vector<Named<NodeKernel<D>>> constraints;        ///< after all forces
+    std::vector<Named<NodeKernel<D>>> moved;              ///< after the nodes have moved
+    std::vector<Named<GradientKernel<D>>> gradients;      ///< after points have moved
+    std::vector<Named<PointKernel<D>>> before_materials;  ///< stresses are the old ones
+    std::vector<Named<PointKernel<D>>> after_materials;   ///< stresses are the new ones
+    std::vector<Named<StepKernel>> ends;                  ///< after all points have moved
+    /// Energies this rank has seen lost since the start, J, for whoever asks between steps.
+    std::vector<std::function<double(const Particles&)>> dissipated;
+    bool counts_nodes = false;  ///< asks for GridPatch::is_counted
+};
+
+}  // namespace mpm

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace mpm {
+
+/// What a parameter of a scene can be: a number, a word, or a list of numbers.
+using Value = std::variant<double, std::string, std::vector<double>>;
+
+/// Parameters by name, as a scene gives them.
+using Parameters = std::map<std::string, Value>;
+
+/// What a parameter must be.
+struct Rule {
+    enum class Kind { number, word, list };
+
+    std::string name;
+    Kind kind = Kind::number;
+    std::string unit = "";
+    std::optional<Value> fallback = {};  ///< where the scene says nothing
+    bool may_be_absent = false;          ///< asks for something more when it is there
+    double least = -std::numeric_limits<double>::infinity();
+    double most = std::numeric_limits<double>::infinity();
+    bool is_whole = false;
+    bool without_ends = false;              ///< strictly between least and most
+    std::vector<std::string> choices = {};  ///< of a word; empty: any
+};
+
+Rule positive(std::string name, std::string unit, std::optional<double> fallback = {});
+Rule not_negative(std::string name, std::string unit, std::optional<double> fallback = {});
+Rule number(std::string name, std::string unit, std::optional<double> fallback = {});
+/// From `least` to `most`, both included.
+Rule within(std::string name, std::string unit, double least, double most,
+            std::optional<double> fallback = {});
+/// A whole number from `least` to `most`, both included.
+Rule whole(std::string name, std::string unit, double least, double most,
+           std::optional<double> fallback = {});
+/// Numbers along the axes, as many as the scene has dimensions.
+Rule vector(std::string name, std::string unit, std::optional<std::vector<double>> fallback = {});
+/// One of some words; the first where the scene says nothing.
+Rule choice(std::string name, std::vector<std::string> choices);
+/// The same rule for a parameter that may be left out altogether.
+Rule optional(Rule rule);
+
+/// Parameters that keep the rules, with the fallbacks filled in.
+class Values {
+  public:
+    /// Throws std::invalid_argument that starts with `place`, names the key and what is allowed.
+    Values(const Parameters& given, std::span<const Rule> rules, const std::string& place,
+           int dimension);
+
+    double number(std::string_view name) const;
+    const std::string& word(std::string_view name) const;
+    const std::vector<double>& list(std::string_view name) const;
+    bool has(std::string_view name) const;
+
+  private:
+    std::map<std::string, Value, std::less<>> values_;
+};
+
+/// The words in one line, with commas between them.
+std::string joined(std::span<const std::string> words);
+
+}  // namespace mpm

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace mpm {
+
+/// Position, velocity or force; in two dimensions the third component is 0.
+using Vector = std::array<double, 3>;
+
+/// Closed axis-aligned box in metres; open sides are +-infinity, lower above upper is empty.
+struct Box {
+    Vector lower{};
+    Vector upper{};
+};
+
+inline bool contains(const Box& box, const Vector& at) {
+    return at[0] >= box.lower[0] && at[0] <= box.upper[0] && at[1] >= box.lower[1] &&
+           at[1] <= box.upper[1] && at[2] >= box.lower[2] && at[2] <= box.upper[2];
+}
+
+/// Borrowed positions of material points in metres; all columns have the same length, but for
+/// `z`, which is empty in two dimensions.
+struct Positions {
+    std::span<const double> x;
+    std::span<const double> y;
+    std::span<const double> z = {};
+
+    std::size_t size() const { return x.size(); }
+    Vector operator[](std::size_t point) const {
+        return {x[point], y[point], z.empty() ? 0 : z[point]};
+    }
+};
+
+}  // namespace mpm

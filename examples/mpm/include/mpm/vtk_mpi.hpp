@@ -1,0 +1,39 @@
+#pragma once
+
+#include <mpi.h>
+#include <mpm/simulation.hpp>
+
+#include <string>
+#include <vector>
+
+namespace mpm {
+
+/// Pictures of a simulation that ParaView opens: points.pvd, the material points with all their
+/// columns and the rank that has them, and boxes.pvd, the boxes of the ranks.
+///
+/// Every rank writes its points (VTP) and rank 0 the rest (PVTP, VTU, PVD).
+class VtkSeries {
+  public:
+    VtkSeries(std::string folder, const Scene& scene, MPI_Comm comm);
+
+    /// Adds the present state. Collective; throws std::runtime_error on all ranks when a file
+    /// cannot be written.
+    void write(const Simulation& simulation);
+
+  private:
+    struct Frame {
+        double time;
+        std::string number;
+    };
+
+    bool write_series(const std::string& name, const std::string& extension) const;
+
+    std::string folder_;
+    GridShape grid_;
+    int dimension_;
+    MPI_Comm comm_;
+    int rank_ = 0, num_ranks_ = 1;
+    std::vector<Frame> frames_;
+};
+
+}  // namespace mpm

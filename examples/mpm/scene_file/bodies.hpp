@@ -1,0 +1,16 @@
+#pragma once
+
+#include "list.hpp"
+
+#include <mpm/scene.hpp>
+
+namespace mpm {
+
+/// The body a list describes.
+Body read_body(List list, int dimension);
+
+/// A list of whole numbers along the axes, each at least 1; 1 beyond the dimension.
+std::array<int, 3> whole_numbers(const List& list, const std::string& name,
+                                 const std::vector<double>& numbers);
+
+}  // namespace mpm

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Teuchos_ParameterList.hpp>
+#include <mpm/parameters.hpp>
+#include <mpm/vector.hpp>
+
+#include <string>
+#include <vector>
+
+namespace mpm {
+
+/// A list of a scene file with its place, for errors.
+class List {
+  public:
+    List(Teuchos::ParameterList list, std::string place)
+        : list_(std::move(list)), place_(std::move(place)) {}
+
+    const std::string& place() const { return place_; }
+
+    /// The lists in this one, in the order of the file; throws when anything else is there.
+    std::vector<std::string> sublist_names() const;
+    bool has(const std::string& name) const { return list_.isParameter(name); }
+    /// Throws for a list that nobody has taken, and says what lists are possible.
+    void refuse_other_lists(const std::string& possible) const;
+    /// The list of this name, empty when there is none, and forgets it; throws when it is no list.
+    List take_list(const std::string& name);
+    /// Rows of as many numbers as there are dimensions, and forgets them.
+    std::vector<Vector> take_rows(const std::string& name, int dimension);
+    /// The rest, which must be numbers, words and rows of numbers.
+    Parameters parameters() const;
+    /// The rest, checked.
+    Values values(const std::vector<Rule>& rules, int dimension) const {
+        return {parameters(), rules, place_, dimension};
+    }
+
+    [[noreturn]] void refuse(const std::string& name, const std::string& text) const;
+
+  private:
+    Teuchos::ParameterList list_;
+    std::string place_;
+};
+
+/// Numbers along the axes as a vector.
+Vector vector_of(const std::vector<double>& numbers);
+
+}  // namespace mpm

@@ -1,0 +1,167 @@
+#include "scene_file_mpi.hpp"
+
+#include "bodies.hpp"
+
+#include <Teuchos_XMLParameterListCoreHelpers.hpp>
+#include <Teuchos_YamlParameterListCoreHelpers.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace mpm {
+
+namespace {
+
+constexpr double most_steps = 1e9;
+
+Teuchos::ParameterList parse(const std::string& text, SceneFormat format) {
+    try {
+        return format == SceneFormat::xml ? *Teuchos::getParametersFromXmlString(text)
+                                          : *Teuchos::getParametersFromYamlString(text);
+    } catch (const std::exception& error) {
+        throw std::invalid_argument(
+            std::string("is not understood; it must be one list named scene, in ") +
+            (format == SceneFormat::xml ? "XML" : "YAML") + ":\n" + error.what());
+    }
+}
+
+GridShape read_domain(const List& list, int dimension) {
+    const Values values = list.values(
+        {vector("lower", "m"), vector("cells", ""), positive("cell_size", "m")}, dimension);
+    GridShape grid{.lower = vector_of(values.list("lower")),
+                   .spacing = values.number("cell_size"),
+                   .num_cells = whole_numbers(list, "cells", values.list("cells"))};
+    for (auto a = static_cast<std::size_t>(dimension); a < 3; ++a) grid.num_cells[a] = 0;
+    return grid;
+}
+
+Walls read_walls(const List& list, int dimension) {
+    Walls walls;
+    const std::vector<std::pair<std::string, Wall*>> sides{
+        {"left", &walls.left}, {"right", &walls.right}, {"bottom", &walls.bottom},
+        {"top", &walls.top},   {"back", &walls.back},   {"front", &walls.front}};
+    const auto num_sides = static_cast<std::size_t>(2 * dimension);
+    std::vector<Rule> rules;
+    for (std::size_t side = 0; side < num_sides; ++side) {
+        rules.push_back(choice(sides[side].first, {"open", "roller", "fixed", "frictional"}));
+        rules.push_back(optional(not_negative(sides[side].first + "_friction", "")));
+    }
+    const Values values = list.values(rules, dimension);
+    for (std::size_t side = 0; side < num_sides; ++side) {
+        const auto& [name, wall] = sides[side];
+        const auto& kinds = rules[2 * side].choices;
+        wall->kind =
+            static_cast<Wall::Kind>(std::ranges::find(kinds, values.word(name)) - kinds.begin());
+        if ((wall->kind == Wall::frictional) != values.has(name + "_friction"))
+            list.refuse(name + "_friction", "must be there for a frictional wall, and only there");
+        if (wall->kind == Wall::frictional) wall->friction = values.number(name + "_friction");
+    }
+    return walls;
+}
+
+void read_method(const List& list, int dimension, Scene& scene) {
+    const Values values = list.values({choice("shape_function", {"linear", "quadratic", "gimp"}),
+                                       choice("transfer", {"flip", "apic"}),
+                                       within("flip_fraction", "", 0, 1, scene.flip_fraction),
+                                       within("courant_number", "", 1e-6, 1, scene.courant_number)},
+                                      dimension);
+    const std::string& shape = values.word("shape_function");
+    if (shape == "quadratic") scene.shape_function = ShapeFunction::quadratic;
+    if (shape == "gimp") scene.shape_function = ShapeFunction::gimp;
+    if (values.word("transfer") == "apic") scene.transfer = Transfer::apic;
+    scene.flip_fraction = values.number("flip_fraction");
+    scene.courant_number = values.number("courant_number");
+}
+
+OutputPlan read_output(const List& list, int dimension) {
+    const Values values = list.values({whole("history_every", "steps", 0, most_steps, 10.0),
+                                       whole("vtk_every", "steps", 0, most_steps, 0.0)},
+                                      dimension);
+    return {static_cast<int>(values.number("history_every")),
+            static_cast<int>(values.number("vtk_every"))};
+}
+
+SceneFile read_list(List list, const std::string& name) {
+    List materials = list.take_list("materials"), bodies = list.take_list("bodies");
+    List effects = list.take_list("effects");
+    const List domain = list.take_list("domain"), walls = list.take_list("walls");
+    const List method = list.take_list("method"), output = list.take_list("output");
+    list.refuse_other_lists("domain, walls, materials, bodies, effects, method, output");
+    const std::vector<Rule> rules{whole("dimension", "", 2, 3), positive("end_time", "s")};
+    const int dimension = static_cast<int>(list.values(rules, 2).number("dimension"));
+
+    SceneFile file;
+    Scene& scene = file.scene;
+    scene.name = name;
+    scene.dimension = dimension;
+    scene.end_time = list.values(rules, 2).number("end_time");
+    scene.grid = read_domain(domain, dimension);
+    scene.walls = read_walls(walls, dimension);
+    for (const std::string& key : materials.sublist_names()) {
+        Parameters parameters = materials.take_list(key).parameters();
+        const auto model = parameters.extract("model");
+        const bool is_word = model && std::holds_alternative<std::string>(model.mapped());
+        scene.materials.push_back(
+            {key, is_word ? std::get<std::string>(model.mapped()) : "", parameters});
+    }
+    for (const std::string& key : bodies.sublist_names())
+        scene.bodies.push_back(read_body(bodies.take_list(key), dimension));
+    for (const std::string& key : effects.sublist_names())
+        scene.effects.push_back({key, effects.take_list(key).parameters()});
+    read_method(method, dimension, scene);
+    file.output = read_output(output, dimension);
+    validate(scene);
+    return file;
+}
+
+/// The text of a file, or nothing when it cannot be read.
+std::string text_of(const std::string& path) {
+    std::ifstream file(path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+std::string broadcast(std::string text, MPI_Comm comm) {
+    auto length = static_cast<int>(text.size());
+    MPI_Bcast(&length, 1, MPI_INT, 0, comm);
+    text.resize(static_cast<std::size_t>(length));
+    MPI_Bcast(text.data(), length, MPI_CHAR, 0, comm);
+    return text;
+}
+
+}  // namespace
+
+SceneFile parse_scene(const std::string& text, SceneFormat format, const std::string& name) {
+    try {
+        return read_list({parse(text, format), "scene"}, std::filesystem::path(name).stem());
+    } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(name + ": " + error.what());
+    }
+}
+
+SceneFile read_scene(const std::string& path, MPI_Comm comm) {
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    const std::string text = broadcast(rank == 0 ? text_of(path) : "", comm);
+    if (text.empty())
+        throw std::invalid_argument(path +
+                                    ": cannot be read, or is empty; it must be a scene file");
+    const bool is_xml = std::filesystem::path(path).extension() == ".xml";
+    return parse_scene(text, is_xml ? SceneFormat::xml : SceneFormat::yaml, path);
+}
+
+void resize_cells(Scene& scene, double cell_size) {
+    constexpr double tolerance = 1e-9;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a) {
+        const double cells = scene.grid.num_cells[a] * (scene.grid.spacing / cell_size);
+        scene.grid.num_cells[a] = std::max(1, static_cast<int>(std::ceil(cells - tolerance)));
+    }
+    scene.grid.spacing = cell_size;
+}
+
+}  // namespace mpm

@@ -1,0 +1,64 @@
+#include <mpm/drucker_prager.hpp>
+
+#include <algorithm>
+#include <numbers>
+
+namespace mpm {
+
+namespace {
+
+DruckerPrager cone_of(double friction, double cohesion, double tension) {
+    DruckerPrager cone{friction, cohesion, tension};
+    if (friction > 0) cone.tension = std::min(tension, cohesion / friction);
+    return cone;
+}
+
+template <int D>
+PointKernel<D> return_kernel(const DruckerPrager& cone, const StressColumns<D>& columns) {
+    return [cone, columns](Particles& particles, const PointBlock<D>& block) {
+        const StressPointers<D> stresses = stress_pointers<D>(particles, columns);
+        const std::size_t end = block.end;
+#pragma GCC ivdep
+        for (std::size_t p = block.begin; p < end; ++p)
+            store<D>(returned<D>(cone, load<D>(stresses, p)), stresses, p);
+    };
+}
+
+template <int D>
+MaterialModel<D> build(const Values& values, Particles& particles) {
+    MaterialModel<D> model = elastic_model<D>(values, particles);
+    const MohrCoulomb strength{values.number("cohesion"), values.number("friction_angle"),
+                               values.number("tension_cut_off")};
+    const DruckerPrager cone =
+        values.word("match") == "inner" ? inner_cone(strength) : matched_cone(strength);
+    model.kernels.push_back(
+        {"drucker_prager", return_kernel<D>(cone, add_stress_columns<D>(particles))});
+    return model;
+}
+
+std::vector<Rule> rules() {
+    Rule angle = within("friction_angle", "degrees", 0, 89);
+    return elastic_rules({not_negative("cohesion", "Pa"), angle,
+                          not_negative("tension_cut_off", "Pa", 0.0),
+                          choice("match", {"plane_strain", "inner"})});
+}
+
+}  // namespace
+
+DruckerPrager matched_cone(const MohrCoulomb& strength) {
+    const double angle = strength.friction_angle * std::numbers::pi / 180;
+    return cone_of(std::sin(angle), strength.cohesion * std::cos(angle), strength.tension_cut_off);
+}
+
+DruckerPrager inner_cone(const MohrCoulomb& strength) {
+    const double angle = strength.friction_angle * std::numbers::pi / 180;
+    const double factor = 6 / (std::numbers::sqrt3 * (3 + std::sin(angle)));
+    return cone_of(factor * std::sin(angle), factor * strength.cohesion * std::cos(angle),
+                   strength.tension_cut_off);
+}
+
+MaterialKind drucker_prager_material() {
+    return {"drucker_prager", rules(), elastic_wave_speed, build<2>, build<3>};
+}
+
+}  // namespace mpm

@@ -1,0 +1,91 @@
+#include "stepper.hpp"
+
+#include <algorithm>
+
+namespace mpm {
+
+namespace {
+
+/// Sums of one rank, all doubles so that one reduction adds them.
+struct Sums {
+    double mass = 0, kinetic_energy = 0, strain_energy = 0, dissipated_energy = 0, num_sent = 0;
+    Vector moment{}, momentum{};
+};
+
+template <typename Kernels>
+void append_names(const Kernels& kernels, std::vector<std::string>& names) {
+    for (const auto& kernel : kernels)
+        if (std::ranges::find(names, kernel.name) == names.end()) names.push_back(kernel.name);
+}
+
+Vector full_gravity(const Scene& scene) {
+    Vector acceleration{};
+    const std::vector<std::optional<Values>> values = effect_values(scene);
+    for (std::size_t k = 0; k < values.size(); ++k)
+        if (values[k] && effect_kinds()[k].name == "gravity")
+            std::ranges::copy(values[k]->list("acceleration"), acceleration.begin());
+    return acceleration;
+}
+
+}  // namespace
+
+template <int D>
+std::vector<std::string> Stepper<D>::kernels() const {
+    std::vector<std::string> names{"p2g"};
+    append_names(stages_.fields, names);
+    names.push_back("ghost_nodes");
+    append_names(stages_.forces, names);
+    append_names(stages_.constraints, names);
+    names.push_back("move_nodes");
+    append_names(stages_.moved, names);
+    names.push_back("g2p");
+    append_names(stages_.gradients, names);
+    append_names(stages_.before_materials, names);
+    for (const MaterialModel<D>& material : materials_) append_names(material.kernels, names);
+    append_names(stages_.after_materials, names);
+    append_names(stages_.ends, names);
+    names.push_back("migrate");
+    return names;
+}
+
+template <int D>
+Totals Stepper<D>::totals() const {
+    Sums sums;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+        const double mass = particles[motion_.mass][p];
+        sums.mass += mass;
+        for (std::size_t a = 0; a < D; ++a) {
+            const double velocity = particles[motion_.velocity[a]][p];
+            sums.moment[a] += mass * particles[motion_.position[a]][p];
+            sums.momentum[a] += mass * velocity;
+            sums.kinetic_energy += 0.5 * mass * velocity * velocity;
+        }
+        const std::size_t material =
+            material_column_ ? static_cast<std::size_t>(particles[*material_column_][p]) : 0;
+        sums.strain_energy += materials_[material].strain_energy(particles, p);
+    }
+    for (const auto& dissipated : stages_.dissipated)
+        sums.dissipated_energy += dissipated(particles);
+    sums.num_sent = static_cast<double>(num_sent);
+    MPI_Allreduce(MPI_IN_PLACE, &sums, sizeof sums / sizeof(double), MPI_DOUBLE, MPI_SUM, comm_);
+    Totals totals{.num_points = num_points,
+                  .mass = sums.mass,
+                  .momentum = sums.momentum,
+                  .kinetic_energy = sums.kinetic_energy,
+                  .strain_energy = sums.strain_energy,
+                  .num_migrated = static_cast<std::int64_t>(sums.num_sent)};
+    if (!stages_.dissipated.empty()) totals.dissipated_energy = sums.dissipated_energy;
+    const Vector gravity = full_gravity(scene_);
+    for (std::size_t a = 0; a < D; ++a) {
+        totals.center[a] = sums.moment[a] / sums.mass;
+        totals.potential_energy -= gravity[a] * sums.moment[a];
+    }
+    return totals;
+}
+
+template std::vector<std::string> Stepper<2>::kernels() const;
+template std::vector<std::string> Stepper<3>::kernels() const;
+template Totals Stepper<2>::totals() const;
+template Totals Stepper<3>::totals() const;
+
+}  // namespace mpm

@@ -1,0 +1,103 @@
+#pragma once
+
+#include "g2p.hpp"
+
+namespace mpm {
+
+/// The transfers of one dimension, shape function and kind.
+template <int D, class Shape, bool is_affine>
+class TransfersOf final : public Transfers<D> {
+  public:
+    TransfersOf(const Scene& scene, Particles& particles)
+        : shape_(scene), flip_fraction_(scene.flip_fraction) {
+        columns_.motion = add_motion_columns(particles, D);
+        columns_.stress = add_stress_columns<D>(particles);
+        for (std::size_t a = 0; is_affine && a < D; ++a)
+            for (std::size_t b = 0; b < D; ++b)
+                columns_.affine[a][b] =
+                    particles.add_column(std::string("affine_") + "xyz"[a] + "xyz"[b]);
+    }
+
+    int margin() const override { return Shape::margin; }
+
+    void find_runs(const Particles& particles, const GridPatch<D>& patch,
+                   std::vector<CellRun<D>>& runs) const override {
+        runs.clear();
+        const auto at = positions(particles);
+        std::array<int, D> last;
+        last.fill(-2);
+        for (std::size_t p = 0; p < particles.size(); ++p) {
+            const std::array<int, D> first = first_node(patch, at, p);
+            if (first == last && p % block_size != 0) continue;
+            if (!runs.empty()) runs.back().end = p;
+            runs.push_back({p, p, patch.index(first), {}});
+            for (std::size_t a = 0; a < D; ++a)
+                runs.back().corner[a] = patch.shape.lower[a] + first[a] * patch.shape.spacing;
+            last = first;
+        }
+        if (!runs.empty()) runs.back().end = particles.size();
+    }
+
+    void sort(Particles& particles, const GridPatch<D>& patch) const override {
+        const auto at = positions(particles);
+        std::vector<std::size_t> cells(particles.size());
+        std::vector<std::size_t> places(patch.sums.size() + 1);
+        for (std::size_t p = 0; p < cells.size(); ++p) {
+            cells[p] = patch.index(first_node(patch, at, p));
+            ++places[cells[p] + 1];
+        }
+        for (std::size_t c = 1; c < places.size(); ++c) places[c] += places[c - 1];
+        std::vector<std::size_t> order(cells.size());
+        for (std::size_t p = 0; p < cells.size(); ++p) order[places[cells[p]]++] = p;
+        particles.reorder(order);
+    }
+
+    void p2g(Particles& particles, const std::vector<CellRun<D>>& runs,
+             GridPatch<D>& patch) const override {
+        points_to_grid<D, Shape, is_affine>(particles, columns_, shape_, runs, patch);
+    }
+
+    std::size_t g2p(Particles& particles, const GridPatch<D>& patch,
+                    const std::vector<CellRun<D>>& runs, std::size_t first_run,
+                    const PointBlock<D>& block) const override {
+        return grid_to_points<D, Shape, is_affine>(particles, columns_, shape_, flip_fraction_,
+                                                   patch, runs, first_run, block);
+    }
+
+    void gather(const Particles& particles, Column column, const std::vector<CellRun<D>>& runs,
+                GridPatch<D>& patch, std::vector<double>& field) const override {
+        constexpr std::size_t N = Shape::num_nodes;
+        const auto at = positions(particles);
+        const std::span<const double> values = particles[column];
+        const auto offsets = node_offsets<D, N>(patch);
+        for (const CellRun<D>& run : runs)
+            for (std::size_t p = run.begin; p < run.end; ++p) {
+                std::array<Weights<N>, D> weights;
+                for (std::size_t a = 0; a < D; ++a)
+                    weights[a] = shape_.at((at[a][p] - run.corner[a]) / patch.shape.spacing, a);
+                unrolled<power(N, D)>([&](auto n) {
+                    field[run.node + offsets[n]] += weight_of<D, N, n>(weights) * values[p];
+                });
+            }
+    }
+
+  private:
+    std::array<const double*, D> positions(const Particles& particles) const {
+        std::array<const double*, D> at;
+        for (std::size_t a = 0; a < D; ++a) at[a] = particles[columns_.motion.position[a]].data();
+        return at;
+    }
+
+    std::array<int, D> first_node(const GridPatch<D>& patch, const std::array<const double*, D>& at,
+                                  std::size_t p) const {
+        std::array<int, D> first;
+        for (std::size_t a = 0; a < D; ++a) first[a] = shape_.first_node(patch.shape, at[a][p], a);
+        return first;
+    }
+
+    Shape shape_;
+    double flip_fraction_;
+    TransferColumns<D> columns_;
+};
+
+}  // namespace mpm

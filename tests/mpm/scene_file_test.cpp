@@ -1,0 +1,152 @@
+#include "support.hpp"
+
+#include <gtest/gtest.h>
+#include <mpm/lattice.hpp>
+#include <scene_file/scene_file_mpi.hpp>
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace mpm::test {
+namespace {
+
+const std::string slope_path = RRCB_SCENES "/slope.yaml";
+
+std::string text_of(const std::string& path) {
+    std::ifstream file(path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+/// The error of the slope's file with one piece of text exchanged.
+std::string error_with(const std::string& from, const std::string& to) {
+    std::string text = text_of(slope_path);
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    try {
+        parse_scene(text, SceneFormat::yaml, "a.yaml");
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "";
+}
+
+void expect_names(const std::string& error, const std::vector<std::string>& words) {
+    for (const std::string& word : words)
+        EXPECT_NE(error.find(word), std::string::npos) << word << " is not in: " << error;
+}
+
+TEST(SceneFile, of_the_slope_is_the_slope_to_the_bit) {
+    Simulation by_file(read_scene(slope_path, MPI_COMM_WORLD).scene, MPI_COMM_WORLD);
+    Simulation by_code(slope_scene(), MPI_COMM_WORLD);
+    for (int step = 0; step < 3; ++step) {
+        by_file.step();
+        by_code.step();
+    }
+    EXPECT_EQ(by_file.time(), by_code.time());
+    for (const std::string& column : by_code.particles().column_names()) {
+        const auto a = by_file.particles()[column], b = by_code.particles()[column];
+        EXPECT_TRUE(std::ranges::equal(a, b)) << column;
+    }
+}
+
+TEST(SceneFile, names_the_file_the_place_the_key_and_what_is_allowed) {
+    expect_names(error_with("cohesion: 10e3", "cohesio: 1"),
+                 {"a.yaml", "materials / soil", "'cohesio'", "possible", "cohesion"});
+    expect_names(error_with("cohesion: 10e3", "cohesion: -1"), {"'cohesion'", "at least 0", "Pa"});
+    expect_names(error_with("cohesion: 10e3", "cohesion: much"), {"'cohesion'", "finite number"});
+    expect_names(error_with("cohesion: 10e3\n", "\n"), {"'cohesion'", "missing"});
+    expect_names(error_with("model: drucker_prager", "model: clay"),
+                 {"'clay'", "possible", "elastic", "drucker_prager"});
+    expect_names(error_with("  walls:", "  wals:"), {"'wals'", "possible lists", "walls"});
+    expect_names(error_with("dimension: 2", "dimension: 4"), {"'dimension'", "whole number"});
+    expect_names(error_with("shape: polygon", "shape: star"),
+                 {"bodies / ground / shapes / outline", "'shape'", "half_space"});
+    expect_names(error_with("bottom: fixed", "bottom: frictional"), {"'bottom_friction'"});
+    expect_names(error_with("    gravity:", "    levity:"), {"'levity'", "possible", "gravity"});
+    expect_names(error_with("[0, -9.81]", "[0, 1, 2]"), {"effects / gravity", "list of 2"});
+    expect_names(error_with("material: soil", "material: mud"), {"'mud'", "possible: soil"});
+    expect_names(error_with("cells: [116, 38]", "cells: [1.5, 38]"), {"'cells'", "whole"});
+    expect_names(error_with("cells: [116, 38]", "cells: [116, 38"), {"not understood"});
+}
+
+TEST(SceneFile, that_is_not_there_is_told_on_every_rank) {
+    EXPECT_THROW(read_scene("nowhere.yaml", MPI_COMM_WORLD), std::invalid_argument);
+}
+
+const std::string xml = R"xml(<ParameterList name="scene">
+  <Parameter name="dimension" type="int" value="3"/>
+  <Parameter name="end_time" type="double" value="1"/>
+  <ParameterList name="domain">
+    <Parameter name="lower" type="Array(double)" value="{0,0,0}"/>
+    <Parameter name="cells" type="Array(int)" value="{4,4,4}"/>
+    <Parameter name="cell_size" type="double" value="0.5"/>
+  </ParameterList>
+  <ParameterList name="materials"><ParameterList name="rubber">
+    <Parameter name="model" type="string" value="elastic"/>
+    <Parameter name="density" type="double" value="1000"/>
+    <Parameter name="youngs_modulus" type="double" value="1e6"/>
+    <Parameter name="poissons_ratio" type="double" value="0.3"/>
+  </ParameterList></ParameterList>
+  <ParameterList name="bodies"><ParameterList name="block">
+    <Parameter name="material" type="string" value="rubber"/>
+    <ParameterList name="shapes">
+      <ParameterList name="all">
+        <Parameter name="shape" type="string" value="box"/>
+        <Parameter name="lower" type="Array(double)" value="{0,0,0}"/>
+        <Parameter name="upper" type="Array(double)" value="{1,1,1}"/>
+      </ParameterList>
+      <ParameterList name="corner">
+        <Parameter name="shape" type="string" value="ball"/>
+        <Parameter name="operation" type="string" value="subtract"/>
+        <Parameter name="centre" type="Array(double)" value="{0,0,0}"/>
+        <Parameter name="radius" type="double" value="0.3"/>
+      </ParameterList>
+    </ParameterList>
+  </ParameterList></ParameterList>
+</ParameterList>)xml";
+
+// A block of 4 x 4 x 4 points at 1/8, 3/8, ...: the ball of 0.3 holds the one at 0.2165 from the
+// corner; the next are at 0.4146.
+TEST(SceneFile, may_be_xml_and_takes_shapes_away) {
+    const SceneFile file = parse_scene(xml, SceneFormat::xml, "block.xml");
+    EXPECT_EQ(file.scene.name, "block");
+    EXPECT_EQ(extent_of(file.scene).num_points, 63);
+}
+
+TEST(SceneFile, can_be_given_other_cells) {
+    Scene scene = parse_scene(xml, SceneFormat::xml, "block.xml").scene;
+    resize_cells(scene, 0.25);
+    EXPECT_EQ(scene.grid.num_cells, (std::array<int, 3>{8, 8, 8}));
+    resize_cells(scene, 0.3);
+    EXPECT_EQ(scene.grid.num_cells, (std::array<int, 3>{7, 7, 7}));
+}
+
+TEST(Region, polygon_holds_its_rim) {
+    const Region l = polygon_region({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}});
+    EXPECT_TRUE(l({0.5, 1.5}));
+    EXPECT_TRUE(l({1, 1.5}));
+    EXPECT_TRUE(l({2, 1}));
+    EXPECT_FALSE(l({1.5, 1.5}));
+    EXPECT_FALSE(l({-0.1, 0.5}));
+    EXPECT_FALSE(l({1.5, 1.0001}));
+}
+
+TEST(VelocityField, is_a_sum_of_forms) {
+    const VelocityField field = velocity_field({.constant = {1, 2, 3},
+                                                .rotation_rate = 2,
+                                                .rotation_centre = {1, 0, 0},
+                                                .sine_amplitude = {0, 0, 1},
+                                                .sine_wave_number = {0, 0, 1},
+                                                .sine_phase = 0});
+    const Vector velocity = field({3, 1, 0.5});
+    EXPECT_DOUBLE_EQ(velocity[0], 1 - 2 * 1);
+    EXPECT_DOUBLE_EQ(velocity[1], 2 + 2 * 2);
+    EXPECT_DOUBLE_EQ(velocity[2], 3 + std::sin(0.5));
+}
+
+}  // namespace
+}  // namespace mpm::test

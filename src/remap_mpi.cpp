@@ -36,9 +36,11 @@ struct Homes {
     Numbers numbers_for(std::int32_t origin) const {
         if (!by_rank && origin < num_parts()) return {origin, origin + 1};
         if (!by_rank) return {0, 0};
-        const auto found = std::ranges::equal_range(ranks_of_parts, origin, {}, &RankRange::first);
-        return {static_cast<Part>(found.begin() - ranks_of_parts.begin()),
-                static_cast<Part>(found.end() - ranks_of_parts.begin())};
+        // Not equal_range, whose answer clang 14 cannot read with GCC's library.
+        const auto first = std::ranges::lower_bound(ranks_of_parts, origin, {}, &RankRange::first);
+        const auto last = std::ranges::upper_bound(ranks_of_parts, origin, {}, &RankRange::first);
+        return {static_cast<Part>(first - ranks_of_parts.begin()),
+                static_cast<Part>(last - ranks_of_parts.begin())};
     }
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
@@ -66,6 +67,12 @@ class Reader {
         std::memcpy(&result, take(sizeof(T)), sizeof(T));
         return result;
     }
+    /// A byte that is neither 0 nor 1 must not become a bool.
+    bool flag() {
+        const auto byte = value<unsigned char>();
+        if (byte > 1) refuse("inconsistent");
+        return byte == 1;
+    }
     std::string text() {
         const auto size = value<std::uint64_t>();
         return {take(size), size};
@@ -112,7 +119,8 @@ bool is_permutation(std::vector<Part> numbers) {
 
 bool is_consistent(const Cuts& cuts, const PartMap& map, const std::vector<Part>& numbers) {
     const auto valid_cut = [&](const Cut& cut) {
-        return cut.axis >= 0 && cut.axis < cuts.dimension;
+        return cut.axis >= 0 && cut.axis < cuts.dimension &&
+               std::ranges::none_of(cut.at, [](double x) { return std::isnan(x); });
     };
     const auto valid_range = [](const RankRange& range) {
         return range.first >= 0 && range.count >= 1;
@@ -133,7 +141,7 @@ Kept read_kept(Reader& reader) {
     auto numbers = reader.list<Part>();
     PartMap map;
     map.ranks = reader.list<RankRange>();
-    map.one_each = reader.value<bool>();
+    map.one_each = reader.flag();
     cuts.num_parts = static_cast<int>(numbers.size());
     if (!is_consistent(cuts, map, numbers)) refuse("inconsistent");
     return {std::move(cuts), std::move(map), std::move(numbers)};
@@ -183,10 +191,10 @@ Parcel deserialize(std::span<const char> bytes) {
     }
     for (auto left = reader.value<std::uint64_t>(); left > 0; --left) {
         const auto part = reader.value<int>();
-        const auto global = reader.value<bool>();
+        const auto global = reader.flag();
         parcel.part_sizes.push_back({part, global, reader.value<float>()});
     }
-    if (reader.value<bool>()) parcel.kept = read_kept(reader);
+    if (reader.flag()) parcel.kept = read_kept(reader);
     return parcel;
 }
 

@@ -1,0 +1,60 @@
+// The buffer of Zoltan_Serialize: read, or refused; what is read can be looked up in and written.
+//
+// The first byte decides: odd, and the rest is the buffer; even, and it is given a head that fits.
+#include "serialization.hpp"
+
+#include "failure.hpp"
+#include "fuzzing.hpp"
+
+#include <vector>
+
+namespace {
+
+using rrcb::fuzz::expect;
+
+std::vector<char> with_head(std::span<const char> body) {
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    for (const char byte : body) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
+    const std::uint64_t size = body.size();
+    std::vector<char> bytes(24 + body.size());
+    std::memcpy(bytes.data(), "RRCBhnd1", 8);
+    std::memcpy(bytes.data() + 8, &size, 8);
+    std::memcpy(bytes.data() + 16, &hash, 8);
+    std::copy(body.begin(), body.end(), bytes.begin() + 24);
+    return bytes;
+}
+
+void look_up(const rrcb::zoltan::Kept& kept) {
+    const int num_parts = kept.cuts().num_parts;
+    std::vector<rrcb::Part> touched(static_cast<std::size_t>(num_parts));
+    for (const double x : {-1e300, 0.0, 0.5, 3.0}) {
+        const rrcb::Vector position{x, -x, x / 2};
+        const rrcb::Part part = kept.part_of(position.data());
+        expect(part >= 0 && part < num_parts, "parts that there are");
+        const int count = kept.parts_touching({position, position}, touched.data());
+        expect(count == 1 && touched[0] == part, "one part touches a position");
+    }
+    for (rrcb::Part part = 0; part < num_parts; ++part) kept.region_of(part);
+}
+
+}  // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    if (size == 0) return 0;
+    const std::span<const char> rest(reinterpret_cast<const char*>(data) + 1, size - 1);
+    const std::vector<char> bytes =
+        data[0] % 2 == 1 ? std::vector<char>(rest.begin(), rest.end()) : with_head(rest);
+    try {
+        rrcb::zoltan::Parcel parcel = rrcb::zoltan::deserialize(bytes);
+        if (parcel.kept) look_up(*parcel.kept);
+        rrcb::zoltan::State state;
+        state.parameters.given = parcel.given;
+        state.part_sizes = parcel.part_sizes;
+        state.kept = parcel.kept;
+        const std::vector<char> again = rrcb::zoltan::serialize(state);
+        expect(rrcb::zoltan::serialize(state) == again, "the same bytes twice");
+        expect(rrcb::zoltan::deserialize(again).given == parcel.given, "the same parameters");
+    } catch (const rrcb::zoltan::Failure&) {
+    }
+    return 0;
+}

@@ -1,3 +1,5 @@
+#include "balance_mpi.hpp"
+
 #include "binned_assignment.hpp"
 #include "decision_mpi.hpp"
 #include "merge_tree_mpi.hpp"
@@ -79,9 +81,13 @@ void refine_together(Decision& decision, const Options& options, BinnedPoints& b
     result.cuts = std::move(estimate.cuts);
 }
 
-Balance run(const Points& points, const Options& given, const Cuts* previous, MPI_Comm user) {
-    Member me{mpi::duplicate_of(user)};
+}  // namespace
+
+Balance balance(const Points& points, const Options& given, const Cuts* previous, Member& me) {
+    // A rank that fails keeps to the tree of the others all the same.
     Options options;
+    options.observer = given.observer;
+    options.domain = previous ? DomainKind::analytic : given.domain;
     Balance result;
     BinnedPoints binned;
     Contribution mine;
@@ -117,14 +123,14 @@ Balance run(const Points& points, const Options& given, const Cuts* previous, MP
     return result;
 }
 
-}  // namespace
-
 Balance balance(const Points& points, const Options& options, MPI_Comm comm) {
-    return run(points, options, nullptr, comm);
+    Member me{mpi::duplicate_of(comm)};
+    return balance(points, options, nullptr, me);
 }
 
 Balance balance(const Points& points, const Options& options, MPI_Comm comm, const Cuts& previous) {
-    return run(points, options, &previous, comm);
+    Member me{mpi::duplicate_of(comm)};
+    return balance(points, options, &previous, me);
 }
 
 }  // namespace rrcb

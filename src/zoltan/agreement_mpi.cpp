@@ -121,7 +121,7 @@ Agreement agree(const LocalStatus& local, const State& state) {
         agreement.dumping_rank = state.communicator->size() - vote.dumping_rank_from_last;
     agreement.dump_always = vote.dump_always != 0;
     for (std::size_t i = 0; i < same_on_all_ranks.size(); ++i) {
-        if (vote.largest[i] != ~vote.complement_of_smallest[i] && agreement.differing.empty()) {
+        if (vote.largest[i] != ~vote.complement_of_smallest[i] && agreement.differing == nullptr) {
             agreement.differing = same_on_all_ranks[i].name;
         }
     }

@@ -2,27 +2,34 @@
 
 #include "state.hpp"
 
-#include <string>
+#include <array>
+#include <string_view>
 
 namespace rrcb::zoltan {
 
-/// How far one rank got on its own.
+/// How far one rank got on its own; it takes no memory to hold it.
 struct LocalStatus {
+    LocalStatus() = default;
+    /// `text` is cut short where it is too long.
+    LocalStatus(int its_code, std::string_view its_text) : code(its_code) {
+        its_text.copy(text.data(), text.size() - 1);
+    }
+
     int code = ZOLTAN_OK;
-    std::string text;
+    std::array<char, 512> text{};  ///< ends with a 0
 };
 
 /// What all ranks know after one reduction.
 struct Agreement {
-    int code = ZOLTAN_OK;          ///< the worst of all ranks
-    int failing_rank = 0;          ///< lowest rank that failed; it speaks for all
-    int num_global_parts = -1;     ///< largest of all ranks, -1: set nowhere
-    bool any_local_parts = false;  ///< NUM_LOCAL_PARTS is set somewhere
-    bool any_part_sizes = false;   ///< Zoltan_LB_Set_Part_Sizes was called somewhere
-    bool all_kept_cuts = false;    ///< of the last call, on every rank
-    int dumping_rank = -1;         ///< lowest rank with RRCB_DUMP, -1: none
-    bool dump_always = false;      ///< RRCB_DUMP_WHEN is ALWAYS on a rank with RRCB_DUMP
-    std::string differing;         ///< name of a parameter that differs between ranks
+    int code = ZOLTAN_OK;             ///< the worst of all ranks
+    int failing_rank = 0;             ///< lowest rank that failed; it speaks for all
+    int num_global_parts = -1;        ///< largest of all ranks, -1: set nowhere
+    bool any_local_parts = false;     ///< NUM_LOCAL_PARTS is set somewhere
+    bool any_part_sizes = false;      ///< Zoltan_LB_Set_Part_Sizes was called somewhere
+    bool all_kept_cuts = false;       ///< of the last call, on every rank
+    int dumping_rank = -1;            ///< lowest rank with RRCB_DUMP, -1: none
+    bool dump_always = false;         ///< RRCB_DUMP_WHEN is ALWAYS on a rank with RRCB_DUMP
+    const char* differing = nullptr;  ///< name of a parameter that differs between ranks
 
     bool failed() const { return code != ZOLTAN_OK && code != ZOLTAN_WARN; }
 };

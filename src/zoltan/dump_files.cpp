@@ -75,7 +75,7 @@ void write_dump(const std::filesystem::path& folder, const DumpedRank& mine) {
     const std::filesystem::path path = folder / ("rank-" + std::to_string(mine.rank) + ".txt");
     File file = create(path);
     std::fprintf(file.get(), "rrcb-dump-rank 1\nrank %d\n", mine.rank);
-    if (!mine.message.empty())
+    if (*mine.message != '\0')
         std::fprintf(file.get(), "message %s\n", one_line(mine.message).c_str());
     for (const PartSize& size : mine.part_sizes)
         std::fprintf(file.get(), "part_size %s %d %a\n", size.global ? "global" : "local",

@@ -26,7 +26,7 @@ struct DumpedRank {
     const float* weights;      ///< as the callbacks gave them, object by object
     const int* initial_parts;  ///< one per point, null when no callback tells them
     std::span<const PartSize> part_sizes;
-    const std::string& message;  ///< of an error; empty: none
+    const char* message;  ///< of an error; empty: none
 };
 
 /// Makes DIR/call-1, DIR/call-2, ...: the first that is not there. Throws when it cannot.

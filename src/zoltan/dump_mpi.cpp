@@ -4,6 +4,7 @@
 #include "message.hpp"
 
 #include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
@@ -35,7 +36,7 @@ void write_mine(const std::filesystem::path& folder, const State& state, const D
         folder,
         DumpedRank{state.communicator->rank(), objects.points, state.parameters.weight_dimension,
                    state.workspace.callback_weights.data(), objects.initial_parts.get(),
-                   state.part_sizes, input.status.text});
+                   state.part_sizes, input.status.text.data()});
 }
 
 /// Runs a step of which the call must not notice when it fails.
@@ -45,10 +46,9 @@ void warn_once_if_failing(const State& state, const char* function, Step step) {
     try {
         step();
     } catch (const std::exception& error) {
-        if (!warned) {
-            print_warning(state.communicator->rank(), function,
-                          std::string("cannot write to RRCB_DUMP: ") + error.what());
-        }
+        std::array<char, 512> text{};
+        std::snprintf(text.data(), text.size(), "cannot write to RRCB_DUMP: %s", error.what());
+        if (!warned) print_warning(state.communicator->rank(), function, text.data());
         warned = true;
     }
 }

@@ -1,3 +1,4 @@
+#include "create_mpi.hpp"
 #include "dump_mpi.hpp"
 #include "export.hpp"
 #include "guard.hpp"
@@ -5,7 +6,6 @@
 #include "real_zoltan.hpp"
 #include "replacement.hpp"
 
-#include <memory>
 #include <string>
 #include <utility>
 
@@ -85,9 +85,7 @@ RRCB_EXPORT Zoltan_Struct* Zoltan_Create(MPI_Comm user) {
     Zoltan_Struct* zz = forward<&RealZoltan::create>(user);
     if (zz == nullptr || user == MPI_COMM_NULL) return zz;
     guarded("Zoltan_Create", nullptr, [&] {
-        State& state = add_state(zz, std::make_shared<Communicator>(user));
-        state.parameters = initial_parameters();
-        read_dump_environment(state);
+        create_state(zz, user);
         return ZOLTAN_OK;
     });
     return zz;
@@ -96,10 +94,12 @@ RRCB_EXPORT Zoltan_Struct* Zoltan_Create(MPI_Comm user) {
 RRCB_EXPORT Zoltan_Struct* Zoltan_Copy(Zoltan_Struct const* from) {
     Zoltan_Struct* copy = forward<&RealZoltan::copy>(from);
     if (copy == nullptr) return copy;
-    guarded("Zoltan_Copy", find_state(from), [&] {
+    const int code = guarded("Zoltan_Copy", find_state(from), [&] {
         copy_state(copy, from);
         return ZOLTAN_OK;
     });
+    // Without its state a copy would not be RRCB's.
+    if (code != ZOLTAN_OK) Zoltan_Destroy(&copy);
     return copy;
 }
 

@@ -5,12 +5,14 @@
 
 namespace rrcb::zoltan {
 
-Kept::Kept(Cuts cuts, PartMap map, std::vector<Part> numbers)
-    : cuts_(std::move(cuts)),
-      map_(std::move(map)),
-      numbers_(std::move(numbers)),
-      tree_(numbers_.size()) {
-    nodes_.reserve(cuts_.tree.size());
+Kept::Kept(std::size_t num_parts) : tree_(num_parts) {
+    nodes_.reserve(num_parts);
+}
+
+void Kept::keep(Cuts&& cuts, PartMap&& map, std::vector<Part>&& numbers) noexcept {
+    cuts_ = std::move(cuts);
+    map_ = std::move(map);
+    numbers_ = std::move(numbers);
     root_ = build(0, cuts_.num_parts, -1);
     if (cuts_.num_parts > 1) tree_[0].upper = lower_parts(cuts_.num_parts);
 }

@@ -19,8 +19,11 @@ struct TreeNode {
 /// What look-ups need of the last partition, laid out for them.
 class Kept {
   public:
-    /// `numbers` is the new number of each part of `cuts`.
-    Kept(Cuts cuts, PartMap map, std::vector<Part> numbers);
+    /// Room for the cuts between so many parts.
+    explicit Kept(std::size_t num_parts);
+
+    /// Keeps the cuts, without asking for memory; `numbers` is the new number of each part.
+    void keep(Cuts&& cuts, PartMap&& map, std::vector<Part>&& numbers) noexcept;
 
     const Cuts& cuts() const { return cuts_; }
     const PartMap& map() const { return map_; }

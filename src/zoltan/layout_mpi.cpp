@@ -4,48 +4,65 @@
 #include "mpi/communicator.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace rrcb::zoltan {
 
 namespace {
 
-PartMap make_part_map(const Agreement& agreement, const State& state) {
+constexpr double not_set = -1;
+
+/// How many parts there are; fills `local_parts` where any rank sets NUM_LOCAL_PARTS.
+int count_parts(const Agreement& agreement, const State& state, std::span<int> local_parts) {
     const Communicator& comm = *state.communicator;
-    if (!agreement.any_local_parts) {
-        const bool set = agreement.num_global_parts > 0;
-        return even_part_map(set ? agreement.num_global_parts : comm.size(), comm.size());
-    }
-    std::vector<int> local_parts(static_cast<std::size_t>(comm.size()));
+    if (!agreement.any_local_parts)
+        return agreement.num_global_parts > 0 ? agreement.num_global_parts : comm.size();
     mpi::check(MPI_Allgather(&state.parameters.num_local_parts, 1, MPI_INT, local_parts.data(), 1,
                              MPI_INT, comm.get()),
                "MPI_Allgather");
-    return local_part_map(local_parts, agreement.num_global_parts);
+    return num_parts_of(local_parts, agreement.num_global_parts);
 }
 
-/// As Zoltan merges them: the largest that any rank asks for, 1 where none does.
-std::vector<double> merge_part_sizes(const PartMap& map, const State& state) {
-    constexpr double not_set = -1;
-    std::vector<double> sizes(static_cast<std::size_t>(map.num_parts()), not_set);
-    const int first = first_part_of(map, state.communicator->rank());
+/// What this rank asks for of the parts from `first` on.
+void ask_for_sizes(const State& state, int first_here, int first, std::span<double> sizes) {
+    std::ranges::fill(sizes, not_set);
     for (const PartSize& entry : state.part_sizes) {
-        const int part = entry.global ? entry.part : first + entry.part;
-        if (part < 0 || part >= map.num_parts()) continue;
+        const int part = (entry.global ? 0 : first_here) + entry.part - first;
+        if (part < 0 || part >= static_cast<int>(sizes.size())) continue;
         sizes[static_cast<std::size_t>(part)] = static_cast<double>(entry.size);
     }
-    mpi::check(MPI_Allreduce(MPI_IN_PLACE, sizes.data(), map.num_parts(), MPI_DOUBLE, MPI_MAX,
-                             state.communicator->get()),
-               "MPI_Allreduce");
-    std::ranges::replace_if(
-        sizes, [](double size) { return size < 0; }, 1.0);
-    return sizes;
+}
+
+/// As Zoltan merges them: the largest that any rank asks for, 1 where none does. In pieces, for
+/// which every rank has the memory.
+void merge_part_sizes(int num_parts, const State& state, Layout& layout, Member& me) {
+    me.locally([&] { layout.part_sizes.resize(static_cast<std::size_t>(num_parts)); });
+    const int first_here = first_part_of(layout.map, state.communicator->rank());
+    std::array<double, 4096> piece;
+    for (int first = 0; first < num_parts; first += static_cast<int>(piece.size())) {
+        const int count = std::min(num_parts - first, static_cast<int>(piece.size()));
+        const std::span<double> sizes = std::span(piece).first(static_cast<std::size_t>(count));
+        ask_for_sizes(state, first_here, first, sizes);
+        mpi::check(MPI_Allreduce(MPI_IN_PLACE, sizes.data(), count, MPI_DOUBLE, MPI_MAX, me.comm),
+                   "MPI_Allreduce");
+        std::ranges::replace_if(
+            sizes, [](double size) { return size < 0; }, 1.0);
+        if (!me.failure.failed) std::ranges::copy(sizes, layout.part_sizes.begin() + first);
+    }
 }
 
 }  // namespace
 
-Layout make_layout(const Agreement& agreement, const State& state) {
+Layout make_layout(const Agreement& agreement, const State& state, Member& me) {
+    const std::span<int> local_parts = state.communicator->per_rank();
+    const int num_parts = count_parts(agreement, state, local_parts);
     Layout layout;
-    layout.map = make_part_map(agreement, state);
-    if (agreement.any_part_sizes) layout.part_sizes = merge_part_sizes(layout.map, state);
+    me.locally([&] {
+        layout.map = agreement.any_local_parts
+                         ? local_part_map(local_parts, num_parts)
+                         : even_part_map(num_parts, state.communicator->size());
+    });
+    if (agreement.any_part_sizes) merge_part_sizes(num_parts, state, layout, me);
     return layout;
 }
 

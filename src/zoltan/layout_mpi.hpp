@@ -1,6 +1,7 @@
 #pragma once
 
 #include "agreement_mpi.hpp"
+#include "member.hpp"
 #include "part_map.hpp"
 #include "state.hpp"
 
@@ -14,8 +15,8 @@ struct Layout {
     std::vector<double> part_sizes;  ///< relative; empty: equal
 };
 
-/// Collective only where NUM_LOCAL_PARTS or part sizes are set somewhere: one message each. Throws
-/// Failure on all ranks alike.
-Layout make_layout(const Agreement& agreement, const State& state);
+/// Collective only where NUM_LOCAL_PARTS or part sizes are set somewhere. Throws Failure on all
+/// ranks alike for numbers of parts that do not add up; other errors are held back in `me`.
+Layout make_layout(const Agreement& agreement, const State& state, Member& me);
 
 }  // namespace rrcb::zoltan

@@ -190,6 +190,7 @@ class Collector {
     }
 
     void make_room(std::size_t count) {
+        if (parameters_.weight_dimension > 1) workspace_.weights.get(count);
         if (parameters_.return_lists == ReturnLists::none) return;
         objects_.new_ranks = ZoltanArray<int>(count);
         objects_.new_parts = ZoltanArray<int>(count);

@@ -27,10 +27,12 @@ struct PartMap {
 /// Equal numbers of parts on all ranks, or ranks on all parts.
 PartMap even_part_map(int num_parts, int num_ranks);
 
-/// Parts where NUM_LOCAL_PARTS asks for them. `local_parts` holds one number per rank, -1 where
-/// it is not set; those ranks share what is left of `num_global_parts` (-1: not set). Throws
-/// Failure when the numbers do not add up.
-PartMap local_part_map(std::span<const int> local_parts, int num_global_parts);
+/// How many parts NUM_LOCAL_PARTS and NUM_GLOBAL_PARTS ask for. `local_parts` holds one number per
+/// rank, -1 where it is not set; so is `num_global_parts`. Throws Failure when they do not add up.
+int num_parts_of(std::span<const int> local_parts, int num_global_parts);
+
+/// That many parts where NUM_LOCAL_PARTS asks for them; ranks where it is not set share the rest.
+PartMap local_part_map(std::span<const int> local_parts, int num_parts);
 
 /// Lowest part on a rank, -1 when there is none.
 int first_part_of(const PartMap& map, int rank);

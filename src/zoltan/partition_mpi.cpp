@@ -1,6 +1,7 @@
 #include "partition_mpi.hpp"
 
 #include "agreement_mpi.hpp"
+#include "balance_mpi.hpp"
 #include "dump_mpi.hpp"
 #include "failure.hpp"
 #include "layout_mpi.hpp"
@@ -11,14 +12,15 @@
 #include "summary.hpp"
 #include "weights_mpi.hpp"
 
-#include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
 
+#include <array>
 #include <cstdio>
 #include <new>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace rrcb::zoltan {
@@ -51,32 +53,46 @@ LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Obj
     } catch (const std::bad_alloc&) {
         return {ZOLTAN_MEMERR, "out of memory for the objects"};
     } catch (const std::exception& thrown) {
-        return {ZOLTAN_FATAL, std::string("a callback threw: ") + thrown.what()};
+        std::array<char, 512> text{};
+        std::snprintf(text.data(), text.size(), "a callback threw: %s", thrown.what());
+        return {ZOLTAN_FATAL, text.data()};
     } catch (...) {
         return {ZOLTAN_FATAL, "a callback threw"};
     }
 }
 
-/// Messages and code for what is legal but not as good as it was asked for.
-int review(const Report& report, const Remap& remap, const State& state, const char* function) {
-    const Parameters& parameters = state.parameters;
-    std::string text;
-    if (report.all_weights_zero) text = "all weights are zero; balanced by number of objects";
-    if (report.num_points > 0 && report.surplus_parts > 0) {
-        text = std::to_string(report.surplus_parts) +
-               " parts stay empty: there are more parts than objects";
+bool leaves_parts_empty(const Report& report) {
+    return report.num_points > 0 && report.surplus_parts > 0;
+}
+
+/// Prints what is legal but not as good as it was asked for, and the summary where it is wanted.
+void print_review(const Report& report, const Remap& remap, const Parameters& parameters,
+                  const char* function) {
+    if (asks_for_summary(parameters)) std::printf("%s\n", summary(report, remap).c_str());
+    if (parameters.debug_level <= 0) return;
+    for (const std::string& shortcoming : shortcomings(parameters)) {
+        print_warning(0, function, shortcoming);
     }
-    if (state.communicator->rank() == 0) {
-        if (asks_for_summary(parameters)) std::printf("%s\n", summary(report, remap).c_str());
-        if (parameters.debug_level > 0) {
-            for (const std::string& shortcoming : shortcomings(parameters)) {
-                print_warning(0, function, shortcoming);
-            }
-            for (const std::string& limit : limits(report)) print_warning(0, function, limit);
-            if (!text.empty()) print_warning(0, function, text);
-        }
+    for (const std::string& limit : limits(report)) print_warning(0, function, limit);
+    if (leaves_parts_empty(report)) {
+        print_warning(0, function,
+                      std::to_string(report.surplus_parts) +
+                          " parts stay empty: there are more parts than objects");
+    } else if (report.all_weights_zero) {
+        print_warning(0, function, "all weights are zero; balanced by number of objects");
     }
-    return text.empty() ? ZOLTAN_OK : ZOLTAN_WARN;
+}
+
+/// Prints on one rank, for which memory may lack, and gives the code, which is the same on all.
+int review(const Report& report, const Remap& remap, const State& state,
+           const char* function) noexcept {
+    try {
+        if (state.communicator->rank() == 0)
+            print_review(report, remap, state.parameters, function);
+    } catch (const std::exception&) {
+        print_warning(0, function, "out of memory for messages");
+    }
+    return leaves_parts_empty(report) || report.all_weights_zero ? ZOLTAN_WARN : ZOLTAN_OK;
 }
 
 /// Drops or completes the lists as RETURN_LISTS asks.
@@ -111,18 +127,29 @@ struct Call {
     std::optional<Kept> previous;
 };
 
-Balance find_parts(const Call& call, const Layout& layout, const Objects& objects) {
+/// What a call needs beside its objects; made before the ranks agree for the last time.
+struct Preparation {
+    Options options;
+    const Cuts* previous = nullptr;  ///< to start from
+    std::optional<Renumbering> renumbering;
+    std::optional<Kept> kept;
+};
+
+Preparation prepare(const Call& call, const Layout& layout, int dimension, Member& me) {
     const Parameters& parameters = call.state.parameters;
-    const MPI_Comm comm = call.state.communicator->get();
-    const int dimension = objects.points.dimension;
     const bool fits = call.previous && call.previous->cuts().dimension == dimension &&
                       call.previous->cuts().num_parts == layout.map.num_parts();
-    const Cuts* previous = fits ? &call.previous->cuts() : nullptr;
-    const Options options = make_options(parameters, layout, dimension, previous);
-    if (fits && starts_from_previous(parameters)) {
-        return balance(objects.points, options, comm, *previous);
-    }
-    return balance(objects.points, options, comm);
+    Preparation made;
+    made.options.domain = parameters.options.domain;
+    if (fits && starts_from_previous(parameters)) made.previous = &call.previous->cuts();
+    me.locally([&] {
+        made.options =
+            make_options(parameters, layout, dimension, fits ? &call.previous->cuts() : nullptr);
+        made.renumbering.emplace(parameters, layout, *call.state.communicator);
+        if (keeps_cuts(parameters))
+            made.kept.emplace(static_cast<std::size_t>(layout.map.num_parts()));
+    });
+    return made;
 }
 
 void make_lists(const Call& call, const Layout& layout, Objects&& objects,
@@ -143,16 +170,18 @@ void make_lists(const Call& call, const Layout& layout, Objects&& objects,
 int balance_objects(const Call& call, const Agreement& agreement, Objects&& objects,
                     Partition& result) {
     const Parameters& parameters = call.state.parameters;
-    const MPI_Comm comm = call.state.communicator->get();
-    Layout layout = make_layout(agreement, call.state);
-    combine_weights(parameters, call.state.workspace, comm, objects);
-    Balance balanced = find_parts(call, layout, objects);
-    Remap remap = renumber(parameters, layout, objects, balanced.parts, comm);
+    Member me{call.state.communicator->get()};
+    Layout layout = make_layout(agreement, call.state, me);
+    combine_weights(parameters, call.state.workspace, me.comm, objects);
+    Preparation prepared = prepare(call, layout, objects.points.dimension, me);
+    Balance balanced = balance(objects.points, prepared.options, prepared.previous, me);
+    Remap remap = prepared.renumbering->run(layout, objects, balanced.parts, me);
     make_lists(call, layout, std::move(objects), balanced.parts, result);
     const int code = review(balanced.report, remap, call.state, call.function);
-    if (keeps_cuts(parameters)) {
-        call.state.kept.emplace(std::move(balanced.cuts), std::move(layout.map),
-                                std::move(remap.numbers));
+    if (prepared.kept) {
+        prepared.kept->keep(std::move(balanced.cuts), std::move(layout.map),
+                            std::move(remap.numbers));
+        call.state.kept = std::move(prepared.kept);
     }
     if (parameters.auto_migrate == 0 || !result.changes) return code;
     const int migrated = migrate(call.zz, result);
@@ -172,19 +201,21 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
     dump(DumpReason::asked, agreement, state, {function, objects, local});
     if (agreement.failed()) {
         dump(DumpReason::failure, agreement, state, {function, objects, local});
-        if (rank == agreement.failing_rank) print_error(rank, function, local.text);
+        if (rank == agreement.failing_rank) print_error(rank, function, local.text.data());
         return agreement.code;
     }
-    const auto fail_everywhere = [&](int code, const std::string& text) {
+    const auto fail_everywhere = [&](int code, std::string_view text) {
         if (rank == 0) print_error(rank, function, text);
         dump(DumpReason::failure, agreement, state, {function, objects, {code, text}});
         result = Partition{};
         return code;
     };
-    if (!agreement.differing.empty()) {
-        return fail_everywhere(ZOLTAN_FATAL, "parameter " + agreement.differing +
-                                                 " differs between ranks; set the same value on "
-                                                 "all of them");
+    if (agreement.differing != nullptr) {
+        std::array<char, 128> text{};
+        std::snprintf(text.data(), text.size(),
+                      "parameter %s differs between ranks; set the same value on all of them",
+                      agreement.differing);
+        return fail_everywhere(ZOLTAN_FATAL, text.data());
     }
     try {
         const int code = balance_objects(call, agreement, std::move(objects), result);

@@ -1,8 +1,11 @@
 #include "renumber_mpi.hpp"
 
+#include "../agreement_mpi.hpp"
+
 #include <algorithm>
 #include <functional>
 #include <numeric>
+#include <utility>
 
 namespace rrcb::zoltan {
 
@@ -16,25 +19,24 @@ bool may_change_numbers(const Parameters& parameters, const Layout& layout) {
            std::ranges::adjacent_find(sizes, std::not_equal_to<>()) == sizes.end();
 }
 
-Remap unchanged(int num_parts) {
-    Remap remap;
-    remap.numbers.resize(static_cast<std::size_t>(num_parts));
-    std::iota(remap.numbers.begin(), remap.numbers.end(), 0);
-    return remap;
-}
-
-Remap find_numbers(const PartMap& map, const Objects& objects, std::span<const Part> parts,
-                   MPI_Comm comm) {
-    if (map.one_each || !objects.names_parts) return remap(parts, map.ranks, comm);
-    return remap(parts, {objects.initial_parts.get(), parts.size()}, map.ranks, comm);
-}
-
 }  // namespace
 
-Remap renumber(const Parameters& parameters, const Layout& layout, const Objects& objects,
-               std::span<Part> parts, MPI_Comm comm) {
-    if (!may_change_numbers(parameters, layout)) return unchanged(layout.map.num_parts());
-    Remap result = find_numbers(layout.map, objects, parts, comm);
+Renumbering::Renumbering(const Parameters& parameters, const Layout& layout,
+                         const Communicator& comm) {
+    const int num_parts = layout.map.num_parts();
+    unchanged_.numbers.resize(static_cast<std::size_t>(num_parts));
+    std::iota(unchanged_.numbers.begin(), unchanged_.numbers.end(), 0);
+    if (may_change_numbers(parameters, layout))
+        room_.emplace(num_parts, comm.size(), comm.rank() == root);
+}
+
+Remap Renumbering::run(const Layout& layout, const Objects& objects, std::span<Part> parts,
+                       Member& me) {
+    if (!room_) return std::move(unchanged_);
+    PreviousParts previous;
+    if (!layout.map.one_each && objects.names_parts)
+        previous.emplace(objects.initial_parts.get(), parts.size());
+    Remap result = remap(parts, previous, layout.map.ranks, *room_, me);
     if (result.identity) return result;
     for (Part& part : parts) part = result.numbers[static_cast<std::size_t>(part)];
     return result;

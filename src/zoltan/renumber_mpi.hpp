@@ -2,11 +2,9 @@
 
 #include "layout_mpi.hpp"
 #include "objects.hpp"
+#include "remap_mpi.hpp"
 
-#include <rrcb/remap.hpp>
-
-#include <mpi.h>
-
+#include <optional>
 #include <span>
 
 namespace rrcb::zoltan {
@@ -15,9 +13,19 @@ namespace rrcb::zoltan {
 ///
 /// The numbers stay where REMAP is off, the parts differ in size or a part is on several ranks.
 /// With one part on each rank an object is to stay on its rank; otherwise in the part the callbacks
-/// name, or on its rank where they name none. Writes the new numbers to `parts`. Collective over
-/// `comm` where it looks.
-Remap renumber(const Parameters& parameters, const Layout& layout, const Objects& objects,
-               std::span<Part> parts, MPI_Comm comm);
+/// name, or on its rank where they name none.
+class Renumbering {
+  public:
+    /// Makes room for all that follows; to be agreed on before run(). Not collective.
+    Renumbering(const Parameters& parameters, const Layout& layout, const Communicator& comm);
+
+    /// Writes the new numbers to `parts`. Collective where it looks; throws Error on all ranks
+    /// alike.
+    Remap run(const Layout& layout, const Objects& objects, std::span<Part> parts, Member& me);
+
+  private:
+    Remap unchanged_;
+    std::optional<RemapRoom> room_;  ///< where numbers may change
+};
 
 }  // namespace rrcb::zoltan

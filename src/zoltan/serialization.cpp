@@ -144,7 +144,9 @@ Kept read_kept(Reader& reader) {
     map.one_each = reader.flag();
     cuts.num_parts = static_cast<int>(numbers.size());
     if (!is_consistent(cuts, map, numbers)) refuse("inconsistent");
-    return {std::move(cuts), std::move(map), std::move(numbers)};
+    Kept kept(numbers.size());
+    kept.keep(std::move(cuts), std::move(map), std::move(numbers));
+    return kept;
 }
 
 }  // namespace

@@ -17,11 +17,12 @@ std::map<const Zoltan_Struct*, State>& table() {
 
 }  // namespace
 
-Communicator::Communicator(MPI_Comm user) {
-    mpi::check(MPI_Comm_dup(user, &comm_), "MPI_Comm_dup");
-    mpi::check(MPI_Comm_set_errhandler(comm_, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
-    mpi::check(MPI_Comm_rank(comm_, &rank_), "MPI_Comm_rank");
-    mpi::check(MPI_Comm_size(comm_, &size_), "MPI_Comm_size");
+Communicator::Communicator(MPI_Comm duplicate)
+    : rank_(mpi::rank_of(duplicate)),
+      size_(mpi::size_of(duplicate)),
+      per_rank_(static_cast<std::size_t>(size_)) {
+    mpi::check(MPI_Comm_set_errhandler(duplicate, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+    comm_ = duplicate;
 }
 
 Communicator::~Communicator() {

@@ -10,6 +10,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace rrcb::zoltan {
@@ -17,7 +18,8 @@ namespace rrcb::zoltan {
 /// A duplicate of the communicator a handle was created with; copies of the handle share it.
 class Communicator {
   public:
-    explicit Communicator(MPI_Comm user);
+    /// Takes over `duplicate`. Throws Error or std::bad_alloc; then it is still the caller's.
+    explicit Communicator(MPI_Comm duplicate);
     ~Communicator();
     Communicator(const Communicator&) = delete;
     Communicator& operator=(const Communicator&) = delete;
@@ -26,10 +28,14 @@ class Communicator {
     int rank() const { return rank_; }
     int size() const { return size_; }
 
+    /// A number for each rank, to receive when memory is short.
+    std::span<int> per_rank() { return per_rank_; }
+
   private:
     MPI_Comm comm_ = MPI_COMM_NULL;
     int rank_ = 0;
     int size_ = 0;
+    std::vector<int> per_rank_;
 };
 
 /// One entry of Zoltan_LB_Set_Part_Sizes.

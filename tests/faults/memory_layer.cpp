@@ -11,10 +11,12 @@ long failing_allocation = 0;
 Shortage failing = Shortage::once;
 long num_counted = 0;
 long num_live = 0;
+bool has_ended = false;
 
 }  // namespace
 
 bool next_fails() {
+    if (has_ended) return false;
     ++num_counted;
     if (failing_allocation == 0) return false;
     return num_counted == failing_allocation ||
@@ -25,6 +27,11 @@ void fail_allocation(long number, Shortage shortage) {
     failing_allocation = number;
     failing = shortage;
     num_counted = 0;
+    has_ended = false;
+}
+
+void end_shortage() {
+    has_ended = true;
 }
 
 long counted_allocations() {

@@ -9,8 +9,14 @@ enum class Shortage {
 };
 
 /// Makes the `number`-th allocation from now on, counted from 1, fail on this rank; 0 fails none.
-/// Counted are those by operator new, and by Zoltan's allocator from the plug-in.
+/// Counted are those by operator new, and where next_fails is asked.
 void fail_allocation(long number, Shortage shortage = Shortage::once);
+
+/// From here on no allocation fails nor is counted, until fail_allocation.
+void end_shortage();
+
+/// Counts an allocation by other means; true when it is to fail.
+bool next_fails();
 
 /// How many allocations were counted since fail_allocation.
 long counted_allocations();

@@ -41,7 +41,7 @@ class FailingMemory {
         fail(0, 0, memory_layer::Shortage::once);
         succeed();
         const long live_before = memory_layer::live_blocks();
-        const int step = num_ranks() > 3 ? 5 : 1;  // few ranks try all, more of them a sample
+        const int step = num_ranks() > 3 ? 11 : 1;  // few ranks try all, more of them a sample
         for (const int faulty : std::set{0, num_ranks() / 2, num_ranks() - 1}) {
             const int num_allocations = largest(rank() == faulty ? num_allocations_ : 0);
             ASSERT_GT(num_allocations, 0);

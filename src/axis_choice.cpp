@@ -9,9 +9,10 @@ namespace {
 
 /// One axis per level: as many cuts across each as halving the longest extent asks for, in groups.
 std::vector<int> group_levels(std::span<const int> order, Box box, int dimension, int num_levels) {
+    constexpr double enough = 1;
     std::array<int, max_dimension> cuts_across{};
     for (int level = 0; level < num_levels; ++level) {
-        const auto a = static_cast<std::size_t>(longest_axis(box, dimension));
+        const auto a = static_cast<std::size_t>(longest_axis(box, dimension, enough));
         ++cuts_across[a];
         box.upper[a] = box.lower[a] / 2 + box.upper[a] / 2;
     }
@@ -26,22 +27,22 @@ std::vector<int> group_levels(std::span<const int> order, Box box, int dimension
 
 }  // namespace
 
-int longest_axis(const Box& box, int dimension) {
-    int longest = 0;
-    double half_extent = -1;
-    for (int axis = 0; axis < dimension; ++axis) {
+int longest_axis(const Box& box, int dimension, double enough) {
+    const auto half_extent = [&](int axis) {
         const auto a = static_cast<std::size_t>(axis);
-        const double candidate = box.upper[a] / 2 - box.lower[a] / 2;
-        if (candidate > half_extent) {
-            half_extent = candidate;
-            longest = axis;
-        }
-    }
-    return longest;
+        return box.upper[a] / 2 - box.lower[a] / 2;
+    };
+    double longest = half_extent(0);
+    for (int axis = 1; axis < dimension; ++axis) longest = std::max(longest, half_extent(axis));
+    int axis = 0;
+    while (axis + 1 < dimension && !(half_extent(axis) >= enough * longest)) ++axis;
+    return axis;
 }
 
 AxisChoice::AxisChoice(const Options& options, const Box& box, int dimension)
-    : cut_axes_(options.cut_axes), dimension_(dimension) {
+    : cut_axes_(options.cut_axes),
+      dimension_(dimension),
+      enough_(options.domain == DomainKind::analytic ? 0.9 : 1) {
     const int num_levels = std::bit_width(static_cast<unsigned>(options.num_parts - 1));
     if (!options.grouped_axes.empty())
         level_axes_ = group_levels(options.grouped_axes, box, dimension, num_levels);
@@ -50,7 +51,7 @@ AxisChoice::AxisChoice(const Options& options, const Box& box, int dimension)
 int AxisChoice::operator()(std::size_t node, int depth, const Box& box) const {
     if (!cut_axes_.empty()) return cut_axes_[node];
     if (!level_axes_.empty()) return level_axes_[static_cast<std::size_t>(depth)];
-    return longest_axis(box, dimension_);
+    return longest_axis(box, dimension_, enough_);
 }
 
 }  // namespace rrcb

@@ -7,10 +7,13 @@
 
 namespace rrcb {
 
-/// Axis of the greatest extent, the first of equals.
-int longest_axis(const Box& box, int dimension);
+/// The first axis whose extent is at least the share `enough` of the greatest.
+int longest_axis(const Box& box, int dimension, double enough);
 
 /// Which axis each cut crosses: the one it was given, the one of its level, or its longest.
+///
+/// The extents of an analytic domain are estimates: axes of nearly the same extent count as equals,
+/// or the cuts of a cube would turn, and half of the points move, whenever these change a little.
 class AxisChoice {
   public:
     /// `box` is that of all points; options are complete and checked.
@@ -23,6 +26,7 @@ class AxisChoice {
     std::vector<int> cut_axes_;
     std::vector<int> level_axes_;
     int dimension_;
+    double enough_;
 };
 
 }  // namespace rrcb

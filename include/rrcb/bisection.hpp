@@ -21,7 +21,8 @@ struct Bisection {
     std::vector<double> part_weights;  ///< length num_parts, as the domain sees it
 };
 
-/// Recursive coordinate bisection of a domain, across the longest extent of what each box holds.
+/// Recursive coordinate bisection of a domain, across the longest extent of what each box holds;
+/// with DomainKind::analytic across the first axis that is within a tenth of it.
 ///
 /// `part_sizes` are relative, one per part, or empty for equal parts. Cuts divide the weight in
 /// the ratio of the sizes below and above, exactly for the piecewise-linear cumulative weight of

@@ -2,6 +2,8 @@
 
 #include "../support/ranks.hpp"
 
+#include <rrcb/plan.hpp>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,6 +53,21 @@ std::vector<Part> join_parts(const Share& share, std::span<const Part> parts, in
     MPI_Allreduce(MPI_IN_PLACE, all.data(), count, MPI_INT32_T, MPI_MAX, MPI_COMM_WORLD);
     EXPECT_EQ(std::ranges::count(times, 1), count);
     return all;
+}
+
+Share migrated(const Cloud& cloud, std::span<const Part> parts, int num_parts) {
+    std::vector<int> owners;
+    for (const Part part : parts)
+        owners.push_back(ranks_of_part(part, num_parts, test::num_ranks()).first);
+    return share_of(cloud, owners, test::rank());
+}
+
+int count_moves(const Share& share, std::span<const Part> parts, std::span<const Part> before) {
+    int moves = 0;
+    for (std::size_t k = 0; k < parts.size(); ++k)
+        moves += parts[k] != before[static_cast<std::size_t>(share.numbers[k])] ? 1 : 0;
+    MPI_Allreduce(MPI_IN_PLACE, &moves, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+    return moves;
 }
 
 std::vector<double> numbers_of(const Cuts& cuts) {

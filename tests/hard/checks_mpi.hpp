@@ -16,6 +16,12 @@ namespace rrcb::hard_test {
 std::vector<Part> join_parts(const Share& share, std::span<const Part> parts, int count,
                              int num_parts);
 
+/// What this rank holds once every point is where its part is.
+Share migrated(const Cloud& cloud, std::span<const Part> parts, int num_parts);
+
+/// How many points get another part than before. Collective.
+int count_moves(const Share& share, std::span<const Part> parts, std::span<const Part> before);
+
 /// Axis and position of every cut.
 std::vector<double> numbers_of(const Cuts& cuts);
 

@@ -1,3 +1,4 @@
+#include "checks_mpi.hpp"
 #include "hard_clouds.hpp"
 
 #include <rrcb/balance.hpp>
@@ -51,6 +52,20 @@ TEST(Positions, that_moments_cannot_tell_are_measured_and_refined) {
     EXPECT_NEAR(report.estimated_imbalance, 1, 1e-9);
     EXPECT_LE(report.measured_imbalance, asked_tolerance);
     EXPECT_GT(report.rounds, 1);
+}
+
+TEST(Positions, of_equal_extents_stay_in_their_parts_from_call_to_call) {
+    Options options;
+    options.num_parts = 4;
+    for (const char* name : {"far_from_the_origin", "hollow_shell", "cantor_dust", "l_shaped"}) {
+        const Cloud& cloud = find_cloud(name);
+        const Share share = scattered_share(cloud);
+        const Balance first = balance(share.points(), options, MPI_COMM_WORLD);
+        const auto parts = join_parts(share, first.parts, 600, 4);
+        const Share settled = migrated(cloud, parts, 4);
+        const Balance second = balance(settled.points(), options, MPI_COMM_WORLD);
+        EXPECT_LE(count_moves(settled, second.parts, parts), 30) << name << " of 600";
+    }
 }
 
 TEST(Positions, outside_every_earlier_box_are_divided_from_earlier_cuts) {

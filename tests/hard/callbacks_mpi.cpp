@@ -1,7 +1,6 @@
 #include "callbacks_mpi.hpp"
 
 #include "../support/ranks.hpp"
-#include "../zoltan/program.hpp"
 #include "checks_mpi.hpp"
 #include "methods.hpp"
 
@@ -29,13 +28,6 @@ void set_parameters(Program& program, const Cloud& cloud, const Method& method, 
     program.set("OBJ_WEIGHT_DIM", cloud.weight == nullptr ? "0" : "1");
     program.set("NUM_GLOBAL_PARTS", std::to_string(num_parts));
     program.set("KEEP_CUTS", "1");
-}
-
-void fill(Program& program, const Share& share) {
-    program.coordinates = share.coordinates;
-    program.weights.assign(share.numbers.size(), 1);
-    std::ranges::transform(share.weights, program.weights.begin(),
-                           [](double weight) { return static_cast<float>(weight); });
 }
 
 bool is_weightless(const Cloud& cloud, int count) {
@@ -97,9 +89,7 @@ void check(const Cloud& cloud, const Method& method, int count, int num_parts) {
     const bool warns = is_weightless(cloud, count) || (count > 0 && count < num_parts);
     EXPECT_EQ(outcome.code, warns ? ZOLTAN_WARN : ZOLTAN_OK);
 
-    std::vector<int> parts(share.numbers.size());  // without any change there are no lists
-    std::ranges::fill(parts, rank());
-    if (outcome.changes != 0) parts = parts_by_object(outcome);
+    const std::vector<int> parts = parts_of(program, outcome);
     const std::vector<Part> all = join_parts(share, parts, count, num_parts);
     if (method.balances()) expect_balanced(cloud, all, num_parts, method.tolerance());
     expect_look_ups_agree(program, parts, num_parts);
@@ -110,6 +100,20 @@ void check(const Cloud& cloud, const Method& method, int count, int num_parts) {
 }
 
 }  // namespace
+
+void fill(Program& program, const Share& share) {
+    program.coordinates = share.coordinates;
+    program.weights.assign(share.numbers.size(), 1);
+    std::ranges::transform(share.weights, program.weights.begin(),
+                           [](double weight) { return static_cast<float>(weight); });
+}
+
+std::vector<int> parts_of(const Program& program, const Outcome& outcome) {
+    // Without any change there are no lists.
+    if (outcome.changes == 0)
+        return std::vector<int>(static_cast<std::size_t>(program.size()), program.rank);
+    return parts_by_object(outcome);
+}
 
 void check_callbacks(const Cloud& cloud) {
     const int num_parts = parts_for(num_ranks());

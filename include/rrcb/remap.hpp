@@ -20,9 +20,10 @@ struct Remap {
 
 /// Numbers the parts of a new partition so that few points leave their rank.
 ///
-/// Collective over `comm`: one reduction, one gather, one broadcast. `parts` is the new part of each
-/// local point, `ranks_of_parts` has one entry per part, ascending, with one rank each, the same on
-/// every rank. Throws Error on every rank when one names a part that is none, or has no memory.
+/// Collective over `comm`: one reduction, one gather, one broadcast. `parts` is the new part of
+/// each local point, `ranks_of_parts` has one entry per part, ascending, with one rank each, the
+/// same on every rank. Throws Error on every rank when one names a part that is none, or has no
+/// memory.
 ///
 /// Every rank tells the root its heaviest overlaps, 16 per part it holds, so up to 16 parts all
 /// of them; counts are of what was told. The root finds the permutation that keeps most: up to 128

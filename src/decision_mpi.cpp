@@ -8,6 +8,7 @@
 #include <rrcb/quality.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -133,15 +134,23 @@ void decide(const Contribution& all, const Options& options, const Cuts* previou
 }
 
 void broadcast(Decision& decision, const Member& me) {
-    Verdict& verdict = decision.verdict;
-    mpi::check(MPI_Bcast(&verdict, sizeof verdict, MPI_BYTE, root, me.comm), "MPI_Bcast");
-    if (verdict.failing_rank != no_rank) fail_together(verdict.failing_rank, me);
     std::vector<Cut>& tree = decision.bisection.cuts.tree;
     std::vector<Bracket>& brackets = decision.bisection.brackets;
-    std::byte* to = copy_out(tree.data(), tree.size(), decision.message.data());
-    copy_out(brackets.data(), brackets.size(), to);
-    mpi::broadcast(decision.message, root, me.comm);
-    const std::byte* from = copy_in(decision.message.data(), tree.data(), tree.size());
+    const std::span<std::byte> message(decision.message);
+    if (mpi::rank_of(me.comm) == root && decision.verdict.failing_rank == no_rank) {
+        std::byte* to = copy_out(tree.data(), tree.size(), message.data());
+        copy_out(brackets.data(), brackets.size(), to);
+    }
+    std::array<std::byte, 2048> head{};
+    const std::size_t in_head = std::min(message.size(), head.size() - sizeof(Verdict));
+    copy_out(message.data(), in_head, copy_out(&decision.verdict, 1, head.data()));
+    mpi::broadcast(head, root, me.comm);
+    const std::byte* from = copy_in(head.data(), &decision.verdict, 1);
+    const int failing_rank = decision.verdict.failing_rank;
+    if (failing_rank != no_rank) fail_together(failing_rank, me);
+    copy_in(from, message.data(), in_head);
+    mpi::broadcast(message.subspan(in_head), root, me.comm);
+    from = copy_in(message.data(), tree.data(), tree.size());
     copy_in(from, brackets.data(), brackets.size());
 }
 

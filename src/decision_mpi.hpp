@@ -38,6 +38,9 @@ void decide(const Contribution& all, const Options& options, const Cuts* previou
 
 /// Gives everybody the root's decision, or throws everywhere why there is none. Collective.
 ///
+/// One message for a few dozen cuts, two for more: the first must be as long on a rank that does
+/// not know how many are coming.
+///
 void broadcast(Decision& decision, const Member& me);
 
 }  // namespace rrcb

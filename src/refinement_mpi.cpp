@@ -219,24 +219,32 @@ void descend(Context& context) {
     std::swap(room.nodes, room.children);
 }
 
-/// True when the estimated cuts are good enough as they are; then `parts` is complete.
+/// True when the estimated cuts are good enough as they are; then `parts` is complete, and no rank
+/// has failed.
 bool accept_estimate(Context& context, std::span<Part> parts) {
     RefinementRoom& room = context.room;
-    const auto num_parts = static_cast<int>(room.part_weights.size());
     context.me.locally([&] {
         std::ranges::copy(assign(context.estimate.cuts, context.binned, parts),
                           room.part_weights.begin());
     });
-    mpi::check(MPI_Reduce(room.part_weights.data(), room.sums.data(), num_parts, MPI_DOUBLE,
-                          MPI_SUM, root, context.me.comm),
+    room.part_weights.back() = context.me.failure.failed ? 1 : 0;
+    mpi::check(MPI_Reduce(room.part_weights.data(), room.sums.data(),
+                          static_cast<int>(room.part_weights.size()), MPI_DOUBLE, MPI_SUM, root,
+                          context.me.comm),
                "MPI_Reduce");
-    double measured = infinity;
-    if (context.is_root)
-        context.me.locally([&] { measured = imbalance(room.sums, context.options.part_sizes); });
-    mpi::check(MPI_Bcast(&measured, 1, MPI_DOUBLE, root, context.me.comm), "MPI_Bcast");
+    struct {
+        double imbalance = 1;
+        double failed = 0;
+    } look;
+    if (context.is_root) {
+        const std::span<const double> sums(room.sums);
+        look = {imbalance(sums.first(sums.size() - 1), context.options.part_sizes), sums.back()};
+    }
+    mpi::check(MPI_Bcast(&look, 2, MPI_DOUBLE, root, context.me.comm), "MPI_Bcast");
+    if (look.failed > 0) agree(context.me);
     ++context.measured.rounds;
-    context.measured.imbalance = measured;
-    return measured <= context.options.imbalance_tolerance;
+    context.measured.imbalance = look.imbalance;
+    return look.imbalance <= context.options.imbalance_tolerance;
 }
 
 /// Finds the cuts of one level after the other, and the parts at the end.
@@ -260,9 +268,9 @@ void search_all_levels(Context& context, std::span<Part> parts) {
         if (context.abandoned) return;
         descend(context);
     }
-    context.me.locally([&] {
-        context.measured.imbalance = imbalance(room.part_weights, context.options.part_sizes);
-    });
+    const std::span<const double> weights(room.part_weights);
+    context.measured.imbalance =
+        imbalance(weights.first(weights.size() - 1), context.options.part_sizes);
 }
 
 }  // namespace
@@ -274,8 +282,9 @@ Measured refine(Estimate& estimate, const Options& options, const BinnedPoints& 
         estimate.total_weight / std::accumulate(sizes.begin(), sizes.end(), 0.0);
     Context context{estimate,       options, binned, room, me, mpi::rank_of(me.comm) == root,
                     weight_per_size};
-    const bool accepted = options.refine == Refine::tolerance && accept_estimate(context, parts);
-    if (!accepted) search_all_levels(context, parts);
+    if (options.refine == Refine::tolerance && accept_estimate(context, parts))
+        return context.measured;
+    search_all_levels(context, parts);
     agree(me);
     return context.measured;
 }

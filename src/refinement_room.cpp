@@ -3,8 +3,8 @@
 namespace rrcb {
 
 RefinementRoom::RefinementRoom(const Options& options, int dimension, bool is_root)
-    : part_weights(options.part_sizes.size()),
-      sums(is_root ? options.part_sizes.size() : 0),
+    : part_weights(options.part_sizes.size() + 1),
+      sums(is_root ? options.part_sizes.size() + 1 : 0),
       histograms(HistogramLayout{}, options.part_sizes.size() / 2, is_root),
       candidates(dimension, options.part_sizes.size() / 2) {
     const std::size_t num_parts = options.part_sizes.size();

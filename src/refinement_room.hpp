@@ -23,7 +23,7 @@ struct RefinementRoom {
     /// By complete options. Not collective. Throws Error or std::bad_alloc.
     RefinementRoom(const Options& options, int dimension, bool is_root);
 
-    std::vector<double> part_weights;  ///< one per part
+    std::vector<double> part_weights;  ///< one per part; at the end, while it travels, 1 for failed
     std::vector<double> sums;          ///< of all ranks, at the root
     std::vector<Node> nodes;           ///< of the current level; capacity for any
     std::vector<Node> children;        ///< of the next one

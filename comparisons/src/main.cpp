@@ -69,6 +69,7 @@ bool compare_all(const Arguments& arguments, const ResultsFolder& folder, Progre
         comparisons.push_back(compare_methods(workload, arguments, folder, progress, comm));
     }
     folder.write("table.csv", [&](std::ostream& out) { write_table(out, comparisons); });
+    folder.write("calls.csv", [&](std::ostream& out) { write_calls(out, comparisons); });
     return !failed && !has_failures(comparisons);
 }
 

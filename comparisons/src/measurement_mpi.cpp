@@ -58,11 +58,24 @@ Traffic over_all_ranks(Traffic traffic, MPI_Comm comm) {
     return {sums[0], sums[1], sums[2], most[0], most[1]};
 }
 
+std::map<std::string, CallCount> over_all_ranks(std::map<std::string, CallCount> mine,
+                                                MPI_Comm comm) {
+    std::map<std::string, CallCount> all;
+    for (const char* name : counted_functions) {
+        const CallCount& count = mine[name];
+        std::int64_t sums[] = {count.calls, count.bytes_in, count.bytes_out};
+        MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_INT64_T, MPI_SUM, comm);
+        if (sums[0] > 0) all[name] = {sums[0], sums[1], sums[2]};
+    }
+    return all;
+}
+
 void count_and_judge(Candidate& candidate, const Workload& workload, MPI_Comm comm) {
     start_counting_traffic();
     const int code = candidate.partitioner->partition();
     const Traffic traffic = stop_counting_traffic();
     Measurement& result = candidate.measurement;
+    result.calls = over_all_ranks(counted_calls(), comm);
     result.traffic = over_all_ranks(traffic, comm);
     note_code(candidate, code, comm);
     if (!candidate.partitioner) return;

@@ -7,6 +7,7 @@
 
 #include <mpi.h>
 
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,9 +22,10 @@ struct Measurement {
     double imbalance = 0;
     double worst_unbalance_percent = 0;
     double moved_fraction = 0;
-    Traffic traffic;                ///< of one call: messages and bytes of all ranks, the most
-                                    ///< collectives and communicators of any rank
-    std::vector<rrcb::Part> parts;  ///< of this rank's points
+    Traffic traffic;  ///< of one call: messages and bytes of all ranks, the most
+                      ///< collectives and communicators of any rank
+    std::map<std::string, CallCount> calls;  ///< the same call by MPI function, over all ranks
+    std::vector<rrcb::Part> parts;           ///< of this rank's points
 };
 
 /// How to measure.

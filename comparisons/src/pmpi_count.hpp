@@ -9,13 +9,14 @@ namespace comparisons {
 bool counting_traffic();
 
 /// A message of `count` items from this rank to `destination`.
-void count_message(int count, MPI_Datatype type, int destination, MPI_Comm comm);
+void count_message(const char* function, int count, MPI_Datatype type, int destination,
+                   MPI_Comm comm);
 
 /// This rank's part in a collective, in bytes.
-void count_collective(std::int64_t bytes_in, std::int64_t bytes_out);
+void count_collective(const char* function, std::int64_t bytes_in, std::int64_t bytes_out);
 
 /// A collective that makes a communicator.
-void count_communicator();
+void count_communicator(const char* function);
 
 /// Bytes of `count` items.
 std::int64_t bytes_of(std::int64_t count, MPI_Datatype type);

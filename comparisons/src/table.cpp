@@ -83,6 +83,20 @@ void write_table(std::ostream& out, std::span<const Comparison> comparisons) {
     for (const Comparison& comparison : comparisons) write_rows(out, comparison);
 }
 
+void write_calls(std::ostream& out, std::span<const Comparison> comparisons) {
+    out << "method,ranks,workload,layout,function,calls,bytes_in,bytes_out\n";
+    for (const Comparison& comparison : comparisons) {
+        for (const Measurement& measurement : comparison.measurements) {
+            for (const auto& [function, count] : measurement.calls) {
+                out << csv_field(measurement.method) << ',' << comparison.num_ranks << ','
+                    << csv_field(comparison.workload) << ',' << comparison.layout << ',' << function
+                    << ',' << count.calls << ',' << count.bytes_in << ',' << count.bytes_out
+                    << '\n';
+            }
+        }
+    }
+}
+
 void print_table(std::ostream& out, const Comparison& comparison) {
     out << '\n'
         << comparison.workload << ": " << comparison.num_points << " points, "

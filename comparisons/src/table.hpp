@@ -35,6 +35,9 @@ void write_rows(std::ostream& out, const Comparison& comparison);
 /// table.csv: one row per method and workload, columns as README.md describes them.
 void write_table(std::ostream& out, std::span<const Comparison> comparisons);
 
+/// calls.csv: what each method's call moved by MPI function, summed over the ranks.
+void write_calls(std::ostream& out, std::span<const Comparison> comparisons);
+
 /// The same for people, numbers they compare first.
 void print_table(std::ostream& out, const Comparison& comparison);
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <string>
 
 namespace comparisons {
 
@@ -24,6 +26,26 @@ struct Traffic {
 
 /// Processor time this thread has used, in s; not collective.
 double processor_seconds();
+
+/// What the calls of one MPI function moved on one rank.
+struct CallCount {
+    std::int64_t calls = 0;
+    std::int64_t bytes_in = 0;   ///< handed in
+    std::int64_t bytes_out = 0;  ///< got out; of a message 0, since its sender counts it
+};
+
+/// Names of the functions that are counted.
+inline constexpr const char* counted_functions[] = {
+    "MPI_Send",       "MPI_Ssend",      "MPI_Rsend",          "MPI_Isend",
+    "MPI_Irsend",     "MPI_Sendrecv",   "MPI_Barrier",        "MPI_Bcast",
+    "MPI_Reduce",     "MPI_Allreduce",  "MPI_Reduce_scatter", "MPI_Reduce_scatter_block",
+    "MPI_Scan",       "MPI_Exscan",     "MPI_Gather",         "MPI_Gatherv",
+    "MPI_Allgather",  "MPI_Allgatherv", "MPI_Scatter",        "MPI_Scatterv",
+    "MPI_Alltoall",   "MPI_Alltoallv",  "MPI_Comm_dup",       "MPI_Comm_split",
+    "MPI_Comm_create"};
+
+/// By the name of the function, what was counted since counting started. Not collective.
+std::map<std::string, CallCount> counted_calls();
 
 /// Starts counting on this rank, from zero. Not collective.
 ///

@@ -15,13 +15,18 @@ if(NOT output MATCHES "dump: Zoltan_LB_Partition on [0-9]+ ranks, code 0, parame
   message(FATAL_ERROR "the replay does not tell what it replays:\n${output}")
 endif()
 foreach(run IN ITEMS original replay)
-  file(STRINGS ${FOLDER}/${run}/table.csv row REGEX "^rrcb,")
-  string(REPLACE "," ";" fields "${row}")
-  list(GET fields 12 ${run}_imbalance)
-  list(GET fields 17 ${run}_moved)
+  file(STRINGS ${FOLDER}/${run}/table.csv rows REGEX "^(method|rrcb),")
+  list(GET rows 0 columns)
+  list(GET rows 1 fields)
+  string(REPLACE "," ";" columns "${columns}")
+  string(REPLACE "," ";" fields "${fields}")
+  foreach(column IN ITEMS imbalance moved_fraction)
+    list(FIND columns ${column} at)
+    list(GET fields ${at} ${run}_${column})
+  endforeach()
 endforeach()
-if(NOT original_imbalance STREQUAL replay_imbalance OR NOT original_moved STREQUAL replay_moved
-   OR original_imbalance STREQUAL "")
-  message(FATAL_ERROR "imbalance ${original_imbalance}, moved ${original_moved}, but replayed "
-                      "${replay_imbalance} and ${replay_moved}")
+if(NOT original_imbalance STREQUAL replay_imbalance OR original_imbalance STREQUAL ""
+   OR NOT original_moved_fraction STREQUAL replay_moved_fraction)
+  message(FATAL_ERROR "imbalance ${original_imbalance}, moved ${original_moved_fraction}, but "
+                      "replayed ${replay_imbalance} and ${replay_moved_fraction}")
 endif()

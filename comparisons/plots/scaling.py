@@ -1,0 +1,220 @@
+"""From 2 to 1,048,576 ranks: scaling.py DIRECTORY [--latency-us=1.5] [--bandwidth-gb=12] ...
+
+DIRECTORY holds a folder ranks-<number> with the table.csv and calls.csv of each run. Writes
+scaling_check.csv, scaling.csv, scaling.png, report.html and report.md; fails where a formula differs
+from what was counted.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import sys
+from pathlib import Path
+
+from matplotlib import pyplot as plt
+
+from document import Document, write_html, write_markdown
+from scaling_check import Comparison, compare_all, read_counted, read_sizes
+from scaling_time import Machine, Observed, Path as CallPath, all_paths, observe
+from settings import legend_above
+from style import method_style, save, use_style
+
+MOST_RANKS = 1 << 20
+LINES = {"rrcb, estimate alone": ":", "rrcb, estimate accepted": "-"}
+PANELS = {
+    "time of a call [s]": lambda path: path.seconds,
+    "messages one after the other": lambda path: path.messages,
+    "bytes into rank 0": lambda path: path.root_bytes,
+}
+
+
+def main() -> int:
+    arguments = _read_arguments()
+    directory = arguments.directory
+    counted = read_counted(directory)
+    comparisons = compare_all(counted)
+    sizes = read_sizes(counted)
+    if sizes is None or not comparisons:
+        print(f"{directory}: no runs of rrcb on two ranks; run comparisons/run --scaling")
+        return 2
+    machine = Machine(
+        arguments.latency_us * 1e-6, arguments.bandwidth_gb * 1e9, arguments.points_per_rank
+    )
+    observed = observe(counted, sizes)
+    paths = {
+        1 << power: all_paths(1 << power, observed, machine)
+        for power in range(1, MOST_RANKS.bit_length())
+    }
+    _write_check(directory, comparisons)
+    _write_paths(directory, paths)
+    use_style()
+    _draw(directory / "scaling.png", paths)
+    _write_report(directory, comparisons, paths, machine, observed)
+    wrong = [c for c in comparisons if not c.agrees]
+    for comparison in wrong:
+        print(f"{comparison.counted.method}, {comparison.counted.ranks} ranks: formula differs")
+    print(f"Counts of {len(comparisons)} calls checked, {len(wrong)} differ.")
+    print(f"Report: {directory / 'report.html'}")
+    return 1 if wrong else 0
+
+
+def _read_arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description="Costs of a call on up to 1,048,576 ranks")
+    parser.add_argument("directory", type=Path)
+    parser.add_argument("--latency-us", type=_positive, default=1.5)
+    parser.add_argument("--bandwidth-gb", type=_positive, default=12.0)
+    parser.add_argument("--points-per-rank", type=_count, default=50_000)
+    return parser.parse_args()
+
+
+def _positive(text: str) -> float:
+    if not 0 < (value := float(text)) < float("inf"):
+        raise argparse.ArgumentTypeError("must be a number above 0")
+    return value
+
+
+def _count(text: str) -> int:
+    if (value := int(text)) < 1:
+        raise argparse.ArgumentTypeError("must be a whole number, 1 or more")
+    return value
+
+
+def _write_check(directory: Path, comparisons: list[Comparison]) -> None:
+    with (directory / "scaling_check.csv").open("w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(
+            "method,ranks,messages,predicted_messages,bytes,predicted_bytes,root_bytes_in,"
+            "predicted_root_bytes_in,inputs,agrees".split(",")
+        )
+        for c in comparisons:
+            writer.writerow(
+                [c.counted.method, c.counted.ranks, c.counted.messages, c.predicted.messages]
+                + [c.counted.bytes, c.predicted.bytes, c.counted.root_bytes_in]
+                + ["" if c.predicted_root_bytes is None else c.predicted_root_bytes]
+                + [c.inputs, "yes" if c.agrees else "no"]
+            )
+
+
+def _write_paths(directory: Path, paths: dict[int, dict[str, CallPath]]) -> None:
+    with (directory / "scaling.csv").open("w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow("method,ranks,model_s,messages,bytes,work_s,bytes_into_root".split(","))
+        for ranks, by_method in paths.items():
+            for method, p in by_method.items():
+                numbers = [p.seconds, p.messages, p.bytes, p.work, p.root_bytes]
+                writer.writerow([method, ranks, *(f"{number:.6g}" for number in numbers)])
+
+
+def _draw(picture: Path, paths: dict[int, dict[str, CallPath]]) -> None:
+    figure, grid = plt.subplots(1, len(PANELS), figsize=(4.1 * len(PANELS), 4), squeeze=False)
+    for axes, (label, value) in zip(grid[0], PANELS.items()):
+        for method in paths[2]:
+            style = method_style(method.split(",")[0])
+            axes.plot(
+                list(paths),
+                [value(by_method[method]) for by_method in paths.values()],
+                color=style.colour,
+                linestyle=LINES.get(method, style.line),
+                label=method,
+            )
+        axes.axvspan(2, 64, color="#EEEEEE", zorder=0, label="counts checked here")
+        axes.set_xscale("log", base=2)
+        axes.set_yscale("log")
+        axes.set_xlabel("ranks")
+        axes.set_title(label)
+        axes.grid(True)
+    legend_above(figure, grid[0, 0].get_legend_handles_labels()[0], inches=2.1)
+    save(figure, picture)
+
+
+def _write_report(
+    directory: Path,
+    comparisons: list[Comparison],
+    paths: dict[int, dict[str, CallPath]],
+    machine: Machine,
+    observed: Observed,
+) -> None:
+    document = Document("To a million ranks: a model, checked by counting")
+    document.conclude([_sentence(ranks, paths[ranks]) for ranks in (64, 4096, MOST_RANKS)])
+    document.picture("scaling.png", "What a call costs by the model; grey: counts checked here.")
+    document.summarise(*_time_table(paths))
+    document.heading("What the model assumes")
+    for text in _assumptions(machine, observed):
+        document.paragraph(text)
+    document.heading("Formula beside count")
+    header = ["method", "ranks", "messages", "formula", "bytes", "formula", "into rank 0"]
+    header += ["formula", "taken from the run", "equal"]
+    rows = [
+        [
+            c.counted.method,
+            str(c.counted.ranks),
+            f"{c.counted.messages:,}",
+            f"{c.predicted.messages:,}",
+            f"{c.counted.bytes:,}",
+            f"{c.predicted.bytes:,}",
+            f"{c.counted.root_bytes_in:,}",
+            "–" if c.predicted_root_bytes is None else f"{c.predicted_root_bytes:,}",
+            c.inputs,
+            "yes" if c.agrees else "NO",
+        ]
+        for c in comparisons
+    ]
+    document.table("One call, function by function, summed over the ranks", header, rows)
+    record = next(iter(sorted(directory.glob("ranks-*/run.txt"))), None)
+    if record:
+        document.listing("run.txt of one of the runs", record.read_text())
+    write_html(document, directory)
+    write_markdown(document, directory)
+    print(document.summary)
+
+
+def _sentence(ranks: int, by_method: dict[str, CallPath]) -> str:
+    ours = by_method["rrcb, estimate accepted"]
+    text = f"On {ranks:,} ranks the model gives RRCB {_time(ours.seconds)}"
+    text += f" and exactly balanced {_time(by_method['rrcb-exact'].seconds)}"
+    for method, name in (("zoltan-rcb", "Zoltan's RCB"), ("zoltan2-mj", "multijagged")):
+        if method in by_method:
+            text += f", {name} {_time(by_method[method].seconds)}"
+    return text + "."
+
+
+def _time(seconds: float) -> str:
+    return f"{seconds:.3g} s" if seconds >= 0.1 else f"{1e3 * seconds:.3g} ms"
+
+
+def _time_table(paths: dict[int, dict[str, CallPath]]) -> tuple[str, list[str], list[list[str]]]:
+    header = ["ranks", *paths[2]]
+    rows = [
+        [f"{ranks:,}", *(_time(path.seconds) for path in paths[ranks].values())]
+        for ranks in paths
+        if ranks in (2, 8, 64, 512, 4096, 32768, 262144, MOST_RANKS)
+    ]
+    return "Time of a call by the model", header, rows
+
+
+def _assumptions(machine: Machine, observed: Observed) -> list[str]:
+    return [
+        f"Network: {1e6 * machine.latency:g} µs a message, {machine.bandwidth / 1e9:g} GB/s. A"
+        " collective takes log2(ranks) messages one after the other and its bytes once (a reduction"
+        " to everybody twice); a gather takes all bytes into rank 0.",
+        f"{machine.points:,} points a rank in 2-D, a core for every rank;"
+        f" {1e9 * machine.per_point:g} ns a point for moments and assignment,"
+        f" {1e9 * machine.per_look:g} ns a point and look, {1e9 * machine.per_cell:g} ns a cell.",
+        "RRCB: a support mesh of 4 x 4, at most 8,192 cells in a message of the tree;"
+        f" {observed.rounds_per_level} rounds a level of an exact refinement and"
+        f" {observed.bytes_per_list:.0f} bytes of candidates a cut, the most seen here, and every"
+        " cut decided among candidates.",
+        f"Zoltan's RCB: {observed.iterations:.2f} iterations a median, the mean seen here; half of"
+        f" the points move at every level, to one partner; {machine.partners} partners and parts a"
+        " rank at the end, as where points hardly move. Points that lie scattered cost far more:"
+        " every rank then tells every other of each of its parts.",
+        f"Multijagged: {observed.steps:.2f} steps a section, the mean seen here; its sections are"
+        " searched one after the other, as they are by default.",
+        "Contention, memory and the time inside MPI are left out: beyond the ranks of the check"
+        " these are no measurements.",
+    ]
+
+
+if __name__ == "__main__":
+    sys.exit(main())

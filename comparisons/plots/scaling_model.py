@@ -1,0 +1,273 @@
+"""What a call moves, by formula, for any number of ranks; 2-D, points scattered over the ranks.
+
+Every formula gives the calls and bytes by MPI function that the driver counts (see README.md): a
+collective of n ranks is n calls, with the bytes each rank hands in and gets out. Sizes of what the
+library sends are read off a run on two ranks, what depends on the points is an input of the run that
+is predicted: rounds, partners, points moved.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import ceil, isqrt
+
+DIMENSION = 2
+MESH = 4
+RADIX = 8
+MOST_CELLS = 8192
+CUT = 32
+BRACKET = 16
+HEAD = 2048  # the verdict and as many cuts as fit
+VERDICT = 80
+AGREEMENT = 4
+CELL = 8 * (3 + 2 * DIMENSION)
+MESH_BLOCK = 8 * (3 + 2 * DIMENSION)
+BLOCK = MESH_BLOCK + MESH**DIMENSION * CELL
+
+
+@dataclass
+class Traffic:
+    """Calls and bytes by MPI function, over all ranks."""
+
+    calls: dict[str, int] = field(default_factory=dict)
+    bytes_in: dict[str, int] = field(default_factory=dict)
+    bytes_out: dict[str, int] = field(default_factory=dict)
+
+    def add(self, function: str, calls: int, bytes_in: int, bytes_out: int = 0) -> None:
+        self.calls[function] = self.calls.get(function, 0) + calls
+        self.bytes_in[function] = self.bytes_in.get(function, 0) + bytes_in
+        self.bytes_out[function] = self.bytes_out.get(function, 0) + bytes_out
+
+    def allreduce(self, ranks: int, size: int, times: int = 1) -> None:
+        self.add("Allreduce", times * ranks, times * ranks * size, times * ranks * size)
+
+    def reduce(self, ranks: int, size: int) -> None:
+        self.add("Reduce", ranks, ranks * size, size)
+
+    def broadcast(self, ranks: int, size: int) -> None:
+        self.add("Bcast", ranks, size, (ranks - 1) * size)
+
+    def gather(self, ranks: int, size: int) -> None:
+        self.add("Gather", ranks, ranks * size, ranks * size)
+
+    def scatter(self, ranks: int, size: int) -> None:
+        self.add("Scatter", ranks, ranks * size, ranks * size)
+
+    @property
+    def messages(self) -> int:
+        return sum(count for name, count in self.calls.items() if not name.startswith("Comm_"))
+
+    @property
+    def bytes(self) -> int:
+        return sum(self.bytes_in.values()) + sum(self.bytes_out.values())
+
+
+# --- RRCB ---------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """Bytes of RRCB's fixed messages."""
+
+    agreements: int  # all reductions to everybody together
+    num_agreements: int
+    parameters: int  # gathered from every rank by the plug-in
+    broadcasts: int  # all broadcasts together, but for what grows with the parts, head included
+    num_broadcasts: int
+    summary: int
+    histogram: int
+    search: int
+
+
+@dataclass(frozen=True)
+class Rounds:
+    """What the refinement did: 0 rounds where the estimate was accepted or none was asked for."""
+
+    rounds: int = 0
+    searches: int = 0  # broadcast, added up over the rounds
+    counts: int = 0  # rounds with histograms
+    histograms: int = 0
+    gathers: int = 0  # rounds with candidates
+    lists: int = 0
+    candidate_bytes: int = 0
+
+
+def children(rank: int, ranks: int) -> list[int]:
+    """Ranks that send to `rank` in the tree of radix 8."""
+    found, stride = [], 1
+    while stride < ranks and rank % (stride * RADIX) == 0:
+        found += range(rank + stride, min(ranks, rank + stride * RADIX), stride)
+        stride *= RADIX
+    return found
+
+
+def subtree(rank: int, ranks: int) -> int:
+    """Ranks whose cells pass through `rank` (> 0) on their way up."""
+    stride = 1
+    while rank % (stride * RADIX) == 0:
+        stride *= RADIX
+    return min(stride, ranks - rank)
+
+
+def all_agreements(sizes: Sizes, refine: str) -> tuple[int, int]:
+    """Number and bytes; an accepted estimate tells of failures with the weights it looks at."""
+    if refine == "accepted":
+        return sizes.num_agreements - 1, sizes.agreements - AGREEMENT
+    return sizes.num_agreements, sizes.agreements
+
+
+def beyond_head(ranks: int, refine: str) -> int:
+    """Bytes of cuts and brackets that the head has no room for and a second broadcast takes."""
+    cut = CUT + (0 if refine == "none" else BRACKET)
+    return max(0, cut * (ranks - 1) - (HEAD - VERDICT))
+
+
+def rrcb(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> Traffic:
+    """`refine`: none, accepted (one look at the estimate), or exact."""
+    traffic = Traffic()
+    num_agreements, agreements = all_agreements(sizes, refine)
+    traffic.add("Allreduce", ranks * num_agreements, ranks * agreements, ranks * agreements)
+    traffic.gather(ranks, sizes.parameters)
+    once = sizes.broadcasts + 8 * ranks
+    traffic.add("Bcast", ranks * sizes.num_broadcasts, once, (ranks - 1) * once)
+    if rest := beyond_head(ranks, refine):
+        traffic.broadcast(ranks, rest)
+    for rank in range(1, ranks):
+        traffic.add("Send", 2, sizes.summary + subtree(rank, ranks) * BLOCK)
+    if refine == "accepted":
+        traffic.reduce(ranks, 8 * (ranks + 1))
+        traffic.broadcast(ranks, 16)
+    if refine == "exact":
+        _refine(traffic, ranks, sizes, rounds)
+    return traffic
+
+
+def _refine(traffic: Traffic, ranks: int, sizes: Sizes, rounds: Rounds) -> None:
+    searches = rounds.searches * sizes.search
+    traffic.add("Bcast", ranks * rounds.rounds, searches, (ranks - 1) * searches)
+    histograms = rounds.histograms * sizes.histogram
+    traffic.add("Reduce", ranks * rounds.counts, ranks * histograms, histograms)
+    lengths = 4 * rounds.lists * ranks
+    traffic.add("Gather", ranks * rounds.gathers, lengths, lengths)
+    traffic.add("Gatherv", ranks * rounds.gathers, rounds.candidate_bytes, rounds.candidate_bytes)
+
+
+def rrcb_root_bytes(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> int:
+    """Bytes that rank 0 gets."""
+    into = all_agreements(sizes, refine)[1] + ranks * sizes.parameters
+    into += sum(sizes.summary + subtree(child, ranks) * BLOCK for child in children(0, ranks))
+    if refine == "accepted":
+        into += 8 * (ranks + 1)
+    if refine == "exact":
+        into += rounds.histograms * sizes.histogram + 4 * rounds.lists * ranks
+        into += rounds.candidate_bytes
+    return into
+
+
+def expected_rounds(ranks: int, rounds_per_level: int, bytes_per_list: float) -> Rounds:
+    """Every cut counted once, then decided among candidates: the most that was measured."""
+    levels = (ranks - 1).bit_length()
+    cuts = ranks - 1
+    return Rounds(
+        rounds_per_level * levels, rounds_per_level * cuts, levels, cuts, levels, cuts,
+        int(cuts * bytes_per_list),
+    )
+
+
+# --- Zoltan's RCB -------------------------------------------------------------------------------
+
+POINT_FIELDS, POINT_BYTES = 7, 36  # two of 8 bytes and five of 4, a message to a partner each
+LIST_FIELDS, LIST_BYTES = 3, 12
+MEDIAN = 72
+
+
+@dataclass(frozen=True)
+class Exchange:
+    """What depends on the points in a call of Zoltan's RCB."""
+
+    iterations: int  # of the median search, each counted on every rank of its set
+    returned: bool  # points went to the ranks that the renumbered parts got
+    plan_messages: int  # (rank, partner) pairs over all plans
+    field_messages: int
+    field_bytes: int
+    overlap_bytes: int  # weights shared between old and new parts, 12 bytes a pair, from all ranks
+
+
+def sets(ranks: int) -> list[int]:
+    """Numbers of ranks that search for a median together, over all levels."""
+    if ranks < 2:
+        return []
+    return [ranks, *sets(ranks // 2), *sets(ranks - ranks // 2)]
+
+
+def _plan(traffic: Traffic, ranks: int, fields: int) -> None:
+    traffic.allreduce(ranks, 4, 1 + fields)
+    traffic.reduce(ranks, 4 * ranks)
+    traffic.scatter(ranks, 4)
+    traffic.broadcast(ranks, 4)
+
+
+def zoltan_rcb(ranks: int, exchange: Exchange) -> Traffic:
+    traffic = Traffic()
+    for size in (12, 24, 4, 4, 4, 8, 4, 48):
+        traffic.allreduce(ranks, size)
+    traffic.broadcast(ranks, 4)
+    traffic.add("Barrier", ranks, 0)
+    traffic.add("Comm_dup", ranks, 0)
+    for together in sets(ranks):
+        traffic.allreduce(together, 4)
+        if together % 2 == 0:  # both halves of the weight are equal: ties are looked at
+            traffic.allreduce(together, 24 * together)
+        _plan(traffic, together, POINT_FIELDS)
+        traffic.add("Comm_split", together, 0)
+    traffic.add("Allreduce", exchange.iterations, MEDIAN * exchange.iterations,
+                MEDIAN * exchange.iterations)
+    traffic.allreduce(ranks, 8)
+    traffic.allreduce(ranks, 8 + 8 * ranks)
+    traffic.add("Allgather", ranks, 4 * ranks, 4 * ranks * ranks)
+    traffic.add("Allgatherv", ranks, exchange.overlap_bytes, exchange.overlap_bytes * ranks)
+    if exchange.returned:
+        _plan(traffic, ranks, POINT_FIELDS)
+    for size in (4, 8, 20):
+        traffic.allreduce(ranks, size)
+    _plan(traffic, ranks, LIST_FIELDS)
+    traffic.add("Send", exchange.plan_messages, 4 * exchange.plan_messages)
+    traffic.add("Rsend", exchange.field_messages, exchange.field_bytes)
+    return traffic
+
+
+# --- Zoltan2's multijagged ----------------------------------------------------------------------
+
+
+def sections(ranks: int) -> list[int]:
+    """Parts of each section along the first axis; one part each on up to two ranks."""
+    number = isqrt(ranks - 1) + 1
+    return [ranks // number + (section < ranks % number) for section in range(number)]
+
+
+def step_bytes(parts: int) -> int:
+    """Of a step of the search for the cuts between `parts`."""
+    return 8 * (4 * (parts - 1) + 1)
+
+
+def multijagged(ranks: int, iterations: dict[int, int]) -> Traffic:
+    """`iterations`: steps by the number of parts that are cut apart."""
+    traffic = Traffic()
+    for size in (8, 8, 32, 8, 24, 4, 4):
+        traffic.allreduce(ranks, size)
+    traffic.add("Comm_dup", ranks, 0)
+    if ranks > 2:
+        traffic.allreduce(ranks, 8 * (ranks + 1) * len(sections(ranks)))
+        traffic.allreduce(ranks, 24, sum(parts > 1 for parts in sections(ranks)))
+    for parts, times in iterations.items():
+        traffic.allreduce(ranks, step_bytes(parts), times)
+    return traffic
+
+
+def expected_iterations(ranks: int, steps: float) -> dict[int, int]:
+    number = len(sections(ranks))
+    found = {number: ceil(steps)}
+    for parts in sections(ranks) if ranks > 2 else []:
+        if parts > 1:
+            found[parts] = found.get(parts, 0) + ceil(steps)
+    return found

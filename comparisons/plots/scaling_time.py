@@ -1,0 +1,214 @@
+"""How long a call takes on any number of ranks, reckoned from the counts of scaling_model.py.
+
+time = latency * messages one after the other + bytes / bandwidth + counted work. A broadcast,
+reduction or gather takes ceil(log2 ranks) messages one after the other and its bytes once, a
+reduction to everybody its bytes twice. Work is counted in points and cells at stated costs each.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil
+
+from scaling_check import read_exchange, read_rounds
+from scaling_model import (
+    CELL,
+    DIMENSION,
+    LIST_BYTES,
+    LIST_FIELDS,
+    MEDIAN,
+    MESH,
+    MOST_CELLS,
+    POINT_BYTES,
+    POINT_FIELDS,
+    RADIX,
+    Sizes,
+    all_agreements,
+    beyond_head,
+    expected_iterations,
+    expected_rounds,
+    sets,
+    step_bytes,
+)
+
+
+@dataclass(frozen=True)
+class Machine:
+    """Network, points and what the work of one of them takes; s, bytes/s."""
+
+    latency: float = 1.5e-6
+    bandwidth: float = 12e9
+    points: int = 50_000  # per rank
+    partners: int = 4  # ranks that one exchanges points with, parts that old points lie in
+    per_point: float = 20e-9  # moments and assignment
+    per_look: float = 2e-9  # of the median search at a point
+    per_cell: float = 50e-9  # merging, or splitting at a level of the bisection
+
+
+@dataclass
+class Path:
+    """What is done one after the other."""
+
+    machine: Machine
+    messages: float = 0
+    bytes: float = 0
+    work: float = 0  # s
+    root_bytes: float = 0
+
+    def collective(self, ranks: int, size: float, times: float = 1, into_root: float = 0) -> None:
+        self.messages += times * (ranks - 1).bit_length()
+        self.bytes += times * size
+        self.root_bytes += times * into_root
+
+    @property
+    def seconds(self) -> float:
+        network = self.messages * self.machine.latency + self.bytes / self.machine.bandwidth
+        return network + self.work
+
+
+@dataclass(frozen=True)
+class Observed:
+    """What the points decide, from the runs here."""
+
+    sizes: Sizes
+    rounds_per_level: int
+    bytes_per_list: float
+    iterations: float  # of the median search in a set of Zoltan's RCB
+    steps: float  # of the search of multijagged in a section
+
+
+def observe(counted: dict, sizes: Sizes) -> Observed:
+    """Largest rounds, mean of the iterations, over the numbers of ranks that were run."""
+    exact = [
+        (row.ranks, read_rounds(row, sizes))
+        for (method, _), row in counted.items()
+        if method.startswith("rrcb-exact") and row.ranks > 1
+    ]
+    zoltan = [row for (method, _), row in counted.items() if method == "zoltan-rcb"]
+    jagged = [row for (method, _), row in counted.items() if method == "zoltan2-mj"]
+    return Observed(
+        sizes,
+        max(ceil(r.rounds / (ranks - 1).bit_length()) for ranks, r in exact),
+        max(r.candidate_bytes / max(r.lists, 1) for _, r in exact),
+        _mean([read_exchange(r).iterations / sum(sets(r.ranks)) for r in zoltan if r.ranks > 1]),
+        _mean([_steps(row) for row in jagged if row.ranks > 2]),
+    )
+
+
+def _mean(values: list[float]) -> float:
+    return sum(values) / len(values) if values else 0.0
+
+
+def _steps(row) -> float:
+    sections = expected_iterations(row.ranks, 1)
+    fixed = 8 + sum(sections.values()) - 1
+    return (row.traffic.calls["Allreduce"] / row.ranks - fixed) / sum(sections.values())
+
+
+def rrcb_path(ranks: int, refine: str, observed: Observed, machine: Machine) -> Path:
+    sizes = observed.sizes
+    path = Path(machine, work=machine.points * machine.per_point)
+    num_agreements, agreements = all_agreements(sizes, refine)
+    per_agreement = agreements / num_agreements
+    path.collective(ranks, 2 * per_agreement, num_agreements, per_agreement)
+    path.collective(ranks, ranks * sizes.parameters, 1, ranks * sizes.parameters)
+    rest = beyond_head(ranks, refine)
+    path.collective(ranks, 0, sizes.num_broadcasts + (rest > 0))
+    path.bytes += sizes.broadcasts + 8 * ranks + rest
+    _climb(path, ranks, sizes)
+    cells = min(MOST_CELLS, ranks * MESH**DIMENSION)
+    path.work += (cells * (ranks - 1).bit_length() + ranks) * machine.per_cell
+    if refine == "accepted":
+        path.collective(ranks, 8 * (ranks + 1), 1, 8 * (ranks + 1))
+        path.collective(ranks, 16)
+    if refine == "exact":
+        _refine(path, ranks, observed)
+    return path
+
+
+def _climb(path: Path, ranks: int, sizes: Sizes) -> None:
+    """Up the tree of radix 8, at each level seven children one after the other."""
+    below = 1
+    while below < ranks:
+        num_children = min(RADIX - 1, ceil(ranks / below) - 1)
+        cells = min(MOST_CELLS, below * MESH**DIMENSION)
+        size = sizes.summary + cells * CELL
+        pieces = 1 + ceil(cells * CELL / 65536)
+        path.messages += num_children * pieces
+        path.bytes += num_children * size
+        path.root_bytes += num_children * size
+        path.work += num_children * cells * path.machine.per_cell
+        below *= RADIX
+
+
+def _refine(path: Path, ranks: int, observed: Observed) -> None:
+    sizes = observed.sizes
+    rounds = expected_rounds(ranks, observed.rounds_per_level, observed.bytes_per_list)
+    histograms = rounds.histograms * sizes.histogram
+    path.collective(ranks, 0, rounds.counts)
+    path.bytes += histograms
+    path.collective(ranks, 0, rounds.rounds)
+    path.bytes += rounds.searches * sizes.search
+    path.collective(ranks, 0, 2 * rounds.gathers)
+    gathered = 4 * rounds.lists * ranks + rounds.candidate_bytes
+    path.bytes += gathered
+    path.root_bytes += histograms + gathered
+    levels = (ranks - 1).bit_length()
+    path.work += levels * path.machine.points * path.machine.per_look
+
+
+def zoltan_path(ranks: int, observed: Observed, machine: Machine) -> Path:
+    path = Path(machine)
+    path.collective(ranks, 16, 11, 8)
+    together = ranks
+    while together > 1:
+        path.collective(together, 2 * MEDIAN, observed.iterations, MEDIAN)
+        path.collective(together, 2 * 24 * together, 1, 24 * together)
+        path.collective(together, 8 * together)  # the communicator is split: who is where
+        _exchange(path, together, 1, POINT_FIELDS, POINT_BYTES / 2)
+        path.work += machine.points * observed.iterations * machine.per_look
+        path.work += machine.points * machine.per_point / 2
+        together = ceil(together / 2)
+    path.collective(ranks, 2 * (8 + 8 * ranks), 1, 8 + 8 * ranks)
+    path.collective(ranks, 4 * ranks, 1, 4 * ranks)
+    overlaps = 12 * machine.partners * ranks
+    path.collective(ranks, overlaps, 1, overlaps)
+    _exchange(path, ranks, 1, POINT_FIELDS, POINT_BYTES)
+    path.collective(ranks, 22, 3, 11)
+    _exchange(path, ranks, machine.partners, LIST_FIELDS, LIST_BYTES)
+    return path
+
+
+def _exchange(path: Path, ranks: int, partners: int, fields: int, point_bytes: float) -> None:
+    """A plan and a message of each field to each partner."""
+    path.collective(ranks, 8, 2 + fields, 4)
+    path.collective(ranks, 4 * ranks, 2, 4 * ranks)
+    path.messages += partners * (1 + fields)
+    path.bytes += path.machine.points * point_bytes
+    path.root_bytes += path.machine.points * point_bytes
+
+
+def jagged_path(ranks: int, observed: Observed, machine: Machine) -> Path:
+    path = Path(machine)
+    path.collective(ranks, 16, 7, 8)
+    sections = expected_iterations(ranks, observed.steps)
+    for parts, times in sections.items():
+        path.collective(ranks, 2 * step_bytes(parts), times, step_bytes(parts))
+    number = max(1, ceil(ranks**0.5))
+    path.collective(ranks, 2 * 8 * (ranks + 1) * number, 1, 8 * (ranks + 1) * number)
+    path.collective(ranks, 48, number, 24)
+    path.work += 2 * machine.points * (observed.steps * machine.per_look + machine.per_point)
+    return path
+
+
+def all_paths(ranks: int, observed: Observed, machine: Machine) -> dict[str, Path]:
+    found = {
+        "rrcb, estimate alone": rrcb_path(ranks, "none", observed, machine),
+        "rrcb, estimate accepted": rrcb_path(ranks, "accepted", observed, machine),
+        "rrcb-exact": rrcb_path(ranks, "exact", observed, machine),
+    }
+    if observed.iterations:
+        found["zoltan-rcb"] = zoltan_path(ranks, observed, machine)
+    if observed.steps:
+        found["zoltan2-mj"] = jagged_path(ranks, observed, machine)
+    return found

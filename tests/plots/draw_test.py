@@ -16,13 +16,14 @@ import cost  # noqa: E402
 import draw  # noqa: E402
 import history  # noqa: E402
 import results  # noqa: E402
+import speed_up  # noqa: E402
 
 TABLE = """\
 method,ranks,parts,points,dim,workload,layout,lists,repeats,time_ms_median,time_ms_min,time_ms_max,\
-imbalance,lu_max_percent,messages,bytes,root_bytes_in,moved_fraction,time_vs_zoltan_rcb,error
-zoltan-rcb,2,2,4,2,slope-start,scene,PARTS,1,2.0,1.5,3.0,1.0,0,1,1,1,0,1,
-"rrcb-sampled[mesh=4,k=2]",2,2,4,2,slope-start,scene,PARTS,1,1.0,0.5,1.5,1.5,50,1,1,1,0,0.5,
-zoltan-hsfc,2,2,4,2,slope-start,scene,PARTS,1,,,,,,,,,,,failed
+imbalance,lu_max_percent,messages,bytes,root_bytes_in,collectives,communicators,moved_fraction,time_vs_zoltan_rcb,error
+zoltan-rcb,2,2,4,2,slope-start,scene,PARTS,1,2.0,1.5,3.0,1.0,0,1,1,1,1,0,0,1,
+"rrcb-sampled[mesh=4,k=2]",2,2,4,2,slope-start,scene,PARTS,1,1.0,0.5,1.5,1.5,50,1,1,1,1,0,0,0.5,
+zoltan-hsfc,2,2,4,2,slope-start,scene,PARTS,1,,,,,,,,,,,,,failed
 """
 FILES = {
     "table.csv": TABLE,
@@ -34,9 +35,9 @@ rrcb,10,0.1,0,3,-50,1.5
 rrcb,10,0.1,1,1,50,1.5
 """,
     "simulation.csv": """\
-method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,worst_imbalance,front_x_m,mass_kg
-none,2,4,10,0,3.0,0.0,2.5,1.4,1.5,60,1
-rrcb,2,4,10,1,2.0,0.1,1.8,1.0,1.1,60,1
+method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,worst_imbalance,front_x_m,mass_kg,path_points,step_work_s,step_path_s,step_network_s,balance_work_s,balance_path_s,balance_network_s,error
+none,2,4,10,0,3.0,0.0,2.5,1.4,1.5,60,1,28,2.4,1.7,0.1,0,0,0,
+rrcb,2,4,10,1,2.0,0.1,1.8,1.0,1.1,60,1,20,2.4,1.2,0.1,0.1,0.05,0.01,
 """,
     "data/points_slope-start_rrcb-sampled_mesh_4_k_2_.csv": """\
 x,y,part
@@ -58,15 +59,28 @@ rank,cell,lower_x,lower_y,upper_x,upper_y,mean_x,mean_y,sigma_x,sigma_y,count
     "data/statistical_slope-start.csv": "x,y\n0.2,0\n2.7,0.4\n",
     "sweep.csv": """\
 method,ranks,parts,points,dim,workload,layout,lists,repeats,time_ms_median,time_ms_min,time_ms_max,\
-imbalance,lu_max_percent,messages,bytes,root_bytes_in,moved_fraction,time_vs_zoltan_rcb,error
-zoltan-rcb,2,2,4,2,uniform,sorted,PARTS,1,2.0,1.5,3.0,1.0,0,1,100,1,0,1,
-"rrcb-sampled[mesh=2,k=1.5,fraction=0.5]",2,2,4,2,slope-start,simulation,PARTS,1,1,1,1,1.5,50,1,1,1,0,1,
-"rrcb-sampled[mesh=4,k=1.5,fraction=0.5]",2,2,4,2,slope-start,simulation,PARTS,1,1,1,1,1.2,20,1,1,1,0,1,
+imbalance,lu_max_percent,messages,bytes,root_bytes_in,collectives,communicators,moved_fraction,time_vs_zoltan_rcb,error
+zoltan-rcb,2,2,4,2,uniform,sorted,PARTS,1,2.0,1.5,3.0,1.0,0,1,100,1,1,0,0,1,
+"rrcb-sampled[mesh=2,k=1.5,fraction=0.5]",2,2,4,2,slope-start,simulation,PARTS,1,1,1,1,1.5,50,1,1,1,1,0,0,1,
+"rrcb-sampled[mesh=4,k=1.5,fraction=0.5]",2,2,4,2,slope-start,simulation,PARTS,1,1,1,1,1.2,20,1,1,1,1,0,0,1,
 """,
     "sweep_simulation.csv": """\
-method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,worst_imbalance,front_x_m,mass_kg,error
-serial,1,4,10,1,3.0,0.0,3.0,1.0,1.0,60,1,
-"rrcb-sampled[mesh=2,k=1.5,fraction=0.5]",2,4,10,1,2.0,0.1,1.8,1.0,1.1,60,1,
+method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,worst_imbalance,front_x_m,mass_kg,path_points,step_work_s,step_path_s,step_network_s,balance_work_s,balance_path_s,balance_network_s,error
+serial,1,4,10,1,3.0,0.0,3.0,1.0,1.0,60,1,40,2.4,2.4,0,0,0,0,
+"rrcb-sampled[mesh=2,k=1.5,fraction=0.5]",2,4,10,1,2.0,0.1,1.8,1.0,1.1,60,1,20,2.4,1.2,0.1,0.1,0.05,0.01,
+rrcb,2,4,10,5,1.5,0.1,1.4,1.0,1.1,60,1,20,2.4,1.2,0.1,0.1,0.05,0.01,
+rrcb,4,4,10,5,1.2,0.1,1.1,1.0,1.1,60,1,10,2.4,0.7,0.1,0.2,0.1,0.02,
+""",
+    "data/history_rrcb-sampled_mesh_2_k_1.5_fraction_0.5__2.csv": """\
+method,step,time,part,points,lu_percent,imbalance
+"rrcb-sampled[mesh=2,k=1.5,fraction=0.5]",0,0.0,0,3,-50,1.5
+"rrcb-sampled[mesh=2,k=1.5,fraction=0.5]",0,0.0,1,1,50,1.5
+""",
+    "error_sources.csv": """\
+workload,layout,dim,points,ranks,domain,mesh,k,fraction,seed,imbalance,lu_max_percent,error
+uniform,sorted,2,4,2,points,0,0,0,0,1,0,
+uniform,sorted,2,4,2,cells,2,0,0,0,1.5,50,
+uniform,sorted,2,4,2,sampled,2,1.5,1,1,2,100,
 """,
 }
 
@@ -98,6 +112,15 @@ class DrawTest(unittest.TestCase):
         self.assertEqual(self.pictures(), sorted(draw.PICTURES))
         for name in self.pictures():
             self.assertEqual((self.directory / name).read_bytes()[:4], b"\x89PNG")
+
+    def test_reckons_speed_ups_over_the_serial_run(self) -> None:
+        self.write("sweep_simulation.csv")
+        found = {(s.run.method, s.run.ranks): s for s in speed_up.read_speed_ups(self.directory)}
+        two = found["rrcb", 2]  # rebalanced twice in its ten steps
+        self.assertAlmostEqual(two.critical_path, 2.4 / (1.2 + 0.1 + 0.05 + 0.01))
+        self.assertAlmostEqual(two.every_step, 2.4 / (1.2 + 0.1 + 5 * (0.05 + 0.01)))
+        self.assertAlmostEqual(two.points, 2)
+        self.assertAlmostEqual(two.wall, 2)
 
     def test_leaves_out_pictures_without_data_and_removes_old_ones(self) -> None:
         self.write("table.csv")

@@ -20,7 +20,7 @@ from sentences import sentences  # noqa: E402
 
 HEADER = (
     "method,ranks,parts,points,dim,workload,layout,lists,repeats,time_ms_median,time_ms_min,"
-    "time_ms_max,imbalance,lu_max_percent,messages,bytes,root_bytes_in,moved_fraction,"
+    "time_ms_max,imbalance,lu_max_percent,messages,bytes,root_bytes_in,collectives,communicators,moved_fraction,"
     "time_vs_zoltan_rcb,error\n"
 )
 
@@ -42,6 +42,8 @@ def measured(method: str, time: float, imbalance: float, traffic: int = 100, wor
         messages=1,
         bytes=traffic,
         root_bytes_in=1,
+        collectives=1,
+        communicators=0,
         moved_fraction=0,
     )
 
@@ -123,7 +125,7 @@ class ReportTest(unittest.TestCase):
         return output.getvalue()
 
     def test_holds_its_pictures_and_refers_to_nothing_else(self) -> None:
-        row = '"rrcb[mesh=4,tol=1.1]",4,4,1000,2,<fog>,sorted,PARTS,1,1,1,1,1,0,1,1,1,0,,\n'
+        row = '"rrcb[mesh=4,tol=1.1]",4,4,1000,2,<fog>,sorted,PARTS,1,1,1,1,1,0,1,1,1,1,0,0,,\n'
         (self.directory / "table.csv").write_text(HEADER + row)
         (self.directory / "parts.png").write_bytes(b"picture")
         self.write("--cloud=fog")
@@ -138,7 +140,7 @@ class ReportTest(unittest.TestCase):
 
     def test_of_a_sweep_tells_which_setting_for_which_tolerance(self) -> None:
         rows = "".join(
-            f"rrcb,4,4,1000,2,{cloud},sorted,PARTS,1,1,1,1,1.04,4,1,1,1,0,,\n"
+            f"rrcb,4,4,1000,2,{cloud},sorted,PARTS,1,1,1,1,1.04,4,1,1,1,1,0,0,,\n"
             for cloud in ("fog", "mist")
         )
         (self.directory / "sweep.csv").write_text(HEADER + rows)

@@ -3,7 +3,9 @@
 #
 # A GoogleTest program; with RANKS it runs once under mpirun for every rank count, and links the
 # main function that initialises MPI and fails on all ranks when it fails on one.
-set(RRCB_MPIEXEC_FLAGS "--oversubscribe;--allow-run-as-root;--bind-to;none"
+# Ranks that spin while they wait would wait long for each other on a busy machine.
+set(RRCB_MPIEXEC_FLAGS
+    "--oversubscribe;--allow-run-as-root;--bind-to;none;--mca;mpi_yield_when_idle;1"
     CACHE STRING "Flags for mpiexec, as Open MPI needs them")
 
 function(rrcb_add_mpi_run)

@@ -27,8 +27,8 @@ double worst_load_unbalance_percent(std::span<const double> part_weights,
 
 /// Weight of every part over all ranks, length num_parts, on every rank.
 ///
-/// Collective over `comm`: one reduction. `parts` holds one entry in 0 ... num_parts - 1 per
-/// local point.
+/// Collective over `comm`: one reduction, more beyond a thousand parts. `parts` holds one entry in
+/// 0 ... num_parts - 1 per local point; throws Error on all ranks where one holds others.
 std::vector<double> part_weights(const Points& points, std::span<const Part> parts, int num_parts,
                                  MPI_Comm comm);
 

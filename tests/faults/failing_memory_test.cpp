@@ -128,5 +128,21 @@ TEST(FailingMemory, in_new_part_numbers) {
     }
 }
 
+TEST(FailingMemory, in_the_weights_of_the_parts) {
+    const std::vector<double> coordinates = cloud_here(2);
+    const Points points = interleaved_points(coordinates, 2);
+    const std::vector<Part> parts(points.count, test::rank());
+    std::vector<double> weights;
+    FailingMemory(
+        {ok, static_cast<int>(ErrorCode::out_of_memory)},
+        [&] {
+            weights = {};
+            return code_of(
+                [&] { weights = part_weights(points, parts, test::num_ranks(), MPI_COMM_WORLD); });
+        },
+        [&] { EXPECT_EQ(weights[0], 120); })
+        .run();
+}
+
 }  // namespace
 }  // namespace rrcb

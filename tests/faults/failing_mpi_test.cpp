@@ -61,19 +61,59 @@ TEST(FailingMpi, gives_all_ranks_one_code_and_no_lists_and_the_next_call_works) 
     }
 }
 
+/// Each collective call of `run` fails on all ranks, which all throw an Error that names it.
+void expect_errors(const std::function<void()>& run) {
+    fail_each_call(run, [&] {
+        try {
+            run();
+            ADD_FAILURE() << "nothing was thrown";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::mpi);
+            EXPECT_NE(std::string(error.what()).find("MPI_"), std::string::npos);
+        }
+    });
+}
+
 TEST(FailingMpi, reaches_the_caller_of_balance_as_an_error_that_names_the_call) {
     const Cloud cloud;
     const Points points = cloud.points();
-    fail_each_call([&] { balance(points, Options{}, MPI_COMM_WORLD); },
-                   [&] {
-                       try {
-                           balance(points, Options{}, MPI_COMM_WORLD);
-                           ADD_FAILURE() << "nothing was thrown";
-                       } catch (const Error& error) {
-                           EXPECT_EQ(error.code(), ErrorCode::mpi);
-                           EXPECT_NE(std::string(error.what()).find("MPI_"), std::string::npos);
-                       }
-                   });
+    expect_errors([&] { balance(points, Options{}, MPI_COMM_WORLD); });
+}
+
+TEST(FailingMpi, reaches_the_caller_of_what_follows_a_balance) {
+    const Cloud cloud;
+    const std::vector<Part> parts(cloud.points().count, (test::rank() + 1) % test::num_ranks());
+    std::vector<RankRange> ranks;
+    for (int rank = 0; rank < test::num_ranks(); ++rank) ranks.push_back({rank, 1});
+    expect_errors([&] { plan(parts, test::num_ranks(), MPI_COMM_WORLD); });
+    expect_errors([&] { remap(parts, ranks, MPI_COMM_WORLD); });
+    expect_errors([&] { part_weights(cloud.points(), parts, test::num_ranks(), MPI_COMM_WORLD); });
+}
+
+TEST(FailingMpi, of_one_message_of_a_plan_is_that_ranks_alone_and_the_next_plan_is_right) {
+    // Every rank sends to every other one.
+    std::vector<Part> parts(static_cast<std::size_t>(3 * test::num_ranks()));
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        parts[i] = static_cast<Part>(i) % test::num_ranks();
+    mpi_layer::fail_message(0);
+    const Plan expected = plan(parts, test::num_ranks(), MPI_COMM_WORLD);
+    const long num_messages = mpi_layer::counted_messages();
+    ASSERT_EQ(num_messages, 2 * (test::num_ranks() - 1));
+    for (long message = 1; message <= num_messages; ++message) {
+        SCOPED_TRACE(message);
+        mpi_layer::fail_message(test::is_last_rank() ? message : 0);
+        bool threw = false;
+        try {
+            plan(parts, test::num_ranks(), MPI_COMM_WORLD);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::mpi);
+            threw = true;
+        }
+        EXPECT_EQ(threw, test::is_last_rank());
+        mpi_layer::fail_message(0);
+        EXPECT_EQ(plan(parts, test::num_ranks(), MPI_COMM_WORLD).import_indices,
+                  expected.import_indices);
+    }
 }
 
 /// The error of a call of `balance` in which that message fails on that rank.

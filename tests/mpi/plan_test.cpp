@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+#include <string>
 #include <vector>
 
 namespace rrcb {
@@ -86,6 +88,34 @@ TEST(Plan, a_part_out_of_range_on_one_rank_fails_everywhere) {
         EXPECT_EQ(std::string(error.what()), "rank " + std::to_string(num_ranks() - 1) +
                                                  ": a part is outside 0 ... " +
                                                  std::to_string(num_ranks() - 1));
+    }
+}
+
+TEST(PartWeights, are_added_up_over_the_ranks_however_many_parts_there_are) {
+    for (const int num_parts : {1, 1023, 1024, 5000}) {
+        // Rank r has the weight r + 1 in the first part and in the last.
+        const std::vector<double> x(2);
+        const std::vector<double> weights(2, rank() + 1.0);
+        const std::vector<Part> parts{0, num_parts - 1};
+        const auto sums =
+            part_weights(interleaved_points(x, 1, weights), parts, num_parts, MPI_COMM_WORLD);
+        ASSERT_EQ(sums.size(), static_cast<std::size_t>(num_parts));
+        const double all = num_ranks() * (num_ranks() + 1) / 2;
+        EXPECT_EQ(sums.front(), num_parts == 1 ? 2 * all : all);
+        EXPECT_EQ(sums.back(), num_parts == 1 ? 2 * all : all);
+        EXPECT_EQ(std::accumulate(sums.begin(), sums.end(), 0.0), 2 * all);
+    }
+}
+
+TEST(PartWeights, of_a_part_that_is_none_are_refused_on_all_ranks) {
+    const std::vector<double> x(1);
+    const std::vector<Part> parts{test::is_last_rank() ? 7 : 0};
+    try {
+        part_weights(interleaved_points(x, 1), parts, 2, MPI_COMM_WORLD);
+        ADD_FAILURE() << "nothing was thrown";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.what(),
+                  "rank " + std::to_string(num_ranks() - 1) + ": part 7 is none of the 2 parts");
     }
 }
 

@@ -1,0 +1,98 @@
+// More points than 32 bits count, told to the stages by numbers that no memory backs.
+#include "cell_records.hpp"
+#include "contribution.hpp"
+#include "decision_mpi.hpp"
+
+#include <rrcb/bisection.hpp>
+#include <rrcb/support_mesh.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace rrcb {
+namespace {
+
+constexpr GlobalCount two_to_the_32 = GlobalCount{1} << 32;
+
+/// Evenly spread points of weight 1 in a cell of length 1.
+CellMoments unit_cell(LocalIndex number, GlobalCount count) {
+    const auto lower = static_cast<double>(number);
+    CellMoments cell;
+    cell.cell = number;
+    cell.box.lower = {lower, 0, 0};
+    cell.box.upper = {lower + 1, 0, 0};
+    cell.moments = {
+        count, static_cast<double>(count), {lower + 0.5, 0, 0}, {1 / std::sqrt(12.0), 0, 0}};
+    return cell;
+}
+
+TEST(LargeCounts, add_up_in_moments) {
+    const Moments a{two_to_the_32, 0x1p32, {0, 0, 0}, {0, 0, 0}};
+    const Moments b{two_to_the_32 * 3, 0x3p32, {4, 0, 0}, {0, 0, 0}};
+    const Moments both = merge(a, b);
+    EXPECT_EQ(both.count, two_to_the_32 * 4);
+    EXPECT_EQ(both.weight, 0x1p34);
+    EXPECT_DOUBLE_EQ(both.mean[0], 3);
+    // A quarter lies 3 below the mean, the rest 1 above: (9 + 3) / 4.
+    EXPECT_DOUBLE_EQ(both.deviation[0], std::sqrt(3.0));
+}
+
+TEST(LargeCounts, are_sampled_by_a_small_fraction) {
+    const std::vector<CellMoments> cells{unit_cell(0, two_to_the_32 * 3),
+                                         unit_cell(5, two_to_the_32)};
+    Options options;
+    options.sample_fraction = 0x1p-29;  // 2^34 points give 2^5, 24 and 8 of them in the two cells
+    const StatisticalDomain domain = sampled_domain(cells, 1, options);
+    ASSERT_EQ(domain.patches.size(), 32u);
+    EXPECT_LT(domain.patches[23].lower[0], 3);
+    EXPECT_GT(domain.patches[24].lower[0], 3);
+}
+
+TEST(LargeCounts, add_up_over_the_ranks) {
+    Summary all;
+    all.num_points = two_to_the_32 / 2 + 1;
+    all.num_cells = 1;
+    Summary next = all;
+    next.first_rank = 1;
+    join(all, next);
+    join(all, next);
+    EXPECT_EQ(all.num_points, two_to_the_32 / 2 * 3 + 3);
+}
+
+/// What the root hears of 2^34 points in two cells, three quarters of them in the first.
+Contribution large_contribution(const Options& options) {
+    Contribution all;
+    Box& box = all.summary.box;
+    box.lower = {0, 0, 0};
+    box.upper = {2, 0, 0};
+    const std::vector cells{unit_cell(0, two_to_the_32 * 3), unit_cell(1, two_to_the_32)};
+    append_cells(cells, make_support_mesh(box, 1, 2), all.records);
+    all.summary.request = request_of(options, 1, nullptr);
+    all.summary.num_points = two_to_the_32 * 4;
+    all.summary.num_cells = 2;
+    all.summary.weight = 0x1p34;
+    all.summary.lightest = all.summary.heaviest = 1;
+    return all;
+}
+
+TEST(LargeCounts, are_divided_and_reported_by_the_root) {
+    Options options;
+    options.num_parts = 2;
+    options.part_sizes = {1, 1};
+    options.refine = Refine::none;
+    Decision decision;
+    make_room(decision, options, 1);
+    decide(large_contribution(options), options, nullptr, decision);
+    // Half of the weight is two thirds of the first cell's.
+    EXPECT_DOUBLE_EQ(decision.bisection.cuts.tree[0].at[0], 2.0 / 3);
+    const Report& report = decision.verdict.report;
+    EXPECT_EQ(report.num_points, two_to_the_32 * 4);
+    EXPECT_EQ(report.total_weight, 0x1p34);
+    EXPECT_EQ(report.least_imbalance, 1);
+    EXPECT_EQ(report.surplus_parts, 0);
+    EXPECT_NEAR(report.estimated_imbalance, 1, 1e-15);
+}
+
+}  // namespace
+}  // namespace rrcb

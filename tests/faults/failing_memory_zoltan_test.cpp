@@ -100,6 +100,43 @@ TEST(FailingMemoryInZoltan, with_parts_of_different_sizes) {
     fail_in_partition(program);
 }
 
+int num_packed = 0;
+
+void let_objects_migrate(Program& program) {
+    ZOLTAN_OBJ_SIZE_FN* size = [](void*, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR, int* code) {
+        *code = ZOLTAN_OK;
+        return 8;
+    };
+    ZOLTAN_PACK_OBJ_FN* pack = [](void*, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR, int, int, char*,
+                                  int* code) {
+        *code = ZOLTAN_OK;
+        ++num_packed;
+    };
+    ZOLTAN_UNPACK_OBJ_FN* unpack = [](void*, int, ZOLTAN_ID_PTR, int, char*, int* code) {
+        *code = ZOLTAN_OK;
+    };
+    Zoltan_Set_Obj_Size_Fn(program.zz, size, nullptr);
+    Zoltan_Set_Pack_Obj_Fn(program.zz, pack, nullptr);
+    Zoltan_Set_Unpack_Obj_Fn(program.zz, unpack, nullptr);
+    program.set("AUTO_MIGRATE", "1");
+}
+
+TEST(FailingMemoryInZoltan, moves_all_objects_or_none) {
+    ShortProgram program;
+    let_objects_migrate(program);
+    program.set("RRCB_REFINE", "NONE");
+    FailingMemory(
+        {ZOLTAN_OK, ZOLTAN_MEMERR},
+        [&] {
+            num_packed = 0;
+            const int code = program.call();
+            EXPECT_TRUE(code == ZOLTAN_OK || num_packed == 0) << num_packed;
+            return code;
+        },
+        [&] { EXPECT_EQ(num_packed, program.raw_exports.count); })
+        .run();
+}
+
 TEST(FailingMemoryInZoltan, while_inputs_of_failing_calls_are_written) {
     const std::filesystem::path folder =
         std::filesystem::temp_directory_path() /

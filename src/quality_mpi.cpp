@@ -62,19 +62,25 @@ std::vector<double> part_weights(const Points& points, std::span<const Part> par
 
 double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
                       MPI_Comm user) {
-    const MPI_Comm comm = mpi::duplicate_of(user);
-    const int rank = mpi::rank_of(comm);
-    const int num_ranks = mpi::size_of(comm);
-    std::array<double, 2> moved_and_all{};
-    for (LocalIndex i = 0; i < points.count; ++i) {
-        const RankRange ranks = ranks_of_part(parts[i], num_parts, num_ranks);
-        const bool stays = rank >= ranks.first && rank < ranks.first + ranks.count;
-        if (!stays) moved_and_all[0] += points.weight(i);
-        moved_and_all[1] += points.weight(i);
-    }
-    mpi::check(MPI_Allreduce(MPI_IN_PLACE, moved_and_all.data(), 2, MPI_DOUBLE, MPI_SUM, comm),
+    Member me{mpi::duplicate_of(user)};
+    std::array<double, 3> sums{};  // weight that moves, all weight, ranks that failed
+    me.locally([&] {
+        check_arguments(points, parts, num_parts);
+        const int rank = mpi::rank_of(me.comm);
+        const int num_ranks = mpi::size_of(me.comm);
+        for (LocalIndex i = 0; i < points.count; ++i) {
+            const RankRange ranks = ranks_of_part(parts[i], num_parts, num_ranks);
+            const bool stays = rank >= ranks.first && rank < ranks.first + ranks.count;
+            if (!stays) sums[0] += points.weight(i);
+            sums[1] += points.weight(i);
+        }
+    });
+    sums[2] = me.failure.failed ? 1 : 0;
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE,
+                             MPI_SUM, me.comm),
                "MPI_Allreduce");
-    return moved_and_all[1] > 0 ? moved_and_all[0] / moved_and_all[1] : 0;
+    if (sums[2] > 0) agree(me);
+    return sums[1] > 0 ? sums[0] / sums[1] : 0;
 }
 
 }  // namespace rrcb

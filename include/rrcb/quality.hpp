@@ -34,7 +34,7 @@ std::vector<double> part_weights(const Points& points, std::span<const Part> par
 
 /// Share of the weight, 0 ... 1, whose rank is not among the ranks of its new part.
 ///
-/// Collective over `comm`: one reduction.
+/// Collective over `comm`: one reduction. `parts` and errors as above.
 double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
                       MPI_Comm comm);
 

@@ -88,6 +88,8 @@ TEST(FailingMpi, reaches_the_caller_of_what_follows_a_balance) {
     expect_errors([&] { plan(parts, test::num_ranks(), MPI_COMM_WORLD); });
     expect_errors([&] { remap(parts, ranks, MPI_COMM_WORLD); });
     expect_errors([&] { part_weights(cloud.points(), parts, test::num_ranks(), MPI_COMM_WORLD); });
+    expect_errors(
+        [&] { moved_fraction(cloud.points(), parts, test::num_ranks(), MPI_COMM_WORLD); });
 }
 
 TEST(FailingMpi, of_one_message_of_a_plan_is_that_ranks_alone_and_the_next_plan_is_right) {

@@ -107,16 +107,29 @@ TEST(PartWeights, are_added_up_over_the_ranks_however_many_parts_there_are) {
     }
 }
 
-TEST(PartWeights, of_a_part_that_is_none_are_refused_on_all_ranks) {
+/// One point per rank, and a part that is none on the last rank.
+void expect_refusal(double measure(const Points&, std::span<const Part>)) {
     const std::vector<double> x(1);
     const std::vector<Part> parts{test::is_last_rank() ? 7 : 0};
     try {
-        part_weights(interleaved_points(x, 1), parts, 2, MPI_COMM_WORLD);
+        measure(interleaved_points(x, 1), parts);
         ADD_FAILURE() << "nothing was thrown";
     } catch (const Error& error) {
         EXPECT_EQ(error.what(),
                   "rank " + std::to_string(num_ranks() - 1) + ": part 7 is none of the 2 parts");
     }
+}
+
+TEST(PartWeights, of_a_part_that_is_none_are_refused_on_all_ranks) {
+    expect_refusal([](const Points& points, std::span<const Part> parts) {
+        return part_weights(points, parts, 2, MPI_COMM_WORLD)[0];
+    });
+}
+
+TEST(MovedFraction, of_a_part_that_is_none_is_refused_on_all_ranks) {
+    expect_refusal([](const Points& points, std::span<const Part> parts) {
+        return moved_fraction(points, parts, 2, MPI_COMM_WORLD);
+    });
 }
 
 TEST(MovedFraction, counts_the_weight_that_changes_rank) {

@@ -67,7 +67,7 @@ Summary summarize(const Points& points, const Box& box) {
                          : std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
     if (points.count > 0) {
         const auto [lightest, heaviest] = points.weights.empty()
-                                              ? std::ranges::min_max_result{1.0, 1.0}
+                                              ? std::ranges::min_max_result<double>{1.0, 1.0}
                                               : std::ranges::minmax(points.weights);
         summary.lightest = lightest;
         summary.heaviest = heaviest;

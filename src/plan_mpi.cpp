@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <numeric>
 #include <string>
+#include <vector>
 
 namespace rrcb {
 
@@ -170,7 +171,9 @@ RankRange ranks_of_part(Part part, int num_parts, int num_ranks) {
 }
 
 Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm user) {
-    auto& [comm, counts] = mpi::duplicate_with(user);
+    mpi::Duplicate& kept = mpi::duplicate_with(user);
+    const MPI_Comm comm = kept.comm;
+    std::vector<std::int64_t>& counts = kept.per_rank;
     Member me{comm};
     Plan result;
     Exchange exchange;

@@ -65,7 +65,7 @@ GhostNodes<D>::GhostNodes(std::span<const NodeRange<D>> patches, MPI_Comm comm) 
     incoming_.resize(ranks_.size());
     requests_.resize(2 * ranks_.size());
     std::ranges::sort(shared_);
-    shared_.erase(std::ranges::unique(shared_).begin(), shared_.end());
+    shared_.erase(std::unique(shared_.begin(), shared_.end()), shared_.end());
 }
 
 template <int D>

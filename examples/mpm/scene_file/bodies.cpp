@@ -8,11 +8,11 @@ namespace mpm {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// What a shape must have beside `shape` and `operation`.
 std::vector<Rule> shape_rules(const std::string& shape) {
-    std::vector<Rule> rules{choice("shape", {"box", "polygon", "ball", "half_space"}),
+    std::vector<Rule> rules{{.name = "shape",
+                             .kind = Rule::Kind::word,
+                             .choices = {"box", "polygon", "ball", "half_space"}},
                             choice("operation", {"add", "subtract", "intersect"})};
     const auto add = [&](std::vector<Rule> more) {
         rules.insert(rules.end(), more.begin(), more.end());

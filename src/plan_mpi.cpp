@@ -1,4 +1,5 @@
 #include "agreement_mpi.hpp"
+#include "exchange_mpi.hpp"
 #include "mpi/communicator.hpp"
 #include "mpi/duplicate.hpp"
 
@@ -6,15 +7,13 @@
 #include <rrcb/plan.hpp>
 
 #include <algorithm>
-#include <numeric>
+#include <cstring>
 #include <string>
 #include <vector>
 
 namespace rrcb {
 
 namespace {
-
-constexpr int plan_tag = 1;
 
 /// What the importing rank is told of one point.
 struct Notice {
@@ -56,103 +55,28 @@ void list_exports(std::span<const Part> parts, int num_parts, MPI_Comm comm, Pla
     }
 }
 
-std::size_t most_notices() {
-    return mpi::longest_message / sizeof(Notice);
+/// Hands what leaves to the exchange.
+void post(const Plan& plan, Exchange& exchange) {
+    exchange.fill(plan.export_ranks, [&](std::size_t k, std::byte* place) {
+        const Notice notice{plan.export_indices[k], plan.export_parts[k]};
+        std::memcpy(place, &notice, sizeof notice);
+    });
 }
 
-/// Messages of this rank, with room for all that comes and goes.
-struct Exchange {
-    std::vector<Notice> outbox;  ///< for one destination after the other
-    std::vector<Notice> inbox;   ///< in the order of arrival
-    struct Message {
-        int source;
-        std::size_t first;  ///< in the inbox
-        std::size_t count;
-    };
-    std::vector<Message> arrived;
-    std::vector<MPI_Request> requests;
-};
-
-/// Fills the outbox, and `counts` with the number of notices for each rank.
-void sort_by_destination(const Plan& plan, std::span<std::int64_t> counts, Exchange& exchange) {
-    exchange.outbox.resize(plan.export_indices.size());
-    for (const int destination : plan.export_ranks) ++counts[static_cast<std::size_t>(destination)];
-    std::vector<std::size_t> next(counts.size());
-    std::exclusive_scan(counts.begin(), counts.end(), next.begin(), std::size_t{0});
-    for (std::size_t k = 0; k < plan.export_indices.size(); ++k) {
-        const auto destination = static_cast<std::size_t>(plan.export_ranks[k]);
-        exchange.outbox[next[destination]++] = {plan.export_indices[k], plan.export_parts[k]};
-    }
-    const std::size_t most = counts.size() + exchange.outbox.size() / most_notices();
-    exchange.requests.reserve(
-        static_cast<std::size_t>(mpi::to_int(static_cast<std::int64_t>(most))));
-}
-
-/// How many notices come to this rank. Collective: one reduction.
-std::size_t count_imports(std::span<const std::int64_t> counts, MPI_Comm comm) {
-    std::int64_t num_imports = 0;
-    mpi::check(MPI_Reduce_scatter_block(counts.data(), &num_imports, 1, MPI_INT64_T, MPI_SUM, comm),
-               "MPI_Reduce_scatter_block");
-    return static_cast<std::size_t>(num_imports);
-}
-
-void make_room(std::size_t num_imports, std::size_t num_ranks, Exchange& exchange, Plan& plan) {
-    exchange.inbox.resize(num_imports);
-    exchange.arrived.reserve(std::min(num_imports, num_ranks + num_imports / most_notices()));
+void make_room(std::size_t num_imports, Plan& plan) {
     plan.import_ranks.reserve(num_imports);
     plan.import_indices.reserve(num_imports);
     plan.import_parts.reserve(num_imports);
 }
 
-void send_all(std::span<const std::int64_t> counts, Exchange& exchange, Member& me) {
-    const Notice* next = exchange.outbox.data();
-    for (std::size_t destination = 0; destination < counts.size(); ++destination) {
-        auto left = static_cast<std::size_t>(counts[destination]);
-        while (left > 0) {
-            const std::size_t count = std::min(left, most_notices());
-            MPI_Request& request = exchange.requests.emplace_back(MPI_REQUEST_NULL);
-            me.always([&] {
-                mpi::check(MPI_Isend(next, static_cast<int>(count * sizeof(Notice)), MPI_BYTE,
-                                     static_cast<int>(destination), plan_tag, me.comm, &request),
-                           "MPI_Isend");
-            });
-            next += count;
-            left -= count;
-        }
-    }
-}
-
-void receive_all(Exchange& exchange, Member& me) {
-    std::size_t first = 0;
-    while (first < exchange.inbox.size()) {
-        const std::size_t most = std::min(exchange.inbox.size() - first, most_notices());
-        MPI_Status status{};
-        int bytes = 0;
-        me.always([&] {
-            mpi::check(MPI_Recv(&exchange.inbox[first], static_cast<int>(most * sizeof(Notice)),
-                                MPI_BYTE, MPI_ANY_SOURCE, plan_tag, me.comm, &status),
-                       "MPI_Recv");
-        });
-        if (MPI_Get_count(&status, MPI_BYTE, &bytes) != MPI_SUCCESS || bytes <= 0) return;
-        const std::size_t count = static_cast<std::size_t>(bytes) / sizeof(Notice);
-        exchange.arrived.push_back({status.MPI_SOURCE, first, count});
-        first += count;
-    }
-}
-
-/// Lists what arrived by rank, whatever the order of arrival.
-void list_imports(Exchange& exchange, Plan& plan) {
-    std::ranges::sort(exchange.arrived, [](const auto& a, const auto& b) {
-        return std::pair(a.source, a.first) < std::pair(b.source, b.first);
+void list_imports(const Exchange& exchange, Plan& plan) {
+    exchange.for_each([&](int source, const std::byte* place) {
+        Notice notice;
+        std::memcpy(&notice, place, sizeof notice);
+        plan.import_ranks.push_back(source);
+        plan.import_indices.push_back(notice.index);
+        plan.import_parts.push_back(notice.part);
     });
-    for (const Exchange::Message& message : exchange.arrived) {
-        for (const Notice& notice :
-             std::span(exchange.inbox).subspan(message.first, message.count)) {
-            plan.import_ranks.push_back(message.source);
-            plan.import_indices.push_back(notice.index);
-            plan.import_parts.push_back(notice.part);
-        }
-    }
 }
 
 }  // namespace
@@ -176,26 +100,16 @@ Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm user) {
     std::vector<std::int64_t>& counts = kept.per_rank;
     Member me{comm};
     Plan result;
-    Exchange exchange;
-    std::ranges::fill(counts, 0);
+    Exchange exchange(sizeof(Notice), counts);
     me.locally([&] {
         check_parts(parts, num_parts);
         list_exports(parts, num_parts, comm, result);
-        sort_by_destination(result, counts, exchange);
+        post(result, exchange);
     });
-    if (me.failure.failed) std::ranges::fill(counts, 0);
-    const std::size_t num_imports = count_imports(counts, comm);
-    me.locally([&] { make_room(num_imports, counts.size(), exchange, result); });
+    const std::size_t num_imports = exchange.announce(me);
+    me.locally([&] { make_room(num_imports, result); });
     agree(me);
-    send_all(counts, exchange, me);
-    receive_all(exchange, me);
-    me.always([&] {
-        mpi::check(MPI_Waitall(static_cast<int>(exchange.requests.size()), exchange.requests.data(),
-                               MPI_STATUSES_IGNORE),
-                   "MPI_Waitall");
-    });
-    // Of messages between two ranks nobody else hears any more.
-    if (me.failure.failed) throw Error(me.failure.code, me.failure.text.data());
+    exchange.run(me);
     list_imports(exchange, result);
     return result;
 }

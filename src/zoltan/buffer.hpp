@@ -1,12 +1,11 @@
 #pragma once
 
-#include "failure.hpp"
-
 #include <zoltan_mem.h>
 #include <zoltan_types.h>
 
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <utility>
 
 namespace rrcb::zoltan {
@@ -16,13 +15,12 @@ template <typename T>
 class ZoltanArray {
   public:
     ZoltanArray() = default;
-    /// Uninitialised; null when `size` is 0. Throws Failure.
+    /// Uninitialised; null when `size` is 0. Throws std::bad_alloc.
     explicit ZoltanArray(std::size_t size) {
         if (size == 0) return;
         data_ = reinterpret_cast<T*>(Zoltan_Malloc(size * sizeof(T), file(), __LINE__));
-        if (data_ == nullptr) throw Failure(ZOLTAN_MEMERR, "out of memory for lists of objects");
+        if (data_ == nullptr) throw std::bad_alloc();
     }
-    explicit ZoltanArray(T* owned) : data_(owned) {}
     ZoltanArray(ZoltanArray&& other) noexcept : data_(other.release()) {}
     ZoltanArray& operator=(ZoltanArray&& other) noexcept {
         std::swap(data_, other.data_);

@@ -1,22 +1,84 @@
 #include "lists_mpi.hpp"
 
+#include "../agreement_mpi.hpp"
+#include "exchange_mpi.hpp"
+#include "mpi/communicator.hpp"
+
+#include <cstring>
+
 namespace rrcb::zoltan {
 
-List invert(Zoltan_Struct* zz, const List& exports) {
+namespace {
+
+/// An object on its way: words of its global id, of its local id, and its part.
+struct Record {
+    std::size_t num_gid;
+    std::size_t num_lid;
+
+    std::size_t bytes() const { return (num_gid + num_lid) * sizeof(ZOLTAN_ID_TYPE) + sizeof(int); }
+
+    void write(const List& list, std::size_t i, std::byte* place) const {
+        place = put(list.global_ids.get(), num_gid, i, place);
+        place = put(list.local_ids.get(), num_lid, i, place);
+        put(list.parts.get(), 1, i, place);
+    }
+
+    void read(const std::byte* place, std::size_t i, List& list) const {
+        place = get(place, num_gid, i, list.global_ids.get());
+        place = get(place, num_lid, i, list.local_ids.get());
+        get(place, 1, i, list.parts.get());
+    }
+
+  private:
+    // Word by word: widths are small, and known only at run time.
+    template <typename T>
+    static std::byte* put(const T* array, std::size_t width, std::size_t i, std::byte* place) {
+        for (std::size_t word = 0; word < width; ++word, place += sizeof(T))
+            std::memcpy(place, &array[i * width + word], sizeof(T));
+        return place;
+    }
+
+    template <typename T>
+    static const std::byte* get(const std::byte* place, std::size_t width, std::size_t i,
+                                T* array) {
+        for (std::size_t word = 0; word < width; ++word, place += sizeof(T))
+            std::memcpy(&array[i * width + word], place, sizeof(T));
+        return place;
+    }
+};
+
+List make_list(std::size_t count, const Record& record) {
+    List list;
+    list.count = mpi::to_int(static_cast<std::int64_t>(count));
+    list.global_ids = ZoltanArray<ZOLTAN_ID_TYPE>(count * record.num_gid);
+    list.local_ids = ZoltanArray<ZOLTAN_ID_TYPE>(count * record.num_lid);
+    list.ranks = ZoltanArray<int>(count);
+    list.parts = ZoltanArray<int>(count);
+    return list;
+}
+
+}  // namespace
+
+List invert(const List& exports, const Parameters& parameters, std::span<std::int64_t> per_rank,
+            Member& me) {
+    const Record record{static_cast<std::size_t>(parameters.num_gid_entries),
+                        static_cast<std::size_t>(parameters.num_lid_entries)};
+    Exchange exchange(record.bytes(), per_rank);
+    me.locally([&] {
+        const std::span ranks(exports.ranks.get(), static_cast<std::size_t>(exports.count));
+        exchange.fill(ranks,
+                      [&](std::size_t i, std::byte* place) { record.write(exports, i, place); });
+    });
+    const std::size_t count = exchange.announce(me);
     List imports;
-    ZOLTAN_ID_PTR global_ids = nullptr;
-    ZOLTAN_ID_PTR local_ids = nullptr;
-    int* ranks = nullptr;
-    int* parts = nullptr;
-    const int code = Zoltan_Invert_Lists(
-        zz, exports.count, exports.global_ids.get(), exports.local_ids.get(), exports.ranks.get(),
-        exports.parts.get(), &imports.count, &global_ids, &local_ids, &ranks, &parts);
-    imports.global_ids = ZoltanArray<ZOLTAN_ID_TYPE>(global_ids);
-    imports.local_ids = ZoltanArray<ZOLTAN_ID_TYPE>(local_ids);
-    imports.ranks = ZoltanArray<int>(ranks);
-    imports.parts = ZoltanArray<int>(parts);
-    if (code == ZOLTAN_OK || code == ZOLTAN_WARN) return imports;
-    throw Failure(code, "Zoltan_Invert_Lists failed on the export lists");
+    me.locally([&] { imports = make_list(count, record); });
+    rrcb::agree(me);
+    exchange.run(me);
+    exchange.for_each([&, i = std::size_t{0}](int source, const std::byte* place) mutable {
+        imports.ranks[i] = source;
+        record.read(place, i++, imports);
+    });
+    return imports;
 }
 
 }  // namespace rrcb::zoltan

@@ -1,11 +1,19 @@
 #pragma once
 
 #include "lists.hpp"
+#include "member.hpp"
+
+#include <cstdint>
+#include <span>
 
 namespace rrcb::zoltan {
 
-/// The import lists that answer the export lists of all ranks, by Zoltan_Invert_Lists. Collective.
-/// Throws Failure.
-List invert(Zoltan_Struct* zz, const List& exports);
+/// The import lists that answer the export lists of all ranks: by rank, in the order of its list.
+///
+/// Collective over `me.comm`: two reductions and one message for each pair of ranks with objects.
+/// `per_rank` is one number for each rank, to work with. Throws Error on all ranks where one has no
+/// memory, on one alone where its message fails.
+List invert(const List& exports, const Parameters& parameters, std::span<std::int64_t> per_rank,
+            Member& me);
 
 }  // namespace rrcb::zoltan

@@ -1,6 +1,7 @@
 #include "objects.hpp"
 
 #include "callback.hpp"
+#include "failure.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -15,6 +15,7 @@
 #include <rrcb/error.hpp>
 
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <new>
 #include <optional>
@@ -22,6 +23,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace rrcb::zoltan {
 
@@ -96,11 +98,13 @@ int review(const Report& report, const Remap& remap, const State& state,
 }
 
 /// Drops or completes the lists as RETURN_LISTS asks.
-void select_lists(Zoltan_Struct* zz, ReturnLists asked, Partition& result) {
+void select_lists(const Parameters& parameters, std::span<std::int64_t> per_rank, Member& me,
+                  Partition& result) {
     constexpr int not_asked = -1;
+    const ReturnLists asked = parameters.return_lists;
     if (!result.changes) return;
     if (asked == ReturnLists::all || asked == ReturnLists::imports) {
-        result.imports = invert(zz, result.exports);
+        result.imports = invert(result.exports, parameters, per_rank, me);
     } else {
         result.imports.count = not_asked;
     }
@@ -133,6 +137,7 @@ struct Preparation {
     const Cuts* previous = nullptr;  ///< to start from
     std::optional<Renumbering> renumbering;
     std::optional<Kept> kept;
+    std::vector<std::int64_t> per_rank;  ///< to announce imports with
 };
 
 Preparation prepare(const Call& call, const Layout& layout, int dimension, Member& me) {
@@ -145,6 +150,7 @@ Preparation prepare(const Call& call, const Layout& layout, int dimension, Membe
     me.locally([&] {
         made.options =
             make_options(parameters, layout, dimension, fits ? &call.previous->cuts() : nullptr);
+        made.per_rank.resize(static_cast<std::size_t>(call.state.communicator->size()));
         made.renumbering.emplace(parameters, layout, *call.state.communicator);
         if (keeps_cuts(parameters))
             made.kept.emplace(static_cast<std::size_t>(layout.map.num_parts()));
@@ -152,8 +158,9 @@ Preparation prepare(const Call& call, const Layout& layout, int dimension, Membe
     return made;
 }
 
-void make_lists(const Call& call, const Layout& layout, Objects&& objects,
-                std::span<const Part> parts, Partition& result) {
+/// Lists what leaves, and tells whether anything does on any rank.
+void list_exports(const Call& call, const Layout& layout, Objects&& objects,
+                  std::span<const Part> parts, Partition& result) {
     const Parameters& parameters = call.state.parameters;
     const Communicator& comm = *call.state.communicator;
     if (parameters.return_lists == ReturnLists::none) {
@@ -164,7 +171,6 @@ void make_lists(const Call& call, const Layout& layout, Objects&& objects,
         result.exports = std::move(exports.list);
         result.changes = any_rank(exports.moves, comm.get());
     }
-    select_lists(call.zz, parameters.return_lists, result);
 }
 
 int balance_objects(const Call& call, const Agreement& agreement, Objects&& objects,
@@ -176,7 +182,8 @@ int balance_objects(const Call& call, const Agreement& agreement, Objects&& obje
     Preparation prepared = prepare(call, layout, objects.points.dimension, me);
     Balance balanced = balance(objects.points, prepared.options, prepared.previous, me);
     Remap remap = prepared.renumbering->run(layout, objects, balanced.parts, me);
-    make_lists(call, layout, std::move(objects), balanced.parts, result);
+    list_exports(call, layout, std::move(objects), balanced.parts, result);
+    select_lists(parameters, prepared.per_rank, me, result);
     const int code = review(balanced.report, remap, call.state, call.function);
     if (prepared.kept) {
         prepared.kept->keep(std::move(balanced.cuts), std::move(layout.map),

@@ -1,0 +1,104 @@
+#include "exchange_mpi.hpp"
+
+#include "mpi/communicator.hpp"
+
+#include <rrcb/error.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace rrcb {
+
+namespace {
+
+constexpr int exchange_tag = 1;
+
+}  // namespace
+
+Exchange::Exchange(std::size_t record_bytes, std::span<std::int64_t> per_rank)
+    : record_bytes_(record_bytes), counts_(per_rank) {
+    std::ranges::fill(counts_, 0);
+}
+
+std::size_t Exchange::most_records() const {
+    return mpi::longest_message / record_bytes_;
+}
+
+/// Gives where the records for each rank begin.
+std::vector<std::size_t> Exchange::make_outbox(std::span<const int> destinations) {
+    std::vector<std::size_t> first(counts_.size());
+    const std::size_t most = counts_.size() + destinations.size() / most_records();
+    requests_.reserve(static_cast<std::size_t>(mpi::to_int(static_cast<std::int64_t>(most))));
+    outbox_.resize(record_bytes_ * destinations.size());
+    for (const int destination : destinations) ++counts_[static_cast<std::size_t>(destination)];
+    std::exclusive_scan(counts_.begin(), counts_.end(), first.begin(), std::size_t{0});
+    return first;
+}
+
+std::size_t Exchange::announce(Member& me) {
+    if (me.failure.failed) std::ranges::fill(counts_, 0);
+    std::int64_t count = 0;
+    mpi::check(MPI_Reduce_scatter_block(counts_.data(), &count, 1, MPI_INT64_T, MPI_SUM, me.comm),
+               "MPI_Reduce_scatter_block");
+    const auto num_records = static_cast<std::size_t>(count);
+    me.locally([&] {
+        inbox_.resize(record_bytes_ * num_records);
+        arrived_.reserve(std::min(num_records, counts_.size() + num_records / most_records()));
+    });
+    return num_records;
+}
+
+void Exchange::send_all(Member& me) {
+    const std::byte* next = outbox_.data();
+    for (std::size_t destination = 0; destination < counts_.size(); ++destination) {
+        auto left = static_cast<std::size_t>(counts_[destination]);
+        while (left > 0) {
+            const std::size_t count = std::min(left, most_records());
+            const std::size_t bytes = count * record_bytes_;
+            MPI_Request& request = requests_.emplace_back(MPI_REQUEST_NULL);
+            me.always([&] {
+                mpi::check(
+                    MPI_Isend(next, static_cast<int>(bytes), MPI_BYTE,
+                              static_cast<int>(destination), exchange_tag, me.comm, &request),
+                    "MPI_Isend");
+            });
+            next += bytes;
+            left -= count;
+        }
+    }
+}
+
+void Exchange::receive_all(Member& me) {
+    std::size_t first = 0;
+    while (first < inbox_.size()) {
+        const std::size_t most = std::min(inbox_.size() - first, most_records() * record_bytes_);
+        MPI_Status status{};
+        int bytes = 0;
+        me.always([&] {
+            mpi::check(MPI_Recv(&inbox_[first], static_cast<int>(most), MPI_BYTE, MPI_ANY_SOURCE,
+                                exchange_tag, me.comm, &status),
+                       "MPI_Recv");
+        });
+        if (MPI_Get_count(&status, MPI_BYTE, &bytes) != MPI_SUCCESS || bytes <= 0) return;
+        const auto size = static_cast<std::size_t>(bytes);
+        arrived_.push_back({status.MPI_SOURCE, first / record_bytes_, size / record_bytes_});
+        first += size;
+    }
+}
+
+void Exchange::run(Member& me) {
+    send_all(me);
+    receive_all(me);
+    me.always([&] {
+        mpi::check(
+            MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE),
+            "MPI_Waitall");
+    });
+    if (me.failure.failed) throw Error(me.failure.code, me.failure.text.data());
+    std::ranges::sort(arrived_, [](const Message& a, const Message& b) {
+        return std::pair(a.source, a.first) < std::pair(b.source, b.first);
+    });
+}
+
+}  // namespace rrcb

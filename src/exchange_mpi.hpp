@@ -1,0 +1,68 @@
+#pragma once
+
+#include "member.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+/// Records of one size on their way from every rank to every other one, or to itself.
+class Exchange {
+  public:
+    /// `per_rank` is one number for each rank, to work with, and outlives the exchange.
+    Exchange(std::size_t record_bytes, std::span<std::int64_t> per_rank);
+
+    /// Takes a record for each of `destinations`; write(k, place) writes the k-th one.
+    ///
+    /// Not collective. Throws std::bad_alloc; then nothing has been taken.
+    template <class Write>
+    void fill(std::span<const int> destinations, Write&& write) {
+        std::vector<std::size_t> next = make_outbox(destinations);
+        for (std::size_t k = 0; k < destinations.size(); ++k)
+            write(k, &outbox_[record_bytes_ * next[static_cast<std::size_t>(destinations[k])]++]);
+    }
+
+    /// How many records come to this rank, for which it makes room.
+    ///
+    /// Collective: one reduction. A rank that failed before sends nothing.
+    std::size_t announce(Member& me);
+
+    /// Sends and receives, after the ranks agreed that all have room.
+    ///
+    /// Collective: one message for each pair of ranks with records, more beyond
+    /// mpi::longest_message. Throws Error where one fails, of which no other rank hears.
+    void run(Member& me);
+
+    /// Calls read(source, place) for what came: by rank, in the order written there.
+    template <class Read>
+    void for_each(Read&& read) const {
+        for (const Message& message : arrived_)
+            for (std::size_t i = 0; i < message.count; ++i)
+                read(message.source, &inbox_[record_bytes_ * (message.first + i)]);
+    }
+
+  private:
+    /// Of one rank, somewhere in the inbox.
+    struct Message {
+        int source;
+        std::size_t first;
+        std::size_t count;
+    };
+
+    std::vector<std::size_t> make_outbox(std::span<const int> destinations);
+    std::size_t most_records() const;
+    void send_all(Member& me);
+    void receive_all(Member& me);
+
+    std::size_t record_bytes_;
+    std::span<std::int64_t> counts_;  ///< records for each rank
+    std::vector<std::byte> outbox_;   ///< for one rank after the other
+    std::vector<std::byte> inbox_;    ///< in the order of arrival
+    std::vector<Message> arrived_;
+    std::vector<MPI_Request> requests_;
+};
+
+}  // namespace rrcb

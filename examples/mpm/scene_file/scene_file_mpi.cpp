@@ -67,7 +67,8 @@ void read_method(const List& list, int dimension, Scene& scene) {
     const Values values = list.values({choice("shape_function", {"linear", "quadratic", "gimp"}),
                                        choice("transfer", {"flip", "apic"}),
                                        within("flip_fraction", "", 0, 1, scene.flip_fraction),
-                                       within("courant_number", "", 1e-6, 1, scene.courant_number)},
+                                       within("courant_number", "", 1e-6, 1, scene.courant_number),
+                                       within("least_node_mass", "", 0, 0.5, 0.0)},
                                       dimension);
     const std::string& shape = values.word("shape_function");
     if (shape == "quadratic") scene.shape_function = ShapeFunction::quadratic;
@@ -75,6 +76,7 @@ void read_method(const List& list, int dimension, Scene& scene) {
     if (values.word("transfer") == "apic") scene.transfer = Transfer::apic;
     scene.flip_fraction = values.number("flip_fraction");
     scene.courant_number = values.number("courant_number");
+    scene.least_node_mass = values.number("least_node_mass");
 }
 
 OutputPlan read_output(const List& list, int dimension) {

@@ -7,22 +7,6 @@
 
 namespace mpm {
 
-/// Sets force and momentum so that the node ends the step with a velocity.
-template <int D>
-inline void give_velocity(const Components<D>& velocity, double time_step, Node<D>& node) {
-    for (std::size_t a = 0; a < D; ++a)
-        node.force[a] = (node.mass * velocity[a] - node.momentum[a]) / time_step;
-}
-
-/// Velocity the node would end the step with.
-template <int D>
-inline Components<D> free_velocity(const Node<D>& node, double time_step) {
-    Components<D> velocity{};
-    for (std::size_t a = 0; a < D; ++a)
-        velocity[a] = (node.momentum[a] + time_step * node.force[a]) / node.mass;
-    return velocity;
-}
-
 /// Takes out what goes against an outward normal, and Coulomb friction along the surface.
 ///
 /// A velocity that leaves the surface stays as it is. The tangential velocity is brought down by
@@ -43,6 +27,17 @@ inline Components<D> after_contact(const Components<D>& velocity, const Componen
     const double left = speed > lost ? 1 - lost / speed : 0;
     for (double& component : along) component *= left;
     return along;
+}
+
+/// Lets a node that has moved meet a surface: all its velocities are corrected, so that points are
+/// strained, moved and pushed by what the surface leaves.
+template <int D>
+inline void meet(const Components<D>& normal, double friction, NodeMotion<D>& motion) {
+    const Components<D> velocity = after_contact<D>(motion.velocity, normal, friction);
+    for (std::size_t a = 0; a < D; ++a)
+        motion.velocity_change[a] += velocity[a] - motion.velocity[a];
+    motion.velocity = velocity;
+    motion.strain_velocity = after_contact<D>(motion.strain_velocity, normal, friction);
 }
 
 }  // namespace mpm

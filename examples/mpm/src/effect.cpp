@@ -18,13 +18,6 @@ std::size_t number_of(const std::string& name) {
                                 "'; possible: " + joined(names));
 }
 
-bool all_open(const Walls& walls) {
-    for (const Wall* wall :
-         {&walls.left, &walls.right, &walls.bottom, &walls.top, &walls.back, &walls.front})
-        if (wall->kind != Wall::open) return false;
-    return true;
-}
-
 }  // namespace
 
 std::vector<std::optional<Values>> effect_values(const Scene& scene) {
@@ -41,8 +34,7 @@ std::vector<std::optional<Values>> effect_values(const Scene& scene) {
 template <int D>
 Stages<D> build_stages(const Scene& scene, Particles& particles) {
     Stages<D> stages;
-    if (!all_open(scene.walls))
-        stages.constraints.push_back({"walls", wall_kernel<D>(scene.walls)});
+    add_walls<D>(scene.walls, stages);
     const std::vector<std::optional<Values>> values = effect_values(scene);
     for (std::size_t k = 0; k < values.size(); ++k) {
         if (!values[k]) continue;

@@ -43,6 +43,8 @@ void check_transfer(const Scene& scene) {
             "the FLIP fraction must lie in 0 ... 1");
     require(scene.courant_number > 0 && scene.courant_number <= 1,
             "the Courant number must lie in 0 ... 1");
+    require(scene.least_node_mass >= 0 && scene.least_node_mass < 1,
+            "the least mass of a node must lie in 0 ... 1");
     if (scene.shape_function != ShapeFunction::gimp) return;
     require(scene.transfer != Transfer::apic, "APIC works with linear and quadratic shapes only");
     for (const Body& body : scene.bodies)

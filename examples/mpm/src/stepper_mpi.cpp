@@ -12,8 +12,6 @@ namespace {
 constexpr int sort_interval = 50;
 /// Arrivals are appended; when this share of the points is out of order it is sorted at once.
 constexpr double tolerated_disorder = 0.1;
-/// Share of a full cell's mass below which a node's acceleration strains points less.
-constexpr double least_mass_fraction = 0.01;
 
 MPI_Comm duplicate(MPI_Comm comm) {
     MPI_Comm own = MPI_COMM_NULL;
@@ -33,26 +31,39 @@ int size_of(MPI_Comm comm) {
     return size;
 }
 
-template <typename Value>
-double max_over_bodies(const Scene& scene, Value value) {
+double max_wave_speed(const Scene& scene) {
     double largest = 0;
-    for (const Body& body : scene.bodies)
-        largest = std::max(largest, value(scene.materials[material_of(scene, body)]));
+    for (const Body& body : scene.bodies) {
+        const Material& material = scene.materials[material_of(scene, body)];
+        const Values values = values_of(material, scene.dimension);
+        largest = std::max(largest, find_material_kind(material).wave_speed(values));
+    }
     return largest;
 }
 
-double max_wave_speed(const Scene& scene) {
-    return max_over_bodies(scene, [&](const Material& material) {
-        return find_material_kind(material).wave_speed(values_of(material, scene.dimension));
-    });
+/// Scene::least_node_mass, or what keeps layers of points stable.
+///
+/// A node that only the rim of a layer touches is as stiff as a full one but light: in units of
+/// the cell, its frequency squared is 1 / (layers * share of mass) wave speeds; beside its
+/// neighbours it must stay below 1.5 per time step.
+double least_mass_share(const Scene& scene, const Body& body) {
+    constexpr double least = 0.01, square_of_most = 2.25;
+    if (scene.least_node_mass > 0) return scene.least_node_mass;
+    const auto& per_cell = body.points_per_cell;
+    const double layers = *std::min_element(per_cell.begin(), per_cell.begin() + scene.dimension);
+    const double courant_number = scene.courant_number;
+    return std::max(least, courant_number * courant_number / (layers * square_of_most));
 }
 
-double max_cell_mass(const Scene& scene) {
-    return max_over_bodies(scene, [&](const Material& material) {
+double least_mass(const Scene& scene) {
+    double largest = 0;
+    for (const Body& body : scene.bodies) {
+        const Material& material = scene.materials[material_of(scene, body)];
         double mass = values_of(material, scene.dimension).number("density");
         for (int a = 0; a < scene.dimension; ++a) mass *= scene.grid.spacing;
-        return mass;
-    });
+        largest = std::max(largest, least_mass_share(scene, body) * mass);
+    }
+    return largest;
 }
 
 }  // namespace
@@ -63,7 +74,7 @@ Stepper<D>::Stepper(const Scene& scene, const Extent& extent, MPI_Comm comm)
       comm_(duplicate(comm)),
       transfers_(make_transfers<D>(scene_, particles)),
       wave_speed_(max_wave_speed(scene)),
-      least_mass_(least_mass_fraction * max_cell_mass(scene)),
+      least_mass_(least_mass(scene)),
       ownership_(scene.grid, comm_) {
     build_materials();
     stages_ = build_stages<D>(scene_, particles);
@@ -103,7 +114,8 @@ void Stepper<D>::gather_on_nodes() {
     transfers_->p2g(particles, runs_, patch_);
     for (std::size_t f = 0; f < stages_.fields.size(); ++f) {
         std::ranges::fill(patch_.fields[f], 0.0);
-        transfers_->gather(particles, stages_.fields[f].column, runs_, patch_, patch_.fields[f]);
+        const NodeField& field = stages_.fields[f];
+        transfers_->gather(particles, field.column, field.axis, runs_, patch_, patch_.fields[f]);
     }
     ghosts_->sum(patch_);
     const StepTime now{time, time_step};
@@ -123,7 +135,8 @@ void Stepper<D>::advance_points() {
         const std::size_t first_run = run;
         run = transfers_->g2p(particles, patch_, runs_, run, block);
         for (const auto& effect : stages_.gradients)
-            effect.kernel(patch_, std::span(runs_).subspan(first_run, run - first_run), block);
+            effect.kernel(particles, patch_, std::span(runs_).subspan(first_run, run - first_run),
+                          block);
         for (const auto& effect : stages_.before_materials) effect.kernel(particles, block);
         apply_materials(block);
         for (const auto& effect : stages_.after_materials) effect.kernel(particles, block);

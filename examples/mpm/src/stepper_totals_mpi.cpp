@@ -18,15 +18,6 @@ void append_names(const Kernels& kernels, std::vector<std::string>& names) {
         if (std::ranges::find(names, kernel.name) == names.end()) names.push_back(kernel.name);
 }
 
-Vector full_gravity(const Scene& scene) {
-    Vector acceleration{};
-    const std::vector<std::optional<Values>> values = effect_values(scene);
-    for (std::size_t k = 0; k < values.size(); ++k)
-        if (values[k] && effect_kinds()[k].name == "gravity")
-            std::ranges::copy(values[k]->list("acceleration"), acceleration.begin());
-    return acceleration;
-}
-
 }  // namespace
 
 template <int D>
@@ -64,6 +55,9 @@ Totals Stepper<D>::totals() const {
             material_column_ ? static_cast<std::size_t>(particles[*material_column_][p]) : 0;
         sums.strain_energy += materials_[material].strain_energy(particles, p);
     }
+    for (std::size_t p = 0; stages_.internal_work && p < particles.size(); ++p)
+        sums.dissipated_energy += particles[*stages_.internal_work][p];
+    if (stages_.internal_work) sums.dissipated_energy -= sums.strain_energy;
     for (const auto& dissipated : stages_.dissipated)
         sums.dissipated_energy += dissipated(particles);
     sums.num_sent = static_cast<double>(num_sent);
@@ -74,11 +68,11 @@ Totals Stepper<D>::totals() const {
                   .kinetic_energy = sums.kinetic_energy,
                   .strain_energy = sums.strain_energy,
                   .num_migrated = static_cast<std::int64_t>(sums.num_sent)};
-    if (!stages_.dissipated.empty()) totals.dissipated_energy = sums.dissipated_energy;
-    const Vector gravity = full_gravity(scene_);
+    if (stages_.internal_work) totals.dissipated_energy = sums.dissipated_energy;
     for (std::size_t a = 0; a < D; ++a) {
         totals.center[a] = sums.moment[a] / sums.mass;
-        totals.potential_energy -= gravity[a] * sums.moment[a];
+        if (stages_.gravity)
+            totals.potential_energy -= stages_.gravity->acceleration[a] * sums.moment[a];
     }
     return totals;
 }

@@ -64,17 +64,23 @@ class TransfersOf final : public Transfers<D> {
                                                    patch, runs, first_run, block);
     }
 
-    void gather(const Particles& particles, Column column, const std::vector<CellRun<D>>& runs,
-                GridPatch<D>& patch, std::vector<double>& field) const override {
+    void gather(const Particles& particles, Column column, int axis,
+                const std::vector<CellRun<D>>& runs, const GridPatch<D>& patch,
+                std::vector<double>& field) const override {
         constexpr std::size_t N = Shape::num_nodes;
         const auto at = positions(particles);
         const std::span<const double> values = particles[column];
         const auto offsets = node_offsets<D, N>(patch);
+        const double inverse_spacing = 1 / patch.shape.spacing;
         for (const CellRun<D>& run : runs)
             for (std::size_t p = run.begin; p < run.end; ++p) {
                 std::array<Weights<N>, D> weights;
-                for (std::size_t a = 0; a < D; ++a)
-                    weights[a] = shape_.at((at[a][p] - run.corner[a]) / patch.shape.spacing, a);
+                for (std::size_t a = 0; a < D; ++a) {
+                    weights[a] = shape_.at((at[a][p] - run.corner[a]) * inverse_spacing, a);
+                    if (static_cast<int>(a) != axis) continue;
+                    for (std::size_t i = 0; i < N; ++i)
+                        weights[a].value[i] = inverse_spacing * weights[a].slope[i];
+                }
                 unrolled<power(N, D)>([&](auto n) {
                     field[run.node + offsets[n]] += weight_of<D, N, n>(weights) * values[p];
                 });

@@ -12,18 +12,10 @@ void hold(Node<D>& node, std::size_t axis) {
     node.force[axis] = 0;
 }
 
-/// `inward` is +1 on a lower side and -1 on an upper one.
 template <int D>
-void hold(Node<D>& node, const Wall& wall, std::size_t axis, double inward, double time_step) {
-    if (wall.kind == Wall::roller) return hold(node, axis);
-    if (wall.kind == Wall::fixed) {
-        for (std::size_t a = 0; a < D; ++a) hold(node, a);
-    } else if (node.mass > 0) {
-        Components<D> normal{};
-        normal[axis] = inward;
-        const Components<D> velocity = free_velocity<D>(node, time_step);
-        give_velocity<D>(after_contact<D>(velocity, normal, wall.friction), time_step, node);
-    }
+void hold(Node<D>& node, Wall::Kind kind, std::size_t axis) {
+    hold(node, axis);
+    for (std::size_t a = 0; kind == Wall::fixed && a < D; ++a) hold(node, a);
 }
 
 /// Nodes on one side of the domain and beyond it.
@@ -35,30 +27,55 @@ NodeRange<D> nodes_at(const GridPatch<D>& patch, std::size_t axis, bool is_upper
     return intersection<D>(side, patch.nodes);
 }
 
-template <int D>
-void hold_side(GridPatch<D>& patch, const Wall& wall, std::size_t axis, bool is_upper,
-               double time_step) {
-    if (wall.kind == Wall::open) return;
-    visit_nodes<D>(nodes_at(patch, axis, is_upper), [&](const std::array<int, D>& node) {
-        hold<D>(patch.sums[patch.index(node)], wall, axis, is_upper ? -1 : 1, time_step);
-    });
+/// Calls visit(index of a node, wall, axis, inward sign) for the nodes on all sides.
+template <int D, typename Visit>
+void visit_sides(const GridPatch<D>& patch, const Walls& walls, Visit visit) {
+    const std::array<const Wall*, 3> lower{&walls.left, &walls.bottom, &walls.back};
+    const std::array<const Wall*, 3> upper{&walls.right, &walls.top, &walls.front};
+    for (std::size_t axis = 0; axis < D; ++axis)
+        for (const bool is_upper : {false, true}) {
+            const Wall& wall = is_upper ? *upper[axis] : *lower[axis];
+            if (wall.kind == Wall::open) continue;
+            visit_nodes<D>(nodes_at(patch, axis, is_upper), [&](const std::array<int, D>& node) {
+                visit(patch.index(node), wall, axis, is_upper ? -1.0 : 1.0);
+            });
+        }
+}
+
+bool has(const Walls& walls, Wall::Kind kind) {
+    for (const Wall* wall :
+         {&walls.left, &walls.right, &walls.bottom, &walls.top, &walls.back, &walls.front})
+        if (wall->kind == kind) return true;
+    return false;
 }
 
 }  // namespace
 
 template <int D>
-NodeKernel<D> wall_kernel(const Walls& walls) {
-    return [walls](GridPatch<D>& patch, const StepTime& step) {
-        const std::array<const Wall*, 3> lower{&walls.left, &walls.bottom, &walls.back};
-        const std::array<const Wall*, 3> upper{&walls.right, &walls.top, &walls.front};
-        for (std::size_t axis = 0; axis < D; ++axis) {
-            hold_side<D>(patch, *lower[axis], axis, false, step.time_step);
-            hold_side<D>(patch, *upper[axis], axis, true, step.time_step);
-        }
-    };
+void add_walls(const Walls& walls, Stages<D>& stages) {
+    if (has(walls, Wall::roller) || has(walls, Wall::fixed))
+        stages.constraints.push_back(
+            {"walls", [walls](GridPatch<D>& patch, const StepTime&) {
+                 visit_sides(patch, walls,
+                             [&](std::size_t n, const Wall& wall, std::size_t axis, double) {
+                                 if (wall.kind != Wall::frictional)
+                                     hold(patch.sums[n], wall.kind, axis);
+                             });
+             }});
+    if (has(walls, Wall::frictional))
+        stages.moved.push_back(
+            {"friction", [walls](GridPatch<D>& patch, const StepTime&) {
+                 visit_sides(patch, walls,
+                             [&](std::size_t n, const Wall& wall, std::size_t axis, double inward) {
+                                 Components<D> normal{};
+                                 normal[axis] = inward;
+                                 if (wall.kind == Wall::frictional)
+                                     meet<D>(normal, wall.friction, patch.motion[n]);
+                             });
+             }});
 }
 
-template NodeKernel<2> wall_kernel<2>(const Walls&);
-template NodeKernel<3> wall_kernel<3>(const Walls&);
+template void add_walls<2>(const Walls&, Stages<2>&);
+template void add_walls<3>(const Walls&, Stages<3>&);
 
 }  // namespace mpm

@@ -38,8 +38,9 @@ std::vector<std::optional<Values>> effect_values(const Scene& scene);
 template <int D>
 Stages<D> build_stages(const Scene& scene, Particles& particles);
 
-/// Holds the nodes on the sides of the domain.
+/// Holds the nodes on the sides of the domain and beyond: `walls` before they move, and `friction`
+/// after; neither where all sides are open.
 template <int D>
-NodeKernel<D> wall_kernel(const Walls& walls);
+void add_walls(const Walls& walls, Stages<D>& stages);
 
 }  // namespace mpm

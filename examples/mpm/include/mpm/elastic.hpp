@@ -35,7 +35,7 @@ template <int D>
 MaterialModel<D> elastic_model(const Values& values, Particles& particles);
 
 /// Stress turned with the material: the Jaumann rate, integrated so that its norm is kept
-/// whatever the angle (Hughes and Winget 1980).
+/// whatever the angle, by a rational rotation as Hughes and Winget's (1980).
 inline Stress<2> rotated(const Stress<2>& stress, const DisplacementGradient<2>& gradient) {
     const double angle = 0.5 * (gradient[0][1] - gradient[1][0]);
     const double mean = 0.5 * (stress.xx + stress.yy);

@@ -4,6 +4,7 @@
 #include <mpm/transfer.hpp>
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,10 +21,10 @@ struct StepTime {
 template <int D>
 using NodeKernel = std::function<void(GridPatch<D>&, const StepTime&)>;
 
-/// Changes the velocity gradients of a block, given its runs.
+/// Reads nodes, given the runs of a block: for the velocity gradients of its points, or columns.
 template <int D>
-using GradientKernel =
-    std::function<void(const GridPatch<D>&, std::span<const CellRun<D>>, const PointBlock<D>&)>;
+using GradientKernel = std::function<void(Particles&, const GridPatch<D>&,
+                                          std::span<const CellRun<D>>, const PointBlock<D>&)>;
 
 /// Advances a block of points; called for all points of a step, never for one.
 template <int D>
@@ -43,6 +44,16 @@ struct Named {
 struct NodeField {
     std::string name;
     Column column;
+    int axis = -1;  ///< weighted by the shape functions' derivatives along it; -1: by themselves
+};
+
+/// The acceleration that weight has, buoyancy included, at its full strength, m/s^2.
+template <int D>
+struct Gravity {
+    Components<D> acceleration{};
+    double ramp = 0;  ///< s until it is there; 0: at once
+
+    double share_at(double time) const { return time < ramp ? time / ramp : 1; }
 };
 
 /// Where in a step kernels can go, in the order of the step. An empty stage is a loop over nothing.
@@ -58,7 +69,9 @@ struct Stages {
     std::vector<Named<StepKernel>> ends;                  ///< after all points have moved
     /// Energies this rank has seen lost since the start, J, for whoever asks between steps.
     std::vector<std::function<double(const Particles&)>> dissipated;
-    bool counts_nodes = false;  ///< asks for GridPatch::is_counted
+    std::optional<Column> internal_work = {};  ///< of the stress in each point since the start, J
+    std::optional<Gravity<D>> gravity = {};    ///< for the potential energy
+    bool counts_nodes = false;                 ///< asks for GridPatch::is_counted
 };
 
 }  // namespace mpm

@@ -100,7 +100,10 @@ struct Scene {
     /// noise within 0.2 s at the slope's step and leaves waves longer than a few cells alone.
     double flip_fraction = 0.99;
     double courant_number = 0.5;  ///< time step * (wave speed + point speed) / grid spacing
-    double end_time = 0;          ///< s
+    /// Share of a full node's mass below which a node's acceleration strains points less, see
+    /// move_nodes; 0: the least at which the time step is stable, and at least 0.01.
+    double least_node_mass = 0;
+    double end_time = 0;  ///< s
 };
 
 /// Throws std::invalid_argument that names what is wrong with a scene.

@@ -22,6 +22,18 @@ struct CellRun {
     Components<D> corner;  ///< its position, m
 };
 
+/// Calls visit(number of a node in the patch) for each node of a run, along x first.
+template <int D, typename Visit>
+void visit_run_nodes(const GridPatch<D>& patch, const CellRun<D>& run, Visit visit) {
+    // Shapes of a margin have a node more along each axis.
+    const auto width = static_cast<std::size_t>(2 + patch.margin);
+    const auto row = static_cast<std::size_t>(patch.nodes.count[0]);
+    const std::size_t layer = D == 3 ? row * static_cast<std::size_t>(patch.nodes.count[1]) : 0;
+    for (std::size_t k = 0; k < (D == 3 ? width : 1); ++k)
+        for (std::size_t j = 0; j < width; ++j)
+            for (std::size_t i = 0; i < width; ++i) visit(run.node + k * layer + j * row + i);
+}
+
 /// Velocity gradients of one block of points, 1/s; [i][j] is component i along axis j.
 template <int D>
 using VelocityGradients = std::array<std::array<std::array<double, block_size>, D>, D>;
@@ -100,9 +112,10 @@ class Transfers {
                             const std::vector<CellRun<D>>& runs, std::size_t first_run,
                             const PointBlock<D>& block) const = 0;
 
-    /// Adds a column of the points, weighted by the shape functions, to a field of the nodes.
-    virtual void gather(const Particles& particles, Column column,
-                        const std::vector<CellRun<D>>& runs, GridPatch<D>& patch,
+    /// Adds a column of the points to a field of the nodes, weighted by the shape functions, or by
+    /// their derivatives along an axis where that is not -1.
+    virtual void gather(const Particles& particles, Column column, int axis,
+                        const std::vector<CellRun<D>>& runs, const GridPatch<D>& patch,
                         std::vector<double>& field) const = 0;
 };
 

@@ -6,18 +6,16 @@ namespace {
 
 template <int D>
 void build(const EffectBuilder<D>& builder) {
-    Components<D> acceleration{};
-    std::copy_n(builder.values.list("acceleration").begin(), D, acceleration.begin());
-    const double ramp = builder.values.number("ramp");
-    builder.stages.forces.push_back({"gravity", [=](GridPatch<D>& patch, const StepTime& step) {
-                                         const double share =
-                                             step.time < ramp ? step.time / ramp : 1;
-                                         Components<D> pull = acceleration;
-                                         for (double& component : pull) component *= share;
-                                         for (Node<D>& node : patch.sums)
-                                             for (std::size_t a = 0; a < D; ++a)
-                                                 node.force[a] += node.mass * pull[a];
-                                     }});
+    Gravity<D>& gravity = builder.stages.gravity.emplace();
+    std::copy_n(builder.values.list("acceleration").begin(), D, gravity.acceleration.begin());
+    gravity.ramp = builder.values.number("ramp");
+    builder.stages.forces.push_back(
+        {"gravity", [gravity](GridPatch<D>& patch, const StepTime& step) {
+             Components<D> pull = gravity.acceleration;
+             for (double& component : pull) component *= gravity.share_at(step.time);
+             for (Node<D>& node : patch.sums)
+                 for (std::size_t a = 0; a < D; ++a) node.force[a] += node.mass * pull[a];
+         }});
 }
 
 }  // namespace

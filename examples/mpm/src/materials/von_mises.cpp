@@ -1,0 +1,106 @@
+#include <mpm/elastic.hpp>
+#include <mpm/undrained.hpp>
+
+#include <optional>
+
+namespace mpm {
+
+namespace {
+
+/// What the return reads and changes.
+template <int D>
+struct Columns {
+    StressColumns<D> stress;
+    Column y, displacement_y;
+    std::optional<Column> plastic_strain;  ///< where the clay softens
+};
+
+/// Rate of engineering shear strain of a deviator, 2 sqrt(J2) of the rate of deformation.
+template <int D>
+double shear_rate(const PointBlock<D>& block, std::size_t k) {
+    double volumetric = 0, square = 0;
+    for (std::size_t i = 0; i < D; ++i) volumetric += block.gradient(i, i)[k];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double along = (i < D ? block.gradient(i, i)[k] : 0) - volumetric / 3;
+        square += 0.5 * along * along;
+    }
+    for (std::size_t i = 0; i < D; ++i)
+        for (std::size_t j = i + 1; j < D; ++j) {
+            const double half = 0.5 * (block.gradient(i, j)[k] + block.gradient(j, i)[k]);
+            square += half * half;
+        }
+    return 2 * std::sqrt(square);
+}
+
+/// One kernel for each choice of softening and rate, so that neither costs where it is not asked.
+template <int D, bool softens, bool has_rate>
+PointKernel<D> return_kernel(const UndrainedStrength& clay, double shear_modulus,
+                             const Columns<D>& columns) {
+    return [=](Particles& particles, const PointBlock<D>& block) {
+        const StressPointers<D> stresses = stress_pointers<D>(particles, columns.stress);
+        const double* const y = particles.data(columns.y);
+        const double* const rise = particles.data(columns.displacement_y);
+        double* const plastic = softens ? particles.data(columns.plastic_strain.value()) : nullptr;
+        for (std::size_t p = block.begin; p < block.end; ++p) {
+            double strength = clay.intact(y[p] - rise[p]);
+            if constexpr (softens) strength *= clay.softened(plastic[p]);
+            if constexpr (has_rate)
+                strength *= clay.quickened(shear_rate<D>(block, p - block.begin));
+            const Stress<D> trial = load<D>(stresses, p);
+            if constexpr (softens) {
+                const double tau = std::sqrt(second_invariant(deviator(trial, mean(trial))));
+                plastic[p] += std::max(tau - strength, 0.0) / shear_modulus;
+            }
+            store<D>(returned<D>(strength, trial), stresses, p);
+        }
+    };
+}
+
+template <int D>
+PointKernel<D> make_kernel(const UndrainedStrength& clay, double shear, const Columns<D>& columns,
+                           bool has_rate) {
+    if (columns.plastic_strain)
+        return has_rate ? return_kernel<D, true, true>(clay, shear, columns)
+                        : return_kernel<D, true, false>(clay, shear, columns);
+    return has_rate ? return_kernel<D, false, true>(clay, shear, columns)
+                    : return_kernel<D, false, false>(clay, shear, columns);
+}
+
+template <int D>
+MaterialModel<D> build(const Values& values, Particles& particles) {
+    MaterialModel<D> model = elastic_model<D>(values, particles);
+    UndrainedStrength clay{.at_surface = values.number("strength"),
+                           .gradient = values.number("strength_gradient"),
+                           .surface = values.number("surface")};
+    Columns<D> columns{add_stress_columns<D>(particles),
+                       particles.add_column("y"),
+                       particles.add_column("displacement_y"),
+                       {}};
+    if (values.has("residual_ratio")) {
+        clay.residual_ratio = values.number("residual_ratio");
+        clay.softening_strain = values.number("softening_strain");
+        columns.plastic_strain = particles.add_column("plastic_strain");
+    }
+    const bool has_rate = values.has("rate_factor");
+    if (has_rate) {
+        clay.rate_factor = values.number("rate_factor");
+        clay.reference_rate = values.number("reference_rate");
+    }
+    const double shear = elastic_of(values).shear_modulus();
+    model.kernels.push_back({"von_mises", make_kernel<D>(clay, shear, columns, has_rate)});
+    return model;
+}
+
+}  // namespace
+
+MaterialKind von_mises_material() {
+    return {"von_mises",
+            elastic_rules(
+                {not_negative("strength", "Pa"), not_negative("strength_gradient", "Pa/m", 0.0),
+                 number("surface", "m", 0.0), optional(within("residual_ratio", "", 0, 1)),
+                 positive("softening_strain", "", 1.0), optional(not_negative("rate_factor", "")),
+                 positive("reference_rate", "1/s", 1.0)}),
+            elastic_wave_speed, build<2>, build<3>};
+}
+
+}  // namespace mpm

@@ -1,0 +1,161 @@
+#include <gtest/gtest.h>
+#include <mpm/drucker_prager.hpp>
+#include <mpm/neo_hookean.hpp>
+#include <mpm/shape_functions.hpp>
+#include <mpm/undrained.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace mpm {
+namespace {
+
+TEST(Undrained, returns_to_the_strength_at_the_same_mean_stress) {
+    // Deviator (30, -30, 0, 40): sqrt(J2) = 50, brought down to 10.
+    const Stress<2> stress = returned<2>(10.0, {40, -20, 10, 40});
+    EXPECT_NEAR(stress.xx, 16, 1e-13);
+    EXPECT_NEAR(stress.yy, 4, 1e-13);
+    EXPECT_NEAR(stress.zz, 10, 1e-13);
+    EXPECT_NEAR(stress.xy, 8, 1e-13);
+    // In three dimensions J2 = 2^2 + 3^2 + 6^2 = 49, brought down from 7 to 3.5.
+    const Stress<3> solid = returned<3>(3.5, {1, 1, 1, 2, 3, 6});
+    EXPECT_NEAR(solid.xx, 1, 1e-14);
+    EXPECT_NEAR(solid.xy, 1, 1e-14);
+    EXPECT_NEAR(solid.yz, 1.5, 1e-14);
+    EXPECT_NEAR(solid.zx, 3, 1e-14);
+    EXPECT_EQ(returned<2>(0.0, Stress<2>{}).xx, 0);
+}
+
+TEST(Undrained, is_stronger_at_depth_and_rate_and_weaker_after_strain) {
+    const UndrainedStrength clay{.at_surface = 2e3,
+                                 .gradient = 1.5e3,
+                                 .surface = 10,
+                                 .residual_ratio = 0.2,
+                                 .softening_strain = 0.5,
+                                 .rate_factor = 0.1,
+                                 .reference_rate = 1e-3};
+    EXPECT_EQ(clay.intact(6), 8e3);
+    EXPECT_EQ(clay.intact(12), 2e3);
+    EXPECT_EQ(clay.softened(0), 1);
+    EXPECT_NEAR(clay.softened(0.5), 0.2 + 0.8 * 0.049787068367863944, 1e-15);
+    EXPECT_NEAR(clay.softened(50), 0.2, 1e-15);
+    EXPECT_EQ(clay.quickened(1e-9), 1);
+    EXPECT_NEAR(clay.quickened(1), 1.3, 1e-15);
+}
+
+// E = 26, nu = 0.3: G = 10, lambda = 15.
+constexpr Elastic rubber{26, 0.3};
+
+TEST(NeoHookean, has_the_stress_and_energy_of_a_stretch) {
+    // F = diag(2, 1): J = 2; (10 (4 - 1) + 15 ln 2) / 2 along, 15 ln 2 / 2 across.
+    const Deformation<2> f{{{2, 0}, {0, 1}}};
+    const Stress<2> stress = neo_hookean_stress<2>(rubber, f);
+    EXPECT_NEAR(stress.xx, 15 + 7.5 * std::numbers::ln2, 1e-13);
+    EXPECT_NEAR(stress.yy, 7.5 * std::numbers::ln2, 1e-13);
+    EXPECT_NEAR(stress.zz, 7.5 * std::numbers::ln2, 1e-13);
+    EXPECT_EQ(stress.xy, 0);
+    const double log_j = std::numbers::ln2;
+    EXPECT_NEAR(neo_hookean_energy<2>(rubber, f), 5 * 3 - 10 * log_j + 7.5 * log_j * log_j, 1e-13);
+    const Stress<3> solid = neo_hookean_stress<3>(rubber, {{{2, 0, 0}, {0, 1, 0}, {0, 0, 1}}});
+    EXPECT_NEAR(solid.xx, stress.xx, 1e-13);
+    EXPECT_NEAR(solid.zz, stress.zz, 1e-13);
+}
+
+TEST(NeoHookean, does_not_feel_a_rotation) {
+    const double c = std::cos(0.7), s = std::sin(0.7);
+    const Stress<2> stress = neo_hookean_stress<2>(rubber, {{{c, -s}, {s, c}}});
+    EXPECT_NEAR(std::abs(stress.xx) + std::abs(stress.yy) + std::abs(stress.xy), 0, 1e-13);
+    EXPECT_NEAR(neo_hookean_energy<2>(rubber, {{{c, -s}, {s, c}}}), 0, 1e-13);
+}
+
+TEST(NeoHookean, stress_is_the_derivative_of_the_energy) {
+    // Along x at F = diag(1.2, 0.9): dW / dF_xx = first Piola stress = J sigma_xx / F_xx.
+    const double step = 1e-6;
+    const auto energy = [&](double stretch) {
+        return neo_hookean_energy<2>(rubber, {{{stretch, 0.3}, {0, 0.9}}});
+    };
+    const Stress<2> stress = neo_hookean_stress<2>(rubber, {{{1.2, 0.3}, {0, 0.9}}});
+    // P = J sigma F^-T, with F^-T = [[1/1.2, 0], [-0.3 / 1.08, 1/0.9]].
+    const double piola = 1.08 * (stress.xx / 1.2 - stress.xy * 0.3 / 1.08);
+    EXPECT_NEAR((energy(1.2 + step) - energy(1.2 - step)) / (2 * step), piola, 1e-8);
+}
+
+TEST(Elastic, answers_a_strain_in_three_dimensions_as_hooke) {
+    const DisplacementGradient<3> gradient{{{0.1, 0.04, 0}, {0.02, 0.2, 0.5}, {0.3, 0.1, -0.1}}};
+    const Stress<3> stress =
+        strained(Stress<3>{}, gradient, rubber.bulk_modulus(), rubber.shear_modulus());
+    EXPECT_NEAR(stress.xx, 15 * 0.2 + 2, 1e-13);
+    EXPECT_NEAR(stress.yy, 15 * 0.2 + 4, 1e-13);
+    EXPECT_NEAR(stress.zz, 15 * 0.2 - 2, 1e-13);
+    EXPECT_NEAR(stress.xy, 0.6, 1e-13);
+    EXPECT_NEAR(stress.yz, 6, 1e-13);
+    EXPECT_NEAR(stress.zx, 3, 1e-13);
+}
+
+TEST(Elastic, turns_stress_about_any_axis) {
+    // A third of a turn about (1, 1, 1) takes x to y, y to z and z to x.
+    const int steps = 2000;
+    const double angle = 2 * std::numbers::pi / 3 / steps, w = angle / std::sqrt(3.0);
+    Stress<3> stress{1, 2, 3, 4, 5, 6};
+    for (int k = 0; k < steps; ++k)
+        stress = rotated(stress, DisplacementGradient<3>{{{0, -w, w}, {w, 0, -w}, {-w, w, 0}}});
+    EXPECT_NEAR(stress.xx, 3, 1e-5);
+    EXPECT_NEAR(stress.yy, 1, 1e-5);
+    EXPECT_NEAR(stress.zz, 2, 1e-5);
+    EXPECT_NEAR(stress.xy, 6, 1e-5);
+    EXPECT_NEAR(stress.yz, 4, 1e-5);
+    EXPECT_NEAR(stress.zx, 5, 1e-5);
+}
+
+// A step of the angle w turns by atan(w) in the plane and by 2 atan(w / 2) in space: w^3 / 4 apart.
+TEST(Elastic, turns_the_same_in_two_and_three_dimensions) {
+    const double w = 1e-3;
+    const Stress<2> plane = rotated(Stress<2>{3, -1, 5, 2}, {{{0, -w}, {w, 0}}});
+    const Stress<3> solid =
+        rotated(Stress<3>{3, -1, 5, 2, 0, 0}, DisplacementGradient<3>{{{0, -w, 0}, {w, 0, 0}, {}}});
+    EXPECT_NEAR(solid.xx, plane.xx, 2e-9);
+    EXPECT_NEAR(solid.yy, plane.yy, 2e-9);
+    EXPECT_NEAR(solid.xy, plane.xy, 2e-9);
+    EXPECT_NEAR(solid.zz, 5, 1e-14);
+}
+
+TEST(DruckerPrager, inner_cone_touches_mohr_coulomb_in_triaxial_extension) {
+    // phi = 30, c = 10: with sigma_1 = sigma_2 = -10 and Mohr-Coulomb's sigma_3 = N sigma_1 -
+    // 2 c sqrt(N) inverted, N = 3: sigma_3 = (-10 + 2 c sqrt(3)) / 3 is the axial stress.
+    const DruckerPrager cone =
+        inner_cone({.cohesion = 10, .friction_angle = 30, .tension_cut_off = 1e9});
+    const double axial = (-10 + 20 * std::numbers::sqrt3) / 3;
+    const Stress<3> stress{-10, -10, axial, 0, 0, 0};
+    const double tau = std::sqrt(second_invariant(deviator(stress, mean(stress))));
+    EXPECT_NEAR(tau + cone.friction * mean(stress), cone.cohesion, 1e-12);
+}
+
+template <class Shape>
+void expect_consistent(const Shape& shape, double from, double to) {
+    for (double u = from; u <= to; u += (to - from) / 64) {
+        const auto weights = shape.at(u, 0);
+        const auto near = shape.at(u + 1e-6, 0), far = shape.at(u - 1e-6, 0);
+        double sum = 0, slope = 0, centre = 0;
+        for (std::size_t i = 0; i < Shape::num_nodes; ++i) {
+            EXPECT_GE(weights.value[i], -1e-15);
+            sum += weights.value[i];
+            slope += weights.slope[i];
+            centre += static_cast<double>(i) * weights.value[i];
+            EXPECT_NEAR((near.value[i] - far.value[i]) / 2e-6, weights.slope[i], 2e-6);
+        }
+        EXPECT_NEAR(sum, 1, 1e-14);
+        EXPECT_NEAR(slope, 0, 1e-14);
+        EXPECT_NEAR(centre, u, 1e-14) << "a linear field must be kept";
+    }
+}
+
+TEST(ShapeFunctions, keep_linear_fields_and_have_the_slopes_they_say) {
+    Scene scene;
+    scene.bodies.push_back({.contains = {}, .points_per_cell = {3, 3, 3}, .material = ""});
+    expect_consistent(LinearShape(scene), 0, 1);
+    expect_consistent(QuadraticShape(scene), 0.5, 1.5);
+    expect_consistent(GimpShape(scene), 0.5, 1.5);
+}
+
+}  // namespace
+}  // namespace mpm

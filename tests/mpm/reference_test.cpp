@@ -1,0 +1,195 @@
+#include "support.hpp"
+
+#include <gtest/gtest.h>
+#include <scene_file/scene_file_mpi.hpp>
+
+#include <numbers>
+
+namespace mpm::test {
+namespace {
+
+constexpr double g = 9.81;
+
+Scene shipped(const std::string& name) {
+    return read_scene(std::string(RRCB_SCENES) + "/" + name + ".yaml", MPI_COMM_WORLD).scene;
+}
+
+/// What the audit leaves open, by an energy of the scene.
+double gap(const Simulation& simulation, double initial, double scale) {
+    const Totals now = simulation.totals();
+    return std::abs(now.kinetic_energy + now.strain_energy + now.potential_energy +
+                    now.dissipated_energy.value() - initial) /
+           scale;
+}
+
+// Sulsky, Chen and Schreyer 1994: two disks of 2.51327 J meet at 1.586 s.
+TEST(TwoDisks, meet_when_they_touch_and_keep_momentum_and_energy) {
+    Simulation simulation(shipped("two_disks"), MPI_COMM_WORLD);
+    const double initial = simulation.totals().kinetic_energy;
+    EXPECT_NEAR(initial, 2.51327, 0.01 * 2.51327);
+    double least = initial;
+    while (simulation.time() < 2.5) {
+        simulation.step();
+        if (simulation.step_count() % 20 != 0) continue;
+        const Totals now = simulation.totals();
+        // Grid contact is felt within a cell, at most 0.07 * 2 / 0.283 s before the disks touch.
+        if (simulation.time() < 1.586 - 0.5) {
+            EXPECT_NEAR(now.kinetic_energy, initial, 1e-9);
+        }
+        least = std::min(least, now.kinetic_energy);
+        EXPECT_NEAR(now.momentum[0], 0, 1e-10);
+        EXPECT_NEAR(now.momentum[1], 0, 1e-10);
+        EXPECT_LT(gap(simulation, initial, initial), 0.01);
+    }
+    EXPECT_LT(least, 0.3 * initial);
+    EXPECT_GT(simulation.totals().kinetic_energy, 0.5 * initial);
+}
+
+constexpr double slope_angle = 24 * std::numbers::pi / 180, ramp = 1;
+
+/// A block on a plane inclined by 24 degrees: the plane is the bottom, gravity is inclined. It
+/// grows in a second, so that the block does not bounce.
+Scene incline(double friction) {
+    return {.name = "incline",
+            .grid = {.lower = {0, 0}, .spacing = 0.25, .num_cells = {96, 8}},
+            .materials = {elastic_material("block", 1000, 1e6, 0.3)},
+            .bodies = {{.contains = box_region({{0.5, 0}, {2.5, 1}}),
+                        .points_per_cell = {2, 2, 1},
+                        .material = "block"}},
+            .walls = {.bottom = {Wall::frictional, friction}},
+            .effects = {{"gravity",
+                         {{"acceleration", std::vector<double>{g * std::sin(slope_angle),
+                                                               -g * std::cos(slope_angle)}},
+                          {"ramp", ramp}}},
+                        {"energy_audit", {}}}};
+}
+
+struct Slide {
+    double distance, energy_gap;
+};
+
+Slide slide(double friction, double end_time) {
+    Simulation simulation(incline(friction), MPI_COMM_WORLD);
+    const Totals start = simulation.totals();
+    while (simulation.time() < end_time) simulation.step();
+    const Totals end = simulation.totals();
+    const double released = start.potential_energy - end.potential_energy;
+    // To the very time, with the mean velocity.
+    const double late = simulation.time() - end_time;
+    return {end.center[0] - start.center[0] - end.momentum[0] / end.mass * late,
+            gap(simulation, start.potential_energy, std::max(released, 1.0))};
+}
+
+// With gravity growing until T the distance is a (t^2 / 2 - T t / 2 + T^2 / 6).
+TEST(Incline, block_slides_with_coulomb_friction) {
+    const double friction = std::tan(std::numbers::pi / 12), t = 5;
+    const double acceleration = g * (std::sin(slope_angle) - friction * std::cos(slope_angle));
+    const double expected = acceleration * (t * t - ramp * t + ramp * ramp / 3) / 2;
+    const Slide sliding = slide(friction, t);
+    EXPECT_NEAR(sliding.distance, expected, 1e-3 * expected);
+    EXPECT_LT(sliding.energy_gap, 0.01);
+}
+
+TEST(Incline, block_sticks_when_friction_is_above_the_slope) {
+    // Sheared by its weight, rho g sin H / G over half its height, it leans by 5 mm.
+    EXPECT_LT(slide(std::tan(std::numbers::pi / 6), 2).distance, 0.01);
+}
+
+/// A square metre in water, 10 m above the bottom.
+Scene in_water(double density) {
+    return {.name = "falling",
+            .grid = {.lower = {0, 0}, .spacing = 0.25, .num_cells = {12, 48}},
+            .materials = {elastic_material("block", density, 1e6, 0.3)},
+            .bodies = {{.contains = box_region({{1, 10}, {2, 11}}),
+                        .points_per_cell = {2, 2, 1},
+                        .material = "block"}},
+            .effects = {gravity_effect(g),
+                        {"buoyancy", {{"water_density", 1000.0}}},
+                        {"water_drag", {{"water_density", 1000.0}, {"drag_coefficient", 1.0}}}}};
+}
+
+// m v' = W' - rho_w Cd A v^2 / 2: v_t tanh(t / tau), v_t = sqrt(2 W' / (rho_w Cd A)).
+TEST(FallingBody, reaches_its_terminal_velocity) {
+    Simulation simulation(in_water(2000), MPI_COMM_WORLD);
+    const double weight = 1000 * g, terminal = std::sqrt(2 * weight / 1000);
+    const double tau = 2000 * terminal / weight;
+    while (simulation.time() < 2) {
+        simulation.step();
+        const Totals now = simulation.totals();
+        EXPECT_NEAR(-now.momentum[1] / now.mass, terminal * std::tanh(simulation.time() / tau),
+                    0.02 * terminal);
+    }
+}
+
+TEST(FallingBody, that_is_neutrally_buoyant_stays) {
+    Simulation simulation(in_water(1000), MPI_COMM_WORLD);
+    for (int step = 0; step < 50; ++step) simulation.step();
+    EXPECT_EQ(simulation.max_speed(), 0);
+}
+
+// Euler and Bernoulli: omega = 1.8751^2 / L^2 sqrt(E' I / (rho A)), E' = E / (1 - nu^2) in plane
+// strain; with L / h = 10 shear and rotary inertia lengthen the period by 1.6 %.
+TEST(Cantilever, vibrates_with_its_period) {
+    Scene scene = shipped("elastic_structure");
+    resize_cells(scene, 0.5);
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    const double stiffness = 5e6 / (1 - 0.04) / 12, per_length = 1000;
+    const double omega = 1.875104 * 1.875104 / 100 * std::sqrt(stiffness / per_length);
+    const double period = 2 * std::numbers::pi / omega;
+    std::vector<double> zeros;
+    double before = simulation.totals().momentum[1];
+    while (zeros.size() < 2) {
+        const double start = simulation.time();
+        for (int step = 0; step < 10; ++step) simulation.step();
+        const double now = simulation.totals().momentum[1];
+        if ((before > 0) != (now > 0))
+            zeros.push_back(start + (simulation.time() - start) * before / (before - now));
+        before = now;
+    }
+    EXPECT_NEAR(2 * (zeros[1] - zeros[0]), 1.016 * period, 0.05 * period);
+}
+
+TEST(Cantilever, keeps_account_of_its_energy) {
+    Simulation simulation(shipped("elastic_structure"), MPI_COMM_WORLD);
+    const double initial = simulation.totals().kinetic_energy;
+    double worst = 0;
+    while (simulation.time() < 1.5) {
+        for (int step = 0; step < 50; ++step) simulation.step();
+        worst = std::max(worst, gap(simulation, initial, initial));
+    }
+    EXPECT_LT(worst, 0.001);
+    EXPECT_GT(simulation.totals().strain_energy, 0.5 * initial);
+}
+
+TEST(SubmarineSlide, closes_its_energy_audit) {
+    Scene scene = shipped("submarine_slide");
+    resize_cells(scene, 2.5);
+    (*find_effect(scene, "gravity"))["ramp"] = 0.0;
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    const double initial = simulation.totals().potential_energy;
+    while (simulation.time() < 4) simulation.step();
+    const Totals end = simulation.totals();
+    const double released = initial - end.potential_energy;
+    EXPECT_GT(released, 0);
+    EXPECT_GT(end.dissipated_energy.value(), 0.1 * released);
+    EXPECT_LT(gap(simulation, initial, released), 0.01);
+}
+
+TEST(Effects, that_are_not_named_leave_no_trace) {
+    Scene scene = in_water(2000);
+    scene.effects.clear();
+    const Simulation bare(scene, MPI_COMM_WORLD);
+    EXPECT_EQ(bare.kernels(), (std::vector<std::string>{"p2g", "ghost_nodes", "move_nodes", "g2p",
+                                                        "elastic", "migrate"}));
+    EXPECT_EQ(bare.doubles_per_ghost_node(), 5u);
+    EXPECT_EQ(bare.particles().column_names().size(), 13u);
+    const Simulation full(in_water(2000), MPI_COMM_WORLD);
+    EXPECT_EQ(full.doubles_per_ghost_node(), 9u);
+    EXPECT_EQ(full.kernels(),
+              (std::vector<std::string>{"p2g", "node_volume", "water_surface", "surface_area",
+                                        "ghost_nodes", "gravity", "buoyancy", "water_drag",
+                                        "move_nodes", "g2p", "elastic", "migrate"}));
+}
+
+}  // namespace
+}  // namespace mpm::test

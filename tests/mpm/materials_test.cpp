@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <mpm/drucker_prager.hpp>
+#include <mpm/herschel_bulkley.hpp>
 #include <mpm/neo_hookean.hpp>
 #include <mpm/shape_functions.hpp>
 #include <mpm/undrained.hpp>
@@ -41,6 +42,30 @@ TEST(Undrained, is_stronger_at_depth_and_rate_and_weaker_after_strain) {
     EXPECT_NEAR(clay.softened(50), 0.2, 1e-15);
     EXPECT_EQ(clay.quickened(1e-9), 1);
     EXPECT_NEAR(clay.quickened(1), 1.3, 1e-15);
+}
+
+TEST(HerschelBulkley, finds_the_rate_that_uses_the_excess_up) {
+    // 3 * 4 + 2 * sqrt(4) = 16; 3 * 2 + 2 * 2^2 = 14; 3 * 2 + 2 * 2 = 10; 3 * 4 = 12.
+    EXPECT_NEAR(viscous_rate({.consistency = 2, .exponent = 0.5}, 3, 16), 4, 1e-14);
+    EXPECT_NEAR(viscous_rate({.consistency = 2, .exponent = 2}, 3, 14), 2, 1e-14);
+    EXPECT_NEAR(viscous_rate({.consistency = 2, .exponent = 1}, 3, 10), 2, 1e-14);
+    EXPECT_NEAR(viscous_rate({.consistency = 0, .exponent = 0.5}, 3, 12), 4, 1e-14);
+    EXPECT_EQ(viscous_rate({.consistency = 2, .exponent = 0.5}, 3, -1), 0);
+    for (const double exponent : {0.1, 0.3, 0.9, 1.1, 3.0, 10.0})
+        for (const double excess : {1e-9, 1e-3, 1.0, 1e6}) {
+            const double rate = viscous_rate({.consistency = 7, .exponent = exponent}, 3, excess);
+            EXPECT_NEAR(3 * rate + 7 * std::pow(rate, exponent), excess, 1e-12 * excess);
+        }
+}
+
+TEST(HerschelBulkley, flows_above_its_yield_stress_only) {
+    // Deviator (30, -30, 0, 40): sqrt(J2) = 50; 10 + 5 * rate + 3 * rate = 50 leaves 50 - 3 * 5.
+    const HerschelBulkley fluid{.yield_stress = 10, .consistency = 5, .exponent = 1};
+    const Stress<2> stress = returned<2>(fluid, 3, {40, -20, 10, 40});
+    EXPECT_NEAR(stress.xx, 10 + 0.7 * 30, 1e-13);
+    EXPECT_NEAR(stress.xy, 28, 1e-13);
+    EXPECT_EQ(returned<2>(fluid, 3, {1, 1, 1, 10}).xy, 10);
+    EXPECT_EQ(returned<2>({.yield_stress = 0, .consistency = 0}, 3, {1, 1, 1, 10}).xy, 0);
 }
 
 // E = 26, nu = 0.3: G = 10, lambda = 15.

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from statistics import geometric_mean
 
 from results import Measurement
@@ -70,6 +72,18 @@ def choices(rows: list[Measurement]) -> list[Choice]:
     return everywhere * (len(by_case) > 1) + [
         _choose(case, rows, tolerance) for case, rows in by_case.items() for tolerance in TOLERANCES
     ]
+
+
+def write_choices(directory: Path, rows: list[Measurement]) -> None:
+    """choices.csv: a row per case and tolerance, empty fields where no setting is within it."""
+    if not rows:
+        return
+    with (directory / "choices.csv").open("w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow("case,tolerance,setting,time_ms,times_as_fast,imbalance".split(","))
+        for c in choices(rows):
+            numbers = [c.time_ms, c.times_as_fast, c.imbalance]
+            writer.writerow([c.case, c.tolerance, c.setting, *numbers])
 
 
 def _choose(case: str, rows: list[Measurement], tolerance: str) -> Choice:

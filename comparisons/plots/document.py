@@ -16,12 +16,12 @@ h1 { font-size: 1.7rem; line-height: 1.2; } h2 { font-size: 1.3rem; margin-top: 
 .conclusion { border-left: 4px solid #0072B2; background: #F2F7FB; padding: .1rem 1rem; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: .86rem; font-variant-numeric: tabular-nums; }
-caption { text-align: left; font-weight: 600; padding: .8rem 0 .3rem; }
+.caption { font-size: .9rem; font-weight: 600; margin: 1.6rem 0 .3rem; }
 th, td { padding: .25rem .6rem; text-align: right; white-space: nowrap;
   border-bottom: 1px solid #DDD; }
 th:first-child, td:first-child, .text { text-align: left; }
 figure { margin: 1.5rem 0; } figcaption { font-size: .9rem; color: #444; }
-img { display: block; width: 100%; height: auto; min-width: 44rem; }
+img { display: block; width: 100%; height: auto; }
 pre { font-size: .78rem; background: #F6F6F6; padding: .8rem; overflow-x: auto; }
 """
 
@@ -81,8 +81,7 @@ def _html_block(block: tuple, directory: Path) -> str:
         return f'<div class="conclusion">{texts}</div>'
     if kind == "picture":
         name, caption = content
-        data = base64.b64encode((directory / name).read_bytes()).decode("ascii")
-        image = f'<img alt="{html.escape(caption)}" src="data:image/png;base64,{data}">'
+        image = _html_image((directory / name).read_bytes(), caption)
         return f'<figure><div class="wide">{image}</div>{_tag("figcaption", caption)}</figure>'
     if kind == "table":
         return _html_table(*content)
@@ -91,14 +90,26 @@ def _html_block(block: tuple, directory: Path) -> str:
     return _tag("h2" if kind == "heading" else "p", content[0])
 
 
+def _html_image(png: bytes, caption: str) -> str:
+    """At most as wide as its text is made for; a narrow page scrolls it."""
+    width = int.from_bytes(png[16:20], "big") * 4 // 5
+    data = base64.b64encode(png).decode("ascii")
+    return (
+        f'<img alt="{html.escape(caption)}" style="max-width: {width}px; min-width:'
+        f' min({width}px, 44rem)" src="data:image/png;base64,{data}">'
+    )
+
+
 def _html_table(caption: str, header: list[str], rows: list[list[str]]) -> str:
-    is_text = [not any(_is_number(row[c]) for row in rows) for c in range(len(header))]
+    is_text = [2 * sum(_is_number(row[c]) for row in rows) < len(rows) for c in range(len(header))]
     lines = [
         "<tr>" + "".join(_cell(tag, text, left) for text, left in zip(cells, is_text)) + "</tr>"
         for tag, cells in [("th", header), *(("td", row) for row in rows)]
     ]
+    # Beside the table, not in it: a caption of its own would be as wide and scroll with it.
     return (
-        f'<div class="wide"><table>{_tag("caption", caption)}\n<thead>{lines[0]}</thead>\n<tbody>'
+        f'<p class="caption">{html.escape(caption)}</p>\n<div class="wide">'
+        f'<table aria-label="{html.escape(caption)}">\n<thead>{lines[0]}</thead>\n<tbody>'
         + "\n".join(lines[1:])
         + "</tbody></table></div>"
     )
@@ -109,7 +120,7 @@ def _cell(tag: str, text: str, left: bool) -> str:
 
 
 def _is_number(text: str) -> bool:
-    return re.fullmatch(r"[-\d.,]+", text) is not None
+    return re.fullmatch(r"[-–]|[-+\d.,e]*\d( ?(ms|s|%|×))?", text) is not None
 
 
 def _tag(name: str, text: str) -> str:

@@ -6,18 +6,25 @@ report.html holds its pictures; report.md names them.
 from __future__ import annotations
 
 import os
-import platform
 import sys
-from datetime import datetime
 from pathlib import Path
 
 from automatic import automatic_sentence, automatic_table, judgements, write_automatic
-from choice import EVERYWHERE, Choice, cases, choices, find_method
+from choice import (
+    EVERYWHERE,
+    TOLERANCES,
+    Choice,
+    cases,
+    choices,
+    find_method,
+    write_choices,
+)
 from document import Document, write_html, write_markdown
+from machine import add_machine, read_record
 from results import Measurement, Simulation, read_simulations, read_table
 from sentences import sentences
 from sources import read_sources, source_table
-from speed_up import OTHERS, SIMULATIONS, STANDARD, read_speed_ups
+from speed_up import KINDS, OTHERS, SIMULATIONS, STANDARD, rank_table, read_speed_ups
 from sweep import read_clouds, read_snapshots
 
 COST = {
@@ -50,7 +57,8 @@ STUDY_PICTURES = {
     " a network of 1.5 µs and 12 GB/s; middle, by the points of the fullest rank alone; bottom, as"
     " the clock on this machine saw it.",
     "ranks.png": "Table 1 of the paper: speed-up over the number of ranks.",
-    "study_history.png": "Figure 6 of the paper: worst |Lu| of the parts over the simulation.",
+    "study_history.png": "Figure 6 of the paper: load unbalance over the simulation, worst |Lu| of"
+    " the parts.",
 }
 
 
@@ -58,10 +66,11 @@ def main() -> int:
     if len(sys.argv) != 2 or not (directory := Path(sys.argv[1])).is_dir():
         print("usage: report.py DIRECTORY (with the files of a comparison)", file=sys.stderr)
         return 2
-    record = _read_record(directory)
-    is_sweep = "--sweep" in record.get("arguments", "").split()
+    given = read_record(directory).get("arguments", "")
+    is_sweep = "--sweep" in given.split()
     document = sweep_report(directory) if is_sweep else comparison_report(directory)
-    _add_machine(document, directory, record)
+    add_machine(document, directory, given)
+    _define(document)
     write_html(document, directory)
     write_markdown(document, directory)
     print(document.summary)
@@ -85,6 +94,7 @@ def comparison_report(directory: Path) -> Document:
 def sweep_report(directory: Path) -> Document:
     clouds = read_clouds(directory)
     write_automatic(directory, clouds)
+    write_choices(directory, clouds)
     document = Document("What accuracy costs")
     document.conclude(sentences(clouds))
     document.heading("Which setting for which tolerance")
@@ -96,7 +106,9 @@ def sweep_report(directory: Path) -> Document:
     _add_pictures(document, directory, SWEEP_PICTURES)
     on_each = [choice for choice in chosen if choice.case != EVERYWHERE]
     if on_each:
-        document.summarise("Fastest within the tolerance, cloud by cloud", *_choice_table(on_each))
+        table = _choice_matrix(on_each) if everywhere else _choice_table(on_each)
+        caption = "Fastest within the tolerance, cloud by cloud"
+        document.summarise(caption + ": ms, times as fast as Zoltan's RCB" * bool(everywhere), *table)
     _add_automatic(document, clouds)
     _add_sources(document, directory)
     document.heading("The failing slope")
@@ -132,6 +144,10 @@ def _add_speed_ups(document: Document, directory: Path) -> None:
     speed_ups = read_speed_ups(directory)
     if not speed_ups:
         return
+    for kind in KINDS:
+        table = rank_table(speed_ups, kind)
+        if len(table[0]) > 2:
+            document.summarise(f"Speed-up over serial by ranks, {KINDS[kind]}", *table)
     run = speed_ups[-1].run
     header = ["method", "ranks", "critical path", "rebalanced at every step", "points", "wall"]
     header.append("mean imbalance")
@@ -152,7 +168,7 @@ def _add_speed_ups(document: Document, directory: Path) -> None:
         f"Speed-up over the serial simulation: {run.points:,} points, {run.steps:,} steps,"
         f" rebalanced every {run.every}"
     )
-    document.summarise(caption, header, table)
+    document.table(caption, header, table)
     document.paragraph(
         "critical path: serial work / (work of the slowest rank of each step and rebalance + its"
         " messages on a network of 1.5 µs and 12 GB/s), where work is processor time outside MPI:"
@@ -161,13 +177,6 @@ def _add_speed_ups(document: Document, directory: Path) -> None:
         f" leaves all costs out. wall: by the clock, here with {os.cpu_count()} cores: where ranks"
         " share cores it hides unbalance. speed_up.csv has every setting."
     )
-
-
-def _read_record(directory: Path) -> dict[str, str]:
-    """The lines `name: value` of run.txt."""
-    path = directory / "run.txt"
-    lines = path.read_text().splitlines() if path.exists() else []
-    return dict(line.split(": ", 1) for line in lines if ": " in line)
 
 
 def _add_pictures(document: Document, directory: Path, pictures: dict[str, str]) -> None:
@@ -217,6 +226,18 @@ def _choice_table(chosen: list[Choice]) -> tuple[list[str], list[list[str]]]:
     return header, table
 
 
+def _choice_matrix(chosen: list[Choice]) -> tuple[list[str], list[list[str]]]:
+    """A row per cloud, a column per tolerance."""
+    table: dict[str, list[str]] = {}
+    for choice in chosen:
+        text = "none"
+        if choice.setting:
+            text = f"{choice.setting} {_number(choice.time_ms, 2)}"
+            text += f" {_number(choice.times_as_fast, 1)}×"
+        table.setdefault(choice.case, [choice.case]).append(text)
+    return ["cloud", *(f"≤ {t}" for t in TOLERANCES[:-1]), TOLERANCES[-1]], list(table.values())
+
+
 def _number(value: float | None, digits: int) -> str:
     return "–" if value is None else f"{value:.{digits}f}"
 
@@ -243,33 +264,13 @@ def _add_simulations(document: Document, runs: list[Simulation], reference: str)
     document.table(caption, header, table)
 
 
-def _add_machine(document: Document, directory: Path, record: dict[str, str]) -> None:
-    document.heading("Machine, versions and arguments")
-    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
-    facts = [
-        ["processor", _processor()],
-        ["cores", str(os.cpu_count())],
-        ["memory", f"{memory:.1f} GiB"],
-        ["system", platform.platform()],
-        ["written", datetime.now().astimezone().isoformat(timespec="seconds")],
-        ["arguments", record.get("arguments", "") or "none"],
-    ]
-    document.table("Machine", ["what", "value"], facts)
-    if (directory / "run.txt").exists():
-        document.listing("run.txt", (directory / "run.txt").read_text())
+def _define(document: Document) -> None:
     document.paragraph(
         "imbalance: heaviest part / mean part. Lu: (ideal − actual) / ideal of a part. time: slowest"
         " rank, median of the repeats. times as fast: Zoltan RCB's time / this method's. bytes and"
         " messages: of one call over all ranks. into root: bytes that rank 0 receives."
         " moved: weight that changes rank. exact: no part holds more than one point above the mean."
     )
-
-
-def _processor() -> str:
-    path = Path("/proc/cpuinfo")
-    lines = path.read_text().splitlines() if path.exists() else []
-    models = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
-    return models[0] if models else platform.machine()
 
 
 if __name__ == "__main__":

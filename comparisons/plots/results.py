@@ -113,9 +113,9 @@ def read_history(directory: Path) -> dict[str, Columns]:
     return _histories(read_rows(directory / "history.csv"))
 
 
-def read_study_history(directory: Path) -> dict[str, Columns]:
-    """The same of the paper's settings, which have a file each."""
-    files = sorted((directory / "data").glob("history_rrcb-sampled_*.csv"))
+def read_study_history(directory: Path, ranks: int) -> dict[str, Columns]:
+    """The same of the paper's settings on so many ranks, which have a file each."""
+    files = sorted((directory / "data").glob(f"history_rrcb-sampled_*_{ranks}.csv"))
     return _histories([row for file in files for row in read_rows(file)])
 
 

@@ -15,6 +15,7 @@ from pathlib import Path
 from matplotlib import pyplot as plt
 
 from document import Document, write_html, write_markdown
+from machine import add_machine
 from scaling_check import Comparison, compare_all, read_counted, read_sizes
 from scaling_time import Machine, Observed, Path as CallPath, all_paths, observe
 from settings import legend_above
@@ -161,9 +162,7 @@ def _write_report(
         for c in comparisons
     ]
     document.table("One call, function by function, summed over the ranks", header, rows)
-    record = next(iter(sorted(directory.glob("ranks-*/run.txt"))), None)
-    if record:
-        document.listing("run.txt of one of the runs", record.read_text())
+    add_machine(document, directory / "ranks-2", " ".join(sys.argv[2:]))
     write_html(document, directory)
     write_markdown(document, directory)
     print(document.summary)

@@ -60,7 +60,8 @@ def draw_lines(
 
 def legend_above(figure: Figure, handles: list, inches: float = 1.45) -> None:
     """Outside of the panels, in as many lines as the width needs at `inches` an entry."""
-    columns = min(len(handles), max(1, int(figure.get_figwidth() / inches)))
-    lines = -(-len(handles) // columns)
+    most = max(1, int(figure.get_figwidth() / inches))
+    lines = -(-len(handles) // most)
+    columns = -(-len(handles) // lines)
     figure.suptitle("\n" * (lines - 1) + " ", fontsize=13)  # keeps room for the legend
     figure.legend(handles=handles, loc="upper center", ncol=columns)

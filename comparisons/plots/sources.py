@@ -151,10 +151,13 @@ def source_table(rows: list[Source]) -> tuple[list[str], list[list[str]]]:
     meshes = sorted({row.mesh for row in rows if row.mesh > 0})
     header = ["what is bisected", *(f"mesh {mesh}" for mesh in meshes)]
     exact = [row.excess for row in rows if row.domain == "points"]
-    table = [["all points", *([f"{100 * geometric_mean(exact):.3g}"] * len(meshes))]]
+    table = [["all points", *([_percent(exact)] * len(meshes))]]
     for stage in STAGES:
         by_mesh = _by_mesh([row for row in rows if stage.takes(row)])
         if by_mesh:
-            values = [f"{100 * geometric_mean(by_mesh[mesh]):.3g}" for mesh in meshes]
-            table.append([stage.label, *values])
+            table.append([stage.label, *(_percent(by_mesh[mesh]) for mesh in meshes)])
     return header, table
+
+
+def _percent(excesses: list[float]) -> str:
+    return ("≤ " if max(excesses) == FLOOR else "") + f"{100 * geometric_mean(excesses):.3g}"

@@ -20,10 +20,8 @@ SIMULATIONS = "sweep_simulation.csv"
 STANDARD = "rrcb-sampled[mesh=4,k=1.5,fraction=1]"  # the paper's RRCB
 OTHERS = ("none", "zoltan-rcb", "root-rcb", "rrcb", "rrcb-exact")
 KINDS = {
-    "critical_path": "with a core for every rank: serial work / (slowest rank's work in each step"
-    " and rebalance + network)",
-    "points": "by points alone: all points / points of the fullest rank of each step;"
-    " balancing and messages cost nothing",
+    "critical_path": "critical path: a core for every rank",
+    "points": "points alone: no costs of balancing and messages",
     "wall": "wall time on this machine",
 }
 
@@ -41,16 +39,16 @@ class SpeedUp:
 
 def read_speed_ups(directory: Path) -> list[SpeedUp]:
     runs = read_simulations(directory, SIMULATIONS)
-    serial = next((run for run in runs if run.method == "serial"), None)
+    serial = next((run for run in reversed(runs) if run.method == "serial"), None)
     if serial is None:
         return []
     return [
-        _speed_up(run, serial) for run in runs if (run.points, run.steps) == _size_of(serial)
+        _speed_up(run, serial) for run in runs if _size_of(run) == _size_of(serial)
     ]
 
 
-def _size_of(run: Simulation) -> tuple[int, int]:
-    return run.points, run.steps
+def _size_of(run: Simulation) -> tuple[int, int, int]:
+    return run.points, run.steps, run.every
 
 
 def _speed_up(run: Simulation, serial: Simulation) -> SpeedUp:
@@ -101,7 +99,7 @@ def draw_speed_up(directory: Path, picture: Path) -> bool:
     figure, grid = plt.subplots(
         len(KINDS),
         len(fractions),
-        figsize=(2.8 * len(fractions) + 0.6, 2.7 * len(KINDS) + 0.9),
+        figsize=(2.8 * max(2, len(fractions)) + 0.6, 2.7 * len(KINDS) + 0.9),
         squeeze=False,
         sharey="row",
     )
@@ -123,7 +121,7 @@ def _title(kind: str, run: Simulation) -> str:
     text = KINDS[kind]
     cores = os.cpu_count() or 1
     if kind == "wall" and cores < run.ranks:
-        text += f": {run.ranks} ranks share {cores} cores, which hides unbalance"
+        text = f"wall time: {run.ranks} ranks share {cores} cores"
     return text
 
 
@@ -178,9 +176,23 @@ def speed_up_table(speed_ups: list[SpeedUp]) -> dict[str, list[SpeedUp]]:
     return {m: sorted(rows, key=lambda s: s.run.ranks) for m, rows in several.items()}
 
 
+def rank_table(speed_ups: list[SpeedUp], kind: str) -> tuple[list[str], list[list[str]]]:
+    """A row per method, a column per number of ranks: table 1 of the paper."""
+    table = speed_up_table(speed_ups)
+    numbers = sorted({s.run.ranks for rows in table.values() for s in rows})
+    lines = []
+    for method, rows in table.items():
+        by_ranks = {s.run.ranks: f"{getattr(s, kind):.2f}" for s in rows}
+        lines.append([method, "1.00", *(by_ranks.get(number, "–") for number in numbers)])
+    return ["method", "1 rank", *(f"{number} ranks" for number in numbers)], lines
+
+
 def draw_study_history(directory: Path, picture: Path) -> bool:
     """Figure 6: worst |Lu| over the steps, a panel per mesh and fraction, a line per k."""
-    histories = read_study_history(directory)
+    runs = [s.run for s in read_speed_ups(directory) if SETTING.fullmatch(s.run.method)]
+    if not runs:
+        return False
+    histories = read_study_history(directory, mode([run.ranks for run in runs]))
     if not histories:
         return False
     methods = sorted(histories, key=setting_of)

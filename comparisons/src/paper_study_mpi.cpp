@@ -7,6 +7,8 @@
 #include "table.hpp"
 #include "text.hpp"
 
+#include <mpm/slope.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <thread>
@@ -29,13 +31,22 @@ bool has_snapshots(const Sweep& sweep, const SimulationPlan& plan, const SavedRo
     });
 }
 
-/// The whole failure, unless asked otherwise, with about a hundred records of the load.
+/// Steps until the front of the slope lies still, within 0.2 m of where it ends.
+int steps_of_failure(MPI_Comm comm) {
+    constexpr double end_of_failure_s = 5.5;
+    mpm::Scene scene = mpm::slope_scene();
+    scene.end_time = end_of_failure_s;
+    return steps_to_end(scene, comm);
+}
+
+/// The failure, unless asked otherwise, with about a hundred records of the load.
 SimulationPlan study_plan(const Sweep& sweep) {
     constexpr int default_every = 20;
     constexpr int quick_steps = 5;
     constexpr int num_records = 100;
     Arguments arguments = sweep.arguments;
-    if (arguments.steps == 0 && arguments.quick) arguments.steps = quick_steps;
+    if (arguments.steps == 0)
+        arguments.steps = arguments.quick ? quick_steps : steps_of_failure(sweep.comm);
     if (arguments.every == 0) arguments.every = arguments.quick ? 1 : default_every;
     SimulationPlan plan = plan_scene(arguments, 1, sweep.comm);
     plan.record_every = std::max(1, plan.num_steps / num_records);

@@ -66,8 +66,8 @@ zoltan-rcb,2,2,4,2,uniform,sorted,PARTS,1,2.0,1.5,3.0,1.0,0,1,100,1,1,0,0,1,
 """,
     "sweep_simulation.csv": """\
 method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,worst_imbalance,front_x_m,mass_kg,path_points,step_work_s,step_path_s,step_network_s,balance_work_s,balance_path_s,balance_network_s,error
-serial,1,4,10,1,3.0,0.0,3.0,1.0,1.0,60,1,40,2.4,2.4,0,0,0,0,
-"rrcb-sampled[mesh=2,k=1.5,fraction=0.5]",2,4,10,1,2.0,0.1,1.8,1.0,1.1,60,1,20,2.4,1.2,0.1,0.1,0.05,0.01,
+serial,1,4,10,5,3.0,0.0,3.0,1.0,1.0,60,1,40,2.4,2.4,0,0,0,0,
+"rrcb-sampled[mesh=2,k=1.5,fraction=0.5]",2,4,10,5,2.0,0.1,1.8,1.0,1.1,60,1,20,2.4,1.2,0.1,0.1,0.05,0.01,
 rrcb,2,4,10,5,1.5,0.1,1.4,1.0,1.1,60,1,20,2.4,1.2,0.1,0.1,0.05,0.01,
 rrcb,4,4,10,5,1.2,0.1,1.1,1.0,1.1,60,1,10,2.4,0.7,0.1,0.2,0.1,0.02,
 """,
@@ -75,6 +75,10 @@ rrcb,4,4,10,5,1.2,0.1,1.1,1.0,1.1,60,1,10,2.4,0.7,0.1,0.2,0.1,0.02,
 method,step,time,part,points,lu_percent,imbalance
 "rrcb-sampled[mesh=2,k=1.5,fraction=0.5]",0,0.0,0,3,-50,1.5
 "rrcb-sampled[mesh=2,k=1.5,fraction=0.5]",0,0.0,1,1,50,1.5
+""",
+    "data/history_rrcb-sampled_mesh_2_k_1.5_fraction_0.5__4.csv": """\
+method,step,time,part,points,lu_percent,imbalance
+"rrcb-sampled[mesh=2,k=1.5,fraction=0.5]",0,0.0,0,4,-90,1.9
 """,
     "error_sources.csv": """\
 workload,layout,dim,points,ranks,domain,mesh,k,fraction,seed,imbalance,lu_max_percent,error
@@ -121,6 +125,18 @@ class DrawTest(unittest.TestCase):
         self.assertAlmostEqual(two.every_step, 2.4 / (1.2 + 0.1 + 5 * (0.05 + 0.01)))
         self.assertAlmostEqual(two.points, 2)
         self.assertAlmostEqual(two.wall, 2)
+
+    def test_leaves_out_simulations_of_another_length(self) -> None:
+        self.write("sweep_simulation.csv")
+        path = self.directory / "sweep_simulation.csv"
+        path.write_text(path.read_text() + FILES["sweep_simulation.csv"].split("\n")[1].replace(
+            "serial,1,4,10,5", "serial,1,4,20,5") + "\n")
+        self.assertEqual([s.run.steps for s in speed_up.read_speed_ups(self.directory)], [20])
+
+    def test_reads_the_history_of_one_number_of_ranks(self) -> None:
+        self.write(*FILES)
+        (history_of,) = results.read_study_history(self.directory, 2).values()
+        self.assertEqual(history_of["lu_percent"].tolist(), [-50, 50])
 
     def test_leaves_out_pictures_without_data_and_removes_old_ones(self) -> None:
         self.write("table.csv")

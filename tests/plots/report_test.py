@@ -103,10 +103,8 @@ class Tags(html.parser.HTMLParser):
     def __init__(self) -> None:
         super().__init__()
         self.sources: list[str] = []
-        self.captions = 0
 
     def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
-        self.captions += tag == "caption"
         self.sources += [value or "" for name, value in attributes if name in ("src", "href")]
 
 
@@ -147,6 +145,10 @@ class ReportTest(unittest.TestCase):
         output = self.write("--sweep --quick")
         self.assertRegex(output, r"all of these +1\.05 +rrcb +1\.00")
         self.assertRegex(output, r"all of these +1\.01 +none")
+        self.assertRegex(output, r"mist 2-D sorted +rrcb 1\.00 –× +rrcb 1\.00 –× +none +none +none")
+        written = (self.directory / "choices.csv").read_text().splitlines()
+        self.assertIn("fog 2-D sorted,1.05,rrcb,1.0,,1.04", written)
+        self.assertIn("fog 2-D sorted,exact,,,,", written)
 
 
 if __name__ == "__main__":

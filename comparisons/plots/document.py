@@ -19,11 +19,17 @@ table { border-collapse: collapse; font-size: .86rem; font-variant-numeric: tabu
 .caption { font-size: .9rem; font-weight: 600; margin: 1.6rem 0 .3rem; }
 th, td { padding: .25rem .6rem; text-align: right; white-space: nowrap;
   border-bottom: 1px solid #DDD; }
+.text { white-space: normal; }
 th:first-child, td:first-child, .text { text-align: left; }
+th, td:first-child { white-space: nowrap; }
+summary { cursor: pointer; }
 figure { margin: 1.5rem 0; } figcaption { font-size: .9rem; color: #444; }
 img { display: block; width: 100%; height: auto; }
 pre { font-size: .78rem; background: #F6F6F6; padding: .8rem; overflow-x: auto; }
 """
+
+
+LONGEST = 80  # rows of a table that is not folded up
 
 
 @dataclass
@@ -49,6 +55,7 @@ class Document:
         self.blocks.append(("picture", name, caption))
 
     def table(self, caption: str, header: list[str], rows: list[list[str]]) -> None:
+        """A long one is folded up."""
         self.blocks.append(("table", caption, header, rows))
 
     def summarise(self, caption: str, header: list[str], rows: list[list[str]]) -> None:
@@ -106,13 +113,16 @@ def _html_table(caption: str, header: list[str], rows: list[list[str]]) -> str:
         "<tr>" + "".join(_cell(tag, text, left) for text, left in zip(cells, is_text)) + "</tr>"
         for tag, cells in [("th", header), *(("td", row) for row in rows)]
     ]
-    # Beside the table, not in it: a caption of its own would be as wide and scroll with it.
-    return (
-        f'<p class="caption">{html.escape(caption)}</p>\n<div class="wide">'
-        f'<table aria-label="{html.escape(caption)}">\n<thead>{lines[0]}</thead>\n<tbody>'
+    text = html.escape(caption)
+    table = (
+        f'<div class="wide"><table aria-label="{text}">\n<thead>{lines[0]}</thead>\n<tbody>'
         + "\n".join(lines[1:])
         + "</tbody></table></div>"
     )
+    # The caption stands beside the table, since in it it would be as wide and scroll with it.
+    if len(rows) > LONGEST:
+        return f'<details><summary class="caption">{text}, {len(rows)} rows</summary>{table}</details>'
+    return f'<p class="caption">{text}</p>\n{table}'
 
 
 def _cell(tag: str, text: str, left: bool) -> str:

@@ -233,7 +233,7 @@ def _choice_matrix(chosen: list[Choice]) -> tuple[list[str], list[list[str]]]:
         text = "none"
         if choice.setting:
             text = f"{choice.setting} {_number(choice.time_ms, 2)}"
-            text += f" {_number(choice.times_as_fast, 1)}×"
+            text += f"\N{NO-BREAK SPACE}{_number(choice.times_as_fast, 1)}×"
         table.setdefault(choice.case, [choice.case]).append(text)
     return ["cloud", *(f"≤ {t}" for t in TOLERANCES[:-1]), TOLERANCES[-1]], list(table.values())
 

@@ -15,6 +15,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "pl
 
 import choice  # noqa: E402
 import report  # noqa: E402
+from document import Document, write_html  # noqa: E402
 from results import Measurement  # noqa: E402
 from sentences import sentences  # noqa: E402
 
@@ -136,6 +137,15 @@ class ReportTest(unittest.TestCase):
         self.assertIn("| rrcb[mesh=4,tol=1.1] | 1.00000 |", markdown)
         self.assertIn("](parts.png)", markdown)
 
+    def test_folds_long_tables_up(self) -> None:
+        document = Document("all")
+        document.table("short", ["n"], [["1"]] * 80)
+        document.table("long", ["n"], [["1"]] * 81)
+        write_html(document, self.directory)
+        text = (self.directory / "report.html").read_text()
+        self.assertIn('<p class="caption">short</p>', text)
+        self.assertIn('<details><summary class="caption">long, 81 rows</summary>', text)
+
     def test_of_a_sweep_tells_which_setting_for_which_tolerance(self) -> None:
         rows = "".join(
             f"rrcb,4,4,1000,2,{cloud},sorted,PARTS,1,1,1,1,1.04,4,1,1,1,1,0,0,,\n"
@@ -145,7 +155,7 @@ class ReportTest(unittest.TestCase):
         output = self.write("--sweep --quick")
         self.assertRegex(output, r"all of these +1\.05 +rrcb +1\.00")
         self.assertRegex(output, r"all of these +1\.01 +none")
-        self.assertRegex(output, r"mist 2-D sorted +rrcb 1\.00 –× +rrcb 1\.00 –× +none +none +none")
+        self.assertRegex(output, r"mist 2-D sorted +(rrcb 1\.00\s–×  ){2}none +none +none")
         written = (self.directory / "choices.csv").read_text().splitlines()
         self.assertIn("fog 2-D sorted,1.05,rrcb,1.0,,1.04", written)
         self.assertIn("fog 2-D sorted,exact,,,,", written)

@@ -65,6 +65,25 @@ def pareto_front(
     return front
 
 
+COSTS: dict[str, Callable[[Measurement], float]] = {
+    "time_ms": lambda row: row.time_ms,
+    "bytes": lambda row: row.bytes,
+}
+
+
+def write_fronts(directory: Path, rows: list[Measurement]) -> None:
+    """fronts.csv: the settings on the front of each case, by time and by bytes."""
+    if not rows:
+        return
+    with (directory / "fronts.csv").open("w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["case", "cost", "setting", "value", "imbalance"])
+        for case, measured in cases(rows).items():
+            for name, cost in COSTS.items():
+                for row in pareto_front(measured, cost):
+                    writer.writerow([case, name, row.method, cost(row), row.imbalance])
+
+
 def choices(rows: list[Measurement]) -> list[Choice]:
     """For every tolerance: the setting to take everywhere, then the fastest one on each case."""
     by_case = cases(rows)

@@ -18,6 +18,7 @@ from choice import (
     choices,
     find_method,
     write_choices,
+    write_fronts,
 )
 from document import Document, write_html, write_markdown
 from machine import add_machine, read_record
@@ -95,6 +96,7 @@ def sweep_report(directory: Path) -> Document:
     clouds = read_clouds(directory)
     write_automatic(directory, clouds)
     write_choices(directory, clouds)
+    write_fronts(directory, clouds)
     document = Document("What accuracy costs")
     document.conclude(sentences(clouds))
     document.heading("Which setting for which tolerance")

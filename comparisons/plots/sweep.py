@@ -9,7 +9,7 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from choice import cases, pareto_front
+from choice import COSTS, cases, pareto_front
 from cost import FLOOR
 from results import Measurement, read_table, unique
 from settings import SETTING, draw_lines, legend_above, setting_of, values_of
@@ -27,11 +27,11 @@ def read_snapshots(directory: Path) -> list[Measurement]:
 
 
 def draw_sweep_time(directory: Path, picture: Path) -> bool:
-    return _draw_costs(directory, picture, lambda row: row.time_ms, "time of a call [ms]")
+    return _draw_costs(directory, picture, COSTS["time_ms"], "time of a call [ms]")
 
 
 def draw_sweep_bytes(directory: Path, picture: Path) -> bool:
-    return _draw_costs(directory, picture, lambda row: row.bytes, "bytes sent in a call")
+    return _draw_costs(directory, picture, COSTS["bytes"], "bytes sent in a call")
 
 
 def _draw_costs(

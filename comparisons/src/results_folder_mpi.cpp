@@ -31,12 +31,15 @@ void ResultsFolder::write(const std::string& name,
                           const std::function<void(std::ostream&)>& write) const {
     on_root(
         [&] {
+            // Renamed when it is whole: a run that is stopped leaves the old rows or the new ones.
             const std::filesystem::path file = path_ / name;
-            std::ofstream out(file);
+            const std::filesystem::path draft = file.string() + ".new";
+            std::ofstream out(draft);
             out.precision(number_digits);
             write(out);
             out.close();
             if (!out) throw Failure(file.string() + ": cannot be written; is the disk full?");
+            std::filesystem::rename(draft, file);
         },
         comm_);
 }

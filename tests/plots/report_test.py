@@ -159,6 +159,9 @@ class ReportTest(unittest.TestCase):
         written = (self.directory / "choices.csv").read_text().splitlines()
         self.assertIn("fog 2-D sorted,1.05,rrcb,1.0,,1.04", written)
         self.assertIn("fog 2-D sorted,exact,,,,", written)
+        fronts = (self.directory / "fronts.csv").read_text().splitlines()
+        self.assertEqual(fronts[1:3], ["fog 2-D sorted,time_ms,rrcb,1.0,1.04",
+                                       "fog 2-D sorted,bytes,rrcb,1,1.04"])
 
 
 if __name__ == "__main__":

@@ -104,6 +104,24 @@ TEST(HerschelBulkley, does_not_decay_below_its_yield_stress) {
     EXPECT_NEAR(decayed(1e3, 0, 0.01), std::cos(omega * 0.01), 0.02);
 }
 
+// Points far off the centres of their cells: without the forces that belong to the shared strain,
+// energy would come from nowhere.
+TEST(LockingCure, closes_the_account_of_energy) {
+    Scene scene = vortex_scene(elastic_material("jelly", density, 2 * 1.49 * 1e4, 0.49), 8,
+                               {{"locking_cure", {}}, {"energy_audit", {}}});
+    scene.bodies.front().velocity = [](const Vector& at) {
+        const Vector mode = vortex(at);
+        return Vector{2 * mode[0], 2 * mode[1], 0};
+    };
+    scene.courant_number = 0.1;
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    const double initial = simulation.totals().kinetic_energy;
+    while (simulation.time() < 0.5) simulation.step();
+    const Totals end = simulation.totals();
+    EXPECT_NEAR(end.kinetic_energy + end.strain_energy + end.dissipated_energy.value(), initial,
+                0.01 * initial);
+}
+
 /// A block in free fall over an open grid.
 Simulation falling(std::vector<Effect> effects) {
     return {{.name = "fall",

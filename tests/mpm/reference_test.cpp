@@ -39,7 +39,7 @@ TEST(TwoDisks, meet_when_they_touch_and_keep_momentum_and_energy) {
         least = std::min(least, now.kinetic_energy);
         EXPECT_NEAR(now.momentum[0], 0, 1e-10);
         EXPECT_NEAR(now.momentum[1], 0, 1e-10);
-        EXPECT_LT(gap(simulation, initial, initial), 0.01);
+        EXPECT_LT(gap(simulation, initial, initial), 0.005);
     }
     EXPECT_LT(least, 0.3 * initial);
     EXPECT_GT(simulation.totals().kinetic_energy, 0.5 * initial);
@@ -172,7 +172,7 @@ TEST(SubmarineSlide, closes_its_energy_audit) {
     const double released = initial - end.potential_energy;
     EXPECT_GT(released, 0);
     EXPECT_GT(end.dissipated_energy.value(), 0.1 * released);
-    EXPECT_LT(gap(simulation, initial, released), 0.01);
+    EXPECT_LT(gap(simulation, initial, released), 0.005);
 }
 
 TEST(Effects, that_are_not_named_leave_no_trace) {

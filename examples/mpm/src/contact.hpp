@@ -4,40 +4,52 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mpm {
 
-/// Takes out what goes against an outward normal, and Coulomb friction along the surface.
+/// A rigid surface as a node meets it.
+template <int D>
+struct Surface {
+    Components<D> normal;      ///< outward, of unit length
+    double friction = 0;       ///< Coulomb's coefficient
+    Components<D> velocity{};  ///< m/s
+    /// The most that friction can take of the velocity along the surface, m/s.
+    double most_lost = std::numeric_limits<double>::infinity();
+};
+
+/// Takes out what goes against the surface, and friction along it.
 ///
 /// A velocity that leaves the surface stays as it is. The tangential velocity is brought down by
 /// at most friction * what the normal one lost (Bardenhagen, Brackbill and Sulsky 2000).
 template <int D>
-inline Components<D> after_contact(const Components<D>& velocity, const Components<D>& normal,
-                                   double friction) {
+inline Components<D> after_contact(const Surface<D>& surface, const Components<D>& velocity) {
     double across = 0;
-    for (std::size_t a = 0; a < D; ++a) across += velocity[a] * normal[a];
+    for (std::size_t a = 0; a < D; ++a)
+        across += (velocity[a] - surface.velocity[a]) * surface.normal[a];
     if (across >= 0) return velocity;
     Components<D> along{};
     double square = 0;
     for (std::size_t a = 0; a < D; ++a) {
-        along[a] = velocity[a] - across * normal[a];
+        along[a] = velocity[a] - surface.velocity[a] - across * surface.normal[a];
         square += along[a] * along[a];
     }
-    const double speed = std::sqrt(square), lost = -friction * across;
+    const double speed = std::sqrt(square);
+    const double lost = std::min(-surface.friction * across, surface.most_lost);
     const double left = speed > lost ? 1 - lost / speed : 0;
-    for (double& component : along) component *= left;
+    for (std::size_t a = 0; a < D; ++a) along[a] = surface.velocity[a] + left * along[a];
     return along;
 }
 
 /// Lets a node that has moved meet a surface: all its velocities are corrected, so that points are
 /// strained, moved and pushed by what the surface leaves.
 template <int D>
-inline void meet(const Components<D>& normal, double friction, NodeMotion<D>& motion) {
-    const Components<D> velocity = after_contact<D>(motion.velocity, normal, friction);
+inline void meet(const Surface<D>& surface, NodeMotion<D>& motion) {
+    const Components<D> velocity = after_contact<D>(surface, motion.velocity);
     for (std::size_t a = 0; a < D; ++a)
         motion.velocity_change[a] += velocity[a] - motion.velocity[a];
     motion.velocity = velocity;
-    motion.strain_velocity = after_contact<D>(motion.strain_velocity, normal, friction);
+    motion.strain_velocity = after_contact<D>(surface, motion.strain_velocity);
 }
 
 }  // namespace mpm

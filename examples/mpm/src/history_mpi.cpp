@@ -50,9 +50,15 @@ History::History(const std::string& path, const Scene& scene, MPI_Comm comm)
     if (rank == 0) file_.open(path);
     fail_together(rank == 0 && !file_ ? path + ": cannot be written" : "", comm);
     file_.precision(std::numeric_limits<double>::max_digits10);
+}
+
+void History::write_head(const std::vector<std::pair<std::string, double>>& reports) {
     file_ << "step,time,dt,points,mass,center_x,center_y,center_z,momentum_x,momentum_y,momentum_z,"
              "kinetic_energy,strain_energy,potential_energy,dissipated_energy,front_x,top_y,"
-             "imbalance,migrated\n";
+             "imbalance,migrated";
+    for (const auto& [name, value] : reports) file_ << ',' << name;
+    file_ << '\n';
+    has_head_ = true;
 }
 
 void History::write(const Simulation& simulation) {
@@ -61,6 +67,8 @@ void History::write(const Simulation& simulation) {
     int num_ranks = 1;
     MPI_Comm_size(comm_, &num_ranks);
     if (!file_.is_open()) return;
+    const auto reports = simulation.reports();
+    if (!has_head_) write_head(reports);
     file_ << simulation.step_count() << ',' << simulation.time() << ',' << simulation.time_step()
           << ',' << totals.num_points << ',' << totals.mass;
     for (const double component : totals.center) file_ << ',' << component;
@@ -70,7 +78,9 @@ void History::write(const Simulation& simulation) {
     if (totals.dissipated_energy) file_ << *totals.dissipated_energy;
     file_ << ',' << reach.front_x << ',' << reach.top_y << ','
           << reach.num_points * num_ranks / static_cast<double>(totals.num_points) << ','
-          << totals.num_migrated - num_migrated_ << std::endl;
+          << totals.num_migrated - num_migrated_;
+    for (const auto& [name, value] : reports) file_ << ',' << value;
+    file_ << std::endl;
     num_migrated_ = totals.num_migrated;
 }
 

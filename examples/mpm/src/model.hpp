@@ -13,6 +13,7 @@ class Simulation::Model {
     virtual std::vector<std::string> kernels() const = 0;
     virtual std::size_t doubles_per_ghost_node() const = 0;
     virtual Totals totals() const = 0;
+    virtual std::vector<std::pair<std::string, double>> reports() const = 0;
     virtual Positions positions() const = 0;
 
     Particles particles;

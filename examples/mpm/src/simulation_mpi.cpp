@@ -45,6 +45,9 @@ std::vector<std::string> Simulation::kernels() const {
 std::size_t Simulation::doubles_per_ghost_node() const {
     return model_->doubles_per_ghost_node();
 }
+std::vector<std::pair<std::string, double>> Simulation::reports() const {
+    return model_->reports();
+}
 Totals Simulation::totals() const {
     return model_->totals();
 }

@@ -25,6 +25,7 @@ class Stepper final : public Simulation::Model {
     std::vector<std::string> kernels() const override;
     std::size_t doubles_per_ghost_node() const override;
     Totals totals() const override;
+    std::vector<std::pair<std::string, double>> reports() const override;
     Positions positions() const override { return positions_of(particles, motion_, D); }
 
   private:

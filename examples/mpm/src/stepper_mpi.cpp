@@ -117,6 +117,7 @@ void Stepper<D>::gather_on_nodes() {
         const NodeField& field = stages_.fields[f];
         transfers_->gather(particles, field.column, field.axis, runs_, patch_, patch_.fields[f]);
     }
+    for (const auto& effect : stages_.scatters) effect.kernel(particles, runs_, patch_);
     ghosts_->sum(patch_);
     const StepTime now{time, time_step};
     for (const auto& effect : stages_.forces) effect.kernel(patch_, now);

@@ -24,6 +24,7 @@ template <int D>
 std::vector<std::string> Stepper<D>::kernels() const {
     std::vector<std::string> names{"p2g"};
     append_names(stages_.fields, names);
+    append_names(stages_.scatters, names);
     names.push_back("ghost_nodes");
     append_names(stages_.forces, names);
     append_names(stages_.constraints, names);
@@ -77,9 +78,18 @@ Totals Stepper<D>::totals() const {
     return totals;
 }
 
+template <int D>
+std::vector<std::pair<std::string, double>> Stepper<D>::reports() const {
+    std::vector<std::pair<std::string, double>> reports;
+    for (const Report& report : stages_.reports) reports.emplace_back(report.name, report.value());
+    return reports;
+}
+
 template std::vector<std::string> Stepper<2>::kernels() const;
 template std::vector<std::string> Stepper<3>::kernels() const;
 template Totals Stepper<2>::totals() const;
 template Totals Stepper<3>::totals() const;
+template std::vector<std::pair<std::string, double>> Stepper<2>::reports() const;
+template std::vector<std::pair<std::string, double>> Stepper<3>::reports() const;
 
 }  // namespace mpm

@@ -67,10 +67,10 @@ void add_walls(const Walls& walls, Stages<D>& stages) {
             {"friction", [walls](GridPatch<D>& patch, const StepTime&) {
                  visit_sides(patch, walls,
                              [&](std::size_t n, const Wall& wall, std::size_t axis, double inward) {
-                                 Components<D> normal{};
-                                 normal[axis] = inward;
-                                 if (wall.kind == Wall::frictional)
-                                     meet<D>(normal, wall.friction, patch.motion[n]);
+                                 if (wall.kind != Wall::frictional) return;
+                                 Surface<D> surface{.normal = {}, .friction = wall.friction};
+                                 surface.normal[axis] = inward;
+                                 meet<D>(surface, patch.motion[n]);
                              });
              }});
 }

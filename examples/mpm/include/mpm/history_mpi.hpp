@@ -5,6 +5,8 @@
 
 #include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace mpm {
 
@@ -19,14 +21,17 @@ class History {
     /// `front_x` is the largest x of a point that has moved by more than a cell (the lower side of
     /// the domain while there is none), `top_y` the largest y of all, `imbalance` the points of the
     /// heaviest rank by the mean, `migrated` the changes of rank since the last row. The dissipated
-    /// energy is empty where no effect keeps account of it.
+    /// energy is empty where no effect keeps account of it. What effects report follows.
     void write(const Simulation& simulation);
 
   private:
+    void write_head(const std::vector<std::pair<std::string, double>>& reports);
+
     double cell_size_;
     double lower_x_;
     MPI_Comm comm_;
     std::ofstream file_;  ///< on rank 0
+    bool has_head_ = false;
     std::int64_t num_migrated_ = 0;
 };
 

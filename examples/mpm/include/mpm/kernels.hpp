@@ -21,6 +21,11 @@ struct StepTime {
 template <int D>
 using NodeKernel = std::function<void(GridPatch<D>&, const StepTime&)>;
 
+/// Adds to the sums of a patch what points hand to their nodes beside p2g.
+template <int D>
+using ScatterKernel =
+    std::function<void(const Particles&, std::span<const CellRun<D>>, GridPatch<D>&)>;
+
 /// Reads nodes, given the runs of a block: for the velocity gradients of its points, or columns.
 template <int D>
 using GradientKernel = std::function<void(Particles&, const GridPatch<D>&,
@@ -56,10 +61,17 @@ struct Gravity {
     double share_at(double time) const { return time < ramp ? time / ramp : 1; }
 };
 
+/// A number that an effect has to tell, the same on all ranks.
+struct Report {
+    std::string name;
+    std::function<double()> value;
+};
+
 /// Where in a step kernels can go, in the order of the step. An empty stage is a loop over nothing.
 template <int D>
 struct Stages {
     std::vector<NodeField> fields;                        ///< summed with mass, momentum and force
+    std::vector<Named<ScatterKernel<D>>> scatters;        ///< to the sums of this rank
     std::vector<Named<NodeKernel<D>>> forces;             ///< on the sums over all ranks
     std::vector<Named<NodeKernel<D>>> constraints;        ///< after all forces
     std::vector<Named<NodeKernel<D>>> moved;              ///< after the nodes have moved
@@ -69,6 +81,7 @@ struct Stages {
     std::vector<Named<StepKernel>> ends;                  ///< after all points have moved
     /// Energies this rank has seen lost since the start, J, for whoever asks between steps.
     std::vector<std::function<double(const Particles&)>> dissipated;
+    std::vector<Report> reports = {};          ///< for the history
     std::optional<Column> internal_work = {};  ///< of the stress in each point since the start, J
     std::optional<Gravity<D>> gravity = {};    ///< for the potential energy
     bool counts_nodes = false;                 ///< asks for GridPatch::is_counted

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mpm {
@@ -66,6 +67,8 @@ class Simulation {
     std::vector<std::string> kernels() const;
     /// Doubles in a message per shared node.
     std::size_t doubles_per_ghost_node() const;
+    /// What effects have to tell by name, as where a rigid body is; the same on all ranks.
+    std::vector<std::pair<std::string, double>> reports() const;
     /// Sums over the points of all ranks. Collective.
     Totals totals() const;
 

@@ -9,7 +9,9 @@ namespace {
 /// What the nodes this rank stands for lose in a step, and have lost since the start.
 template <int D>
 struct Ledger {
-    std::vector<Components<D>> start;    ///< momentum the step begins with
+    std::vector<Components<D>> start;    ///< velocity the step begins with
+    std::vector<Components<D>> jump;     ///< of it from the velocity that strained last
+    NodeRange<D> nodes;                  ///< of the last step
     std::vector<Components<D>> impulse;  ///< beside that of stress and of full weight
     std::vector<Node<D>> before;         ///< such a kernel
     double lost_on_nodes = 0;            ///< J
@@ -41,22 +43,37 @@ void open_step(Ledger<D>& ledger, const GridPatch<D>& patch, const Components<D>
 /// A held node has no velocity, so nothing does work on it; the points keep what it was handed.
 template <int D>
 void note_start(Ledger<D>& ledger, const GridPatch<D>& patch) {
-    ledger.start.resize(patch.sums.size());
-    for (std::size_t n = 0; n < patch.sums.size(); ++n) ledger.start[n] = patch.sums[n].momentum;
+    ledger.start.assign(patch.sums.size(), Components<D>{});
+    ledger.jump.assign(patch.sums.size(), Components<D>{});
+    const bool is_same_patch =
+        ledger.nodes.first == patch.nodes.first && ledger.nodes.count == patch.nodes.count;
+    for (std::size_t n = 0; n < patch.sums.size(); ++n) {
+        if (!(patch.sums[n].mass > 0)) continue;
+        for (std::size_t a = 0; a < D; ++a) {
+            ledger.start[n][a] = patch.sums[n].momentum[a] / patch.sums[n].mass;
+            // No step has overwritten what the last one left.
+            if (is_same_patch)
+                ledger.jump[n][a] = ledger.start[n][a] - patch.motion[n].strain_velocity[a];
+        }
+    }
+    ledger.nodes = patch.nodes;
 }
 
-/// The work of an impulse is that times the mean of the velocities before and after; that of stress
-/// ends with the velocity that strains the points, which differs where a node has next to no mass.
+/// The work of an impulse is that times the mean of the velocities before and after.
+///
+/// The points see that of stress with the velocities that strain them: before, those the last step
+/// ended with, and after, others where a node has next to no mass. The rest is lost.
 template <int D>
 void close_step(Ledger<D>& ledger, const GridPatch<D>& patch) {
     for (std::size_t n = 0; n < patch.sums.size(); ++n) {
         const double mass = patch.sums[n].mass;
         if (patch.is_counted[n] == 0 || !(mass > 0)) continue;
         for (std::size_t a = 0; a < D; ++a) {
-            const double before = ledger.start[n][a] / mass, after = patch.motion[n].velocity[a];
+            const double before = ledger.start[n][a], after = patch.motion[n].velocity[a];
             const double of_stress = mass * (after - before) - ledger.impulse[n][a];
-            ledger.lost_on_nodes -= 0.5 * (before + after) * ledger.impulse[n][a] +
-                                    0.5 * (after - patch.motion[n].strain_velocity[a]) * of_stress;
+            ledger.lost_on_nodes -=
+                0.5 * (before + after) * ledger.impulse[n][a] +
+                0.5 * of_stress * (ledger.jump[n][a] + after - patch.motion[n].strain_velocity[a]);
             ledger.gained_by_nodes += 0.5 * mass * (after * after - before * before);
         }
     }

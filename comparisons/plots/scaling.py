@@ -63,19 +63,19 @@ def main() -> int:
 def _read_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description="Costs of a call on up to 1,048,576 ranks")
     parser.add_argument("directory", type=Path)
-    parser.add_argument("--latency-us", type=_positive, default=1.5)
-    parser.add_argument("--bandwidth-gb", type=_positive, default=12.0)
-    parser.add_argument("--points-per-rank", type=_count, default=50_000)
+    parser.add_argument("--latency-us", type=number_above_0, default=1.5)
+    parser.add_argument("--bandwidth-gb", type=number_above_0, default=12.0)
+    parser.add_argument("--points-per-rank", type=whole_number, default=50_000)
     return parser.parse_args()
 
 
-def _positive(text: str) -> float:
+def number_above_0(text: str) -> float:
     if not 0 < (value := float(text)) < float("inf"):
         raise argparse.ArgumentTypeError("must be a number above 0")
     return value
 
 
-def _count(text: str) -> int:
+def whole_number(text: str) -> int:
     if (value := int(text)) < 1:
         raise argparse.ArgumentTypeError("must be a whole number, 1 or more")
     return value

@@ -74,6 +74,18 @@ std::optional<std::string> parse(int argc, char** argv, Texts& texts) {
     return std::nullopt;
 }
 
+/// Teuchos takes an option without a value for one that was not given.
+void check_values(int argc, char** argv) {
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view argument = argv[i];
+        for (const auto& [name, text] : documentation()) {
+            if (argument == "--" + name || argument == "--" + name + "=") {
+                throw Failure("--" + name + " needs a value: --" + name + "=...; " + text);
+            }
+        }
+    }
+}
+
 template <typename Number>
 void read_integer(const Texts& texts, const std::string& name, Number& value, Number minimum,
                   Number maximum) {
@@ -159,6 +171,7 @@ void check_cloud(const std::string& name) {
 Arguments read_arguments(int argc, char** argv) {
     Arguments arguments;
     Texts texts;
+    check_values(argc, argv);
     arguments.help = parse(argc, argv, texts);
     arguments.version = texts.version;
     if (arguments.help || arguments.version) return arguments;

@@ -66,6 +66,11 @@ TEST(Arguments, name_what_is_unknown) {
                  "--only: unknown part 'some'; choose from: clouds, sources");
 }
 
+TEST(Arguments, name_options_without_a_value) {
+    expect_error({"--cloud", "--quick"}, "--cloud needs a value: --cloud=...; generated points");
+    expect_error({"--file="}, "--file needs a value: --file=...; CSV file of points");
+}
+
 TEST(Arguments, name_values_out_of_range) {
     expect_error({"--cloud=slope", "--points=1e6"},
                  "--points must be an integer from 1 to 2000000000, not '1e6'");

@@ -216,8 +216,7 @@ def zoltan_rcb(ranks: int, exchange: Exchange) -> Traffic:
     traffic.add("Comm_dup", ranks, 0)
     for together in sets(ranks):
         traffic.allreduce(together, 4)
-        if together % 2 == 0:  # both halves of the weight are equal: ties are looked at
-            traffic.allreduce(together, 24 * together)
+        traffic.allreduce(together, 24 * together)
         _plan(traffic, together, POINT_FIELDS)
         traffic.add("Comm_split", together, 0)
     traffic.add("Allreduce", exchange.iterations, MEDIAN * exchange.iterations,

@@ -61,12 +61,14 @@ template <int D, std::size_t N, std::size_t axis>
 }
 
 /// Velocity gradient of the affine field along an axis: for B-splines from the first moment of the
-/// velocities, 4 / h^2 sum of weight * velocity * lever; for linear functions the gradient itself.
+/// velocities, 4 / h^2 sum of weight * velocity * lever; for linear functions the gradient itself,
+/// where a node with next to no mass must not weigh as much as any: that of `strain`.
 template <int D, std::size_t N, std::size_t axis>
 [[gnu::always_inline]] inline double affine_at(const std::array<double, power(N, D)>& values,
+                                               const std::array<double, power(N, D)>& strain,
                                                const std::array<Weights<N>, D>& weights, double u) {
     if constexpr (N == 2) {
-        return slope_at<D, N, axis>(values, weights);
+        return slope_at<D, N, axis>(strain, weights);
     } else {
         auto factors = values_of<D, N>(weights);
         unrolled<N>([&](auto i) { factors[axis][i] *= 4 * (static_cast<double>(i) - u); });
@@ -155,7 +157,8 @@ void move_run(const PointWriter<D, is_affine>& to, const Shape& shape, const Cel
                 points.velocity[a][p] = of_grid;
                 unrolled<D>([&](auto b) __attribute__((always_inline)) {
                     points.affine[a][b][p] =
-                        inverse_spacing * affine_at<D, N, b>(motion.velocity[a], weights, u[b]);
+                        inverse_spacing *
+                        affine_at<D, N, b>(motion.velocity[a], motion.strain[a], weights, u[b]);
                 });
             } else {
                 points.velocity[a][p] =

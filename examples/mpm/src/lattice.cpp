@@ -43,14 +43,20 @@ class RowWriter {
     RowWriter(const Scene& scene, const MotionColumns& motion, const Particles& particles)
         : scene_(scene), motion_(motion), row_(particles.initial_row()) {
         if (particles.has_column("material")) material_ = particles.find_column("material");
+        for (std::size_t a = 0; a < num_axes(); ++a)
+            for (std::size_t b = 0; b < num_axes(); ++b) {
+                const std::string name = std::string("affine_") + "xyz"[a] + "xyz"[b];
+                if (particles.has_column(name)) affine_.push_back(particles.find_column(name));
+            }
     }
 
     std::span<const double> write(const Body& body, const Vector& at, std::int64_t id) {
         const Vector velocity = body.velocity ? body.velocity(at) : Vector{};
-        for (std::size_t a = 0; a < static_cast<std::size_t>(scene_.dimension); ++a) {
+        for (std::size_t a = 0; a < num_axes(); ++a) {
             row_[motion_.position[a]] = at[a];
             row_[motion_.velocity[a]] = velocity[a];
         }
+        write_affine(body, at);
         row_[motion_.volume] = volume_;
         row_[motion_.mass] = mass_;
         row_[motion_.id] = static_cast<double>(id);
@@ -66,8 +72,25 @@ class RowWriter {
     }
 
   private:
+    std::size_t num_axes() const { return static_cast<std::size_t>(scene_.dimension); }
+
+    /// The gradient of the velocity at the start, from differences over a quarter of a cell.
+    void write_affine(const Body& body, const Vector& at) {
+        if (affine_.empty() || !body.velocity) return;
+        const double step = 0.25 * scene_.grid.spacing;
+        for (std::size_t b = 0; b < num_axes(); ++b) {
+            Vector above = at, below = at;
+            above[b] += 0.5 * step;
+            below[b] -= 0.5 * step;
+            const Vector high = body.velocity(above), low = body.velocity(below);
+            for (std::size_t a = 0; a < num_axes(); ++a)
+                row_[affine_[a * num_axes() + b]] = (high[a] - low[a]) / step;
+        }
+    }
+
     const Scene& scene_;
     const MotionColumns& motion_;
+    std::vector<Column> affine_;  ///< of APIC
     std::vector<double> row_;
     std::optional<Column> material_;
     double volume_ = 0, mass_ = 0;

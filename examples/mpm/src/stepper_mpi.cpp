@@ -45,14 +45,14 @@ double max_wave_speed(const Scene& scene) {
 ///
 /// A node that only the rim of a layer touches is as stiff as a full one but light: in units of
 /// the cell, its frequency squared is 1 / (layers * share of mass) wave speeds; beside its
-/// neighbours it must stay below 1.5 per time step.
+/// neighbours and at a corner it must stay near 1 per time step.
 double least_mass_share(const Scene& scene, const Body& body) {
-    constexpr double least = 0.01, square_of_most = 2.25;
+    constexpr double least = 0.01;
     if (scene.least_node_mass > 0) return scene.least_node_mass;
     const auto& per_cell = body.points_per_cell;
     const double layers = *std::min_element(per_cell.begin(), per_cell.begin() + scene.dimension);
     const double courant_number = scene.courant_number;
-    return std::max(least, courant_number * courant_number / (layers * square_of_most));
+    return std::max(least, courant_number * courant_number / layers);
 }
 
 double least_mass(const Scene& scene) {

@@ -49,10 +49,11 @@ void note_start(Ledger<D>& ledger, const GridPatch<D>& patch) {
         ledger.nodes.first == patch.nodes.first && ledger.nodes.count == patch.nodes.count;
     for (std::size_t n = 0; n < patch.sums.size(); ++n) {
         if (!(patch.sums[n].mass > 0)) continue;
+        // No step has overwritten what the last one left: all 0 where nothing was.
+        const bool was_there = is_same_patch && patch.motion[n].velocity != Components<D>{};
         for (std::size_t a = 0; a < D; ++a) {
             ledger.start[n][a] = patch.sums[n].momentum[a] / patch.sums[n].mass;
-            // No step has overwritten what the last one left.
-            if (is_same_patch)
+            if (was_there)
                 ledger.jump[n][a] = ledger.start[n][a] - patch.motion[n].strain_velocity[a];
         }
     }

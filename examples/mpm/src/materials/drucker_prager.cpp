@@ -24,6 +24,18 @@ PointKernel<D> return_kernel(const DruckerPrager& cone, const StressColumns<D>& 
     };
 }
 
+/// Keeps the volume of points that tension has parted from growing without end: it is what gives
+/// them stiffness when they meet again.
+template <int D>
+PointKernel<D> limit_kernel(double largest_by_mass, Column mass, Column volume) {
+    return [=](Particles& particles, const PointBlock<D>& block) {
+        const double* const masses = particles.data(mass);
+        double* const volumes = particles.data(volume);
+        for (std::size_t p = block.begin; p < block.end; ++p)
+            volumes[p] = std::min(volumes[p], largest_by_mass * masses[p]);
+    };
+}
+
 template <int D>
 MaterialModel<D> build(const Values& values, Particles& particles) {
     MaterialModel<D> model = elastic_model<D>(values, particles);
@@ -33,6 +45,12 @@ MaterialModel<D> build(const Values& values, Particles& particles) {
         values.word("match") == "inner" ? inner_cone(strength) : matched_cone(strength);
     model.kernels.push_back(
         {"drucker_prager", return_kernel<D>(cone, add_stress_columns<D>(particles))});
+    if (values.has("most_expansion")) {
+        const double largest = values.number("most_expansion") / values.number("density");
+        model.kernels.push_back(
+            {"volume_limit", limit_kernel<D>(largest, particles.add_column("mass"),
+                                             particles.add_column("volume"))});
+    }
     return model;
 }
 
@@ -40,7 +58,8 @@ std::vector<Rule> rules() {
     Rule angle = within("friction_angle", "degrees", 0, 89);
     return elastic_rules({not_negative("cohesion", "Pa"), angle,
                           not_negative("tension_cut_off", "Pa", 0.0),
-                          choice("match", {"plane_strain", "inner"})});
+                          choice("match", {"plane_strain", "inner"}),
+                          optional(within("most_expansion", "", 1, 1e6))});
 }
 
 }  // namespace

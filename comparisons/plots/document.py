@@ -130,7 +130,7 @@ def _cell(tag: str, text: str, left: bool) -> str:
 
 
 def _is_number(text: str) -> bool:
-    return re.fullmatch(r"[-–]|[-+\d.,e]*\d( ?(ms|s|%|×))?", text) is not None
+    return re.fullmatch(r"[-–]|[-+\d.,e]*\d( ?(ms|s|%|×|MiB))?", text) is not None
 
 
 def _tag(name: str, text: str) -> str:

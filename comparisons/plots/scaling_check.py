@@ -8,11 +8,13 @@ from pathlib import Path
 from results import read_rows
 from scaling_model import (
     BLOCK,
+    LOOK_ANSWER,
     Exchange,
     Rounds,
     Sizes,
     Traffic,
     beyond_head,
+    look_bytes,
     multijagged,
     rrcb,
     rrcb_root_bytes,
@@ -23,6 +25,7 @@ from scaling_model import (
 )
 
 NONE = "rrcb[mesh=4,refine=none]"
+REFINED = "rrcb[mesh=4]"
 ACCEPTED = "rrcb[mesh=4,tol=2]"
 EXACT = "rrcb-exact[mesh=4]"
 ZOLTAN = "zoltan-rcb"
@@ -72,7 +75,7 @@ def _without_zeros(traffic: Traffic) -> dict[str, tuple[int, int, int]]:
 
 def read_counted(directory: Path) -> dict[tuple[str, int], Counted]:
     found = {}
-    for folder in sorted(directory.glob("ranks-*")):
+    for folder in sorted([*directory.glob("ranks-*"), *directory.glob("refined-*")]):
         calls = read_rows(folder / "calls.csv")
         for row in read_rows(folder / "table.csv"):
             if row["error"]:
@@ -101,7 +104,7 @@ def compare_all(counted: dict[tuple[str, int], Counted]) -> list[Comparison]:
     sizes = read_sizes(counted)
     found = []
     for (method, ranks), row in sorted(counted.items()):
-        if sizes and ranks > 1 and method in (NONE, ACCEPTED, EXACT):
+        if sizes and ranks > 1 and method in (NONE, ACCEPTED, REFINED, EXACT):
             found.append(_compare_rrcb(row, sizes))
         if method == ZOLTAN and ranks > 1:
             traffic = zoltan_rcb(ranks, read_exchange(row))
@@ -134,14 +137,16 @@ def read_sizes(counted: dict[tuple[str, int], Counted]) -> Sizes | None:
 def read_rounds(row: Counted, sizes: Sizes) -> Rounds:
     """What the refinement did; fractions would mean that the formula does not hold."""
     calls, bytes_in, ranks = row.traffic.calls, row.traffic.bytes_in, row.ranks
+    looks = int(row.method == REFINED)
     rest = beyond_head(ranks, "exact")
-    once = sizes.broadcasts + 8 * ranks + rest
+    once = sizes.broadcasts + 8 * ranks + rest + looks * LOOK_ANSWER
+    reduced = bytes_in.get("Reduce", 0) - looks * ranks * look_bytes(ranks)
     gathered = bytes_in["Gather"] - ranks * sizes.parameters
     return Rounds(
-        _whole(calls["Bcast"], ranks) - sizes.num_broadcasts - (rest > 0),
+        _whole(calls["Bcast"], ranks) - sizes.num_broadcasts - (rest > 0) - looks,
         _whole(bytes_in["Bcast"] - once, sizes.search),
-        _whole(calls.get("Reduce", 0), ranks),
-        _whole(bytes_in.get("Reduce", 0), ranks * sizes.histogram),
+        _whole(calls.get("Reduce", 0), ranks) - looks,
+        _whole(reduced, ranks * sizes.histogram),
         _whole(calls["Gather"], ranks) - 1,
         _whole(gathered, 4 * ranks),
         bytes_in.get("Gatherv", 0),
@@ -149,10 +154,12 @@ def read_rounds(row: Counted, sizes: Sizes) -> Rounds:
 
 
 def _compare_rrcb(row: Counted, sizes: Sizes) -> Comparison:
-    if row.method == EXACT:
+    was_accepted = row.traffic.calls.get("Reduce", 0) == row.ranks
+    if row.method == EXACT or row.method == REFINED and not was_accepted:
+        refine = "refined" if row.method == REFINED else "exact"
         rounds = read_rounds(row, sizes)
-        traffic = rrcb(row.ranks, sizes, "exact", rounds)
-        into = rrcb_root_bytes(row.ranks, sizes, "exact", rounds)
+        traffic = rrcb(row.ranks, sizes, refine, rounds)
+        into = rrcb_root_bytes(row.ranks, sizes, refine, rounds)
         return Comparison(row, traffic, into, "rounds, histograms and candidates")
     refine = "none" if row.method == NONE else "accepted"
     traffic = rrcb(row.ranks, sizes, refine)

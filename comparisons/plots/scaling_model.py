@@ -20,6 +20,8 @@ BRACKET = 16
 HEAD = 2048  # the verdict and as many cuts as fit
 VERDICT = 80
 AGREEMENT = 4
+LOOKS = ("accepted", "refined")  # look at what the estimate leaves
+LOOK_ANSWER = 16
 CELL = 8 * (3 + 2 * DIMENSION)
 MESH_BLOCK = 8 * (3 + 2 * DIMENSION)
 BLOCK = MESH_BLOCK + MESH**DIMENSION * CELL
@@ -116,6 +118,11 @@ def all_agreements(sizes: Sizes, refine: str) -> tuple[int, int]:
     return sizes.num_agreements, sizes.agreements
 
 
+def look_bytes(ranks: int) -> int:
+    """Weights of the parts, and whether the rank has failed."""
+    return 8 * (ranks + 1)
+
+
 def beyond_head(ranks: int, refine: str) -> int:
     """Bytes of cuts and brackets that the head has no room for and a second broadcast takes."""
     cut = CUT + (0 if refine == "none" else BRACKET)
@@ -123,7 +130,7 @@ def beyond_head(ranks: int, refine: str) -> int:
 
 
 def rrcb(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> Traffic:
-    """`refine`: none, accepted (one look at the estimate), or exact."""
+    """`refine`: none, accepted (one look at the estimate), refined (after that look), or exact."""
     traffic = Traffic()
     num_agreements, agreements = all_agreements(sizes, refine)
     traffic.add("Allreduce", ranks * num_agreements, ranks * agreements, ranks * agreements)
@@ -134,10 +141,10 @@ def rrcb(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> Tr
         traffic.broadcast(ranks, rest)
     for rank in range(1, ranks):
         traffic.add("Send", 2, sizes.summary + subtree(rank, ranks) * BLOCK)
-    if refine == "accepted":
-        traffic.reduce(ranks, 8 * (ranks + 1))
-        traffic.broadcast(ranks, 16)
-    if refine == "exact":
+    if refine in LOOKS:
+        traffic.reduce(ranks, look_bytes(ranks))
+        traffic.broadcast(ranks, LOOK_ANSWER)
+    if refine in ("refined", "exact"):
         _refine(traffic, ranks, sizes, rounds)
     return traffic
 
@@ -156,9 +163,9 @@ def rrcb_root_bytes(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Roun
     """Bytes that rank 0 gets."""
     into = all_agreements(sizes, refine)[1] + ranks * sizes.parameters
     into += sum(sizes.summary + subtree(child, ranks) * BLOCK for child in children(0, ranks))
-    if refine == "accepted":
-        into += 8 * (ranks + 1)
-    if refine == "exact":
+    if refine in LOOKS:
+        into += look_bytes(ranks)
+    if refine in ("refined", "exact"):
         into += rounds.histograms * sizes.histogram + 4 * rounds.lists * ranks
         into += rounds.candidate_bytes
     return into

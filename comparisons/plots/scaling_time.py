@@ -17,16 +17,20 @@ from scaling_model import (
     LIST_BYTES,
     LIST_FIELDS,
     MEDIAN,
+    LOOKS,
+    LOOK_ANSWER,
     MESH,
     MOST_CELLS,
     POINT_BYTES,
     POINT_FIELDS,
     RADIX,
+    Rounds,
     Sizes,
     all_agreements,
     beyond_head,
     expected_iterations,
     expected_rounds,
+    look_bytes,
     sets,
     step_bytes,
 )
@@ -118,11 +122,15 @@ def rrcb_path(ranks: int, refine: str, observed: Observed, machine: Machine) -> 
     _climb(path, ranks, sizes)
     cells = min(MOST_CELLS, ranks * MESH**DIMENSION)
     path.work += (cells * (ranks - 1).bit_length() + ranks) * machine.per_cell
-    if refine == "accepted":
-        path.collective(ranks, 8 * (ranks + 1), 1, 8 * (ranks + 1))
-        path.collective(ranks, 16)
+    if refine in LOOKS:
+        path.collective(ranks, look_bytes(ranks), 1, look_bytes(ranks))
+        path.collective(ranks, LOOK_ANSWER)
+    if refine == "refined":
+        levels = (ranks - 1).bit_length()
+        _refine(path, ranks, sizes, Rounds(levels, ranks - 1, levels, ranks - 1))
     if refine == "exact":
-        _refine(path, ranks, observed)
+        per_level, per_list = observed.rounds_per_level, observed.bytes_per_list
+        _refine(path, ranks, sizes, expected_rounds(ranks, per_level, per_list))
     return path
 
 
@@ -141,9 +149,7 @@ def _climb(path: Path, ranks: int, sizes: Sizes) -> None:
         below *= RADIX
 
 
-def _refine(path: Path, ranks: int, observed: Observed) -> None:
-    sizes = observed.sizes
-    rounds = expected_rounds(ranks, observed.rounds_per_level, observed.bytes_per_list)
+def _refine(path: Path, ranks: int, sizes: Sizes, rounds: Rounds) -> None:
     histograms = rounds.histograms * sizes.histogram
     path.collective(ranks, 0, rounds.counts)
     path.bytes += histograms
@@ -205,6 +211,7 @@ def all_paths(ranks: int, observed: Observed, machine: Machine) -> dict[str, Pat
     found = {
         "rrcb, estimate alone": rrcb_path(ranks, "none", observed, machine),
         "rrcb, estimate accepted": rrcb_path(ranks, "accepted", observed, machine),
+        "rrcb, refined": rrcb_path(ranks, "refined", observed, machine),
         "rrcb-exact": rrcb_path(ranks, "exact", observed, machine),
     }
     if observed.iterations:

@@ -1,8 +1,7 @@
 #include "binned_assignment.hpp"
 
 #include "descent.hpp"
-#include "lane_sums.hpp"
-#include "point_layout.hpp"
+#include "running_sums.hpp"
 #include "sides.hpp"
 
 #include <rrcb/sorted_points.hpp>
@@ -57,28 +56,55 @@ Rule rule_of(const Cuts& cuts, const Box& box) {
     return rule;
 }
 
-std::vector<Rule> rules_of(const Cuts& cuts, const BinnedPoints& binned) {
-    std::vector<Rule> rules(binned.counts.size());
-    for (LocalIndex cell = 0; cell < rules.size(); ++cell)
-        if (binned.counts[cell] > 0) rules[cell] = rule_of(cuts, enclosing_box(binned.mesh, cell));
-    return rules;
+/// What the cuts make of the cells.
+struct CellRules {
+    std::vector<Part> parts;  ///< of all points of a cell; look_up where they differ
+    std::vector<Rule> rules;  ///< where they differ
+
+    CellRules(const Cuts& cuts, const BinnedPoints& binned)
+        : parts(binned.counts.size()), rules(binned.counts.size()) {
+        for (LocalIndex cell = 0; cell < parts.size(); ++cell) {
+            if (binned.counts[cell] == 0) continue;
+            const Rule rule = rules[cell] = rule_of(cuts, enclosing_box(binned.mesh, cell));
+            const bool same = rule.parts[0] == rule.parts[1] && rule.parts[1] == rule.parts[2];
+            parts[cell] = same ? rule.parts[0] : look_up;
+        }
+    }
+};
+
+/// What the points of cells of one part weigh, in each part.
+std::vector<double> weights_of_whole_cells(const CellRules& cells, const BinnedPoints& binned,
+                                           int num_parts) {
+    const bool weighted = !binned.points.weights.empty();
+    std::vector<double> weights(static_cast<std::size_t>(num_parts));
+    for (LocalIndex cell = 0; cell < cells.parts.size(); ++cell) {
+        if (cells.parts[cell] == look_up) continue;
+        weights[static_cast<std::size_t>(cells.parts[cell])] +=
+            weighted ? binned.weights[cell] / binned.weight_scale
+                     : static_cast<double>(binned.counts[cell]);
+    }
+    return weights;
 }
 
-/// Parts of consecutive points by the rules; returns how many need a look-up, and which.
-template <class Layout>
-std::size_t apply_rules(const Layout& x, const BinnedPoints& binned, const std::vector<Rule>& rules,
-                        std::pair<LocalIndex, LocalIndex> range, std::span<Part> parts,
-                        LocalIndex* left) {
+/// Parts of consecutive points by their cells alone; returns how many are left, and which.
+std::size_t apply_cells(const BinnedPoints& binned, const CellRules& cells, LocalIndex first,
+                        std::span<Part> parts, LocalIndex* left) {
     std::size_t num_left = 0;
-    for (LocalIndex i = range.first; i < range.second; ++i) {
-        const Rule& rule = rules[binned.cells[i]];
-        const double value = x(i, rule.axis);
-        const int side = static_cast<int>(value >= rule.plane) + (value > rule.plane ? 1 : 0);
-        parts[i] = rule.parts[static_cast<std::size_t>(side)];
+    for (LocalIndex i = first; i < first + parts.size(); ++i) {
+        const Part part = cells.parts[binned.cells[i]];
+        parts[i - first] = part;
         left[num_left] = i;
-        num_left += parts[i] == look_up;
+        num_left += part == look_up;
     }
     return num_left;
+}
+
+/// Part of a point by the rule of its cell.
+Part part_by_rule(const Cuts& cuts, const Rule& rule, const Points& points, LocalIndex i) {
+    const double value = points.coordinate(i, rule.axis);
+    const int side = static_cast<int>(value >= rule.plane) + static_cast<int>(value > rule.plane);
+    const Part part = rule.parts[static_cast<std::size_t>(side)];
+    return part == look_up ? part_of(cuts, points.position(i)) : part;
 }
 
 }  // namespace
@@ -86,21 +112,18 @@ std::size_t apply_rules(const Layout& x, const BinnedPoints& binned, const std::
 std::vector<double> assign(const Cuts& cuts, const BinnedPoints& binned, std::span<Part> parts) {
     constexpr LocalIndex block_length = 512;
     const Points& points = binned.points;
-    const std::vector<Rule> rules = rules_of(cuts, binned);
-    LaneSums<double> weights(static_cast<std::size_t>(cuts.num_parts));
+    const CellRules cells(cuts, binned);
+    std::vector<double> weights = weights_of_whole_cells(cells, binned, cuts.num_parts);
     std::array<LocalIndex, block_length> left;
-    visit_layout(points, [&](const auto& x) {
-        in_ranges(points.count, block_length, [&](LocalIndex first, LocalIndex last) {
-            const std::size_t num_left =
-                apply_rules(x, binned, rules, {first, last}, parts, left.data());
-            for (const LocalIndex i : std::span(left).first(num_left))
-                parts[i] = part_of(cuts, points.position(i));
-            for (LocalIndex i = first; i < last; ++i)
-                weights.of(static_cast<std::size_t>(parts[i]), i) += points.weight(i);
-        });
+    in_ranges(points.count, block_length, [&](LocalIndex first, LocalIndex last) {
+        const std::size_t num_left =
+            apply_cells(binned, cells, first, parts.subspan(first, last - first), left.data());
+        for (const LocalIndex i : std::span(left).first(num_left)) {
+            parts[i] = part_by_rule(cuts, cells.rules[binned.cells[i]], points, i);
+            weights[static_cast<std::size_t>(parts[i])] += points.weight(i);
+        }
     });
-    weights.empty_lanes();
-    return weights.totals();
+    return weights;
 }
 
 }  // namespace rrcb

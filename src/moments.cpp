@@ -1,5 +1,5 @@
-#include "lane_sums.hpp"
 #include "point_layout.hpp"
+#include "running_sums.hpp"
 
 #include <rrcb/moments.hpp>
 
@@ -10,8 +10,8 @@ namespace rrcb {
 
 namespace {
 
-/// Sums of w d and w d^2 over points, d relative to the centroid of their cell as far as it is
-/// known, in scaled lengths.
+/// Sums of w d and w d^2 over points, d relative to an origin in or near their cell, in scaled
+/// lengths.
 template <std::size_t Dimension>
 struct Sums {
     std::array<double, Dimension> first{};
@@ -26,28 +26,50 @@ struct Sums {
     }
 };
 
+/// What is known of the cells: origins, and sums about them.
 template <std::size_t Dimension>
-using Positions = std::vector<std::array<double, Dimension>>;
+struct Centred {
+    std::vector<std::array<double, Dimension>> origins;
+    std::vector<Sums<Dimension>> sums;
+};
 
-/// Centroid of every cell that holds weight, in scaled lengths, to the round-off of the mesh.
 template <std::size_t Dimension>
-Positions<Dimension> centroids(const BinnedPoints& binned) {
-    const SupportMesh& mesh = binned.mesh;
-    Positions<Dimension> result(binned.counts.size());
-    for (LocalIndex cell = 0; cell < result.size(); ++cell) {
-        const double weight = binned.scaled_weight(cell);
-        if (!(weight > 0)) continue;
-        LocalIndex rest = cell;
-        for (std::size_t a = 0; a < Dimension; ++a) {
-            const auto cells = static_cast<LocalIndex>(mesh.cells[a]);
-            const double offset =
-                static_cast<double>(rest % cells) + binned.offsets[cell * Dimension + a] / weight;
-            rest /= cells;
-            result[cell][a] = mesh.box.lower[a] * mesh.scale[a];
-            if (mesh.cells_per_length[a] > 0) result[cell][a] += offset / mesh.cells_per_length[a];
-        }
+Centred<Dimension> sums_about_first_points(const BinnedPoints& binned) {
+    const std::size_t num_cells = binned.counts.size();
+    Centred<Dimension> result{decltype(result.origins)(num_cells),
+                              decltype(result.sums)(num_cells)};
+    for (std::size_t cell = 0; cell < num_cells; ++cell) {
+        std::copy_n(&binned.origins[cell * Dimension], Dimension, result.origins[cell].begin());
+        std::copy_n(&binned.first[cell * Dimension], Dimension, result.sums[cell].first.begin());
+        std::copy_n(&binned.second[cell * Dimension], Dimension, result.sums[cell].second.begin());
     }
     return result;
+}
+
+/// Whether an origin lies too far off the mean: the variance, left of the sum of squares once the
+/// square of that distance is taken off, would lose more than a digit.
+bool is_far_off(double first, double second, double weight) {
+    constexpr double most_variances = 16;
+    const double rest = first / weight;
+    return rest * rest * (most_variances + 1) > second / weight * most_variances;
+}
+
+/// Puts origins that lie too far off at the mean. Only a first point that is an outlier among many
+/// is: of n points of equal weight none lies more than sqrt(n) standard deviations from the mean.
+template <std::size_t Dimension>
+bool move_origins(const BinnedPoints& binned, Centred<Dimension>& cells) {
+    bool moved = false;
+    for (std::size_t cell = 0; cell < cells.sums.size(); ++cell) {
+        const double weight = binned.scaled_weight(cell);
+        if (!(weight > 0)) continue;
+        for (std::size_t a = 0; a < Dimension; ++a) {
+            const Sums<Dimension>& sums = cells.sums[cell];
+            if (!is_far_off(sums.first[a], sums.second[a], weight)) continue;
+            cells.origins[cell][a] += sums.first[a] / weight;
+            moved = true;
+        }
+    }
+    return moved;
 }
 
 struct Unweighted {
@@ -60,19 +82,19 @@ struct Weighted {
     double operator()(LocalIndex i) const { return weights[i] * scale; }
 };
 
-/// The sums of every cell about its `origins`.
+/// The sums of every cell about its origin as it is now.
 template <class Layout, class Weight>
-auto sums_about(const Positions<static_cast<std::size_t>(Layout::dimension)>& origins,
-                const Layout& x, const BinnedPoints& binned, const Weight& weight) {
+void sum_again(const Layout& x, const BinnedPoints& binned, const Weight& weight,
+               Centred<static_cast<std::size_t>(Layout::dimension)>& cells) {
     constexpr auto dimension = static_cast<std::size_t>(Layout::dimension);
     std::array<double, dimension> scale;
     std::copy_n(binned.mesh.scale.begin(), dimension, scale.begin());
-    LaneSums<Sums<dimension>> sums(origins.size());
+    RunningSums<Sums<dimension>> sums(cells.origins.size());
     in_ranges(binned.points.count, sums.interval(), [&](LocalIndex begin, LocalIndex end) {
         for (LocalIndex i = begin; i < end; ++i) {
             const std::size_t cell = binned.cells[i];
-            const std::array<double, dimension>& origin = origins[cell];
-            Sums<dimension>& sum = sums.of(cell, i);
+            const std::array<double, dimension>& origin = cells.origins[cell];
+            Sums<dimension>& sum = sums[cell];
             const double w = weight(i);
             for (std::size_t a = 0; a < dimension; ++a) {
                 const double d = x(i, static_cast<int>(a)) * scale[a] - origin[a];
@@ -80,9 +102,9 @@ auto sums_about(const Positions<static_cast<std::size_t>(Layout::dimension)>& or
                 sum.second[a] += w * d * d;
             }
         }
-        sums.empty_lanes();
+        sums.empty();
     });
-    return sums.totals();
+    cells.sums = sums.totals();
 }
 
 template <std::size_t Dimension>
@@ -94,7 +116,7 @@ CellMoments moments_of(const BinnedPoints& binned, LocalIndex cell,
     result.moments.count = static_cast<GlobalCount>(binned.counts[cell]);
     result.moments.weight = weight / binned.weight_scale;
     for (std::size_t a = 0; a < Dimension; ++a) {
-        // `origin` is the mean rounded to a coordinate; what is left of it is taken off again.
+        // No more than a digit is lost: see is_far_off.
         const double rest = sums.first[a] / weight;
         result.moments.mean[a] = (origin[a] + rest) / scale[a];
         result.moments.deviation[a] =
@@ -107,12 +129,12 @@ template <class Layout, class Weight>
 std::vector<CellMoments> moments_of_cells(const Layout& x, const BinnedPoints& binned,
                                           const Weight& weight) {
     constexpr auto dimension = static_cast<std::size_t>(Layout::dimension);
-    const Positions<dimension> origins = centroids<dimension>(binned);
-    const auto sums = sums_about(origins, x, binned, weight);
+    Centred<dimension> centred = sums_about_first_points<dimension>(binned);
+    if (move_origins(binned, centred)) sum_again(x, binned, weight, centred);
     std::vector<CellMoments> cells;
     for (LocalIndex cell = 0; cell < binned.counts.size(); ++cell)
         if (binned.scaled_weight(cell) > 0)
-            cells.push_back(moments_of(binned, cell, origins[cell], sums[cell]));
+            cells.push_back(moments_of(binned, cell, centred.origins[cell], centred.sums[cell]));
     return cells;
 }
 

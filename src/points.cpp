@@ -1,41 +1,59 @@
 #include <rrcb/points.hpp>
 
 #include <algorithm>
+#include <cstring>
 
 namespace rrcb {
 
 namespace {
 
-// Independent lanes, as the order of a minimum is free and the compiler may not know it; a multiple
-// of every stride, so that a lane keeps to one axis.
-constexpr std::size_t num_lanes = 6;
+/// Two values in one register: the order of a minimum is free, but the compiler may not know it.
+typedef double Pair __attribute__((vector_size(2 * sizeof(double))));
+
+// Independent of each other, and of values that are a multiple of every stride, so that each entry
+// keeps to one axis.
+constexpr std::size_t num_pairs = 3;
+constexpr std::size_t num_lanes = 2 * num_pairs;
+
+/// What some of the values span, two by two.
+struct Span {
+    Pair lower = Pair{} + Box{}.lower[0];
+    Pair upper = Pair{} + Box{}.upper[0];
+    Pair poison{};  ///< 0 * x is 0 just for finite x
+
+    void widen(const double* values) {
+        Pair value;
+        std::memcpy(&value, values, sizeof value);
+        lower = lower < value ? lower : value;
+        upper = upper > value ? upper : value;
+        poison += 0 * value;
+    }
+};
 
 /// Smallest and largest of the values, entry k of axis k % stride; NaN in place of infinities.
 Box box_of_values(std::span<const double> values, std::size_t stride) {
-    std::array<double, num_lanes> lower;
-    std::array<double, num_lanes> upper;
-    std::array<double, num_lanes> poison{};  // 0 * x is 0 just for finite x
-    lower.fill(Box{}.lower[0]);
-    upper.fill(Box{}.upper[0]);
-    const auto widen = [&](double value, std::size_t lane) {
-        lower[lane] = lower[lane] < value ? lower[lane] : value;
-        upper[lane] = upper[lane] > value ? upper[lane] : value;
-        poison[lane] += 0 * value;
-    };
-    const double* value = values.data();
+    std::array<Span, num_pairs> spans;
     std::size_t k = 0;
     for (; k + num_lanes <= values.size(); k += num_lanes)
-        for (std::size_t lane = 0; lane < num_lanes; ++lane) widen(value[k + lane], lane);
-    for (std::size_t lane = 0; k < values.size(); ++k, ++lane) widen(value[k], lane);
+        for (std::size_t pair = 0; pair < num_pairs; ++pair)
+            spans[pair].widen(&values[k + 2 * pair]);
+    // The last few, and others of their axes in place of those that are missing.
+    if (k < values.size()) {
+        std::array<double, num_lanes> rest;
+        for (std::size_t lane = 0; lane < num_lanes; ++lane)
+            rest[lane] = values[k + lane < values.size() ? k + lane : lane % stride];
+        for (std::size_t pair = 0; pair < num_pairs; ++pair) spans[pair].widen(&rest[2 * pair]);
+    }
     Box box;
     for (std::size_t lane = 0; lane < num_lanes; ++lane) {
+        const Span& span = spans[lane / 2];
         const std::size_t a = lane % stride;
-        box.lower[a] = std::min(box.lower[a], lower[lane]);
-        box.upper[a] = std::max(box.upper[a], upper[lane]);
+        box.lower[a] = std::min(box.lower[a], span.lower[lane % 2]);
+        box.upper[a] = std::max(box.upper[a], span.upper[lane % 2]);
     }
     for (std::size_t lane = 0; lane < num_lanes; ++lane) {
-        box.lower[lane % stride] += poison[lane];
-        box.upper[lane % stride] += poison[lane];
+        box.lower[lane % stride] += spans[lane / 2].poison[lane % 2];
+        box.upper[lane % stride] += spans[lane / 2].poison[lane % 2];
     }
     return box;
 }

@@ -15,9 +15,10 @@ struct BinnedPoints {
     std::vector<LocalIndex> counts;    ///< points in each cell of the mesh
     double weight_scale = 1;      ///< power of two that keeps sums of weighted squares in range
     std::vector<double> weights;  ///< of each cell, scaled; empty when every point weighs 1
-    /// Sum over the points of a cell of their distance from its lower faces, in cells, times their
-    /// scaled weight; `dimension` entries per cell.
-    std::vector<double> offsets;
+    /// First point of each cell, in scaled lengths; like the sums `dimension` entries per cell.
+    std::vector<double> origins;
+    std::vector<double> first;   ///< sum of w d over the points of a cell, d = x - origin
+    std::vector<double> second;  ///< sum of w d^2
 
     int dimension() const { return mesh.dimension; }
     double scaled_weight(LocalIndex cell) const {

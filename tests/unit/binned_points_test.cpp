@@ -64,7 +64,9 @@ TEST(BinnedPoints, faces_belong_to_the_cell_above_and_those_of_the_box_to_the_la
     EXPECT_EQ(binned.cells, (std::vector<std::uint32_t>{0, 1, 1, 2, 3, 3}));
     EXPECT_EQ(binned.counts, (std::vector<LocalIndex>{1, 2, 1, 2}));
     EXPECT_EQ(binned.weights, (std::vector<double>{1, 6, 8, 48}));
-    EXPECT_EQ(binned.offsets, (std::vector<double>{0, 0, 0, 32}));
+    EXPECT_EQ(binned.origins, (std::vector<double>{0, 1, 2, 3}));
+    EXPECT_EQ(binned.first, (std::vector<double>{0, 0, 0, 32}));
+    EXPECT_EQ(binned.second, (std::vector<double>{0, 0, 0, 32}));
 }
 
 TEST(BinnedPoints, are_sorted_by_cell_in_the_order_they_came_in) {

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <rrcb/points.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace rrcb {
+
+/// One sum per bin, over entries that come in any order of the bins; the same bits for the same
+/// entries. `Sum` starts at zero and has +=.
+///
+/// Running sums are emptied now and then, and what they held into the totals more seldom, as one
+/// long running sum would lose a digit for every tenfold of the entries.
+template <class Sum>
+class RunningSums {
+  public:
+    explicit RunningSums(std::size_t num_bins)
+        : running_(num_bins), emptied_(num_bins), totals_(num_bins) {}
+
+    /// How many entries to add before the sums are emptied.
+    LocalIndex interval() const { return std::max<LocalIndex>(128, 8 * running_.size()); }
+
+    Sum& operator[](std::size_t bin) { return running_[bin]; }
+
+    void empty() {
+        constexpr std::size_t most_emptied = 64;
+        pour(running_, emptied_);
+        if (++num_emptied_ % most_emptied == 0) pour(emptied_, totals_);
+    }
+
+    /// Of all entries before the sums were emptied last.
+    const std::vector<Sum>& totals() {
+        pour(emptied_, totals_);
+        return totals_;
+    }
+
+  private:
+    static void pour(std::vector<Sum>& from, std::vector<Sum>& into) {
+        for (std::size_t k = 0; k < from.size(); ++k) {
+            into[k] += from[k];
+            from[k] = Sum{};
+        }
+    }
+
+    std::vector<Sum> running_;
+    std::vector<Sum> emptied_;
+    std::size_t num_emptied_ = 0;
+    std::vector<Sum> totals_;
+};
+
+/// Calls `step(first, last)` for consecutive ranges of at most `length` of `count` entries.
+template <class Step>
+void in_ranges(LocalIndex count, LocalIndex length, Step&& step) {
+    for (LocalIndex first = 0; first < count; first += length)
+        step(first, std::min(first + length, count));
+}
+
+}  // namespace rrcb

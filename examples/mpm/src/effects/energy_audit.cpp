@@ -17,6 +17,7 @@ struct Ledger {
     double lost_on_nodes = 0;            ///< J
     double gained_by_nodes = 0;          ///< kinetic energy over all steps, J
     double kinetic_at_start = 0;         ///< of the points, J
+    bool has_begun = false;
 };
 
 template <int D>
@@ -137,7 +138,8 @@ void build(const EffectBuilder<D>& builder) {
     const Gravity<D> gravity = stages.gravity.value_or(Gravity<D>{});
     const auto open = [=, &particles = builder.particles](GridPatch<D>& patch,
                                                           const StepTime& step) {
-        if (step.time == 0) ledger->kinetic_at_start = kinetic_energy<D>(particles, motion);
+        if (!ledger->has_begun) ledger->kinetic_at_start = kinetic_energy<D>(particles, motion);
+        ledger->has_begun = true;
         open_step<D>(*ledger, patch, gravity.acceleration, step.time_step);
     };
     stages.forces.insert(stages.forces.begin(), {"energy_audit", open});
@@ -154,7 +156,7 @@ void build(const EffectBuilder<D>& builder) {
     stages.after_materials.push_back({"energy_audit", work});
     // What the nodes gained and the points did not went in the transfer between them.
     stages.dissipated.push_back([ledger, motion](const Particles& particles) {
-        if (ledger->start.empty()) return 0.0;
+        if (!ledger->has_begun) return 0.0;
         return ledger->lost_on_nodes + ledger->gained_by_nodes -
                (kinetic_energy<D>(particles, motion) - ledger->kinetic_at_start);
     });

@@ -48,6 +48,14 @@ inline double summed(const Simulation& simulation, MPI_Comm comm,
     return total;
 }
 
+/// Kinetic, strain and potential energy of all points, and what was lost where that is kept account
+/// of.
+inline double total_energy(const Simulation& simulation) {
+    const Totals totals = simulation.totals();
+    return totals.kinetic_energy + totals.strain_energy + totals.potential_energy +
+           totals.dissipated_energy.value_or(0);
+}
+
 /// Largest difference of two columns by the largest entry of the first.
 inline double relative_difference(const std::vector<double>& a, const std::vector<double>& b) {
     double difference = a.size() == b.size() ? 0 : std::numeric_limits<double>::infinity();

@@ -27,8 +27,13 @@ struct LinearShape {
         return cell_of(shape, coordinate, axis);
     }
 
-    /// Weights at `u` cells from the lowest node.
-    Weights<2> at(double u, std::size_t) const { return {{1 - u, u}, {-1, 1}}; }
+    /// Weights at `u` cells from the lowest node. On a face both are above 0 still: the slopes
+    /// there need a velocity of both nodes, and one without mass would have none.
+    Weights<2> at(double u, std::size_t) const {
+        constexpr double least = 1e-12;
+        const double inside = std::min(std::max(u, least), 1 - least);
+        return {{1 - inside, inside}, {-1, 1}};
+    }
 };
 
 /// Lowest of the three nodes around the nearest one.

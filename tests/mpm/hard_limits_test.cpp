@@ -1,0 +1,212 @@
+// Time steps at their limit, materials ten thousand times as stiff as others, soil that holds no
+// tension.
+#include "support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cstdio>
+#include <numbers>
+
+namespace mpm::test {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+constexpr int num_full_cells = 6, points_per_cell = 4;
+
+/// Bar of wave speed 10 with a trace of the shortest wave that the cells can hold. Its free end
+/// lies in a cell that holds only some of its points.
+Scene trembling_bar(int points_at_the_end, double courant_number, double least_node_mass) {
+    const double length = num_full_cells + double(points_at_the_end) / points_per_cell;
+    return {.name = "trembling bar",
+            .grid = {.lower = {0, 0}, .spacing = 1, .num_cells = {num_full_cells + 3, 1}},
+            .materials = {elastic_material("rubber", 1, 100, 0)},
+            .bodies = {{.contains = box_region({{0, 0}, {length, 1}}),
+                        .points_per_cell = {points_per_cell, 2, 1},
+                        .material = "rubber",
+                        .velocity = velocity_field(
+                            {.sine_amplitude = {1e-6, 0}, .sine_wave_number = {0.97 * pi, 0}})}},
+            .walls = {.left = Wall::roller, .bottom = Wall::roller, .top = Wall::roller},
+            .flip_fraction = 1,
+            .courant_number = courant_number,
+            .least_node_mass = least_node_mass};
+}
+
+/// What a step does to the stresses and then the velocities of the points of that bar, whose wave
+/// speed, density and cells are 1 here; nodes by `n`, points by `p`.
+Eigen::MatrixXd step_of_a_bar(int points_at_the_end, double time_step) {
+    const int num_points = num_full_cells * points_per_cell + points_at_the_end;
+    Eigen::MatrixXd weight = Eigen::MatrixXd::Zero(num_full_cells + 2, num_points);
+    Eigen::MatrixXd slope = weight;
+    for (int p = 0; p < num_points; ++p) {
+        const int cell = p / points_per_cell;
+        const double u = (p % points_per_cell + 0.5) / points_per_cell;
+        weight.col(p).segment<2>(cell) << 1 - u, u;
+        slope.col(p).segment<2>(cell) << -1, 1;
+    }
+    const double point_mass = 1.0 / points_per_cell;
+    Eigen::VectorXd inverse_mass = (point_mass * weight.rowwise().sum()).cwiseInverse();
+    if (points_at_the_end == 0) inverse_mass(num_full_cells + 1) = 0;
+    inverse_mass(0) = 0;  // held
+    const Eigen::MatrixXd acceleration = -point_mass * inverse_mass.asDiagonal() * slope;
+    const Eigen::MatrixXd velocity = point_mass * inverse_mass.asDiagonal() * weight;
+    const auto identity = Eigen::MatrixXd::Identity(num_points, num_points);
+    Eigen::MatrixXd step(2 * num_points, 2 * num_points);
+    step << identity + time_step * time_step * slope.transpose() * acceleration,
+        time_step * slope.transpose() * velocity,  //
+        time_step * weight.transpose() * acceleration, identity;
+    return step;
+}
+
+/// Courant number up to which no mode of the bar grows.
+double theoretical_limit(int points_at_the_end) {
+    double stable = 0.1, unstable = 1;
+    while (unstable - stable > 1e-4) {
+        const double middle = (stable + unstable) / 2;
+        const Eigen::MatrixXd step = step_of_a_bar(points_at_the_end, middle);
+        const double growth = step.eigenvalues().cwiseAbs().maxCoeff();
+        (growth < 1 + 1e-5 ? stable : unstable) = middle;
+    }
+    return stable;
+}
+
+/// Whether a bar keeps its energy for a while.
+bool is_stable(const Scene& scene) {
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    const double start = simulation.totals().kinetic_energy;
+    while (simulation.step_count() < 600) {
+        simulation.step();
+        const Totals now = simulation.totals();
+        if (!(now.kinetic_energy + now.strain_energy < 100 * start)) return false;
+    }
+    return true;
+}
+
+double measured_limit(int points_at_the_end, double least_node_mass) {
+    double stable = 0.1, unstable = 1;
+    while (unstable - stable > 1e-3) {
+        const double middle = (stable + unstable) / 2;
+        const bool keeps = is_stable(trembling_bar(points_at_the_end, middle, least_node_mass));
+        (keeps ? stable : unstable) = middle;
+    }
+    return stable;
+}
+
+// Elements with their mass at the nodes would be stable up to 1. Points read back only a part of
+// what the nodes were accelerated by, which costs a quarter of that; end nodes of little mass cost
+// more.
+TEST(HardLimits, of_the_time_step_are_the_theoretical_ones) {
+    constexpr double none = 1e-9, automatic = 0;
+    for (const int points_at_the_end : {0, 1, 2, 3}) {
+        const double bare = measured_limit(points_at_the_end, none);
+        const double guarded = measured_limit(points_at_the_end, automatic);
+        const double expected = theoretical_limit(points_at_the_end);
+        if (rank_of(MPI_COMM_WORLD) == 0)
+            std::printf(
+                "%d of 4 points in the last cell: stable up to a Courant number of %.3f, "
+                "in theory %.3f; %.3f with a least mass of nodes\n",
+                points_at_the_end, bare, expected, guarded);
+        EXPECT_NEAR(bare, expected, 0.005 * expected);
+        EXPECT_GT(guarded, 1.2 * Scene{}.courant_number);
+    }
+}
+
+constexpr double soft_modulus = 100, stiffness_ratio = 1e4, soft_length = 5;
+
+/// A soft bar that vibrates in mode 1, held by a stiff one of 2 m.
+Scene bar_on_a_stiff_one() {
+    const double wave_number = pi / (2 * soft_length);
+    const Body soft{.contains = box_region({{2, 0}, {2 + soft_length, 0.5}}),
+                    .material = "soft",
+                    .velocity = velocity_field({.sine_amplitude = {0.05, 0},
+                                                .sine_wave_number = {wave_number, 0},
+                                                .sine_phase = -2 * wave_number})};
+    return {.name = "bar on a stiff one",
+            .grid = {.lower = {0, 0}, .spacing = 0.5, .num_cells = {18, 1}},
+            .materials = {elastic_material("stiff", 1, stiffness_ratio * soft_modulus, 0),
+                          elastic_material("soft", 1, soft_modulus, 0)},
+            .bodies = {{.contains = box_region({{0, 0}, {2, 0.5}}), .material = "stiff"}, soft},
+            .walls = {.left = Wall::roller, .bottom = Wall::roller, .top = Wall::roller},
+            .flip_fraction = 1,
+            .courant_number = 0.4};
+}
+
+double largest_displacement(const Simulation& simulation, double number_of_material) {
+    double largest = 0;
+    const auto material = simulation.particles()["material"];
+    const auto displacement = simulation.particles()["displacement_x"];
+    for (std::size_t p = 0; p < material.size(); ++p)
+        if (material[p] == number_of_material)
+            largest = std::max(largest, std::abs(displacement[p]));
+    MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    return largest;
+}
+
+TEST(HardLimits, of_stiffness_leave_the_soft_part_its_period) {
+    Simulation simulation(bar_on_a_stiff_one(), MPI_COMM_WORLD);
+    const double start = total_energy(simulation);
+    double before = simulation.totals().momentum[0];
+    double turned = 0;
+    while (turned == 0 && simulation.time() < 1) {
+        const double from = simulation.time();
+        simulation.step();
+        const double now = simulation.totals().momentum[0];
+        if (now <= 0) turned = from + (simulation.time() - from) * before / (before - now);
+        before = now;
+        EXPECT_NEAR(total_energy(simulation), start, 0.01 * start);
+    }
+    // A quarter of the period 4 L / c of a bar held at one end.
+    EXPECT_NEAR(turned, soft_length / 10, 0.005);
+    // By then its end has moved by amplitude over frequency. The stiff bar, 2 m long, has the
+    // strain of the soft one's root over the ratio; applied at once, twice that.
+    const double soft = 0.05 * 2 * soft_length / (10 * pi);
+    EXPECT_NEAR(largest_displacement(simulation, 1), soft, 0.02 * soft);
+    const double strain = soft * pi / (2 * soft_length);
+    EXPECT_LT(largest_displacement(simulation, 0), 2 * 2 * strain / stiffness_ratio);
+}
+
+/// Dry sand that is torn apart over a floor, then falls back.
+Scene torn_sand() {
+    const Body heap{.contains = box_region({{3, 0}, {5, 1.5}}),
+                    .material = "sand",
+                    .velocity = velocity_field({.constant = {0, 1.5},
+                                                .sine_amplitude = {1, 1},
+                                                .sine_wave_number = {pi / 2, pi / 2}})};
+    return {.name = "torn sand",
+            .grid = {.lower = {0, 0}, .spacing = 0.25, .num_cells = {32, 16}},
+            .materials = {{"sand",
+                           "drucker_prager",
+                           {{"density", 1600.0},
+                            {"youngs_modulus", 1e6},
+                            {"poissons_ratio", 0.3},
+                            {"cohesion", 0.0},
+                            {"friction_angle", 35.0}}}},
+            .bodies = {heap},
+            .walls = {.left = Wall::roller, .right = Wall::roller, .bottom = Wall::roller},
+            .effects = {gravity_effect(9.81), {"energy_audit", {}}},
+            .courant_number = 0.25};
+}
+
+TEST(HardLimits, of_strength_at_the_apex_without_cohesion) {
+    Simulation simulation(torn_sand(), MPI_COMM_WORLD);
+    const double start = total_energy(simulation);
+    double lost_contact = 0;
+    while (simulation.time() < 1) {
+        simulation.step();
+        const auto xx = simulation.particles()["stress_xx"];
+        const auto yy = simulation.particles()["stress_yy"];
+        const auto zz = simulation.particles()["stress_zz"];
+        for (std::size_t p = 0; p < xx.size(); ++p) {
+            ASSERT_TRUE(std::isfinite(xx[p] + yy[p] + zz[p]));
+            ASSERT_LE(xx[p] + yy[p] + zz[p], 0);
+            lost_contact += xx[p] == 0 && yy[p] == 0 && zz[p] == 0 ? 1 : 0;
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &lost_contact, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    EXPECT_GT(lost_contact, 1000);
+    EXPECT_NEAR(total_energy(simulation), start, 0.01 * start);
+}
+
+}  // namespace
+}  // namespace mpm::test

@@ -79,7 +79,10 @@ TEST(Moments, survive_one_far_outlier_seen_first) {
     std::mt19937_64 engine(11);
     for (int i = 0; i < 100000; ++i) x.push_back(test::uniform(engine, 0, 1e-3));
     const std::array<std::span<const double>, 1> columns{x};
+    std::vector<double> weights;
+    for (std::size_t i = 0; i < x.size(); ++i) weights.push_back(test::uniform(engine, 1, 3));
     expect_reference_moments(column_points(columns), 1);
+    expect_reference_moments(column_points(columns, weights), 1);
 }
 
 TEST(Moments, see_a_tight_cluster_beside_a_wide_one) {

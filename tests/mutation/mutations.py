@@ -1,0 +1,165 @@
+"""Deliberate faults: a text of a file, what it becomes, and the test programs that must notice."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Mutation:
+    name: str
+    file: str
+    text: str  # occurs once in the file
+    instead: str
+    programs: tuple[str, ...]
+
+
+MUTATIONS = [
+    Mutation(
+        "a flipped comparison: points on a plane are below it",
+        "src/cuts.cpp",
+        "x(i, nodes[node].axis) >= nodes[node].plane",
+        "x(i, nodes[node].axis) > nodes[node].plane",
+        ("properties.balance",),
+    ),
+    Mutation(
+        "a flipped comparison: ties are broken downwards",
+        "src/cuts.cpp",
+        "position[a] != cut.at[a]) return position[a] > cut.at[a];",
+        "position[a] != cut.at[a]) return position[a] < cut.at[a];",
+        ("unit_cuts",),
+    ),
+    Mutation(
+        "the wrong corner of a box",
+        "src/cuts.cpp",
+        "if (is_above(cut, box.upper, cuts.dimension))",
+        "if (is_above(cut, box.lower, cuts.dimension))",
+        ("unit_cuts",),
+    ),
+    Mutation(
+        "a dropped weight in the second moment",
+        "src/binned_points.cpp",
+        "sum.second[a] += moment[a] * x[a];",
+        "sum.second[a] += x[a] * x[a];",
+        ("unit_moments",),
+    ),
+    Mutation(
+        "an outlier that comes first stays the origin of its cell",
+        "src/moments.cpp",
+        "most_variances = 16;",
+        "most_variances = 1e300;",
+        ("unit_moments", "unit_moments_accuracy"),
+    ),
+    Mutation(
+        "a dropped weight in the second moment, summed again",
+        "src/moments.cpp",
+        "sum.second[a] += w * d * d;",
+        "sum.second[a] += d * d;",
+        ("unit_moments",),
+    ),
+    Mutation(
+        "a dropped correction of the rounded mean",
+        "src/moments.cpp",
+        "sums.second[a] / weight - rest * rest",
+        "sums.second[a] / weight",
+        ("unit_moments", "unit_moments_accuracy"),
+    ),
+    Mutation(
+        "a missing merge term: the distance of the means",
+        "src/moments.cpp",
+        "2 * std::sqrt(share_a * share_b) * half_distance",
+        "0 * half_distance",
+        ("unit_moments",),
+    ),
+    Mutation(
+        "the weights of the other set in the merged mean",
+        "src/moments.cpp",
+        "2 * (half_distance * share_b)",
+        "2 * (half_distance * share_a)",
+        ("unit_moments",),
+    ),
+    Mutation(
+        "a wrong half-width of the uniform density",
+        "src/statistical_domain.cpp",
+        "std::sqrt(3.0)",
+        "std::sqrt(2.0)",
+        ("unit_statistical_domain",),
+    ),
+    Mutation(
+        "points beyond the last cell of the mesh",
+        "src/support_mesh.cpp",
+        "0.0, mesh.cells[a] - 1.0)",
+        "0.0, mesh.cells[a] - 0.0)",
+        ("unit_support_mesh",),
+    ),
+    Mutation(
+        "a patch that is divided keeps its weight above",
+        "src/bisection.cpp",
+        "above.weight -= below.weight;",
+        "",
+        ("unit_bisection",),
+    ),
+    Mutation(
+        "sizes of parts are ignored",
+        "src/bisection.cpp",
+        "return all > 0 ? below / all : 0;",
+        "return all > 0 ? 0.5 : 0;",
+        ("unit_bisection", "properties.balance"),
+    ),
+    Mutation(
+        "the farther of two edges of a bin",
+        "src/cut_search.cpp",
+        "at_lower_edge = too_little <= too_much",
+        "at_lower_edge = too_little > too_much",
+        ("mpi_refinement", "properties.balance"),
+    ),
+    Mutation(
+        "the refinement counts points, not weights",
+        "src/fragments.cpp",
+        "weight += points.weights[i];",
+        "weight += 1;",
+        ("mpi_refinement", "properties.balance"),
+    ),
+    Mutation(
+        "load unbalance forgets its sign",
+        "src/quality.cpp",
+        "std::max(worst, std::abs(lu))",
+        "std::max(worst, lu)",
+        ("unit_quality",),
+    ),
+    Mutation(
+        "points that stay are sent, points that leave are not",
+        "src/plan_mpi.cpp",
+        "if (destination == rank) continue;",
+        "if (destination != rank) continue;",
+        ("mpi_plan",),
+    ),
+    Mutation(
+        "numbers of parts that lose most are chosen",
+        "src/assignment.cpp",
+        "= -scale * gain.value;",
+        "= scale * gain.value;",
+        ("unit_assignment",),
+    ),
+    Mutation(
+        "infinite weights are let in",
+        "src/validation.cpp",
+        "bad += !(weight >= 0 && weight - weight == 0);",
+        "bad += !(weight >= 0);",
+        ("mpi_agreement",),
+    ),
+    Mutation(
+        "a flag in a buffer may be anything",
+        "src/zoltan/serialization.cpp",
+        "if (byte > 1) refuse",
+        "if (byte > 255) refuse",
+        ("zoltan.serialization",),
+    ),
+    Mutation(
+        "weights are not divided by their totals",
+        "src/zoltan/weights_mpi.cpp",
+        "comparable || sum == 0 ? 1 : 1 / sum",
+        "1",
+        ("zoltan.rcb_parameters",),
+    ),
+]

@@ -40,7 +40,6 @@ void decide(const Contribution& all, const Options& options, const Cuts* previou
 ///
 /// One message for a few dozen cuts, two for more: the first must be as long on a rank that does
 /// not know how many are coming.
-///
 void broadcast(Decision& decision, const Member& me);
 
 }  // namespace rrcb

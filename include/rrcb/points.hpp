@@ -48,11 +48,15 @@ struct Points {
     }
 };
 
-/// View of `coordinates` as points stored one after another; length a multiple of `dimension`.
+/// View of `coordinates` as points stored one after another. Not collective.
+///
+/// Their length is a multiple of `dimension` (1 to 3); `weights` is empty or holds one per point.
 Points interleaved_points(std::span<const double> coordinates, int dimension,
                           std::span<const double> weights = {});
 
-/// View of one array per axis, `columns.size()` of them (1 to 3), all of the same length.
+/// View of one array per axis. Not collective.
+///
+/// 1 to 3 `columns` of the same length; `weights` is empty or as long as they are.
 Points column_points(std::span<const std::span<const double>> columns,
                      std::span<const double> weights = {});
 

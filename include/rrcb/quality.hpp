@@ -9,15 +9,17 @@
 
 namespace rrcb {
 
-/// Heaviest part over mean part: max_p (weight_p / size_p) * sum(size) / sum(weight).
+/// Heaviest part over mean part: max_p (weight_p / size_p) * sum(size) / sum(weight). Not
+/// collective.
 ///
-/// `part_sizes` are relative, or empty for equal parts; parts of size 0 are left out unless they
-/// hold weight, then the imbalance is infinite. 1 when there is no weight at all.
+/// `part_sizes` are relative, one per part, or empty for equal parts; parts of size 0 are left out
+/// unless they hold weight, then the imbalance is infinite. 1 when there is no weight at all.
 double imbalance(std::span<const double> part_weights, std::span<const double> part_sizes = {});
 
-/// Load unbalance of each part in percent: (ideal - actual) / ideal * 100.
+/// Load unbalance of each part in percent: (ideal - actual) / ideal * 100. Not collective.
 ///
-/// The Lu of the CILAMCE 2020 paper: negative when a part holds too much; 0 for a part of size 0.
+/// One entry per part; sizes as above. The Lu of the CILAMCE 2020 paper: negative when a part holds
+/// too much; 0 for a part of size 0.
 std::vector<double> load_unbalance_percent(std::span<const double> part_weights,
                                            std::span<const double> part_sizes = {});
 

@@ -7,61 +7,53 @@
 
 namespace rrcb {
 
-Candidates::Candidates(int dimension, std::size_t most)
-    : record_length_(static_cast<std::size_t>(dimension) + 1), record_(dimension + 1, MPI_DOUBLE) {
-    lengths_.reserve(most);
-}
+namespace {
 
-void Candidates::expect(std::size_t num_lists, GlobalCount num_points, int num_ranks) {
-    const auto ranks = static_cast<std::size_t>(num_ranks);
-    all_lengths_.resize(ranks * num_lists);
+constexpr int no_candidates_known = -1;
+
+}  // namespace
+
+Candidates::Candidates(int dimension)
+    : record_length_(static_cast<std::size_t>(dimension) + 2), record_(dimension + 2, MPI_DOUBLE) {}
+
+void Candidates::expect(GlobalCount num_points, int num_ranks) {
     all_records_.resize(static_cast<std::size_t>(mpi::to_int(num_points)) * record_length_);
-    counts_.resize(ranks);
-    offsets_.resize(ranks);
+    counts_.resize(static_cast<std::size_t>(num_ranks));
+    offsets_.resize(static_cast<std::size_t>(num_ranks));
 }
 
 void Candidates::clear() {
-    lengths_.clear();
+    lost_ = false;
     records_.clear();
 }
 
-void Candidates::add(const LocalSearch& search) {
-    search.append_candidates(records_);
-    lengths_.push_back(mpi::to_int(static_cast<std::int64_t>(search.num_candidates())));
+void Candidates::add(std::size_t list, const LocalSearch& search) {
+    search.append_candidates(static_cast<double>(list), records_);
 }
 
-void Candidates::lose(std::size_t num_lists) {
-    records_.clear();
-    lengths_.assign(num_lists, lost);
+void Candidates::lose() {
+    clear();
+    lost_ = true;
 }
 
 void Candidates::gather(int root, MPI_Comm comm) {
-    const int num_lists = static_cast<int>(lengths_.size());
-    mpi::check(MPI_Gather(lengths_.data(), num_lists, MPI_INT, all_lengths_.data(), num_lists,
-                          MPI_INT, root, comm),
-               "MPI_Gather");
-    std::ranges::fill(counts_, 0);
-    for (std::size_t k = 0; k < all_lengths_.size(); ++k)
-        counts_[k / lengths_.size()] += std::max(0, all_lengths_[k]);
+    const auto num_records = static_cast<int>(records_.size() / record_length_);
+    const int told = lost_ ? no_candidates_known : num_records;
+    mpi::check(MPI_Gather(&told, 1, MPI_INT, counts_.data(), 1, MPI_INT, root, comm), "MPI_Gather");
+    any_failed_ = std::ranges::count(counts_, no_candidates_known) > 0;
+    std::ranges::replace(counts_, no_candidates_known, 0);
     std::exclusive_scan(counts_.begin(), counts_.end(), offsets_.begin(), 0);
-    mpi::check(MPI_Gatherv(records_.data(), static_cast<int>(records_.size() / record_length_),
-                           record_.get(), all_records_.data(), counts_.data(), offsets_.data(),
-                           record_.get(), root, comm),
+    mpi::check(MPI_Gatherv(records_.data(), num_records, record_.get(), all_records_.data(),
+                           counts_.data(), offsets_.data(), record_.get(), root, comm),
                "MPI_Gatherv");
 }
 
-bool Candidates::any_failed() const {
-    return std::ranges::count(all_lengths_, lost) > 0;
-}
-
-std::vector<std::vector<double>> Candidates::lists() const {
-    std::vector<std::vector<double>> lists(lengths_.size());
-    auto next = all_records_.begin();
-    for (std::size_t i = 0; i < all_lengths_.size(); ++i) {
-        const auto end = next + all_lengths_[i] * static_cast<std::ptrdiff_t>(record_length_);
-        std::vector<double>& list = lists[i % lists.size()];
-        list.insert(list.end(), next, end);
-        next = end;
+std::vector<std::vector<double>> Candidates::lists(std::size_t num_lists) const {
+    std::vector<std::vector<double>> lists(num_lists);
+    const auto length = static_cast<std::ptrdiff_t>(record_length_);
+    for (auto record = all_records_.begin(); record != all_records_.end(); record += length) {
+        std::vector<double>& list = lists[static_cast<std::size_t>(*record)];
+        list.insert(list.end(), record + 1, record + length);
     }
     return lists;
 }

@@ -70,8 +70,8 @@ class LocalSearch {
     /// Keeps the points in the slot that the root chose with the bracket `before` it moved.
     void keep_chosen(const CutSearch& before, const CutSearch& after, int num_bins);
 
-    /// Position and weight of each candidate, one after the other.
-    void append_candidates(std::vector<double>& records) const;
+    /// Adds `list`, position and weight of each candidate.
+    void append_candidates(double list, std::vector<double>& records) const;
 
     std::size_t num_candidates() const { return candidates_.size(); }
 

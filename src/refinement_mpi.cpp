@@ -122,24 +122,22 @@ void count_and_decide(Context& context) {
 void gather_and_decide(Context& context) {
     RefinementRoom& room = context.room;
     Candidates& candidates = room.candidates;
-    const auto num_lists = std::ranges::count_if(room.before, is_gathering);
-    if (num_lists == 0) return;
+    if (std::ranges::none_of(room.before, is_gathering)) return;
     candidates.clear();
     context.me.locally([&] {
         for (std::size_t k = 0; k < room.before.size(); ++k)
-            if (is_gathering(room.before[k])) candidates.add(room.local[k]);
+            if (is_gathering(room.before[k])) candidates.add(k, room.local[k]);
     });
-    if (context.me.failure.failed) candidates.lose(static_cast<std::size_t>(num_lists));
+    if (context.me.failure.failed) candidates.lose();
     candidates.gather(root, context.me.comm);
     if (!context.is_root) return;
     context.told_of_failure |= candidates.any_failed();
     if (context.told_of_failure) return;
     context.me.locally([&] {
-        const auto lists = candidates.lists();
-        auto list = lists.begin();
+        const auto lists = candidates.lists(room.before.size());
         for (std::size_t k = 0; k < room.before.size(); ++k)
             if (is_gathering(room.before[k]))
-                decide_among(room.searches[k], room.targets[k], *list++,
+                decide_among(room.searches[k], room.targets[k], lists[k],
                              context.binned.dimension());
     });
 }
@@ -148,15 +146,11 @@ void gather_and_decide(Context& context) {
 /// others send their candidates it makes sure that there is room for them.
 void conclude(Context& context) {
     RefinementRoom& room = context.room;
-    std::size_t num_lists = 0;
     GlobalCount num_points = 0;
     for (std::size_t k = 0; k < room.searches.size(); ++k) {
-        if (!is_gathering(room.searches[k])) continue;
-        ++num_lists;
-        num_points += room.targets[k].num_candidates;
+        if (is_gathering(room.searches[k])) num_points += room.targets[k].num_candidates;
     }
-    context.me.locally(
-        [&] { room.candidates.expect(num_lists, num_points, mpi::size_of(context.me.comm)); });
+    context.me.locally([&] { room.candidates.expect(num_points, mpi::size_of(context.me.comm)); });
     if (!context.me.failure.failed && !context.told_of_failure) return;
     for (CutSearch& search : room.searches) search.stage = CutSearch::abandoned;
 }

@@ -6,7 +6,7 @@ RefinementRoom::RefinementRoom(const Options& options, int dimension, bool is_ro
     : part_weights(options.part_sizes.size() + 1),
       sums(is_root ? options.part_sizes.size() + 1 : 0),
       histograms(HistogramLayout{}, options.part_sizes.size() / 2, is_root),
-      candidates(dimension, options.part_sizes.size() / 2) {
+      candidates(dimension) {
     const std::size_t num_parts = options.part_sizes.size();
     nodes.reserve(num_parts);
     children.reserve(num_parts);

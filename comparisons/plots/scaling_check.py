@@ -141,14 +141,12 @@ def read_rounds(row: Counted, sizes: Sizes) -> Rounds:
     rest = beyond_head(ranks, "exact")
     once = sizes.broadcasts + 8 * ranks + rest + looks * LOOK_ANSWER
     reduced = bytes_in.get("Reduce", 0) - looks * ranks * look_bytes(ranks)
-    gathered = bytes_in["Gather"] - ranks * sizes.parameters
     return Rounds(
         _whole(calls["Bcast"], ranks) - sizes.num_broadcasts - (rest > 0) - looks,
         _whole(bytes_in["Bcast"] - once, sizes.search),
         _whole(calls.get("Reduce", 0), ranks) - looks,
         _whole(reduced, ranks * sizes.histogram),
         _whole(calls["Gather"], ranks) - 1,
-        _whole(gathered, 4 * ranks),
         bytes_in.get("Gatherv", 0),
     )
 

@@ -90,7 +90,6 @@ class Rounds:
     counts: int = 0  # rounds with histograms
     histograms: int = 0
     gathers: int = 0  # rounds with candidates
-    lists: int = 0
     candidate_bytes: int = 0
 
 
@@ -154,8 +153,8 @@ def _refine(traffic: Traffic, ranks: int, sizes: Sizes, rounds: Rounds) -> None:
     traffic.add("Bcast", ranks * rounds.rounds, searches, (ranks - 1) * searches)
     histograms = rounds.histograms * sizes.histogram
     traffic.add("Reduce", ranks * rounds.counts, ranks * histograms, histograms)
-    lengths = 4 * rounds.lists * ranks
-    traffic.add("Gather", ranks * rounds.gathers, lengths, lengths)
+    counts = 4 * rounds.gathers * ranks
+    traffic.add("Gather", ranks * rounds.gathers, counts, counts)
     traffic.add("Gatherv", ranks * rounds.gathers, rounds.candidate_bytes, rounds.candidate_bytes)
 
 
@@ -166,7 +165,7 @@ def rrcb_root_bytes(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Roun
     if refine in LOOKS:
         into += look_bytes(ranks)
     if refine in ("refined", "exact"):
-        into += rounds.histograms * sizes.histogram + 4 * rounds.lists * ranks
+        into += rounds.histograms * sizes.histogram + 4 * rounds.gathers * ranks
         into += rounds.candidate_bytes
     return into
 
@@ -176,7 +175,7 @@ def expected_rounds(ranks: int, rounds_per_level: int, bytes_per_list: float) ->
     levels = (ranks - 1).bit_length()
     cuts = ranks - 1
     return Rounds(
-        rounds_per_level * levels, rounds_per_level * cuts, levels, cuts, levels, cuts,
+        rounds_per_level * levels, rounds_per_level * cuts, levels, cuts, levels,
         int(cuts * bytes_per_list),
     )
 

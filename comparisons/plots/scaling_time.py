@@ -93,7 +93,7 @@ def observe(counted: dict, sizes: Sizes) -> Observed:
     return Observed(
         sizes,
         max(ceil(r.rounds / (ranks - 1).bit_length()) for ranks, r in exact),
-        max(r.candidate_bytes / max(r.lists, 1) for _, r in exact),
+        max(r.candidate_bytes / (ranks - 1) for ranks, r in exact),
         _mean([read_exchange(r).iterations / sum(sets(r.ranks)) for r in zoltan if r.ranks > 1]),
         _mean([_steps(row) for row in jagged if row.ranks > 2]),
     )
@@ -156,7 +156,7 @@ def _refine(path: Path, ranks: int, sizes: Sizes, rounds: Rounds) -> None:
     path.collective(ranks, 0, rounds.rounds)
     path.bytes += rounds.searches * sizes.search
     path.collective(ranks, 0, 2 * rounds.gathers)
-    gathered = 4 * rounds.lists * ranks + rounds.candidate_bytes
+    gathered = 4 * rounds.gathers * ranks + rounds.candidate_bytes
     path.bytes += gathered
     path.root_bytes += histograms + gathered
     levels = (ranks - 1).bit_length()

@@ -77,11 +77,11 @@ TEST(LongMessages, give_the_same_numbers_of_parts_in_pieces) {
 }
 
 TEST(LongMessages, of_more_candidates_than_mpi_counts_are_refused_before_they_are_sent) {
-    Candidates candidates(2, 1);
-    candidates.expect(1, 1000, test::num_ranks());
+    Candidates candidates(2);
+    candidates.expect(1000, test::num_ranks());
     for (const GlobalCount too_many : {GlobalCount{1} << 31, GlobalCount{1} << 40}) {
         try {
-            candidates.expect(1, too_many, test::num_ranks());
+            candidates.expect(too_many, test::num_ranks());
             ADD_FAILURE() << "room for " << too_many;
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::mpi);

@@ -53,6 +53,20 @@ void expect_serial(const Scene& scene) {
             << scene.dimension << column;
 }
 
+Scene with_floor(Scene scene, Wall floor) {
+    scene.walls.bottom = floor;
+    scene.walls.left = Wall::roller;
+    return scene;
+}
+
+TEST(Decomposition, does_not_show_where_shape_functions_reach_beyond_a_wall) {
+    for (const int dimension : {2, 3}) {
+        const Scene cube = falling_cube(dimension, ShapeFunction::quadratic, Transfer::apic);
+        expect_serial(with_floor(cube, Wall::fixed));
+        expect_serial(with_floor(cube, Wall::roller));
+    }
+}
+
 TEST(Decomposition, does_not_show_whatever_the_dimension_shape_and_transfer) {
     for (const int dimension : {2, 3}) {
         expect_serial(falling_cube(dimension, ShapeFunction::linear, Transfer::flip));

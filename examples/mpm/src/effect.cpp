@@ -34,7 +34,7 @@ std::vector<std::optional<Values>> effect_values(const Scene& scene) {
 template <int D>
 Stages<D> build_stages(const Scene& scene, Particles& particles) {
     Stages<D> stages;
-    add_walls<D>(scene.walls, stages);
+    add_walls<D>(scene, stages);
     const std::vector<std::optional<Values>> values = effect_values(scene);
     for (std::size_t k = 0; k < values.size(); ++k) {
         if (!values[k]) continue;
@@ -44,6 +44,7 @@ Stages<D> build_stages(const Scene& scene, Particles& particles) {
         else
             effect_kinds()[k].build_3(builder);
     }
+    add_images<D>(scene, stages);
     return stages;
 }
 

@@ -27,7 +27,7 @@ NodeRange<D> nodes_at(const GridPatch<D>& patch, std::size_t axis, bool is_upper
     return intersection<D>(side, patch.nodes);
 }
 
-/// Calls visit(index of a node, wall, axis, inward sign) for the nodes on all sides.
+/// Calls visit(node, wall, axis, inward sign) for the nodes on all sides and beyond.
 template <int D, typename Visit>
 void visit_sides(const GridPatch<D>& patch, const Walls& walls, Visit visit) {
     const std::array<const Wall*, 3> lower{&walls.left, &walls.bottom, &walls.back};
@@ -37,7 +37,7 @@ void visit_sides(const GridPatch<D>& patch, const Walls& walls, Visit visit) {
             const Wall& wall = is_upper ? *upper[axis] : *lower[axis];
             if (wall.kind == Wall::open) continue;
             visit_nodes<D>(nodes_at(patch, axis, is_upper), [&](const std::array<int, D>& node) {
-                visit(patch.index(node), wall, axis, is_upper ? -1.0 : 1.0);
+                visit(node, wall, axis, is_upper ? -1.0 : 1.0);
             });
         }
 }
@@ -49,33 +49,107 @@ bool has(const Walls& walls, Wall::Kind kind) {
     return false;
 }
 
+/// Calls visit(node beyond a roller or fixed wall, its mirror image, wall, axis) where a patch has
+/// them; a patch that reaches beyond a wall has the layer of images, too.
+template <int D, typename Visit>
+void visit_images(const GridPatch<D>& patch, const Walls& walls, Visit visit) {
+    visit_sides(patch, walls,
+                [&](std::array<int, D> node, const Wall& wall, std::size_t axis, double inward) {
+                    const int side = inward > 0 ? 0 : patch.shape.num_cells[axis];
+                    if (node[axis] == side || wall.kind == Wall::frictional) return;
+                    const std::size_t beyond = patch.index(node);
+                    node[axis] = 2 * side - node[axis];
+                    visit(beyond, patch.index(node), wall, axis);
+                });
+}
+
+/// The sign of a component in the image.
+double parity(const Wall& wall, std::size_t axis, std::size_t component) {
+    return wall.kind == Wall::fixed || component == axis ? -1 : 1;
+}
+
+/// What points hand to nodes beyond a wall is their images' share of the nodes inside.
+template <int D>
+void fold(const Walls& walls, GridPatch<D>& patch) {
+    visit_images(patch, walls,
+                 [&](std::size_t beyond, std::size_t image, const Wall& wall, std::size_t axis) {
+                     Node<D>& from = patch.sums[beyond];
+                     Node<D>& to = patch.sums[image];
+                     to.mass += from.mass;
+                     for (std::size_t a = 0; a < D; ++a) {
+                         to.momentum[a] += parity(wall, axis, a) * from.momentum[a];
+                         to.force[a] += parity(wall, axis, a) * from.force[a];
+                     }
+                     from = {};
+                 });
+}
+
+/// Nodes beyond a wall move as the images of those inside.
+template <int D>
+void mirror(const Walls& walls, GridPatch<D>& patch) {
+    visit_images(patch, walls,
+                 [&](std::size_t beyond, std::size_t image, const Wall& wall, std::size_t axis) {
+                     const NodeMotion<D>& from = patch.motion[image];
+                     NodeMotion<D>& to = patch.motion[beyond];
+                     for (std::size_t a = 0; a < D; ++a) {
+                         const double sign = parity(wall, axis, a);
+                         to.velocity[a] = sign * from.velocity[a];
+                         to.velocity_change[a] = sign * from.velocity_change[a];
+                         to.strain_velocity[a] = sign * from.strain_velocity[a];
+                     }
+                 });
+}
+
+/// Whether shape functions reach beyond walls that hold nodes.
+bool has_images(const Scene& scene) {
+    return scene.shape_function != ShapeFunction::linear &&
+           (has(scene.walls, Wall::roller) || has(scene.walls, Wall::fixed));
+}
+
 }  // namespace
 
 template <int D>
-void add_walls(const Walls& walls, Stages<D>& stages) {
+void add_walls(const Scene& scene, Stages<D>& stages) {
+    const Walls& walls = scene.walls;
+    if (has_images(scene))
+        stages.scatters.push_back({"walls", [walls](const Particles&, std::span<const CellRun<D>>,
+                                                    GridPatch<D>& patch) { fold(walls, patch); }});
     if (has(walls, Wall::roller) || has(walls, Wall::fixed))
         stages.constraints.push_back(
             {"walls", [walls](GridPatch<D>& patch, const StepTime&) {
                  visit_sides(patch, walls,
-                             [&](std::size_t n, const Wall& wall, std::size_t axis, double) {
+                             [&](const std::array<int, D>& node, const Wall& wall, std::size_t axis,
+                                 double) {
                                  if (wall.kind != Wall::frictional)
-                                     hold(patch.sums[n], wall.kind, axis);
+                                     hold(patch.sums[patch.index(node)], wall.kind, axis);
                              });
              }});
     if (has(walls, Wall::frictional))
         stages.moved.push_back(
             {"friction", [walls](GridPatch<D>& patch, const StepTime&) {
                  visit_sides(patch, walls,
-                             [&](std::size_t n, const Wall& wall, std::size_t axis, double inward) {
+                             [&](const std::array<int, D>& node, const Wall& wall, std::size_t axis,
+                                 double inward) {
                                  if (wall.kind != Wall::frictional) return;
                                  Surface<D> surface{.normal = {}, .friction = wall.friction};
                                  surface.normal[axis] = inward;
-                                 meet<D>(surface, patch.motion[n]);
+                                 meet<D>(surface, patch.motion[patch.index(node)]);
                              });
              }});
 }
 
-template void add_walls<2>(const Walls&, Stages<2>&);
-template void add_walls<3>(const Walls&, Stages<3>&);
+template <int D>
+void add_images(const Scene& scene, Stages<D>& stages) {
+    if (has_images(scene))
+        stages.moved.push_back(
+            {"walls", [walls = scene.walls](GridPatch<D>& patch, const StepTime&) {
+                 mirror(walls, patch);
+             }});
+}
+
+template void add_walls<2>(const Scene&, Stages<2>&);
+template void add_walls<3>(const Scene&, Stages<3>&);
+template void add_images<2>(const Scene&, Stages<2>&);
+template void add_images<3>(const Scene&, Stages<3>&);
 
 }  // namespace mpm

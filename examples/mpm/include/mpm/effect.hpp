@@ -38,9 +38,16 @@ std::vector<std::optional<Values>> effect_values(const Scene& scene);
 template <int D>
 Stages<D> build_stages(const Scene& scene, Particles& particles);
 
-/// Holds the nodes on the sides of the domain and beyond: `walls` before they move, and `friction`
-/// after; neither where all sides are open.
+/// Holds the nodes on the sides of the domain: `walls` before they move, and `friction` after;
+/// neither where all sides are open.
+///
+/// Where shape functions reach beyond a roller or fixed wall, what points hand to nodes there goes
+/// to their mirror images inside, with the signs that leave the wall at rest.
 template <int D>
-void add_walls(const Walls& walls, Stages<D>& stages);
+void add_walls(const Scene& scene, Stages<D>& stages);
+
+/// Lets nodes beyond walls move as their mirror images; comes after all that changes those.
+template <int D>
+void add_images(const Scene& scene, Stages<D>& stages);
 
 }  // namespace mpm

@@ -33,6 +33,19 @@ TEST(Penetrator, has_the_normal_of_the_nearer_surface) {
     EXPECT_NEAR((*plate.normal_inside({-1.9, 0.5}))[0], -1, 1e-15);
 }
 
+TEST(Contact, takes_friction_by_what_the_normal_velocity_lost_and_no_more_than_its_limit) {
+    using Velocity = Components<2>;
+    Surface<2> floor{.normal = {0, 1}, .friction = 0.5};
+    EXPECT_EQ(after_contact<2>(floor, {3, -2}), (Velocity{2, 0}));
+    EXPECT_EQ(after_contact<2>(floor, {3, 2}), (Velocity{3, 2})) << "it leaves";
+    EXPECT_EQ(after_contact<2>(floor, {0.5, -2}), (Velocity{0, 0})) << "it sticks";
+    floor.most_lost = 0.25;
+    EXPECT_EQ(after_contact<2>(floor, {3, -2}), (Velocity{2.75, 0}));
+    floor.velocity = {1, -1};
+    EXPECT_EQ(after_contact<2>(floor, {3, -2}), (Velocity{2.75, -1}));
+    EXPECT_EQ(after_contact<2>(floor, {3, -0.5}), (Velocity{3, -0.5}));
+}
+
 /// A block that floats in an open grid with a plate that falls on its upper side.
 Scene struck_block(double mass, double speed) {
     return {.name = "struck",

@@ -126,6 +126,18 @@ TEST(PartWeights, of_a_part_that_is_none_are_refused_on_all_ranks) {
     });
 }
 
+TEST(PartWeights, of_points_without_a_part_are_refused_on_all_ranks) {
+    const std::vector<double> x(2);
+    const std::vector<Part> parts(test::is_last_rank() ? 1 : 2);
+    try {
+        part_weights(interleaved_points(x, 1), parts, 2, MPI_COMM_WORLD);
+        ADD_FAILURE() << "nothing was thrown";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.what(), "rank " + std::to_string(num_ranks() - 1) +
+                                    ": parts has 1 entries for 2 points; give one per point");
+    }
+}
+
 TEST(MovedFraction, of_a_part_that_is_none_is_refused_on_all_ranks) {
     expect_refusal([](const Points& points, std::span<const Part> parts) {
         return moved_fraction(points, parts, 2, MPI_COMM_WORLD);

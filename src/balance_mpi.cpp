@@ -39,10 +39,11 @@ void gather(Contribution& mine, const Options& options, int dimension, Member& m
 void decide_together(const Contribution& all, const Options& options, const Cuts* previous,
                      Decision& decision, Member& me) {
     if (mpi::rank_of(me.comm) == root) {
-        const StageScope stage(options.observer, Stage::bisection);
         decision.verdict.failing_rank = all.summary.failing_rank;
         me.locally([&] {
-            if (all.summary.failing_rank == no_rank) decide(all, options, previous, decision);
+            if (all.summary.failing_rank != no_rank) return;
+            const StageScope stage(options.observer, Stage::bisection);
+            decide(all, options, previous, decision);
         });
         if (me.failure.failed) decision.verdict.failing_rank = root;
     }

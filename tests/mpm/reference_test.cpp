@@ -11,7 +11,7 @@ namespace {
 constexpr double g = 9.81;
 
 Scene shipped(const std::string& name) {
-    return read_scene(std::string(RRCB_SCENES) + "/" + name + ".yaml", MPI_COMM_WORLD).scene;
+    return read_scene(RRCB_SCENES "/" + name + ".yaml", MPI_COMM_WORLD).scene;
 }
 
 /// What the audit leaves open, by an energy of the scene.

@@ -7,7 +7,7 @@ namespace mpm::test {
 namespace {
 
 Scene shipped(const std::string& name) {
-    return read_scene(std::string(RRCB_SCENES) + "/" + name + ".yaml", MPI_COMM_WORLD).scene;
+    return read_scene(RRCB_SCENES "/" + name + ".yaml", MPI_COMM_WORLD).scene;
 }
 
 /// The largest of a column.

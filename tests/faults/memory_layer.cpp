@@ -51,6 +51,15 @@ void* operator new(std::size_t size) {
     return block;
 }
 
+// As the standard library has it; sanitizers bring one of their own.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    try {
+        return operator new(size);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
+
 void operator delete(void* block) noexcept {
     if (block != nullptr) --memory_layer::num_live;
     std::free(block);

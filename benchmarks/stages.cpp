@@ -1,3 +1,4 @@
+#include "binned_assignment.hpp"
 #include "clouds.hpp"
 
 #include <rrcb/balance.hpp>
@@ -77,11 +78,14 @@ void moments(benchmark::State& state) {
 
 void assignment(benchmark::State& state) {
     Cuts cuts;
+    BinnedPoints binned;
     std::vector<Part> parts(static_cast<std::size_t>(state.range(0)));
     run(state, [&](const Points& points) {
-        if (cuts.tree.empty()) cuts = balance_alone(points).cuts;
-        assign(cuts, points, parts);
-        return parts.data();
+        if (cuts.tree.empty()) {
+            cuts = balance_alone(points).cuts;
+            binned = bin(points);
+        }
+        return assign(cuts, binned, parts);
     });
 }
 

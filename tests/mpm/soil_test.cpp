@@ -16,6 +16,15 @@ double largest(const Simulation& simulation, const std::string& column) {
     return *std::ranges::max_element(values);
 }
 
+/// Half a column of sand of width 1 with another height than the shipped scene's 2.
+Scene column(double aspect) {
+    Scene scene = shipped("granular_column");
+    scene.bodies.front().contains = box_region({{0, 0}, {1, aspect}});
+    scene.grid.num_cells = {80, static_cast<int>(10 * aspect) + 4};
+    scene.end_time = aspect > 2 ? 3 : 2;
+    return scene;
+}
+
 /// How far a column of sand of half width 1 runs, by that width.
 double run_out(const Scene& scene) {
     Simulation simulation(scene, MPI_COMM_WORLD);
@@ -40,6 +49,24 @@ TEST(GranularColumn, runs_too_far_on_a_slippery_floor_and_not_far_with_cohesion)
     EXPECT_LT(run_out(sticky), 2.4);
 }
 
+// The same law, and 1.9 a^(2/3) for columns that are taller; the experiments that it is fitted to
+// spread by a fifth about their mean at a = 2.
+TEST(GranularColumn, runs_by_the_law_of_its_aspect) {
+    for (const double aspect : {0.6, 1.0, 1.5, 3.0}) {
+        const double law = aspect < 2.3 ? 1.2 * aspect : 1.9 * std::pow(aspect, 2.0 / 3);
+        EXPECT_NEAR(run_out(column(aspect)), law, 0.25 * law) << aspect;
+    }
+}
+
+TEST(GranularColumn, breaks_the_law_with_a_slippery_floor_and_with_cohesion) {
+    Scene slippery = column(1);
+    slippery.walls.bottom = Wall::roller;
+    EXPECT_GT(run_out(slippery), 2 * 1.2);
+    Scene sticky = column(1);
+    sticky.materials.front().parameters["cohesion"] = 1e3;
+    EXPECT_LT(run_out(sticky), 0.5 * 1.2);
+}
+
 /// Largest displacement of a cut of 2 m whose weight * height is that many times its strength.
 double slip(double number) {
     Scene scene = shipped("vertical_cut");
@@ -55,7 +82,8 @@ TEST(VerticalCut, stands_below_its_critical_height_and_fails_above) {
     EXPECT_GT(slip(4.5), 0.1 * 2);
 }
 
-// Never a gain beyond round-off of the account, and a loss of at most a thousandth in 20 s.
+// A loss of at most a thousandth in 20 s and never a gain, but for what the square's first
+// vibration, until it is held together, takes from the affine fields, whose energy is not counted.
 TEST(RotatingSquare, keeps_its_energy) {
     const Scene scene = shipped("rotating_square");
     Simulation simulation(scene, MPI_COMM_WORLD);
@@ -65,20 +93,20 @@ TEST(RotatingSquare, keeps_its_energy) {
     };
     const double initial = energy();
     while (simulation.time() < scene.end_time) {
-        for (int step = 0; step < 500; ++step) simulation.step();
-        EXPECT_LE(energy(), initial);
+        for (int step = 0; step < 10; ++step) simulation.step();
+        EXPECT_LE(energy(), initial * (simulation.time() < 0.2 ? 1 + 1e-4 : 1));
         EXPECT_GE(energy(), initial * (1 - 1e-3));
     }
 }
 
-// What the test must see: FLIP loses half of the energy of a turning square to noise.
+// What the test must see: FLIP loses most of the energy of a turning square to noise.
 TEST(RotatingSquare, loses_energy_with_flip) {
     Scene scene = shipped("rotating_square");
     scene.transfer = Transfer::flip;
     Simulation simulation(scene, MPI_COMM_WORLD);
     const double initial = simulation.totals().kinetic_energy;
     while (simulation.time() < 5) simulation.step();
-    EXPECT_LT(simulation.totals().kinetic_energy, 0.9 * initial);
+    EXPECT_LT(simulation.totals().kinetic_energy, 0.1 * initial);
 }
 
 // The affine field of linear functions must not take up the acceleration of nodes with next to no

@@ -1,9 +1,9 @@
 #include "arguments.hpp"
 
+#include "balancers_mpi.hpp"
+
 #include <Teuchos_CommandLineProcessor.hpp>
 
-#include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
@@ -31,7 +31,7 @@ struct Texts {
 void set_options(Teuchos::CommandLineProcessor& parser, Arguments& arguments, Texts& texts) {
     parser.setDocString("Simulates a scene of material points.");
     parser.setOption("scene", &arguments.scene, "scene file, YAML or XML");
-    parser.setOption("balancer", &arguments.balancer, "none, rrcb, rrcb-exact or zoltan-rcb");
+    parser.setOption("balancer", &arguments.balancer, balancer_names().c_str());
     parser.setOption("every", &texts.every, "steps between two rebalances");
     parser.setOption("end-time", &texts.end_time, "simulated seconds, in place of the scene's");
     parser.setOption("cell-size", &texts.cell_size, "m, in place of the scene's");
@@ -54,10 +54,7 @@ std::optional<Arguments> read_arguments(int argc, char** argv) {
     if (outcome == Teuchos::CommandLineProcessor::PARSE_HELP_PRINTED) return std::nullopt;
     if (outcome != Teuchos::CommandLineProcessor::PARSE_SUCCESSFUL)
         throw std::invalid_argument("an option is not known; --help lists them all");
-    constexpr std::array<const char*, 4> balancers{"none", "rrcb", "rrcb-exact", "zoltan-rcb"};
-    if (std::ranges::find(balancers, arguments.balancer) == balancers.end())
-        throw std::invalid_argument("--balancer: '" + arguments.balancer +
-                                    "' is none of none, rrcb, rrcb-exact, zoltan-rcb");
+    make_balancer(arguments.balancer);
     if (arguments.scene.empty())
         throw std::invalid_argument("--scene=FILE is missing; examples/mpm/scenes has some");
     if (arguments.out.empty()) throw std::invalid_argument("--out: must name a folder");

@@ -1,9 +1,7 @@
 #include "arguments.hpp"
-#include "rrcb_balancer_mpi.hpp"
+#include "balancers_mpi.hpp"
 #include "scene_file/scene_file_mpi.hpp"
 #ifdef RRCB_MPM_ZOLTAN
-#include "zoltan_balancer_mpi.hpp"
-
 #include <zoltan.h>
 #endif
 
@@ -25,20 +23,6 @@ int rank_in(MPI_Comm comm) {
     int rank = 0;
     MPI_Comm_rank(comm, &rank);
     return rank;
-}
-
-std::optional<mpm::Balancer> make_balancer(const std::string& name) {
-    if (name == "none") return std::nullopt;
-    if (name == "zoltan-rcb") {
-#ifdef RRCB_MPM_ZOLTAN
-        return zoltan_rcb_balancer();
-#else
-        throw std::invalid_argument("--balancer=zoltan-rcb: built without Zoltan");
-#endif
-    }
-    rrcb::Options options;
-    if (name == "rrcb-exact") options.refine = rrcb::Refine::exact;
-    return rrcb_balancer(options);
 }
 
 void print_words(const char* title, const std::vector<std::string>& words) {

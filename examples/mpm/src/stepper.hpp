@@ -49,6 +49,7 @@ class Stepper final : public Simulation::Model {
 
     Ownership ownership_;
     GridPatch<D> patch_;
+    std::vector<NodeRange<D>> patches_;  ///< of all ranks
     std::optional<GhostNodes<D>> ghosts_;
     std::vector<CellRun<D>> runs_;
     std::unique_ptr<VelocityGradients<D>> gradients_ = std::make_unique<VelocityGradients<D>>();

@@ -1,5 +1,7 @@
 #include "stepper.hpp"
 
+#include <mpm/carried_motion_mpi.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -103,9 +105,13 @@ void Stepper<D>::adopt(Decomposition next) {
     std::vector<NodeRange<D>> patches;
     for (const Box& box : decomposition.boxes)
         patches.push_back(nodes_of<D>(scene_.grid, box, patch_.margin));
+    const bool carries = stages_.carries_motion && !patches_.empty();
+    const GridPatch<D> last = carries ? patch_ : GridPatch<D>{};
     resize<D>(patch_, patches[static_cast<std::size_t>(rank_of(comm_))]);
     ghosts_.emplace(patches, comm_);
     if (stages_.counts_nodes) ghosts_->mark_counted(patch_);
+    if (carries) carry_motion<D>(patches_, patches, last, patch_, comm_);
+    patches_ = std::move(patches);
 }
 
 template <int D>

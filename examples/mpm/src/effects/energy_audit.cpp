@@ -11,7 +11,6 @@ template <int D>
 struct Ledger {
     std::vector<Components<D>> start;    ///< velocity the step begins with
     std::vector<Components<D>> jump;     ///< of it from the velocity that strained last
-    NodeRange<D> nodes;                  ///< of the last step
     std::vector<Components<D>> impulse;  ///< beside that of stress and of full weight
     std::vector<Node<D>> before;         ///< such a kernel
     double lost_on_nodes = 0;            ///< J
@@ -46,19 +45,16 @@ template <int D>
 void note_start(Ledger<D>& ledger, const GridPatch<D>& patch) {
     ledger.start.assign(patch.sums.size(), Components<D>{});
     ledger.jump.assign(patch.sums.size(), Components<D>{});
-    const bool is_same_patch =
-        ledger.nodes.first == patch.nodes.first && ledger.nodes.count == patch.nodes.count;
     for (std::size_t n = 0; n < patch.sums.size(); ++n) {
         if (!(patch.sums[n].mass > 0)) continue;
-        // No step has overwritten what the last one left: all 0 where nothing was.
-        const bool was_there = is_same_patch && patch.motion[n].velocity != Components<D>{};
+        // What the last step left: all 0 where nothing was.
+        const bool was_there = patch.motion[n].velocity != Components<D>{};
         for (std::size_t a = 0; a < D; ++a) {
             ledger.start[n][a] = patch.sums[n].momentum[a] / patch.sums[n].mass;
             if (was_there)
                 ledger.jump[n][a] = ledger.start[n][a] - patch.motion[n].strain_velocity[a];
         }
     }
-    ledger.nodes = patch.nodes;
 }
 
 /// The work of an impulse is that times the mean of the velocities before and after.
@@ -161,6 +157,7 @@ void build(const EffectBuilder<D>& builder) {
                (kinetic_energy<D>(particles, motion) - ledger->kinetic_at_start);
     });
     stages.counts_nodes = true;
+    stages.carries_motion = true;
 }
 
 }  // namespace

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <mpm/decomposition.hpp>
+
+#include <optional>
+#include <string>
+
+/// Names that make_balancer knows, by commas.
+std::string balancer_names();
+
+/// A balancer by its name; nothing for `none`, which leaves the equal slabs of the start.
+///
+/// The simulation asks for one box a rank: it lays a rank's grid over its box, and a point stays
+/// with its rank until it leaves the box. Throws std::invalid_argument for a method whose parts are
+/// no boxes, and for a name that is not known. Zoltan_Initialize must have been called. Not
+/// collective.
+std::optional<mpm::Balancer> make_balancer(const std::string& name);

@@ -1,0 +1,159 @@
+#include "balancers_mpi.hpp"
+#include "scene_file/scene_file_mpi.hpp"
+#include "support.hpp"
+
+#include <gtest/gtest.h>
+#ifdef RRCB_MPM_ZOLTAN
+#include <zoltan.h>
+#endif
+
+#include <map>
+#include <stdexcept>
+
+namespace mpm::test {
+namespace {
+
+constexpr int num_steps = 40;
+constexpr int every = 5;  // steps between rebalances
+constexpr double round_off = 1e-12;
+
+#ifdef RRCB_MPM_ZOLTAN
+constexpr std::array<const char*, 6> balancers{"none",         "rrcb",     "rrcb-exact",
+                                               "rrcb-sampled", "root-rcb", "zoltan-rcb"};
+#else
+constexpr std::array<const char*, 5> balancers{"none", "rrcb", "rrcb-exact", "rrcb-sampled",
+                                               "root-rcb"};
+#endif
+
+/// A shipped scene in larger cells, in full weight from its first step.
+Scene shipped(const std::string& name, double cell_size) {
+    Scene scene = read_scene(RRCB_SCENES "/" + name + ".yaml", MPI_COMM_WORLD).scene;
+    resize_cells(scene, cell_size);
+    if (Parameters* gravity = find_effect(scene, "gravity")) gravity->erase("ramp");
+    return scene;
+}
+
+/// Columns of all points, and all that a simulation tells of itself.
+struct State {
+    std::vector<std::string> names;
+    std::vector<std::vector<double>> columns;
+    std::vector<double> totals;
+    std::vector<double> reports;
+};
+
+State state_of(const Simulation& simulation, MPI_Comm comm) {
+    State state;
+    state.names = simulation.particles().column_names();
+    for (const std::string& name : state.names)
+        state.columns.push_back(gathered(simulation, name, comm));
+    const Totals totals = simulation.totals();
+    state.totals = {totals.kinetic_energy, totals.strain_energy, totals.potential_energy,
+                    totals.dissipated_energy.value_or(0)};
+    for (const auto& [name, value] : simulation.reports()) state.reports.push_back(value);
+    return state;
+}
+
+State run(const Scene& scene, const char* name, MPI_Comm comm) {
+#ifdef RRCB_MPM_ZOLTAN
+    float version = 0;
+    Zoltan_Initialize(0, nullptr, &version);
+#endif
+    Simulation simulation(scene, comm);
+    const std::optional<Balancer> balancer = make_balancer(name);
+    for (int step = 0; step < num_steps; ++step) {
+        if (balancer && step % every == 0) simulation.rebalance(*balancer);
+        simulation.step();
+    }
+    return state_of(simulation, comm);
+}
+
+/// The name of a tensor or vector, of which a column is a component.
+std::string stem(const std::string& name) {
+    return name.substr(0, name.rfind('_'));
+}
+
+/// The components of a tensor have one scale: the largest entry of all of them.
+void expect_same(const State& a, const State& b) {
+    ASSERT_EQ(a.names, b.names);
+    std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> tensors;
+    for (std::size_t c = 0; c < a.columns.size(); ++c) {
+        auto& [of_a, of_b] = tensors[stem(a.names[c])];
+        of_a.insert(of_a.end(), a.columns[c].begin(), a.columns[c].end());
+        of_b.insert(of_b.end(), b.columns[c].begin(), b.columns[c].end());
+    }
+    tensors["totals"] = {a.totals, b.totals};
+    tensors["reports"] = {a.reports, b.reports};
+    for (const auto& [name, both] : tensors) {
+        if (both.first == both.second) continue;
+        EXPECT_LT(relative_difference(both.first, both.second), round_off) << name;
+    }
+}
+
+void expect_serial_whatever_the_balancer(const Scene& scene) {
+    const State serial = run(scene, "none", MPI_COMM_SELF);
+    for (const char* name : balancers) {
+        SCOPED_TRACE(scene.name + " under " + name);
+        expect_same(serial, run(scene, name, MPI_COMM_WORLD));
+    }
+}
+
+TEST(Balancers, do_not_show_in_soil_that_fails) {
+    Scene scene = shipped("slope", 4);
+    scene.materials.front().parameters["cohesion"] = 1e3;
+    scene.materials.front().parameters["tension_cut_off"] = 1e3;
+    scene.effects.push_back({"local_damping", {{"fraction", 0.3}, {"until", 0.2}}});
+    scene.effects.push_back({"energy_audit", {}});
+    expect_serial_whatever_the_balancer(scene);
+}
+
+TEST(Balancers, do_not_show_under_water_where_clay_softens_and_is_dragged) {
+    Scene scene = shipped("submarine_slide", 4);
+    scene.materials.front().parameters["strength"] = 1e3;
+    scene.materials.front().parameters["softening_strain"] = 0.01;
+    scene.bodies.front().velocity = velocity_field({.constant = {3, 0}});
+    expect_serial_whatever_the_balancer(scene);
+}
+
+TEST(Balancers, do_not_show_where_a_penetrator_strikes_in_two_and_three_dimensions) {
+    expect_serial_whatever_the_balancer(shipped("anchor_plate", 0.75));
+    expect_serial_whatever_the_balancer(shipped("torpedo_anchor", 0.6));
+}
+
+TEST(Balancers, do_not_show_in_large_strains_and_wide_shape_functions) {
+    Scene scene = shipped("elastic_structure", 0.25);
+    scene.bodies.front().velocity = [](const Vector& at) {
+        return Vector{0, 0.1 * at[0] * at[0], 0};
+    };
+    expect_serial_whatever_the_balancer(scene);
+}
+
+TEST(Balancers, do_not_show_in_sand_that_parts_or_bodies_that_meet) {
+    Scene disks = shipped("two_disks", 0.05);
+    for (Body& body : disks.bodies) {
+        const Region contains = body.contains;
+        const double offset = &body == &disks.bodies.front() ? -0.15 : 0.15;
+        body.contains = [=](const Vector& at) {
+            return contains({at[0] + offset, at[1] + offset});
+        };
+    }
+    disks.courant_number = 0.5;
+    expect_serial_whatever_the_balancer(disks);
+    expect_serial_whatever_the_balancer(shipped("granular_column", 0.2));
+}
+
+TEST(Balancers, without_boxes_are_refused_with_the_reason) {
+    for (const char* name : {"zoltan-rib", "zoltan-hsfc", "zoltan2-mj", "magic"}) {
+        try {
+            make_balancer(name);
+            ADD_FAILURE() << name;
+        } catch (const std::invalid_argument& error) {
+            const std::string text = error.what();
+            const bool is_known = std::string(name) != "magic";
+            EXPECT_EQ(text.find("makes no boxes") != text.npos, is_known) << text;
+            EXPECT_NE(text.find("choose from: none, rrcb, rrcb-exact"), text.npos) << text;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace mpm::test

@@ -2,6 +2,7 @@
 
 #include "cloud.hpp"
 #include "failure.hpp"
+#include "scene_choice_mpi.hpp"
 #include "sweep_settings.hpp"
 #include "text.hpp"
 
@@ -31,7 +32,8 @@ struct Texts {
 const std::map<std::string, std::string>& documentation() {
     static const std::map<std::string, std::string> texts = {
         {"ranks", "ranks the program was started with"},
-        {"scene", "simulation to run: slope (default)"},
+        {"scene",
+         "simulation to run: slope (default) or another of " + scene_names() + ", or a scene file"},
         {"cloud", "generated points: " + cloud_names()},
         {"points", "points of the cloud; 1000000"},
         {"dim", "dimension of the cloud: 2 (default) or 3"},
@@ -40,7 +42,7 @@ const std::map<std::string, std::string>& documentation() {
         {"replay", "folder of a dump of the plug-in's (RRCB_DUMP)"},
         {"methods", "methods, by commas: " + method_names()},
         {"lists", "lists Zoltan returns: PARTS (default), EXPORT or ALL"},
-        {"steps", "steps of the simulation; the whole failure"},
+        {"steps", "steps of the simulation; to the end of the scene"},
         {"every", "steps between rebalances; 5"},
         {"repeats", "timed calls of each method; 7"},
         {"seed", "seed of the cloud; 1"},
@@ -181,9 +183,9 @@ Arguments read_arguments(int argc, char** argv) {
     arguments.progress = texts.progress;
     use_default_sizes(arguments);
 
-    int scene = 0;
     constexpr int many = std::numeric_limits<int>::max();
-    read_choice(texts, "scene", scene, {{"slope", 0}});
+    if (texts.given("scene")) arguments.scene = texts["scene"];
+    check_scene(arguments.scene);
     arguments.cloud = texts["cloud"];
     arguments.file = texts["file"];
     arguments.replay = texts["replay"];

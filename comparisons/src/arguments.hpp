@@ -21,16 +21,17 @@ struct SweptClouds {
 
 /// What the user asks for; see README.md beside this folder for every option.
 struct Arguments {
-    int ranks = 0;       ///< 0: whatever the program was started with
-    std::string cloud;   ///< empty: not a cloud
-    std::string file;    ///< empty: not a file
-    std::string replay;  ///< folder of a dump; empty: none; with none of the three: the slope scene
+    int ranks = 0;                ///< 0: whatever the program was started with
+    std::string scene = "slope";  ///< its name, or a file
+    std::string cloud;            ///< empty: not a cloud
+    std::string file;             ///< empty: not a file
+    std::string replay;  ///< folder of a dump; empty: none; with none of the three: a scene
     rrcb::GlobalCount points = 1'000'000;
     int dimension = 2;
     Layout layout = Layout::sorted;
     std::vector<Method> methods;
     Lists lists = Lists::parts;
-    int steps = 0;  ///< of the simulation; 0: the whole failure
+    int steps = 0;  ///< of the simulation; 0: to the end of the scene
     int every = 0;  ///< steps between rebalances; 0: the default
     int repeats = 7;
     std::uint64_t seed = 1;

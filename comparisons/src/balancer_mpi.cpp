@@ -4,14 +4,18 @@
 #include "rrcb_balancer_mpi.hpp"
 #include "zoltan_partitioner_mpi.hpp"
 
+#include <algorithm>
 #include <memory>
 
 namespace comparisons {
 
 namespace {
 
-mpm::Box plane_box(const rrcb::Box& box) {
-    return {{box.lower[0], box.lower[1]}, {box.upper[0], box.upper[1]}};
+mpm::Box box_along(const rrcb::Box& box, int dimension) {
+    mpm::Box result{};
+    std::copy_n(box.lower.begin(), dimension, result.lower.begin());
+    std::copy_n(box.upper.begin(), dimension, result.upper.begin());
+    return result;
 }
 
 /// Zoltan's handle and the points its callbacks see, kept from one balance to the next because
@@ -38,17 +42,14 @@ class ZoltanBalancer {
 
     void find_owners(mpm::Positions at, std::span<int> owners) const {
         for (std::size_t i = 0; i < owners.size(); ++i) {
-            owners[i] = partitioner_->part_of({at.x[i], at.y[i], 0});
+            owners[i] = partitioner_->part_of(at[i]);
         }
     }
 
   private:
     void store(mpm::Positions positions) {
-        points_.coordinates.resize(2 * positions.x.size());
-        for (std::size_t i = 0; i < positions.x.size(); ++i) {
-            points_.coordinates[2 * i] = positions.x[i];
-            points_.coordinates[2 * i + 1] = positions.y[i];
-        }
+        points_.dimension = positions.z.empty() ? 2 : 3;
+        points_.coordinates = interleaved(positions);
     }
 
     std::vector<mpm::Box> boxes(MPI_Comm comm) const {
@@ -56,7 +57,7 @@ class ZoltanBalancer {
         MPI_Comm_size(comm, &num_parts);
         std::vector<mpm::Box> boxes;
         for (int part = 0; part < num_parts; ++part) {
-            boxes.push_back(plane_box(partitioner_->box_of(part)));
+            boxes.push_back(box_along(partitioner_->box_of(part), points_.dimension));
         }
         return boxes;
     }
@@ -67,6 +68,17 @@ class ZoltanBalancer {
 };
 
 }  // namespace
+
+std::vector<double> interleaved(mpm::Positions positions) {
+    const std::size_t dimension = positions.z.empty() ? 2 : 3;
+    std::vector<double> coordinates;
+    coordinates.reserve(dimension * positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const mpm::Vector at = positions[i];
+        coordinates.insert(coordinates.end(), at.begin(), at.begin() + dimension);
+    }
+    return coordinates;
+}
 
 std::optional<mpm::Balancer> make_balancer(const Method& method) {
     if (method.options) return rrcb_balancer(*method.options);

@@ -5,8 +5,12 @@
 #include <mpm/decomposition.hpp>
 
 #include <optional>
+#include <vector>
 
 namespace comparisons {
+
+/// Coordinates of a simulation's points as a workload has them.
+std::vector<double> interleaved(mpm::Positions positions);
 
 /// A method as the simulation takes it; none when its parts are no boxes (RIB, HSFC).
 ///

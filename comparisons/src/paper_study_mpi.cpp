@@ -23,7 +23,7 @@ bool has_snapshots(const Sweep& sweep, const SimulationPlan& plan, const SavedRo
     expected.num_points = mpm::Simulation(plan.scene, sweep.comm).num_points();
     expected.plan = {sweep.arguments.lists, sweep.arguments.repeats};
     const std::vector<Method> settings = study_settings(sweep.arguments.quick);
-    return std::ranges::all_of(snapshot_names(), [&](const std::string& name) {
+    return std::ranges::all_of(snapshot_names(plan.scene), [&](const std::string& name) {
         expected.workload = name;
         return std::ranges::all_of(settings, [&](const Method& method) {
             return rows.has(row_key(expected, method.label));
@@ -145,7 +145,7 @@ bool study_snapshots(const Sweep& sweep, SavedRows& rows) {
     const SimulationPlan plan = plan_scene(whole, 1, sweep.comm);
     if (has_snapshots(sweep, plan, rows)) return true;
     bool succeeded = true;
-    for (const Workload& workload : slope_snapshots(plan, sweep.progress, sweep.comm)) {
+    for (const Workload& workload : scene_snapshots(plan, sweep.progress, sweep.comm)) {
         succeeded = measure_missing(sweep, workload, study_settings(sweep.arguments.quick), rows) &&
                     succeeded;
     }

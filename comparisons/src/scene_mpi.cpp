@@ -2,9 +2,8 @@
 
 #include "balancer_mpi.hpp"
 #include "failure.hpp"
+#include "scene_choice_mpi.hpp"
 #include "simulation_table.hpp"
-
-#include <mpm/slope.hpp>
 
 #include <iostream>
 #include <memory>
@@ -42,16 +41,14 @@ Workload snapshot(const std::string& name, const mpm::Simulation& simulation) {
     workload.name = name;
     workload.layout = "simulation";
     const mpm::Positions positions = simulation.positions();
-    for (std::size_t i = 0; i < positions.x.size(); ++i) {
-        workload.coordinates.push_back(positions.x[i]);
-        workload.coordinates.push_back(positions.y[i]);
-    }
+    workload.dimension = positions.z.empty() ? 2 : 3;
+    workload.coordinates = interleaved(positions);
     return workload;
 }
 
 void take_snapshots(std::vector<Workload>& snapshots, const SimulationPlan& plan, int steps_done,
                     const mpm::Simulation& simulation) {
-    const std::vector<std::string> names = snapshot_names();
+    const std::vector<std::string> names = snapshot_names(plan.scene);
     for (int i = 0; i < static_cast<int>(names.size()); ++i) {
         if (steps_done == plan.num_steps * i / 2) {
             snapshots.push_back(snapshot(names[static_cast<std::size_t>(i)], simulation));
@@ -82,10 +79,9 @@ void print_and_write(const SimulationPlan& plan, std::span<const SimulationRun> 
 }  // namespace
 
 SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_Comm comm) {
-    constexpr int quick_cells = 29;
     constexpr int quick_steps = 40;
     constexpr int default_every = 5;
-    SimulationPlan plan{arguments.quick ? mpm::slope_scene(quick_cells) : mpm::slope_scene()};
+    SimulationPlan plan{choose_scene(arguments.scene, arguments.quick, comm)};
     plan.num_steps = arguments.steps > 0 ? arguments.steps
                      : arguments.quick   ? quick_steps
                                          : steps_to_end(plan.scene, comm);
@@ -94,14 +90,14 @@ SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_
     return plan;
 }
 
-std::vector<std::string> snapshot_names() {
-    return {"slope-start", "slope-middle", "slope-end"};
+std::vector<std::string> snapshot_names(const mpm::Scene& scene) {
+    return {scene.name + "-start", scene.name + "-middle", scene.name + "-end"};
 }
 
-std::vector<Workload> slope_snapshots(const SimulationPlan& plan, Progress& progress,
+std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& progress,
                                       MPI_Comm comm) {
     std::vector<Workload> snapshots;
-    progress.start("the slope fails", plan.num_steps);
+    progress.start("the " + plan.scene.name, plan.num_steps);
     const auto observe = [&](int steps_done, const mpm::Simulation& simulation) {
         if (steps_done > 0) progress.advance();
         take_snapshots(snapshots, plan, steps_done, simulation);
@@ -109,7 +105,7 @@ std::vector<Workload> slope_snapshots(const SimulationPlan& plan, Progress& prog
     TimedSimulation simulation(plan, std::nullopt, observe, comm);
     simulation.advance(plan.num_steps);
     const std::string error = simulation.result().error;
-    if (!error.empty()) throw Failure("the slope: " + error);
+    if (!error.empty()) throw Failure(plan.scene.name + ": " + error);
     return snapshots;
 }
 

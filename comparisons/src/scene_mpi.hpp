@@ -13,7 +13,7 @@
 
 namespace comparisons {
 
-/// The slope, run whole under every method.
+/// A scene, run whole under every method.
 struct SceneRuns {
     std::vector<SimulationRun> runs;  ///< the first without rebalancing
     /// Points at the start, middle and end of the run without rebalancing, as they lie on its
@@ -21,20 +21,21 @@ struct SceneRuns {
     std::vector<Workload> snapshots;
 };
 
-/// How the slope is run: the options, or what they leave to the scene. `num_runs` simulations
-/// share the space of the history. Collective over `comm`.
+/// How the scene asked for is run: the options, or what they leave to the scene. `num_runs`
+/// simulations share the space of the history. Collective over `comm`; throws Failure as
+/// choose_scene does.
 SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_Comm comm);
 
 /// The snapshots of SceneRuns, from a run without rebalancing alone. Collective over `comm`.
 ///
 /// Throws Failure when the simulation fails.
-std::vector<Workload> slope_snapshots(const SimulationPlan& plan, Progress& progress,
+std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& progress,
                                       MPI_Comm comm);
 
-/// Names of the snapshots, in their order.
-std::vector<std::string> snapshot_names();
+/// Names of the snapshots of a scene, in their order.
+std::vector<std::string> snapshot_names(const mpm::Scene& scene);
 
-/// Runs the slope under every method that cuts along the axes, prints and writes their times and
+/// Runs the scene under every method that cuts along the axes, prints and writes their times and
 /// loads. Collective over `comm`.
 SceneRuns run_scene(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
                     MPI_Comm comm);

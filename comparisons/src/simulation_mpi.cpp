@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace comparisons {
 
 namespace {
+
+constexpr double nowhere = -std::numeric_limits<double>::infinity();
 
 /// Seconds `action` takes on this rank, all ranks starting together.
 template <typename Action>
@@ -40,22 +43,32 @@ void unless_failed(SimulationRun& run, Action&& action) {
     }
 }
 
+/// From its start, m.
+double distance_moved(const mpm::Particles& particles, std::size_t point) {
+    const double across = particles["displacement_x"][point];
+    const double up = particles["displacement_y"][point];
+    if (!particles.has_column("displacement_z")) return std::hypot(across, up);
+    return std::hypot(across, up, particles["displacement_z"][point]);
+}
+
 void note_state(SimulationRun& run, const mpm::Simulation& simulation, MPI_Comm comm) {
     const mpm::Particles& particles = simulation.particles();
     const auto x = particles["x"];
     const auto mass = particles["mass"];
-    const auto across = particles["displacement_x"];
-    const auto up = particles["displacement_y"];
+    double front = nowhere;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         run.mass_kg += mass[i];
-        if (std::hypot(across[i], up[i]) > 1) run.front_m = std::max(run.front_m, x[i]);
+        const double moved = distance_moved(particles, i);
+        run.moved_m = std::max(run.moved_m, moved);
+        if (moved > 1) front = std::max(front, x[i]);
     }
-    double slowest[] = {run.front_m, run.balance_s, run.step_s};
-    MPI_Allreduce(MPI_IN_PLACE, slowest, 3, MPI_DOUBLE, MPI_MAX, comm);
+    double most[] = {front, run.moved_m, run.balance_s, run.step_s};
+    MPI_Allreduce(MPI_IN_PLACE, most, 4, MPI_DOUBLE, MPI_MAX, comm);
     MPI_Allreduce(MPI_IN_PLACE, &run.mass_kg, 1, MPI_DOUBLE, MPI_SUM, comm);
-    run.front_m = slowest[0];
-    run.balance_s = slowest[1];
-    run.step_s = slowest[2];
+    if (most[0] > nowhere) run.front_m = most[0];
+    run.moved_m = most[1];
+    run.balance_s = most[2];
+    run.step_s = most[3];
     run.wall_s = run.balance_s + run.step_s;
 }
 

@@ -39,9 +39,10 @@ struct SimulationRun {
     double step_s = 0;     ///< steps, slowest rank
     double mean_imbalance = 1;
     double worst_imbalance = 1;
-    double front_m = 0;      ///< largest x of a point that has moved a metre
-    double mass_kg = 0;      ///< per metre of depth, at the end
-    double path_points = 0;  ///< most points on a rank, summed over the steps
+    std::optional<double> front_m;  ///< largest x of a point that has moved a metre, at the end
+    double moved_m = 0;             ///< the farthest that a point is from its start, at the end
+    double mass_kg = 0;             ///< at the end; in 2-D per metre of depth
+    double path_points = 0;         ///< most points on a rank, summed over the steps
     PathCost step_cost;
     PathCost balance_cost;
     std::vector<LoadRecord> history;

@@ -24,7 +24,8 @@ std::string simulation_key(const SimulationPlan& plan, int num_ranks, std::int64
 
 std::string simulation_header() {
     return "method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,"
-           "worst_imbalance,front_x_m,mass_kg,path_points,step_work_s,step_path_s,step_network_s,"
+           "worst_imbalance,front_x_m,moved_m,mass_kg,path_points,step_work_s,step_path_s,step_"
+           "network_s,"
            "balance_work_s,balance_path_s,balance_network_s,error";
 }
 
@@ -33,13 +34,13 @@ void write_simulation(std::ostream& out, const SimulationPlan& plan, int num_ran
     out << simulation_key(plan, num_ranks, run.num_points, run.method) << ',';
     if (run.error.empty()) {
         out << run.wall_s << ',' << run.balance_s << ',' << run.step_s << ',' << run.mean_imbalance
-            << ',' << run.worst_imbalance << ',' << run.front_m << ',' << run.mass_kg << ','
-            << write_number(run.path_points);
+            << ',' << run.worst_imbalance << ',' << (run.front_m ? write_number(*run.front_m) : "")
+            << ',' << run.moved_m << ',' << run.mass_kg << ',' << write_number(run.path_points);
         write_cost(out, run.step_cost);
         write_cost(out, run.balance_cost);
         out << ",\n";
     } else {
-        out << std::string(14, ',') << csv_field(run.error) << '\n';
+        out << std::string(15, ',') << csv_field(run.error) << '\n';
     }
 }
 
@@ -69,7 +70,7 @@ void print_simulations(std::ostream& out, const SimulationPlan& plan, int num_ra
         << " ranks, " << plan.num_steps << " steps, rebalanced every " << plan.every << "\n\n";
     std::vector<std::vector<std::string>> rows = {{"method", "wall s", "times as fast", "balance s",
                                                    "step s", "mean imbalance", "worst imbalance",
-                                                   "front at x, m"}};
+                                                   "front at x, m", "moved, m"}};
     for (const SimulationRun& run : runs) {
         if (!run.error.empty()) {
             rows.push_back({run.method, run.error});
@@ -78,7 +79,8 @@ void print_simulations(std::ostream& out, const SimulationPlan& plan, int num_ra
         rows.push_back({run.method, fixed(run.wall_s, 2),
                         fixed(runs.front().wall_s / run.wall_s, 2), fixed(run.balance_s, 2),
                         fixed(run.step_s, 2), fixed(run.mean_imbalance, 4),
-                        fixed(run.worst_imbalance, 4), fixed(run.front_m, 2)});
+                        fixed(run.worst_imbalance, 4), run.front_m ? fixed(*run.front_m, 2) : "-",
+                        fixed(run.moved_m, 3)});
     }
     print_columns(out, rows);
     const int num_cores = static_cast<int>(std::thread::hardware_concurrency());

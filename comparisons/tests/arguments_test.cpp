@@ -42,6 +42,12 @@ TEST(Arguments, reads_a_comparison) {
     EXPECT_EQ(arguments.ranks, 4);
 }
 
+TEST(Arguments, take_a_scene_by_its_name_or_file) {
+    EXPECT_EQ(read({}).scene, "slope");
+    EXPECT_EQ(read({"--scene=torpedo_anchor"}).scene, "torpedo_anchor");
+    EXPECT_EQ(read({"--scene=my/own.xml"}).scene, "my/own.xml");
+}
+
 TEST(Arguments, narrow_a_sweep) {
     const Arguments arguments =
         read({"--sweep", "--only=clouds, sources", "--cloud=slope", "--dim=2", "--layout=sorted"});
@@ -55,7 +61,9 @@ TEST(Arguments, narrow_a_sweep) {
 TEST(Arguments, name_what_is_unknown) {
     expect_error({"--clod=slope"}, "Error, the 1st option '--clod=slope' was not recognized");
     expect_error({"--cloud=fog"}, "--cloud: unknown cloud 'fog'; choose from: uniform");
-    expect_error({"--scene=cliff"}, "--scene: unknown value 'cliff'; choose from: slope");
+    expect_error({"--scene=cliff"},
+                 "--scene: unknown value 'cliff'; choose from: slope, submarine");
+    expect_error({"--scene=cliff.txt"}, "--scene: unknown value 'cliff.txt'; choose from: slope");
     expect_error({"--methods=rrcb,magic"},
                  "--methods: unknown method 'magic'; choose from: zoltan-rcb");
     expect_error({"--cloud=slope", "--layout=tidy"},

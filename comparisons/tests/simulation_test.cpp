@@ -1,4 +1,7 @@
 #include "balancer_mpi.hpp"
+#include "failure.hpp"
+#include "scene_choice_mpi.hpp"
+#include "scene_mpi.hpp"
 #include "simulation_mpi.hpp"
 
 #include <rrcb/quality.hpp>
@@ -12,11 +15,11 @@
 namespace comparisons {
 namespace {
 
-SimulationRun run(const std::optional<mpm::Balancer>& balancer) {
+SimulationRun run(const std::optional<mpm::Balancer>& balancer,
+                  const mpm::Scene& scene = mpm::slope_scene(22)) {
     float version = 0;
     Zoltan_Initialize(0, nullptr, &version);
-    const SimulationPlan plan{
-        .scene = mpm::slope_scene(22), .num_steps = 6, .every = 2, .record_every = 2};
+    const SimulationPlan plan{.scene = scene, .num_steps = 6, .every = 2, .record_every = 2};
     TimedSimulation simulation(
         plan, balancer, [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
     simulation.advance(4);
@@ -30,17 +33,64 @@ int num_ranks() {
     return size;
 }
 
-TEST(Simulation, every_balancer_keeps_the_points_and_their_mass) {
-    const SimulationRun slabs = run(std::nullopt);
+void expect_points_kept(const mpm::Scene& scene) {
+    const SimulationRun slabs = run(std::nullopt, scene);
     ASSERT_EQ(slabs.error, "");
     EXPECT_EQ(slabs.balance_s, 0);
+    EXPECT_FALSE(slabs.front_m);
+    EXPECT_GT(slabs.moved_m, 0);
     for (const char* name : {"zoltan-rcb", "root-rcb", "rrcb-sampled", "rrcb", "rrcb-exact"}) {
-        const SimulationRun result = run(make_balancer(read_method(name)));
+        const SimulationRun result = run(make_balancer(read_method(name)), scene);
         ASSERT_EQ(result.error, "") << name;
+        EXPECT_NEAR(result.moved_m, slabs.moved_m, 1e-9 * slabs.moved_m) << name;
         EXPECT_EQ(result.num_points, slabs.num_points) << name;
         EXPECT_NEAR(result.mass_kg, slabs.mass_kg, 1e-12 * slabs.mass_kg) << name;
         ASSERT_EQ(result.history.size(), 3U) << name;
         EXPECT_EQ(result.history[1].step, 2) << name;
+    }
+}
+
+TEST(Simulation, every_balancer_keeps_the_points_and_their_mass) {
+    expect_points_kept(mpm::slope_scene(22));
+    expect_points_kept(choose_scene("torpedo_anchor", true, MPI_COMM_WORLD));
+}
+
+TEST(Simulation, tells_how_far_points_have_come) {
+    mpm::Scene scene = choose_scene("torpedo_anchor", true, MPI_COMM_WORLD);
+    scene.effects.clear();
+    scene.walls = {};
+    scene.grid.lower = {-1.2, -3, -1.2};
+    scene.grid.num_cells = {12, 8, 8};
+    scene.bodies.front().velocity = [](const mpm::Vector&) { return mpm::Vector{3000, 0, 4000}; };
+    scene.bodies.front().contains = [](const mpm::Vector& at) {
+        return at[0] > 0 && at[0] < 3 && at[1] > -1 && at[1] < 0 && at[2] > 0 && at[2] < 1;
+    };
+    const SimulationRun result = run(std::nullopt, scene);
+    ASSERT_EQ(result.error, "");
+    const double time = result.history.back().time * 6 / 4;
+    ASSERT_GT(time * 5000, 1);
+    EXPECT_NEAR(result.moved_m, time * 5000, 1e-9);
+    EXPECT_NEAR(result.front_m.value_or(0), 2.85 + time * 3000, 1e-9);
+}
+
+TEST(Simulation, snapshots_show_a_scene_at_its_start_middle_and_end) {
+    const SimulationPlan plan{.scene = choose_scene("torpedo_anchor", true, MPI_COMM_WORLD),
+                              .num_steps = 4};
+    Progress progress(false);
+    const std::vector<Workload> snapshots = scene_snapshots(plan, progress, MPI_COMM_WORLD);
+    ASSERT_EQ(snapshots.size(), 3U);
+    EXPECT_EQ(snapshots[1].name, "torpedo_anchor-middle");
+    EXPECT_EQ(snapshots[0].dimension, 3);
+    EXPECT_EQ(snapshots[0].coordinates.size(), snapshots[2].coordinates.size());
+    EXPECT_NE(snapshots[0].coordinates, snapshots[2].coordinates);
+}
+
+TEST(Simulation, a_scene_file_that_cannot_be_read_is_told_on_every_rank) {
+    try {
+        choose_scene("nowhere.yaml", false, MPI_COMM_WORLD);
+        ADD_FAILURE() << "no error";
+    } catch (const Failure& failure) {
+        EXPECT_EQ(std::string(failure.what()).find("--scene: nowhere.yaml: cannot be read"), 0U);
     }
 }
 

@@ -1,0 +1,83 @@
+#include "scene_choice_mpi.hpp"
+
+#include "failure.hpp"
+#include "scene_file/scene_file_mpi.hpp"
+
+#include <mpm/slope.hpp>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <stdexcept>
+#include <string_view>
+
+namespace comparisons {
+
+namespace {
+
+/// A shipped scene, and in what it differs here from its file.
+struct SceneRow {
+    std::string_view name;
+    double cell_size = 0;  ///< m; 0: the file's
+    double end_time = 0;   ///< s; 0: the file's
+};
+
+constexpr std::array<SceneRow, 5> rows{{
+    {"slope"},
+    {"submarine_slide"},
+    {"torpedo_anchor"},
+    {"anchor_plate"},
+    // Its file has too few points to share out.
+    {"elastic_structure", 0.0625, 2},
+}};
+
+const SceneRow* find_row(const std::string& name) {
+    const auto found = std::ranges::find(rows, name, &SceneRow::name);
+    return found == rows.end() ? nullptr : &*found;
+}
+
+mpm::Scene read(const std::string& file, MPI_Comm comm) {
+    try {
+        return mpm::read_scene(file, comm).scene;
+    } catch (const std::invalid_argument& error) {
+        throw Failure(std::string("--scene: ") + error.what());
+    }
+}
+
+mpm::Scene read_shipped(const SceneRow& row, MPI_Comm comm) {
+    mpm::Scene scene = read(RRCB_SCENES "/" + std::string(row.name) + ".yaml", comm);
+    if (row.cell_size > 0) mpm::resize_cells(scene, row.cell_size);
+    if (row.end_time > 0) scene.end_time = row.end_time;
+    return scene;
+}
+
+}  // namespace
+
+std::string scene_names() {
+    std::string names;
+    for (const SceneRow& row : rows) {
+        names += (names.empty() ? "" : ", ") + std::string(row.name);
+    }
+    return names;
+}
+
+void check_scene(const std::string& name_or_file) {
+    const std::string ending = std::filesystem::path(name_or_file).extension();
+    if (find_row(name_or_file) != nullptr || ending == ".yaml" || ending == ".xml") return;
+    throw Failure("--scene: unknown value '" + name_or_file + "'; choose from: " + scene_names() +
+                  ", or name a scene file (.yaml or .xml)");
+}
+
+mpm::Scene choose_scene(const std::string& name_or_file, bool quick, MPI_Comm comm) {
+    constexpr int quick_slope_cells = 29;
+    constexpr double quick_coarsening = 2;
+    if (name_or_file == "slope") {
+        return quick ? mpm::slope_scene(quick_slope_cells) : mpm::slope_scene();
+    }
+    const SceneRow* row = find_row(name_or_file);
+    mpm::Scene scene = row != nullptr ? read_shipped(*row, comm) : read(name_or_file, comm);
+    if (quick) mpm::resize_cells(scene, quick_coarsening * scene.grid.spacing);
+    return scene;
+}
+
+}  // namespace comparisons

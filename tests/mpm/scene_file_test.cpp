@@ -74,6 +74,23 @@ TEST(SceneFile, names_the_file_the_place_the_key_and_what_is_allowed) {
     expect_names(error_with("cells: [116, 38]", "cells: [116, 38"), {"not understood"});
 }
 
+/// The slope's file with a plane named face.
+std::string error_of_plane(const std::string& keys) {
+    return error_with("  materials:",
+                      "  planes:\n    face:\n      point: [0, 0]\n" + keys + "  materials:");
+}
+
+TEST(SceneFile, names_what_is_wrong_with_a_plane) {
+    expect_names(error_of_plane("      kind: fixed\n"), {"planes / face", "'normal'", "missing"});
+    expect_names(error_of_plane("      normal: [0, 0]\n"), {"plane 'face'", "not zero"});
+    expect_names(error_of_plane("      normal: [0, 1]\n      kind: open\n"),
+                 {"planes / face", "'kind'", "roller, fixed, frictional"});
+    expect_names(error_of_plane("      normal: [0, 1]\n      kind: frictional\n"),
+                 {"planes / face", "'friction'", "must be there for a frictional plane"});
+    EXPECT_EQ(error_of_plane("      normal: [0, 1]\n      kind: frictional\n      friction: 1\n"),
+              "");
+}
+
 TEST(SceneFile, that_is_not_there_is_told_on_every_rank) {
     EXPECT_THROW(read_scene("nowhere.yaml", MPI_COMM_WORLD), std::invalid_argument);
 }

@@ -63,6 +63,24 @@ Walls read_walls(const List& list, int dimension) {
     return walls;
 }
 
+Plane read_plane(const List& list, const std::string& name, int dimension) {
+    const Values values = list.values(
+        {vector("point", "m"), vector("normal", ""),
+         choice("kind", {"roller", "fixed", "frictional"}), optional(not_negative("friction", ""))},
+        dimension);
+    Plane plane{.name = name,
+                .point = vector_of(values.list("point")),
+                .normal = vector_of(values.list("normal")),
+                .wall = Wall::roller};
+    const std::string& kind = values.word("kind");
+    if (kind == "fixed") plane.wall = Wall::fixed;
+    if (kind == "frictional") plane.wall = Wall::frictional;
+    if ((kind == "frictional") != values.has("friction"))
+        list.refuse("friction", "must be there for a frictional plane, and only there");
+    if (kind == "frictional") plane.wall.friction = values.number("friction");
+    return plane;
+}
+
 void read_method(const List& list, int dimension, Scene& scene) {
     const Values values = list.values({choice("shape_function", {"linear", "quadratic", "gimp"}),
                                        choice("transfer", {"flip", "apic"}),
@@ -89,10 +107,10 @@ OutputPlan read_output(const List& list, int dimension) {
 
 SceneFile read_list(List list, const std::string& name) {
     List materials = list.take_list("materials"), bodies = list.take_list("bodies");
-    List effects = list.take_list("effects");
+    List effects = list.take_list("effects"), planes = list.take_list("planes");
     const List domain = list.take_list("domain"), walls = list.take_list("walls");
     const List method = list.take_list("method"), output = list.take_list("output");
-    list.refuse_other_lists("domain, walls, materials, bodies, effects, method, output");
+    list.refuse_other_lists("domain, walls, planes, materials, bodies, effects, method, output");
     const std::vector<Rule> rules{whole("dimension", "", 2, 3), positive("end_time", "s")};
     const int dimension = static_cast<int>(list.values(rules, 2).number("dimension"));
 
@@ -103,6 +121,8 @@ SceneFile read_list(List list, const std::string& name) {
     scene.end_time = list.values(rules, 2).number("end_time");
     scene.grid = read_domain(domain, dimension);
     scene.walls = read_walls(walls, dimension);
+    for (const std::string& key : planes.sublist_names())
+        scene.planes.push_back(read_plane(planes.take_list(key), key, dimension));
     for (const std::string& key : materials.sublist_names()) {
         Parameters parameters = materials.take_list(key).parameters();
         const auto model = parameters.extract("model");

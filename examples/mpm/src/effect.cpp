@@ -35,6 +35,7 @@ template <int D>
 Stages<D> build_stages(const Scene& scene, Particles& particles) {
     Stages<D> stages;
     add_walls<D>(scene, stages);
+    add_planes<D>(scene, stages);
     const std::vector<std::optional<Values>> values = effect_values(scene);
     for (std::size_t k = 0; k < values.size(); ++k) {
         if (!values[k]) continue;

@@ -38,6 +38,22 @@ void check_walls(const Walls& walls) {
                 "the friction of a wall must not be negative");
 }
 
+void check_planes(const Scene& scene) {
+    for (const Plane& plane : scene.planes) {
+        double square = 0;
+        for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a) {
+            square += plane.normal[a] * plane.normal[a];
+            require(std::isfinite(plane.point[a]),
+                    "plane '" + plane.name + "' must have a finite point");
+        }
+        require(square > 0 && std::isfinite(square),
+                "plane '" + plane.name + "' must have a normal that is not zero");
+        require(plane.wall.kind != Wall::open, "plane '" + plane.name + "' must not be open");
+        require(plane.wall.friction >= 0 && std::isfinite(plane.wall.friction),
+                "the friction of plane '" + plane.name + "' must not be negative");
+    }
+}
+
 void check_transfer(const Scene& scene) {
     require(scene.flip_fraction >= 0 && scene.flip_fraction <= 1,
             "the FLIP fraction must lie in 0 ... 1");
@@ -63,6 +79,7 @@ void validate(const Scene& scene) {
     for (const Material& material : scene.materials) values_of(material, scene.dimension);
     for (const Body& body : scene.bodies) check_body(scene, body);
     check_walls(scene.walls);
+    check_planes(scene);
     check_transfer(scene);
     effect_values(scene);
 }

@@ -64,6 +64,14 @@ struct Walls {
     Wall back = {}, front = {};  ///< across z
 };
 
+/// A plane through the domain, with solid ground behind it.
+struct Plane {
+    std::string name;
+    Vector point{};   ///< on the plane, m
+    Vector normal{};  ///< out of the ground, of any length
+    Wall wall;        ///< what it does to the nodes on it and behind it; not open
+};
+
 /// An effect by name, with its parameters; see effect.hpp.
 struct Effect {
     std::string name;
@@ -91,6 +99,7 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Body> bodies;
     Walls walls = {};
+    std::vector<Plane> planes = {};
     std::vector<Effect> effects = {};
 
     ShapeFunction shape_function = ShapeFunction::linear;

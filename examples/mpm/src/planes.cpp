@@ -1,0 +1,108 @@
+#include "contact.hpp"
+
+#include <mpm/effect.hpp>
+
+#include <optional>
+
+namespace mpm {
+
+namespace {
+
+/// A plane with what a step needs of it.
+template <int D>
+struct Ground {
+    Wall wall;
+    Components<D> normal;  ///< of unit length
+    double level;          ///< of the plane along the normal, m
+};
+
+template <int D>
+Ground<D> ground_of(const Plane& plane) {
+    double square = 0;
+    for (std::size_t a = 0; a < D; ++a) square += plane.normal[a] * plane.normal[a];
+    Ground<D> ground{plane.wall, {}, 0};
+    for (std::size_t a = 0; a < D; ++a) {
+        ground.normal[a] = plane.normal[a] / std::sqrt(square);
+        ground.level += ground.normal[a] * plane.point[a];
+    }
+    return ground;
+}
+
+template <int D>
+bool is_behind(const Ground<D>& ground, const Vector& at, double tolerance) {
+    double height = -ground.level;
+    for (std::size_t a = 0; a < D; ++a) height += ground.normal[a] * at[a];
+    return height <= tolerance;
+}
+
+/// The plane's normal for a node on walls, in the directions they leave free; none when they hold
+/// the node.
+template <int D>
+std::optional<Components<D>> free_normal(const Ground<D>& ground, const Walls& walls,
+                                         const GridShape& shape, const std::array<int, D>& node) {
+    const std::array<const Wall*, 3> lower{&walls.left, &walls.bottom, &walls.back};
+    const std::array<const Wall*, 3> upper{&walls.right, &walls.top, &walls.front};
+    Components<D> normal = ground.normal;
+    for (std::size_t a = 0; a < D; ++a) {
+        Wall::Kind kind = Wall::open;
+        if (node[a] <= 0) kind = lower[a]->kind;
+        if (node[a] >= shape.num_cells[a]) kind = upper[a]->kind;
+        if (kind == Wall::fixed) return std::nullopt;
+        if (kind == Wall::roller) normal[a] = 0;
+    }
+    double square = 0;
+    for (const double component : normal) square += component * component;
+    if (!(square > 0)) return std::nullopt;
+    for (double& component : normal) component /= std::sqrt(square);
+    return normal;
+}
+
+/// What a plane that lets nothing part from it leaves of a velocity.
+template <int D>
+Components<D> held(Wall::Kind kind, const Components<D>& normal, Components<D> velocity) {
+    if (kind == Wall::fixed) return {};
+    double across = 0;
+    for (std::size_t a = 0; a < D; ++a) across += velocity[a] * normal[a];
+    for (std::size_t a = 0; a < D; ++a) velocity[a] -= across * normal[a];
+    return velocity;
+}
+
+template <int D>
+void hold(Wall::Kind kind, const Components<D>& normal, NodeMotion<D>& motion) {
+    const Components<D> velocity = held<D>(kind, normal, motion.velocity);
+    for (std::size_t a = 0; a < D; ++a)
+        motion.velocity_change[a] += velocity[a] - motion.velocity[a];
+    motion.velocity = velocity;
+    motion.strain_velocity = held<D>(kind, normal, motion.strain_velocity);
+}
+
+template <int D>
+void apply(const Ground<D>& ground, const Walls& walls, GridPatch<D>& patch) {
+    const double tolerance = 1e-9 * patch.shape.spacing;
+    visit_nodes<D>(patch.nodes, [&](const std::array<int, D>& node) {
+        const std::size_t n = patch.index(node);
+        if (!(patch.sums[n].mass > 0) || !is_behind(ground, patch.position(node), tolerance))
+            return;
+        const auto normal = free_normal<D>(ground, walls, patch.shape, node);
+        if (!normal) return;
+        if (ground.wall.kind == Wall::frictional)
+            meet<D>({.normal = *normal, .friction = ground.wall.friction}, patch.motion[n]);
+        else
+            hold<D>(ground.wall.kind, *normal, patch.motion[n]);
+    });
+}
+
+}  // namespace
+
+template <int D>
+void add_planes(const Scene& scene, Stages<D>& stages) {
+    for (const Plane& plane : scene.planes)
+        stages.moved.push_back(
+            {"planes", [ground = ground_of<D>(plane), walls = scene.walls](
+                           GridPatch<D>& patch, const StepTime&) { apply(ground, walls, patch); }});
+}
+
+template void add_planes<2>(const Scene&, Stages<2>&);
+template void add_planes<3>(const Scene&, Stages<3>&);
+
+}  // namespace mpm

@@ -1,0 +1,191 @@
+#include "support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <stdexcept>
+
+namespace mpm::test {
+namespace {
+
+constexpr double g = 9.81, slope_angle = 24 * std::numbers::pi / 180, ramp = 1;
+const double sine = std::sin(slope_angle), cosine = std::cos(slope_angle);
+const Vector top_of_slope{0, 10};
+
+/// A position from the top of the slope on, along it and out of it.
+Vector on_slope(double along, double out) {
+    return {top_of_slope[0] + along * cosine + out * sine,
+            top_of_slope[1] - along * sine + out * cosine};
+}
+
+/// A block of 2 x 1 m on a plane inclined by 24 degrees, across the grid; weight is upright and
+/// grows in a second.
+Scene incline(Wall ground, double cell_size) {
+    const auto cells = [&](double metres) { return static_cast<int>(metres / cell_size); };
+    const Region block =
+        polygon_region({on_slope(1, 0), on_slope(3, 0), on_slope(3, 1), on_slope(1, 1)});
+    return {.name = "incline",
+            .grid = {.lower = {0, 0}, .spacing = cell_size, .num_cells = {cells(22), cells(12)}},
+            .materials = {elastic_material("block", 1000, 1e6, 0.3)},
+            .bodies = {{.contains = block, .points_per_cell = {2, 2, 1}, .material = "block"}},
+            .planes = {{"slope", top_of_slope, {sine, cosine}, ground}},
+            .effects = {{"gravity", {{"acceleration", std::vector<double>{0, -g}}, {"ramp", ramp}}},
+                        {"energy_audit", {}}}};
+}
+
+struct Slide {
+    double along, out;               ///< m
+    double energy_gap, lost_energy;  ///< by the potential energy released
+};
+
+Slide slide(const Scene& scene, double end_time) {
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    const Totals start = simulation.totals();
+    while (simulation.time() < end_time) simulation.step();
+    const Totals end = simulation.totals();
+    Vector way{};
+    for (std::size_t a = 0; a < 2; ++a)  // to the very time, with the mean velocity
+        way[a] = end.center[a] - start.center[a] -
+                 end.momentum[a] / end.mass * (simulation.time() - end_time);
+    const double released = start.potential_energy - end.potential_energy;
+    return {way[0] * cosine - way[1] * sine, way[0] * sine + way[1] * cosine,
+            (total_energy(simulation) - start.potential_energy) / released,
+            end.dissipated_energy.value() / released};
+}
+
+constexpr double five_seconds = 5;
+const double friction = std::tan(std::numbers::pi / 12);
+
+/// With gravity growing until T: a (t^2 / 2 - T t / 2 + T^2 / 6).
+double distance(double coefficient) {
+    constexpr double t = five_seconds;
+    return g * (sine - coefficient * cosine) * (t * t - ramp * t + ramp * ramp / 3) / 2;
+}
+
+// Nodes behind the plane carry the block, so it settles by part of a cell at the start, and that
+// much more comes down the slope.
+TEST(Plane, lets_a_block_slide_with_coulomb_friction) {
+    const double expected = distance(friction);
+    const Slide coarse = slide(incline({Wall::frictional, friction}, 0.5), five_seconds);
+    const Slide fine = slide(incline({Wall::frictional, friction}, 0.25), five_seconds);
+    Scene scene = incline({Wall::frictional, friction}, 0.25);
+    scene.shape_function = ShapeFunction::quadratic;
+    const Slide smooth = slide(scene, five_seconds);
+    EXPECT_NEAR(coarse.along, expected, 0.015 * expected);
+    EXPECT_NEAR(fine.along, expected, 0.01 * expected);
+    EXPECT_NEAR(smooth.along, expected, 0.005 * expected);
+    EXPECT_LT(std::abs(fine.along - expected), 0.8 * std::abs(coarse.along - expected));
+    EXPECT_LT(std::abs(fine.out), 0.8 * std::abs(coarse.out));
+    EXPECT_NEAR(coarse.out, 0, 0.25 * 0.5);
+    for (const Slide& sliding : {coarse, fine, smooth}) {
+        EXPECT_NEAR(sliding.energy_gap, 0, 0.005);
+        // Of the weight's work, friction takes mu / tan, and what gravity lacked while it grew
+        // counts as lost, too: its share of the way gone meanwhile, some 1 %.
+        EXPECT_NEAR(sliding.lost_energy, friction / std::tan(slope_angle), 0.03);
+    }
+}
+
+TEST(Plane, holds_a_block_when_friction_is_above_the_slope) {
+    const Wall rough{Wall::frictional, std::tan(std::numbers::pi / 6)};
+    EXPECT_LT(slide(incline(rough, 0.25), 2).along, 0.05);
+    Scene scene = incline(rough, 0.25);
+    scene.planes.front().wall = Wall::fixed;
+    EXPECT_LT(slide(scene, 2).along, 0.05);
+}
+
+// A plane along the bottom is the bottom, to the bit.
+TEST(Plane, on_a_side_of_the_domain_is_that_wall) {
+    for (const Wall ground : {Wall(Wall::frictional, 0.2), Wall(Wall::frictional, 0)}) {
+        Scene by_wall = incline(ground, 0.5);
+        by_wall.planes.clear();
+        by_wall.walls.bottom = ground;
+        by_wall.bodies.front().contains = box_region({{1, 0}, {3, 1}});
+        (*find_effect(by_wall, "gravity"))["acceleration"] = std::vector<double>{3, -g};
+        Scene by_plane = by_wall;
+        by_plane.walls.bottom = Wall::open;
+        by_plane.planes = {{"bottom", {7, 0}, {0, 3}, ground}};
+        Simulation a(by_wall, MPI_COMM_WORLD), b(by_plane, MPI_COMM_WORLD);
+        for (int step = 0; step < 100; ++step) {
+            a.step();
+            b.step();
+        }
+        EXPECT_EQ(gathered(a, "x", MPI_COMM_WORLD), gathered(b, "x", MPI_COMM_WORLD));
+        EXPECT_EQ(gathered(a, "stress_yy", MPI_COMM_WORLD),
+                  gathered(b, "stress_yy", MPI_COMM_WORLD));
+    }
+}
+
+/// A cube on a roller plane that faces up and along x and z.
+Scene cube_in_space() {
+    return {.name = "cube",
+            .dimension = 3,
+            .grid = {.lower = {0, 0, 0}, .spacing = 0.5, .num_cells = {12, 16, 12}},
+            .materials = {elastic_material("block", 1000, 1e6, 0.3)},
+            .bodies = {{.contains = common_to(half_space_region({0, 5, 0}, {-1, -2, -1}),
+                                              box_region({{1, 0, 1}, {3, 6, 3}})),
+                        .points_per_cell = {2, 2, 2},
+                        .material = "block"}},
+            .planes = {{"slope", {0, 5, 0}, {1, 2, 1}, Wall::roller}},
+            .effects = {{"gravity", {{"acceleration", std::vector<double>{0, -g, 0}}}},
+                        {"energy_audit", {}}},
+            .courant_number = 0.1};
+}
+
+// Along a plane with the unit normal n = (1, 2, 1) / sqrt(6): a = -g (e_y - n_y n) = g (2, -2,
+// 2)/6.
+TEST(Plane, guides_a_body_in_three_dimensions) {
+    Simulation simulation(cube_in_space(), MPI_COMM_WORLD);
+    const double initial = simulation.totals().potential_energy;
+    while (simulation.time() < 0.5) simulation.step();
+    const Totals end = simulation.totals();
+    const double speed = g / 3 * simulation.time();
+    EXPECT_NEAR(end.momentum[0] / end.mass, speed, 0.02 * speed);
+    EXPECT_NEAR(end.momentum[1] / end.mass, -speed, 0.1 * speed) << "it settles, too";
+    EXPECT_NEAR(end.momentum[2] / end.mass, speed, 0.02 * speed);
+    EXPECT_NEAR(total_energy(simulation), initial, 0.01 * (initial - end.potential_energy));
+}
+
+// Where a roller wall and a plane meet, neither velocity comes back.
+TEST(Plane, keeps_walls_held) {
+    Scene scene = incline(Wall::roller, 0.5);
+    scene.walls.bottom = Wall::roller;
+    scene.planes.front() = {"slope", {0, 2}, {1, 1}, Wall::roller};
+    scene.bodies.front().contains =
+        common_to(box_region({{0, 0}, {4, 3}}), half_space_region({0, 2}, {-1, -1}));
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    while (simulation.time() < 1) simulation.step();
+    const std::vector<double> y = gathered(simulation, "y", MPI_COMM_WORLD);
+    EXPECT_GT(*std::ranges::min_element(y), 0);
+}
+
+TEST(Plane, acts_the_same_on_any_number_of_ranks) {
+    Scene scene = incline({Wall::frictional, friction}, 0.5);
+    Simulation parallel(scene, MPI_COMM_WORLD), serial(scene, MPI_COMM_SELF);
+    while (serial.time() < 2) {
+        parallel.step();
+        serial.step();
+    }
+    EXPECT_LT(relative_difference(gathered(serial, "displacement_x", MPI_COMM_SELF),
+                                  gathered(parallel, "displacement_x", MPI_COMM_WORLD)),
+              1e-12);
+}
+
+TEST(Plane, that_cannot_be_is_refused_by_its_name) {
+    const auto expect_refused = [](const Plane& plane, const std::string& text) {
+        Scene scene = incline(Wall::fixed, 0.5);
+        scene.planes.front() = plane;
+        try {
+            validate(scene);
+            ADD_FAILURE() << text;
+        } catch (const std::invalid_argument& error) {
+            EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+        }
+    };
+    expect_refused({"face", {}, {0, 0}, Wall::fixed}, "plane 'face' must have a normal");
+    expect_refused({"face", {}, {0, 1}, Wall::open}, "plane 'face' must not be open");
+    expect_refused({"face", {}, {0, 1}, {Wall::frictional, -1}}, "friction of plane 'face'");
+    expect_refused({"face", {std::nan("")}, {0, 1}, Wall::fixed}, "finite point");
+}
+
+}  // namespace
+}  // namespace mpm::test

@@ -170,6 +170,21 @@ TEST(Plane, acts_the_same_on_any_number_of_ranks) {
               1e-12);
 }
 
+// Nodes that stick have no velocity at the end of a step, but had one at its start.
+TEST(Plane, leaves_the_account_of_energy_closed_where_a_body_sticks) {
+    Scene scene = flying_disk();
+    scene.bodies.front().velocity = velocity_field({.constant = {-8, -6}});
+    scene.planes = {{"slope", {0, 3}, {1, 1}, {Wall::frictional, 0.2}}};
+    scene.effects = {{"energy_audit", {}}};
+    scene.shape_function = ShapeFunction::quadratic;
+    scene.courant_number = 0.1;
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    const double initial = simulation.totals().kinetic_energy;
+    while (simulation.time() < 0.6) simulation.step();
+    EXPECT_GT(simulation.totals().dissipated_energy.value(), 0.2 * initial);
+    EXPECT_NEAR(total_energy(simulation), initial, 0.002 * initial);
+}
+
 TEST(Plane, that_cannot_be_is_refused_by_its_name) {
     const auto expect_refused = [](const Plane& plane, const std::string& text) {
         Scene scene = incline(Wall::fixed, 0.5);

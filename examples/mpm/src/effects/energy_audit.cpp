@@ -47,12 +47,13 @@ void note_start(Ledger<D>& ledger, const GridPatch<D>& patch) {
     ledger.jump.assign(patch.sums.size(), Components<D>{});
     for (std::size_t n = 0; n < patch.sums.size(); ++n) {
         if (!(patch.sums[n].mass > 0)) continue;
-        // What the last step left: all 0 where nothing was.
-        const bool was_there = patch.motion[n].velocity != Components<D>{};
+        // What the last step left: all 0 where nothing was; what sticks to a wall has changed.
+        const NodeMotion<D>& last = patch.motion[n];
+        const bool was_there =
+            last.velocity != Components<D>{} || last.velocity_change != Components<D>{};
         for (std::size_t a = 0; a < D; ++a) {
             ledger.start[n][a] = patch.sums[n].momentum[a] / patch.sums[n].mass;
-            if (was_there)
-                ledger.jump[n][a] = ledger.start[n][a] - patch.motion[n].strain_velocity[a];
+            if (was_there) ledger.jump[n][a] = ledger.start[n][a] - last.strain_velocity[a];
         }
     }
 }

@@ -82,16 +82,20 @@ Plane read_plane(const List& list, const std::string& name, int dimension) {
 }
 
 void read_method(const List& list, int dimension, Scene& scene) {
-    const Values values = list.values({choice("shape_function", {"linear", "quadratic", "gimp"}),
-                                       choice("transfer", {"flip", "apic"}),
-                                       within("flip_fraction", "", 0, 1, scene.flip_fraction),
-                                       within("courant_number", "", 1e-6, 1, scene.courant_number),
-                                       within("least_node_mass", "", 0, 0.5, 0.0)},
-                                      dimension);
+    const Values values =
+        list.values({choice("shape_function", {"linear", "quadratic", "gimp"}),
+                     choice("transfer", {"flip", "apic"}),
+                     choice("time_integration", {"update_stress_last", "modified"}),
+                     within("flip_fraction", "", 0, 1, scene.flip_fraction),
+                     within("courant_number", "", 1e-6, 1, scene.courant_number),
+                     within("least_node_mass", "", 0, 0.5, 0.0)},
+                    dimension);
     const std::string& shape = values.word("shape_function");
     if (shape == "quadratic") scene.shape_function = ShapeFunction::quadratic;
     if (shape == "gimp") scene.shape_function = ShapeFunction::gimp;
     if (values.word("transfer") == "apic") scene.transfer = Transfer::apic;
+    if (values.word("time_integration") == "modified")
+        scene.time_integration = TimeIntegration::modified;
     scene.flip_fraction = values.number("flip_fraction");
     scene.courant_number = values.number("courant_number");
     scene.least_node_mass = values.number("least_node_mass");

@@ -57,38 +57,28 @@ std::optional<Components<D>> free_normal(const Ground<D>& ground, const Walls& w
     return normal;
 }
 
-/// What a plane that lets nothing part from it leaves of a velocity.
+/// What a plane leaves of a velocity.
 template <int D>
-Components<D> held(Wall::Kind kind, const Components<D>& normal, Components<D> velocity) {
-    if (kind == Wall::fixed) return {};
+Components<D> left(const Wall& wall, const Components<D>& normal, Components<D> velocity) {
+    if (wall.kind == Wall::fixed) return {};
+    if (wall.kind == Wall::frictional)
+        return after_contact<D>({.normal = normal, .friction = wall.friction}, velocity);
     double across = 0;
     for (std::size_t a = 0; a < D; ++a) across += velocity[a] * normal[a];
     for (std::size_t a = 0; a < D; ++a) velocity[a] -= across * normal[a];
     return velocity;
 }
 
-template <int D>
-void hold(Wall::Kind kind, const Components<D>& normal, NodeMotion<D>& motion) {
-    const Components<D> velocity = held<D>(kind, normal, motion.velocity);
-    for (std::size_t a = 0; a < D; ++a)
-        motion.velocity_change[a] += velocity[a] - motion.velocity[a];
-    motion.velocity = velocity;
-    motion.strain_velocity = held<D>(kind, normal, motion.strain_velocity);
-}
-
-template <int D>
-void apply(const Ground<D>& ground, const Walls& walls, GridPatch<D>& patch) {
+/// Calls visit(motion, normal) for the nodes with mass that a plane acts on.
+template <int D, typename Visit>
+void visit_ground(const Ground<D>& ground, const Walls& walls, GridPatch<D>& patch, Visit visit) {
     const double tolerance = 1e-9 * patch.shape.spacing;
     visit_nodes<D>(patch.nodes, [&](const std::array<int, D>& node) {
         const std::size_t n = patch.index(node);
         if (!(patch.sums[n].mass > 0) || !is_behind(ground, patch.position(node), tolerance))
             return;
         const auto normal = free_normal<D>(ground, walls, patch.shape, node);
-        if (!normal) return;
-        if (ground.wall.kind == Wall::frictional)
-            meet<D>({.normal = *normal, .friction = ground.wall.friction}, patch.motion[n]);
-        else
-            hold<D>(ground.wall.kind, *normal, patch.motion[n]);
+        if (normal) visit(patch.motion[n], *normal);
     });
 }
 
@@ -96,10 +86,28 @@ void apply(const Ground<D>& ground, const Walls& walls, GridPatch<D>& patch) {
 
 template <int D>
 void add_planes(const Scene& scene, Stages<D>& stages) {
-    for (const Plane& plane : scene.planes)
-        stages.moved.push_back(
-            {"planes", [ground = ground_of<D>(plane), walls = scene.walls](
-                           GridPatch<D>& patch, const StepTime&) { apply(ground, walls, patch); }});
+    for (const Plane& plane : scene.planes) {
+        const Ground<D> ground = ground_of<D>(plane);
+        const auto hold = [ground, walls = scene.walls](GridPatch<D>& patch, const StepTime&) {
+            visit_ground(
+                ground, walls, patch, [&](NodeMotion<D>& motion, const Components<D>& normal) {
+                    const auto velocity = left<D>(ground.wall, normal, motion.velocity);
+                    for (std::size_t a = 0; a < D; ++a)
+                        motion.velocity_change[a] += velocity[a] - motion.velocity[a];
+                    motion.velocity = velocity;
+                    motion.strain_velocity = left<D>(ground.wall, normal, motion.strain_velocity);
+                });
+        };
+        const auto hold_strain = [ground, walls = scene.walls](GridPatch<D>& patch,
+                                                               const StepTime&) {
+            visit_ground(
+                ground, walls, patch, [&](NodeMotion<D>& motion, const Components<D>& normal) {
+                    motion.strain_velocity = left<D>(ground.wall, normal, motion.strain_velocity);
+                });
+        };
+        stages.moved.push_back({"planes", hold});
+        if (remaps(scene)) stages.remapped.push_back({"planes", hold_strain});
+    }
 }
 
 template void add_planes<2>(const Scene&, Stages<2>&);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model.hpp"
+#include "remap.hpp"
 
 #include <mpm/effect.hpp>
 #include <mpm/ghost_nodes_mpi.hpp>
@@ -32,6 +33,7 @@ class Stepper final : public Simulation::Model {
     void build_materials();
     void adopt(Decomposition next);
     void gather_on_nodes();
+    void remap_velocities();
     void advance_points();
     void apply_materials(const PointBlock<D>& block);
     double fastest_point() const;
@@ -45,6 +47,7 @@ class Stepper final : public Simulation::Model {
     std::vector<MaterialModel<D>> materials_;
     std::optional<Column> material_column_;  ///< where there is more than one
     Stages<D> stages_;
+    std::unique_ptr<Remap<D>> remap_;  ///< where the scene asks for it
     double wave_speed_ = 0, least_mass_ = 0;
 
     Ownership ownership_;

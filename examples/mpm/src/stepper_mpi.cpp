@@ -80,6 +80,7 @@ Stepper<D>::Stepper(const Scene& scene, const Extent& extent, MPI_Comm comm)
       ownership_(scene.grid, comm_) {
     build_materials();
     stages_ = build_stages<D>(scene_, particles);
+    remap_ = make_remap<D>(scene_, particles);
     patch_.shape = scene.grid;
     patch_.margin = transfers_->margin();
     patch_.fields.resize(stages_.fields.size());
@@ -130,6 +131,16 @@ void Stepper<D>::gather_on_nodes() {
     for (const auto& effect : stages_.constraints) effect.kernel(patch_, now);
     move_nodes(patch_, time_step, least_mass_);
     for (const auto& effect : stages_.moved) effect.kernel(patch_, now);
+    if (remap_) remap_velocities();
+}
+
+template <int D>
+void Stepper<D>::remap_velocities() {
+    remap_->scatter(particles, runs_, patch_);
+    for (const auto& effect : stages_.remap_scatters) effect.kernel(particles, runs_, patch_);
+    ghosts_->sum_momentum(patch_);
+    strain_by_momentum(patch_);
+    for (const auto& effect : stages_.remapped) effect.kernel(patch_, {time, time_step});
 }
 
 template <int D>
@@ -232,7 +243,7 @@ RebalanceReport Stepper<D>::rebalance(const Balancer& balancer) {
 
 template <int D>
 std::size_t Stepper<D>::doubles_per_ghost_node() const {
-    return 1 + 2 * D + stages_.fields.size();
+    return 1 + 2 * D + stages_.fields.size() + (remap_ ? D : 0);
 }
 
 template class Stepper<2>;

@@ -68,6 +68,29 @@ double parity(const Wall& wall, std::size_t axis, std::size_t component) {
     return wall.kind == Wall::fixed || component == axis ? -1 : 1;
 }
 
+template <int D>
+Surface<D> surface_of(const Wall& wall, std::size_t axis, double inward) {
+    Surface<D> surface{.normal = {}, .friction = wall.friction};
+    surface.normal[axis] = inward;
+    return surface;
+}
+
+/// Holds the velocities that strain after they were mapped back to the nodes.
+template <int D>
+void hold_strain(const Walls& walls, GridPatch<D>& patch) {
+    visit_sides(
+        patch, walls,
+        [&](const std::array<int, D>& node, const Wall& wall, std::size_t axis, double inward) {
+            Components<D>& velocity = patch.motion[patch.index(node)].strain_velocity;
+            if (wall.kind == Wall::frictional)
+                velocity = after_contact<D>(surface_of<D>(wall, axis, inward), velocity);
+            else if (wall.kind == Wall::fixed)
+                velocity = {};
+            else
+                velocity[axis] = 0;
+        });
+}
+
 /// What points hand to nodes beyond a wall is their images' share of the nodes inside.
 template <int D>
 void fold(const Walls& walls, GridPatch<D>& patch) {
@@ -100,6 +123,15 @@ void mirror(const Walls& walls, GridPatch<D>& patch) {
                  });
 }
 
+template <int D>
+void add_remapped_walls(const Scene& scene, Stages<D>& stages) {
+    const Walls& walls = scene.walls;
+    if (!has(walls, Wall::roller) && !has(walls, Wall::fixed) && !has(walls, Wall::frictional))
+        return;
+    stages.remapped.push_back(
+        {"walls", [walls](GridPatch<D>& patch, const StepTime&) { hold_strain(walls, patch); }});
+}
+
 /// Whether shape functions reach beyond walls that hold nodes.
 bool has_images(const Scene& scene) {
     return scene.shape_function != ShapeFunction::linear &&
@@ -111,9 +143,11 @@ bool has_images(const Scene& scene) {
 template <int D>
 void add_walls(const Scene& scene, Stages<D>& stages) {
     const Walls& walls = scene.walls;
-    if (has_images(scene))
+    if (has_images(scene)) {
         stages.scatters.push_back({"walls", [walls](const Particles&, std::span<const CellRun<D>>,
                                                     GridPatch<D>& patch) { fold(walls, patch); }});
+        if (remaps(scene)) stages.remap_scatters.push_back(stages.scatters.back());
+    }
     if (has(walls, Wall::roller) || has(walls, Wall::fixed))
         stages.constraints.push_back(
             {"walls", [walls](GridPatch<D>& patch, const StepTime&) {
@@ -125,26 +159,26 @@ void add_walls(const Scene& scene, Stages<D>& stages) {
                              });
              }});
     if (has(walls, Wall::frictional))
-        stages.moved.push_back(
-            {"friction", [walls](GridPatch<D>& patch, const StepTime&) {
-                 visit_sides(patch, walls,
-                             [&](const std::array<int, D>& node, const Wall& wall, std::size_t axis,
-                                 double inward) {
-                                 if (wall.kind != Wall::frictional) return;
-                                 Surface<D> surface{.normal = {}, .friction = wall.friction};
-                                 surface.normal[axis] = inward;
-                                 meet<D>(surface, patch.motion[patch.index(node)]);
-                             });
-             }});
+        stages.moved.push_back({"friction", [walls](GridPatch<D>& patch, const StepTime&) {
+                                    visit_sides(
+                                        patch, walls,
+                                        [&](const std::array<int, D>& node, const Wall& wall,
+                                            std::size_t axis, double inward) {
+                                            if (wall.kind != Wall::frictional) return;
+                                            meet<D>(surface_of<D>(wall, axis, inward),
+                                                    patch.motion[patch.index(node)]);
+                                        });
+                                }});
+    if (remaps(scene)) add_remapped_walls(scene, stages);
 }
 
 template <int D>
 void add_images(const Scene& scene, Stages<D>& stages) {
-    if (has_images(scene))
-        stages.moved.push_back(
-            {"walls", [walls = scene.walls](GridPatch<D>& patch, const StepTime&) {
-                 mirror(walls, patch);
-             }});
+    if (!has_images(scene)) return;
+    stages.moved.push_back({"walls", [walls = scene.walls](GridPatch<D>& patch, const StepTime&) {
+                                mirror(walls, patch);
+                            }});
+    if (remaps(scene)) stages.remapped.push_back(stages.moved.back());
 }
 
 template void add_walls<2>(const Scene&, Stages<2>&);

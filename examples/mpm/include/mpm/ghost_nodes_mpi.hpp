@@ -23,6 +23,9 @@ class GhostNodes {
     /// order of the ranks, so that all hold the same bits.
     void sum(GridPatch<D>& patch);
 
+    /// The same for the momenta alone.
+    void sum_momentum(GridPatch<D>& patch);
+
     /// Marks the nodes this rank stands for: each node of the grid is one rank's, the lowest that
     /// has it.
     void mark_counted(GridPatch<D>& patch) const;
@@ -31,8 +34,11 @@ class GhostNodes {
     const std::vector<int>& neighbours() const { return ranks_; }
 
   private:
-    void exchange(const GridPatch<D>& patch);
-    void take_out_own(GridPatch<D>& patch);
+    /// Of a slice: what of each node is summed.
+    template <typename Slice>
+    void add_up(Slice slice);
+    template <typename Slice>
+    void exchange(const Slice& slice);
 
     MPI_Comm comm_;
     int rank_ = 0;

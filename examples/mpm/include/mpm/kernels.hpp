@@ -70,11 +70,15 @@ struct Report {
 /// Where in a step kernels can go, in the order of the step. An empty stage is a loop over nothing.
 template <int D>
 struct Stages {
-    std::vector<NodeField> fields;                        ///< summed with mass, momentum and force
-    std::vector<Named<ScatterKernel<D>>> scatters;        ///< to the sums of this rank
-    std::vector<Named<NodeKernel<D>>> forces;             ///< on the sums over all ranks
-    std::vector<Named<NodeKernel<D>>> constraints;        ///< after all forces
-    std::vector<Named<NodeKernel<D>>> moved;              ///< after the nodes have moved
+    std::vector<NodeField> fields;                  ///< summed with mass, momentum and force
+    std::vector<Named<ScatterKernel<D>>> scatters;  ///< to the sums of this rank
+    std::vector<Named<NodeKernel<D>>> forces;       ///< on the sums over all ranks
+    std::vector<Named<NodeKernel<D>>> constraints;  ///< after all forces
+    std::vector<Named<NodeKernel<D>>> moved;        ///< after the nodes have moved
+    /// Where velocities are mapped back to the nodes (remap.hpp): on this rank's momenta, and then
+    /// on NodeMotion::strain_velocity, which walls and contacts must hold again.
+    std::vector<Named<ScatterKernel<D>>> remap_scatters;
+    std::vector<Named<NodeKernel<D>>> remapped;
     std::vector<Named<GradientKernel<D>>> gradients;      ///< after points have moved
     std::vector<Named<PointKernel<D>>> before_materials;  ///< stresses are the old ones
     std::vector<Named<PointKernel<D>>> after_materials;   ///< stresses are the new ones

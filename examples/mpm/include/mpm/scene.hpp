@@ -89,6 +89,11 @@ enum class Transfer {
     apic   ///< points carry an affine velocity field
 };
 
+enum class TimeIntegration {
+    update_stress_last,  ///< nodes strain the points with the velocities the step ends with
+    modified             ///< with those that the points have then, mapped to the nodes once more
+};
+
 /// All a simulation needs to know, in SI units. An effect that is not named is not built.
 ///
 /// Two dimensions are plane strain, per metre of depth; y points up.
@@ -108,12 +113,18 @@ struct Scene {
     /// grid (PIC) and filters what the grid cannot see. One per cent of PIC calms cell-crossing
     /// noise within 0.2 s at the slope's step and leaves waves longer than a few cells alone.
     double flip_fraction = 0.99;
+    TimeIntegration time_integration = TimeIntegration::update_stress_last;
     double courant_number = 0.5;  ///< time step * (wave speed + point speed) / grid spacing
     /// Share of a full node's mass below which a node's acceleration strains points less, see
     /// move_nodes; 0: the least at which the time step is stable, and at least 0.01.
     double least_node_mass = 0;
     double end_time = 0;  ///< s
 };
+
+/// Whether velocities are mapped back to the nodes before they strain the points.
+inline bool remaps(const Scene& scene) {
+    return scene.time_integration == TimeIntegration::modified;
+}
 
 /// Throws std::invalid_argument that names what is wrong with a scene.
 void validate(const Scene& scene);

@@ -143,9 +143,11 @@ void build(const EffectBuilder<D>& builder) {
     stages.constraints.push_back({"energy_audit", [ledger](GridPatch<D>& patch, const StepTime&) {
                                       note_start(*ledger, patch);
                                   }});
-    stages.moved.push_back({"energy_audit", [ledger](GridPatch<D>& patch, const StepTime&) {
-                                close_step(*ledger, patch);
-                            }});
+    // Last of what changes the velocities that strain the points.
+    auto& last = remaps(builder.scene) ? stages.remapped : stages.moved;
+    last.push_back({"energy_audit", [ledger](GridPatch<D>& patch, const StepTime&) {
+                        close_step(*ledger, patch);
+                    }});
     stages.internal_work = builder.particles.add_column("internal_work");
     const PointKernel<D> work = work_kernel<D>(add_stress_columns<D>(builder.particles),
                                                motion.volume, *stages.internal_work);

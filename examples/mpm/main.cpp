@@ -90,7 +90,7 @@ void simulate(mpm::Simulation& simulation, const Arguments& arguments, Recorder&
 
 void print_end(const mpm::Simulation& simulation, const Arguments& arguments, double seconds) {
     const auto steps = static_cast<double>(simulation.step_count());
-    std::printf("%s: %lld points, %lld steps to %.6g s in %.2f s (%.1f million point-steps/s)\n",
+    std::printf("%s: %lld points, %lld steps to %.6g s in %.4g s (%.1f million point-steps/s)\n",
                 arguments.scene.c_str(), static_cast<long long>(simulation.num_points()),
                 static_cast<long long>(simulation.step_count()), simulation.time(), seconds,
                 steps * static_cast<double>(simulation.num_points()) / seconds * 1e-6);

@@ -141,6 +141,12 @@ TEST(Balancers, do_not_show_in_sand_that_parts_or_bodies_that_meet) {
     expect_serial_whatever_the_balancer(shipped("granular_column", 0.2));
 }
 
+TEST(Balancers, do_not_show_on_an_inclined_plane) {
+    Scene scene = shipped("incline_block", 0.25);
+    scene.bodies.front().velocity = velocity_field({.constant = {4, -2}});
+    expect_serial_whatever_the_balancer(scene);
+}
+
 TEST(Balancers, without_boxes_are_refused_with_the_reason) {
     for (const char* name : {"zoltan-rib", "zoltan-hsfc", "zoltan2-mj", "magic"}) {
         try {

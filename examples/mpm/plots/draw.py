@@ -5,9 +5,7 @@ boxes of the ranks. In three dimensions the layer of points at the smallest z is
 
 from __future__ import annotations
 
-import base64
 import sys
-import xml.etree.ElementTree as xml
 from pathlib import Path
 
 import matplotlib
@@ -17,40 +15,19 @@ matplotlib.use("Agg")
 import numpy as np  # noqa: E402
 from matplotlib import pyplot as plt  # noqa: E402
 
-TYPES = {"Float64": "f8", "Int64": "i8", "Int32": "i4", "UInt8": "u1"}
-
-
-def arrays_in(path: Path) -> dict[str, np.ndarray]:
-    arrays = {}
-    for array in xml.parse(path).getroot().iter("DataArray"):
-        # The first 8 bytes are the length.
-        data = base64.b64decode(array.text.strip())[8:]
-        values = np.frombuffer(data, TYPES[array.get("type")])
-        width = int(array.get("NumberOfComponents"))
-        arrays[array.get("Name")] = values.reshape(-1, width) if width > 1 else values
-    return arrays
+from vtk_files import arrays_in, frames_of, points_of  # noqa: E402
 
 
 def points_in(path: Path) -> tuple[np.ndarray, np.ndarray, float]:
     """Positions and distances moved of the points of all ranks, and how far points are apart."""
-    pieces = [
-        arrays_in(path.parent / piece.get("Source"))
-        for piece in xml.parse(path).getroot().iter("Piece")
-    ]
-    pieces = [piece for piece in pieces if piece["part"].size > 0]
-    position = np.concatenate([piece["position"] for piece in pieces])
-    displacement = np.concatenate([piece["displacement"] for piece in pieces])
+    points = points_of(path)
+    position, displacement = points["position"], points["displacement"]
     moved = np.linalg.norm(displacement, axis=1)
     start_z = position[:, 2] - displacement[:, 2]
     layer = start_z <= start_z.min() + 1e-9
-    volume = np.median(np.concatenate([piece["volume"] for piece in pieces]))
+    volume = np.median(points["volume"])
     spacing = np.cbrt(volume) if np.ptp(start_z) > 0 else np.sqrt(volume)
     return position[layer], moved[layer], spacing
-
-
-def frames_of(folder: Path, name: str) -> list[tuple[float, Path]]:
-    entries = xml.parse(folder / f"{name}.pvd").getroot().iter("DataSet")
-    return [(float(entry.get("timestep")), folder / entry.get("file")) for entry in entries]
 
 
 def three_of(frames: list[tuple[float, Path]]) -> list[int]:
@@ -77,10 +54,11 @@ def draw(folder: Path, picture: Path) -> None:
     extent = np.concatenate([position for _, position, _, _, _ in chosen])[:, :2]
     width, height = np.ptp(extent, axis=0)
     is_wide = width > 1.5 * height
+    least_height = 3.5  # room for the labels of three flat panels
     figure, panels = plt.subplots(
         3 if is_wide else 1,
         1 if is_wide else 3,
-        figsize=(7, 17 * height / width + 1) if is_wide else (9, 2.6 * height / width + 1),
+        figsize=(7, max(17 * height / width + 1, least_height)) if is_wide else (9, 2.6 * height / width + 1),
         layout="constrained",
         squeeze=False,
     )

@@ -24,7 +24,7 @@ def draw_history(directory: Path, picture: Path) -> bool:
     rows = figure.subplots(
         len(histories) + 1, 1, sharex=True, height_ratios=[2.2] + [1] * len(histories)
     )
-    _draw_worst(rows[0], histories)
+    draw_worst(rows[0], histories)
     for axes, (method, history) in zip(rows[1:], histories.items()):
         _draw_parts(axes, method, history)
     rows[-1].set_xlabel("time simulated [s]")
@@ -45,7 +45,8 @@ def _windows(steps: int) -> np.ndarray:
     return np.unique(np.linspace(0, steps, min(steps, MOST_WINDOWS), endpoint=False).astype(int))
 
 
-def _draw_worst(axes: Axes, histories: dict[str, Columns]) -> None:
+def draw_worst(axes: Axes, histories: dict[str, Columns]) -> None:
+    """The worst part of every method, the worst step of each window."""
     for method, history in histories.items():
         style = method_style(method)
         times, unbalance = _per_part(history)

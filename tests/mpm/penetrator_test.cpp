@@ -1,49 +1,84 @@
 #include "support.hpp"
 
+#include <contact.hpp>
+#include <friction_bands.hpp>
 #include <gtest/gtest.h>
-#include <penetrator.hpp>
+
+#include <numbers>
 
 namespace mpm::test {
 namespace {
 
-double report(const Simulation& simulation, const std::string& name) {
-    for (const auto& [key, value] : simulation.reports())
-        if (key == name) return value;
-    return std::numeric_limits<double>::quiet_NaN();
-}
+/// A cone of 3-4-5 below a cylinder.
+const Penetrator<3> pencil{
+    .tip = {1, 2, 3}, .radius = 3, .cone_height = 4, .length = 10, .mass = 1};
 
-TEST(Penetrator, has_the_normal_of_the_nearer_surface) {
-    // A cone of 3-4-5 below a cylinder.
-    const Penetrator<3> body{
-        .tip = {1, 2, 3}, .radius = 3, .cone_height = 4, .length = 10, .mass = 1};
-    const auto on_cone = body.normal_inside({2, 3.5, 3});
+TEST(Penetrator, has_the_normal_of_the_nearest_surface) {
+    const auto on_cone = pencil.touch({2, 3.5, 3}, 0);
     ASSERT_TRUE(on_cone);
-    EXPECT_NEAR((*on_cone)[0], 0.8, 1e-15);
-    EXPECT_NEAR((*on_cone)[1], -0.6, 1e-15);
-    EXPECT_NEAR((*on_cone)[2], 0, 1e-15);
-    const auto on_side = body.normal_inside({1, 11, 5.9});
+    EXPECT_NEAR(on_cone->depth, 0.1, 1e-15) << "(3 * 1.5 - 4 * 1) / 5";
+    EXPECT_NEAR(on_cone->normal[0], 0.8, 1e-15);
+    EXPECT_NEAR(on_cone->normal[1], -0.6, 1e-15);
+    EXPECT_NEAR(on_cone->normal[2], 0, 1e-15);
+    const auto on_side = pencil.touch({1, 11, 5.9}, 0);
     ASSERT_TRUE(on_side);
-    EXPECT_EQ(*on_side, (Components<3>{0, 0, 1}));
-    EXPECT_FALSE(body.normal_inside({2, 3.3, 3})) << "below the cone: 4 / 3 high there";
-    EXPECT_FALSE(body.normal_inside({1, 8, 6.1}));
-    EXPECT_FALSE(body.normal_inside({1, 12.1, 3}));
-    EXPECT_EQ(*body.normal_inside({1, 2.5, 3}), (Components<3>{0, -1, 0})) << "on the axis";
+    EXPECT_NEAR(on_side->depth, 0.1, 1e-15);
+    EXPECT_EQ(on_side->normal, (Components<3>{0, 0, 1}));
+    const auto on_top = pencil.touch({2, 11.5, 3}, 0);
+    ASSERT_TRUE(on_top);
+    EXPECT_EQ(on_top->normal, (Components<3>{0, 1, 0}));
+    EXPECT_EQ(pencil.touch({1, 2.5, 3}, 0)->normal, (Components<3>{0, -1, 0})) << "on the axis";
     const Penetrator<2> plate{.tip = {0, 0}, .radius = 2, .length = 1, .mass = 1};
-    EXPECT_EQ(*plate.normal_inside({1, 0.5}), (Components<2>{0, -1}));
-    EXPECT_NEAR((*plate.normal_inside({-1.9, 0.5}))[0], -1, 1e-15);
+    EXPECT_EQ(plate.touch({1, 0.4}, 0)->normal, (Components<2>{0, -1}));
+    EXPECT_NEAR(plate.touch({-1.9, 0.5}, 0)->normal[0], -1, 1e-15);
 }
 
-TEST(Contact, takes_friction_by_what_the_normal_velocity_lost_and_no_more_than_its_limit) {
+TEST(Penetrator, touches_what_is_within_the_size_of_a_point) {
+    EXPECT_FALSE(pencil.touch({2, 3.3, 3}, 0)) << "below the cone: 4 / 3 high there";
+    EXPECT_NEAR(pencil.touch({2, 3.3, 3}, 0.1)->depth, 0.08, 1e-15) << "0.02 away";
+    EXPECT_FALSE(pencil.touch({1, 8, 6.1}, 0.05));
+    EXPECT_NEAR(pencil.touch({1, 8, 6.1}, 0.25)->depth, 0.15, 1e-14);
+    EXPECT_FALSE(pencil.touch({1, 12.1, 3}, 0));
+    EXPECT_NEAR(pencil.touch({1, 12.1, 3}, 0.2)->depth, 0.1, 1e-14);
+}
+
+TEST(Penetrator, knows_its_volume_and_surface) {
+    constexpr double pi = std::numbers::pi;
+    EXPECT_EQ(pencil.volume_below(1.9), 0);
+    EXPECT_NEAR(pencil.volume_below(4), 1.5 * pi, 1e-14) << "a cone of 1.5 m radius, 2 m high";
+    EXPECT_NEAR(pencil.volume_below(100), (12 + 54) * pi, 1e-13);
+    EXPECT_NEAR(pencil.area_below(2), 1.5 * 2.5 * pi, 1e-14);
+    EXPECT_NEAR(pencil.area_below(10), (15 + 36) * pi, 1e-13);
+    const Penetrator<2> wedge{
+        .tip = {0, 0}, .radius = 3, .cone_height = 4, .length = 10, .mass = 1};
+    EXPECT_NEAR(wedge.volume_below(2), 0.5 * 2 * 3, 1e-15);
+    EXPECT_NEAR(wedge.volume_below(10), 12 + 36, 1e-14);
+    EXPECT_NEAR(wedge.area_below(10), 2 * (5 + 6), 1e-14);
+    const GridShape grid{.lower = {0, -5, 3}, .spacing = 1, .num_cells = {9, 9, 9}};
+    EXPECT_EQ(pencil.share_in(grid), 0.5) << "on the side z = 3";
+}
+
+// Two bands of 2 m2 each with a normal force of 10 N and a limit of 0.5 Pa: 1 N of friction.
+TEST(FrictionBands, bound_friction_by_the_limit_on_their_area) {
+    const Penetrator<2> plate{.tip = {0, 0}, .radius = 1, .length = 2, .mass = 1};
+    FrictionBands<2> bands(plate, 1, 1);
+    EXPECT_EQ(bands.most_at(0.5, 0.3), 0.3) << "nothing known yet";
+    for (int step = 0; step < 400; ++step) {
+        bands.add(0.2, 4, 0.5);
+        bands.add(0.8, 6, 0.5);
+        bands.add(1.5, 1, 0.5);
+        bands.settle(std::vector<double>(bands.sums().begin(), bands.sums().end()));
+    }
+    EXPECT_NEAR(bands.most_at(0.5, 0.3), 0.1, 1e-8);
+    EXPECT_EQ(bands.most_at(1.5, 0.3), 0.3) << "1 N on it: Coulomb allows less";
+}
+
+TEST(Contact, takes_friction_by_what_the_normal_velocity_lost) {
     using Velocity = Components<2>;
-    Surface<2> floor{.normal = {0, 1}, .friction = 0.5};
+    const Surface<2> floor{.normal = {0, 1}, .friction = 0.5};
     EXPECT_EQ(after_contact<2>(floor, {3, -2}), (Velocity{2, 0}));
     EXPECT_EQ(after_contact<2>(floor, {3, 2}), (Velocity{3, 2})) << "it leaves";
     EXPECT_EQ(after_contact<2>(floor, {0.5, -2}), (Velocity{0, 0})) << "it sticks";
-    floor.most_lost = 0.25;
-    EXPECT_EQ(after_contact<2>(floor, {3, -2}), (Velocity{2.75, 0}));
-    floor.velocity = {1, -1};
-    EXPECT_EQ(after_contact<2>(floor, {3, -2}), (Velocity{2.75, -1}));
-    EXPECT_EQ(after_contact<2>(floor, {3, -0.5}), (Velocity{3, -0.5}));
 }
 
 /// A block that floats in an open grid with a plate that falls on its upper side.
@@ -69,16 +104,17 @@ Scene struck_block(double mass, double speed) {
 TEST(Penetrator, keeps_momentum_and_gains_no_energy) {
     constexpr double mass = 2000, speed = 2;
     Simulation simulation(struck_block(mass, speed), MPI_COMM_WORLD);
+    const double initial = simulation.totals().kinetic_energy;
+    EXPECT_NEAR(initial, 0.5 * mass * speed * speed, 1e-12 * initial);
     double least = speed;
     while (simulation.time() < 0.6) {
         for (int step = 0; step < 25; ++step) simulation.step();
         const Totals soil = simulation.totals();
         const double velocity = report(simulation, "penetrator_velocity");
         EXPECT_NEAR(mass * velocity + soil.momentum[1], -mass * speed, 1e-9 * mass * speed);
-        EXPECT_LT(0.5 * mass * velocity * velocity + soil.kinetic_energy + soil.strain_energy,
-                  0.5 * mass * speed * speed * 1.001);
-        EXPECT_NEAR(soil.kinetic_energy + soil.strain_energy + soil.dissipated_energy.value(), 0,
-                    0.01 * 0.5 * mass * speed * speed);
+        const double kept = soil.kinetic_energy + soil.strain_energy;
+        EXPECT_LT(kept, initial * 1.001);
+        EXPECT_NEAR(kept + soil.dissipated_energy.value(), initial, 0.01 * initial);
         least = std::min(least, std::abs(velocity));
     }
     EXPECT_LT(least, 0.7 * speed);
@@ -115,7 +151,8 @@ Scene pressed_column(double poissons_ratio) {
                           {"length", 1.0},
                           {"mass", 1e12},
                           {"velocity", -0.005}}},
-                        {"damping", {{"rate", 40.0}, {"until", 10.0}}}}};
+                        {"damping", {{"rate", 40.0}, {"until", 10.0}}}},
+            .courant_number = 0.25};
 }
 
 /// Mean force between two times, N.

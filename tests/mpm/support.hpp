@@ -56,6 +56,13 @@ inline double total_energy(const Simulation& simulation) {
            totals.dissipated_energy.value_or(0);
 }
 
+/// What an effect of a simulation tells by this name.
+inline double report(const Simulation& simulation, const std::string& name) {
+    for (const auto& [key, value] : simulation.reports())
+        if (key == name) return value;
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
 /// Largest difference of two columns by the largest entry of the first.
 inline double relative_difference(const std::vector<double>& a, const std::vector<double>& b) {
     double difference = a.size() == b.size() ? 0 : std::numeric_limits<double>::infinity();

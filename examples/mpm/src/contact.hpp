@@ -2,20 +2,15 @@
 
 #include <mpm/grid.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace mpm {
 
 /// A rigid surface as a node meets it.
 template <int D>
 struct Surface {
-    Components<D> normal;      ///< outward, of unit length
-    double friction = 0;       ///< Coulomb's coefficient
-    Components<D> velocity{};  ///< m/s
-    /// The most that friction can take of the velocity along the surface, m/s.
-    double most_lost = std::numeric_limits<double>::infinity();
+    Components<D> normal;  ///< outward, of unit length
+    double friction = 0;   ///< Coulomb's coefficient
 };
 
 /// Takes out what goes against the surface, and friction along it.
@@ -25,19 +20,18 @@ struct Surface {
 template <int D>
 inline Components<D> after_contact(const Surface<D>& surface, const Components<D>& velocity) {
     double across = 0;
-    for (std::size_t a = 0; a < D; ++a)
-        across += (velocity[a] - surface.velocity[a]) * surface.normal[a];
+    for (std::size_t a = 0; a < D; ++a) across += velocity[a] * surface.normal[a];
     if (across >= 0) return velocity;
     Components<D> along{};
     double square = 0;
     for (std::size_t a = 0; a < D; ++a) {
-        along[a] = velocity[a] - surface.velocity[a] - across * surface.normal[a];
+        along[a] = velocity[a] - across * surface.normal[a];
         square += along[a] * along[a];
     }
     const double speed = std::sqrt(square);
-    const double lost = std::min(-surface.friction * across, surface.most_lost);
+    const double lost = -surface.friction * across;
     const double left = speed > lost ? 1 - lost / speed : 0;
-    for (std::size_t a = 0; a < D; ++a) along[a] = surface.velocity[a] + left * along[a];
+    for (std::size_t a = 0; a < D; ++a) along[a] *= left;
     return along;
 }
 

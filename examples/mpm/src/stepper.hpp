@@ -31,6 +31,8 @@ class Stepper final : public Simulation::Model {
 
   private:
     void build_materials();
+    void start_points();
+    double strain_energy(std::size_t point) const;
     void adopt(Decomposition next);
     void gather_on_nodes();
     void remap_velocities();

@@ -87,6 +87,7 @@ Stepper<D>::Stepper(const Scene& scene, const Extent& extent, MPI_Comm comm)
     num_points = extent.num_points;
     adopt(slabs(extent.box, size_of(comm_)));
     place_points(scene_, decomposition, rank_of(comm_), motion_, particles);
+    start_points();
     transfers_->sort(particles, patch_);
     set_time_step(ownership_.agree(fastest_point()).max_speed);
 }

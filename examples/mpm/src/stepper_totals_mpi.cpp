@@ -43,6 +43,22 @@ std::vector<std::string> Stepper<D>::kernels() const {
 }
 
 template <int D>
+double Stepper<D>::strain_energy(std::size_t point) const {
+    const std::size_t material =
+        material_column_ ? static_cast<std::size_t>(particles[*material_column_][point]) : 0;
+    return materials_[material].strain_energy(particles, point);
+}
+
+/// What points hold from the start is no loss.
+template <int D>
+void Stepper<D>::start_points() {
+    for (const auto& start : stages_.starts) start(particles);
+    if (stages_.starts.empty() || !stages_.internal_work) return;
+    for (std::size_t p = 0; p < particles.size(); ++p)
+        particles.data(*stages_.internal_work)[p] = strain_energy(p);
+}
+
+template <int D>
 Totals Stepper<D>::totals() const {
     Sums sums;
     for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -54,9 +70,7 @@ Totals Stepper<D>::totals() const {
             sums.momentum[a] += mass * velocity;
             sums.kinetic_energy += 0.5 * mass * velocity * velocity;
         }
-        const std::size_t material =
-            material_column_ ? static_cast<std::size_t>(particles[*material_column_][p]) : 0;
-        sums.strain_energy += materials_[material].strain_energy(particles, p);
+        sums.strain_energy += strain_energy(p);
     }
     for (std::size_t p = 0; stages_.internal_work && p < particles.size(); ++p)
         sums.dissipated_energy += particles[*stages_.internal_work][p];
@@ -77,6 +91,11 @@ Totals Stepper<D>::totals() const {
         if (stages_.gravity)
             totals.potential_energy -= stages_.gravity->acceleration[a] * sums.moment[a];
     }
+    for (const auto& energy_of : stages_.rigid_energies) {
+        const RigidEnergy energy = energy_of();
+        totals.kinetic_energy += energy.kinetic;
+        totals.potential_energy += energy.potential;
+    }
     return totals;
 }
 
@@ -89,6 +108,10 @@ std::vector<std::pair<std::string, double>> Stepper<D>::reports() const {
 
 template std::vector<std::string> Stepper<2>::kernels() const;
 template std::vector<std::string> Stepper<3>::kernels() const;
+template void Stepper<2>::start_points();
+template void Stepper<3>::start_points();
+template double Stepper<2>::strain_energy(std::size_t) const;
+template double Stepper<3>::strain_energy(std::size_t) const;
 template Totals Stepper<2>::totals() const;
 template Totals Stepper<3>::totals() const;
 template std::vector<std::pair<std::string, double>> Stepper<2>::reports() const;

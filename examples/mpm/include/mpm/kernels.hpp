@@ -67,14 +67,21 @@ struct Report {
     std::function<double()> value;
 };
 
+/// Energies of a rigid body, J, the same on all ranks.
+struct RigidEnergy {
+    double kinetic;
+    double potential;  ///< 0 at the start
+};
+
 /// Where in a step kernels can go, in the order of the step. An empty stage is a loop over nothing.
 template <int D>
 struct Stages {
-    std::vector<NodeField> fields;                  ///< summed with mass, momentum and force
-    std::vector<Named<ScatterKernel<D>>> scatters;  ///< to the sums of this rank
-    std::vector<Named<NodeKernel<D>>> forces;       ///< on the sums over all ranks
-    std::vector<Named<NodeKernel<D>>> constraints;  ///< after all forces
-    std::vector<Named<NodeKernel<D>>> moved;        ///< after the nodes have moved
+    std::vector<std::function<void(Particles&)>> starts;  ///< once, on the points in place
+    std::vector<NodeField> fields;                        ///< summed with mass, momentum and force
+    std::vector<Named<ScatterKernel<D>>> scatters;        ///< to the sums of this rank
+    std::vector<Named<NodeKernel<D>>> forces;             ///< on the sums over all ranks
+    std::vector<Named<NodeKernel<D>>> constraints;        ///< after all forces
+    std::vector<Named<NodeKernel<D>>> moved;              ///< after the nodes have moved
     /// Where velocities are mapped back to the nodes (remap.hpp): on this rank's momenta, and then
     /// on NodeMotion::strain_velocity, which walls and contacts must hold again.
     std::vector<Named<ScatterKernel<D>>> remap_scatters;
@@ -85,7 +92,8 @@ struct Stages {
     std::vector<Named<StepKernel>> ends;                  ///< after all points have moved
     /// Energies this rank has seen lost since the start, J, for whoever asks between steps.
     std::vector<std::function<double(const Particles&)>> dissipated;
-    std::vector<Report> reports = {};          ///< for the history
+    std::vector<std::function<RigidEnergy()>> rigid_energies = {};  ///< added to the points'
+    std::vector<Report> reports = {};                               ///< for the history
     std::optional<Column> internal_work = {};  ///< of the stress in each point since the start, J
     std::optional<Gravity<D>> gravity = {};    ///< for the potential energy
     bool counts_nodes = false;                 ///< asks for GridPatch::is_counted

@@ -18,7 +18,8 @@ struct RebalanceReport {
     std::int64_t moved_points = 0;  ///< over all ranks
 };
 
-/// Sums over all points. In two dimensions all but `num_points` are per metre of depth.
+/// Sums over all points; the energies over rigid bodies as well. In two dimensions all but
+/// `num_points` are per metre of depth.
 struct Totals {
     std::int64_t num_points = 0;
     double mass = 0;              ///< kg

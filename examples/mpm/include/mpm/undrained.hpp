@@ -1,6 +1,8 @@
 #pragma once
 
+#include <mpm/parameters.hpp>
 #include <mpm/stress.hpp>
+#include <mpm/transfer.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -30,6 +32,40 @@ struct UndrainedStrength {
         return 1 + rate_factor * std::log10(std::max(rate / reference_rate, 1.0));
     }
 };
+
+/// The strength that the parameters of a von_mises material give.
+inline UndrainedStrength undrained_of(const Values& values) {
+    UndrainedStrength clay{.at_surface = values.number("strength"),
+                           .gradient = values.number("strength_gradient"),
+                           .surface = values.number("surface")};
+    if (values.has("residual_ratio")) {
+        clay.residual_ratio = values.number("residual_ratio");
+        clay.softening_strain = values.number("softening_strain");
+    }
+    if (values.has("rate_factor")) {
+        clay.rate_factor = values.number("rate_factor");
+        clay.reference_rate = values.number("reference_rate");
+    }
+    return clay;
+}
+
+/// Rate of engineering shear strain of the point k of a block, 1/s: 2 sqrt(J2) of the deviator of
+/// the rate of deformation.
+template <int D>
+double shear_rate(const PointBlock<D>& block, std::size_t k) {
+    double volumetric = 0, square = 0;
+    for (std::size_t i = 0; i < D; ++i) volumetric += block.gradient(i, i)[k];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double along = (i < D ? block.gradient(i, i)[k] : 0) - volumetric / 3;
+        square += 0.5 * along * along;
+    }
+    for (std::size_t i = 0; i < D; ++i)
+        for (std::size_t j = i + 1; j < D; ++j) {
+            const double half = 0.5 * (block.gradient(i, j)[k] + block.gradient(j, i)[k]);
+            square += half * half;
+        }
+    return 2 * std::sqrt(square);
+}
 
 /// The stress a trial stress returns to on sqrt(J2) <= strength: von Mises, and in plane strain
 /// without dilation Tresca as well.

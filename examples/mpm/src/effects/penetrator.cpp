@@ -1,9 +1,12 @@
-#include "../penetrator.hpp"
+#include "../fluid_loads.hpp"
+#include "../rigid_contact.hpp"
+#include "../soil_strength.hpp"
 
 #include <mpm/effect.hpp>
 
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 namespace mpm {
 
@@ -11,116 +14,165 @@ namespace {
 
 constexpr std::size_t vertical = 1;
 
-/// The soil's side of a contact, and the impulse the soil has been given in this step, N s.
+/// What the body's own motion depends on, and what it has come to.
 template <int D>
-struct Contact {
-    Penetrator<D> body;
-    double friction = 0;
-    std::optional<double> adhesion = {};  ///< most shear traction, Pa
-    std::size_t area_field = 0;           ///< first component, where there is adhesion
-    double impulse = 0;                   ///< on the counted nodes of this rank
-    double force = 0;                     ///< on the body in the last step, N
+struct Motion {
+    Gravity<D> gravity;                   ///< the share that weight has of it
+    double inertia = 0;                   ///< mass and added mass, kg
+    std::vector<BodyLoad<D>> loads = {};  ///< beside weight and soil
+    double force = 0;                     ///< of the soil on it in the last step, N
+    double kinetic_at_start = 0;          ///< J
+    double potential = 0;                 ///< of weight and buoyancy, 0 at the start, J
+    bool is_first_rank = false;
 };
 
-/// The most a node's velocity along the surface can lose, m/s.
 template <int D>
-double most_lost(const Contact<D>& contact, const GridPatch<D>& patch, std::size_t n,
-                 double time_step) {
-    if (!contact.adhesion) return std::numeric_limits<double>::infinity();
-    double square = 0;
-    for (std::size_t a = 0; a < D; ++a) {
-        const double area = patch.fields[contact.area_field + a][n];
-        square += area * area;
-    }
-    return *contact.adhesion * std::sqrt(square) * time_step / patch.sums[n].mass;
+double kinetic_energy(const Motion<D>& motion, const Penetrator<D>& body) {
+    return 0.5 * motion.inertia * body.velocity * body.velocity;
 }
 
+/// Settles what the contact has summed in this step, with one reduction, and returns the force that
+/// has acted on the soil in it.
 template <int D>
-void push_nodes(Contact<D>& contact, GridPatch<D>& patch, const StepTime& step) {
-    contact.impulse = 0;
-    visit_nodes<D>(patch.nodes, [&](const std::array<int, D>& node) {
-        const std::size_t n = patch.index(node);
-        if (!(patch.sums[n].mass > 0)) return;
-        const auto normal = contact.body.normal_inside(patch.position(node));
-        if (!normal) return;
-        Surface<D> surface{
-            *normal, contact.friction, {}, most_lost(contact, patch, n, step.time_step)};
-        surface.velocity[vertical] = contact.body.velocity;
-        const double before = patch.motion[n].velocity[vertical];
-        meet<D>(surface, patch.motion[n]);
-        if (patch.is_counted[n] != 0)
-            contact.impulse += patch.sums[n].mass * (patch.motion[n].velocity[vertical] - before);
-    });
+double sum_of_ranks(RigidContact<D>& contact, MPI_Comm comm) {
+    std::vector<double> sums{contact.force};
+    if (contact.bands)
+        sums.insert(sums.end(), contact.bands->sums().begin(), contact.bands->sums().end());
+    std::vector<double> total(sums.size());
+    const auto count = static_cast<int>(sums.size());
+    MPI_Reduce(sums.data(), total.data(), count, MPI_DOUBLE, MPI_SUM, 0, comm);
+    MPI_Bcast(total.data(), count, MPI_DOUBLE, 0, comm);
+    if (contact.bands) contact.bands->settle(std::span(total).subspan(1));
+    contact.force = std::exchange(contact.next_force, 0);
+    return total.front();
 }
 
-/// The body's own equation of motion, with one reduction.
+/// The body's own equation of motion.
 template <int D>
-void move_body(Contact<D>& contact, const Gravity<D>& gravity, const StepTime& step,
-               MPI_Comm comm) {
-    double impulse = 0;
-    MPI_Reduce(&contact.impulse, &impulse, 1, MPI_DOUBLE, MPI_SUM, 0, comm);
-    MPI_Bcast(&impulse, 1, MPI_DOUBLE, 0, comm);
-    const double weight = gravity.acceleration[vertical] * gravity.share_at(step.time);
-    contact.force = -impulse / step.time_step;
-    contact.body.velocity += step.time_step * weight - impulse / contact.body.mass;
-    contact.body.tip[vertical] += step.time_step * contact.body.velocity;
-}
-
-template <int D>
-Contact<D> read(const Values& values) {
-    Contact<D> contact;
+void move_body(RigidContact<D>& contact, Motion<D>& motion, const StepTime& step, MPI_Comm comm) {
+    const double push = sum_of_ranks(contact, comm);
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    motion.is_first_rank = rank == 0;
     Penetrator<D>& body = contact.body;
+    const Gravity<D>& gravity = motion.gravity;
+    double weight = body.mass * gravity.acceleration[vertical] * gravity.share_at(step.time);
+    double drag = 0;
+    for (const BodyLoad<D>& load : motion.loads)
+        (load.does_return_work ? weight : drag) += load.force(body, step);
+    motion.force = -push;
+    body.velocity += step.time_step * (weight + drag - push) / motion.inertia;
+    body.tip[vertical] += step.time_step * body.velocity;
+    motion.potential -= step.time_step * weight * body.velocity;
+}
+
+template <int D>
+Penetrator<D> read_body(const Values& values) {
+    Penetrator<D> body{.radius = values.number("radius"),
+                       .cone_height = values.number("cone_height"),
+                       .length = values.number("length"),
+                       .mass = values.number("mass"),
+                       .velocity = values.number("velocity")};
     std::copy_n(values.list("tip").begin(), D, body.tip.begin());
-    body.radius = values.number("radius");
-    body.cone_height = values.number("cone_height");
-    body.length = values.number("length");
-    body.mass = values.number("mass");
-    body.velocity = values.number("velocity");
     if (body.cone_height > body.length)
         throw std::invalid_argument(
             "effects / penetrator: 'cone_height' must be at most the length");
-    contact.friction = values.number("friction");
-    if (values.has("adhesion")) contact.adhesion = values.number("adhesion");
-    return contact;
+    return body;
+}
+
+template <int D>
+Rubbing<D> read_rubbing(const EffectBuilder<D>& builder) {
+    const Values& values = builder.values;
+    Rubbing<D> rubbing{.friction = values.number("friction")};
+    if (values.has("adhesion") && values.has("adhesion_factor"))
+        throw std::invalid_argument(
+            "effects / penetrator: give 'adhesion' or 'adhesion_factor', not both");
+    if (values.has("adhesion"))
+        rubbing.limit = [most = values.number("adhesion")](const Particles&, const PointBlock<D>&,
+                                                           std::size_t) { return most; };
+    if (values.has("adhesion_factor"))
+        rubbing.limit = [factor = values.number("adhesion_factor"),
+                         strength =
+                             SoilStrength<D>(builder, "effects / penetrator: 'adhesion_factor'")](
+                            const Particles& particles, const PointBlock<D>& block, std::size_t p) {
+            return factor * strength.at(particles, block, p);
+        };
+    return rubbing;
+}
+
+template <int D>
+Motion<D> read_motion(const EffectBuilder<D>& builder, const Penetrator<D>& body) {
+    const Values& values = builder.values;
+    if (values.has("weight_share") && values.has("fluid_density"))
+        throw std::invalid_argument(
+            "effects / penetrator: give 'weight_share' or 'fluid_density', not both");
+    Motion<D> motion{.gravity = builder.stages.gravity.value_or(Gravity<D>{}),
+                     .inertia = body.mass + values.number("added_mass"),
+                     .loads = fluid_loads<D>(builder, body)};
+    if (values.has("weight_share"))
+        motion.gravity.acceleration[vertical] *= values.number("weight_share");
+    motion.kinetic_at_start = kinetic_energy(motion, body);
+    return motion;
+}
+
+/// Its energy is the scene's, and what it has lost of it is no loss of the soil's.
+template <int D>
+void report(const std::shared_ptr<RigidContact<D>>& contact,
+            const std::shared_ptr<Motion<D>>& motion, Stages<D>& stages) {
+    stages.reports.push_back({"penetrator_tip_y", [=] { return contact->body.tip[vertical]; }});
+    stages.reports.push_back({"penetrator_velocity", [=] { return contact->body.velocity; }});
+    stages.reports.push_back({"penetrator_force", [=] { return motion->force; }});
+    stages.rigid_energies.push_back([=]() -> RigidEnergy {
+        return {kinetic_energy(*motion, contact->body), motion->potential};
+    });
+    stages.dissipated.push_back([=](const Particles&) {
+        if (!motion->is_first_rank) return 0.0;
+        return motion->kinetic_at_start - kinetic_energy(*motion, contact->body) -
+               motion->potential;
+    });
 }
 
 template <int D>
 void build(const EffectBuilder<D>& builder) {
     Stages<D>& stages = builder.stages;
-    const auto contact = std::make_shared<Contact<D>>(read<D>(builder.values));
-    Gravity<D> gravity = stages.gravity.value_or(Gravity<D>{});
-    gravity.acceleration[vertical] *= builder.values.number("weight_share");
-    if (contact->adhesion) {
-        contact->area_field = stages.fields.size();
-        const Column volume = builder.particles.add_column("volume");
-        for (int axis = 0; axis < D; ++axis)
-            stages.fields.push_back({"contact_area", volume, axis});
-    }
-    stages.counts_nodes = true;
-    stages.moved.push_back({"penetrator", [contact](GridPatch<D>& patch, const StepTime& step) {
-                                push_nodes(*contact, patch, step);
-                            }});
+    const auto contact = std::make_shared<RigidContact<D>>(
+        RigidContact<D>{.body = read_body<D>(builder.values), .rubbing = read_rubbing<D>(builder)});
+    const auto motion = std::make_shared<Motion<D>>(read_motion<D>(builder, contact->body));
+    if (contact->rubbing.limit)
+        contact->bands.emplace(contact->body, builder.scene.grid.spacing,
+                               contact->body.share_in(builder.scene.grid));
+    add_contact<D>(builder, contact);
     stages.ends.push_back({"penetrator", [=](const StepTime& step, MPI_Comm comm) {
-                               move_body(*contact, gravity, step, comm);
+                               move_body(*contact, *motion, step, comm);
                            }});
-    stages.reports.push_back({"penetrator_tip_y", [=] { return contact->body.tip[vertical]; }});
-    stages.reports.push_back({"penetrator_velocity", [=] { return contact->body.velocity; }});
-    stages.reports.push_back({"penetrator_force", [=] { return contact->force; }});
+    report(contact, motion, stages);
+}
+
+std::vector<Rule> rules() {
+    std::vector<Rule> rules{vector("tip", "m"),
+                            positive("radius", "m"),
+                            not_negative("cone_height", "m", 0.0),
+                            positive("length", "m"),
+                            positive("mass", "kg"),
+                            number("velocity", "m/s", 0.0),
+                            optional(number("weight_share", "")),
+                            not_negative("friction", "", 0.0),
+                            optional(not_negative("adhesion", "Pa")),
+                            optional(not_negative("adhesion_factor", "")),
+                            not_negative("added_mass", "kg", 0.0)};
+    for (Rule& rule : fluid_rules()) rules.push_back(std::move(rule));
+    return rules;
 }
 
 }  // namespace
 
 /// A rigid upright cylinder with a conical tip, in two dimensions a wall with a wedge, that moves
-/// along y by its weight and the forces of the soil: contact at the nodes inside it, without
-/// tension, and friction of at most friction * normal force and adhesion * area.
+/// along y by its weight and the forces of the soil, of fluid and of added mass on request.
+///
+/// Friction is at most friction * normal force and adhesion * area, where adhesion is a number or a
+/// share of the soil's undrained strength.
 EffectKind penetrator_effect() {
-    return {"penetrator",
-            {vector("tip", "m"), positive("radius", "m"), not_negative("cone_height", "m", 0.0),
-             positive("length", "m"), positive("mass", "kg"), number("velocity", "m/s", 0.0),
-             number("weight_share", "", 1.0), not_negative("friction", "", 0.0),
-             optional(not_negative("adhesion", "Pa"))},
-            build<2>,
-            build<3>};
+    return {"penetrator", rules(), build<2>, build<3>};
 }
 
 }  // namespace mpm

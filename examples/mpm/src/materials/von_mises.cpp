@@ -15,23 +15,6 @@ struct Columns {
     std::optional<Column> plastic_strain;  ///< where the clay softens
 };
 
-/// Rate of engineering shear strain of a deviator, 2 sqrt(J2) of the rate of deformation.
-template <int D>
-double shear_rate(const PointBlock<D>& block, std::size_t k) {
-    double volumetric = 0, square = 0;
-    for (std::size_t i = 0; i < D; ++i) volumetric += block.gradient(i, i)[k];
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double along = (i < D ? block.gradient(i, i)[k] : 0) - volumetric / 3;
-        square += 0.5 * along * along;
-    }
-    for (std::size_t i = 0; i < D; ++i)
-        for (std::size_t j = i + 1; j < D; ++j) {
-            const double half = 0.5 * (block.gradient(i, j)[k] + block.gradient(j, i)[k]);
-            square += half * half;
-        }
-    return 2 * std::sqrt(square);
-}
-
 /// One kernel for each choice of softening and rate, so that neither costs where it is not asked.
 template <int D, bool softens, bool has_rate>
 PointKernel<D> return_kernel(const UndrainedStrength& clay, double shear_modulus,
@@ -69,25 +52,15 @@ PointKernel<D> make_kernel(const UndrainedStrength& clay, double shear, const Co
 template <int D>
 MaterialModel<D> build(const Values& values, Particles& particles) {
     MaterialModel<D> model = elastic_model<D>(values, particles);
-    UndrainedStrength clay{.at_surface = values.number("strength"),
-                           .gradient = values.number("strength_gradient"),
-                           .surface = values.number("surface")};
     Columns<D> columns{add_stress_columns<D>(particles),
                        particles.add_column("y"),
                        particles.add_column("displacement_y"),
                        {}};
-    if (values.has("residual_ratio")) {
-        clay.residual_ratio = values.number("residual_ratio");
-        clay.softening_strain = values.number("softening_strain");
+    if (values.has("residual_ratio"))
         columns.plastic_strain = particles.add_column("plastic_strain");
-    }
-    const bool has_rate = values.has("rate_factor");
-    if (has_rate) {
-        clay.rate_factor = values.number("rate_factor");
-        clay.reference_rate = values.number("reference_rate");
-    }
     const double shear = elastic_of(values).shear_modulus();
-    model.kernels.push_back({"von_mises", make_kernel<D>(clay, shear, columns, has_rate)});
+    model.kernels.push_back({"von_mises", make_kernel<D>(undrained_of(values), shear, columns,
+                                                         values.has("rate_factor"))});
     return model;
 }
 

@@ -1,0 +1,221 @@
+#include "support.hpp"
+
+#include <gtest/gtest.h>
+#include <penetrator.hpp>
+#include <scene_file/scene_file_mpi.hpp>
+
+#include <numbers>
+
+namespace mpm::test {
+namespace {
+
+constexpr double g = 9.81;
+
+/// Clay beside the upright axis of a body that a scene adds: a quarter, cut by symmetry.
+Scene beside_axis(Parameters penetrator) {
+    return {.name = "quarter",
+            .dimension = 3,
+            .grid = {.lower = {0, 0, 0}, .spacing = 0.5, .num_cells = {4, 4, 4}},
+            .materials = {elastic_material("soil", 1000, 1e6, 0.3)},
+            .bodies = {{.contains = box_region({{1, 0, 1}, {2, 1, 2}}), .material = "soil"}},
+            .walls = {.left = Wall::roller, .bottom = Wall::fixed, .back = Wall::roller},
+            .effects = {{"gravity", {{"acceleration", std::vector<double>{0, -g, 0}}}},
+                        {"penetrator", std::move(penetrator)}}};
+}
+
+// (m + m_a) v' = (m - rho V) g - rho Cd A v^2 / 2 from rest: v_t tanh(t / tau).
+TEST(AnchorInWater, falls_to_its_final_speed) {
+    constexpr double water = 1000, volume = std::numbers::pi / 4 * 0.09 * (4 + 1.0 / 3);
+    constexpr double mass = 2 * water * volume, added = 0.2 * water * volume, drag = 0.8;
+    Simulation simulation(beside_axis({{"tip", std::vector<double>{0, 100, 0}},
+                                       {"radius", 0.3},
+                                       {"cone_height", 1.0},
+                                       {"length", 5.0},
+                                       {"mass", mass},
+                                       {"fluid_density", water},
+                                       {"drag_coefficient", drag},
+                                       {"added_mass", added}}),
+                          MPI_COMM_WORLD);
+    const double weight = (mass - water * volume) * g;
+    const double area = std::numbers::pi / 4 * 0.09;
+    const double final_speed = std::sqrt(2 * weight / (water * drag * area));
+    const double tau = (mass + added) * final_speed / weight;
+    while (simulation.time() < 2 * tau) {
+        simulation.step();
+        // Euler's rule is late or early by half a step.
+        EXPECT_NEAR(-report(simulation, "penetrator_velocity"),
+                    final_speed * std::tanh(simulation.time() / tau), g * simulation.time_step());
+    }
+    EXPECT_GT(-report(simulation, "penetrator_velocity"), 0.95 * final_speed);
+}
+
+TEST(AnchorInWater, floats_as_deep_as_its_mass) {
+    constexpr double area = std::numbers::pi / 4;
+    Simulation simulation(beside_axis({{"tip", std::vector<double>{0, 10, 0}},
+                                       {"radius", 1.0},
+                                       {"length", 5.0},
+                                       {"mass", 1030 * area * 2.5},
+                                       {"fluid_density", 1030.0},
+                                       {"fluid_level", 12.5}}),
+                          MPI_COMM_WORLD);
+    for (int step = 0; step < 20; ++step) simulation.step();
+    EXPECT_NEAR(report(simulation, "penetrator_velocity"), 0, 1e-12);
+    EXPECT_NEAR(report(simulation, "penetrator_tip_y"), 10, 1e-12);
+}
+
+void expect_refused(const Parameters& more, const std::string& text) {
+    Parameters parameters{
+        {"tip", std::vector<double>{0, 10, 0}}, {"radius", 1.0}, {"length", 5.0}, {"mass", 1.0}};
+    parameters.insert(more.begin(), more.end());
+    try {
+        Simulation simulation(beside_axis(parameters), MPI_COMM_WORLD);
+        FAIL() << "accepted";
+    } catch (const std::invalid_argument& error) {
+        EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+    }
+}
+
+TEST(Anchor, refuses_what_does_not_go_together) {
+    expect_refused({{"adhesion", 1.0}, {"adhesion_factor", 0.5}},
+                   "'adhesion' or 'adhesion_factor', not both");
+    expect_refused({{"adhesion_factor", 0.5}},
+                   "'adhesion_factor' needs an undrained strength; the material 'soil'");
+    expect_refused({{"drag_coefficient", 0.5}}, "'drag_coefficient' needs 'fluid_density'");
+    expect_refused({{"fluid_level", 0.5}}, "'fluid_level' needs 'fluid_density'");
+    expect_refused({{"fluid_density", 1.0}, {"weight_share", 1.0}},
+                   "'weight_share' or 'fluid_density', not both");
+}
+
+constexpr double spacing = 0.25, pull_speed = 0.2;
+constexpr double lateral_ratio = 0.9;
+constexpr double top_strength = 4e3, strength_gradient = 2e3, clay_depth = 2;
+
+/// Half a plate through a layer of clay, pulled up slowly once the clay is at rest under its
+/// weight.
+Scene pulled_plate(Parameters more) {
+    Material clay = elastic_material("clay", 1600, 2e6, 0.45);
+    clay.model = "von_mises";
+    clay.parameters["strength"] = top_strength;
+    clay.parameters["strength_gradient"] = strength_gradient;
+    clay.parameters["surface"] = clay_depth;
+    Parameters plate{{"tip", std::vector<double>{0, -5}},
+                     {"radius", 0.5},
+                     {"length", 20.0},
+                     {"mass", 1e12},
+                     {"velocity", pull_speed},
+                     {"weight_share", 0.0}};
+    plate.insert(more.begin(), more.end());
+    return {.name = "pulled",
+            .grid = {.lower = {0, 0}, .spacing = spacing, .num_cells = {10, 10}},
+            .materials = {clay},
+            .bodies = {{.contains = box_region({{0.5, 0}, {2.5, clay_depth}}),
+                        .points_per_cell = {2, 2, 1},
+                        .material = "clay"}},
+            .walls = {.left = {Wall::frictional, 0}, .right = Wall::roller, .bottom = Wall::fixed},
+            .effects = {{"gravity", {{"acceleration", std::vector<double>{0, -g}}}},
+                        {"geostatic", {{"surface", clay_depth}, {"lateral_ratio", lateral_ratio}}},
+                        {"penetrator", plate},
+                        {"locking_cure", {}}}};
+}
+
+/// Mean force of the clay on the plate, N/m, over the way of a band of friction.
+double pull(const Parameters& more) {
+    Simulation simulation(pulled_plate(more), MPI_COMM_WORLD);
+    while (simulation.time() < 0.3) simulation.step();
+    const double start = simulation.time();
+    double impulse = 0;
+    while (simulation.time() < start + spacing / pull_speed) {
+        const double time_step = simulation.time_step();
+        simulation.step();
+        impulse += time_step * report(simulation, "penetrator_force");
+    }
+    return -impulse / (simulation.time() - start);
+}
+
+// Shear stress is a share of the strength, which grows with depth, over all of the side. A band
+// that is only in part in the clay counts as a whole: half a band too much in the mean, at both
+// ends.
+TEST(Anchor, sticks_to_clay_by_its_strength) {
+    constexpr double factor = 0.1, tolerance = spacing / clay_depth;
+    const double strength = top_strength + strength_gradient * clay_depth / 2;
+    const double expected = factor * strength * clay_depth;
+    EXPECT_NEAR(pull({{"friction", 1.0}, {"adhesion_factor", factor}}), expected,
+                tolerance * expected);
+    EXPECT_NEAR(pull({{"friction", 1.0}, {"adhesion", 600.0}}), 600 * clay_depth,
+                tolerance * 600 * clay_depth);
+}
+
+// What must differ: Coulomb allows less where the coefficient is small, and nothing without one.
+TEST(Anchor, slides_by_coulomb_where_that_is_less) {
+    const double thrust = lateral_ratio * 1600 * g * clay_depth * clay_depth / 2;
+    EXPECT_NEAR(pull({{"friction", 0.01}}), 0.01 * thrust, 0.15 * 0.01 * thrust);
+    EXPECT_NEAR(pull({{"friction", 0.01}, {"adhesion_factor", 0.1}}), 0.01 * thrust,
+                0.15 * 0.01 * thrust);
+    EXPECT_NEAR(pull({}), 0, 1);
+}
+
+// Level ground with its stress stays as it is, whatever the lateral stress.
+TEST(Geostatic, ground_rests_from_the_start) {
+    Scene scene = pulled_plate({});
+    std::erase_if(scene.effects, [](const Effect& effect) { return effect.name != "gravity"; });
+    scene.effects.front().parameters.erase("ramp");
+    scene.effects.push_back({"geostatic", {{"surface", clay_depth}, {"lateral_ratio", 0.9}}});
+    scene.effects.push_back({"energy_audit", {}});
+    scene.bodies.front().contains = box_region({{0, 0}, {2.5, clay_depth}});
+    scene.walls.left = Wall::roller;
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    EXPECT_EQ(simulation.totals().dissipated_energy, 0);
+    for (int step = 0; step < 200; ++step) simulation.step();
+    EXPECT_NEAR(*simulation.totals().dissipated_energy, 0,
+                1e-9 * simulation.totals().strain_energy);
+    EXPECT_LT(simulation.max_speed(), 1e-12);
+    // What must differ: without it the ground settles.
+    std::erase_if(scene.effects, [](const Effect& effect) { return effect.name == "geostatic"; });
+    Simulation settling(scene, MPI_COMM_WORLD);
+    for (int step = 0; step < 20; ++step) settling.step();
+    EXPECT_GT(settling.max_speed(), 0.01);
+}
+
+/// The deepest that the centre of a point is in a body, m.
+double deepest(const Simulation& simulation, Penetrator<2> body) {
+    body.tip[1] = report(simulation, "penetrator_tip_y");
+    const Positions at = simulation.positions();
+    double depth = 0;
+    for (std::size_t p = 0; p < at.size(); ++p)
+        if (const auto touch = body.touch({at.x[p], at.y[p], 0}, 0))
+            depth = std::max(depth, touch->depth);
+    MPI_Allreduce(MPI_IN_PLACE, &depth, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    return depth;
+}
+
+// Three times as fast as anchors fall: the account of energy closes, nothing is gained, and no clay
+// gets into the plate.
+TEST(Anchor, strikes_at_30_metres_a_second) {
+    constexpr double cell_size = 0.4, speed = 30;
+    Scene scene = read_scene(RRCB_SCENES "/anchor_plate.yaml", MPI_COMM_WORLD).scene;
+    resize_cells(scene, cell_size);
+    Parameters& plate = *find_effect(scene, "penetrator");
+    plate["velocity"] = -speed;
+    plate["mass"] = 2e3;
+    const Penetrator<2> body{.tip = {0, 0},
+                             .radius = std::get<double>(plate.at("radius")),
+                             .cone_height = std::get<double>(plate.at("cone_height")),
+                             .length = std::get<double>(plate.at("length"))};
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    const double initial = total_energy(simulation);
+    const double kinetic = simulation.totals().kinetic_energy;
+    double lost = 0;
+    while (simulation.time() < 0.6) {
+        for (int step = 0; step < 20; ++step) simulation.step();
+        EXPECT_NEAR(total_energy(simulation), initial, 0.01 * kinetic);
+        EXPECT_GT(*simulation.totals().dissipated_energy, lost - 0.005 * kinetic);
+        lost = *simulation.totals().dissipated_energy;
+        EXPECT_GT(report(simulation, "penetrator_velocity"), -speed - g * simulation.time());
+        EXPECT_LT(deepest(simulation, body), 0.25 * cell_size);
+    }
+    EXPECT_LT(std::abs(report(simulation, "penetrator_velocity")), 0.2 * speed);
+    EXPECT_LT(report(simulation, "penetrator_tip_y"), -1);
+}
+
+}  // namespace
+}  // namespace mpm::test

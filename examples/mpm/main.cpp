@@ -97,20 +97,29 @@ void print_end(const mpm::Simulation& simulation, const Arguments& arguments, do
     std::printf("history: %s/history.csv\n", arguments.out.c_str());
 }
 
+/// A simulation whose errors name the file.
+mpm::Simulation start(const std::string& path, const mpm::Scene& scene, MPI_Comm comm) {
+    try {
+        return mpm::Simulation(scene, comm);
+    } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(path + ": " + error.what());
+    }
+}
+
 void run(Arguments arguments, MPI_Comm comm) {
     mpm::SceneFile file = mpm::read_scene(arguments.scene, comm);
     if (arguments.cell_size > 0) mpm::resize_cells(file.scene, arguments.cell_size);
     if (arguments.vtk_every >= 0) file.output.vtk_every = arguments.vtk_every;
     if (!(arguments.end_time > 0)) arguments.end_time = file.scene.end_time;
-    mpm::Simulation simulation(file.scene, comm);
+    mpm::Simulation simulation = start(arguments.scene, file.scene, comm);
     if (arguments.list_kernels) {
         if (rank_in(comm) == 0) list_kernels(simulation);
         return;
     }
     Recorder recorder(arguments.out, file, comm);
-    const double start = MPI_Wtime();
+    const double start_time = MPI_Wtime();
     simulate(simulation, arguments, recorder, comm);
-    if (rank_in(comm) == 0) print_end(simulation, arguments, MPI_Wtime() - start);
+    if (rank_in(comm) == 0) print_end(simulation, arguments, MPI_Wtime() - start_time);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ TEST(Remap, keeps_velocity_period_and_energy_of_a_bar) {
         double before = simulation.totals().momentum[0];
         while (simulation.time() < 13) {
             const double start = simulation.time();
-            simulation.step();
+            for (int step = 0; step < 5; ++step) simulation.step();
             const Totals now = simulation.totals();
             if ((before > 0) != (now.momentum[0] > 0))
                 zeros.push_back(start +
@@ -133,7 +133,7 @@ TEST(Remap, is_the_same_on_any_number_of_ranks_and_accounts_for_energy) {
         Simulation parallel(bumping_disk(shape), MPI_COMM_WORLD);
         Simulation serial(bumping_disk(shape), MPI_COMM_SELF);
         const double initial = total_energy(serial);
-        while (serial.time() < 0.6) {
+        while (serial.time() < 0.4) {
             parallel.step();
             serial.step();
         }

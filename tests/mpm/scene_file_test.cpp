@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 #include <mpm/lattice.hpp>
+#include <scene_file/expression.hpp>
 #include <scene_file/scene_file_mpi.hpp>
 
 #include <fstream>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 
@@ -89,6 +91,64 @@ TEST(SceneFile, names_what_is_wrong_with_a_plane) {
                  {"planes / face", "'friction'", "must be there for a frictional plane"});
     EXPECT_EQ(error_of_plane("      normal: [0, 1]\n      kind: frictional\n      friction: 1\n"),
               "");
+}
+
+/// The slope's file with the ground in motion.
+SceneFile moving_slope(const std::string& expressions) {
+    std::string text = text_of(slope_path);
+    const std::string key = "      material: soil\n";
+    text.replace(text.find(key), key.size(),
+                 key + "      velocity:\n        constant: [3, 0]\n        expressions: " +
+                     expressions + "\n");
+    return parse_scene(text, SceneFormat::yaml, "a.yaml");
+}
+
+std::string error_of_expressions(const std::string& expressions) {
+    try {
+        const SceneFile file = moving_slope(expressions);
+        Simulation simulation(file.scene, MPI_COMM_WORLD);
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(SceneFile, takes_expressions_for_a_velocity) {
+    const Scene scene =
+        moving_slope(R"yaml(["x > 1 ? 2 * x ^ 2 : y", "0.1 * sin(pi * x / 50)"])yaml").scene;
+    const VelocityField& velocity = scene.bodies.front().velocity;
+    EXPECT_EQ(velocity({4, 7, 0}), (Vector{3 + 32, 0.1 * std::sin(std::numbers::pi * 4 / 50), 0}));
+    EXPECT_EQ(velocity({0.5, 7, 0})[0], 3 + 7);
+    EXPECT_EQ(moving_slope("[2, 1.5]").scene.bodies.front().velocity({}), (Vector{5, 1.5, 0}));
+    EXPECT_DOUBLE_EQ(parse_expression("sqrt(x*x + y*y + z*z) - _e^1 + exp(1)", 3)({2, 3, 6}), 7);
+}
+
+TEST(SceneFile, tells_where_an_expression_is_wrong) {
+    expect_names(error_of_expressions(R"yaml(["0.1 * sin(q * x)", "0"])yaml"),
+                 {"a.yaml", "bodies / ground / velocity", "'expressions'", "\"0.1 * sin(q * x)\"",
+                  "position 11", "\"q\"", "possible", "x, y, pi"});
+    expect_names(error_of_expressions(R"yaml(["z", "0"])yaml"), {"position 1", "\"z\""});
+    expect_names(error_of_expressions(R"yaml(["0", "2 * (x"])yaml"), {"\"2 * (x\"", "position 7"});
+    expect_names(error_of_expressions(R"yaml(["x = 3", "0"])yaml"), {"position 3", "== compares"});
+    expect_names(error_of_expressions(R"yaml(["x, y", "0"])yaml"),
+                 {"position 2", "more than one number"});
+    expect_names(error_of_expressions(R"yaml(["", "0"])yaml"), {"position 1", "possible"});
+    expect_names(error_of_expressions(R"yaml(["x"])yaml"), {"'expressions'", "list of 2"});
+    expect_names(error_of_expressions("1"), {"'expressions'", "list of 2"});
+}
+
+// The first points are on the first rank only; all ranks tell of one.
+TEST(SceneFile, names_the_point_where_a_velocity_is_none) {
+    expect_names(error_of_expressions(R"yaml(["0", "sqrt(x - 0.2)"])yaml"),
+                 {"bodies / ground", "x = 0.0948276", "must be finite"});
+}
+
+TEST(SceneFile, of_the_bar_starts_as_the_bar_of_the_tests) {
+    const Scene scene = read_scene(RRCB_SCENES "/axial_bar.yaml", MPI_COMM_WORLD).scene;
+    const VelocityField form = velocity_field(
+        {.sine_amplitude = {0.1, 0}, .sine_wave_number = {std::numbers::pi / 50, 0}});
+    for (double x = 0; x < 25; x += 0.25)
+        EXPECT_NEAR(scene.bodies.front().velocity({x, 0.5})[0], form({x, 0.5})[0], 1e-16);
 }
 
 TEST(SceneFile, that_is_not_there_is_told_on_every_rank) {

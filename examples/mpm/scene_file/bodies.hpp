@@ -7,7 +7,7 @@
 namespace mpm {
 
 /// The body a list describes.
-Body read_body(List list, int dimension);
+Body read_body(List list, const std::string& name, int dimension);
 
 /// A list of whole numbers along the axes, each at least 1; 1 beyond the dimension.
 std::array<int, 3> whole_numbers(const List& list, const std::string& name,

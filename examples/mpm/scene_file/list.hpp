@@ -26,6 +26,8 @@ class List {
     List take_list(const std::string& name);
     /// Rows of as many numbers as there are dimensions, and forgets them.
     std::vector<Vector> take_rows(const std::string& name, int dimension);
+    /// As many texts as there are dimensions, and forgets them; numbers count as texts, too.
+    std::vector<std::string> take_texts(const std::string& name, int dimension);
     /// The rest, which must be numbers, words and rows of numbers.
     Parameters parameters() const;
     /// The rest, checked.

@@ -135,7 +135,7 @@ SceneFile read_list(List list, const std::string& name) {
             {key, is_word ? std::get<std::string>(model.mapped()) : "", parameters});
     }
     for (const std::string& key : bodies.sublist_names())
-        scene.bodies.push_back(read_body(bodies.take_list(key), dimension));
+        scene.bodies.push_back(read_body(bodies.take_list(key), key, dimension));
     for (const std::string& key : effects.sublist_names())
         scene.effects.push_back({key, effects.take_list(key).parameters()});
     read_method(method, dimension, scene);

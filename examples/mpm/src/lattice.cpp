@@ -2,7 +2,10 @@
 #include <mpm/material.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <sstream>
+#include <stdexcept>
 
 namespace mpm {
 
@@ -35,6 +38,41 @@ void visit_body(const Scene& scene, const Body& body, Visit visit) {
                 if (scene.dimension == 3) at[2] = scene.grid.lower[2] + (k + 0.5) * step[2];
                 if (body.contains(at)) visit(at);
             }
+}
+
+/// Positions apart by this tell the gradient of the velocity at the start, m.
+double difference_step(const Scene& scene) {
+    return 0.25 * scene.grid.spacing;
+}
+
+/// Two positions around a point, apart along an axis.
+std::pair<Vector, Vector> around(const Scene& scene, const Vector& at, std::size_t axis) {
+    std::pair<Vector, Vector> below_and_above{at, at};
+    below_and_above.first[axis] -= 0.5 * difference_step(scene);
+    below_and_above.second[axis] += 0.5 * difference_step(scene);
+    return below_and_above;
+}
+
+void require_finite(const Body& body, const Vector& at) {
+    for (const double component : body.velocity(at)) {
+        if (std::isfinite(component)) continue;
+        std::ostringstream text;
+        text << "bodies / " << body.name << ": the velocity at x = " << at[0] << ", y = " << at[1]
+             << ", z = " << at[2] << " m must be finite";
+        throw std::invalid_argument(text.str());
+    }
+}
+
+/// Checks what place_points will ask of a body's velocity, on all ranks alike.
+void check_velocity(const Scene& scene, const Body& body, const Vector& at) {
+    if (!body.velocity) return;
+    require_finite(body, at);
+    if (scene.transfer != Transfer::apic) return;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a) {
+        const auto [below, above] = around(scene, at, a);
+        require_finite(body, below);
+        require_finite(body, above);
+    }
 }
 
 /// Writes one point of a body into a row of columns.
@@ -77,11 +115,9 @@ class RowWriter {
     /// The gradient of the velocity at the start, from differences over a quarter of a cell.
     void write_affine(const Body& body, const Vector& at) {
         if (affine_.empty() || !body.velocity) return;
-        const double step = 0.25 * scene_.grid.spacing;
+        const double step = difference_step(scene_);
         for (std::size_t b = 0; b < num_axes(); ++b) {
-            Vector above = at, below = at;
-            above[b] += 0.5 * step;
-            below[b] -= 0.5 * step;
+            const auto [below, above] = around(scene_, at, b);
             const Vector high = body.velocity(above), low = body.velocity(below);
             for (std::size_t a = 0; a < num_axes(); ++a)
                 row_[affine_[a * num_axes() + b]] = (high[a] - low[a]) / step;
@@ -103,6 +139,7 @@ Extent extent_of(const Scene& scene) {
     Extent extent{0, {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}}};
     for (const Body& body : scene.bodies)
         visit_body(scene, body, [&](const Vector& at) {
+            check_velocity(scene, body, at);
             ++extent.num_points;
             for (std::size_t a = 0; a < 3; ++a) {
                 extent.box.lower[a] = std::min(extent.box.lower[a], at[a]);

@@ -14,6 +14,7 @@ struct Extent {
     Box box;  ///< empty without points
 };
 
+/// Throws std::invalid_argument that names a point whose velocity is not finite.
 Extent extent_of(const Scene& scene);
 
 /// Appends the scene's points that `rank` owns; columns other than those of

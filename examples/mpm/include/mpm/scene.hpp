@@ -34,6 +34,7 @@ struct Body {
     std::array<int, 3> points_per_cell{2, 2, 2};
     std::string material;
     VelocityField velocity = {};  ///< at the start
+    std::string name = {};        ///< for errors
 };
 
 /// A model of a material by name, with its parameters; see material.hpp.

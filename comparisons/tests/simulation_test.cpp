@@ -52,7 +52,11 @@ void expect_points_kept(const mpm::Scene& scene) {
 
 TEST(Simulation, every_balancer_keeps_the_points_and_their_mass) {
     expect_points_kept(mpm::slope_scene(22));
-    expect_points_kept(choose_scene("torpedo_anchor", true, MPI_COMM_WORLD));
+    mpm::Scene anchor = choose_scene("torpedo_anchor", true, MPI_COMM_WORLD);
+    // So that the soil settles at once.
+    std::erase_if(anchor.effects,
+                  [](const mpm::Effect& effect) { return effect.name == "geostatic"; });
+    expect_points_kept(anchor);
 }
 
 TEST(Simulation, tells_how_far_points_have_come) {
@@ -75,14 +79,17 @@ TEST(Simulation, tells_how_far_points_have_come) {
 
 TEST(Simulation, snapshots_show_a_scene_at_its_start_middle_and_end) {
     const SimulationPlan plan{.scene = choose_scene("torpedo_anchor", true, MPI_COMM_WORLD),
-                              .num_steps = 4};
+                              .num_steps = 20};
     Progress progress(false);
     const std::vector<Workload> snapshots = scene_snapshots(plan, progress, MPI_COMM_WORLD);
     ASSERT_EQ(snapshots.size(), 3U);
     EXPECT_EQ(snapshots[1].name, "torpedo_anchor-middle");
     EXPECT_EQ(snapshots[0].dimension, 3);
     EXPECT_EQ(snapshots[0].coordinates.size(), snapshots[2].coordinates.size());
-    EXPECT_NE(snapshots[0].coordinates, snapshots[2].coordinates);
+    // Soil at rest moves only where it is struck.
+    bool has_moved = snapshots[0].coordinates != snapshots[2].coordinates;
+    MPI_Allreduce(MPI_IN_PLACE, &has_moved, 1, MPI_CXX_BOOL, MPI_LOR, MPI_COMM_WORLD);
+    EXPECT_TRUE(has_moved);
 }
 
 TEST(Simulation, a_scene_file_that_cannot_be_read_is_told_on_every_rank) {

@@ -67,8 +67,8 @@ double shear_rate(const PointBlock<D>& block, std::size_t k) {
     return 2 * std::sqrt(square);
 }
 
-/// The stress a trial stress returns to on sqrt(J2) <= strength: von Mises, and in plane strain
-/// without dilation Tresca as well.
+/// The stress a trial stress returns to on sqrt(J2) <= strength: von Mises, and in plane strain,
+/// once clay flows, Tresca (tresca.hpp) as well.
 template <int D>
 inline Stress<D> returned(double strength, const Stress<D>& trial) {
     const double pressure = mean(trial);

@@ -1,4 +1,5 @@
 #include <mpm/elastic.hpp>
+#include <mpm/tresca.hpp>
 #include <mpm/undrained.hpp>
 
 #include <optional>
@@ -15,8 +16,33 @@ struct Columns {
     std::optional<Column> plastic_strain;  ///< where the clay softens
 };
 
+/// Where clay yields: what of a stress reaches the strength, and what it returns to.
+struct VonMises {
+    static constexpr const char* name = "von_mises";
+    template <int D>
+    static double shear(const Stress<D>& stress) {
+        return std::sqrt(second_invariant(deviator(stress, mean(stress))));
+    }
+    template <int D>
+    static Stress<D> back(double strength, const Stress<D>& trial) {
+        return returned<D>(strength, trial);
+    }
+};
+
+struct Tresca {
+    static constexpr const char* name = "tresca";
+    template <int D>
+    static double shear(const Stress<D>& stress) {
+        return largest_shear<D>(stress);
+    }
+    template <int D>
+    static Stress<D> back(double strength, const Stress<D>& trial) {
+        return returned_to_tresca<D>(strength, trial);
+    }
+};
+
 /// One kernel for each choice of softening and rate, so that neither costs where it is not asked.
-template <int D, bool softens, bool has_rate>
+template <int D, class Criterion, bool softens, bool has_rate>
 PointKernel<D> return_kernel(const UndrainedStrength& clay, double shear_modulus,
                              const Columns<D>& columns) {
     return [=](Particles& particles, const PointBlock<D>& block) {
@@ -31,22 +57,26 @@ PointKernel<D> return_kernel(const UndrainedStrength& clay, double shear_modulus
                 strength *= clay.quickened(shear_rate<D>(block, p - block.begin));
             const Stress<D> trial = load<D>(stresses, p);
             if constexpr (softens) {
-                const double tau = std::sqrt(second_invariant(deviator(trial, mean(trial))));
-                plastic[p] += std::max(tau - strength, 0.0) / shear_modulus;
+                const double excess = Criterion::template shear<D>(trial) - strength;
+                plastic[p] += std::max(excess, 0.0) / shear_modulus;
             }
-            store<D>(returned<D>(strength, trial), stresses, p);
+            store<D>(Criterion::template back<D>(strength, trial), stresses, p);
         }
     };
 }
 
-template <int D>
-PointKernel<D> make_kernel(const UndrainedStrength& clay, double shear, const Columns<D>& columns,
-                           bool has_rate) {
+template <int D, class Criterion>
+Named<PointKernel<D>> make_kernel(const Values& values, const Columns<D>& columns) {
+    const UndrainedStrength clay = undrained_of(values);
+    const double shear = elastic_of(values).shear_modulus();
+    const bool has_rate = values.has("rate_factor");
     if (columns.plastic_strain)
-        return has_rate ? return_kernel<D, true, true>(clay, shear, columns)
-                        : return_kernel<D, true, false>(clay, shear, columns);
-    return has_rate ? return_kernel<D, false, true>(clay, shear, columns)
-                    : return_kernel<D, false, false>(clay, shear, columns);
+        return {Criterion::name,
+                has_rate ? return_kernel<D, Criterion, true, true>(clay, shear, columns)
+                         : return_kernel<D, Criterion, true, false>(clay, shear, columns)};
+    return {Criterion::name, has_rate
+                                 ? return_kernel<D, Criterion, false, true>(clay, shear, columns)
+                                 : return_kernel<D, Criterion, false, false>(clay, shear, columns)};
 }
 
 template <int D>
@@ -58,22 +88,23 @@ MaterialModel<D> build(const Values& values, Particles& particles) {
                        {}};
     if (values.has("residual_ratio"))
         columns.plastic_strain = particles.add_column("plastic_strain");
-    const double shear = elastic_of(values).shear_modulus();
-    model.kernels.push_back({"von_mises", make_kernel<D>(undrained_of(values), shear, columns,
-                                                         values.has("rate_factor"))});
+    model.kernels.push_back(values.word("criterion") == "tresca"
+                                ? make_kernel<D, Tresca>(values, columns)
+                                : make_kernel<D, VonMises>(values, columns));
     return model;
 }
 
 }  // namespace
 
 MaterialKind von_mises_material() {
-    return {"von_mises",
-            elastic_rules(
-                {not_negative("strength", "Pa"), not_negative("strength_gradient", "Pa/m", 0.0),
-                 number("surface", "m", 0.0), optional(within("residual_ratio", "", 0, 1)),
-                 positive("softening_strain", "", 1.0), optional(not_negative("rate_factor", "")),
-                 positive("reference_rate", "1/s", 1.0)}),
-            elastic_wave_speed, build<2>, build<3>};
+    return {
+        "von_mises",
+        elastic_rules(
+            {not_negative("strength", "Pa"), not_negative("strength_gradient", "Pa/m", 0.0),
+             number("surface", "m", 0.0), optional(within("residual_ratio", "", 0, 1)),
+             positive("softening_strain", "", 1.0), optional(not_negative("rate_factor", "")),
+             positive("reference_rate", "1/s", 1.0), choice("criterion", {"von_mises", "tresca"})}),
+        elastic_wave_speed, build<2>, build<3>};
 }
 
 }  // namespace mpm

@@ -53,6 +53,25 @@ TEST(Remap, keeps_velocity_period_and_energy_of_a_bar) {
     }
 }
 
+// The same bar with a third axis that nothing happens along.
+TEST(Remap, is_the_same_in_three_dimensions) {
+    Scene solid = bar(ShapeFunction::linear);
+    solid.dimension = 3;
+    solid.grid.num_cells[2] = 1;
+    solid.bodies.front().contains = box_region({{0, 0, 0}, {25, 1, 1}});
+    solid.walls.back = solid.walls.front = Wall::roller;
+    Simulation in_space(solid, MPI_COMM_WORLD),
+        in_plane(bar(ShapeFunction::linear), MPI_COMM_WORLD);
+    for (int step = 0; step < 300; ++step) {
+        in_space.step();
+        in_plane.step();
+    }
+    EXPECT_EQ(in_space.doubles_per_ghost_node(), 10u);
+    const Totals space = in_space.totals(), plane = in_plane.totals();
+    EXPECT_NEAR(space.strain_energy, plane.strain_energy, 1e-12 * plane.strain_energy);
+    EXPECT_NEAR(space.momentum[0], plane.momentum[0], 1e-12 * plane.mass);
+}
+
 /// A damped column of 0.1 m under its weight on a fixed floor.
 Scene column(int cells_up, ShapeFunction shape) {
     return {.name = "column",

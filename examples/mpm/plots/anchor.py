@@ -1,0 +1,242 @@
+"""Depth of the torpedo anchor beside its equation of motion: anchor.py PROGRAM SCENE PICTURE
+
+Pushes the anchor into the clay at constant speeds, from which follow the bearing capacity factor,
+the adhesion factor, the factor of rate, the drag of the clay and its added mass as this method has
+them; integrates the equation of motion with them (Runge and Kutta's fourth order); and sets the
+anchor that falls freely beside it, as Markdown tables and a picture."""
+
+from __future__ import annotations
+
+import csv
+import re
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import numpy as np  # noqa: E402
+from matplotlib import pyplot as plt  # noqa: E402
+
+GRAVITY = 9.81
+SLOW, DEEPEST, WINDOW = 1.5, 5.5, 0.25  # m/s, m, m
+SLOWING = 1.5 * GRAVITY
+DEPTHS = np.arange(0, DEEPEST - WINDOW, 0.05)
+PUSHED = {"mass": 1e12, "weight_share": 0}
+NO_RATE = {"rate_factor": None, "reference_rate": None}
+SMOOTH = {"friction": 0, "adhesion_factor": None}
+
+
+def with_keys(scene: str, keys: dict) -> str:
+    """The text of a scene with some numbers in it replaced, left out (None) or given to the
+    penetrator."""
+    for key, value in keys.items():
+        line = re.compile(rf"^( +){key}: .*\n", re.M)
+        if value is None or line.search(scene):
+            scene = line.sub("" if value is None else rf"\g<1>{key}: {value}\n", scene)
+        else:
+            scene = scene.replace("    penetrator:\n", f"    penetrator:\n      {key}: {value}\n")
+    return scene + "  output:\n    history_every: 1\n"
+
+
+def number_in(scene: str, key: str) -> float:
+    return float(re.search(rf"^ +{key}: (\S+)$", scene, re.M)[1])
+
+
+@dataclass
+class Fall:
+    time: np.ndarray
+    depth: np.ndarray
+    speed: np.ndarray  # downwards
+    force: np.ndarray
+
+    def arrest(self) -> tuple[float, float]:
+        last = int(np.argmax(self.speed <= 0)) or len(self.speed) - 1
+        return self.depth[last], self.time[last]
+
+    def forces_at(self, depths: np.ndarray) -> np.ndarray:
+        """Mean force over a window of depth around each."""
+        sinks = np.diff(self.depth, prepend=-np.inf) > 0
+        impulse = np.cumsum(self.force * np.diff(self.time, prepend=self.time[0]))
+        ends = [
+            np.interp(depths + side, self.depth[sinks], self.time[sinks])
+            for side in (-WINDOW, WINDOW)
+        ]
+        gained = np.interp(ends[1], self.time, impulse) - np.interp(ends[0], self.time, impulse)
+        return gained / (ends[1] - ends[0])
+
+
+def simulate(program: str, scene: str, keys: dict, cell_size: float | None = None) -> Fall:
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "anchor.yaml"
+        file.write_text(with_keys(scene, keys))
+        options = [f"--scene={file}", f"--out={folder}", "--balancer=none"]
+        options += [f"--cell-size={cell_size}"] if cell_size else []
+        done = subprocess.run([program, *options], capture_output=True, text=True)
+        if done.returncode != 0:
+            sys.exit(done.stderr)
+        with open(Path(folder) / "history.csv", newline="") as rows:
+            table = list(csv.DictReader(rows))
+    names = ["time", "penetrator_tip_y", "penetrator_velocity", "penetrator_force"]
+    time, tip, velocity, force = (np.array([float(row[name]) for row in table]) for name in names)
+    return Fall(time, -tip, -velocity, force)
+
+
+class Anchor:
+    """What a scene says of the anchor and the clay."""
+
+    def __init__(self, scene: str):
+        number = lambda key: number_in(scene, key)  # noqa: E731
+        self.mass, self.speed = number("mass"), -number("velocity")
+        self.radius, self.cone, self.length = (
+            number("radius"),
+            number("cone_height"),
+            number("length"),
+        )
+        self.density, self.strength = number("density"), number("strength")
+        self.gradient = number("strength_gradient")
+        self.rate_factor, self.reference_rate = number("rate_factor"), number("reference_rate")
+        self.start = -float(re.search(r"tip: \[[^,]+, ([^,]+),", scene)[1])
+        self.section = np.pi * self.radius**2 / 4
+
+    def buoyancy(self, depth):
+        """Weight of the clay that the anchor and the hole above it take the place of."""
+        in_cone = np.clip(depth, 0, self.cone)
+        volume = in_cone**3 / self.cone**2 / 3 + np.clip(depth - self.cone, 0, None)
+        return self.density * GRAVITY * self.section * volume
+
+    def strength_at_cone(self, depth):
+        return self.strength + self.gradient * np.clip(depth - self.cone / 2, 0, None)
+
+    def strength_on_side(self, depth):
+        """Strength times area of side and cone."""
+        below = np.linspace(0, 1, 201)[None, :] * np.minimum(depth, self.length)[:, None]
+        level = depth[:, None] - below
+        width = np.pi / 2 * self.radius * np.minimum(below / self.cone, 1)
+        stress = width * (self.strength + self.gradient * level)
+        return np.sum(0.5 * (stress[:, 1:] + stress[:, :-1]) * np.diff(below), axis=1)
+
+    def log_rate(self, speed: float) -> float:
+        rate = speed / (2 * self.radius) / self.reference_rate
+        return self.rate_factor * np.log10(max(rate, 1))
+
+
+@dataclass
+class Measured:
+    resistance: np.ndarray  # slow, by depth, without buoyancy, N
+    drag: np.ndarray  # by depth, N / (m/s)^2
+    rate_share: float  # of the gain at a rate of speed / diameter
+    added_mass: float  # kg
+
+
+def measure(anchor: Anchor, pushes: dict[str, Fall]) -> Measured:
+    slow, fast = (pushes[name].forces_at(DEPTHS) for name in ("slow", "fast"))
+    drag = (fast - slow) / (anchor.speed**2 - SLOW**2)
+    resistance = slow - drag * SLOW**2 - anchor.buoyancy(DEPTHS)
+    deep = DEPTHS > anchor.cone
+    gain = np.mean((pushes["fast, rate"].forces_at(DEPTHS) - fast)[deep])
+    rate_share = gain / np.mean(resistance[deep]) / anchor.log_rate(anchor.speed)
+    slowed = pushes["slowed"]
+    end = int(np.argmax(slowed.depth))
+    speed = np.interp(DEPTHS, slowed.depth[:end], slowed.speed[:end])
+    steady = resistance + anchor.buoyancy(DEPTHS) + drag * speed**2
+    fits = deep & (speed > 0.4 * anchor.speed)
+    added_mass = np.mean((steady - slowed.forces_at(DEPTHS))[fits]) / SLOWING
+    return Measured(resistance, drag, rate_share, added_mass)
+
+
+def integrate(anchor: Anchor, measured: Measured) -> Fall:
+    def acceleration(depth: float, speed: float) -> float:
+        resistance = np.interp(depth, DEPTHS, measured.resistance)
+        rate = 1 + measured.rate_share * anchor.log_rate(speed)
+        drag = np.interp(depth, DEPTHS, measured.drag) * speed**2
+        if depth < 0:
+            resistance = drag = 0
+        inertia = anchor.mass + measured.added_mass * np.clip(depth / anchor.cone, 0, 1)
+        force = anchor.mass * GRAVITY - anchor.buoyancy(depth) - rate * resistance - drag
+        return force / inertia
+
+    step, states = 5e-4, [np.array([anchor.start, anchor.speed])]
+    slope = lambda state: np.array([state[1], acceleration(*state)])  # noqa: E731
+    while states[-1][1] > 0:
+        state = states[-1]
+        first = slope(state)
+        second = slope(state + step / 2 * first)
+        third = slope(state + step / 2 * second)
+        fourth = slope(state + step * third)
+        states.append(state + step / 6 * (first + 2 * second + 2 * third + fourth))
+    depth, speed = np.array(states).T
+    return Fall(step * np.arange(len(depth)), depth, speed, np.zeros_like(depth))
+
+
+def print_constants(anchor: Anchor, measured: Measured, smooth: np.ndarray) -> None:
+    bearing = smooth - anchor.buoyancy(DEPTHS) - measured.drag * SLOW**2
+    factor = bearing / (anchor.section * anchor.strength_at_cone(DEPTHS))
+    side = (measured.resistance - bearing)[1:] / anchor.strength_on_side(DEPTHS)[1:]
+    drag = measured.drag / (0.5 * anchor.density * anchor.section)
+    print("| depth, m | Nc | alpha | Cd |\n|---|---|---|---|")
+    for depth in (1.5, 2.5, 3.5, 4.5):
+        i = int(np.argmin(abs(DEPTHS - depth)))
+        print(f"| {depth} | {factor[i]:.1f} | {side[i - 1]:.2f} | {drag[i]:.2f} |")
+    print(f"\nrate factor: {measured.rate_share:.2f} of the gain at speed / diameter")
+    print(f"added mass: {measured.added_mass:.0f} kg\n")
+
+
+def draw(runs: dict[str, Fall], picture: str) -> None:
+    figure, panels = plt.subplots(1, 2, figsize=(9, 3.2), layout="constrained")
+    for (name, run), style in zip(runs.items(), ("-", "--", ":")):
+        last = int(np.argmax(run.speed <= 0)) or len(run.speed)
+        panels[0].plot(run.time[:last], -run.depth[:last], style, label=name)
+        panels[1].plot(run.time[:last], run.speed[:last], style, label=name)
+    panels[0].set(xlabel="time, s", ylabel="tip, m")
+    panels[1].set(xlabel="time, s", ylabel="speed, m/s")
+    panels[1].legend(fontsize=8)
+    figure.savefig(picture, dpi=80, metadata={"Software": None})
+
+
+def main(program: str, scene_file: str, picture: str) -> None:
+    scene = Path(scene_file).read_text()
+    anchor = Anchor(scene)
+    slow = PUSHED | NO_RATE | {"velocity": -SLOW, "end_time": DEEPEST / SLOW}
+    fast = PUSHED | {"end_time": DEEPEST / anchor.speed}
+    slowed = {"weight_share": -SLOWING / GRAVITY, "end_time": anchor.speed / SLOWING}
+    depth = re.search(r"lower: \[0, ([^,]+), 0\]", scene)[1]
+    plan = {
+        "slow": (slow,),
+        "smooth": (slow | SMOOTH,),
+        "fast": (fast | NO_RATE,),
+        "fast, rate": (fast,),
+        "slowed": (PUSHED | NO_RATE | slowed,),
+        "as shipped": ({},),
+        "4.5 m wide": ({"cells": "[15, 38, 15]"},),
+        "15 m deep": ({"lower": "[0, -15, 0]", "cells": "[10, 52, 10]"},),
+        "cells of 0.6 m": ({}, 0.6),
+        "cells of 0.2 m": ({}, 0.2),
+    }
+    with ThreadPoolExecutor(2) as pool:
+        done = dict(zip(plan, pool.map(lambda run: simulate(program, scene, *run), plan.values())))
+    measured = measure(anchor, done)
+    print_constants(anchor, measured, done["smooth"].forces_at(DEPTHS))
+    at_diameter = Measured(measured.resistance, measured.drag, 1, measured.added_mass)
+    runs = {
+        "simulation": done["as shipped"],
+        "equation, all measured": integrate(anchor, measured),
+        "equation, rate at speed / diameter": integrate(anchor, at_diameter),
+    }
+    falls = runs | {name: done[name] for name in list(plan)[6:]}
+    print("| | depth, m | at rest after, s |\n|---|---|---|")
+    for name, run in falls.items():
+        print("| {} | {:.2f} | {:.2f} |".format(name, *run.arrest()))
+    print(f"\nThe simulation's floor is at {depth} m.")
+    draw(runs, picture)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 4:
+        sys.exit("anchor.py PROGRAM SCENE PICTURE")
+    main(*sys.argv[1:])

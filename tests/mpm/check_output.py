@@ -45,11 +45,11 @@ def check_points(folder, file):
 
 
 def check_with_vtk(folder, points, boxes, num_points):
-    import vtk
+    from vtkmodules.vtkIOXML import vtkXMLPPolyDataReader, vtkXMLUnstructuredGridReader
 
     for reader, file, count in (
-        (vtk.vtkXMLPPolyDataReader(), points, num_points),
-        (vtk.vtkXMLUnstructuredGridReader(), boxes, None),
+        (vtkXMLPPolyDataReader(), points, num_points),
+        (vtkXMLUnstructuredGridReader(), boxes, None),
     ):
         reader.SetFileName(str(folder / file))
         reader.Update()

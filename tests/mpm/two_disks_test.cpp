@@ -28,31 +28,26 @@ TEST(TwoDisks, meet_when_they_touch_and_keep_momentum_and_energy) {
         least = std::min(least, now.kinetic_energy);
         EXPECT_NEAR(now.momentum[0], 0, 1e-10);
         EXPECT_NEAR(now.momentum[1], 0, 1e-10);
+        EXPECT_NEAR(now.kinetic_energy + now.strain_energy, initial, 1e-3 * initial);
         EXPECT_NEAR(total_energy(simulation), initial, 1e-3 * initial);
     }
     EXPECT_LT(least, 0.3 * initial);
     EXPECT_GT(simulation.totals().kinetic_energy, 0.85 * initial);
 }
 
-/// Kinetic and strain energy that are gone after the impact, by what there was.
-double loss(double courant_number) {
+// Update stress last loses energy in proportion to the time step (Bardenhagen 2002); mapping back,
+// as the scene does, leaves a twentieth of that.
+TEST(TwoDisks, lose_energy_where_velocities_are_not_mapped_twice) {
     Scene scene = disks();
-    scene.courant_number = courant_number;
+    scene.time_integration = TimeIntegration::update_stress_last;
+    scene.courant_number = 0.03;
     for (Body& body : scene.bodies) body.points_per_cell = {2, 2, 1};
     Simulation simulation(scene, MPI_COMM_WORLD);
     const double initial = simulation.totals().kinetic_energy;
-    while (simulation.time() < scene.end_time) simulation.step();
+    while (simulation.time() < 2.5) simulation.step();
     const Totals end = simulation.totals();
-    return 1 - (end.kinetic_energy + end.strain_energy) / initial;
-}
-
-// What FLIP does not hand back to the points is of second order in a step's change of velocity: the
-// loss is of first order in the time step, and without one nothing is lost.
-TEST(TwoDisks, lose_energy_to_the_time_step_alone) {
-    const double coarse = loss(0.01), fine = loss(0.005);
-    EXPECT_GT(fine, 0);
-    EXPECT_LT(fine, 0.005);
-    EXPECT_NEAR(2 * fine - coarse, 0, 1e-3);
+    EXPECT_LT(end.kinetic_energy + end.strain_energy, 0.995 * initial);
+    EXPECT_NEAR(total_energy(simulation), initial, 0.004 * initial) << "accounted for";
 }
 
 }  // namespace

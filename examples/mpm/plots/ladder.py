@@ -48,7 +48,7 @@ class Rung:
 
 def with_method(text: str, shape_function: str, transfer: str, points_per_cell: int) -> str:
     """The scene with another method and number of points."""
-    text = re.sub(r"^ *(shape_function|transfer): .*\n", "", text, flags=re.MULTILINE)
+    text = re.sub(r"^ *(shape_function|transfer|time_integration): .*\n", "", text, flags=re.MULTILINE)
     method = f"  method:\n    shape_function: {shape_function}\n    transfer: {transfer}\n"
     text = text.replace("  method:\n", method)
     count = f"points_per_cell: [{points_per_cell}, {points_per_cell}]"

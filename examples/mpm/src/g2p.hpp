@@ -117,15 +117,16 @@ struct G2pFactors {
 };
 
 template <int D, class Shape, bool is_affine>
-void move_run(const PointWriter<D, is_affine>& to, const Shape& shape, const CellRun<D>& run,
-              const RunMotion<D, Shape::num_nodes>& nodes, const G2pFactors<D>& factors,
-              const PointBlock<D>& block) {
+[[gnu::always_inline]] inline void move_run(const PointWriter<D, is_affine>& to, const Shape& shape,
+                                            const CellRun<D>& run,
+                                            const RunMotion<D, Shape::num_nodes>& motion,
+                                            const G2pFactors<D>& factors,
+                                            const PointBlock<D>& block) {
     constexpr std::size_t N = Shape::num_nodes;
     const double inverse_spacing = 1 / factors.spacing, flip = factors.flip_fraction;
     const double time_step = block.time_step;
     const StepGradients<D> gradients(block);
     const PointWriter<D, is_affine> points = to;
-    const RunMotion<D, N> motion = nodes;
     const Components<D> corner = run.corner;
     std::array<std::array<double*, D>, D> gradient;
     for (std::size_t a = 0; a < D; ++a)
@@ -172,10 +173,11 @@ void move_run(const PointWriter<D, is_affine>& to, const Shape& shape, const Cel
 }
 
 template <int D, class Shape, bool is_affine>
-std::size_t grid_to_points(Particles& particles, const TransferColumns<D>& columns,
-                           const Shape& shape, double flip_fraction, const GridPatch<D>& patch,
-                           const std::vector<CellRun<D>>& runs, std::size_t first_run,
-                           const PointBlock<D>& block) {
+MPM_VECTOR_CLONES std::size_t grid_to_points(Particles& particles,
+                                             const TransferColumns<D>& columns, const Shape& shape,
+                                             double flip_fraction, const GridPatch<D>& patch,
+                                             const std::vector<CellRun<D>>& runs,
+                                             std::size_t first_run, const PointBlock<D>& block) {
     const PointWriter<D, is_affine> target(particles, columns);
     const G2pFactors<D> factors{patch.shape.spacing, flip_fraction};
     const auto offsets = node_offsets<D, Shape::num_nodes>(patch);

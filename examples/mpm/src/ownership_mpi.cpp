@@ -1,3 +1,5 @@
+#include "pair.hpp"
+
 #include <mpm/ownership_mpi.hpp>
 
 #include <algorithm>
@@ -22,15 +24,44 @@ bool is_inside(const Box& box, const std::array<const double*, 3>& at, std::size
     return true;
 }
 
+/// Whether all points of a block do, two at a time.
+template <int D>
+bool are_inside(const Box& box, const std::array<const double*, 3>& at, std::size_t begin,
+                std::size_t end) {
+    PairMask inside = {-1, -1};
+    std::array<Pair, D> lower, upper;
+    for (std::size_t a = 0; a < D; ++a) {
+        lower[a] = Pair{box.lower[a], box.lower[a]};
+        upper[a] = Pair{box.upper[a], box.upper[a]};
+    }
+    std::size_t p = begin;
+    for (; p + 2 <= end; p += 2)
+        for (std::size_t a = 0; a < D; ++a) {
+            const Pair here = load_pair(at[a] + p);
+            inside &= (here >= lower[a]) & (here <= upper[a]);
+        }
+    return inside[0] && inside[1] && (p == end || is_inside<D>(box, at, p));
+}
+
 template <int D>
 void Ownership::find_outside(const Box& box, Positions positions) {
+    constexpr std::size_t block = 256;
     const std::array<const double*, 3> at{positions.x.data(), positions.y.data(),
                                           positions.z.data()};
-    for (std::size_t p = 0; p < positions.size(); ++p) {
-        if (is_inside<D>(box, at, p) && is_inside<D>(grid_, at, p)) continue;
-        if (!is_inside<D>(grid_, at, p)) return report(Fault::left_grid);
-        leavers_.points.push_back(p);
-        for (std::size_t a = 0; a < D; ++a) at_[a].push_back(at[a][p]);
+    Box inner = box;
+    for (std::size_t a = 0; a < D; ++a) {
+        inner.lower[a] = std::max(box.lower[a], grid_.lower[a]);
+        inner.upper[a] = std::min(box.upper[a], grid_.upper[a]);
+    }
+    for (std::size_t begin = 0; begin < positions.size(); begin += block) {
+        const std::size_t end = std::min(begin + block, positions.size());
+        if (are_inside<D>(inner, at, begin, end)) continue;
+        for (std::size_t p = begin; p < end; ++p) {
+            if (!is_inside<D>(grid_, at, p)) return report(Fault::left_grid);
+            if (is_inside<D>(box, at, p)) continue;
+            leavers_.points.push_back(p);
+            for (std::size_t a = 0; a < D; ++a) at_[a].push_back(at[a][p]);
+        }
     }
 }
 

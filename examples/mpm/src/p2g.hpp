@@ -1,6 +1,7 @@
 #pragma once
 
 #include "unrolled.hpp"
+#include "vector_clones.hpp"
 
 #include <mpm/shape_functions.hpp>
 #include <mpm/transfer.hpp>
@@ -126,9 +127,9 @@ template <int D, std::size_t N, std::size_t n, bool is_affine>
 }
 
 template <int D, class Shape, bool is_affine>
-std::array<Node<D>, power(Shape::num_nodes, D)> sum_run(const PointReader<D, is_affine>& from,
-                                                        const Shape& shape, const CellRun<D>& run,
-                                                        double spacing) {
+[[gnu::always_inline]] inline std::array<Node<D>, power(Shape::num_nodes, D)> sum_run(
+    const PointReader<D, is_affine>& from, const Shape& shape, const CellRun<D>& run,
+    double spacing) {
     constexpr std::size_t N = Shape::num_nodes;
     const double inverse_spacing = 1 / spacing;
     std::array<Node<D>, power(N, D)> sums{};
@@ -156,8 +157,9 @@ std::array<Node<D>, power(Shape::num_nodes, D)> sum_run(const PointReader<D, is_
 }
 
 template <int D, class Shape, bool is_affine>
-void points_to_grid(Particles& particles, const TransferColumns<D>& columns, const Shape& shape,
-                    const std::vector<CellRun<D>>& runs, GridPatch<D>& patch) {
+MPM_VECTOR_CLONES void points_to_grid(Particles& particles, const TransferColumns<D>& columns,
+                                      const Shape& shape, const std::vector<CellRun<D>>& runs,
+                                      GridPatch<D>& patch) {
     const PointReader<D, is_affine> source(particles, columns);
     const auto offsets = node_offsets<D, Shape::num_nodes>(patch);
     std::ranges::fill(patch.sums, Node<D>{});

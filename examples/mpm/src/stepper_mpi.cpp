@@ -1,3 +1,4 @@
+#include "pair.hpp"
 #include "stepper.hpp"
 
 #include <mpm/carried_motion_mpi.hpp>
@@ -183,13 +184,21 @@ template <int D>
 double Stepper<D>::fastest_point() const {
     std::array<const double*, D> velocity;
     for (std::size_t a = 0; a < D; ++a) velocity[a] = particles[motion_.velocity[a]].data();
-    double largest = 0;
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-        double square = 0;
-        for (std::size_t a = 0; a < D; ++a) square += velocity[a][p] * velocity[a][p];
-        largest = std::max(largest, square);
+    Pair largest{};
+    const auto take = [&](const std::array<Pair, D>& pair) {
+        Pair square{};
+        for (const Pair& component : pair) square += component * component;
+        largest = square > largest ? square : largest;
+    };
+    std::array<Pair, D> pair;
+    std::size_t p = 0;
+    for (; p + 2 <= particles.size(); p += 2) {
+        for (std::size_t a = 0; a < D; ++a) pair[a] = load_pair(velocity[a] + p);
+        take(pair);
     }
-    return std::sqrt(largest);
+    for (std::size_t a = 0; a < D; ++a) pair[a] = Pair{p < particles.size() ? velocity[a][p] : 0};
+    take(pair);
+    return std::sqrt(std::max(largest[0], largest[1]));
 }
 
 template <int D>

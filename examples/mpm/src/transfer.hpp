@@ -24,17 +24,14 @@ class TransfersOf final : public Transfers<D> {
                    std::vector<CellRun<D>>& runs) const override {
         runs.clear();
         const auto at = positions(particles);
-        std::array<int, D> last;
-        last.fill(-2);
-        for (std::size_t p = 0; p < particles.size(); ++p) {
-            const std::array<int, D> first = first_node(patch, at, p);
-            if (first == last && p % block_size != 0) continue;
-            if (!runs.empty()) runs.back().end = p;
-            runs.push_back({p, p, patch.index(first), {}});
-            for (std::size_t a = 0; a < D; ++a)
-                runs.back().corner[a] = patch.shape.lower[a] + first[a] * patch.shape.spacing;
-            last = first;
+        for (std::size_t begin = 0; begin < particles.size(); begin += block_size) {
+            const std::size_t end = std::min(begin + block_size, particles.size());
+            const FirstNodes first = first_nodes(patch, at, begin, end);
+            for (std::size_t p = begin; p < end; ++p)
+                if (p == begin || starts_run(first, p - begin))
+                    runs.push_back(run_from(patch, first, p, p - begin));
         }
+        for (std::size_t r = 0; r + 1 < runs.size(); ++r) runs[r].end = runs[r + 1].begin;
         if (!runs.empty()) runs.back().end = particles.size();
     }
 
@@ -92,6 +89,35 @@ class TransfersOf final : public Transfers<D> {
         std::array<const double*, D> at;
         for (std::size_t a = 0; a < D; ++a) at[a] = particles[columns_.motion.position[a]].data();
         return at;
+    }
+
+    /// The lowest nodes of the points of a block, axis by axis.
+    using FirstNodes = std::array<std::array<int, block_size>, D>;
+
+    FirstNodes first_nodes(const GridPatch<D>& patch, const std::array<const double*, D>& at,
+                           std::size_t begin, std::size_t end) const {
+        FirstNodes first;
+        const GridShape shape = patch.shape;
+        for (std::size_t a = 0; a < D; ++a)
+            for (std::size_t k = 0; k < end - begin; ++k)
+                first[a][k] = shape_.first_node(shape, at[a][begin + k], a);
+        return first;
+    }
+
+    static bool starts_run(const FirstNodes& first, std::size_t k) {
+        for (std::size_t a = 0; a < D; ++a)
+            if (first[a][k] != first[a][k - 1]) return true;
+        return false;
+    }
+
+    static CellRun<D> run_from(const GridPatch<D>& patch, const FirstNodes& first, std::size_t p,
+                               std::size_t k) {
+        std::array<int, D> node;
+        for (std::size_t a = 0; a < D; ++a) node[a] = first[a][k];
+        CellRun<D> run{p, p, patch.index(node), {}};
+        for (std::size_t a = 0; a < D; ++a)
+            run.corner[a] = patch.shape.lower[a] + node[a] * patch.shape.spacing;
+        return run;
     }
 
     std::array<int, D> first_node(const GridPatch<D>& patch, const std::array<const double*, D>& at,

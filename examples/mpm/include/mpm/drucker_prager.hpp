@@ -38,12 +38,11 @@ template <int D>
 inline Stress<D> returned(const DruckerPrager& cone, const Stress<D>& trial) {
     const double old_mean = mean(trial);
     const Stress<D> shear = deviator(trial, old_mean);
-    const double tau = std::sqrt(second_invariant(shear));
+    // Never 0, and written so that a loop over points has no branch.
+    const double tau = std::sqrt(second_invariant(shear)) + std::numeric_limits<double>::min();
     const double new_mean = old_mean < cone.tension ? old_mean : cone.tension;
     const double strength = cone.cohesion - cone.friction * new_mean;
-    const double least = std::numeric_limits<double>::min();
-    const double ratio = strength / (tau > least ? tau : least);
-    return composed(new_mean, ratio < 1 ? ratio : 1, shear);
+    return composed(new_mean, (strength < tau ? strength : tau) / tau, shear);
 }
 
 }  // namespace mpm

@@ -52,7 +52,8 @@ struct NodeRange {
 
 /// Cell of a coordinate inside the grid; the upper face belongs to the last cell.
 inline int cell_of(const GridShape& shape, double coordinate, std::size_t axis) {
-    const int cell = static_cast<int>((coordinate - shape.lower[axis]) / shape.spacing);
+    const double cells_per_metre = 1 / shape.spacing;
+    const int cell = static_cast<int>((coordinate - shape.lower[axis]) * cells_per_metre);
     return cell < shape.num_cells[axis] ? cell : shape.num_cells[axis] - 1;
 }
 

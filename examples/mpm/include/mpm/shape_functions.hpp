@@ -30,15 +30,19 @@ struct LinearShape {
     /// Weights at `u` cells from the lowest node. On a face both are above 0 still: the slopes
     /// there need a velocity of both nodes, and one without mass would have none.
     Weights<2> at(double u, std::size_t) const {
-        constexpr double least = 1e-12;
-        const double inside = std::min(std::max(u, least), 1 - least);
+        const double above = u > least ? u : least;
+        const double inside = above < most ? above : most;
         return {{1 - inside, inside}, {-1, 1}};
     }
+
+    /// No constants: of these compilers make branches, which keep loops over points from vectors.
+    double least = 1e-12, most = 1 - 1e-12;
 };
 
 /// Lowest of the three nodes around the nearest one.
 inline int node_below_nearest(const GridShape& shape, double coordinate, std::size_t axis) {
-    return static_cast<int>((coordinate - shape.lower[axis]) / shape.spacing + 0.5) - 1;
+    const double cells_per_metre = 1 / shape.spacing;
+    return static_cast<int>((coordinate - shape.lower[axis]) * cells_per_metre + 0.5) - 1;
 }
 
 /// Quadratic B-spline (Steffen, Kirby and Berzins 2008): smooth gradients, so that points

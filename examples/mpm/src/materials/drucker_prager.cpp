@@ -1,3 +1,5 @@
+#include "../vector_clones.hpp"
+
 #include <mpm/drucker_prager.hpp>
 
 #include <algorithm>
@@ -14,13 +16,19 @@ DruckerPrager cone_of(double friction, double cohesion, double tension) {
 }
 
 template <int D>
+MPM_VECTOR_CLONES void return_to(const DruckerPrager& cone, const StressPointers<D>& stresses,
+                                 std::size_t begin, std::size_t end) {
+    const StressPointers<D> columns = stresses;
+    const DruckerPrager admissible = cone;
+#pragma GCC ivdep
+    for (std::size_t p = begin; p < end; ++p)
+        store<D>(returned<D>(admissible, load<D>(columns, p)), columns, p);
+}
+
+template <int D>
 PointKernel<D> return_kernel(const DruckerPrager& cone, const StressColumns<D>& columns) {
     return [cone, columns](Particles& particles, const PointBlock<D>& block) {
-        const StressPointers<D> stresses = stress_pointers<D>(particles, columns);
-        const std::size_t end = block.end;
-#pragma GCC ivdep
-        for (std::size_t p = block.begin; p < end; ++p)
-            store<D>(returned<D>(cone, load<D>(stresses, p)), stresses, p);
+        return_to<D>(cone, stress_pointers<D>(particles, columns), block.begin, block.end);
     };
 }
 

@@ -1,3 +1,5 @@
+#include "../vector_clones.hpp"
+
 #include <mpm/elastic.hpp>
 
 #include <cmath>
@@ -28,19 +30,30 @@ double elastic_wave_speed(const Values& values) {
     return elastic_of(values).wave_speed(values.number("density"));
 }
 
+namespace {
+
+template <int D>
+MPM_VECTOR_CLONES void strain(const StepGradients<D>& gradients, double bulk, double shear,
+                              const StressPointers<D>& stresses, const PointBlock<D>& block) {
+    const StressPointers<D> columns = stresses;
+    const StepGradients<D> of_step = gradients;
+    const std::size_t begin = block.begin, count = block.size();
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < count; ++k) {
+        const DisplacementGradient<D> gradient = of_step[k];
+        const Stress<D> turned = rotated(load<D>(columns, begin + k), gradient);
+        store<D>(strained(turned, gradient, bulk, shear), columns, begin + k);
+    }
+}
+
+}  // namespace
+
 template <int D>
 PointKernel<D> elastic_kernel(const Elastic& elastic, const StressColumns<D>& columns) {
     return [bulk = elastic.bulk_modulus(), shear = elastic.shear_modulus(), columns](
                Particles& particles, const PointBlock<D>& block) {
-        const StressPointers<D> stresses = stress_pointers<D>(particles, columns);
-        const StepGradients<D> gradients(block);
-        const std::size_t begin = block.begin, count = block.size();
-#pragma GCC ivdep
-        for (std::size_t k = 0; k < count; ++k) {
-            const DisplacementGradient<D> gradient = gradients[k];
-            const Stress<D> turned = rotated(load<D>(stresses, begin + k), gradient);
-            store<D>(strained(turned, gradient, bulk, shear), stresses, begin + k);
-        }
+        strain<D>(StepGradients<D>(block), bulk, shear, stress_pointers<D>(particles, columns),
+                  block);
     };
 }
 

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace mpm {
+
+/// Two neighbours of a column, which any 64-bit processor takes at once.
+using Pair [[gnu::vector_size(16)]] = double;
+
+/// What a comparison of pairs gives: all bits where it holds.
+using PairMask [[gnu::vector_size(16)]] = std::int64_t;
+
+[[gnu::always_inline]] inline Pair load_pair(const double* from) {
+    Pair pair;
+    std::memcpy(&pair, from, sizeof(pair));
+    return pair;
+}
+
+}  // namespace mpm

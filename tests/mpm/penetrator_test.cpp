@@ -120,6 +120,49 @@ TEST(Penetrator, keeps_momentum_and_gains_no_energy) {
     EXPECT_LT(least, 0.7 * speed);
 }
 
+/// What body and block have gained together of their momentum along y, by that at the start.
+double lost_momentum(Scene scene, double mass, double speed) {
+    scene.grid.lower[0] = 3;
+    scene.walls.left = Wall::roller;
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    while (simulation.time() < 0.3) simulation.step();
+    const double velocity = report(simulation, "penetrator_velocity");
+    EXPECT_GT(simulation.totals().momentum[1], -0.99 * mass * speed);
+    EXPECT_LT(simulation.totals().momentum[1], -0.1 * mass * speed) << "it has struck";
+    return 1 + (mass * velocity + simulation.totals().momentum[1]) / (mass * speed);
+}
+
+// A wall that cuts body and block in halves takes no momentum along it, whatever reaches beyond it.
+TEST(Penetrator, keeps_momentum_at_a_wall_through_its_axis) {
+    constexpr double mass = 2000, speed = 2;
+    for (const ShapeFunction shape :
+         {ShapeFunction::linear, ShapeFunction::quadratic, ShapeFunction::gimp}) {
+        Scene scene = struck_block(mass, speed);
+        scene.shape_function = shape;
+        EXPECT_NEAR(lost_momentum(scene, mass, speed), 0, 1e-10);
+        scene.time_integration = TimeIntegration::modified;
+        EXPECT_NEAR(lost_momentum(scene, mass, speed), 0, 1e-10);
+    }
+}
+
+// A block thrown flat on the top of a body that stands loses friction * the momentum it gains
+// across it, for as long as it slides.
+TEST(Penetrator, rubs_by_coulomb) {
+    constexpr double friction = 0.25, fast = 5, down = 1;
+    Scene scene = struck_block(1e12, 0);
+    Parameters& body = *find_effect(scene, "penetrator");
+    body["tip"] = std::vector<double>{3, 1.9};
+    body["radius"] = 10.0;
+    body["friction"] = friction;
+    scene.bodies.front().velocity = velocity_field({.constant = {fast, -down}});
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    while (simulation.time() < 0.2) simulation.step();
+    const Totals after = simulation.totals();
+    const double gained = after.momentum[1] + down * after.mass;
+    EXPECT_GT(gained, 0.9 * down * after.mass) << "it has met the body";
+    EXPECT_NEAR(fast * after.mass - after.momentum[0], friction * gained, 1e-9 * gained);
+}
+
 TEST(Penetrator, falls_freely_before_it_meets_the_soil) {
     Scene scene = struck_block(100, 0);
     find_effect(scene, "penetrator")->at("tip") = std::vector<double>{3, 7};

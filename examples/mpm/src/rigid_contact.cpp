@@ -129,7 +129,7 @@ void add_contact(const EffectBuilder<D>& builder, const std::shared_ptr<RigidCon
     const std::size_t first = stages.fields.size();
     for (std::size_t a = 0; a < D; ++a) {
         columns.force[a] = builder.particles.add_column(std::string("contact_force_") + "xyz"[a]);
-        stages.fields.push_back({"contact", columns.force[a]});
+        stages.fields.push_back({"contact", columns.force[a], -1, static_cast<int>(a)});
     }
     stages.forces.push_back({"contact", [=](GridPatch<D>& patch, const StepTime&) {
                                  for (std::size_t a = 0; a < D; ++a)

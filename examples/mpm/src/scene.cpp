@@ -63,9 +63,6 @@ void check_transfer(const Scene& scene) {
             "the least mass of a node must lie in 0 ... 1");
     require(!remaps(scene) || scene.transfer == Transfer::flip,
             "the modified time integration works with the transfer flip only");
-    for (const Effect& effect : scene.effects)
-        require(!remaps(scene) || effect.name != "penetrator",
-                "the modified time integration does not know the effect penetrator");
     if (scene.shape_function != ShapeFunction::gimp) return;
     require(scene.transfer != Transfer::apic, "APIC works with linear and quadratic shapes only");
     for (const Body& body : scene.bodies)

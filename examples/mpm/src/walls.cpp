@@ -107,6 +107,22 @@ void fold(const Walls& walls, GridPatch<D>& patch) {
                  });
 }
 
+/// The same for the fields of effects, each a scalar or a component of a vector.
+template <int D>
+void fold_fields(const Walls& walls, const std::vector<int>& components, GridPatch<D>& patch) {
+    visit_images(
+        patch, walls,
+        [&](std::size_t beyond, std::size_t image, const Wall& wall, std::size_t axis) {
+            for (std::size_t f = 0; f < components.size(); ++f) {
+                const int component = components[f];
+                const double sign =
+                    component < 0 ? 1 : parity(wall, axis, static_cast<std::size_t>(component));
+                patch.fields[f][image] += sign * patch.fields[f][beyond];
+                patch.fields[f][beyond] = 0;
+            }
+        });
+}
+
 /// Nodes beyond a wall move as the images of those inside.
 template <int D>
 void mirror(const Walls& walls, GridPatch<D>& patch) {
@@ -175,6 +191,14 @@ void add_walls(const Scene& scene, Stages<D>& stages) {
 template <int D>
 void add_images(const Scene& scene, Stages<D>& stages) {
     if (!has_images(scene)) return;
+    std::vector<int> components;
+    for (const NodeField& field : stages.fields) components.push_back(field.component);
+    if (!components.empty())
+        stages.scatters.push_back(
+            {"walls", [walls = scene.walls, components](
+                          const Particles&, std::span<const CellRun<D>>, GridPatch<D>& patch) {
+                 fold_fields(walls, components, patch);
+             }});
     stages.moved.push_back({"walls", [walls = scene.walls](GridPatch<D>& patch, const StepTime&) {
                                 mirror(walls, patch);
                             }});

@@ -50,6 +50,7 @@ struct NodeField {
     std::string name;
     Column column;
     int axis = -1;  ///< weighted by the shape functions' derivatives along it; -1: by themselves
+    int component = -1;  ///< of a vector, which the mirror image in a wall turns; -1: a scalar
 };
 
 /// The acceleration that weight has, buoyancy included, at its full strength, m/s^2.

@@ -49,6 +49,9 @@ class Ladder(unittest.TestCase):
             "  points_per_cell: [2, 2]\n"
         )
         self.assertEqual(with_method(scene, "gimp", "apic", 2), expected)
+        modified = expected.replace("apic\n", "flip\n    time_integration: modified\n")
+        self.assertEqual(with_method(expected, "gimp", "flip modified", 2), modified)
+        self.assertEqual(with_method(modified, "gimp", "apic", 2), expected)
 
 
 if __name__ == "__main__":

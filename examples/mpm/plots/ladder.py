@@ -19,12 +19,16 @@ from pathlib import Path
 from ladder_picture import draw_all
 from ladder_problems import PROBLEMS, Problem
 
+# Shape function and transfer, and whether velocities are mapped back to the nodes (modified).
 METHODS = [
     ("linear", "flip"),
     ("linear", "apic"),
     ("quadratic", "flip"),
     ("quadratic", "apic"),
     ("gimp", "flip"),
+    ("linear", "flip modified"),
+    ("quadratic", "flip modified"),
+    ("gimp", "flip modified"),
 ]
 POINTS_PER_CELL = [2, 3]  # along each axis
 
@@ -49,8 +53,10 @@ class Rung:
 def with_method(text: str, shape_function: str, transfer: str, points_per_cell: int) -> str:
     """The scene with another method and number of points."""
     text = re.sub(r"^ *(shape_function|transfer|time_integration): .*\n", "", text, flags=re.MULTILINE)
-    method = f"  method:\n    shape_function: {shape_function}\n    transfer: {transfer}\n"
-    text = text.replace("  method:\n", method)
+    transfer, *is_modified = transfer.split()
+    lines = ["  method:", f"    shape_function: {shape_function}", f"    transfer: {transfer}"]
+    lines += ["    time_integration: modified"] if is_modified else []
+    text = text.replace("  method:\n", "\n".join(lines) + "\n")
     count = f"points_per_cell: [{points_per_cell}, {points_per_cell}]"
     return re.sub(r"points_per_cell: \[.*\]", count, text)
 

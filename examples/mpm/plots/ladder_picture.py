@@ -16,8 +16,8 @@ from matplotlib.lines import Line2D  # noqa: E402
 from ladder_problems import PROBLEMS  # noqa: E402
 
 COLOURS = {"linear": "#0067A5", "quadratic": "#D55E00", "gimp": "#2E8B57"}
-MARKERS = {"flip": "o", "apic": "^"}
-FRONT = {"color": "black", "linewidth": 2.5, "alpha": 0.3, "marker": "s", "markersize": 8}
+MARKERS = {"flip": "o", "apic": "^", "flip modified": "s"}
+FRONT = {"color": "black", "linewidth": 2.5, "alpha": 0.3, "marker": "o", "markersize": 9}
 COSTS = {"point_steps": "points × steps", "seconds": "time [s]"}
 
 

@@ -47,6 +47,15 @@ def draw_boxes(axes: plt.Axes, path: Path) -> None:
         )
 
 
+def size_of(width: float, height: float, is_wide: bool) -> tuple[float, float]:
+    """Inches of three panels, below one another or side by side, and a bar of colours."""
+    if is_wide:
+        least_height = 3.5  # room for the labels of three flat panels
+        return 7, max(17 * height / width + 1, least_height)
+    across = min(2.5, 7 * width / height)
+    return 3 * (across + 0.4) + 1.3, across * height / width + 1
+
+
 def draw(folder: Path, picture: Path) -> None:
     points, boxes = frames_of(folder, "points"), frames_of(folder, "boxes")
     chosen = [(points[i][0], *points_in(points[i][1]), boxes[i][1]) for i in three_of(points)]
@@ -54,11 +63,10 @@ def draw(folder: Path, picture: Path) -> None:
     extent = np.concatenate([position for _, position, _, _, _ in chosen])[:, :2]
     width, height = np.ptp(extent, axis=0)
     is_wide = width > 1.5 * height
-    least_height = 3.5  # room for the labels of three flat panels
     figure, panels = plt.subplots(
         3 if is_wide else 1,
         1 if is_wide else 3,
-        figsize=(7, max(17 * height / width + 1, least_height)) if is_wide else (9, 2.6 * height / width + 1),
+        figsize=size_of(width, height, is_wide),
         layout="constrained",
         squeeze=False,
     )

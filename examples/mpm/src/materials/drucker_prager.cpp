@@ -71,7 +71,8 @@ DruckerPrager cone_of(const Values& values) {
                                values.number("tension_cut_off"), values.number("dilation_angle")};
     if (strength.dilation_angle > strength.friction_angle)
         throw std::invalid_argument(
-            "drucker_prager: 'dilation_angle' must be at most the friction angle");
+            "materials: the 'dilation_angle' of a drucker_prager must be at most its "
+            "'friction_angle'");
     return values.word("match") == "inner" ? inner_cone(strength) : matched_cone(strength);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 namespace comparisons {
 
@@ -43,22 +44,18 @@ void unless_failed(SimulationRun& run, Action&& action) {
     }
 }
 
-/// From its start, m.
-double distance_moved(const mpm::Particles& particles, std::size_t point) {
-    const double across = particles["displacement_x"][point];
-    const double up = particles["displacement_y"][point];
-    if (!particles.has_column("displacement_z")) return std::hypot(across, up);
-    return std::hypot(across, up, particles["displacement_z"][point]);
-}
-
 void note_state(SimulationRun& run, const mpm::Simulation& simulation, MPI_Comm comm) {
     const mpm::Particles& particles = simulation.particles();
     const auto x = particles["x"];
     const auto mass = particles["mass"];
+    const auto across = particles["displacement_x"];
+    const auto up = particles["displacement_y"];
+    const bool is_solid = particles.has_column("displacement_z");
+    const auto along = is_solid ? particles["displacement_z"] : std::span<const double>();
     double front = nowhere;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         run.mass_kg += mass[i];
-        const double moved = distance_moved(particles, i);
+        const double moved = std::hypot(across[i], up[i], is_solid ? along[i] : 0);
         run.moved_m = std::max(run.moved_m, moved);
         if (moved > 1) front = std::max(front, x[i]);
     }

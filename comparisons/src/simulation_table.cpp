@@ -24,9 +24,8 @@ std::string simulation_key(const SimulationPlan& plan, int num_ranks, std::int64
 
 std::string simulation_header() {
     return "method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,"
-           "worst_imbalance,front_x_m,moved_m,mass_kg,path_points,step_work_s,step_path_s,step_"
-           "network_s,"
-           "balance_work_s,balance_path_s,balance_network_s,error";
+           "worst_imbalance,front_x_m,moved_m,mass_kg,path_points,step_work_s,step_path_s,"
+           "step_network_s,balance_work_s,balance_path_s,balance_network_s,error";
 }
 
 void write_simulation(std::ostream& out, const SimulationPlan& plan, int num_ranks,

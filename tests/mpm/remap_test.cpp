@@ -8,23 +8,11 @@
 namespace mpm::test {
 namespace {
 
-// The bar of axial_bar_test: period 10 s, mean velocity 0.0636620 cos(0.6283185 t).
 Scene bar(ShapeFunction shape) {
-    constexpr double length = 25, amplitude = 0.1;
-    return {.name = "bar",
-            .grid = {.lower = {0, 0}, .spacing = 1, .num_cells = {28, 1}},
-            .materials = {elastic_material("rubber", 1, 100, 0)},
-            .bodies = {{.contains = box_region({{0, 0}, {length, 1}}),
-                        .points_per_cell = {2, 2, 1},
-                        .material = "rubber",
-                        .velocity = velocity_field(
-                            {.sine_amplitude = {amplitude, 0},
-                             .sine_wave_number = {std::numbers::pi / (2 * length), 0}})}},
-            .walls = {.left = Wall::roller, .bottom = Wall::roller, .top = Wall::roller},
-            .shape_function = shape,
-            .flip_fraction = 1,
-            .time_integration = TimeIntegration::modified,
-            .courant_number = 0.1};
+    Scene scene = axial_bar();
+    scene.shape_function = shape;
+    scene.time_integration = TimeIntegration::modified;
+    return scene;
 }
 
 TEST(Remap, keeps_velocity_period_and_energy_of_a_bar) {

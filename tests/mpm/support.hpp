@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -107,6 +108,24 @@ inline Material elastic_material(const std::string& name, double density, double
 /// Gravity in two dimensions as a scene names it.
 inline Effect gravity_effect(double acceleration) {
     return {"gravity", {{"acceleration", std::vector<double>{0, -acceleration}}}};
+}
+
+/// Mode 1 of a bar of 25 m held at x = 0: E = 100, density 1, hence wave speed 10 and period
+/// 4 L / c = 10; it starts with 0.1 sin(pi x / 2 L).
+inline Scene axial_bar() {
+    constexpr double length = 25, modulus = 100, amplitude = 0.1;
+    return {.name = "bar",
+            .grid = {.lower = {0, 0}, .spacing = 1, .num_cells = {28, 1}},
+            .materials = {elastic_material("rubber", 1, modulus, 0)},
+            .bodies = {{.contains = box_region({{0, 0}, {length, 1}}),
+                        .points_per_cell = {2, 2, 1},
+                        .material = "rubber",
+                        .velocity = velocity_field(
+                            {.sine_amplitude = {amplitude, 0},
+                             .sine_wave_number = {std::numbers::pi / (2 * length), 0}})}},
+            .walls = {.left = Wall::roller, .bottom = Wall::roller, .top = Wall::roller},
+            .flip_fraction = 1,
+            .courant_number = 0.1};
 }
 
 /// The slope at a fifth of the paper's resolution: 2,000 points.

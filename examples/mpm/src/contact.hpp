@@ -35,15 +35,22 @@ inline Components<D> after_contact(const Surface<D>& surface, const Components<D
     return along;
 }
 
-/// Lets a node that has moved meet a surface: all its velocities are corrected, so that points are
-/// strained, moved and pushed by what the surface leaves.
-template <int D>
-inline void meet(const Surface<D>& surface, NodeMotion<D>& motion) {
-    const Components<D> velocity = after_contact<D>(surface, motion.velocity);
+/// Corrects all velocities of a node that has moved by `left(velocity)`, so that points are
+/// strained, moved and pushed by what it leaves.
+template <int D, typename Left>
+inline void correct(NodeMotion<D>& motion, Left left) {
+    const Components<D> velocity = left(motion.velocity);
     for (std::size_t a = 0; a < D; ++a)
         motion.velocity_change[a] += velocity[a] - motion.velocity[a];
     motion.velocity = velocity;
-    motion.strain_velocity = after_contact<D>(surface, motion.strain_velocity);
+    motion.strain_velocity = left(motion.strain_velocity);
+}
+
+/// Lets a node that has moved meet a surface.
+template <int D>
+inline void meet(const Surface<D>& surface, NodeMotion<D>& motion) {
+    correct<D>(motion,
+               [&](const Components<D>& velocity) { return after_contact<D>(surface, velocity); });
 }
 
 }  // namespace mpm

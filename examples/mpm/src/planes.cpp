@@ -89,14 +89,12 @@ void add_planes(const Scene& scene, Stages<D>& stages) {
     for (const Plane& plane : scene.planes) {
         const Ground<D> ground = ground_of<D>(plane);
         const auto hold = [ground, walls = scene.walls](GridPatch<D>& patch, const StepTime&) {
-            visit_ground(
-                ground, walls, patch, [&](NodeMotion<D>& motion, const Components<D>& normal) {
-                    const auto velocity = left<D>(ground.wall, normal, motion.velocity);
-                    for (std::size_t a = 0; a < D; ++a)
-                        motion.velocity_change[a] += velocity[a] - motion.velocity[a];
-                    motion.velocity = velocity;
-                    motion.strain_velocity = left<D>(ground.wall, normal, motion.strain_velocity);
-                });
+            visit_ground(ground, walls, patch,
+                         [&](NodeMotion<D>& motion, const Components<D>& normal) {
+                             correct<D>(motion, [&](const Components<D>& velocity) {
+                                 return left<D>(ground.wall, normal, velocity);
+                             });
+                         });
         };
         const auto hold_strain = [ground, walls = scene.walls](GridPatch<D>& patch,
                                                                const StepTime&) {

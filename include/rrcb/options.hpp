@@ -29,6 +29,12 @@ enum class Refine {
     exact       ///< to the weighted median: each cut within the weight of one object
 };
 
+/// What becomes of points in one and the same place where the balance asked for divides them.
+enum class Coincident {
+    together,  ///< they share a part, so that the part of a position is the part of its points
+    divide     ///< some go to each side, lower ranks' and lower indices first; look-ups find one part
+};
+
 /// How `balance` works; must be the same on every rank, which is checked.
 struct Options {
     int num_parts = 0;               ///< parts to make; 0: one per rank
@@ -45,6 +51,9 @@ struct Options {
                                     ///< ...; empty: each box across its own longest axis
     std::vector<int> cut_axes;      ///< axis of each cut in the order of Cuts::tree; empty: free
     bool plain_cuts = false;        ///< planes only: points on a plane stay together
+
+    /// Only where cuts are refined and not plain.
+    Coincident coincident = Coincident::together;
 
     double sigma_multiplier = 1.5;  ///< sampled: half-width of a cell's sampling box, in sigmas
     double sample_fraction = 1.0;   ///< sampled: points drawn per real point, in (0, 1]

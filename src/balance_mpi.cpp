@@ -11,6 +11,8 @@
 #include <rrcb/balance.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <optional>
 
 namespace rrcb {
@@ -23,6 +25,14 @@ Options complete(Options options, int num_ranks) {
     if (options.refine == Refine::automatic)
         options.refine = options.domain == DomainKind::sampled ? Refine::none : Refine::tolerance;
     return options;
+}
+
+/// Checked sizes of a sum in [1, 2), so that weights over sizes stay in range; equal ones where
+/// there are none. By a power of two: the ratios keep their bits.
+void normalize(std::vector<double>& sizes, int num_parts) {
+    if (sizes.empty()) sizes.assign(static_cast<std::size_t>(num_parts), 1.0);
+    const int exponent = std::ilogb(std::accumulate(sizes.begin(), sizes.end(), 0.0));
+    for (double& size : sizes) size = std::ldexp(size, -exponent);
 }
 
 /// What all ranks contributed, at the root. Collective.
@@ -75,8 +85,10 @@ void refine_together(Decision& decision, const Options& options, BinnedPoints& b
         report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
     Estimate estimate{std::move(result.cuts), std::move(decision.bisection.brackets), weight,
                       decision.verdict.grain};
-    const Measured measured = refine(estimate, options, binned, room, result.parts, me);
+    Measured measured = refine(estimate, options, binned, room, result.parts, me);
     report.measured_imbalance = measured.imbalance;
+    report.within_tolerance = measured.imbalance <= options.imbalance_tolerance;
+    report.part_weights = std::move(measured.part_weights);
     report.rounds = measured.rounds;
     report.coincident_cuts = measured.coincident_cuts;
     result.cuts = std::move(estimate.cuts);
@@ -103,8 +115,7 @@ Balance balance(const Points& points, const Options& given, const Cuts* previous
         if (previous) check_previous(*previous, options, points.dimension);
         mine.summary = summarize(points, box);
         mine.summary.request = request_of(options, points.dimension, previous);
-        if (options.part_sizes.empty())
-            options.part_sizes.assign(static_cast<std::size_t>(options.num_parts), 1.0);
+        normalize(options.part_sizes, options.num_parts);
         make_room(decision, options, points.dimension);
         result.parts.resize(points.count);
         if (is_refined(options))
@@ -114,7 +125,7 @@ Balance balance(const Points& points, const Options& given, const Cuts* previous
     });
     gather(mine, options, points.dimension, me);
     decide_together(mine, options, previous, decision, me);
-    result.report = decision.verdict.report;
+    result.report = report_of(decision.verdict, options.num_parts);
     result.cuts = std::move(decision.bisection.cuts);
     if (is_refined(options) && result.report.num_points > 0) {
         refine_together(decision, options, binned, *room, result, me);

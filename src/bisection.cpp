@@ -51,8 +51,9 @@ Cut choose_cut(const StatisticalDomain& domain, double below, int depth, const T
     const Box box = extent_of(domain);
     const int axis = task.axis_of(task.result.cuts.tree.size(), depth, box);
     const auto a = static_cast<std::size_t>(axis);
-    if (below <= 0 || !(weight > 0)) return plane(axis, -infinity);
+    // First: a side of size 0 stays empty whatever there is to divide.
     if (below >= 1) return plane(axis, infinity);
+    if (below <= 0 || !(weight > 0)) return plane(axis, -infinity);
     if (task.options.cut_rule == CutRule::midpoint)
         return plane(axis, std::lerp(box.lower[a], box.upper[a], below));
     return weighted_quantile(domain, axis, below * weight, task.options.plain_cuts);

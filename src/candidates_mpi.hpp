@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cut_search.hpp"
+#include "local_search.hpp"
 #include "mpi/handles.hpp"
 
 #include <mpi.h>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rrcb {
 
@@ -9,18 +10,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// As many positions as are worth gathering instead of counting once more.
-constexpr double most_gathered = 1024;
+/// Times that candidates are counted in bins before splitters take over.
+constexpr int most_counts = 4;
 
 std::size_t axis_index(const CutSearch& search, int tied) {
     if (tied == 0) return static_cast<std::size_t>(search.cut.axis);
     return static_cast<std::size_t>(tied <= search.cut.axis ? tied - 1 : tied);
-}
-
-/// A bracket that takes in the largest double ends at infinity; its bins are as wide all the same.
-double bin_width(const CutSearch& search, int num_bins) {
-    const double upper = std::min(search.upper, std::numeric_limits<double>::max());
-    return upper / num_bins - search.lower / num_bins;
 }
 
 void finish(CutSearch& search, double value, double below) {
@@ -29,8 +24,39 @@ void finish(CutSearch& search, double value, double below) {
     search.below = below;
 }
 
+/// Ends with the cut at a position, which is the first above it.
+void finish_at(CutSearch& search, const Vector& position, double below) {
+    for (const std::size_t axis : PositionOrder(search).axes())
+        search.cut.at[axis] = position[axis];
+    search.stage = CutSearch::done;
+    search.below = below;
+}
+
+/// Ends with the cut behind a position, the last below it.
+void finish_behind(CutSearch& search, Vector position, double below) {
+    const std::size_t last = PositionOrder(search).axes().back();
+    position[last] = std::nextafter(position[last], infinity);
+    finish_at(search, position, below);
+}
+
+/// Ends among points that no cut tells apart: divides them, or leaves the lot on the side that is
+/// nearer to the target.
+void finish_in_lot(CutSearch& search, const CutTarget& target, const Vector& position,
+                   double below_lot, double weight) {
+    const double missing = target.target - below_lot;
+    search.coincident = 1;
+    if (search.divides != 0) {
+        search.lot_below = missing;
+        finish_at(search, position, target.target);
+    } else if (missing < weight / 2) {
+        finish_at(search, position, below_lot);
+    } else {
+        finish_behind(search, position, below_lot + weight);
+    }
+}
+
 /// Goes on along the next axis where all candidates share their coordinate on this one; ends where
-/// they share all of them, with the lot on the side that is nearer to the target.
+/// they share all of them.
 void break_tie(CutSearch& search, CutTarget& target, std::span<const double> extents,
                std::span<const double> weights) {
     const double value = extents[max_dimension + axis_index(search, search.tied)];
@@ -39,14 +65,16 @@ void break_tie(CutSearch& search, CutTarget& target, std::span<const double> ext
         const std::size_t axis = axis_index(search, search.tied);
         search.lower = -extents[axis];
         search.upper = std::nextafter(extents[max_dimension + axis], infinity);
+        search.by_bits = 0;
+        if (target.num_counts >= most_counts) search.stage = CutSearch::sampling;
         return;
     }
     double weight = 0;
     for (const double w : weights) weight += w;
-    search.coincident = 1;
-    const bool above = target.target - target.base < weight / 2;
-    finish(search, above ? value : std::nextafter(value, infinity),
-           target.base + (above ? 0 : weight));
+    Vector position{};
+    for (const std::size_t axis : PositionOrder(search).axes())
+        position[axis] = extents[max_dimension + axis];
+    finish_in_lot(search, target, position, target.base, weight);
 }
 
 struct Extent {
@@ -54,17 +82,24 @@ struct Extent {
     double largest;
 };
 
-/// Goes on in one slot; where it is no narrower than what it was part of, no count can divide it.
-void narrow(CutSearch& search, int num_bins, int slot, Extent extent, double count) {
-    const double lower = slot == 0 ? extent.smallest : bin_edge(search, num_bins, slot - 1);
-    const double upper = slot > num_bins ? std::nextafter(extent.largest, infinity)
-                                         : bin_edge(search, num_bins, slot);
-    const bool stuck = lower == search.lower && upper == search.upper;
-    search.stage =
-        stuck || count <= most_gathered ? CutSearch::gathering : CutSearch::over_candidates;
+/// Goes on with the candidates in the chosen slot: by another count in bins, or by splitters once
+/// bins have had their chance.
+void narrow(CutSearch& search, CutTarget& target, const Bins& bins, int num_bins, Extent extent) {
+    const int slot = search.chosen;
+    const double lower = slot == 0 ? extent.smallest : bins.edge(slot - 1);
+    const double upper =
+        slot > num_bins ? std::nextafter(extent.largest, infinity) : bins.edge(slot);
+    // Twice in bins of equal width, the fragments included; what is left then is no even cloud.
+    search.by_bits = search.stage == CutSearch::over_candidates ? 1 : 0;
     search.lower = lower;
     search.upper = upper;
-    search.chosen = slot;
+    if (target.num_candidates <= most_gathered) {
+        search.stage = CutSearch::gathering;
+    } else if (target.num_counts >= most_counts) {
+        search.stage = CutSearch::sampling;
+    } else {
+        search.stage = CutSearch::over_candidates;
+    }
 }
 
 struct Candidate {
@@ -83,30 +118,36 @@ std::vector<Candidate> read_candidates(std::span<const double> records, int dime
     return candidates;
 }
 
+/// Candidates at one position, the first of them and how many, with the weight below them.
+struct Lot {
+    std::size_t first = 0;
+    std::size_t count = 0;
+    double below = 0;
+    double weight = 0;
+};
+
 /// How many of the candidates are to lie below the cut.
 struct Division {
     std::size_t num_below = 0;
-    double below = 0;         ///< weight of the node below the cut
-    bool coincident = false;  ///< the target lies among candidates that no cut tells apart
+    double below = 0;  ///< weight of the node below the cut
+    Lot lot;           ///< that the target lies in, of several candidates; else empty
 };
 
 /// The division of sorted candidates that comes nearest to the target.
-template <class Before>
-Division best_division(std::span<const Candidate> sorted, const Before& before,
+Division best_division(std::span<const Candidate> sorted, const PositionOrder& before,
                        const CutTarget& target) {
-    Division best{0, target.base, false};
+    Division best{0, target.base, {}};
     double below = target.base;
-    double below_group = below;
-    std::size_t group = 0;
+    Lot lot{0, 0, below, 0};
     for (std::size_t k = 0; k < sorted.size(); ++k) {
         below += sorted[k].weight;
-        if (k + 1 < sorted.size() && !before(sorted[k], sorted[k + 1])) continue;
-        if (k > group && below_group < target.target && target.target < below)
-            best.coincident = true;
-        below_group = below;
-        group = k + 1;
+        if (k + 1 < sorted.size() && !before(sorted[k].position, sorted[k + 1].position)) continue;
+        lot.count = k + 1 - lot.first;
+        lot.weight = below - lot.below;
+        if (lot.count > 1 && lot.below < target.target && target.target < below) best.lot = lot;
+        lot = {k + 1, 0, below, 0};
         if (std::abs(below - target.target) >= std::abs(best.below - target.target)) continue;
-        best.num_below = group;
+        best.num_below = k + 1;
         best.below = below;
     }
     return best;
@@ -130,145 +171,151 @@ Chosen choose(double base, double target, std::span<const double> weights) {
     return chosen;
 }
 
+/// How far from the target a cut at either edge of a slot would be.
+struct EdgeErrors {
+    double lower;
+    double upper;
+
+    bool at_lower() const { return lower <= upper; }
+    double least() const { return std::min(lower, upper); }
+};
+
+EdgeErrors errors_at(const Chosen& chosen, double weight, const CutTarget& target) {
+    return {target.target - chosen.below, chosen.below + weight - target.target};
+}
+
+/// Notes which slot the search goes on in, and what is in it.
+void go_on_in(const Chosen& chosen, double count, CutSearch& search, CutTarget& target) {
+    search.chosen = chosen.slot;
+    target.base = chosen.below;
+    target.num_candidates = static_cast<GlobalCount>(count);
+}
+
 }  // namespace
+
+PositionOrder::PositionOrder(const CutSearch& search) {
+    for (int tied = search.tied; tied < search.num_axes; ++tied)
+        axes_[size_++] = axis_index(search, tied);
+}
+
+bool PositionOrder::operator()(const Vector& a, const Vector& b) const {
+    for (const std::size_t axis : axes())
+        if (a[axis] != b[axis]) return a[axis] < b[axis];
+    return false;
+}
 
 int current_axis(const CutSearch& search) {
     return static_cast<int>(axis_index(search, search.tied));
 }
 
-double bin_edge(const CutSearch& search, int num_bins, int k) {
-    const double step = bin_width(search, num_bins);
-    return k == num_bins ? search.upper : std::min(search.lower + k * step, search.upper);
+Bins bins_of(const CutSearch& search, const HistogramLayout& layout) {
+    return {search.lower, search.upper, search.by_bits != 0, layout.num_bins};
 }
 
-std::int32_t slot_of(const CutSearch& search, int num_bins, double value) {
-    if (value < search.lower) return 0;
-    if (!(value < search.upper)) return num_bins + 1;
-    const double step = bin_width(search, num_bins);
-    const double share = step > 0 ? (value - search.lower) / step : 0;
-    int bin = static_cast<int>(std::clamp(share, 0.0, num_bins - 1.0));
-    while (bin > 0 && value < bin_edge(search, num_bins, bin)) --bin;
-    while (bin + 1 < num_bins && value >= bin_edge(search, num_bins, bin + 1)) ++bin;
-    return bin + 1;
+std::int32_t slot_between(std::span<const Vector> splitters, const PositionOrder& order,
+                          const Vector& position) {
+    const auto at = std::ranges::lower_bound(splitters, position, order);
+    const auto slot = static_cast<std::int32_t>(2 * (at - splitters.begin()));
+    return at != splitters.end() && !order(position, *at) ? slot + 1 : slot;
 }
 
-void LocalSearch::count(const CutSearch& search, const HistogramLayout& layout,
-                        std::span<double> histogram) const {
-    const auto axis = static_cast<std::size_t>(current_axis(search));
-    const auto widen = [&](const Vector& lower, const Vector& upper) {
-        for (std::size_t a = 0; a < static_cast<std::size_t>(points_.dimension()); ++a) {
-            histogram[a] = std::max(histogram[a], -lower[a]);
-            histogram[max_dimension + a] = std::max(histogram[max_dimension + a], upper[a]);
-        }
+std::vector<Vector> splitters_of(std::vector<Vector> sample, const PositionOrder& order,
+                                 const HistogramLayout& layout) {
+    const auto same = [&](const Vector& a, const Vector& b) {
+        return !order(a, b) && !order(b, a);
     };
-    const auto add = [&](std::int32_t slot, double weight, double number) {
-        const std::size_t entry = layout.num_extents + static_cast<std::size_t>(slot);
-        histogram[entry] += weight;
-        histogram[entry + layout.num_slots()] += number;
-    };
-    const auto add_point = [&](LocalIndex i) {
-        const double value =
-            points_.coordinates[i * static_cast<std::size_t>(points_.dimension()) + axis];
-        add(slot_of(search, layout.num_bins, value), points_.weight(i), 1);
-    };
-    if (search.stage == CutSearch::over_candidates) {
-        for (const LocalIndex i : candidates_) {
-            widen(points_.position(i), points_.position(i));
-            add_point(i);
-        }
-        return;
-    }
-    for (const Fragment& fragment : fragments_) {
-        widen(fragment.box.lower, fragment.box.upper);
-        const std::int32_t first = slot_of(search, layout.num_bins, fragment.box.lower[axis]);
-        const std::int32_t last = slot_of(search, layout.num_bins, fragment.box.upper[axis]);
-        if (first == last) {
-            add(first, fragment.weight, static_cast<double>(fragment.last - fragment.first));
-        } else {
-            for (LocalIndex i = fragment.first; i < fragment.last; ++i) add_point(i);
-        }
-    }
+    std::ranges::sort(sample, order);
+    sample.erase(std::unique(sample.begin(), sample.end(), same), sample.end());
+    const std::size_t most = (layout.num_slots() - 1) / 2;
+    const std::size_t count = std::min(most, sample.size());
+    // Evenly spread over the sample where there is no room for all of it.
+    for (std::size_t k = 0; k < count; ++k)
+        sample[k] = sample[(2 * k + 1) * sample.size() / (2 * count)];
+    sample.resize(count);
+    return sample;
 }
 
-void LocalSearch::keep_chosen(const CutSearch& before, const CutSearch& after, int num_bins) {
-    if (after.stage == CutSearch::done) return;
-    const auto axis = static_cast<std::size_t>(current_axis(before));
-    const auto d = static_cast<std::size_t>(points_.dimension());
-    const auto is_chosen = [&](LocalIndex i) {
-        return slot_of(before, num_bins, points_.coordinates[i * d + axis]) == after.chosen;
-    };
-    if (before.stage == CutSearch::over_candidates) {
-        if (after.tied == before.tied)
-            std::erase_if(candidates_, [&](LocalIndex i) { return !is_chosen(i); });
-        return;
-    }
-    for (const Fragment& fragment : fragments_) {
-        if (slot_of(before, num_bins, fragment.box.lower[axis]) > after.chosen) continue;
-        if (slot_of(before, num_bins, fragment.box.upper[axis]) < after.chosen) continue;
-        for (LocalIndex i = fragment.first; i < fragment.last; ++i)
-            if (is_chosen(i)) candidates_.push_back(i);
-    }
-}
-
-void LocalSearch::append_candidates(double list, std::vector<double>& records) const {
-    for (const LocalIndex i : candidates_) {
-        const Vector x = points_.position(i);
-        records.push_back(list);
-        records.insert(records.end(), x.begin(), x.begin() + points_.dimension());
-        records.push_back(points_.weight(i));
-    }
-}
-
-void decide(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
-            std::span<const double> histogram) {
+void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
+                    std::span<const double> histogram) {
     const auto weights = histogram.subspan(layout.num_extents, layout.num_slots());
+    const auto counts = histogram.subspan(layout.num_extents + layout.num_slots());
     const auto axis = static_cast<std::size_t>(current_axis(search));
     if (!(target.target > 0)) {
         search.stage = CutSearch::done;
         return;
     }
-    if (search.stage == CutSearch::over_candidates &&
-        -histogram[axis] == histogram[max_dimension + axis]) {
+    const bool counted_candidates = search.stage == CutSearch::over_candidates;
+    target.num_counts += counted_candidates ? 1 : 0;
+    if (counted_candidates && -histogram[axis] == histogram[max_dimension + axis]) {
         break_tie(search, target, histogram, weights);
         return;
     }
+    const Bins bins = bins_of(search, layout);
     const Chosen chosen = choose(target.base, target.target, weights);
-    const double weight = weights[static_cast<std::size_t>(chosen.slot)];
-    const double too_little = target.target - chosen.below;
-    const double too_much = chosen.below + weight - target.target;
-    const bool at_lower_edge = too_little <= too_much;
-    const int edge = chosen.slot - (at_lower_edge ? 1 : 0);
-    if (edge >= 0 && edge <= layout.num_bins && std::min(too_little, too_much) <= target.slack) {
-        finish(search, bin_edge(search, layout.num_bins, edge),
-               chosen.below + (at_lower_edge ? 0 : weight));
+    const auto slot = static_cast<std::size_t>(chosen.slot);
+    const EdgeErrors errors = errors_at(chosen, weights[slot], target);
+    const int edge = chosen.slot - (errors.at_lower() ? 1 : 0);
+    if (edge >= 0 && edge <= layout.num_bins && errors.least() <= target.slack) {
+        finish(search, bins.edge(edge), chosen.below + (errors.at_lower() ? 0 : weights[slot]));
         return;
     }
-    const double count =
-        histogram[layout.num_extents + layout.num_slots() + static_cast<std::size_t>(chosen.slot)];
-    target.base = chosen.below;
-    target.num_candidates = static_cast<GlobalCount>(count);
-    narrow(search, layout.num_bins, chosen.slot,
-           {-histogram[axis], histogram[max_dimension + axis]}, count);
+    go_on_in(chosen, counts[slot], search, target);
+    narrow(search, target, bins, layout.num_bins,
+           {-histogram[axis], histogram[max_dimension + axis]});
+}
+
+void decide_by_splitters(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
+                         std::span<const Vector> splitters, std::span<const double> histogram) {
+    const auto weights =
+        histogram.subspan(layout.num_extents, layout.num_slots()).first(2 * splitters.size() + 1);
+    const auto counts = histogram.subspan(layout.num_extents + layout.num_slots());
+    const Chosen chosen = choose(target.base, target.target, weights);
+    const auto slot = static_cast<std::size_t>(chosen.slot);
+    const EdgeErrors errors = errors_at(chosen, weights[slot], target);
+    const bool at_splitter = slot % 2 == 1;
+    // Between two slots lies the near or the far side of a splitter; the outermost edges were
+    // looked at before.
+    const std::size_t edge = errors.at_lower() ? slot : slot + 1;
+    if (errors.least() <= target.slack && edge > 0 && edge < weights.size()) {
+        const double below = chosen.below + (errors.at_lower() ? 0 : weights[slot]);
+        const Vector& splitter = splitters[(edge - 1) / 2];
+        if (edge % 2 == 1) finish_at(search, splitter, below);
+        if (edge % 2 == 0) finish_behind(search, splitter, below);
+        return;
+    }
+    if (at_splitter) {
+        finish_in_lot(search, target, splitters[slot / 2], chosen.below, weights[slot]);
+        return;
+    }
+    go_on_in(chosen, counts[slot], search, target);
+    search.between_splitters = 1;
+    search.stage =
+        target.num_candidates <= most_gathered ? CutSearch::gathering : CutSearch::sampling;
 }
 
 void decide_among(CutSearch& search, CutTarget& target, std::span<const double> records,
                   int dimension) {
     std::vector<Candidate> candidates = read_candidates(records, dimension);
-    std::vector<std::size_t> axes;
-    for (int tied = search.tied; tied < search.num_axes; ++tied)
-        axes.push_back(axis_index(search, tied));
-    const auto before = [&](const Candidate& a, const Candidate& b) {
-        for (const std::size_t axis : axes)
-            if (a.position[axis] != b.position[axis]) return a.position[axis] < b.position[axis];
-        return false;
-    };
-    std::stable_sort(candidates.begin(), candidates.end(), before);
+    const PositionOrder before(search);
+    std::ranges::stable_sort(candidates, before, &Candidate::position);
 
     const Division division = best_division(candidates, before, target);
     const std::size_t best = division.num_below;
-    search.coincident = division.coincident ? 1 : 0;
+    search.coincident = division.lot.count > 0 ? 1 : 0;
+    const bool good = std::abs(division.below - target.target) <= target.slack;
+    if (search.coincident != 0 && search.divides != 0 && !good) {
+        const Lot& lot = division.lot;
+        finish_in_lot(search, target, candidates[lot.first].position, lot.below, lot.weight);
+        return;
+    }
     if (best == 0 || best == candidates.size()) {
-        finish(search, best == 0 ? search.lower : search.upper, division.below);
+        if (search.between_splitters == 0) {
+            finish(search, best == 0 ? search.lower : search.upper, division.below);
+        } else if (best == 0) {
+            finish_at(search, candidates.front().position, division.below);
+        } else {
+            finish_behind(search, candidates.back().position, division.below);
+        }
         return;
     }
     const Vector& last_below = candidates[best - 1].position;

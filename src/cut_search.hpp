@@ -1,6 +1,9 @@
 #pragma once
 
-#include "fragments.hpp"
+#include "bins.hpp"
+#include "histogram.hpp"
+
+#include <rrcb/cuts.hpp>
 
 #include <cstdint>
 #include <span>
@@ -11,83 +14,88 @@ namespace rrcb {
 /// What every rank knows of the search for one cut; broadcast by the root after each round.
 ///
 /// The cut lies in [lower, upper) of the axis number `tied` of its axes: its own first, then the
-/// others in ascending order. Along the axes before that one it is already fixed in `cut`.
+/// others in ascending order. Along the axes before that one it is already fixed in `cut`. From the
+/// first splitters on, it lies between two positions in the order of all axes from `tied` on.
 struct CutSearch {
-    enum Stage : std::int32_t { over_fragments, over_candidates, gathering, done, abandoned };
+    enum Stage : std::int32_t {
+        over_fragments,   ///< count all points of the node, in bins of the bracket
+        over_candidates,  ///< count those in the bracket that are left
+        sampling,         ///< bring a sample of them to the root, which finds splitters in it
+        over_splitters,   ///< count them between the splitters
+        gathering,        ///< bring them all to the root
+        done,
+        abandoned
+    };
     Stage stage = over_fragments;
     std::int32_t tied = 0;
     std::int32_t num_axes = 1;  ///< that may break ties, its own included
+    std::int32_t by_bits = 0;   ///< 1: bins of equal numbers of doubles, see Bins
     Cut cut;
     double lower = 0;
     double upper = 0;
-    std::int32_t chosen = 0;      ///< slot of the histogram that the search goes on in
-    double below = 0;             ///< weight of the node below the cut, once done
+    double quantum = 0;  ///< power of two of which each rank's sums are multiples, so that adding
+                         ///< them up is exact, in any order
+    std::int32_t between_splitters = 0;  ///< 1 where they bound the search, not lower and upper
+    std::int32_t chosen = 0;             ///< slot that the search goes on in
+    double below = 0;                    ///< weight of the node below the cut, once done
     std::int32_t coincident = 0;  ///< 1: points that no cut tells apart hold the target, once done
+    std::int32_t divides = 0;     ///< 1: these are to be divided, those of lower ranks below
+    double lot_below = 0;         ///< weight of them that belongs below, 0 for none, once done
 };
 
 /// What only the root knows of it.
 struct CutTarget {
     double target = 0;               ///< weight that belongs below the cut
     double slack = 0;                ///< how far from it the weight below may be
-    double base = 0;                 ///< weight of the node below `lower`
-    GlobalCount num_candidates = 0;  ///< points of all ranks that are left, once gathering
+    double base = 0;                 ///< weight of the node below what is left to the search
+    GlobalCount num_candidates = 0;  ///< points of all ranks that are left
+    int num_counts = 0;              ///< times that candidates were counted in bins
 };
 
 /// Number of the axis a search works on.
 int current_axis(const CutSearch& search);
 
-/// Weights and counts along the bracket of one search, added up over the ranks.
-///
-/// Slot 0 is what lies below the bracket, the last slot what lies above it. A message is
-/// num_extents entries of which the largest counts (minus the lower, then the upper ends of the
-/// extent, then 1 where the rank has failed) and 2 * num_slots entries to be summed.
-struct HistogramLayout {
-    int num_bins = 64;
-
-    std::size_t num_slots() const { return static_cast<std::size_t>(num_bins) + 2; }
-    static constexpr std::size_t failed = 2 * max_dimension;
-    static constexpr std::size_t num_extents = failed + 1;
-    std::size_t length() const { return num_extents + 2 * num_slots(); }
-};
-
-/// Edge number k of the num_bins + 1 edges of a bracket.
-double bin_edge(const CutSearch& search, int num_bins, int k);
-
-/// Slot of a value: 0 below the bracket, num_bins + 1 above it.
-std::int32_t slot_of(const CutSearch& search, int num_bins, double value);
-
-/// One rank's part in the search for one cut.
-class LocalSearch {
+/// The order of positions along the axes that are open to a search.
+class PositionOrder {
   public:
-    /// `fragments` and `points` are borrowed and must not change during the search.
-    LocalSearch(std::span<const Fragment> fragments, const SortedPoints& points)
-        : fragments_(fragments), points_(points) {}
+    explicit PositionOrder(const CutSearch& search);
+    bool operator()(const Vector& a, const Vector& b) const;
 
-    /// Adds what this rank holds to `histogram` (length layout.length()).
-    void count(const CutSearch& search, const HistogramLayout& layout,
-               std::span<double> histogram) const;
-
-    /// Keeps the points in the slot that the root chose with the bracket `before` it moved.
-    void keep_chosen(const CutSearch& before, const CutSearch& after, int num_bins);
-
-    /// Adds `list`, position and weight of each candidate.
-    void append_candidates(double list, std::vector<double>& records) const;
-
-    std::size_t num_candidates() const { return candidates_.size(); }
+    std::span<const std::size_t> axes() const { return {axes_.data(), size_}; }
 
   private:
-    std::span<const Fragment> fragments_;
-    const SortedPoints& points_;
-    std::vector<LocalIndex> candidates_;
+    std::array<std::size_t, max_dimension> axes_{};
+    std::size_t size_ = 0;
 };
 
-/// Moves the search on by what the ranks counted; sets stage done when the cut is good enough.
-void decide(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
-            std::span<const double> histogram);
+/// Bins of the bracket of a search.
+Bins bins_of(const CutSearch& search, const HistogramLayout& layout);
+
+/// Slot of a position: 2 k just before splitter k, 2 k + 1 at it. Splitters ascend in `order`.
+std::int32_t slot_between(std::span<const Vector> splitters, const PositionOrder& order,
+                          const Vector& position);
+
+/// The splitters that a sample gives, ascending, at most half the slots.
+std::vector<Vector> splitters_of(std::vector<Vector> sample, const PositionOrder& order,
+                                 const HistogramLayout& layout);
+
+/// Moves the search on by what the ranks counted in its bins; done when the cut is good enough.
+///
+/// A search takes at most 1 + 4 rounds of counting in bins, then two rounds for every factor of
+/// about 16 by which its candidates outnumber most_gathered: 16 up to 10^9 of them.
+void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
+                    std::span<const double> histogram);
+
+/// The same by what they counted between the splitters, which resolve all ties.
+void decide_by_splitters(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
+                         std::span<const Vector> splitters, std::span<const double> histogram);
 
 /// Ends the search with the best cut between the positions gathered: the weight below is as near
-/// to the target as these allow. Coincident points stay together.
+/// to the target as these allow. `records` hold position and weight of each.
 void decide_among(CutSearch& search, CutTarget& target, std::span<const double> records,
                   int dimension);
+
+/// As many candidates of one search as are worth gathering instead of counting once more.
+inline constexpr GlobalCount most_gathered = 1024;
 
 }  // namespace rrcb

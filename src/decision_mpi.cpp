@@ -33,23 +33,20 @@ double grain_of(const Summary& summary) {
     return summary.lightest == summary.heaviest ? summary.heaviest : 0;
 }
 
-Report report_of(const Summary& summary, const Bisection& bisection,
-                 std::span<const double> part_sizes) {
-    Report report;
-    report.num_points = summary.num_points;
-    report.num_records = summary.num_cells;
-    report.total_weight = summary.weight;
-    report.all_weights_zero = report.num_points > 0 && report.total_weight == 0;
-    report.least_imbalance =
-        report.all_weights_zero
-            ? least_imbalance(1, static_cast<double>(report.num_points), part_sizes)
-            : least_imbalance(summary.heaviest, report.total_weight, part_sizes);
-    report.estimated_imbalance =
+Verdict verdict_of(const Summary& summary, const Bisection& bisection,
+                   std::span<const double> part_sizes) {
+    Verdict verdict;
+    verdict.grain = grain_of(summary);
+    verdict.num_points = summary.num_points;
+    verdict.num_records = summary.num_cells;
+    verdict.total_weight = summary.weight;
+    verdict.least_imbalance =
+        summary.weight == 0
+            ? least_imbalance(1, static_cast<double>(summary.num_points), part_sizes)
+            : least_imbalance(summary.heaviest, summary.weight, part_sizes);
+    verdict.estimated_imbalance =
         bisection.part_weights.empty() ? not_known : imbalance(bisection.part_weights, part_sizes);
-    report.measured_imbalance = not_known;
-    report.surplus_parts =
-        static_cast<int>(std::max(GlobalCount{0}, bisection.cuts.num_parts - report.num_points));
-    return report;
+    return verdict;
 }
 
 /// Throws Error when the ranks do not fit together.
@@ -83,11 +80,31 @@ void bracket_previous(const Cuts& cuts, Descent at, Box box, int depth,
     bracket_previous(cuts, at.upper(), box, depth + 1, brackets);
 }
 
-Bisection reuse(const Cuts& previous, const Box& box, bool with_brackets) {
+/// Makes earlier cuts such as the options ask for: planes, and nothing in parts of size 0.
+void fit(const Options& options, Descent at, Cuts& cuts) {
+    if (at.is_part()) return;
+    Cut& cut = cuts.tree[at.node];
+    const auto sizes =
+        std::span(options.part_sizes)
+            .subspan(static_cast<std::size_t>(at.first), static_cast<std::size_t>(at.num_parts));
+    const double share = share_below(sizes);
+    const auto axis = static_cast<std::size_t>(cut.axis);
+    double value = cut.at[axis];
+    if (share <= 0) value = -std::numeric_limits<double>::infinity();
+    if (share >= 1) value = std::numeric_limits<double>::infinity();
+    if (options.plain_cuts || value != cut.at[axis])
+        cut.at.fill(-std::numeric_limits<double>::infinity());
+    cut.at[axis] = value;
+    fit(options, at.lower(), cuts);
+    fit(options, at.upper(), cuts);
+}
+
+Bisection reuse(const Cuts& previous, const Options& options, const Box& box, bool with_brackets) {
     Bisection bisection;
     bisection.cuts = previous;
+    fit(options, root_of(previous), bisection.cuts);
     if (with_brackets && box.lower[0] <= box.upper[0])
-        bracket_previous(previous, root_of(previous), box, 0, bisection.brackets);
+        bracket_previous(bisection.cuts, root_of(previous), box, 0, bisection.brackets);
     return bisection;
 }
 
@@ -104,6 +121,20 @@ const std::byte* copy_in(const std::byte* from, T* to, std::size_t count) {
 }
 
 }  // namespace
+
+Report report_of(const Verdict& verdict, int num_parts) {
+    Report report;
+    report.num_points = verdict.num_points;
+    report.num_records = verdict.num_records;
+    report.total_weight = verdict.total_weight;
+    report.estimated_imbalance = verdict.estimated_imbalance;
+    report.measured_imbalance = not_known;
+    report.least_imbalance = verdict.least_imbalance;
+    report.all_weights_zero = verdict.num_points > 0 && verdict.total_weight == 0;
+    report.surplus_parts =
+        static_cast<int>(std::max(GlobalCount{0}, num_parts - verdict.num_points));
+    return report;
+}
 
 bool is_refined(const Options& options) {
     return options.refine != Refine::none && options.cut_rule == CutRule::weighted_fraction &&
@@ -126,11 +157,10 @@ void decide(const Contribution& all, const Options& options, const Cuts* previou
     const int dimension = decision.bisection.cuts.dimension;
     const bool with_brackets = is_refined(options);
     Bisection& bisection = decision.bisection;
-    bisection = previous ? reuse(*previous, all.summary.box, with_brackets)
+    bisection = previous ? reuse(*previous, options, all.summary.box, with_brackets)
                          : bisect(build_domain(all, options, dimension), options, with_brackets);
     bisection.brackets.resize(with_brackets ? bisection.cuts.tree.size() : 0);
-    decision.verdict.grain = grain_of(all.summary);
-    decision.verdict.report = report_of(all.summary, bisection, options.part_sizes);
+    decision.verdict = verdict_of(all.summary, bisection, options.part_sizes);
 }
 
 void broadcast(Decision& decision, const Member& me) {

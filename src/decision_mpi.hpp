@@ -14,7 +14,11 @@ namespace rrcb {
 struct Verdict {
     std::int32_t failing_rank = no_rank;
     double grain = 0;  ///< weight of each point where all weigh the same, else 0
-    Report report;
+    std::int64_t num_points = 0;
+    std::int64_t num_records = 0;
+    double total_weight = 0;
+    double estimated_imbalance = 1;
+    double least_imbalance = 1;
 };
 
 /// The decision of the root: how it went, and the cuts to assign by or to start from.
@@ -23,6 +27,9 @@ struct Decision {
     Bisection bisection;
     std::vector<std::byte> message;  ///< the bisection on its way
 };
+
+/// What the verdict says of a partition that nobody has measured.
+Report report_of(const Verdict& verdict, int num_parts);
 
 /// True when the cuts are to be moved by what the ranks count: the literal midpoint has no weight
 /// to aim at, and all points at the root need no second look.

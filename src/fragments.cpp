@@ -23,12 +23,52 @@ double weight_of(const SortedPoints& points, LocalIndex first, LocalIndex last) 
     return weight;
 }
 
+bool is_at(const Cut& cut, const Vector& position, int dimension) {
+    return std::equal(position.begin(), position.begin() + dimension, cut.at.begin());
+}
+
+bool touches(const Box& box, const Cut& cut, int dimension) {
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+        if (cut.at[a] < box.lower[a] || cut.at[a] > box.upper[a]) return false;
+    return true;
+}
+
+/// On which side of a cut points lie, each to be asked for once: those of a lot are counted.
+class Divider {
+  public:
+    Divider(const Cut& cut, const Lot& lot, const SortedPoints& points)
+        : cut_(cut), lot_(lot), points_(points) {}
+
+    bool crosses(const Fragment& fragment) const {
+        const int dimension = points_.dimension();
+        const Sides sides = sides_of(fragment.box, cut_, dimension);
+        return (sides.below && sides.above) ||
+               (lot_.below > 0 && touches(fragment.box, cut_, dimension));
+    }
+
+    bool is_above(LocalIndex i) {
+        const Vector position = points_.position(i);
+        if (!rrcb::is_above(cut_, position, points_.dimension())) return false;
+        if (!(lot_.below > 0 && is_at(cut_, position, points_.dimension()))) return true;
+        const double weight = points_.weight(i);
+        const bool above = lot_.before + weight / 2 > lot_.below;
+        lot_.before += weight;
+        return above;
+    }
+
+  private:
+    const Cut& cut_;
+    Lot lot_;
+    const SortedPoints& points_;
+};
+
 /// Brings the entries below the cut to the front; returns where those above begin.
-LocalIndex partition(const Fragment& fragment, const Cut& cut, SortedPoints& points) {
+LocalIndex partition(const Fragment& fragment, Divider& divider, SortedPoints& points) {
     LocalIndex front = fragment.first;
     LocalIndex back = fragment.last;
+    // Every entry is asked for once: those in front of `front` and behind `back` were.
     while (front < back) {
-        if (!is_above(cut, points.position(front), points.dimension())) {
+        if (!divider.is_above(front)) {
             ++front;
         } else {
             swap_entries(points, front, --back);
@@ -51,16 +91,30 @@ std::vector<Fragment> cell_fragments(const SortedPoints& points) {
     return fragments;
 }
 
+double weight_at(const Cut& cut, const std::vector<Fragment>& fragments,
+                 const SortedPoints& points) {
+    double weight = 0;
+    for (const Fragment& fragment : fragments) {
+        if (!touches(fragment.box, cut, points.dimension())) continue;
+        for (LocalIndex i = fragment.first; i < fragment.last; ++i)
+            if (is_at(cut, points.position(i), points.dimension())) weight += points.weight(i);
+    }
+    return weight;
+}
+
 std::pair<std::vector<Fragment>, std::vector<Fragment>> split(
-    const std::vector<Fragment>& fragments, const Cut& cut, SortedPoints& points) {
+    const std::vector<Fragment>& fragments, const Cut& cut, const Lot& lot, SortedPoints& points) {
     std::vector<Fragment> lower;
     std::vector<Fragment> upper;
     const auto axis = static_cast<std::size_t>(cut.axis);
+    Divider divider(cut, lot, points);
     for (const Fragment& fragment : fragments) {
-        const Sides sides = sides_of(fragment.box, cut, points.dimension());
-        const LocalIndex middle = sides.below && sides.above ? partition(fragment, cut, points)
-                                  : sides.below              ? fragment.last
-                                                             : fragment.first;
+        if (!divider.crosses(fragment)) {
+            const bool above = is_above(cut, fragment.box.upper, points.dimension());
+            (above ? upper : lower).push_back(fragment);
+            continue;
+        }
+        const LocalIndex middle = partition(fragment, divider, points);
         Fragment below = fragment;
         Fragment above = fragment;
         below.last = above.first = middle;
@@ -79,11 +133,15 @@ std::pair<std::vector<Fragment>, std::vector<Fragment>> split(
     return {std::move(lower), std::move(upper)};
 }
 
-void write_part(const std::vector<Fragment>& fragments, Part part, const SortedPoints& points,
-                std::span<Part> parts) {
-    for (const Fragment& fragment : fragments)
+double write_part(const std::vector<Fragment>& fragments, Part part, const SortedPoints& points,
+                  std::span<Part> parts) {
+    double weight = 0;
+    for (const Fragment& fragment : fragments) {
         for (LocalIndex i = fragment.first; i < fragment.last; ++i)
             parts[points.original[i]] = part;
+        weight += fragment.weight;
+    }
+    return weight;
 }
 
 }  // namespace rrcb

@@ -20,13 +20,24 @@ struct Fragment {
 /// A fragment for every cell that holds points.
 std::vector<Fragment> cell_fragments(const SortedPoints& points);
 
+/// What to do with the points exactly at a cut, which no cut tells apart: they form one row over
+/// all ranks, of which the first go below the cut.
+struct Lot {
+    double before = 0;  ///< weight of those on lower ranks
+    double below = 0;   ///< weight of the row that belongs below; 0: all of it stays above
+};
+
+/// Weight of the points exactly at a cut.
+double weight_at(const Cut& cut, const std::vector<Fragment>& fragments,
+                 const SortedPoints& points);
+
 /// Fragments below and above a cut. Those it crosses are divided in place: entries of `points`
 /// change places within the fragment.
 std::pair<std::vector<Fragment>, std::vector<Fragment>> split(
-    const std::vector<Fragment>& fragments, const Cut& cut, SortedPoints& points);
+    const std::vector<Fragment>& fragments, const Cut& cut, const Lot& lot, SortedPoints& points);
 
-/// Sets the part of every point of the fragments, by its original index.
-void write_part(const std::vector<Fragment>& fragments, Part part, const SortedPoints& points,
-                std::span<Part> parts);
+/// Sets the part of every point of the fragments, by its original index; returns their weight.
+double write_part(const std::vector<Fragment>& fragments, Part part, const SortedPoints& points,
+                  std::span<Part> parts);
 
 }  // namespace rrcb

@@ -16,11 +16,8 @@ void join_elements(void* in, void* in_out, int* count, MPI_Datatype* type) {
     const auto length = static_cast<std::size_t>(bytes) / sizeof(double);
     const double* from = static_cast<const double*>(in);
     double* to = static_cast<double*>(in_out);
-    for (int k = 0; k < *count; ++k, from += length, to += length) {
-        for (std::size_t i = 0; i < HistogramLayout::num_extents; ++i)
-            to[i] = std::max(to[i], from[i]);
-        for (std::size_t i = HistogramLayout::num_extents; i < length; ++i) to[i] += from[i];
-    }
+    for (int k = 0; k < *count; ++k, from += length, to += length)
+        join_histograms({from, length}, {to, length});
 }
 
 }  // namespace
@@ -33,11 +30,8 @@ Histograms::Histograms(const HistogramLayout& layout, std::size_t most, bool is_
       op_(join_elements) {}
 
 std::span<double> Histograms::add() {
-    const std::size_t length = layout_.length();
-    const std::span<double> histogram(mine_.get() + size_++ * length, length);
-    std::ranges::fill(histogram, 0.0);
-    std::ranges::fill(histogram.first(HistogramLayout::failed),
-                      -std::numeric_limits<double>::infinity());
+    const std::span<double> histogram = mine(size_++);
+    clear_histogram(histogram);
     return histogram;
 }
 
@@ -52,7 +46,23 @@ std::span<const double> Histograms::joined(std::size_t k) const {
 }
 
 bool Histograms::any_failed() const {
-    return size_ > 0 && joined(0)[HistogramLayout::failed] > 0;
+    for (std::size_t k = 0; k < size_; ++k)
+        if (is_marked_failed(joined(k))) return true;
+    return false;
+}
+
+void Histograms::broadcast_samples(std::span<const std::size_t> samples, int root, MPI_Comm comm) {
+    if (samples.empty()) return;
+    if (joined_ != nullptr)
+        for (std::size_t k = 0; k < samples.size(); ++k)
+            std::ranges::copy(joined(samples[k]), mine(k).begin());
+    mpi::broadcast(
+        std::as_writable_bytes(std::span(mine_.get(), samples.size() * layout_.length())), root,
+        comm);
+}
+
+std::span<const double> Histograms::sample(std::size_t k) const {
+    return sample_in(mine(k));
 }
 
 }  // namespace rrcb

@@ -1,12 +1,13 @@
 #pragma once
 
-#include "cut_search.hpp"
+#include "histogram.hpp"
 #include "mpi/handles.hpp"
 
 #include <mpi.h>
 
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace rrcb {
 
@@ -25,7 +26,9 @@ class Histograms {
     std::span<double> add();
 
     /// Brings the histograms of all ranks, as many on each, together at the root: extents and
-    /// failures by maximum, weights and counts by sum. Collective over `comm`.
+    /// failures by maximum, weights and counts by sum, samples joined. Whatever the order in which
+    /// MPI joins them, the bits are the same, as sums are exact (see CutSearch::quantum).
+    /// Collective over `comm`.
     void join(int root, MPI_Comm comm);
 
     /// Number k as joined; at the root only.
@@ -34,7 +37,18 @@ class Histograms {
     /// True when a rank has failed that took part in the last join; at the root only.
     bool any_failed() const;
 
+    /// Gives all ranks the joined samples of the numbers in `samples` (their order, as many on each
+    /// rank; read at the root alone), in place of this round's histograms. Collective over `comm`.
+    void broadcast_samples(std::span<const std::size_t> samples, int root, MPI_Comm comm);
+
+    /// Number k of the samples that were broadcast.
+    std::span<const double> sample(std::size_t k) const;
+
   private:
+    std::span<double> mine(std::size_t k) const {
+        return {mine_.get() + k * layout_.length(), layout_.length()};
+    }
+
     HistogramLayout layout_;
     std::size_t size_ = 0;
     std::unique_ptr<double[]> mine_;

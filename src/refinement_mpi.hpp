@@ -20,6 +20,7 @@ struct Estimate {
 /// How good the parts really are, and what it took to know; the same on every rank.
 struct Measured {
     double imbalance = 1;
+    std::vector<double> part_weights{};
     int rounds = 0;           ///< of counting and deciding
     int coincident_cuts = 0;  ///< that keep points together which the target divides
 };
@@ -27,10 +28,11 @@ struct Measured {
 /// Moves the cuts of `estimate` until the parts of the real points are as even as asked.
 ///
 /// Collective. `options` are complete, `room` is made by them. Writes the part of each point into
-/// `parts`; where the estimate is not good enough it works on a sorted copy of the points. Without
-/// weight anywhere the cuts stay. A rank that fails on its own takes part with nothing until the
-/// root, told of it by the next histograms or candidates, ends all searches; then all throw its
-/// error.
+/// `parts`; where the estimate is not good enough it works on a sorted copy of the points. Where a
+/// tolerance is missed because slack was spent on upper levels that lower ones need, it searches
+/// once more, exactly, and keeps the better cuts. Without weight anywhere the cuts stay. A rank
+/// that fails on its own takes part with nothing until the root, told of it by the next histograms
+/// or candidates, ends all searches; then all throw its error.
 Measured refine(Estimate& estimate, const Options& options, const BinnedPoints& binned,
                 RefinementRoom& room, std::span<Part> parts, Member& me);
 

@@ -23,16 +23,19 @@ struct RefinementRoom {
     /// By complete options. Not collective. Throws Error or std::bad_alloc.
     RefinementRoom(const Options& options, int dimension, bool is_root);
 
-    std::vector<double> part_weights;  ///< one per part; at the end, while it travels, 1 for failed
-    std::vector<double> sums;          ///< of all ranks, at the root
+    std::vector<double> part_weights;  ///< of this rank's points; at the end 1 where it failed
+    std::vector<double> sums;          ///< of all ranks; at the end the imbalance
     std::vector<Node> nodes;           ///< of the current level; capacity for any
     std::vector<Node> children;        ///< of the next one
 
     // The searches of the current level, in step on all ranks; capacity for any.
+    std::vector<const Node*> searched;
     std::vector<CutSearch> searches;
     std::vector<CutSearch> before;  ///< the searches before the root decided
     std::vector<CutTarget> targets;
     std::vector<LocalSearch> local;
+    std::vector<std::size_t> samples;  ///< histograms of this round that hold one
+    std::vector<double> lots;          ///< weights at the cuts found
 
     Histograms histograms;
     Candidates candidates;

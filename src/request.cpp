@@ -56,6 +56,7 @@ Request request_of(const Options& options, int dimension, const Cuts* previous) 
             hash_of(axis_options(options)),
             previous ? hash_of(values_of(*previous)) : 0,
             bits_of(static_cast<int>(options.refine)),
+            bits_of(static_cast<int>(options.coincident)),
             bits_of(options.imbalance_tolerance),
             bits_of(options.sigma_multiplier),
             bits_of(options.sample_fraction),

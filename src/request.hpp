@@ -11,7 +11,7 @@
 namespace rrcb {
 
 /// What the options can be told apart by, and the arithmetic, in the order of the comparison.
-inline constexpr std::array<std::string_view, 14> request_names = {
+inline constexpr std::array<std::string_view, 15> request_names = {
     "dimension",
     "num_parts",
     "part_sizes",
@@ -21,6 +21,7 @@ inline constexpr std::array<std::string_view, 14> request_names = {
     "one of grouped_axes, cut_axes, plain_cuts",
     "previous",
     "refine",
+    "coincident",
     "imbalance_tolerance",
     "sigma_multiplier",
     "sample_fraction",

@@ -11,11 +11,14 @@ namespace rrcb {
 
 /// What the balancer saw and expects; the same on every rank.
 struct Report {
-    GlobalCount num_points = 0;      ///< over all ranks
-    GlobalCount num_records = 0;     ///< cells (or points, for DomainKind::points) bisected
-    double total_weight = 0;         ///< over all ranks
-    double estimated_imbalance = 1;  ///< as the statistical domain sees it, see quality.hpp
-    double measured_imbalance = 1;   ///< of the points themselves; NaN where it was not measured
+    GlobalCount num_points = 0;        ///< over all ranks
+    GlobalCount num_records = 0;       ///< cells (or points, for DomainKind::points) bisected
+    double total_weight = 0;           ///< over all ranks
+    double estimated_imbalance = 1;    ///< as the statistical domain sees it, see quality.hpp
+    double measured_imbalance = 1;     ///< of the points, counted; NaN where they were not
+    bool within_tolerance = false;     ///< measured to be within Options::imbalance_tolerance
+    std::vector<double> part_weights;  ///< over all ranks, counted, one per part, by count where
+                                       ///< all weights are 0; empty where they were not counted
     double least_imbalance = 1;  ///< no partition is better: of the heaviest point in a part alone
     int coincident_cuts = 0;  ///< that met points no allowed cut can tell apart, where the balance
                               ///< asked for divides them; counted by the refinement

@@ -32,7 +32,7 @@ enum class Refine {
 /// What becomes of points in one and the same place where the balance asked for divides them.
 enum class Coincident {
     together,  ///< they share a part, so that the part of a position is the part of its points
-    divide     ///< some go to each side, lower ranks' and lower indices first; look-ups find one part
+    divide     ///< some go to each side, those of lower ranks below; look-ups find one part
 };
 
 /// How `balance` works; must be the same on every rank, which is checked.

@@ -174,6 +174,23 @@ TEST(Refinement, many_coincident_points_are_no_endless_search) {
     EXPECT_EQ(result.report.coincident_cuts, 2);  // of the whole, and of the half with all points
 }
 
+TEST(Refinement, takes_at_most_sixteen_rounds_a_level_over_hundreds_of_decades) {
+    for (const double decades : {3.0, 30.0, 300.0}) {
+        const auto mine = share_of_cloud(
+            20000, 2, [&](std::size_t, int, double u) { return std::pow(10, -decades * u); });
+        const Points points = interleaved_points(mine, 2);
+        for (const Refine refine : {Refine::tolerance, Refine::exact}) {
+            Options options;
+            options.refine = refine;
+            options.num_parts = 8;
+            const Balance result = balance(points, options, MPI_COMM_WORLD);
+            EXPECT_LE(result.report.measured_imbalance, refine == Refine::exact ? 1.0004 : 1.01);
+            EXPECT_LE(result.report.rounds, 1 + 16 * 3) << decades << " decades";
+            expect_look_ups_agree(points, result);
+        }
+    }
+}
+
 TEST(Refinement, zero_weights_everywhere_mean_balance_by_count) {
     const auto mine = share_of_cloud(4000, 2, [](std::size_t, int, double u) { return u * u; });
     const std::vector<double> weights(mine.size() / 2, 0.0);
@@ -284,6 +301,29 @@ TEST(EarlierCuts, make_room_for_other_part_sizes) {
     const auto weights = part_weights(points, second.parts, 4, MPI_COMM_WORLD);
     EXPECT_EQ(weights[0], 0);
     EXPECT_NEAR(weights[1], 2000, 1);
+}
+
+TEST(EarlierCuts, that_were_tilted_are_made_planes_where_planes_are_asked_for) {
+    // Columns of 100, 300 and 200 points, which only a tilted cut halves.
+    std::vector<double> mine;
+    for (int i = 0; i < 600; ++i) {
+        if (i % num_ranks() != rank()) continue;
+        mine.push_back(i < 100 ? 0 : i < 400 ? 1000 : 2000);
+        mine.push_back(i);
+    }
+    const Points points = interleaved_points(mine, 2);
+    Options options;
+    options.refine = Refine::exact;
+    options.num_parts = 2;
+    const Balance tilted = balance(points, options, MPI_COMM_WORLD);
+    ASSERT_GT(tilted.cuts.tree[0].at[1], -std::numeric_limits<double>::infinity());
+    options.plain_cuts = true;
+    for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
+        options.refine = refine;
+        const Balance plain = balance(points, options, MPI_COMM_WORLD, tilted.cuts);
+        EXPECT_EQ(plain.cuts.tree[0].at[1], -std::numeric_limits<double>::infinity());
+        expect_look_ups_agree(points, plain);
+    }
 }
 
 TEST(GivenAxes, are_crossed_in_groups) {

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <rrcb/points.hpp>
+
+#include <cstddef>
+#include <span>
+
+namespace rrcb {
+
+/// What the ranks tell of one search in a round: weights and counts in the slots of a bracket or
+/// between splitters, or a sample.
+///
+/// num_extents entries of which the largest counts: minus the lower, then the upper ends of the
+/// extent, then the status, which is 1 where a rank has failed, and more by twice the dimension
+/// where the rest is a sample. Behind them 2 * num_slots entries to be summed, or a sample.
+struct HistogramLayout {
+    int num_bins = 64;
+
+    std::size_t num_slots() const { return static_cast<std::size_t>(num_bins) + 2; }
+    static constexpr std::size_t status = 2 * max_dimension;
+    static constexpr std::size_t num_extents = status + 1;
+    std::size_t length() const { return num_extents + 2 * num_slots(); }
+};
+
+/// Makes an empty histogram.
+void clear_histogram(std::span<double> histogram);
+
+/// Makes an empty sample of positions; returns where it lies.
+std::span<double> clear_to_sample(int dimension, std::span<double> histogram);
+
+/// The sample in a histogram that holds one.
+inline std::span<const double> sample_in(std::span<const double> histogram) {
+    return histogram.subspan(HistogramLayout::num_extents);
+}
+
+/// Tells that this rank has failed.
+inline void mark_failed(std::span<double> histogram) {
+    histogram[HistogramLayout::status] += 1;
+}
+
+bool is_marked_failed(std::span<const double> histogram);
+
+/// Takes in the histogram of other ranks, of the same kind. In any order it gives the same bits
+/// where weights are multiples of a common quantum.
+void join_histograms(std::span<const double> other, std::span<double> histogram);
+
+}  // namespace rrcb

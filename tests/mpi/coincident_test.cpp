@@ -1,0 +1,118 @@
+#include "../support/clouds.hpp"
+#include "../support/ranks.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/quality.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace rrcb {
+namespace {
+
+using test::num_ranks;
+using test::rank;
+
+Options dividing(int num_parts, Refine refine = Refine::exact) {
+    Options options;
+    options.num_parts = num_parts;
+    options.refine = refine;
+    options.coincident = Coincident::divide;
+    return options;
+}
+
+TEST(CoincidentPoints, in_one_place_are_divided_by_number) {
+    const std::vector<double> mine(rank() == 1 ? 0 : 3 * 1000, 0.7);
+    const Points points = interleaved_points(mine, 3);
+    const double count = 1000.0 * (num_ranks() > 1 ? num_ranks() - 1 : 1);
+    for (const int num_parts : {2, 3, 7, 16}) {
+        const Balance result = balance(points, dividing(num_parts), MPI_COMM_WORLD);
+        for (const double weight : part_weights(points, result.parts, num_parts, MPI_COMM_WORLD))
+            EXPECT_LE(std::abs(weight - count / num_parts), 1) << num_parts << " parts";
+        EXPECT_GT(result.report.coincident_cuts, 0);
+    }
+}
+
+TEST(CoincidentPoints,
+     in_few_places_leave_parts_within_one_point_and_other_points_where_they_look) {
+    // Seven places, of which two parts share several, among points that lie apart.
+    std::vector<double> mine;
+    std::mt19937_64 engine(3);
+    for (int i = 0; i < 7000; ++i) {
+        const double u = test::uniform(engine);
+        const double v = test::uniform(engine);
+        if (i % num_ranks() != rank()) continue;
+        const bool apart = i % 10 == 0;
+        mine.insert(mine.end(), {apart ? u : 0.1 * (i % 7), apart ? v : 0.5});
+    }
+    const Points points = interleaved_points(mine, 2);
+    const Balance result = balance(points, dividing(6), MPI_COMM_WORLD);
+    for (const double weight : part_weights(points, result.parts, 6, MPI_COMM_WORLD))
+        EXPECT_LE(std::abs(weight - 7000.0 / 6), 1);
+    for (LocalIndex i = 0; i < points.count; ++i) {
+        if (mine[2 * i + 1] == 0.5) continue;
+        EXPECT_EQ(result.parts[i], part_of(result.cuts, points.position(i)));
+    }
+}
+
+TEST(CoincidentPoints, of_different_weight_are_divided_within_the_heaviest) {
+    std::vector<double> mine;
+    std::vector<double> weights;
+    std::mt19937_64 engine(8);
+    for (int i = 0; i < 2000; ++i) {
+        const double weight = std::pow(100, test::uniform(engine));
+        if (i % num_ranks() != rank()) continue;
+        mine.insert(mine.end(), {1, 2});
+        weights.push_back(weight);
+    }
+    const Points points = interleaved_points(mine, 2, weights);
+    const Balance result = balance(points, dividing(4), MPI_COMM_WORLD);
+    const auto sums = part_weights(points, result.parts, 4, MPI_COMM_WORLD);
+    const double total = std::accumulate(sums.begin(), sums.end(), 0.0);
+    // Half of the heaviest at each of two cuts.
+    for (const double sum : sums) EXPECT_LE(std::abs(sum - total / 4), 100);
+}
+
+TEST(CoincidentPoints, stay_together_where_the_tolerance_allows_it) {
+    // 490, 20 and 490: with either side of 510 the imbalance is 1.02.
+    std::vector<double> mine;
+    for (int i = 0; i < 1000; ++i)
+        if (i % num_ranks() == rank()) mine.push_back(i < 490 ? i : i < 510 ? 5000 : 9000 + i);
+    const Points points = interleaved_points(mine, 1);
+    for (const auto& [tolerance, together] : {std::pair{1.03, true}, std::pair{1.01, false}}) {
+        Options options = dividing(2, Refine::tolerance);
+        options.imbalance_tolerance = tolerance;
+        options.support_mesh = 1;
+        const Balance result = balance(points, options, MPI_COMM_WORLD);
+        EXPECT_LE(result.report.measured_imbalance, tolerance);
+        int places = 0;
+        for (LocalIndex i = 0; i < points.count; ++i)
+            if (mine[i] == 5000) places |= 1 << result.parts[i];
+        MPI_Allreduce(MPI_IN_PLACE, &places, 1, MPI_INT, MPI_BOR, MPI_COMM_WORLD);
+        EXPECT_EQ(places != 3, together);
+    }
+}
+
+TEST(CoincidentPoints, on_a_plain_cut_stay_together) {
+    const std::vector<double> mine(600, 0.7);
+    Options options = dividing(4);
+    options.plain_cuts = true;
+    const Balance result = balance(interleaved_points(mine, 3), options, MPI_COMM_WORLD);
+    for (const Part part : result.parts) EXPECT_EQ(part, result.parts[0]);
+}
+
+TEST(CoincidentPoints, at_rest_keep_their_parts_from_the_earlier_cuts) {
+    // Whoever got a part holds it: lower ranks lower parts, so that the row over the ranks is
+    // divided at the same places again.
+    const int num_parts = num_ranks();
+    const std::vector<double> mine(2 * 100, 0.25);
+    const Points points = interleaved_points(mine, 2);
+    const Balance result = balance(points, dividing(num_parts), MPI_COMM_WORLD);
+    for (const Part part : result.parts) EXPECT_EQ(part, rank());
+}
+
+}  // namespace
+}  // namespace rrcb

@@ -86,7 +86,7 @@ TEST(LargeCounts, are_divided_and_reported_by_the_root) {
     decide(large_contribution(options), options, nullptr, decision);
     // Half of the weight is two thirds of the first cell's.
     EXPECT_DOUBLE_EQ(decision.bisection.cuts.tree[0].at[0], 2.0 / 3);
-    const Report& report = decision.verdict.report;
+    const Report report = report_of(decision.verdict, 2);
     EXPECT_EQ(report.num_points, two_to_the_32 * 4);
     EXPECT_EQ(report.total_weight, 0x1p34);
     EXPECT_EQ(report.least_imbalance, 1);

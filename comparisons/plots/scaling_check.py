@@ -8,11 +8,12 @@ from pathlib import Path
 from results import read_rows
 from scaling_model import (
     BLOCK,
-    LOOK_ANSWER,
+    LOOKS,
     Exchange,
     Rounds,
     Sizes,
     Traffic,
+    answer_bytes,
     beyond_head,
     look_bytes,
     multijagged,
@@ -120,8 +121,8 @@ def read_sizes(counted: dict[tuple[str, int], Counted]) -> Sizes | None:
     if not all((method, 2) in counted for method in (NONE, EXACT)):
         return None
     none, exact = counted[NONE, 2].traffic, counted[EXACT, 2].traffic
-    rounds = (exact.calls["Bcast"] - none.calls["Bcast"]) // 2
-    searches = exact.bytes_in["Bcast"] - none.bytes_in["Bcast"]
+    rounds = (exact.calls["Bcast"] - none.calls["Bcast"]) // 2 - 1
+    searches = exact.bytes_in["Bcast"] - none.bytes_in["Bcast"] - answer_bytes(2)
     return Sizes(
         none.bytes_in["Allreduce"] // 2,
         none.calls["Allreduce"] // 2,
@@ -129,7 +130,7 @@ def read_sizes(counted: dict[tuple[str, int], Counted]) -> Sizes | None:
         none.bytes_in["Bcast"] - 8 * 2,
         none.calls["Bcast"] // 2,
         none.bytes_in["Send"] - BLOCK,
-        exact.bytes_in["Reduce"] // 2,
+        exact.bytes_in["Reduce"] // 2 - look_bytes(2),
         searches // rounds,
     )
 
@@ -137,9 +138,9 @@ def read_sizes(counted: dict[tuple[str, int], Counted]) -> Sizes | None:
 def read_rounds(row: Counted, sizes: Sizes) -> Rounds:
     """What the refinement did; fractions would mean that the formula does not hold."""
     calls, bytes_in, ranks = row.traffic.calls, row.traffic.bytes_in, row.ranks
-    looks = int(row.method == REFINED)
+    looks = LOOKS["refined" if row.method == REFINED else "exact"]
     rest = beyond_head(ranks, "exact")
-    once = sizes.broadcasts + 8 * ranks + rest + looks * LOOK_ANSWER
+    once = sizes.broadcasts + 8 * ranks + rest + looks * answer_bytes(ranks)
     reduced = bytes_in.get("Reduce", 0) - looks * ranks * look_bytes(ranks)
     return Rounds(
         _whole(calls["Bcast"], ranks) - sizes.num_broadcasts - (rest > 0) - looks,

@@ -18,10 +18,9 @@ MOST_CELLS = 8192
 CUT = 32
 BRACKET = 16
 HEAD = 2048  # the verdict and as many cuts as fit
-VERDICT = 80
+VERDICT = 56
 AGREEMENT = 4
-LOOKS = ("accepted", "refined")  # look at what the estimate leaves
-LOOK_ANSWER = 16
+LOOKS = {"none": 0, "accepted": 1, "refined": 2, "exact": 1}  # at what the parts weigh
 CELL = 8 * (3 + 2 * DIMENSION)
 MESH_BLOCK = 8 * (3 + 2 * DIMENSION)
 BLOCK = MESH_BLOCK + MESH**DIMENSION * CELL
@@ -111,8 +110,8 @@ def subtree(rank: int, ranks: int) -> int:
 
 
 def all_agreements(sizes: Sizes, refine: str) -> tuple[int, int]:
-    """Number and bytes; an accepted estimate tells of failures with the weights it looks at."""
-    if refine == "accepted":
+    """Number and bytes; a look at the parts tells of failures as well."""
+    if LOOKS[refine]:
         return sizes.num_agreements - 1, sizes.agreements - AGREEMENT
     return sizes.num_agreements, sizes.agreements
 
@@ -122,6 +121,11 @@ def look_bytes(ranks: int) -> int:
     return 8 * (ranks + 1)
 
 
+def answer_bytes(ranks: int) -> int:
+    """The same of all ranks, and the imbalance."""
+    return 8 * (ranks + 2)
+
+
 def beyond_head(ranks: int, refine: str) -> int:
     """Bytes of cuts and brackets that the head has no room for and a second broadcast takes."""
     cut = CUT + (0 if refine == "none" else BRACKET)
@@ -129,7 +133,7 @@ def beyond_head(ranks: int, refine: str) -> int:
 
 
 def rrcb(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> Traffic:
-    """`refine`: none, accepted (one look at the estimate), refined (after that look), or exact."""
+    """`refine`: none, accepted (one look at the estimate), refined (and one at the end), or exact."""
     traffic = Traffic()
     num_agreements, agreements = all_agreements(sizes, refine)
     traffic.add("Allreduce", ranks * num_agreements, ranks * agreements, ranks * agreements)
@@ -140,9 +144,9 @@ def rrcb(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> Tr
         traffic.broadcast(ranks, rest)
     for rank in range(1, ranks):
         traffic.add("Send", 2, sizes.summary + subtree(rank, ranks) * BLOCK)
-    if refine in LOOKS:
+    for _ in range(LOOKS[refine]):
         traffic.reduce(ranks, look_bytes(ranks))
-        traffic.broadcast(ranks, LOOK_ANSWER)
+        traffic.broadcast(ranks, answer_bytes(ranks))
     if refine in ("refined", "exact"):
         _refine(traffic, ranks, sizes, rounds)
     return traffic
@@ -162,8 +166,7 @@ def rrcb_root_bytes(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Roun
     """Bytes that rank 0 gets."""
     into = all_agreements(sizes, refine)[1] + ranks * sizes.parameters
     into += sum(sizes.summary + subtree(child, ranks) * BLOCK for child in children(0, ranks))
-    if refine in LOOKS:
-        into += look_bytes(ranks)
+    into += LOOKS[refine] * look_bytes(ranks)
     if refine in ("refined", "exact"):
         into += rounds.histograms * sizes.histogram + 4 * rounds.gathers * ranks
         into += rounds.candidate_bytes

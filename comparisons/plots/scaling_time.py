@@ -16,9 +16,8 @@ from scaling_model import (
     DIMENSION,
     LIST_BYTES,
     LIST_FIELDS,
-    MEDIAN,
     LOOKS,
-    LOOK_ANSWER,
+    MEDIAN,
     MESH,
     MOST_CELLS,
     POINT_BYTES,
@@ -27,6 +26,7 @@ from scaling_model import (
     Rounds,
     Sizes,
     all_agreements,
+    answer_bytes,
     beyond_head,
     expected_iterations,
     expected_rounds,
@@ -122,9 +122,9 @@ def rrcb_path(ranks: int, refine: str, observed: Observed, machine: Machine) -> 
     _climb(path, ranks, sizes)
     cells = min(MOST_CELLS, ranks * MESH**DIMENSION)
     path.work += (cells * (ranks - 1).bit_length() + ranks) * machine.per_cell
-    if refine in LOOKS:
-        path.collective(ranks, look_bytes(ranks), 1, look_bytes(ranks))
-        path.collective(ranks, LOOK_ANSWER)
+    looks = LOOKS[refine]
+    path.collective(ranks, look_bytes(ranks), looks, look_bytes(ranks))
+    path.collective(ranks, answer_bytes(ranks), looks)
     if refine == "refined":
         levels = (ranks - 1).bit_length()
         _refine(path, ranks, sizes, Rounds(levels, ranks - 1, levels, ranks - 1))

@@ -10,7 +10,6 @@
 
 #include <rrcb/balance.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -36,12 +35,15 @@ void normalize(std::vector<double>& sizes, int num_parts) {
 }
 
 /// What all ranks contributed, at the root. Collective.
+///
+/// The tree is that of every other call. Points have nothing to gain from a stop on the way, so
+/// they go straight to the root, as in the paper, once it has told all ranks that all ask for this.
 void gather(Contribution& mine, const Options& options, int dimension, Member& me) {
     const StageScope stage(options.observer, Stage::gather);
-    MergeTree tree{mpi::size_of(me.comm)};
-    // All points at the root, as in the paper: there is nothing to gain from a stop on the way.
-    if (options.domain == DomainKind::points) tree.radix = std::max(2, tree.num_ranks);
-    merge_up(mine, dimension, tree, most_cells(options), me);
+    merge_up(mine, dimension, MergeTree{mpi::size_of(me.comm)}, most_cells(options), me);
+    if (options.domain != DomainKind::points) return;
+    confirm(mine.summary, me);
+    gather_points(mine.points, me);
 }
 
 /// The decision of the root, on every rank; throws what went wrong on one of them on all.
@@ -97,10 +99,8 @@ void refine_together(Decision& decision, const Options& options, BinnedPoints& b
 }  // namespace
 
 Balance balance(const Points& points, const Options& given, const Cuts* previous, Member& me) {
-    // A rank that fails keeps to the tree of the others all the same.
     Options options;
     options.observer = given.observer;
-    options.domain = previous ? DomainKind::analytic : given.domain;
     Balance result;
     BinnedPoints binned;
     Contribution mine;

@@ -79,7 +79,7 @@ void add_records(const Points& points, const BinnedPoints& binned, const Options
                  Contribution& mine) {
     if (points.count == 0) return;
     if (options.domain == DomainKind::points) {
-        append_points(points, mine.records);
+        append_points(points, mine.points);
         mine.summary.num_cells = mine.summary.num_points;
     } else {
         const std::vector<CellMoments> cells = cell_moments(binned);
@@ -113,7 +113,7 @@ void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t 
 }
 
 StatisticalDomain build_domain(const Contribution& all, const Options& options, int dimension) {
-    if (options.domain == DomainKind::points) return read_points(all.records, dimension);
+    if (options.domain == DomainKind::points) return read_points(all.points, dimension);
     const CellSet set = read_cells(all.records, dimension);
     return options.domain == DomainKind::analytic ? analytic_domain(set.cells, dimension)
                                                   : sampled_domain(set.cells, dimension, options);

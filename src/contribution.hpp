@@ -34,11 +34,11 @@ struct Summary {
     bool is_usable() const { return failing_rank == no_rank && differing_rank == no_rank; }
 };
 
-/// What one rank, or all ranks of a subtree, hand to the root: the moments of their cells, or
-/// their points, see cell_records.hpp.
+/// What one rank, or all ranks of a subtree, hand to the root; see cell_records.hpp.
 struct Contribution {
     Summary summary;
-    std::vector<double> records;
+    std::vector<double> records;   ///< the moments of their cells
+    std::vector<double> points{};  ///< of one rank, in place of cells, until the root wants them
 };
 
 /// Throws Error naming the option and its range when `options` can't be used.

@@ -120,6 +120,17 @@ const std::byte* copy_in(const std::byte* from, T* to, std::size_t count) {
     return from + count * sizeof(T);
 }
 
+/// What every rank expects of the root first, whatever it was asked for: the verdict, and as much
+/// of the decision as fits behind it.
+using Head = std::array<std::byte, 2048>;
+
+void broadcast_head(Head& head, Verdict& verdict, const Member& me) {
+    copy_out(&verdict, 1, head.data());
+    mpi::broadcast(head, root, me.comm);
+    copy_in(head.data(), &verdict, 1);
+    if (verdict.failing_rank != no_rank) fail_together(verdict.failing_rank, me);
+}
+
 }  // namespace
 
 Report report_of(const Verdict& verdict, int num_parts) {
@@ -163,6 +174,19 @@ void decide(const Contribution& all, const Options& options, const Cuts* previou
     decision.verdict = verdict_of(all.summary, bisection, options.part_sizes);
 }
 
+void confirm(const Summary& all, Member& me) {
+    Verdict verdict;
+    if (mpi::rank_of(me.comm) == root) {
+        verdict.failing_rank = all.failing_rank;
+        me.locally([&] {
+            if (all.failing_rank == no_rank) check_together(all);
+        });
+        if (me.failure.failed) verdict.failing_rank = root;
+    }
+    Head head{};
+    broadcast_head(head, verdict, me);
+}
+
 void broadcast(Decision& decision, const Member& me) {
     std::vector<Cut>& tree = decision.bisection.cuts.tree;
     std::vector<Bracket>& brackets = decision.bisection.brackets;
@@ -171,13 +195,11 @@ void broadcast(Decision& decision, const Member& me) {
         std::byte* to = copy_out(tree.data(), tree.size(), message.data());
         copy_out(brackets.data(), brackets.size(), to);
     }
-    std::array<std::byte, 2048> head{};
+    Head head{};
     const std::size_t in_head = std::min(message.size(), head.size() - sizeof(Verdict));
-    copy_out(message.data(), in_head, copy_out(&decision.verdict, 1, head.data()));
-    mpi::broadcast(head, root, me.comm);
-    const std::byte* from = copy_in(head.data(), &decision.verdict, 1);
-    const int failing_rank = decision.verdict.failing_rank;
-    if (failing_rank != no_rank) fail_together(failing_rank, me);
+    copy_out(message.data(), in_head, head.data() + sizeof(Verdict));
+    broadcast_head(head, decision.verdict, me);
+    const std::byte* from = head.data() + sizeof(Verdict);
     copy_in(from, message.data(), in_head);
     mpi::broadcast(message.subspan(in_head), root, me.comm);
     from = copy_in(message.data(), tree.data(), tree.size());

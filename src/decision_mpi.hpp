@@ -43,6 +43,11 @@ void make_room(Decision& decision, const Options& options, int dimension);
 void decide(const Contribution& all, const Options& options, const Cuts* previous,
             Decision& decision);
 
+/// Tells all ranks that they fit together, before what only some of them may be waiting for; or
+/// throws everywhere why they don't. Collective: the first message of broadcast(), which ranks that
+/// asked for something else are in.
+void confirm(const Summary& all, Member& me);
+
 /// Gives everybody the root's decision, or throws everywhere why there is none. Collective.
 ///
 /// One message for a few dozen cuts, two for more: the first must be as long on a rank that does

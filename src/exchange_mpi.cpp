@@ -1,6 +1,7 @@
 #include "exchange_mpi.hpp"
 
 #include "mpi/communicator.hpp"
+#include "mpi/tags.hpp"
 
 #include <rrcb/error.hpp>
 
@@ -9,12 +10,6 @@
 #include <utility>
 
 namespace rrcb {
-
-namespace {
-
-constexpr int exchange_tag = 1;
-
-}  // namespace
 
 Exchange::Exchange(std::size_t record_bytes, std::span<std::int64_t> per_rank)
     : record_bytes_(record_bytes), counts_(per_rank) {
@@ -60,7 +55,7 @@ void Exchange::send_all(Member& me) {
             me.always([&] {
                 mpi::check(
                     MPI_Isend(next, static_cast<int>(bytes), MPI_BYTE,
-                              static_cast<int>(destination), exchange_tag, me.comm, &request),
+                              static_cast<int>(destination), mpi::exchange_tag, me.comm, &request),
                     "MPI_Isend");
             });
             next += bytes;
@@ -77,7 +72,7 @@ void Exchange::receive_all(Member& me) {
         int bytes = 0;
         me.always([&] {
             mpi::check(MPI_Recv(&inbox_[first], static_cast<int>(most), MPI_BYTE, MPI_ANY_SOURCE,
-                                exchange_tag, me.comm, &status),
+                                mpi::exchange_tag, me.comm, &status),
                        "MPI_Recv");
         });
         if (MPI_Get_count(&status, MPI_BYTE, &bytes) != MPI_SUCCESS || bytes <= 0) return;

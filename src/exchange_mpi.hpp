@@ -27,7 +27,8 @@ class Exchange {
 
     /// How many records come to this rank, for which it makes room.
     ///
-    /// Collective: one reduction. A rank that failed before sends nothing.
+    /// Collective: one reduction, which no rank leaves before all have entered it; see mpi::Tag.
+    /// A rank that failed before sends nothing.
     std::size_t announce(Member& me);
 
     /// Sends and receives, after the ranks agreed that all have room.

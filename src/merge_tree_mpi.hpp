@@ -42,4 +42,10 @@ struct MergeTree {
 void merge_up(Contribution& mine, int dimension, const MergeTree& tree, std::size_t most,
               Member& me);
 
+/// Puts the points of all ranks behind those of the root, by rank. Collective over `comm`, after
+/// the ranks agreed that the root wants them: each sends it how many doubles it has, and those.
+///
+/// What fails stays with its rank for the next agreement.
+void gather_points(std::vector<double>& records, Member& me);
+
 }  // namespace rrcb

@@ -1,10 +1,12 @@
 #include "mpi_layer.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 namespace mpi_layer {
@@ -26,6 +28,7 @@ Counter collectives;
 Counter messages;
 Counter local_calls;
 std::int64_t longest = 0;
+std::uint64_t delays = 0;  ///< state of the sequence they are taken from
 
 int size_of(MPI_Comm comm) {
     int size = 0;
@@ -144,6 +147,21 @@ void fail_local_call(long number) {
 
 long counted_local_calls() {
     return local_calls.counted;
+}
+
+void delay_calls(std::uint64_t seed) {
+    delays = seed;
+}
+
+void delay() {
+    if (delays == 0) return;
+    // Marsaglia's xorshift; one call in 32, and short delays more often than long ones.
+    delays ^= delays << 13;
+    delays ^= delays >> 7;
+    delays ^= delays << 17;
+    if ((delays & 31) != 0) return;
+    const auto microseconds = 1L << (delays >> 32) % 11;
+    std::this_thread::sleep_for(std::chrono::microseconds(microseconds));
 }
 
 std::int64_t longest_message() {

@@ -45,6 +45,11 @@ __attribute__((visibility("default"))) long counted_local_calls();
 /// Bytes of the longest broadcast or message between two ranks since fail_call, on this rank.
 __attribute__((visibility("default"))) std::int64_t longest_message();
 
+/// From now on some calls on this rank, chosen by `seed`, begin up to a millisecond late; 0 ends
+/// that.
+__attribute__((visibility("default"))) void delay_calls(std::uint64_t seed);
+
+void delay();
 void note_message(std::int64_t bytes);
 int after_call(int code, MPI_Comm comm);
 int after_message(int code, MPI_Comm comm);
@@ -53,7 +58,14 @@ bool next_local_call_fails();
 template <typename Body>
 int collective(const Call& call, MPI_Comm comm, Body body) {
     check_sequence(call, comm);
+    delay();
     return after_call(body(), comm);
+}
+
+template <typename Body>
+int message(MPI_Comm comm, Body body) {
+    delay();
+    return after_message(body(), comm);
 }
 
 template <typename Body>

@@ -1,9 +1,9 @@
 #include "mpi_layer.hpp"
 
-using mpi_layer::after_message;
 using mpi_layer::call_of;
 using mpi_layer::collective;
 using mpi_layer::local_call;
+using mpi_layer::message;
 
 extern "C" {
 
@@ -47,27 +47,27 @@ int MPI_Comm_free(MPI_Comm* comm) {
 
 int MPI_Send(const void* data, int count, MPI_Datatype type, int to, int tag, MPI_Comm comm) {
     mpi_layer::note_message(mpi_layer::bytes_of(count, type));
-    return after_message(PMPI_Send(data, count, type, to, tag, comm), comm);
+    return message(comm, [&] { return PMPI_Send(data, count, type, to, tag, comm); });
 }
 
 int MPI_Isend(const void* data, int count, MPI_Datatype type, int to, int tag, MPI_Comm comm,
               MPI_Request* request) {
     mpi_layer::note_message(mpi_layer::bytes_of(count, type));
-    return after_message(PMPI_Isend(data, count, type, to, tag, comm, request), comm);
+    return message(comm, [&] { return PMPI_Isend(data, count, type, to, tag, comm, request); });
 }
 
 int MPI_Recv(void* data, int count, MPI_Datatype type, int from, int tag, MPI_Comm comm,
              MPI_Status* status) {
-    return after_message(PMPI_Recv(data, count, type, from, tag, comm, status), comm);
+    return message(comm, [&] { return PMPI_Recv(data, count, type, from, tag, comm, status); });
 }
 
 int MPI_Irecv(void* data, int count, MPI_Datatype type, int from, int tag, MPI_Comm comm,
               MPI_Request* request) {
-    return after_message(PMPI_Irecv(data, count, type, from, tag, comm, request), comm);
+    return message(comm, [&] { return PMPI_Irecv(data, count, type, from, tag, comm, request); });
 }
 
 int MPI_Probe(int from, int tag, MPI_Comm comm, MPI_Status* status) {
-    return after_message(PMPI_Probe(from, tag, comm, status), comm);
+    return message(comm, [&] { return PMPI_Probe(from, tag, comm, status); });
 }
 
 int MPI_Type_contiguous(int count, MPI_Datatype element, MPI_Datatype* type) {

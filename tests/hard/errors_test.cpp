@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <limits>
@@ -92,10 +93,17 @@ TEST(Errors, of_several_ranks_are_told_by_the_lowest) {
                  [](Share& share, Options&) { share.weights[rank() == 0 ? 1 : 0] = nan; });
 }
 
+/// Ranks are compared with the first of their eight, and these with rank 0.
+std::string ranks_compared(int differing) {
+    const int first = differing - differing % 8;
+    return "between rank " + std::to_string(differing == first ? 0 : first) + " and rank " +
+           std::to_string(differing);
+}
+
 TEST(Errors, options_that_differ_between_ranks) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     const auto differs = [](const std::string& name, const std::function<void(Options&)>& change) {
-        expect_error(name + " differs between rank 0 and rank " + std::to_string(num_ranks() - 1),
+        expect_error(name + " differs " + ranks_compared(num_ranks() - 1),
                      [&](Share&, Options& options) {
                          if (is_last_rank()) change(options);
                      });
@@ -109,6 +117,19 @@ TEST(Errors, options_that_differ_between_ranks) {
     });
     differs("refine",
             [](Options& o) { o.refine = o.refine == Refine::none ? Refine::exact : Refine::none; });
+}
+
+/// No rank may wait for points that others never send, nor leave any behind.
+TEST(Errors, a_domain_that_differs_on_any_rank) {
+    if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
+    for (const int faulty : {0, 1, num_ranks() / 2}) {
+        expect_error("domain differs " + ranks_compared(std::max(1, faulty)),
+                     [&](Share&, Options& options) {
+                         const bool asks = options.domain == DomainKind::points;
+                         if (rank() == faulty)
+                             options.domain = asks ? DomainKind::sampled : DomainKind::points;
+                     });
+    }
 }
 
 TEST(Errors, a_tree_of_earlier_cuts_that_differs_between_ranks) {

@@ -7,6 +7,7 @@
 
 #include <cstring>
 #include <functional>
+#include <numeric>
 
 namespace rrcb::hard_test {
 namespace {
@@ -57,6 +58,34 @@ TEST_P(HardCloud, gives_the_same_bits_twice) {
                     balance(share.points(), options, other));
     }
     MPI_Comm_free(&other);
+}
+
+std::vector<double> of_all_ranks(const std::vector<double>& mine) {
+    const auto size = static_cast<std::size_t>(test::num_ranks());
+    std::vector<int> counts(size);
+    std::vector<int> starts(size);
+    const auto count = static_cast<int>(mine.size());
+    MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, MPI_COMM_WORLD);
+    std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
+    std::vector<double> all(static_cast<std::size_t>(starts.back() + counts.back()));
+    MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(),
+                   MPI_DOUBLE, MPI_COMM_WORLD);
+    return all;
+}
+
+/// All points at the root are the points of one rank, by rank, whatever the number of ranks.
+TEST_P(HardCloud, gives_the_cuts_of_one_rank_where_all_points_go_to_the_root) {
+    const Share mine = scattered_share(cloud());
+    Share all = mine;
+    all.coordinates = of_all_ranks(mine.coordinates);
+    all.weights = of_all_ranks(mine.weights);
+    Options options;
+    options.num_parts = parts_for(test::num_ranks());
+    options.domain = DomainKind::points;
+    const Balance result = balance(mine.points(), options, MPI_COMM_WORLD);
+    const Balance alone = balance(all.points(), options, MPI_COMM_SELF);
+    EXPECT_TRUE(same_bits(numbers_of(result.cuts), numbers_of(alone.cuts)));
+    EXPECT_EQ(result.report.num_points, alone.report.num_points);
 }
 
 INSTANTIATE_TEST_SUITE_P(Positions, HardCloud,

@@ -2,28 +2,74 @@
 
 #include "mpi/communicator.hpp"
 
+#include <array>
 #include <new>
 #include <string>
 
 namespace rrcb {
 
-void agree(const Member& me) {
+namespace {
+
+constexpr std::size_t most_shared = 3;
+
+/// Throws on all ranks; the text is left out where memory lacks for it.
+template <class MakeText>
+[[noreturn]] void throw_alike(ErrorCode code, MakeText&& make_text) {
+    try {
+        throw Error(code, make_text());
+    } catch (const std::bad_alloc&) {
+        throw Error(code);
+    }
+}
+
+/// Names the lowest rank with another value than the root. Collective.
+[[noreturn]] void refuse(const Shared& argument, const Member& me) {
     const int num_ranks = mpi::size_of(me.comm);
-    int failing_rank = me.failure.failed ? mpi::rank_of(me.comm) : num_ranks;
-    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &failing_rank, 1, MPI_INT, MPI_MIN, me.comm),
+    std::uint64_t of_root = argument.value;
+    mpi::check(MPI_Bcast(&of_root, 1, MPI_UINT64_T, root, me.comm), "MPI_Bcast");
+    int differing = argument.value != of_root ? mpi::rank_of(me.comm) : num_ranks;
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &differing, 1, MPI_INT, MPI_MIN, me.comm),
                "MPI_Allreduce");
+    throw_alike(ErrorCode::invalid_argument, [&] {
+        return std::string(argument.name) + " differs between rank " + std::to_string(root) +
+               " and rank " + std::to_string(differing) + "; give the same value on every rank";
+    });
+}
+
+}  // namespace
+
+void agree(const Member& me) {
+    agree(me, {});
+}
+
+void agree(const Member& me, std::initializer_list<Shared> arguments) {
+    const int num_ranks = mpi::size_of(me.comm);
+    // A maximum travels as the minimum of the complement.
+    std::array<std::uint64_t, 1 + 2 * most_shared> smallest;
+    smallest[0] = static_cast<std::uint64_t>(me.failure.failed ? mpi::rank_of(me.comm) : num_ranks);
+    std::size_t length = 1;
+    for (const Shared& argument : arguments) {
+        smallest[length++] = argument.value;
+        smallest[length++] = ~argument.value;
+    }
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, smallest.data(), static_cast<int>(length), MPI_UINT64_T,
+                             MPI_MIN, me.comm),
+               "MPI_Allreduce");
+    const int failing_rank = static_cast<int>(smallest[0]);
     if (failing_rank < num_ranks) fail_together(failing_rank, me);
+    std::size_t at = 1;
+    for (const Shared& argument : arguments) {
+        const std::uint64_t least = smallest[at++];
+        const std::uint64_t most = ~smallest[at++];
+        if (least != most) refuse(argument, me);
+    }
 }
 
 void fail_together(int failing_rank, const Member& me) {
     Failure theirs = me.failure;
     mpi::check(MPI_Bcast(&theirs, sizeof theirs, MPI_BYTE, failing_rank, me.comm), "MPI_Bcast");
-    try {
-        throw Error(theirs.code,
-                    "rank " + std::to_string(failing_rank) + ": " + theirs.text.data());
-    } catch (const std::bad_alloc&) {
-        throw Error(theirs.code);
-    }
+    throw_alike(theirs.code,
+                [&] { return "rank " + std::to_string(failing_rank) + ": " + theirs.text.data(); });
 }
 
 }  // namespace rrcb

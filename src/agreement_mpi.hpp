@@ -4,6 +4,10 @@
 
 #include <mpi.h>
 
+#include <cstdint>
+#include <initializer_list>
+#include <string_view>
+
 namespace rrcb {
 
 inline constexpr int root = 0;
@@ -12,6 +16,18 @@ inline constexpr int root = 0;
 ///
 /// Collective: one reduction.
 void agree(const Member& me);
+
+/// An argument that is to be the same on every rank.
+struct Shared {
+    std::string_view name;
+    std::uint64_t value = 0;
+};
+
+/// The same, and throws where one of `arguments` differs between the ranks, all of which name the
+/// same ones, at most three.
+///
+/// Collective: one reduction. What follows may be shaped by these arguments.
+void agree(const Member& me, std::initializer_list<Shared> arguments);
 
 /// Throws the failure of the failing rank on every rank. Collective.
 [[noreturn]] void fail_together(int failing_rank, const Member& me);

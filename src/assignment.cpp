@@ -9,7 +9,6 @@ namespace rrcb {
 
 namespace {
 
-constexpr int most_parts_exact = 128;
 constexpr Part none = -1;
 
 std::vector<Gain> merged(std::span<const Gain> gains) {

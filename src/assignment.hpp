@@ -14,10 +14,13 @@ struct Gain {
     GlobalCount value = 0;
 };
 
+/// Beyond so many parts the largest sum would take too long to find.
+inline constexpr int most_parts_exact = 128;
+
 /// A number for each part, every number once, with the largest sum of gains.
 ///
-/// The largest up to 128 parts, beyond that at least half of it. Gains of one pair add up. Among
-/// equals parts keep their number where they can. The order of `gains` does not matter.
+/// The largest up to `most_parts_exact`, beyond that at least half of it. Gains of one pair add up.
+/// Among equals parts keep their number where they can. The order of `gains` does not matter.
 std::vector<Part> best_numbers(std::span<const Gain> gains, int num_parts);
 
 }  // namespace rrcb

@@ -108,7 +108,7 @@ Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm user) {
     });
     const std::size_t num_imports = exchange.announce(me);
     me.locally([&] { make_room(num_imports, result); });
-    agree(me);
+    agree(me, {{"num_parts", static_cast<std::uint64_t>(num_parts)}});
     exchange.run(me);
     list_imports(exchange, result);
     return result;

@@ -6,7 +6,6 @@
 #include <rrcb/plan.hpp>
 #include <rrcb/quality.hpp>
 
-#include <algorithm>
 #include <array>
 #include <string>
 
@@ -34,6 +33,18 @@ std::vector<double> weights_here(const Points& points, std::span<const Part> par
     return weights;
 }
 
+/// Tells all ranks that none has failed and all divide into as many parts. Collective.
+void agree_on_parts(int num_parts, const Member& me) {
+    agree(me, {{"num_parts", static_cast<std::uint64_t>(num_parts)}});
+}
+
+/// Collective over `comm`: one reduction.
+void sum_over_ranks(std::span<double> sums, MPI_Comm comm) {
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE,
+                             MPI_SUM, comm),
+               "MPI_Allreduce");
+}
+
 }  // namespace
 
 std::vector<double> part_weights(const Points& points, std::span<const Part> parts, int num_parts,
@@ -41,29 +52,15 @@ std::vector<double> part_weights(const Points& points, std::span<const Part> par
     Member me{mpi::duplicate_of(user)};
     std::vector<double> weights;
     me.locally([&] { weights = weights_here(points, parts, num_parts); });
-    // In pieces, for which every rank has the memory; the first entry counts the failing ranks.
-    std::array<double, 1024> piece;
-    const auto count = static_cast<std::size_t>(std::max(0, num_parts));
-    std::size_t first = 0;
-    do {
-        const std::size_t size = std::min(count - first, piece.size() - 1);
-        piece.fill(0);
-        piece[0] = me.failure.failed ? 1 : 0;
-        if (!me.failure.failed) std::copy_n(weights.data() + first, size, piece.data() + 1);
-        mpi::check(MPI_Allreduce(MPI_IN_PLACE, piece.data(), static_cast<int>(size + 1), MPI_DOUBLE,
-                                 MPI_SUM, me.comm),
-                   "MPI_Allreduce");
-        if (piece[0] > 0) agree(me);
-        std::copy_n(piece.data() + 1, size, weights.data() + first);
-        first += size;
-    } while (first < count);
+    agree_on_parts(num_parts, me);
+    sum_over_ranks(weights, me.comm);
     return weights;
 }
 
 double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
                       MPI_Comm user) {
     Member me{mpi::duplicate_of(user)};
-    std::array<double, 3> sums{};  // weight that moves, all weight, ranks that failed
+    std::array<double, 2> sums{};  // weight that moves, all weight
     me.locally([&] {
         check_arguments(points, parts, num_parts);
         const int rank = mpi::rank_of(me.comm);
@@ -75,11 +72,8 @@ double moved_fraction(const Points& points, std::span<const Part> parts, int num
             sums[1] += points.weight(i);
         }
     });
-    sums[2] = me.failure.failed ? 1 : 0;
-    mpi::check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE,
-                             MPI_SUM, me.comm),
-               "MPI_Allreduce");
-    if (sums[2] > 0) agree(me);
+    agree_on_parts(num_parts, me);
+    sum_over_ranks(sums, me.comm);
     return sums[1] > 0 ? sums[0] / sums[1] : 0;
 }
 

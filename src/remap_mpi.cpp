@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t overlaps_per_part = 16;
 constexpr int none_failed = -1;
+constexpr int some_failed = -2;
 
 /// Where points stay.
 struct Homes {
@@ -96,14 +97,47 @@ void gather(std::vector<Overlap> mine, std::size_t num_points, RemapRoom& room, 
                "MPI_Gather");
 }
 
+/// All overlaps with earlier parts, summed over the ranks; behind them the number of points, and of
+/// ranks that have failed. Collective: one reduction.
+void sum_up(std::span<const Part> parts, std::span<const Part> previous, RemapRoom& room,
+            const Member& me) {
+    const std::size_t num_parts = room.numbers.size();
+    std::ranges::fill(room.sums, 0);
+    for (std::size_t i = 0; i < parts.size() && !me.failure.failed; ++i) {
+        const auto origin = static_cast<std::size_t>(previous[i]);
+        if (previous[i] >= 0 && origin < num_parts)
+            ++room.sums[origin * num_parts + static_cast<std::size_t>(parts[i])];
+    }
+    const std::span tail = std::span(room.sums).last<2>();
+    tail[0] = static_cast<GlobalCount>(parts.size());
+    tail[1] = me.failure.failed ? 1 : 0;
+    const bool is_root = mpi::rank_of(me.comm) == root;
+    mpi::check(MPI_Reduce(is_root ? MPI_IN_PLACE : room.sums.data(), room.sums.data(),
+                          static_cast<int>(room.sums.size()), MPI_INT64_T, MPI_SUM, root, me.comm),
+               "MPI_Reduce");
+}
+
+std::vector<Overlap> overlaps_of(const RemapRoom& room) {
+    const std::size_t num_parts = room.numbers.size();
+    std::vector<Overlap> overlaps;
+    for (std::size_t k = 0; k < num_parts * num_parts; ++k)
+        if (room.sums[k] > 0)
+            overlaps.push_back(
+                {static_cast<Part>(k / num_parts), static_cast<Part>(k % num_parts), room.sums[k]});
+    return overlaps;
+}
+
+/// The lowest rank that failed, as far as the root was told.
 int lowest_failing_rank(const RemapRoom& room) {
+    if (room.holds_sums()) return room.sums.back() > 0 ? some_failed : none_failed;
     for (std::size_t i = 0; i < room.all.size(); i += room.mine.size())
         if (room.all[i].part != 0) return static_cast<int>(i / room.mine.size());
     return none_failed;
 }
 
-/// Takes the number of points out of what was gathered.
+/// Takes the number of points out of what the root was told.
 GlobalCount extract_num_points(RemapRoom& room) {
+    if (room.holds_sums()) return room.sums.end()[-2];
     GlobalCount num_points = 0;
     for (std::size_t i = 0; i < room.all.size(); i += room.mine.size())
         num_points += std::exchange(room.all[i].count, 0);
@@ -138,11 +172,14 @@ GlobalCount kept(std::span<const Overlap> overlaps, std::span<const Part> number
 Remap decide(RemapRoom& room, const Homes& homes) {
     Remap remap;
     remap.num_points = extract_num_points(room);
+    const std::vector<Overlap> sums =
+        room.holds_sums() ? overlaps_of(room) : std::vector<Overlap>();
+    const std::span<const Overlap> overlaps = room.holds_sums() ? sums : room.all;
     std::vector<Part> unchanged(static_cast<std::size_t>(homes.num_parts()));
     std::iota(unchanged.begin(), unchanged.end(), 0);
-    remap.numbers = best_numbers(gains_of(room.all, homes), homes.num_parts());
-    remap.kept_before = kept(room.all, unchanged, homes);
-    remap.kept_after = kept(room.all, remap.numbers, homes);
+    remap.numbers = best_numbers(gains_of(overlaps, homes), homes.num_parts());
+    remap.kept_before = kept(overlaps, unchanged, homes);
+    remap.kept_after = kept(overlaps, remap.numbers, homes);
     if (remap.kept_after > remap.kept_before) return remap;
     remap.numbers = std::move(unchanged);
     remap.kept_after = remap.kept_before;
@@ -186,6 +223,16 @@ void check_arguments(std::span<const Part> parts, const PreviousParts& previous,
                             " is none of the " + std::to_string(num_parts) + " parts");
 }
 
+std::uint64_t hash_of(std::span<const RankRange> ranks_of_parts) {
+    std::uint64_t hash = ranks_of_parts.size();
+    for (const RankRange& ranks : ranks_of_parts) {
+        for (const int number : {ranks.first, ranks.count})
+            hash = (hash ^ static_cast<std::uint64_t>(number)) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
+    }
+    return hash;
+}
+
 /// The public functions: with a look at the arguments, and room of their own. Collective.
 Remap remap_alone(std::span<const Part> parts, const PreviousParts& previous,
                   std::span<const RankRange> ranks_of_parts, MPI_Comm user) {
@@ -194,33 +241,41 @@ Remap remap_alone(std::span<const Part> parts, const PreviousParts& previous,
     me.locally([&] {
         check_arguments(parts, previous, ranks_of_parts.size());
         room.emplace(static_cast<int>(ranks_of_parts.size()), mpi::size_of(me.comm),
-                     mpi::rank_of(me.comm) == root);
+                     mpi::rank_of(me.comm) == root, previous ? Origins::parts : Origins::ranks);
     });
-    agree(me);
+    agree(me, {{"ranks_of_parts", hash_of(ranks_of_parts)}, {"previous", previous ? 1u : 0u}});
     return remap(parts, previous, ranks_of_parts, *room, me);
 }
 
 }  // namespace
 
-RemapRoom::RemapRoom(int num_parts, int num_ranks, bool is_root) {
+RemapRoom::RemapRoom(int num_parts, int num_ranks, bool is_root, Origins origins) {
     const auto parts_per_rank = static_cast<std::size_t>((num_parts - 1) / num_ranks + 1);
+    numbers.resize(static_cast<std::size_t>(num_parts));
+    decision.resize(numbers.size() + 4);
+    if (origins == Origins::parts && num_parts <= most_parts_exact) {
+        sums.resize(numbers.size() * numbers.size() + 2);
+        return;
+    }
     mine.resize(1 + overlaps_per_part * parts_per_rank);
     mpi::to_int(static_cast<std::int64_t>(mine.size() * sizeof(Overlap)));
     if (is_root) all.resize(mine.size() * static_cast<std::size_t>(num_ranks));
-    numbers.resize(static_cast<std::size_t>(num_parts));
-    decision.resize(numbers.size() + 4);
 }
 
 Remap remap(std::span<const Part> parts, const PreviousParts& previous,
             std::span<const RankRange> ranks_of_parts, RemapRoom& room, Member& me) {
     const Homes homes{ranks_of_parts, !previous};
     const int rank = mpi::rank_of(me.comm);
-    std::vector<Overlap> overlaps;
-    me.locally([&] {
-        overlaps = previous ? overlaps_by_part(parts, *previous, homes.num_parts())
-                            : overlaps_by_rank(parts, homes.num_parts(), rank);
-    });
-    gather(std::move(overlaps), parts.size(), room, me);
+    if (room.holds_sums()) {
+        sum_up(parts, *previous, room, me);
+    } else {
+        std::vector<Overlap> overlaps;
+        me.locally([&] {
+            overlaps = previous ? overlaps_by_part(parts, *previous, homes.num_parts())
+                                : overlaps_by_rank(parts, homes.num_parts(), rank);
+        });
+        gather(std::move(overlaps), parts.size(), room, me);
+    }
     Remap result;
     int failing_rank = none_failed;
     if (rank == root) {
@@ -231,6 +286,7 @@ Remap remap(std::span<const Part> parts, const PreviousParts& previous,
         if (me.failure.failed) failing_rank = root;
     }
     failing_rank = share(failing_rank, result, room, me.comm);
+    if (failing_rank == some_failed) agree(me);
     if (failing_rank != none_failed) fail_together(failing_rank, me);
     return result;
 }

@@ -17,14 +17,23 @@ struct Overlap {
     GlobalCount count = 0;
 };
 
+/// What the points of an overlap have in common.
+enum class Origins {
+    ranks,  ///< the heaviest overlaps of each rank reach the root
+    parts   ///< earlier ones: all overlaps do, as sums, up to `most_parts_exact` parts
+};
+
 /// What the messages of a renumbering need. Made, and agreed on, before the first of them: a rank
 /// that runs out of memory later can still take part until all have been told.
 struct RemapRoom {
     /// Not collective. Throws Error or std::bad_alloc.
-    RemapRoom(int num_parts, int num_ranks, bool is_root);
+    RemapRoom(int num_parts, int num_ranks, bool is_root, Origins origins = Origins::ranks);
+
+    bool holds_sums() const { return !sums.empty(); }
 
     std::vector<Overlap> mine;          ///< what the root is told; of fixed length
     std::vector<Overlap> all;           ///< of all ranks, at the root
+    std::vector<GlobalCount> sums;      ///< of points by origin and part; then what else is told
     std::vector<GlobalCount> decision;  ///< of the root, on its way
     std::vector<Part> numbers;          ///< one per part
 };
@@ -32,8 +41,10 @@ struct RemapRoom {
 /// Parts that the points were in; none when points are to stay on their rank.
 using PreviousParts = std::optional<std::span<const Part>>;
 
-/// As the public functions, without a look at the arguments. Collective: one gather, one broadcast.
-/// What went wrong on a rank before is told to all as well.
+/// As the public functions, without a look at the arguments. Collective: one gather, or one
+/// reduction where the room holds sums, and one broadcast. The room decides which: `previous` may
+/// be there on some ranks only, unless it holds sums. What went wrong on a rank before is told to
+/// all as well.
 Remap remap(std::span<const Part> parts, const PreviousParts& previous,
             std::span<const RankRange> ranks_of_parts, RemapRoom& room, Member& me);
 

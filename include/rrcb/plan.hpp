@@ -35,7 +35,7 @@ struct Plan {
 /// Export and import lists of the points whose rank changes.
 ///
 /// Collective over `comm`. `parts` has one entry in 0 ... num_parts - 1 per local point. Throws
-/// Error on every rank when some rank names a part outside that range.
+/// Error on every rank when some rank names a part outside that range, or another num_parts.
 Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm comm);
 
 }  // namespace rrcb

@@ -22,8 +22,8 @@ struct Remap {
 ///
 /// Collective over `comm`: one reduction, one gather, one broadcast. `parts` is the new part of
 /// each local point, `ranks_of_parts` has one entry per part, ascending, with one rank each, the
-/// same on every rank. Throws Error on every rank when one names a part that is none, or has no
-/// memory.
+/// same on every rank. Throws Error on every rank when one names a part that is none or other ranks
+/// of parts, or has no memory.
 ///
 /// Every rank tells the root its heaviest overlaps, 16 per part it holds, so up to 16 parts all
 /// of them; counts are of what was told. The root finds the permutation that keeps most: up to 128
@@ -35,7 +35,8 @@ Remap remap(std::span<const Part> parts, std::span<const RankRange> ranks_of_par
 /// The same, so that few points change the number of their part.
 ///
 /// `previous` is the part each local point was in, as long as `parts`; numbers that are no part any
-/// more count nothing.
+/// more count nothing. Up to 128 parts the root is told all overlaps, by a reduction of parts^2
+/// numbers in place of the gather, and no permutation keeps more.
 Remap remap(std::span<const Part> parts, std::span<const Part> previous,
             std::span<const RankRange> ranks_of_parts, MPI_Comm comm);
 

@@ -3,6 +3,8 @@
 #include "agreement_mpi.hpp"
 #include "mpi/communicator.hpp"
 
+#include <rrcb/error.hpp>
+
 #include <memory>
 
 namespace rrcb::mpi {
@@ -37,6 +39,14 @@ Duplicate* find(MPI_Comm user) {
     return found != 0 ? static_cast<Duplicate*>(attribute) : nullptr;
 }
 
+void refuse_two_groups(MPI_Comm user) {
+    int has_two = 0;
+    check(MPI_Comm_test_inter(user, &has_two), "MPI_Comm_test_inter");
+    if (has_two != 0)
+        throw Error(ErrorCode::invalid_argument,
+                    "an intercommunicator has two groups; merge them by MPI_Intercomm_merge");
+}
+
 void keep(std::unique_ptr<Duplicate>& duplicate, MPI_Comm user) {
     check(MPI_Comm_set_errhandler(duplicate->comm, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
     duplicate->per_rank.resize(static_cast<std::size_t>(size_of(user)));
@@ -47,7 +57,11 @@ void keep(std::unique_ptr<Duplicate>& duplicate, MPI_Comm user) {
 }  // namespace
 
 Duplicate& duplicate_with(MPI_Comm user) {
+    if (user == MPI_COMM_NULL)
+        throw Error(ErrorCode::invalid_argument,
+                    "MPI_COMM_NULL has no ranks; give a communicator with this rank in it");
     if (Duplicate* found = find(user)) return *found;
+    refuse_two_groups(user);
     MPI_Comm comm = MPI_COMM_NULL;
     std::unique_ptr<Duplicate> duplicate;
     Member me{user};

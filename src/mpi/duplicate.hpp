@@ -16,7 +16,8 @@ struct Duplicate {
 /// The duplicate kept with `user`.
 ///
 /// Collective over `user` when called for the first time with it: one more reduction, so that all
-/// ranks throw the same Error when one of them fails; then nothing is kept.
+/// ranks throw the same Error when one of them fails; then nothing is kept. Throws Error on every
+/// rank, without a message, for MPI_COMM_NULL and intercommunicators.
 Duplicate& duplicate_with(MPI_Comm user);
 
 inline MPI_Comm duplicate_of(MPI_Comm user) {

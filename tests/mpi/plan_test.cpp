@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -136,6 +137,46 @@ TEST(PartWeights, of_points_without_a_part_are_refused_on_all_ranks) {
         EXPECT_EQ(error.what(), "rank " + std::to_string(num_ranks() - 1) +
                                     ": parts has 1 entries for 2 points; give one per point");
     }
+}
+
+/// The last rank divides into so many parts that messages of their length would be others.
+void expect_refusal_of_numbers_that_differ(const std::function<void(int num_parts)>& call) {
+    if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
+    for (const int other : {2, 3, 5000}) {
+        try {
+            call(test::is_last_rank() ? other : 1);
+            ADD_FAILURE() << "nothing was thrown";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
+            EXPECT_EQ(error.what(), "num_parts differs between rank 0 and rank " +
+                                        std::to_string(num_ranks() - 1) +
+                                        "; give the same value on every rank");
+        }
+        call(2);
+    }
+}
+
+TEST(Plan, of_numbers_of_parts_that_differ_is_refused_on_all_ranks) {
+    const std::vector<Part> parts(5);
+    expect_refusal_of_numbers_that_differ(
+        [&](int num_parts) { plan(parts, num_parts, MPI_COMM_WORLD); });
+}
+
+TEST(PartWeights, of_numbers_of_parts_that_differ_are_refused_on_all_ranks) {
+    const std::vector<double> x(5);
+    const std::vector<Part> parts(5);
+    expect_refusal_of_numbers_that_differ([&](int num_parts) {
+        const Points points = interleaved_points(x, 1);
+        EXPECT_EQ(part_weights(points, parts, num_parts, MPI_COMM_WORLD)[0], 5 * num_ranks());
+    });
+}
+
+TEST(MovedFraction, of_numbers_of_parts_that_differ_is_refused_on_all_ranks) {
+    const std::vector<double> x(5);
+    const std::vector<Part> parts(5);
+    expect_refusal_of_numbers_that_differ([&](int num_parts) {
+        moved_fraction(interleaved_points(x, 1), parts, num_parts, MPI_COMM_WORLD);
+    });
 }
 
 TEST(MovedFraction, of_a_part_that_is_none_is_refused_on_all_ranks) {

@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
+#include <random>
 #include <string>
 
 namespace rrcb {
@@ -77,6 +79,101 @@ TEST(Remap, takes_ranks_without_points) {
     const Remap nothing = remap({}, ranks_of(num_ranks()), MPI_COMM_WORLD);
     EXPECT_TRUE(nothing.identity);
     EXPECT_EQ(nothing.num_points, 0);
+}
+
+/// Most points that any permutation keeps, by trying all.
+GlobalCount most_kept(const std::vector<GlobalCount>& overlaps, int num_parts) {
+    std::vector<Part> numbers(static_cast<std::size_t>(num_parts));
+    std::iota(numbers.begin(), numbers.end(), 0);
+    GlobalCount most = 0;
+    do {
+        GlobalCount kept = 0;
+        for (std::size_t part = 0; part < numbers.size(); ++part)
+            kept += overlaps[static_cast<std::size_t>(numbers[part]) * numbers.size() + part];
+        most = std::max(most, kept);
+    } while (std::ranges::next_permutation(numbers).found);
+    return most;
+}
+
+TEST(Remap, keeps_as_many_points_in_their_part_as_any_permutation) {
+    for (unsigned seed = 0; seed < 60; ++seed) {
+        std::mt19937_64 engine(1000 * seed + static_cast<unsigned>(rank()));
+        const int num_parts = 5 + static_cast<int>(seed % 3);
+        const auto squared = static_cast<std::size_t>(num_parts * num_parts);
+        std::vector<Part> parts(engine() % 200);
+        std::vector<Part> previous(parts.size());
+        std::vector<GlobalCount> overlaps(squared);
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            parts[i] = static_cast<Part>(engine() % static_cast<unsigned>(num_parts));
+            previous[i] = static_cast<Part>(engine() % static_cast<unsigned>(num_parts + 1)) - 1;
+            if (previous[i] >= 0)
+                ++overlaps[static_cast<std::size_t>(previous[i] * num_parts + parts[i])];
+        }
+        MPI_Allreduce(MPI_IN_PLACE, overlaps.data(), static_cast<int>(squared), MPI_INT64_T,
+                      MPI_SUM, MPI_COMM_WORLD);
+        const std::vector<RankRange> ranks(static_cast<std::size_t>(num_parts));
+        const Remap result = remap(parts, previous, ranks, MPI_COMM_WORLD);
+        GlobalCount before = 0;
+        GlobalCount after = 0;
+        for (Part part = 0; part < num_parts; ++part) {
+            const Part number = result.numbers[static_cast<std::size_t>(part)];
+            before += overlaps[static_cast<std::size_t>(part * num_parts + part)];
+            after += overlaps[static_cast<std::size_t>(number * num_parts + part)];
+        }
+        EXPECT_EQ(result.kept_before, before) << "seed " << seed;
+        EXPECT_EQ(result.kept_after, after) << "seed " << seed;
+        EXPECT_EQ(after, most_kept(overlaps, num_parts)) << "seed " << seed;
+    }
+}
+
+/// Up to 128 parts all overlaps are told, beyond that the heaviest of each rank.
+TEST(Remap, undoes_a_rotation_of_few_and_of_many_parts) {
+    for (const int num_parts : {1, 2, 128, 129, 300}) {
+        std::vector<Part> previous(static_cast<std::size_t>(num_parts));
+        std::iota(previous.begin(), previous.end(), 0);
+        std::vector<Part> parts = previous;
+        std::ranges::rotate(parts, parts.begin() + 1 % num_parts);
+        // One origin each for a part of the ranks, so that every overlap can be told.
+        for (Part part = 0; part < num_parts; ++part)
+            if (part % num_ranks() != rank()) previous[static_cast<std::size_t>(part)] = -1;
+        const std::vector<RankRange> ranks(parts.size());
+        const Remap result = remap(parts, previous, ranks, MPI_COMM_WORLD);
+        EXPECT_EQ(result.kept_before, num_parts == 1 ? 1 : 0);
+        EXPECT_EQ(result.kept_after, num_parts);
+        EXPECT_EQ(result.num_points, num_parts * num_ranks());
+    }
+}
+
+TEST(Remap, refuses_arguments_that_differ_between_ranks) {
+    if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
+    const auto expect_difference = [](const std::string& name, auto call) {
+        try {
+            call();
+            ADD_FAILURE() << "expected: " << name << " differs";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
+            EXPECT_EQ(error.what(), name + " differs between rank 0 and rank " +
+                                        std::to_string(num_ranks() - 1) +
+                                        "; give the same value on every rank");
+        }
+        EXPECT_EQ(remap({}, ranks_of(3), MPI_COMM_WORLD).num_points, 0);
+    };
+    const std::vector<Part> parts(3);
+    for (const int other : {1, 129, 10000}) {
+        const std::vector<RankRange> ranks = ranks_of(test::is_last_rank() ? other : 100);
+        expect_difference("ranks_of_parts", [&] { remap(parts, ranks, MPI_COMM_WORLD); });
+        expect_difference("ranks_of_parts", [&] { remap(parts, parts, ranks, MPI_COMM_WORLD); });
+    }
+    std::vector<RankRange> elsewhere = ranks_of(2);
+    if (test::is_last_rank()) elsewhere[1].first = 0;
+    expect_difference("ranks_of_parts", [&] { remap(parts, elsewhere, MPI_COMM_WORLD); });
+    expect_difference("previous", [&] {
+        if (test::is_last_rank()) {
+            remap(parts, ranks_of(3), MPI_COMM_WORLD);
+        } else {
+            remap(parts, parts, ranks_of(3), MPI_COMM_WORLD);
+        }
+    });
 }
 
 TEST(Remap, refuses_on_all_ranks_what_one_gets_wrong) {

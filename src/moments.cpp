@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rrcb {
 
@@ -138,6 +139,14 @@ std::vector<CellMoments> moments_of_cells(const Layout& x, const BinnedPoints& b
     return cells;
 }
 
+/// Between `a` and `b`, rounding or not.
+double joint_mean(double a, double share_a, double b, double share_b) {
+    // Of opposite signs the difference may overflow; of one sign it keeps what they share.
+    const double mean =
+        std::signbit(a) != std::signbit(b) ? share_a * a + share_b * b : a + share_b * (b - a);
+    return std::clamp(mean, std::min(a, b), std::max(a, b));
+}
+
 }  // namespace
 
 Moments merge(const Moments& a, const Moments& b) {
@@ -154,10 +163,12 @@ Moments merge(const Moments& a, const Moments& b) {
     const double share_b = b.weight / joint.weight;
     for (std::size_t axis = 0; axis < max_dimension; ++axis) {
         const double half_distance = b.mean[axis] / 2 - a.mean[axis] / 2;
-        joint.mean[axis] = a.mean[axis] + 2 * (half_distance * share_b);
-        joint.deviation[axis] = std::hypot(std::sqrt(share_a) * a.deviation[axis],
-                                           std::sqrt(share_b) * b.deviation[axis],
-                                           2 * std::sqrt(share_a * share_b) * half_distance);
+        joint.mean[axis] = joint_mean(a.mean[axis], share_a, b.mean[axis], share_b);
+        const double deviation = std::hypot(std::sqrt(share_a) * a.deviation[axis],
+                                            std::sqrt(share_b) * b.deviation[axis],
+                                            2 * std::sqrt(share_a * share_b) * half_distance);
+        // No deviation of doubles is larger than the largest, except by rounding.
+        joint.deviation[axis] = std::min(deviation, std::numeric_limits<double>::max());
     }
     return joint;
 }

@@ -15,22 +15,44 @@ struct PointLayout {
     }
 };
 
-template <int Dimension, std::size_t Stride>
-PointLayout<Dimension, Stride> layout_of(const Points& points) {
-    PointLayout<Dimension, Stride> layout;
-    for (std::size_t a = 0; a < Dimension; ++a) layout.axes[a] = points.axes[a].data();
-    return layout;
+/// The same with any stride, as of a member of a struct.
+template <int Dimension>
+struct StridedLayout {
+    static constexpr int dimension = Dimension;
+    std::array<const double*, Dimension> axes;
+    std::size_t stride;
+
+    double operator()(LocalIndex i, int axis) const {
+        return axes[static_cast<std::size_t>(axis)][i * stride];
+    }
+};
+
+/// True when all coordinates lie in one array, point after point, without anything else.
+inline bool is_interleaved(const Points& points) {
+    const auto dimension = static_cast<std::size_t>(points.dimension);
+    if (points.stride != dimension || points.axes[0].size() < points.count * dimension)
+        return false;
+    for (std::size_t a = 1; a < dimension; ++a)
+        if (points.axes[a].data() != points.axes[0].data() + a) return false;
+    return true;
 }
 
-/// Calls `visit(layout)` with the layout of `points`: stride 1 (columns) or dimension
-/// (interleaved).
+template <int Dimension, class Visit>
+decltype(auto) visit_layout_of(const Points& points, Visit&& visit) {
+    std::array<const double*, Dimension> axes;
+    for (std::size_t a = 0; a < Dimension; ++a) axes[a] = points.axes[a].data();
+    if (points.stride == 1) return visit(PointLayout<Dimension, 1>{axes});
+    if (points.stride == Dimension) return visit(PointLayout<Dimension, Dimension>{axes});
+    return visit(StridedLayout<Dimension>{axes, points.stride});
+}
+
+/// Calls `visit(layout)` with the layout of `points`: stride 1 (columns), dimension (interleaved)
+/// or any other.
 template <class Visit>
 decltype(auto) visit_layout(const Points& points, Visit&& visit) {
-    if (points.dimension == 1) return visit(layout_of<1, 1>(points));
-    if (points.dimension == 2) {
-        return points.stride == 1 ? visit(layout_of<2, 1>(points)) : visit(layout_of<2, 2>(points));
-    }
-    return points.stride == 1 ? visit(layout_of<3, 1>(points)) : visit(layout_of<3, 3>(points));
+    if (points.dimension == 1) return visit_layout_of<1>(points, visit);
+    if (points.dimension == 2) return visit_layout_of<2>(points, visit);
+    return visit_layout_of<3>(points, visit);
 }
 
 }  // namespace rrcb

@@ -1,4 +1,4 @@
-#include <rrcb/points.hpp>
+#include "point_layout.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -58,6 +58,21 @@ Box box_of_values(std::span<const double> values, std::size_t stride) {
     return box;
 }
 
+/// The same of every stride-th value, on axis 0.
+Box box_of_strided(const double* values, LocalIndex count, std::size_t stride) {
+    Box box;
+    double poison = 0;
+    for (LocalIndex i = 0; i < count; ++i) {
+        const double value = values[i * stride];
+        box.lower[0] = std::min(box.lower[0], value);
+        box.upper[0] = std::max(box.upper[0], value);
+        poison += 0 * value;
+    }
+    box.lower[0] += poison;
+    box.upper[0] += poison;
+    return box;
+}
+
 }  // namespace
 
 Points interleaved_points(std::span<const double> coordinates, int dimension,
@@ -85,11 +100,14 @@ Points column_points(std::span<const std::span<const double>> columns,
 }
 
 Box bounding_box(const Points& points) {
-    if (points.stride > 1)
+    if (points.count == 0) return {};
+    if (is_interleaved(points))
         return box_of_values(points.axes[0].first(points.count * points.stride), points.stride);
     Box box;
     for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a) {
-        const Box axis = box_of_values(points.axes[a].first(points.count), 1);
+        const Box axis = points.stride == 1
+                             ? box_of_values(points.axes[a].first(points.count), 1)
+                             : box_of_strided(points.axes[a].data(), points.count, points.stride);
         box.lower[a] = axis.lower[0];
         box.upper[a] = axis.upper[0];
     }

@@ -1,4 +1,5 @@
 #include "contribution.hpp"
+#include "point_layout.hpp"
 
 #include <rrcb/error.hpp>
 
@@ -30,20 +31,28 @@ void check_part_sizes(std::span<const double> sizes, int num_parts) {
     require(sum > 0 && std::isfinite(sum), "part_sizes must have a positive, finite sum");
 }
 
-void check_lengths(const Points& points) {
+void check_coordinates(const Points& points) {
+    constexpr const char* left_over =
+        "the length of the coordinate array must be a multiple of the dimension";
     const auto dimension = static_cast<std::size_t>(points.dimension);
-    require(points.stride == 1 || points.stride == dimension,
-            "points must be interleaved or one array per axis");
-    for (std::size_t a = 0; a < dimension && points.count > 0; ++a) {
-        const std::size_t expected =
-            points.stride == 1 ? points.count : points.count * dimension - a;
-        require(points.axes[a].size() == expected,
-                points.stride == 1
-                    ? "coordinate arrays must all have the same length"
-                    : "the length of the coordinate array must be a multiple of the dimension");
+    require(points.stride >= 1, "the stride of the points must be at least 1");
+    if (points.count == 0) {
+        require(points.stride > dimension || points.axes[0].empty(), left_over);
+        return;
     }
-    require(points.count > 0 || points.axes[0].empty(),
-            "the length of the coordinate array must be a multiple of the dimension");
+    const bool interleaved = dimension > 1 && is_interleaved(points);
+    require(!interleaved || points.axes[0].size() == points.count * dimension, left_over);
+    for (std::size_t a = 0; a < dimension; ++a) {
+        const std::size_t size = points.axes[a].size();
+        require(points.stride > 1 || size == points.count,
+                "coordinate arrays must all have the same length");
+        require(size > 0 && (size - 1) / points.stride >= points.count - 1,
+                "coordinate arrays must reach to the last point, (count - 1) * stride");
+    }
+}
+
+void check_lengths(const Points& points) {
+    check_coordinates(points);
     require(points.weights.empty() || points.weights.size() == points.count,
             "weights must hold one entry per point, or none for unit weights");
 }

@@ -25,9 +25,11 @@ struct Box {
                  -std::numeric_limits<double>::infinity()};
 };
 
-/// Borrowed view of one rank's points, 1-D to 3-D, interleaved (xyzxyz...) or one array per axis.
+/// Borrowed view of one rank's points, 1-D to 3-D, interleaved (xyzxyz...), one array per axis, or
+/// at any other stride, as members of structs are.
 ///
-/// Coordinate a of point i is `axes[a][i * stride]`. `weights` is empty (every point weighs 1) or
+/// Coordinate a of point i is `axes[a][i * stride]`; the axes may lie in one array or in several.
+/// `weights` is empty (every point weighs 1) or
 /// holds one finite, non-negative weight per point. The arrays must outlive the view. Nothing is
 /// checked here: `balance` checks on all ranks together, so that no rank fails alone.
 struct Points {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <vector>
@@ -88,6 +89,25 @@ TEST_F(Agreement, on_arrays_that_do_not_fit) {
     const std::vector<double> weights(last() ? 1 : 2);
     const std::vector<double> z(4);
     expect_error(interleaved_points(z, 2, weights), {}, "one entry per point");
+}
+
+TEST_F(Agreement, on_coordinates_that_end_before_the_last_point) {
+    const std::vector<double> x(12);
+    const std::vector<double> y(10);
+    Points points;
+    points.dimension = 2;
+    points.count = 4;
+    for (const std::size_t stride : {2u, 3u, 5u}) {
+        points.stride = stride;
+        const std::size_t needed = 3 * stride + 1;
+        points.axes = {std::span(x).first(std::min<std::size_t>(12, needed)),
+                       std::span(y).first(std::min<std::size_t>(10, needed))};
+        if (last() && stride < 4) points.axes[1] = points.axes[1].first(needed - 1);
+        const std::string who = stride < 4 ? last_rank() : "rank 0: ";
+        expect_error(points, {}, who + "coordinate arrays must reach to the last point");
+    }
+    points.stride = 0;
+    expect_error(points, {}, "rank 0: the stride of the points must be at least 1");
 }
 
 TEST_F(Agreement, on_a_dimension_out_of_range) {

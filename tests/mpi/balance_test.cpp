@@ -163,6 +163,28 @@ TEST(Balance, same_input_gives_the_same_bits_on_all_ranks) {
     }
 }
 
+/// Members of structs, and interleaved arrays of which each gives one axis.
+TEST(Balance, takes_points_at_any_stride_and_from_several_arrays) {
+    for (const std::size_t stride : {2u, 3u, 8u}) {
+        const std::vector<double> cloud = my_cloud(500, 2);
+        std::vector<double> x(500 * stride, -1e9);
+        std::vector<double> y(500 * stride, 1e9);
+        for (std::size_t i = 0; i < 500; ++i) {
+            x[i * stride] = cloud[2 * i];
+            y[i * stride] = cloud[2 * i + 1];
+        }
+        const Points expected = interleaved_points(cloud, 2);
+        const Points points{.dimension = 2, .count = 500, .stride = stride, .axes = {x, y}};
+        for (const DomainKind domain :
+             {DomainKind::analytic, DomainKind::sampled, DomainKind::points}) {
+            Options options;
+            options.domain = domain;
+            const Balance result = balance(points, options, MPI_COMM_WORLD);
+            EXPECT_EQ(result.parts, balance(expected, options, MPI_COMM_WORLD).parts);
+        }
+    }
+}
+
 TEST(Balance, works_on_a_part_of_the_ranks) {
     MPI_Comm half = MPI_COMM_NULL;
     MPI_Comm_split(MPI_COMM_WORLD, rank() % 2, rank(), &half);

@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -145,6 +147,46 @@ TEST(Moments, merge_gives_the_moments_of_the_union) {
             EXPECT_NEAR(merged.deviation[a], whole.deviation[a], 1e-14);
         }
     }
+}
+
+/// In long double, whose range none of these squares leaves.
+void expect_merged(double mean_a, double weight_a, double deviation_a, double mean_b,
+                   double weight_b, double deviation_b) {
+    SCOPED_TRACE(testing::Message()
+                 << mean_a << " by " << weight_a << ", " << mean_b << " by " << weight_b);
+    const Moments merged =
+        merge({1, weight_a, {mean_a}, {deviation_a}}, {1, weight_b, {mean_b}, {deviation_b}});
+    const long double weight = static_cast<long double>(weight_a) + weight_b;
+    const long double share_a = weight_a / weight;
+    const long double share_b = weight_b / weight;
+    const long double distance = static_cast<long double>(mean_b) - mean_a;
+    const long double mean = mean_a + share_b * distance;
+    const long double variance = share_a * deviation_a * deviation_a +
+                                 share_b * deviation_b * deviation_b +
+                                 share_a * share_b * distance * distance;
+    const double largest = std::max(std::abs(mean_a), std::abs(mean_b));
+    EXPECT_TRUE(std::isfinite(merged.mean[0]));
+    EXPECT_TRUE(std::isfinite(merged.deviation[0]));
+    EXPECT_GE(merged.mean[0], std::min(mean_a, mean_b));
+    EXPECT_LE(merged.mean[0], std::max(mean_a, mean_b));
+    const long double smallest = std::numeric_limits<double>::denorm_min();
+    EXPECT_LE(std::abs(merged.mean[0] - mean), 4e-16L * largest + smallest);
+    const long double deviation = std::sqrt(variance);
+    EXPECT_LE(std::abs(merged.deviation[0] - deviation), 1e-15L * deviation + smallest);
+}
+
+TEST(Moments, merge_at_the_ends_of_the_range_of_a_double) {
+    constexpr double most = std::numeric_limits<double>::max();
+    const std::array means = {-most,  -1.7e308, -1e308, -1.0,    -5e-324, 0.0,
+                              1e-300, 1.0,      1e308,  1.7e308, most};
+    for (const double mean_a : means)
+        for (const double mean_b : means)
+            for (const double weight : {1e-300, 1e-16, 0.1, 1.0, 3.0, 1e10})
+                expect_merged(mean_a, 1, 0, mean_b, weight, 0);
+    // All that two ranks hold lies at both ends.
+    for (const double weight : {0.1, 1.0, 3.0}) expect_merged(0, 1, most, 0, weight, most);
+    // Rounding takes the difference of these up, and the mean beyond the larger one.
+    expect_merged(std::ldexp(3, 970), 1e-100, 0, most, 1e100, 0);
 }
 
 TEST(Moments, merge_with_nothing_changes_nothing) {

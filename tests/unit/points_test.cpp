@@ -1,5 +1,9 @@
+#include "../support/clouds.hpp"
+
 #include <rrcb/eigen.hpp>
+#include <rrcb/moments.hpp>
 #include <rrcb/points.hpp>
+#include <rrcb/sorted_points.hpp>
 
 #include <gtest/gtest.h>
 
@@ -62,6 +66,56 @@ TEST(Points, bounding_box_tells_of_coordinates_that_are_no_numbers) {
             EXPECT_EQ(box.lower[0], 1);
             EXPECT_TRUE(std::isnan(box.lower[1]));
         }
+    }
+}
+
+/// Coordinates that are members of structs, or interleaved in arrays of their own.
+TEST(Points, at_any_stride_and_in_several_arrays_are_the_points_one_after_the_other) {
+    for (const int dimension : {1, 2, 3}) {
+        for (const std::size_t stride : {2u, 3u, 7u}) {
+            const std::size_t count = 50;
+            const auto axes = static_cast<std::size_t>(dimension);
+            const std::vector<double> coordinates = test::uniform_cloud(count, dimension, 5);
+            std::vector<std::vector<double>> arrays(axes);
+            Points points;
+            points.dimension = dimension;
+            points.count = count;
+            points.stride = stride;
+            for (std::size_t a = 0; a < axes; ++a) {
+                arrays[a].assign((count - 1) * stride + 1, 1e300);
+                for (std::size_t i = 0; i < count; ++i)
+                    arrays[a][i * stride] = coordinates[i * axes + a];
+                points.axes[a] = arrays[a];
+            }
+            const Points expected = interleaved_points(coordinates, dimension);
+            const Box box = bounding_box(points);
+            EXPECT_EQ(box.lower, bounding_box(expected).lower);
+            EXPECT_EQ(box.upper, bounding_box(expected).upper);
+            const SupportMesh mesh = make_support_mesh(box, dimension, 3);
+            const SortedPoints sorted = sort_by_cell(bin_by_cell(points, mesh));
+            EXPECT_EQ(sorted.coordinates, sort_by_cell(bin_by_cell(expected, mesh)).coordinates);
+            const auto cells = cell_moments(points, mesh);
+            const auto same = cell_moments(expected, mesh);
+            ASSERT_EQ(cells.size(), same.size());
+            for (std::size_t k = 0; k < cells.size(); ++k) {
+                EXPECT_EQ(cells[k].moments.mean, same[k].moments.mean);
+                EXPECT_EQ(cells[k].moments.deviation, same[k].moments.deviation);
+            }
+        }
+    }
+}
+
+TEST(Points, bounding_box_tells_of_coordinates_that_are_no_numbers_at_any_stride) {
+    for (const double bad : {std::nan(""), 1 / 0.0, -1 / 0.0}) {
+        std::vector<double> values(11, 1.0);
+        values[5] = bad;
+        Points points;
+        points.dimension = 1;
+        points.count = 3;
+        points.stride = 5;
+        points.axes[0] = values;
+        EXPECT_TRUE(std::isnan(bounding_box(points).lower[0]));
+        EXPECT_TRUE(std::isnan(bounding_box(points).upper[0]));
     }
 }
 

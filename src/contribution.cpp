@@ -115,8 +115,9 @@ void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t 
 StatisticalDomain build_domain(const Contribution& all, const Options& options, int dimension) {
     if (options.domain == DomainKind::points) return read_points(all.points, dimension);
     const CellSet set = read_cells(all.records, dimension);
-    return options.domain == DomainKind::analytic ? analytic_domain(set.cells, dimension)
-                                                  : sampled_domain(set.cells, dimension, options);
+    return options.domain == DomainKind::analytic
+               ? analytic_domain(set.cells, dimension, all.summary.box)
+               : sampled_domain(set.cells, dimension, options);
 }
 
 }  // namespace rrcb

@@ -45,9 +45,10 @@ double uniform(std::mt19937_64& engine) {
     return static_cast<double>(engine() >> 11) * 0x1p-53;
 }
 
+constexpr double largest = std::numeric_limits<double>::max();
+
 /// Box of mean +- half_width, cut off at the largest double.
 Box around(const Moments& moments, double multiplier) {
-    constexpr double largest = std::numeric_limits<double>::max();
     Box box;
     for (std::size_t a = 0; a < max_dimension; ++a) {
         const double half_width = multiplier * moments.deviation[a];
@@ -57,21 +58,71 @@ Box around(const Moments& moments, double multiplier) {
     return box;
 }
 
+/// How far weight reaches to both sides of a mean: half of it, which no coordinates overflow.
+struct Reach {
+    double below = 0;
+    double above = 0;
+
+    double shorter() const { return std::min(below, above); }
+    double longer() const { return std::max(below, above); }
+};
+
+Reach reach_to(const Box& box, std::size_t axis, double mean) {
+    return {std::max(0.0, mean / 2 - box.lower[axis] / 2),
+            std::max(0.0, box.upper[axis] / 2 - mean / 2)};
+}
+
+/// Two uniform densities that meet at the mean, one reaching b below it with the share a / (a + b),
+/// one a above it with the rest, have this mean and the variance a b / 3. So where one can't reach
+/// as far as the half-width of a single uniform density, the other has to reach this far.
+double opposite(double half_width, double shorter) {
+    return half_width * (half_width / shorter);
+}
+
+Reach reach_of(const CellMoments& cell, std::size_t axis, const Box& box) {
+    // To divide more than that costs patches and hardly gains: see docs/moments.md.
+    constexpr double bearable = 1.25;
+    const double half_width = std::sqrt(3.0) / 2 * cell.moments.deviation[axis];
+    Reach room = reach_to(cell.box, axis, cell.moments.mean[axis]);
+    // Points crowded at both ends of a cell are spread too far to be told from those beyond it.
+    if (!(opposite(half_width, room.shorter()) <= room.longer()))
+        room = reach_to(box, axis, cell.moments.mean[axis]);
+    const double shorter = room.shorter();
+    if (half_width <= bearable * shorter) return {half_width, half_width};
+    if (shorter == 0) return {};
+    const double longer = std::min(opposite(half_width, shorter), room.longer());
+    return room.below < room.above ? Reach{shorter, longer} : Reach{longer, shorter};
+}
+
+/// Gives the patches from `first` on, all of one cell, their extent along an axis. Where it reaches
+/// farther to one side than to the other each becomes two.
+void spread(std::vector<Patch>& patches, std::size_t first, std::size_t axis, double mean,
+            const Reach& reach) {
+    const std::size_t last = patches.size();
+    for (std::size_t i = first; i < last; ++i) {
+        patches[i].lower[axis] = std::max(mean - 2 * reach.below, -largest);
+        patches[i].upper[axis] = std::min(mean + 2 * reach.above, largest);
+        if (reach.below == reach.above) continue;
+        Patch above = patches[i];
+        patches[i].upper[axis] = above.lower[axis] = mean;
+        patches[i].weight *= reach.above / (reach.below + reach.above);
+        above.weight -= patches[i].weight;
+        patches.push_back(above);
+    }
+}
+
 }  // namespace
 
-StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension) {
-    const double uniform_half_width = std::sqrt(3.0);
+StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension,
+                                  const Box& box) {
     const std::vector<double> weights = weights_of(cells);
     StatisticalDomain domain{dimension, {}};
     domain.patches.reserve(cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        const Box box = around(cells[i].moments, uniform_half_width);
-        Patch patch{{}, {}, weights[i]};
-        for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
-            patch.lower[a] = std::clamp(box.lower[a], cells[i].box.lower[a], cells[i].box.upper[a]);
-            patch.upper[a] = std::clamp(box.upper[a], cells[i].box.lower[a], cells[i].box.upper[a]);
-        }
-        domain.patches.push_back(patch);
+        const std::size_t first = domain.patches.size();
+        domain.patches.push_back({{}, {}, weights[i]});
+        for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+            spread(domain.patches, first, a, cells[i].moments.mean[a], reach_of(cells[i], a, box));
     }
     return domain;
 }

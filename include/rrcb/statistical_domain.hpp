@@ -21,11 +21,16 @@ struct StatisticalDomain {
     std::vector<Patch> patches;
 };
 
-/// One uniform patch per cell, with the cell's mean and standard deviation. Not collective.
+/// A uniform patch per cell, or a few, with the cell's mean and standard deviation. Not collective.
 ///
-/// The half-width is sqrt(3) sigma, that of a uniform density, kept inside the cell. Where all
-/// weights are 0 the counts take their place.
-StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension);
+/// A patch reaches sqrt(3) sigma, the half-width of a uniform density, to both sides of the mean.
+/// Along an axis where this is more than 1.25 times the way to the nearer face of the cell, two
+/// take its place: one from that face to the mean, one from the mean as far as the moments ask.
+/// Where that is not inside the cell, the faces are those of `box`, which holds all points, and the
+/// patches end there: the mean stays, sigma becomes less. Where all weights are 0 the counts take
+/// their place.
+StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension,
+                                  const Box& box);
 
 /// Pseudo-random points of equal weight, uniform in mean +- multiplier * sigma of each cell.
 ///

@@ -7,15 +7,15 @@
 
 namespace rrcb {
 
+/// Parts up to which the largest sum is found; beyond it would take too long.
+inline constexpr int most_parts_exact = 128;
+
 /// What is gained when a part gets a number; both in 0 ... num_parts - 1.
 struct Gain {
     Part part = 0;
     Part number = 0;
     GlobalCount value = 0;
 };
-
-/// Beyond so many parts the largest sum would take too long to find.
-inline constexpr int most_parts_exact = 128;
 
 /// A number for each part, every number once, with the largest sum of gains.
 ///

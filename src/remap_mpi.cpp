@@ -4,6 +4,7 @@
 #include "assignment.hpp"
 #include "mpi/communicator.hpp"
 #include "mpi/duplicate.hpp"
+#include "rank_numbers.hpp"
 
 #include <rrcb/error.hpp>
 
@@ -156,6 +157,14 @@ std::vector<Gain> gains_of(std::span<const Overlap> overlaps, const Homes& homes
     return gains;
 }
 
+/// Numbers that keep many points. A rank of many parts has too many gains to list: as many for each
+/// overlap as it has parts.
+std::vector<Part> good_numbers(std::span<const Overlap> overlaps, const Homes& homes) {
+    if (homes.by_rank && homes.num_parts() > most_parts_exact)
+        return numbers_by_rank(overlaps, homes.ranks_of_parts);
+    return best_numbers(gains_of(overlaps, homes), homes.num_parts());
+}
+
 GlobalCount kept(std::span<const Overlap> overlaps, std::span<const Part> numbers,
                  const Homes& homes) {
     GlobalCount sum = 0;
@@ -177,7 +186,7 @@ Remap decide(RemapRoom& room, const Homes& homes) {
     const std::span<const Overlap> overlaps = room.holds_sums() ? sums : room.all;
     std::vector<Part> unchanged(static_cast<std::size_t>(homes.num_parts()));
     std::iota(unchanged.begin(), unchanged.end(), 0);
-    remap.numbers = best_numbers(gains_of(overlaps, homes), homes.num_parts());
+    remap.numbers = good_numbers(overlaps, homes);
     remap.kept_before = kept(overlaps, unchanged, homes);
     remap.kept_after = kept(overlaps, remap.numbers, homes);
     if (remap.kept_after > remap.kept_before) return remap;

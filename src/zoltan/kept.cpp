@@ -5,7 +5,7 @@
 
 namespace rrcb::zoltan {
 
-Kept::Kept(std::size_t num_parts) : tree_(num_parts) {
+Kept::Kept(std::size_t num_parts) : boxes_(num_parts), tree_(num_parts) {
     nodes_.reserve(num_parts);
 }
 
@@ -13,6 +13,8 @@ void Kept::keep(Cuts&& cuts, PartMap&& map, std::vector<Part>&& numbers) noexcep
     cuts_ = std::move(cuts);
     map_ = std::move(map);
     numbers_ = std::move(numbers);
+    for (std::size_t box = 0; box < numbers_.size(); ++box)
+        boxes_[static_cast<std::size_t>(numbers_[box])] = static_cast<Part>(box);
     root_ = build(0, cuts_.num_parts, -1);
     if (cuts_.num_parts > 1) tree_[0].upper = lower_parts(cuts_.num_parts);
 }
@@ -78,8 +80,7 @@ int Kept::collect(std::int32_t at, const Box& box, Part* parts, int count) const
 }
 
 Box Kept::region_of(Part part) const {
-    const auto found = std::ranges::find(numbers_, part);
-    return box_of(cuts_, static_cast<Part>(found - numbers_.begin()));
+    return box_of(cuts_, boxes_[static_cast<std::size_t>(part)]);
 }
 
 }  // namespace rrcb::zoltan

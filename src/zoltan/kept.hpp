@@ -58,6 +58,7 @@ class Kept {
     Cuts cuts_;
     PartMap map_;
     std::vector<Part> numbers_;
+    std::vector<Part> boxes_;  ///< which box has the number
     std::vector<Node> nodes_;
     std::vector<TreeNode> tree_;
     std::int32_t root_ = 0;

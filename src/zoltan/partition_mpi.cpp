@@ -140,8 +140,9 @@ struct Preparation {
     std::vector<std::int64_t> per_rank;  ///< to announce imports with
 };
 
-Preparation prepare(const Call& call, const Layout& layout, int dimension, Member& me) {
+Preparation prepare(const Call& call, const Layout& layout, const Objects& objects, Member& me) {
     const Parameters& parameters = call.state.parameters;
+    const int dimension = objects.points.dimension;
     const bool fits = call.previous && call.previous->cuts().dimension == dimension &&
                       call.previous->cuts().num_parts == layout.map.num_parts();
     Preparation made;
@@ -151,7 +152,7 @@ Preparation prepare(const Call& call, const Layout& layout, int dimension, Membe
         made.options =
             make_options(parameters, layout, dimension, fits ? &call.previous->cuts() : nullptr);
         made.per_rank.resize(static_cast<std::size_t>(call.state.communicator->size()));
-        made.renumbering.emplace(parameters, layout, *call.state.communicator);
+        made.renumbering.emplace(parameters, layout, objects, *call.state.communicator);
         if (keeps_cuts(parameters))
             made.kept.emplace(static_cast<std::size_t>(layout.map.num_parts()));
     });
@@ -179,7 +180,7 @@ int balance_objects(const Call& call, const Agreement& agreement, Objects&& obje
     Member me{call.state.communicator->get()};
     Layout layout = make_layout(agreement, call.state, me);
     combine_weights(parameters, call.state.workspace, me.comm, objects);
-    Preparation prepared = prepare(call, layout, objects.points.dimension, me);
+    Preparation prepared = prepare(call, layout, objects, me);
     Balance balanced = balance(objects.points, prepared.options, prepared.previous, me);
     Remap remap = prepared.renumbering->run(layout, objects, balanced.parts, me);
     list_exports(call, layout, std::move(objects), balanced.parts, result);

@@ -11,6 +11,11 @@ namespace rrcb::zoltan {
 
 namespace {
 
+/// Where objects are to keep their part, not only their rank.
+bool by_part(const Layout& layout, const Objects& objects) {
+    return !layout.map.one_each && objects.names_parts;
+}
+
 bool may_change_numbers(const Parameters& parameters, const Layout& layout) {
     const std::vector<double>& sizes = layout.part_sizes;
     const auto on_one_rank = [](const RankRange& range) { return range.count == 1; };
@@ -21,12 +26,14 @@ bool may_change_numbers(const Parameters& parameters, const Layout& layout) {
 
 }  // namespace
 
-Renumbering::Renumbering(const Parameters& parameters, const Layout& layout,
+Renumbering::Renumbering(const Parameters& parameters, const Layout& layout, const Objects& objects,
                          const Communicator& comm) {
     const int num_parts = layout.map.num_parts();
     unchanged_.numbers.resize(static_cast<std::size_t>(num_parts));
     std::iota(unchanged_.numbers.begin(), unchanged_.numbers.end(), 0);
-    if (may_change_numbers(parameters, layout))
+    // Alone, a rank keeps its objects under any numbers.
+    const bool matters = comm.size() > 1 || by_part(layout, objects);
+    if (matters && may_change_numbers(parameters, layout))
         room_.emplace(num_parts, comm.size(), comm.rank() == root);
 }
 
@@ -34,7 +41,7 @@ Remap Renumbering::run(const Layout& layout, const Objects& objects, std::span<P
                        Member& me) {
     if (!room_) return std::move(unchanged_);
     PreviousParts previous;
-    if (!layout.map.one_each && objects.names_parts)
+    if (by_part(layout, objects))
         previous.emplace(objects.initial_parts.get(), parts.size());
     Remap result = remap(parts, previous, layout.map.ranks, *room_, me);
     if (result.identity) return result;

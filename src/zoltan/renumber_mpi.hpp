@@ -17,7 +17,8 @@ namespace rrcb::zoltan {
 class Renumbering {
   public:
     /// Makes room for all that follows; to be agreed on before run(). Not collective.
-    Renumbering(const Parameters& parameters, const Layout& layout, const Communicator& comm);
+    Renumbering(const Parameters& parameters, const Layout& layout, const Objects& objects,
+                const Communicator& comm);
 
     /// Writes the new numbers to `parts`. Collective where it looks; throws Error on all ranks
     /// alike.

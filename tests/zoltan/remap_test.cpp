@@ -124,5 +124,39 @@ TEST(Remap, leaves_parts_of_different_sizes_and_parts_on_several_ranks) {
     EXPECT_EQ(sized.exports.parts, program.partition().exports.parts);
 }
 
+/// With as many parts as this, work or memory in their square does not end within the time-out.
+struct ManyParts : Program {
+    static constexpr int num_parts = 50000;
+    ManyParts() {
+        scatter_points(*this, 2 * num_parts / num_ranks);
+        set("LB_METHOD", "RRCB");
+        set("NUM_GLOBAL_PARTS", std::to_string(num_parts));
+        set("RETURN_LISTS", "PARTS");
+    }
+};
+
+TEST(Remap, of_many_parts_keeps_more_objects_on_their_rank) {
+    ManyParts program;
+    const double without = moved_with(program, "RRCB", "0");
+    const double with = moved_with(program, "RRCB", "1");
+    if (program.num_ranks == 1) EXPECT_EQ(with, 0);
+    if (program.num_ranks > 1) EXPECT_LT(with, without - 0.05);
+}
+
+TEST(Remap, of_many_parts_has_regions_that_hold_their_objects) {
+    ManyParts program;
+    program.set("KEEP_CUTS", "1");
+    const std::vector<int> parts = parts_by_object(program.partition());
+    for (int part = 0; part < ManyParts::num_parts; ++part)
+        ASSERT_EQ(region_of(program.zz, part).code, ZOLTAN_OK);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const Region region = region_of(program.zz, parts[i]);
+        for (std::size_t a = 0; a < 2; ++a) {
+            ASSERT_LE(region.lower[a], program.coordinates[2 * i + a]);
+            ASSERT_GE(region.upper[a], program.coordinates[2 * i + a]);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace rrcb::zoltan_test

@@ -87,7 +87,7 @@ Vote vote_of(const LocalStatus& local, const State& state) {
     if (local.code != ZOLTAN_OK && local.code != ZOLTAN_WARN) {
         vote.failing_rank_from_last = state.communicator->size() - state.communicator->rank();
     }
-    vote.num_global_parts = parameters.num_global_parts;
+    vote.num_global_parts = asked_global_parts(state);
     vote.any_local_parts = parameters.num_local_parts >= 0 ? 1 : 0;
     vote.any_part_sizes = state.part_sizes.empty() ? 0 : 1;
     vote.lacks_cuts = state.kept ? 0 : 1;

@@ -35,7 +35,8 @@ template <typename Forward>
 int set_parameter(State& state, const std::string& name, const char* raw_value,
                   Forward forward_it) {
     const std::string value = clean(raw_value);
-    if (name == "LB_METHOD" && value == "RRCB") return switch_to_rrcb(state);
+    if (name == "LB_METHOD" && without_trailing_blanks(value) == "RRCB")
+        return switch_to_rrcb(state);
     const Setting setting = set_own(state.parameters, name, raw_value);
     if (setting == Setting::accepted) return ZOLTAN_OK;
     if (setting == Setting::defaulted) return reject_value(state, name, value);

@@ -153,6 +153,13 @@ constexpr CommonInteger common_integers[] = {
     {"DEBUG_LEVEL", &Parameters::debug_level, 0},
 };
 
+/// What Zoltan takes for DEFAULT and for illegal values: what a new handle has, but in two cases.
+int fallback_of(int Parameters::*field) {
+    if (field == &Parameters::num_global_parts) return one_per_rank;
+    if (field == &Parameters::remap) return 0;
+    return Parameters{}.*field;
+}
+
 int integer_or(std::string_view text, int minimum, int fallback) {
     if (text.starts_with('T')) return 1;
     if (text.starts_with('F')) return 0;
@@ -161,11 +168,13 @@ int integer_or(std::string_view text, int minimum, int fallback) {
 }
 
 /// Zoltan allows one tolerance per weight, as "[k]" behind the name; RRCB balances one weight.
+/// It has accepted the text, of which it reads no more than a number at its start.
 void note_tolerance(Options& options, std::string_view text) {
+    if (text.starts_with('+')) text.remove_prefix(1);
     double value = 0;
-    options.imbalance_tolerance = read_number(text, value) && std::isfinite(value) && value >= 1
-                                      ? value
-                                      : Options{}.imbalance_tolerance;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool legal = std::isfinite(value) && value >= 1;
+    options.imbalance_tolerance = legal ? value : Options{}.imbalance_tolerance;
 }
 
 ReturnLists return_lists(std::string_view text) {
@@ -182,7 +191,8 @@ ReturnLists return_lists(std::string_view text) {
 Setting set_own(Parameters& parameters, std::string_view name, const char* value) {
     const auto* own = std::ranges::find(own_parameters, name, &OwnParameter::name);
     if (own == std::end(own_parameters)) return Setting::unknown;
-    const std::string upper = clean(value);
+    const std::string cleaned = clean(value);
+    const std::string_view upper = without_trailing_blanks(cleaned);
     const bool is_default = upper == "DEFAULT";
     const bool keeps_case = name == dump_folder_name;
     if (!is_default && own->read(parameters, keeps_case ? value : upper)) return Setting::accepted;
@@ -203,8 +213,7 @@ void note_common(Parameters& parameters, std::string_view name, std::string_view
     if (name == "RETURN_LISTS") parameters.return_lists = return_lists(value);
     const auto* common = std::ranges::find(common_integers, name, &CommonInteger::name);
     if (common == std::end(common_integers)) return;
-    const int fallback = Parameters{}.*common->field;
-    parameters.*common->field = integer_or(value, common->minimum, fallback);
+    parameters.*common->field = integer_or(value, common->minimum, fallback_of(common->field));
 }
 
 std::string clean(const char* text) {
@@ -212,6 +221,12 @@ std::string clean(const char* text) {
     std::string result(text);
     for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     return result;
+}
+
+std::string_view without_trailing_blanks(std::string_view text) {
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0)
+        text.remove_suffix(1);
+    return text;
 }
 
 }  // namespace rrcb::zoltan

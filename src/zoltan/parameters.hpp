@@ -12,6 +12,9 @@ namespace rrcb::zoltan {
 /// Which lists a partitioning call returns (RETURN_LISTS).
 enum class ReturnLists { none, imports, exports, all, parts, candidates };
 
+/// NUM_GLOBAL_PARTS where it is set to its default or to no legal number.
+inline constexpr int one_per_rank = 0;
+
 /// What the plug-in must know of a handle's parameters; the defaults are Zoltan's.
 struct Parameters {
     bool rrcb = false;         ///< LB_METHOD is RRCB, or RCB where that is replaced
@@ -19,7 +22,7 @@ struct Parameters {
     int num_gid_entries = 1;
     int num_lid_entries = 1;
     int weight_dimension = 0;
-    int num_global_parts = -1;  ///< -1: not set
+    int num_global_parts = -1;  ///< -1: not set, one_per_rank: as many as ranks
     int num_local_parts = -1;   ///< -1: not set
     int keep_cuts = 0;
     int auto_migrate = 0;
@@ -59,5 +62,8 @@ void note_common(Parameters& parameters, std::string_view name, std::string_view
 
 /// A name or value as Zoltan compares it: leading blanks dropped, upper-cased.
 std::string clean(const char* text);
+
+/// Text without the blanks behind it, which belong to no value.
+std::string_view without_trailing_blanks(std::string_view text);
 
 }  // namespace rrcb::zoltan

@@ -34,7 +34,7 @@ void check_parameters(const State& state, bool one_part_per_rank) {
     if (parameters.return_lists == ReturnLists::candidates) {
         throw Failure(ZOLTAN_FATAL, "RRCB makes no candidate lists; change RETURN_LISTS");
     }
-    const int global = parameters.num_global_parts;
+    const int global = asked_global_parts(state);
     const int local = parameters.num_local_parts;
     const bool other_global = global != -1 && global != state.communicator->size();
     if (one_part_per_rank && (other_global || (local != -1 && local != 1))) {
@@ -75,7 +75,7 @@ void print_review(const Report& report, const Remap& remap, const Parameters& pa
     for (const std::string& shortcoming : shortcomings(parameters)) {
         print_warning(0, function, shortcoming);
     }
-    for (const std::string& limit : limits(report)) print_warning(0, function, limit);
+    for (const std::string& limit : limits(report, parameters)) print_warning(0, function, limit);
     if (leaves_parts_empty(report)) {
         print_warning(0, function,
                       std::to_string(report.surplus_parts) +
@@ -85,16 +85,15 @@ void print_review(const Report& report, const Remap& remap, const Parameters& pa
     }
 }
 
-/// Prints on one rank, for which memory may lack, and gives the code, which is the same on all.
-int review(const Report& report, const Remap& remap, const State& state,
-           const char* function) noexcept {
+/// Prints on one rank, for which memory may lack.
+void review(const Report& report, const Remap& remap, const State& state,
+            const char* function) noexcept {
     try {
         if (state.communicator->rank() == 0)
             print_review(report, remap, state.parameters, function);
     } catch (const std::exception&) {
         print_warning(0, function, "out of memory for messages");
     }
-    return leaves_parts_empty(report) || report.all_weights_zero ? ZOLTAN_WARN : ZOLTAN_OK;
 }
 
 /// Drops or completes the lists as RETURN_LISTS asks.
@@ -185,15 +184,13 @@ int balance_objects(const Call& call, const Agreement& agreement, Objects&& obje
     Remap remap = prepared.renumbering->run(layout, objects, balanced.parts, me);
     list_exports(call, layout, std::move(objects), balanced.parts, result);
     select_lists(parameters, prepared.per_rank, me, result);
-    const int code = review(balanced.report, remap, call.state, call.function);
+    review(balanced.report, remap, call.state, call.function);
     if (prepared.kept) {
         prepared.kept->keep(std::move(balanced.cuts), std::move(layout.map),
                             std::move(remap.numbers));
         call.state.kept = std::move(prepared.kept);
     }
-    if (parameters.auto_migrate == 0 || !result.changes) return code;
-    const int migrated = migrate(call.zz, result);
-    return migrated == ZOLTAN_OK ? code : migrated;
+    return parameters.auto_migrate != 0 && result.changes ? migrate(call.zz, result) : ZOLTAN_OK;
 }
 
 }  // namespace

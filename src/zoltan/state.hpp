@@ -55,6 +55,12 @@ struct State {
     Workspace workspace;
 };
 
+/// NUM_GLOBAL_PARTS as Zoltan takes it, -1 where it is not set.
+inline int asked_global_parts(const State& state) {
+    const int asked = state.parameters.num_global_parts;
+    return asked == one_per_rank ? state.communicator->size() : asked;
+}
+
 /// The side table. Handles are made and destroyed by one thread at a time, as Zoltan asks.
 State* find_state(const Zoltan_Struct* zz);
 State& add_state(const Zoltan_Struct* zz, std::shared_ptr<Communicator> communicator);

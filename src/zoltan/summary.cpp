@@ -43,17 +43,19 @@ std::string summary(const Report& report, const Remap& remap) {
                          percent(remap.kept_before, remap.num_points));
 }
 
-std::vector<std::string> limits(const Report& report) {
+std::vector<std::string> limits(const Report& report, const Parameters& parameters) {
     std::vector<std::string> texts;
     if (report.least_imbalance > 1 && report.surplus_parts == 0) {
         texts.push_back(format("one object outweighs a part: the imbalance is %.4f, at best %.4f",
                                imbalance_of(report), report.least_imbalance));
     }
     if (report.coincident_cuts > 0) {
-        texts.push_back(
-            format("%d cuts met objects in one place, which stay together; the "
-                   "imbalance is %.4f",
-                   report.coincident_cuts, imbalance_of(report)));
+        const bool plain = parameters.rectilinear_blocks != 0;
+        texts.push_back(format("%d cuts met objects in one %s; the imbalance is %.4f",
+                               report.coincident_cuts,
+                               plain ? "plane, which RCB_RECTILINEAR_BLOCKS keeps together"
+                                     : "place, which stay together",
+                               imbalance_of(report)));
     }
     return texts;
 }

@@ -17,6 +17,6 @@ bool asks_for_summary(const Parameters& parameters);
 std::string summary(const Report& report, const Remap& remap);
 
 /// What kept the parts from the balance asked for, a sentence each.
-std::vector<std::string> limits(const Report& report);
+std::vector<std::string> limits(const Report& report, const Parameters& parameters);
 
 }  // namespace rrcb::zoltan

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <stdexcept>
 #include <string_view>
 
@@ -27,6 +28,8 @@ void fail_by_throwing(Program& program, const std::string& faulty) {
         if (name == faulty) throw std::runtime_error("thrown by a callback");
     };
 }
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <auto setter>
 void unregister(Program& program) {
@@ -72,6 +75,18 @@ constexpr std::array cases = {
          [](Program& p) { p.coordinates[31] = std::nan(""); }},
     Case{"all_nan", "all coordinates are NaN", ZOLTAN_FATAL, true,
          [](Program& p) { p.coordinates.assign(p.coordinates.size(), std::nan("")); }},
+    Case{"one_infinity", "one coordinate is infinite", ZOLTAN_FATAL, false,
+         [](Program& p) { p.coordinates[31] = infinity; }},
+    Case{"all_infinity", "all coordinates are infinite", ZOLTAN_FATAL, true,
+         [](Program& p) { p.coordinates.assign(p.coordinates.size(), infinity); }},
+    Case{"one_nan_weight", "one weight is NaN", ZOLTAN_FATAL, false,
+         [](Program& p) { p.weights[7] = std::nanf(""); }},
+    Case{"all_nan_weights", "all weights are NaN", ZOLTAN_FATAL, true,
+         [](Program& p) { p.weights.assign(p.weights.size(), std::nanf("")); }},
+    Case{"one_infinite_weight", "one weight is infinite", ZOLTAN_FATAL, false,
+         [](Program& p) { p.weights[7] = static_cast<float>(infinity); }},
+    Case{"one_negative_weight", "one weight is negative", ZOLTAN_FATAL, false,
+         [](Program& p) { p.weights[7] = -1; }},
     Case{"weights_differ", "OBJ_WEIGHT_DIM differs", ZOLTAN_FATAL, false,
          [](Program& p) { p.set("OBJ_WEIGHT_DIM", "0"); }},
     Case{"lists_differ", "RETURN_LISTS differs", ZOLTAN_FATAL, false,
@@ -114,6 +129,7 @@ void say(const char* when, const Outcome& outcome) {
 
 void run(const Case& fault, Program& program) {
     const std::vector<double> coordinates = program.coordinates;
+    const std::vector<float> weights = program.weights;
     set_parameters(program);
     if (fault.everywhere || program.rank == program.num_ranks - 1) fault.break_it(program);
     say("returned", program.partition());
@@ -123,6 +139,7 @@ void run(const Case& fault, Program& program) {
     program.count_offset = 0;
     program.reported_dimension = program.dimension;
     program.coordinates = coordinates;
+    program.weights = weights;
     program.register_callbacks(program.zz);
     set_parameters(program);
     say("next", program.partition());

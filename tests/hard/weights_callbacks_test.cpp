@@ -33,6 +33,12 @@ TEST(CallbackWeights, heavier_than_a_part_and_coincident_objects_are_warned_of) 
         EXPECT_EQ(holds(warnings_of(heavy, method), "one object outweighs a part"),
                   heavy.rank == 0);
 
+        Program columns;
+        for (int i = 0; i < 99; ++i) columns.add({double(i % 3), 0.001 * i});
+        columns.set("RCB_RECTILINEAR_BLOCKS", "1");
+        EXPECT_EQ(holds(warnings_of(columns, method), "cuts met objects in one plane"),
+                  columns.rank == 0);
+
         Program coincident;
         for (int i = 0; i < 100; ++i) coincident.add({3, 4});
         EXPECT_EQ(holds(warnings_of(coincident, method), "2 cuts met objects in one place"),

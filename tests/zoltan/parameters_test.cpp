@@ -88,6 +88,28 @@ TEST(Parameters, of_rrcb_reach_the_balancer) {
     EXPECT_FALSE(differ(parts_with(program, "RRCB_SIGMA_MULTIPLIER", "DEFAULT"), sampled));
 }
 
+TEST(Parameters, end_before_the_blanks_behind_them) {
+    // Blanks behind a value belong to none; Zoltan takes numbers so, and words not at all.
+    const auto parts_at = [](const char* tolerance, const char* mesh) {
+        Program program;
+        scatter_points(program, 3000);
+        for (double& x : program.coordinates) x *= x;
+        program.set("RETURN_LISTS", "PARTS");
+        program.set("NUM_GLOBAL_PARTS", "6");
+        EXPECT_EQ(program.set("LB_METHOD", "RRCB "), ZOLTAN_OK);
+        EXPECT_EQ(program.set("RRCB_SUPPORT_MESH", mesh), ZOLTAN_OK);
+        EXPECT_EQ(program.set("RRCB_REFINE", "TOLERANCE \t"), ZOLTAN_OK);
+        EXPECT_EQ(program.set("RRCB_SEED", "DEFAULT "), ZOLTAN_OK);
+        EXPECT_EQ(program.set("IMBALANCE_TOL", tolerance), ZOLTAN_OK);
+        return program.partition().exports.parts;
+    };
+    const auto expected = parts_at("1.5", "2");
+    EXPECT_TRUE(differ(expected, parts_at("1.01", "2")));
+    EXPECT_EQ(parts_at("1.5 ", "2 "), expected);
+    EXPECT_EQ(parts_at("+1.5", "2"), expected);
+    EXPECT_EQ(parts_at("1.5x", "2"), expected);
+}
+
 TEST(Parameters, domain_of_points_balances_exactly) {
     Program program;
     scatter_points(program, 1000);

@@ -93,6 +93,43 @@ TEST(Parts, asked_for_locally_must_add_up) {
     EXPECT_EQ(partition_with(program, "RRCB").code, ZOLTAN_OK);
 }
 
+/// Code and highest part with both methods.
+struct Asked {
+    int code, most;
+    bool operator==(const Asked&) const = default;
+};
+
+Asked ask_for_parts(const char* method, const std::function<void(Program&)>& set_parameters) {
+    Program program;
+    scatter_points(program, 200);
+    set_parameters(program);
+    const Outcome outcome = partition_with(program, method);
+    int most =
+        outcome.exports.parts.empty() ? -1 : *std::ranges::max_element(outcome.exports.parts);
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    return {outcome.code, most};
+}
+
+TEST(Parts, of_no_legal_number_are_as_many_as_zoltan_takes) {
+    for (const char* value : {"0", "-1", "-7", "DEFAULT", "3 ", "2.7"}) {
+        for (const auto& set_parameters : std::initializer_list<std::function<void(Program&)>>{
+                 [&](Program& p) { p.set("NUM_GLOBAL_PARTS", value); },
+                 [&](Program& p) { p.set("NUM_GLOBAL_PARTITIONS", value); },
+                 [&](Program& p) {
+                     p.set("NUM_GLOBAL_PARTS", "5");
+                     p.set("NUM_GLOBAL_PARTS", value);
+                 },
+                 [&](Program& p) {
+                     p.set("NUM_LOCAL_PARTS", "2");
+                     p.set("NUM_GLOBAL_PARTS", value);
+                 },
+                 [&](Program& p) { p.set("NUM_GLOBAL_PARTS", p.rank == 0 ? value : "2"); }}) {
+            EXPECT_EQ(ask_for_parts("RRCB", set_parameters), ask_for_parts("RCB", set_parameters))
+                << value;
+        }
+    }
+}
+
 TEST(Parts, take_the_largest_number_that_any_rank_asks_for) {
     Program program;
     scatter_points(program, 1000);
@@ -157,7 +194,7 @@ TEST(Parts, of_zero_size_stay_empty_and_not_all_may_be_zero) {
     EXPECT_EQ(partition_with(program, "RRCB").code, ZOLTAN_FATAL);
 }
 
-TEST(Parts, more_than_objects_stay_empty_with_a_warning) {
+TEST(Parts, more_than_objects_stay_empty) {
     Program program;
     if (program.rank == 0) {
         program.add({0, 0});
@@ -165,7 +202,7 @@ TEST(Parts, more_than_objects_stay_empty_with_a_warning) {
     }
     program.set("NUM_GLOBAL_PARTS", "5");
     const Outcome outcome = partition_with(program, "RRCB");
-    EXPECT_EQ(outcome.code, ZOLTAN_WARN);
+    EXPECT_EQ(outcome.code, ZOLTAN_OK);
     if (program.rank == 0) {
         EXPECT_NE(outcome.exports.parts[0], outcome.exports.parts[1]);
     }

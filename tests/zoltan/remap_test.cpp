@@ -54,6 +54,15 @@ TEST(Remap, keeps_rotated_stripes_where_they_are) {
     EXPECT_LE(with, zoltan + 0.02 * program.num_ranks);
 }
 
+TEST(Remap, takes_words_as_zoltan_does) {
+    // DEFAULT is not what a new handle has.
+    for (const char* word : {"1", "0", "TRUE", "FALSE", "-1", "DEFAULT"}) {
+        Rotated program;
+        EXPECT_EQ(moved_with(program, "RRCB", word) > 0.9, moved_with(program, "RCB", word) > 0.9)
+            << word;
+    }
+}
+
 TEST(Remap, moves_no_more_than_zoltans_on_scattered_points) {
     // Both get the very cuts of the median; the numbers alone differ.
     for (unsigned seed = 0; seed < 10; ++seed) {

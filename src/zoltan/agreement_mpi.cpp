@@ -1,6 +1,7 @@
 #include "agreement_mpi.hpp"
 
 #include "mpi/communicator.hpp"
+#include "rcb_options.hpp"
 
 #include <array>
 #include <bit>
@@ -40,7 +41,7 @@ constexpr std::array same_on_all_ranks = {
     SameOnAllRanks{"OBJ_WEIGHT_DIM", [](const Parameters& p) { return p.weight_dimension; }},
     SameOnAllRanks{"AUTO_MIGRATE", [](const Parameters& p) { return int{p.auto_migrate != 0}; }},
     SameOnAllRanks{"REMAP", [](const Parameters& p) { return int{p.remap != 0}; }},
-    SameOnAllRanks{"RCB_REUSE", [](const Parameters& p) { return int{p.reuse_cuts != 0}; }},
+    SameOnAllRanks{"RCB_REUSE", [](const Parameters& p) { return int{reuses_cuts(p)}; }},
     SameOnAllRanks{"OBJ_WEIGHTS_COMPARABLE",
                    [](const Parameters& p) { return int{p.weights_comparable != 0}; }},
     SameOnAllRanks{"RETURN_LISTS",
@@ -74,6 +75,8 @@ struct Vote {
     int any_local_parts = 0;
     int any_part_sizes = 0;
     int lacks_cuts = 0;
+    int axes_changed = 0;
+    int not_at_rest = 0;
     int dumping_rank_from_last = 0;  ///< ranks - lowest rank with a folder
     int dump_always = 0;
     std::array<int, same_on_all_ranks.size()> largest{};
@@ -91,6 +94,8 @@ Vote vote_of(const LocalStatus& local, const State& state) {
     vote.any_local_parts = parameters.num_local_parts >= 0 ? 1 : 0;
     vote.any_part_sizes = state.part_sizes.empty() ? 0 : 1;
     vote.lacks_cuts = state.kept ? 0 : 1;
+    vote.axes_changed = state.axes_changed ? 1 : 0;
+    vote.not_at_rest = local.at_rest ? 0 : 1;
     if (!parameters.dump_folder.empty()) {
         vote.dumping_rank_from_last = state.communicator->size() - state.communicator->rank();
         vote.dump_always = parameters.dump_always ? 1 : 0;
@@ -117,6 +122,8 @@ Agreement agree(const LocalStatus& local, const State& state) {
     agreement.any_local_parts = vote.any_local_parts != 0;
     agreement.any_part_sizes = vote.any_part_sizes != 0;
     agreement.all_kept_cuts = vote.lacks_cuts == 0;
+    agreement.axes_changed = vote.axes_changed != 0;
+    agreement.at_rest = vote.not_at_rest == 0;
     if (vote.dumping_rank_from_last > 0)
         agreement.dumping_rank = state.communicator->size() - vote.dumping_rank_from_last;
     agreement.dump_always = vote.dump_always != 0;
@@ -128,10 +135,10 @@ Agreement agree(const LocalStatus& local, const State& state) {
     return agreement;
 }
 
-bool any_rank(bool flag, MPI_Comm comm) {
-    int any = flag ? 1 : 0;
-    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, comm), "MPI_Allreduce");
-    return any != 0;
+void sum_over_ranks(std::span<std::uint64_t> numbers, MPI_Comm comm) {
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()),
+                             MPI_UINT64_T, MPI_SUM, comm),
+               "MPI_Allreduce");
 }
 
 }  // namespace rrcb::zoltan

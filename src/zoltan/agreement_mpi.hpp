@@ -3,6 +3,8 @@
 #include "state.hpp"
 
 #include <array>
+#include <cstdint>
+#include <span>
 #include <string_view>
 
 namespace rrcb::zoltan {
@@ -16,6 +18,7 @@ struct LocalStatus {
     }
 
     int code = ZOLTAN_OK;
+    bool at_rest = false;          ///< see is_at_rest
     std::array<char, 512> text{};  ///< ends with a 0
 };
 
@@ -27,6 +30,8 @@ struct Agreement {
     bool any_local_parts = false;     ///< NUM_LOCAL_PARTS is set somewhere
     bool any_part_sizes = false;      ///< Zoltan_LB_Set_Part_Sizes was called somewhere
     bool all_kept_cuts = false;       ///< of the last call, on every rank
+    bool axes_changed = false;        ///< what chooses axes was changed somewhere since then
+    bool at_rest = false;             ///< nothing has changed since then on any rank
     int dumping_rank = -1;            ///< lowest rank with RRCB_DUMP, -1: none
     bool dump_always = false;         ///< RRCB_DUMP_WHEN is ALWAYS on a rank with RRCB_DUMP
     const char* differing = nullptr;  ///< name of a parameter that differs between ranks
@@ -37,7 +42,7 @@ struct Agreement {
 /// Collective over the handle's communicator: one reduction of a few integers.
 Agreement agree(const LocalStatus& local, const State& state);
 
-/// True on all ranks when `flag` is true on any. Collective: one reduction of one integer.
-bool any_rank(bool flag, MPI_Comm comm);
+/// Sums modulo 2^64, on every rank. Collective: one reduction.
+void sum_over_ranks(std::span<std::uint64_t> numbers, MPI_Comm comm);
 
 }  // namespace rrcb::zoltan

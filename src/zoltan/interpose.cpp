@@ -3,6 +3,7 @@
 #include "export.hpp"
 #include "guard.hpp"
 #include "partition_mpi.hpp"
+#include "rcb_options.hpp"
 #include "real_zoltan.hpp"
 #include "replacement.hpp"
 
@@ -47,6 +48,17 @@ int set_parameter(State& state, const std::string& name, const char* raw_value,
     return code;
 }
 
+/// What the last partition was asked may no longer be what the next one is.
+void note_change(State& state, const std::string& name, int code, const char* raw_value) {
+    if (code == ZOLTAN_OK) {
+        const auto [entry, is_new] = state.parameters.given.try_emplace(name, raw_value);
+        if (!is_new && entry->second == raw_value) return;
+        entry->second = raw_value;
+    }
+    if (name != "RETURN_LISTS" && name != "KEEP_CUTS") state.rest.reset();
+    if (chooses_axes(name)) state.axes_changed = true;
+}
+
 int set_parameter(Zoltan_Struct* zz, const char* raw_name, const char* raw_value, int index) {
     State* state = find_state(zz);
     const auto forward_it = [&] {
@@ -57,7 +69,7 @@ int set_parameter(Zoltan_Struct* zz, const char* raw_name, const char* raw_value
         std::string name = clean(raw_name);
         const int code = set_parameter(*state, name, raw_value, forward_it);
         if (index >= 0) name += '[' + std::to_string(index) + ']';
-        if (code == ZOLTAN_OK) state->parameters.given[name] = raw_value;
+        note_change(*state, name, code, raw_value);
         if (!state->parameters.rrcb) state->kept.reset();
         return code;
     });
@@ -189,6 +201,7 @@ RRCB_EXPORT int Zoltan_LB_Set_Part_Sizes(Zoltan_Struct* zz, int global_num, int 
     State* state = find_state(zz);
     if (state == nullptr || code != ZOLTAN_OK) return code;
     return guarded("Zoltan_LB_Set_Part_Sizes", state, [&] {
+        state->rest.reset();
         if (length == -1) state->part_sizes.clear();
         for (int i = 0; i < length; ++i) {
             if (weight_indices != nullptr && weight_indices[i] != 0) continue;

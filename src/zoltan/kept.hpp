@@ -16,7 +16,7 @@ struct TreeNode {
     int upper = 0;
 };
 
-/// What look-ups need of the last partition, laid out for them.
+/// What look-ups and the next partition need of the last one, laid out for look-ups.
 class Kept {
   public:
     /// Room for the cuts between so many parts.
@@ -24,6 +24,10 @@ class Kept {
 
     /// Keeps the cuts, without asking for memory; `numbers` is the new number of each part.
     void keep(Cuts&& cuts, PartMap&& map, std::vector<Part>&& numbers) noexcept;
+
+    /// Without KEEP_CUTS, or what implies it, cuts are kept for the next partition only.
+    void answer_look_ups(bool answers) { answers_look_ups_ = answers; }
+    bool answers_look_ups() const { return answers_look_ups_; }
 
     const Cuts& cuts() const { return cuts_; }
     const PartMap& map() const { return map_; }
@@ -35,6 +39,9 @@ class Kept {
     /// Writes the parts a closed box touches, ascending; returns how many. `parts` has room for
     /// all.
     int parts_touching(const Box& box, Part* parts) const;
+
+    /// Whether a position lies in the region of a part.
+    bool holds(Part part, const Vector& position) const;
 
     /// Region of a part, open sides +-infinity.
     Box region_of(Part part) const;
@@ -62,6 +69,7 @@ class Kept {
     std::vector<Node> nodes_;
     std::vector<TreeNode> tree_;
     std::int32_t root_ = 0;
+    bool answers_look_ups_ = true;
 };
 
 }  // namespace rrcb::zoltan

@@ -67,6 +67,17 @@ void keep_moving(const Moves& moves, std::size_t num_gid, std::size_t num_lid, L
     list.count = static_cast<int>(kept);
 }
 
+/// A list of all objects, with room for their targets.
+List take_arrays(Objects& objects) {
+    List list;
+    list.count = objects.count;
+    list.global_ids = std::move(objects.global_ids);
+    list.local_ids = std::move(objects.local_ids);
+    list.ranks = std::move(objects.new_ranks);
+    list.parts = std::move(objects.new_parts);
+    return list;
+}
+
 bool any_moves(const Moves& moves, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         if (moves(i)) return true;
@@ -80,11 +91,7 @@ Exports make_exports(Objects&& objects, const Parameters& parameters,
                      std::span<const Part> new_parts, const PartMap& map, int my_rank) {
     Exports exports;
     List& list = exports.list;
-    list.count = objects.count;
-    list.global_ids = std::move(objects.global_ids);
-    list.local_ids = std::move(objects.local_ids);
-    list.ranks = std::move(objects.new_ranks);
-    list.parts = std::move(objects.new_parts);
+    list = take_arrays(objects);
     write_targets(new_parts, map, my_rank, list);
     const Moves moves(list, objects.initial_parts.get(), my_rank);
     if (parameters.return_lists == ReturnLists::parts) {
@@ -95,6 +102,15 @@ Exports make_exports(Objects&& objects, const Parameters& parameters,
         exports.moves = list.count > 0;
     }
     return exports;
+}
+
+List list_in_place(Objects&& objects, int my_rank) {
+    List list = take_arrays(objects);
+    const int* parts = objects.initial_parts.get();
+    std::fill_n(list.ranks.get(), list.count, my_rank);
+    if (parts == nullptr) std::fill_n(list.parts.get(), list.count, my_rank);
+    if (parts != nullptr) std::copy_n(parts, list.count, list.parts.get());
+    return list;
 }
 
 }  // namespace rrcb::zoltan

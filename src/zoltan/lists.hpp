@@ -28,4 +28,7 @@ struct Exports {
 Exports make_exports(Objects&& objects, const Parameters& parameters,
                      std::span<const Part> new_parts, const PartMap& map, int my_rank);
 
+/// All objects of this rank with the parts they are in. Takes the arrays, and so cannot fail.
+List list_in_place(Objects&& objects, int my_rank);
+
 }  // namespace rrcb::zoltan

@@ -28,7 +28,7 @@ int write_ranks(const PartMap& map, const Part* parts, int num_parts, int* ranks
 }  // namespace
 
 const Kept& kept_by(const State& state) {
-    if (!state.kept) {
+    if (!state.kept || !state.kept->answers_look_ups()) {
         throw Failure(ZOLTAN_FATAL, "No Decomposition Data available; use KEEP_CUTS parameter.");
     }
     return *state.kept;

@@ -2,6 +2,7 @@
 
 #include <rrcb/options.hpp>
 
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -15,6 +16,9 @@ enum class ReturnLists { none, imports, exports, all, parts, candidates };
 /// NUM_GLOBAL_PARTS where it is set to its default or to no legal number.
 inline constexpr int one_per_rank = 0;
 
+/// Of a parameter whose default depends on others.
+inline constexpr int not_set = std::numeric_limits<int>::min();
+
 /// What the plug-in must know of a handle's parameters; the defaults are Zoltan's.
 struct Parameters {
     bool rrcb = false;         ///< LB_METHOD is RRCB, or RCB where that is replaced
@@ -27,7 +31,7 @@ struct Parameters {
     int keep_cuts = 0;
     int auto_migrate = 0;
     int remap = 1;
-    int reuse_cuts = 0;
+    int reuse_cuts = not_set;
     int lock_directions = 0;
     int set_directions = 0;
     int rectilinear_blocks = 0;

@@ -9,6 +9,7 @@
 #include "message.hpp"
 #include "rcb_options.hpp"
 #include "renumber_mpi.hpp"
+#include "rest.hpp"
 #include "summary.hpp"
 #include "weights_mpi.hpp"
 
@@ -49,7 +50,12 @@ LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Obj
     try {
         check_parameters(state, one_part_per_rank);
         objects = collect_objects(zz, state.parameters, state.workspace);
-        return {objects.warned ? ZOLTAN_WARN : ZOLTAN_OK, ""};
+        LocalStatus status(objects.warned ? ZOLTAN_WARN : ZOLTAN_OK, "");
+        status.at_rest = state.rest && state.kept &&
+                         state.parameters.return_lists != ReturnLists::none &&
+                         is_at_rest(*state.rest, *state.kept, state.parameters, state.workspace,
+                                    objects, state.communicator->rank());
+        return status;
     } catch (const Failure& failure) {
         return {failure.code(), failure.what()};
     } catch (const std::bad_alloc&) {
@@ -68,9 +74,10 @@ bool leaves_parts_empty(const Report& report) {
 }
 
 /// Prints what is legal but not as good as it was asked for, and the summary where it is wanted.
-void print_review(const Report& report, const Remap& remap, const Parameters& parameters,
-                  const char* function) {
-    if (asks_for_summary(parameters)) std::printf("%s\n", summary(report, remap).c_str());
+void print_review(const Report& report, int num_parts, const Remap& remap,
+                  const Parameters& parameters, const char* function) {
+    if (asks_for_summary(parameters))
+        std::printf("%s\n", summary(report, num_parts, remap).c_str());
     if (parameters.debug_level <= 0) return;
     for (const std::string& shortcoming : shortcomings(parameters)) {
         print_warning(0, function, shortcoming);
@@ -86,11 +93,11 @@ void print_review(const Report& report, const Remap& remap, const Parameters& pa
 }
 
 /// Prints on one rank, for which memory may lack.
-void review(const Report& report, const Remap& remap, const State& state,
+void review(const Report& report, int num_parts, const Remap& remap, const State& state,
             const char* function) noexcept {
     try {
         if (state.communicator->rank() == 0)
-            print_review(report, remap, state.parameters, function);
+            print_review(report, num_parts, remap, state.parameters, function);
     } catch (const std::exception&) {
         print_warning(0, function, "out of memory for messages");
     }
@@ -128,6 +135,7 @@ struct Call {
     State& state;
     const char* function;
     std::optional<Kept> previous;
+    bool may_start_there = false;  ///< its axes are those that this one chooses
 };
 
 /// What a call needs beside its objects; made before the ranks agree for the last time.
@@ -136,6 +144,7 @@ struct Preparation {
     const Cuts* previous = nullptr;  ///< to start from
     std::optional<Renumbering> renumbering;
     std::optional<Kept> kept;
+    Rest rest;
     std::vector<std::int64_t> per_rank;  ///< to announce imports with
 };
 
@@ -146,31 +155,57 @@ Preparation prepare(const Call& call, const Layout& layout, const Objects& objec
                       call.previous->cuts().num_parts == layout.map.num_parts();
     Preparation made;
     made.options.domain = parameters.options.domain;
-    if (fits && starts_from_previous(parameters)) made.previous = &call.previous->cuts();
+    if (fits && call.may_start_there && starts_from_previous(parameters))
+        made.previous = &call.previous->cuts();
+    const bool locks = fits && call.previous->answers_look_ups();
     me.locally([&] {
         made.options =
-            make_options(parameters, layout, dimension, fits ? &call.previous->cuts() : nullptr);
+            make_options(parameters, layout, dimension, locks ? &call.previous->cuts() : nullptr);
         made.per_rank.resize(static_cast<std::size_t>(call.state.communicator->size()));
         made.renumbering.emplace(parameters, layout, objects, *call.state.communicator);
-        if (keeps_cuts(parameters))
-            made.kept.emplace(static_cast<std::size_t>(layout.map.num_parts()));
+        const auto num_parts = static_cast<std::size_t>(layout.map.num_parts());
+        made.kept.emplace(num_parts);
+        made.rest.checksums.resize(num_parts + 1);
     });
     return made;
 }
 
-/// Lists what leaves, and tells whether anything does on any rank.
+/// Lists what leaves, tells whether anything does on any rank, and takes the sums by which the next
+/// call knows its objects again: one reduction for both.
 void list_exports(const Call& call, const Layout& layout, Objects&& objects,
-                  std::span<const Part> parts, Partition& result) {
+                  std::span<const Part> parts, Rest& rest, Partition& result) {
     const Parameters& parameters = call.state.parameters;
     const Communicator& comm = *call.state.communicator;
     if (parameters.return_lists == ReturnLists::none) {
         result.changes = true;
-    } else {
-        Exports exports =
-            make_exports(std::move(objects), parameters, parts, layout.map, comm.rank());
-        result.exports = std::move(exports.list);
-        result.changes = any_rank(exports.moves, comm.get());
+        return;
     }
+    add_checksums(parameters, call.state.workspace, parts, rest.checksums);
+    Exports exports = make_exports(std::move(objects), parameters, parts, layout.map, comm.rank());
+    result.exports = std::move(exports.list);
+    rest.checksums.back() = exports.moves ? 1 : 0;
+    sum_over_ranks(rest.checksums, comm.get());
+    result.changes = rest.checksums.back() != 0;
+    rest.checksums.pop_back();
+}
+
+/// Keeps what the next call may need of this one.
+void keep(Preparation&& prepared, Balance&& balanced, PartMap&& map, std::vector<Part>&& numbers,
+          State& state) {
+    prepared.kept->keep(std::move(balanced.cuts), std::move(map), std::move(numbers));
+    prepared.kept->answer_look_ups(keeps_cuts(state.parameters));
+    prepared.rest.report = std::move(balanced.report);
+    state.kept = std::move(prepared.kept);
+    if (state.parameters.return_lists != ReturnLists::none) state.rest = std::move(prepared.rest);
+    state.axes_changed = false;
+}
+
+/// The answer where nothing has changed on any rank since the last partition.
+void stay(State& state, const char* function, Objects&& objects, Partition& result) {
+    if (state.parameters.return_lists == ReturnLists::parts)
+        result.exports = list_in_place(std::move(objects), state.communicator->rank());
+    state.kept->answer_look_ups(keeps_cuts(state.parameters));
+    review(state.rest->report, state.kept->map().num_parts(), Remap{}, state, function);
 }
 
 int balance_objects(const Call& call, const Agreement& agreement, Objects&& objects,
@@ -182,14 +217,11 @@ int balance_objects(const Call& call, const Agreement& agreement, Objects&& obje
     Preparation prepared = prepare(call, layout, objects, me);
     Balance balanced = balance(objects.points, prepared.options, prepared.previous, me);
     Remap remap = prepared.renumbering->run(layout, objects, balanced.parts, me);
-    list_exports(call, layout, std::move(objects), balanced.parts, result);
+    list_exports(call, layout, std::move(objects), balanced.parts, prepared.rest, result);
     select_lists(parameters, prepared.per_rank, me, result);
-    review(balanced.report, remap, call.state, call.function);
-    if (prepared.kept) {
-        prepared.kept->keep(std::move(balanced.cuts), std::move(layout.map),
-                            std::move(remap.numbers));
-        call.state.kept = std::move(prepared.kept);
-    }
+    review(balanced.report, layout.map.num_parts(), remap, call.state, call.function);
+    keep(std::move(prepared), std::move(balanced), std::move(layout.map), std::move(remap.numbers),
+         call.state);
     return parameters.auto_migrate != 0 && result.changes ? migrate(call.zz, result) : ZOLTAN_OK;
 }
 
@@ -201,8 +233,13 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
     Objects objects;
     const LocalStatus local = collect(zz, state, one_part_per_rank, objects);
     const Agreement agreement = agree(local, state);
-    Call call{zz, state, function, std::exchange(state.kept, std::nullopt)};
-    if (!agreement.all_kept_cuts) call.previous.reset();
+    const bool stays = agreement.at_rest && agreement.differing == nullptr;
+    Call call{zz, state, function, std::nullopt, !agreement.axes_changed};
+    if (!stays) {
+        state.rest.reset();
+        call.previous = std::exchange(state.kept, std::nullopt);
+        if (!agreement.all_kept_cuts) call.previous.reset();
+    }
     dump(DumpReason::asked, agreement, state, {function, objects, local});
     if (agreement.failed()) {
         dump(DumpReason::failure, agreement, state, {function, objects, local});
@@ -221,6 +258,10 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
                       "parameter %s differs between ranks; set the same value on all of them",
                       agreement.differing);
         return fail_everywhere(ZOLTAN_FATAL, text.data());
+    }
+    if (stays) {
+        stay(state, function, std::move(objects), result);
+        return agreement.code;
     }
     try {
         const int code = balance_objects(call, agreement, std::move(objects), result);

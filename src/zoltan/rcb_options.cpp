@@ -42,16 +42,25 @@ Options make_options(const Parameters& parameters, const Layout& layout, int dim
     return options;
 }
 
+bool reuses_cuts(const Parameters& parameters) {
+    return parameters.reuse_cuts == not_set ? parameters.replace_rcb : parameters.reuse_cuts != 0;
+}
+
 bool starts_from_previous(const Parameters& parameters) {
     const Options& options = parameters.options;
     const bool refines = options.refine != Refine::none && options.domain == DomainKind::analytic &&
                          options.cut_rule == CutRule::weighted_fraction;
-    return parameters.reuse_cuts != 0 && refines;
+    return reuses_cuts(parameters) && refines;
 }
 
 bool keeps_cuts(const Parameters& parameters) {
-    return parameters.keep_cuts != 0 || parameters.reuse_cuts != 0 ||
-           parameters.lock_directions != 0;
+    const bool asked_to_reuse = parameters.reuse_cuts != not_set && parameters.reuse_cuts != 0;
+    return parameters.keep_cuts != 0 || asked_to_reuse || parameters.lock_directions != 0;
+}
+
+bool chooses_axes(std::string_view name) {
+    return name == "RCB_SET_DIRECTIONS" || name == "RCB_RECTILINEAR_BLOCKS" ||
+           name == "REDUCE_DIMENSIONS" || name == "DEGENERATE_RATIO";
 }
 
 std::vector<std::string> shortcomings(const Parameters& parameters) {

@@ -7,6 +7,7 @@
 #include <rrcb/options.hpp>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rrcb::zoltan {
@@ -17,12 +18,19 @@ namespace rrcb::zoltan {
 Options make_options(const Parameters& parameters, const Layout& layout, int dimension,
                      const Cuts* previous);
 
+/// RCB_REUSE; where the program does not set it, so it is where RRCB replaces RCB: then a
+/// distribution that is balanced stays as it is.
+bool reuses_cuts(const Parameters& parameters);
+
 /// Whether the search is to start from the cuts of the last call (RCB_REUSE): only where it goes
 /// on from there to the balance asked for.
 bool starts_from_previous(const Parameters& parameters);
 
-/// Whether the call after this one may want its cuts.
+/// Whether look-ups may use the cuts.
 bool keeps_cuts(const Parameters& parameters);
+
+/// Whether cuts that were made before a parameter changed may lie across the wrong axes.
+bool chooses_axes(std::string_view name);
 
 /// What is asked for and not kept, one sentence each, in Zoltan's words where it has some.
 std::vector<std::string> shortcomings(const Parameters& parameters);

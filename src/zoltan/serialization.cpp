@@ -164,8 +164,9 @@ std::vector<char> serialize(const State& state) {
         body.value(entry.global);
         body.value(entry.size);
     }
-    body.value(state.kept.has_value());
-    if (state.kept) write(body, *state.kept);
+    const bool has_cuts = state.kept && state.kept->answers_look_ups();
+    body.value(has_cuts);
+    if (has_cuts) write(body, *state.kept);
 
     const Header header{signature, body.bytes().size(), checksum_of(body.bytes())};
     std::vector<char> bytes(sizeof header + body.bytes().size());

@@ -48,6 +48,8 @@ void copy_state(const Zoltan_Struct* to, const Zoltan_Struct* from) {
     copy.parameters = source->parameters;
     copy.part_sizes = source->part_sizes;
     copy.kept = source->kept;
+    copy.rest = source->rest;
+    copy.axes_changed = source->axes_changed;
     copy.deserialized = source->deserialized;
 }
 

@@ -4,6 +4,7 @@
 #include "objects.hpp"
 #include "parameters.hpp"
 #include "part_map.hpp"
+#include "rest.hpp"
 
 #include <mpi.h>
 #include <zoltan.h>
@@ -50,7 +51,9 @@ struct State {
     std::shared_ptr<Communicator> communicator;
     Parameters parameters;
     std::vector<PartSize> part_sizes;
-    std::optional<Kept> kept;   ///< with KEEP_CUTS, or what implies it
+    std::optional<Kept> kept;   ///< of the last partition
+    std::optional<Rest> rest;   ///< of the same; none once a parameter was changed
+    bool axes_changed = false;  ///< what chooses axes was changed since
     bool deserialized = false;  ///< Zoltan's parameters were set behind the plug-in's back
     Workspace workspace;
 };

@@ -31,12 +31,12 @@ bool asks_for_summary(const Parameters& parameters) {
            parameters.debug_level >= debug_all;
 }
 
-std::string summary(const Report& report, const Remap& remap) {
+std::string summary(const Report& report, int num_parts, const Remap& remap) {
     const bool measured = !std::isnan(report.measured_imbalance);
     std::string text =
-        format("RRCB: %lld objects in %zu parts, imbalance %.4f (%s), %d rounds",
-               static_cast<long long>(report.num_points), remap.numbers.size(),
-               imbalance_of(report), measured ? "measured" : "estimated", report.rounds);
+        format("RRCB: %lld objects in %d parts, imbalance %.4f (%s), %d rounds",
+               static_cast<long long>(report.num_points), num_parts, imbalance_of(report),
+               measured ? "measured" : "estimated", report.rounds);
     if (remap.identity) return text;
     return text + format("; REMAP keeps %.1f %% of the objects in place instead of %.1f %%",
                          percent(remap.kept_after, remap.num_points),

@@ -14,7 +14,7 @@ namespace rrcb::zoltan {
 bool asks_for_summary(const Parameters& parameters);
 
 /// What RCB_OUTPUT_LEVEL prints: size, imbalance, rounds and what the new part numbers saved.
-std::string summary(const Report& report, const Remap& remap);
+std::string summary(const Report& report, int num_parts, const Remap& remap);
 
 /// What kept the parts from the balance asked for, a sentence each.
 std::vector<std::string> limits(const Report& report, const Parameters& parameters);

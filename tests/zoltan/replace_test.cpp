@@ -1,7 +1,9 @@
 #include "program.hpp"
+#include "regions.hpp"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 
 // Runs with RRCB_REPLACE=RCB in the environment, which CTest sets.
@@ -60,6 +62,58 @@ TEST(Replacement, holds_for_copies_and_look_ups) {
         EXPECT_EQ(part, parts[static_cast<std::size_t>(i)]);
     }
     Zoltan_Destroy(&copy);
+}
+
+constexpr int num_regions = 5;
+
+std::vector<std::array<double, 3>> faces_of_regions(const Program& program) {
+    std::vector<std::array<double, 3>> faces;
+    for (int part = 0; part < num_regions; ++part) {
+        const Region region = region_of(program.zz, part);
+        EXPECT_EQ(region.code, ZOLTAN_OK);
+        faces.push_back(region.lower);
+        faces.push_back(region.upper);
+    }
+    return faces;
+}
+
+TEST(Replacement, leaves_cuts_within_the_tolerance_unless_told_not_to) {
+    Program program;
+    scatter_points(program, 2000);
+    program.set("KEEP_CUTS", "1");
+    program.set("IMBALANCE_TOL", "1.1");
+    program.set("REMAP", "0");
+    program.set("NUM_GLOBAL_PARTS", std::to_string(num_regions));
+    const auto faces_after_a_move = [&] {
+        for (double& x : program.coordinates) x += 1e-3 * x;
+        EXPECT_EQ(program.partition().code, ZOLTAN_OK);
+        return faces_of_regions(program);
+    };
+    const auto first = faces_after_a_move();
+    EXPECT_EQ(faces_after_a_move(), first);
+    program.set("RCB_SET_DIRECTIONS", "1");
+    const auto with_other_axes = faces_after_a_move();
+    EXPECT_NE(with_other_axes, first);
+    EXPECT_EQ(faces_after_a_move(), with_other_axes);
+    program.set("RCB_REUSE", "0");
+    const auto cold = faces_after_a_move();
+    EXPECT_NE(faces_after_a_move(), cold);
+    program.set("RCB_REUSE", "DEFAULT");
+    const auto again = faces_after_a_move();
+    EXPECT_EQ(faces_after_a_move(), again);
+}
+
+TEST(Replacement, gives_no_look_ups_without_keep_cuts) {
+    Program program;
+    scatter_points(program, 200);
+    for (int call = 0; call < 2; ++call) {
+        program.partition();
+        std::array<double, 2> x = {0.5, 0.5};
+        int rank = 17, part = 17;
+        EXPECT_EQ(Zoltan_LB_Point_PP_Assign(program.zz, x.data(), &rank, &part), ZOLTAN_FATAL);
+        EXPECT_EQ(rank, -1);
+        EXPECT_EQ(part, -1);
+    }
 }
 
 TEST(Replacement, lets_zoltan_evaluate) {

@@ -1,0 +1,67 @@
+#include "rest.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace rrcb::zoltan {
+
+namespace {
+
+/// Steele, Lea, Flood, Fast splittable pseudorandom number generators, 2014: the finalizer.
+std::uint64_t mix(std::uint64_t bits) {
+    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9U;
+    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebU;
+    return bits ^ (bits >> 31);
+}
+
+std::uint64_t checksum_of(std::span<const float> weights) {
+    std::uint64_t sum = 1;
+    for (const float weight : weights)
+        sum = mix(sum + 0x9e3779b97f4a7c15U + std::bit_cast<std::uint32_t>(weight));
+    return sum;
+}
+
+bool is_finite(const Vector& position) {
+    return std::ranges::all_of(position, [](double x) { return std::isfinite(x); });
+}
+
+}  // namespace
+
+void add_checksums(const Parameters& parameters, const Workspace& workspace,
+                   std::span<const Part> parts, std::span<std::uint64_t> checksums) {
+    const auto stride = static_cast<std::size_t>(parameters.weight_dimension);
+    const float* weights = workspace.callback_weights.data();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const std::span<const float> mine(stride == 0 ? nullptr : weights + i * stride, stride);
+        checksums[static_cast<std::size_t>(parts[i])] += checksum_of(mine);
+    }
+}
+
+bool is_at_rest(const Rest& rest, const Kept& kept, const Parameters& parameters,
+                const Workspace& workspace, const Objects& objects, int rank) {
+    const PartMap& map = kept.map();
+    if (!map.one_each && !objects.names_parts) return false;
+    if (kept.cuts().dimension != objects.points.dimension) return false;
+    const auto is_here = [&](Part part) {
+        const RankRange& range = map.ranks[static_cast<std::size_t>(part)];
+        return range.first == rank && range.count == 1;
+    };
+    const int* named = objects.initial_parts.get();
+    std::vector<Part> parts(static_cast<std::size_t>(objects.count), rank);
+    if (named != nullptr) std::copy_n(named, parts.size(), parts.begin());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (parts[i] < 0 || parts[i] >= map.num_parts() || !is_here(parts[i])) return false;
+        const Vector position = objects.points.position(i);
+        if (!is_finite(position) || !kept.holds(parts[i], position)) return false;
+    }
+    std::vector<std::uint64_t> checksums(rest.checksums.size(), 0);
+    add_checksums(parameters, workspace, parts, checksums);
+    for (Part part = 0; part < map.num_parts(); ++part) {
+        const auto index = static_cast<std::size_t>(part);
+        if (is_here(part) && checksums[index] != rest.checksums[index]) return false;
+    }
+    return true;
+}
+
+}  // namespace rrcb::zoltan

@@ -1,0 +1,299 @@
+#include "program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+namespace rrcb::zoltan_test {
+namespace {
+
+/// A program that sends its objects where the lists say; it tells their parts where there are more
+/// or fewer of them than ranks.
+struct Moving : Program {
+    explicit Moving(int dimension_) : Program(dimension_) {
+        set("OBJ_WEIGHT_DIM", "1");
+        set("RETURN_LISTS", "EXPORT");
+    }
+
+    void tell_parts() {
+        ZOLTAN_PART_FN* part = [](void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR lid,
+                                  int* code) {
+            *code = ZOLTAN_OK;
+            return static_cast<Moving*>(data)->parts[*lid];
+        };
+        parts.assign(weights.size(), rank);
+        Zoltan_Set_Part_Fn(zz, part, this);
+    }
+
+    /// Objects as records of position, weight and part, by destination.
+    void send(const Outcome& outcome) {
+        const auto ranks = static_cast<std::size_t>(num_ranks);
+        const auto stride = static_cast<std::size_t>(dimension);
+        std::vector<int> targets(weights.size(), rank);
+        parts.resize(weights.size(), rank);
+        for (std::size_t k = 0; k < outcome.exports.ranks.size(); ++k) {
+            const auto object = outcome.exports.local_ids[k][0];
+            targets[object] = outcome.exports.ranks[k];
+            parts[object] = outcome.exports.parts[k];
+        }
+        std::vector<std::vector<double>> boxes(ranks);
+        for (std::size_t i = 0; i < targets.size(); ++i) {
+            auto& box = boxes[static_cast<std::size_t>(targets[i])];
+            for (std::size_t a = 0; a < stride; ++a) box.push_back(coordinates[i * stride + a]);
+            box.push_back(static_cast<double>(weights[i]));
+            box.push_back(parts[i]);
+        }
+        receive(boxes);
+    }
+
+    std::vector<int> parts;
+
+  private:
+    void receive(const std::vector<std::vector<double>>& boxes) {
+        const auto ranks = static_cast<std::size_t>(num_ranks);
+        std::vector<int> sent(ranks), sent_at(ranks + 1), got(ranks), got_at(ranks + 1);
+        std::vector<double> outbox;
+        for (std::size_t r = 0; r < ranks; ++r) {
+            sent[r] = static_cast<int>(boxes[r].size());
+            sent_at[r + 1] = sent_at[r] + sent[r];
+            outbox.insert(outbox.end(), boxes[r].begin(), boxes[r].end());
+        }
+        MPI_Alltoall(sent.data(), 1, MPI_INT, got.data(), 1, MPI_INT, MPI_COMM_WORLD);
+        for (std::size_t r = 0; r < ranks; ++r) got_at[r + 1] = got_at[r] + got[r];
+        std::vector<double> inbox(static_cast<std::size_t>(got_at[ranks]));
+        MPI_Alltoallv(outbox.data(), sent.data(), sent_at.data(), MPI_DOUBLE, inbox.data(),
+                      got.data(), got_at.data(), MPI_DOUBLE, MPI_COMM_WORLD);
+        coordinates.clear();
+        weights.clear();
+        parts.clear();
+        const auto stride = static_cast<std::ptrdiff_t>(dimension);
+        for (auto at = inbox.begin(); at != inbox.end(); at += stride + 2) {
+            coordinates.insert(coordinates.end(), at, at + stride);
+            weights.push_back(static_cast<float>(at[stride]));
+            parts.push_back(static_cast<int>(at[stride + 1]));
+        }
+    }
+};
+
+/// As a program does that balances until nothing changes; calls it took, `most` where it did not
+/// end.
+int calls_until_rest(Moving& program, int most) {
+    for (int calls = 1; calls <= most; ++calls) {
+        const Outcome outcome = program.partition();
+        EXPECT_EQ(outcome.code, ZOLTAN_OK);
+        if (outcome.changes == 0) return calls;
+        program.send(outcome);
+    }
+    return most + 1;
+}
+
+using Fill = void (*)(Moving&, std::mt19937&);
+
+double uniform(std::mt19937& random) {
+    return std::uniform_real_distribution<double>(0, 1)(random);
+}
+
+void fill_evenly(Moving& program, std::mt19937& random) {
+    const int count = program.rank % 3 == 1 ? 37 : 1000;
+    for (int i = 0; i < count; ++i) {
+        std::vector<double> position;
+        for (int a = 0; a < program.dimension; ++a) position.push_back(uniform(random));
+        program.add(position);
+    }
+}
+
+void fill_clusters(Moving& program, std::mt19937& random) {
+    for (int i = 0; i < 600; ++i) {
+        std::vector<double> position;
+        for (int a = 0; a < program.dimension; ++a)
+            position.push_back(i % 4 + 0.01 * std::pow(uniform(random), 3));
+        program.add(position);
+    }
+}
+
+void fill_with_weights(Moving& program, std::mt19937& random) {
+    fill_evenly(program, random);
+    for (float& weight : program.weights)
+        weight = static_cast<float>(std::exp(4 * uniform(random)));
+}
+
+/// So few and so different that no tolerance is kept.
+void fill_with_giants(Moving& program, std::mt19937& random) {
+    for (int i = 0; i < 7; ++i) {
+        std::vector<double> position;
+        for (int a = 0; a < program.dimension; ++a) position.push_back(uniform(random));
+        program.add(position, static_cast<float>(std::exp(9 * uniform(random))));
+    }
+}
+
+void fill_lattice(Moving& program, std::mt19937&) {
+    for (int i = 0; i < 900; ++i) {
+        std::vector<double> position = {double(i % 30), double(i / 30), double(i % 7)};
+        position.resize(static_cast<std::size_t>(program.dimension));
+        program.add(position);
+    }
+}
+
+void fill_one_rank(Moving& program, std::mt19937& random) {
+    if (program.rank == program.num_ranks - 1) fill_evenly(program, random);
+}
+
+struct Cloud {
+    const char* name;
+    Fill fill;
+};
+
+constexpr Cloud clouds[] = {{"even", fill_evenly},          {"clusters", fill_clusters},
+                            {"weights", fill_with_weights}, {"giants", fill_with_giants},
+                            {"lattice", fill_lattice},      {"one rank", fill_one_rank}};
+
+/// RRCB in the three ways it may be asked to start: from nothing, from the last cuts, and exactly.
+struct Way {
+    const char* method;
+    const char* reuse;
+    const char* refine;
+};
+
+constexpr Way ways[] = {{"RCB", "0", "AUTO"},   {"RRCB", "0", "AUTO"},  {"RRCB", "1", "AUTO"},
+                        {"RRCB", "0", "EXACT"}, {"RRCB", "1", "EXACT"}, {"RRCB", "0", "NONE"}};
+
+void ask(Program& program, const Way& way) {
+    program.set("LB_METHOD", way.method);
+    program.set("RCB_REUSE", way.reuse);
+    program.set("RRCB_REFINE", way.refine);
+}
+
+TEST(Rest, is_reached_with_the_second_call) {
+    for (const Cloud& cloud : clouds) {
+        for (const Way& way : ways) {
+            for (const int dimension : {2, 3}) {
+                SCOPED_TRACE(std::string(cloud.name) + " " + way.method + " " + way.reuse + " " +
+                             way.refine);
+                Moving program(dimension);
+                std::mt19937 random(static_cast<unsigned>(3 + program.rank));
+                cloud.fill(program, random);
+                ask(program, way);
+                EXPECT_LE(calls_until_rest(program, 30), 2);
+            }
+        }
+    }
+}
+
+TEST(Rest, is_reached_by_parts_that_callbacks_name) {
+    const int num_ranks = Program().num_ranks;
+    for (const int num_parts : {num_ranks, 2 * num_ranks + 1, 200}) {
+        for (const Way& way : ways) {
+            SCOPED_TRACE(std::to_string(num_parts) + way.method + way.reuse + way.refine);
+            Moving program(2);
+            std::mt19937 random(static_cast<unsigned>(3 + program.rank));
+            fill_with_weights(program, random);
+            program.tell_parts();
+            program.set("NUM_GLOBAL_PARTS", std::to_string(num_parts));
+            ask(program, way);
+            EXPECT_LE(calls_until_rest(program, 30), 2);
+        }
+    }
+}
+
+struct AtRest : Moving {
+    AtRest() : Moving(2) {
+        std::mt19937 random(static_cast<unsigned>(5 + rank));
+        fill_with_weights(*this, random);
+        set("LB_METHOD", "RRCB");
+        set("RRCB_REFINE", "EXACT");
+        set("KEEP_CUTS", "1");
+        calls_until_rest(*this, 3);
+    }
+};
+
+TEST(Rest, lists_every_object_in_its_part_where_parts_are_asked_for) {
+    AtRest program;
+    program.set("RETURN_LISTS", "PARTS");
+    const Outcome outcome = program.partition();
+    EXPECT_EQ(outcome.changes, 0);
+    EXPECT_EQ(outcome.exports.count, program.size());
+    EXPECT_EQ(outcome.imports.count, 0);
+    for (const int part : outcome.exports.parts) EXPECT_EQ(part, program.rank);
+    for (const int rank : outcome.exports.ranks) EXPECT_EQ(rank, program.rank);
+}
+
+TEST(Rest, keeps_look_ups) {
+    AtRest program;
+    for (int i = 0; i < program.size(); ++i) {
+        int rank = -1, part = -1;
+        Zoltan_LB_Point_PP_Assign(program.zz, &program.coordinates[static_cast<std::size_t>(2 * i)],
+                                  &rank, &part);
+        ASSERT_EQ(rank, program.rank);
+        ASSERT_EQ(part, program.rank);
+    }
+}
+
+TEST(Rest, ends_on_all_ranks_when_one_changes_anything) {
+    const int num_ranks = Program().num_ranks;
+    if (num_ranks == 1) GTEST_SKIP() << "needs two ranks";
+    using Change = void (*)(Program&);
+    for (const Change change : {
+             Change([](Program& p) { p.weights[1] *= 1000; }),
+             Change([](Program& p) {
+                 for (double& x : p.coordinates) x = 1 - x;
+             }),
+             Change([](Program& p) {
+                 const int count = p.size() / 2;
+                 p.weights.resize(static_cast<std::size_t>(count));
+                 p.coordinates.resize(static_cast<std::size_t>(2 * count));
+             }),
+         }) {
+        AtRest program;
+        if (program.rank == num_ranks - 1) change(program);
+        EXPECT_EQ(program.partition().changes, 1);
+    }
+}
+
+TEST(Rest, ends_when_something_else_is_asked_for) {
+    const int num_ranks = Program().num_ranks;
+    if (num_ranks == 1) GTEST_SKIP() << "needs two ranks";
+    constexpr std::array<std::array<const char*, 2>, 4> changes = {{{"OBJ_WEIGHT_DIM", "0"},
+                                                                    {"RRCB_DOMAIN", "SAMPLED"},
+                                                                    {"RRCB_REFINE", "NONE"},
+                                                                    {"RETURN_LISTS", "NONE"}}};
+    for (const auto& [name, value] : changes) {
+        AtRest program;
+        program.set(name, value);
+        EXPECT_EQ(program.partition().changes, 1) << name;
+    }
+    AtRest program;
+    int part = 0;
+    float size = 3;
+    Zoltan_LB_Set_Part_Sizes(program.zz, 1, 1, &part, nullptr, &size);
+    EXPECT_EQ(program.partition().changes, 1);
+}
+
+TEST(Rest, does_not_hide_faults) {
+    AtRest program;
+    const bool last = program.rank == program.num_ranks - 1;
+    const double good = program.coordinates[3];
+    if (last) program.coordinates[3] = std::nan("");
+    EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
+    if (last) program.coordinates[3] = good;
+    EXPECT_EQ(program.partition().code, ZOLTAN_OK);
+}
+
+TEST(Rest, gives_no_look_ups_without_keep_cuts) {
+    Moving program(2);
+    scatter_points(program, 100);
+    program.set("LB_METHOD", "RRCB");
+    EXPECT_LE(calls_until_rest(program, 5), 2);
+    std::array<double, 2> x = {0.5, 0.5};
+    int rank = 17, part = 17;
+    EXPECT_EQ(Zoltan_LB_Point_PP_Assign(program.zz, x.data(), &rank, &part), ZOLTAN_FATAL);
+    EXPECT_EQ(part, -1);
+    program.set("KEEP_CUTS", "1");
+    EXPECT_EQ(program.partition().changes, 0);
+    EXPECT_EQ(Zoltan_LB_Point_PP_Assign(program.zz, x.data(), &rank, &part), ZOLTAN_OK);
+}
+
+}  // namespace
+}  // namespace rrcb::zoltan_test

@@ -1,5 +1,6 @@
 #include "agreement_mpi.hpp"
 
+#include "fortran.hpp"
 #include "mpi/communicator.hpp"
 #include "rcb_options.hpp"
 
@@ -74,6 +75,7 @@ struct Vote {
     int num_global_parts = -1;
     int any_local_parts = 0;
     int any_part_sizes = 0;
+    int any_fortran = 0;
     int lacks_cuts = 0;
     int axes_changed = 0;
     int not_at_rest = 0;
@@ -93,6 +95,7 @@ Vote vote_of(const LocalStatus& local, const State& state) {
     vote.num_global_parts = asked_global_parts(state);
     vote.any_local_parts = parameters.num_local_parts >= 0 ? 1 : 0;
     vote.any_part_sizes = state.part_sizes.empty() ? 0 : 1;
+    vote.any_fortran = is_fortran_used() ? 1 : 0;
     vote.lacks_cuts = state.kept ? 0 : 1;
     vote.axes_changed = state.axes_changed ? 1 : 0;
     vote.not_at_rest = local.at_rest ? 0 : 1;
@@ -121,6 +124,7 @@ Agreement agree(const LocalStatus& local, const State& state) {
     agreement.num_global_parts = vote.num_global_parts;
     agreement.any_local_parts = vote.any_local_parts != 0;
     agreement.any_part_sizes = vote.any_part_sizes != 0;
+    agreement.any_fortran = vote.any_fortran != 0;
     agreement.all_kept_cuts = vote.lacks_cuts == 0;
     agreement.axes_changed = vote.axes_changed != 0;
     agreement.at_rest = vote.not_at_rest == 0;

@@ -29,6 +29,7 @@ struct Agreement {
     int num_global_parts = -1;        ///< largest of all ranks, -1: set nowhere
     bool any_local_parts = false;     ///< NUM_LOCAL_PARTS is set somewhere
     bool any_part_sizes = false;      ///< Zoltan_LB_Set_Part_Sizes was called somewhere
+    bool any_fortran = false;         ///< Zoltan's Fortran interface is used somewhere
     bool all_kept_cuts = false;       ///< of the last call, on every rank
     bool axes_changed = false;        ///< what chooses axes was changed somewhere since then
     bool at_rest = false;             ///< nothing has changed since then on any rank

@@ -20,17 +20,24 @@ class ZoltanArray {
         if (size == 0) return;
         data_ = reinterpret_cast<T*>(Zoltan_Malloc(size * sizeof(T), file(), __LINE__));
         if (data_ == nullptr) throw std::bad_alloc();
+        size_ = size;
     }
-    ZoltanArray(ZoltanArray&& other) noexcept : data_(other.release()) {}
+    ZoltanArray(ZoltanArray&& other) noexcept
+        : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
     ZoltanArray& operator=(ZoltanArray&& other) noexcept {
         std::swap(data_, other.data_);
+        std::swap(size_, other.size_);
         return *this;
     }
     ~ZoltanArray() { Zoltan_Free(reinterpret_cast<void**>(&data_), file(), __LINE__); }
 
     T* get() const { return data_; }
     T& operator[](std::size_t i) const { return data_[i]; }
-    T* release() { return std::exchange(data_, nullptr); }
+    std::size_t size() const { return size_; }
+    T* release() {
+        size_ = 0;
+        return std::exchange(data_, nullptr);
+    }
 
     /// Gives back what is behind the first `size` entries.
     void shrink(std::size_t size) {
@@ -40,6 +47,7 @@ class ZoltanArray {
             T* shrunk =
                 reinterpret_cast<T*>(Zoltan_Realloc(data_, size * sizeof(T), file(), __LINE__));
             if (shrunk != nullptr) data_ = shrunk;
+            size_ = size;
         }
     }
 
@@ -47,6 +55,7 @@ class ZoltanArray {
     static char* file() { return const_cast<char*>(__FILE_NAME__); }
 
     T* data_ = nullptr;
+    std::size_t size_ = 0;
 };
 
 /// Uninitialised memory that grows and stays, so that repeated calls touch the same pages.

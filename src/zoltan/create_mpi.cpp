@@ -2,32 +2,108 @@
 
 #include "../agreement_mpi.hpp"
 #include "dump_mpi.hpp"
+#include "message.hpp"
 #include "mpi/communicator.hpp"
+#include "real_zoltan.hpp"
 #include "replacement.hpp"
 #include "state.hpp"
 
+#include <atomic>
 #include <memory>
+#include <utility>
 
 namespace rrcb::zoltan {
 
-void create_state(const Zoltan_Struct* zz, MPI_Comm user) {
-    MPI_Comm duplicate = MPI_COMM_NULL;
-    std::shared_ptr<Communicator> communicator;
-    Member me{user};
-    me.always([&] { mpi::check(MPI_Comm_dup(user, &duplicate), "MPI_Comm_dup"); });
+namespace {
+
+/// Reduced by maximum.
+struct Vote {
+    int failing_rank_from_last = 0;  ///< ranks - lowest failing rank
+    int leaves_all_to_zoltan = 0;
+    int asks_for_replacement = 0;
+    int does_not_ask = 0;
+};
+
+Vote agree_on_environment(const Member& me) {
+    const int num_ranks = mpi::size_of(me.comm);
+    const bool asks = is_replacement_asked();
+    Vote vote{me.failure.failed ? num_ranks - mpi::rank_of(me.comm) : 0,
+              real_zoltan()->serves_rrcb ? 0 : 1, asks ? 1 : 0, asks ? 0 : 1};
+    static_assert(sizeof vote == 4 * sizeof(int));
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &vote, 4, MPI_INT, MPI_MAX, me.comm), "MPI_Allreduce");
+    if (vote.failing_rank_from_last > 0) fail_together(num_ranks - vote.failing_rank_from_last, me);
+    return vote;
+}
+
+void warn_once_of_difference(int rank) {
+    static std::atomic<bool> warned = false;
+    if (rank != 0 || warned.exchange(true)) return;
+    print_warning(rank, "Zoltan_Create",
+                  "RRCB_REPLACE=RCB is in the environment of some ranks only; it holds on all");
+}
+
+bool is_congruent(const Communicator& one, const Communicator& other) {
+    int result = MPI_UNEQUAL;
+    mpi::check(MPI_Comm_compare(one.get(), other.get(), &result), "MPI_Comm_compare");
+    return result == MPI_CONGRUENT;
+}
+
+/// What belongs to a new handle, made before the ranks agree that all of them have it.
+struct Draft {
+    MPI_Comm duplicate = MPI_COMM_NULL;  ///< until the state has it
+    State state;                         ///< until the table has it
+};
+
+void make(Draft& draft, const Zoltan_Struct* zz, MPI_Comm user, Member& me) {
+    me.always([&] { mpi::check(MPI_Comm_dup(user, &draft.duplicate), "MPI_Comm_dup"); });
     me.locally([&] {
-        communicator = std::make_shared<Communicator>(duplicate);
-        State& state = add_state(zz, communicator);
+        State& state = draft.state;
+        state.communicator = std::make_unique<Communicator>(draft.duplicate);
+        draft.duplicate = MPI_COMM_NULL;
         state.parameters = initial_parameters();
+        state.inside_hier = is_inside_hier();
         read_dump_environment(state);
+        add_state(zz, std::move(state));
     });
+}
+
+/// Frees the communicator together with the other ranks.
+void discard(Draft& draft, const Zoltan_Struct* zz) {
+    remove_state(zz);
+    draft.state.communicator.reset();
+    if (draft.duplicate != MPI_COMM_NULL) MPI_Comm_free(&draft.duplicate);
+}
+
+}  // namespace
+
+void create_state(const Zoltan_Struct* zz, MPI_Comm user) {
+    Draft draft;
+    Member me{user};
+    make(draft, zz, user, me);
     try {
-        agree(me);
+        const Vote vote = agree_on_environment(me);
+        if (vote.leaves_all_to_zoltan != 0) return discard(draft, zz);
+        State& state = *find_state(zz);
+        if (vote.asks_for_replacement != 0) replace_rcb(state);
+        if (vote.asks_for_replacement == vote.does_not_ask)
+            warn_once_of_difference(state.communicator->rank());
     } catch (...) {
-        remove_state(zz);
-        if (communicator == nullptr && duplicate != MPI_COMM_NULL) MPI_Comm_free(&duplicate);
+        discard(draft, zz);
         throw;
     }
+}
+
+void copy_state(const Zoltan_Struct* to, const Zoltan_Struct* from) {
+    const State* source = find_state(from);
+    if (source == nullptr || to == from) return;
+    // Zoltan_Copy makes the new handle with Zoltan_Create, which has come through here where Zoltan
+    // is a shared library.
+    State* copy = find_state(to);
+    const bool fits = copy != nullptr && is_congruent(*copy->communicator, *source->communicator);
+    if (!fits) create_state(to, source->communicator->get());
+    Member me{source->communicator->get()};
+    me.locally([&] { copy_contents(*find_state(to), *source); });
+    agree(me);
 }
 
 }  // namespace rrcb::zoltan

@@ -5,9 +5,16 @@
 
 namespace rrcb::zoltan {
 
-/// Enters a new handle into the side table, on all ranks or on none.
+/// Enters a new handle into the side table, on all ranks or on none: not where the functions of
+/// Zoltan are from several libraries on some rank. RRCB_REPLACE on one rank holds on all.
 ///
 /// Collective over `user`: one duplication, one reduction. Throws Error on all ranks alike.
 void create_state(const Zoltan_Struct* zz, MPI_Comm user);
+
+/// Gives one handle what the plug-in knows of the other, if it knows it.
+///
+/// Collective over the communicator of `from`, as Zoltan_Copy_To is: one reduction, and a
+/// duplication where `to` has no communicator like it. Throws Error on all ranks alike.
+void copy_state(const Zoltan_Struct* to, const Zoltan_Struct* from);
 
 }  // namespace rrcb::zoltan

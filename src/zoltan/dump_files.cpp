@@ -54,7 +54,7 @@ void write_point(std::FILE* file, const DumpedRank& mine, LocalIndex i) {
 std::filesystem::path make_dump_folder(const std::filesystem::path& parent) {
     std::filesystem::create_directories(parent);
     // Only where to look first; a folder that is there is never taken.
-    static std::map<std::filesystem::path, int> numbers;
+    thread_local std::map<std::filesystem::path, int> numbers;
     while (true) {
         std::filesystem::path folder = parent / ("call-" + std::to_string(++numbers[parent]));
         if (std::filesystem::create_directory(folder)) return folder;

@@ -4,6 +4,7 @@
 #include "message.hpp"
 
 #include <array>
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
@@ -42,14 +43,14 @@ void write_mine(const std::filesystem::path& folder, const State& state, const D
 /// Runs a step of which the call must not notice when it fails.
 template <typename Step>
 void warn_once_if_failing(const State& state, const char* function, Step step) {
-    static bool warned = false;
+    static std::atomic<bool> warned = false;
     try {
         step();
     } catch (const std::exception& error) {
         std::array<char, 512> text{};
         std::snprintf(text.data(), text.size(), "cannot write to RRCB_DUMP: %s", error.what());
-        if (!warned) print_warning(state.communicator->rank(), function, text.data());
-        warned = true;
+        if (!warned.exchange(true))
+            print_warning(state.communicator->rank(), function, text.data());
     }
 }
 

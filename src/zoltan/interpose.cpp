@@ -45,6 +45,7 @@ int set_parameter(State& state, const std::string& name, const char* raw_value,
     // An unknown word for RETURN_LISTS is warned about, but sets the default.
     const bool taken = code == ZOLTAN_OK || name == "RETURN_LISTS";
     if (taken) note_common(state.parameters, name, value);
+    if (state.deserialized) state.parameters.rrcb = false;
     return code;
 }
 
@@ -75,21 +76,19 @@ int set_parameter(Zoltan_Struct* zz, const char* raw_name, const char* raw_value
     });
 }
 
-/// Where one of the two lists goes in the caller's variables; `parts` may be null.
-struct Destination {
-    int* count;
-    ZOLTAN_ID_PTR* global_ids;
-    ZOLTAN_ID_PTR* local_ids;
-    int** ranks;
-    int** parts;
-};
+void hand_out(List&& list, bool with_caller, const CallerList& to) {
+    *to.count = list.count;
+    // Empty lists are never there already.
+    if (with_caller && list.count > 0) return;
+    *to.global_ids = as_zoltan_ids(list.global_ids.release());
+    *to.local_ids = as_zoltan_ids(list.local_ids.release());
+    *to.ranks = list.ranks.release();
+    if (to.parts != nullptr) *to.parts = list.parts.release();
+}
 
-void hand_out(List&& list, const Destination& destination) {
-    *destination.count = list.count;
-    *destination.global_ids = list.global_ids.release();
-    *destination.local_ids = list.local_ids.release();
-    *destination.ranks = list.ranks.release();
-    if (destination.parts != nullptr) *destination.parts = list.parts.release();
+void hand_out(Partition&& result, const CallerLists& to) {
+    hand_out(std::move(result.imports), result.with_caller, to.imports);
+    hand_out(std::move(result.exports), result.with_caller, to.exports);
 }
 
 }  // namespace
@@ -146,23 +145,24 @@ RRCB_EXPORT int Zoltan_LB_Partition(
     ZOLTAN_ID_PTR* export_local_ids, int** export_procs, int** export_to_part) {
     State* state = rrcb_state(zz);
     if (state == nullptr) {
+        tell_if_not_replaced(find_state(zz), "Zoltan_LB_Partition");
         const InsideZoltan inside(find_state(zz));
         return forward<&RealZoltan::lb_partition>(
             zz, changes, num_gid_entries, num_lid_entries, num_import, import_global_ids,
             import_local_ids, import_procs, import_to_part, num_export, export_global_ids,
             export_local_ids, export_procs, export_to_part);
     }
+    const CallerLists to{
+        {num_import, import_global_ids, import_local_ids, import_procs, import_to_part},
+        {num_export, export_global_ids, export_local_ids, export_procs, export_to_part}};
     Partition result;
     const int code = guarded("Zoltan_LB_Partition", state, [&] {
-        return partition(zz, *state, "Zoltan_LB_Partition", false, result);
+        return partition(zz, *state, "Zoltan_LB_Partition", false, to, result);
     });
     *changes = result.changes ? 1 : 0;
     *num_gid_entries = state->parameters.num_gid_entries;
     *num_lid_entries = state->parameters.num_lid_entries;
-    hand_out(std::move(result.imports),
-             {num_import, import_global_ids, import_local_ids, import_procs, import_to_part});
-    hand_out(std::move(result.exports),
-             {num_export, export_global_ids, export_local_ids, export_procs, export_to_part});
+    hand_out(std::move(result), to);
     return code;
 }
 
@@ -174,23 +174,24 @@ RRCB_EXPORT int Zoltan_LB_Balance(Zoltan_Struct* zz, int* changes, int* num_gid_
                                   int** export_procs) {
     State* state = rrcb_state(zz);
     if (state == nullptr) {
+        tell_if_not_replaced(find_state(zz), "Zoltan_LB_Balance");
         const InsideZoltan inside(find_state(zz));
         return forward<&RealZoltan::lb_balance>(zz, changes, num_gid_entries, num_lid_entries,
                                                 num_import, import_global_ids, import_local_ids,
                                                 import_procs, num_export, export_global_ids,
                                                 export_local_ids, export_procs);
     }
+    const CallerLists to{
+        {num_import, import_global_ids, import_local_ids, import_procs, nullptr},
+        {num_export, export_global_ids, export_local_ids, export_procs, nullptr}};
     Partition result;
     const int code = guarded("Zoltan_LB_Balance", state, [&] {
-        return partition(zz, *state, "Zoltan_LB_Balance", true, result);
+        return partition(zz, *state, "Zoltan_LB_Balance", true, to, result);
     });
     *changes = result.changes ? 1 : 0;
     *num_gid_entries = state->parameters.num_gid_entries;
     *num_lid_entries = state->parameters.num_lid_entries;
-    hand_out(std::move(result.imports),
-             {num_import, import_global_ids, import_local_ids, import_procs, nullptr});
-    hand_out(std::move(result.exports),
-             {num_export, export_global_ids, export_local_ids, export_procs, nullptr});
+    hand_out(std::move(result), to);
     return code;
 }
 

@@ -80,5 +80,11 @@ RRCB_EXPORT int Zoltan_Deserialize(Zoltan_Struct* zz, size_t size, char* buffer)
         state->deserialized = true;
         state->kept.reset();
     }
-    return forward<&RealZoltan::deserialize>(zz, size, buffer);
+    const int code = forward<&RealZoltan::deserialize>(zz, size, buffer);
+    if (state != nullptr && state->parameters.replace_rcb && state->communicator->rank() == 0 &&
+        state->parameters.debug_level > 0) {
+        print_warning(0, "Zoltan_Deserialize",
+                      "the buffer is Zoltan's own, so the handle stays with Zoltan's methods");
+    }
+    return code;
 }

@@ -50,18 +50,18 @@ void move_entry(T* array, std::size_t width, std::size_t from, std::size_t to) {
 }
 
 /// Keeps the entries of objects that move, in their order.
-void keep_moving(const Moves& moves, std::size_t num_gid, std::size_t num_lid, List& list) {
+void keep_moving(const Moves& moves, const IdWidths& widths, List& list) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(list.count); ++i) {
         if (!moves(i)) continue;
-        move_entry(list.global_ids.get(), num_gid, i, kept);
-        move_entry(list.local_ids.get(), num_lid, i, kept);
+        move_entry(list.global_ids.get(), widths.global, i, kept);
+        move_entry(list.local_ids.get(), widths.local, i, kept);
         move_entry(list.ranks.get(), 1, i, kept);
         move_entry(list.parts.get(), 1, i, kept);
         ++kept;
     }
-    list.global_ids.shrink(kept * num_gid);
-    list.local_ids.shrink(kept * num_lid);
+    list.global_ids.shrink(kept * widths.global);
+    list.local_ids.shrink(kept * widths.local);
     list.ranks.shrink(kept);
     list.parts.shrink(kept);
     list.count = static_cast<int>(kept);
@@ -97,8 +97,7 @@ Exports make_exports(Objects&& objects, const Parameters& parameters,
     if (parameters.return_lists == ReturnLists::parts) {
         exports.moves = any_moves(moves, new_parts.size());
     } else {
-        keep_moving(moves, static_cast<std::size_t>(parameters.num_gid_entries),
-                    static_cast<std::size_t>(parameters.num_lid_entries), list);
+        keep_moving(moves, IdWidths(parameters), list);
         exports.moves = list.count > 0;
     }
     return exports;

@@ -12,8 +12,8 @@ namespace rrcb::zoltan {
 /// was not asked for.
 struct List {
     int count = 0;
-    ZoltanArray<ZOLTAN_ID_TYPE> global_ids;
-    ZoltanArray<ZOLTAN_ID_TYPE> local_ids;
+    ZoltanArray<IdWord> global_ids;
+    ZoltanArray<IdWord> local_ids;
     ZoltanArray<int> ranks;
     ZoltanArray<int> parts;
 };

@@ -12,20 +12,21 @@ namespace {
 
 /// An object on its way: words of its global id, of its local id, and its part.
 struct Record {
-    std::size_t num_gid;
-    std::size_t num_lid;
+    IdWidths widths;
 
-    std::size_t bytes() const { return (num_gid + num_lid) * sizeof(ZOLTAN_ID_TYPE) + sizeof(int); }
+    std::size_t bytes() const {
+        return (widths.global + widths.local) * sizeof(IdWord) + sizeof(int);
+    }
 
     void write(const List& list, std::size_t i, std::byte* place) const {
-        place = put(list.global_ids.get(), num_gid, i, place);
-        place = put(list.local_ids.get(), num_lid, i, place);
+        place = put(list.global_ids.get(), widths.global, i, place);
+        place = put(list.local_ids.get(), widths.local, i, place);
         put(list.parts.get(), 1, i, place);
     }
 
     void read(const std::byte* place, std::size_t i, List& list) const {
-        place = get(place, num_gid, i, list.global_ids.get());
-        place = get(place, num_lid, i, list.local_ids.get());
+        place = get(place, widths.global, i, list.global_ids.get());
+        place = get(place, widths.local, i, list.local_ids.get());
         get(place, 1, i, list.parts.get());
     }
 
@@ -50,8 +51,8 @@ struct Record {
 List make_list(std::size_t count, const Record& record) {
     List list;
     list.count = mpi::to_int(static_cast<std::int64_t>(count));
-    list.global_ids = ZoltanArray<ZOLTAN_ID_TYPE>(count * record.num_gid);
-    list.local_ids = ZoltanArray<ZOLTAN_ID_TYPE>(count * record.num_lid);
+    list.global_ids = ZoltanArray<IdWord>(count * record.widths.global);
+    list.local_ids = ZoltanArray<IdWord>(count * record.widths.local);
     list.ranks = ZoltanArray<int>(count);
     list.parts = ZoltanArray<int>(count);
     return list;
@@ -61,8 +62,7 @@ List make_list(std::size_t count, const Record& record) {
 
 List invert(const List& exports, const Parameters& parameters, std::span<std::int64_t> per_rank,
             Member& me) {
-    const Record record{static_cast<std::size_t>(parameters.num_gid_entries),
-                        static_cast<std::size_t>(parameters.num_lid_entries)};
+    const Record record{IdWidths(parameters)};
     Exchange exchange(record.bytes(), per_rank);
     me.locally([&] {
         const std::span ranks(exports.ranks.get(), static_cast<std::size_t>(exports.count));

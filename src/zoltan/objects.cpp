@@ -15,7 +15,7 @@ namespace {
 class Collector {
   public:
     Collector(Zoltan_Struct* zz, const Parameters& parameters, Workspace& workspace)
-        : zz_(zz), parameters_(parameters), workspace_(workspace) {}
+        : zz_(zz), parameters_(parameters), widths_(parameters), workspace_(workspace) {}
 
     Objects collect() {
         read_count();
@@ -23,8 +23,8 @@ class Collector {
         objects_.names_parts = tells_parts();
         if (objects_.count > 0) {
             const auto count = static_cast<std::size_t>(objects_.count);
-            objects_.global_ids = ZoltanArray<ZOLTAN_ID_TYPE>(count * num_gid());
-            objects_.local_ids = ZoltanArray<ZOLTAN_ID_TYPE>(count * num_lid());
+            objects_.global_ids = ZoltanArray<IdWord>(count * widths_.global);
+            objects_.local_ids = ZoltanArray<IdWord>(count * widths_.local);
             read_ids_and_weights(count);
             read_coordinates(count);
             read_initial_parts(count);
@@ -34,13 +34,12 @@ class Collector {
     }
 
   private:
-    std::size_t num_gid() const { return static_cast<std::size_t>(parameters_.num_gid_entries); }
-    std::size_t num_lid() const { return static_cast<std::size_t>(parameters_.num_lid_entries); }
     ZOLTAN_ID_PTR global_id(std::size_t i) const {
-        return objects_.global_ids.get() + i * num_gid();
+        return as_zoltan_ids(objects_.global_ids.get() + i * widths_.global);
     }
     ZOLTAN_ID_PTR local_id(std::size_t i) const {
-        return num_lid() == 0 ? nullptr : objects_.local_ids.get() + i * num_lid();
+        if (widths_.local == 0) return nullptr;
+        return as_zoltan_ids(objects_.local_ids.get() + i * widths_.local);
     }
 
     void check(int code, const char* name) {
@@ -199,6 +198,7 @@ class Collector {
 
     Zoltan_Struct* zz_;
     const Parameters& parameters_;
+    IdWidths widths_;
     Workspace& workspace_;
     Objects objects_;
     float* weights_ = nullptr;  ///< as the callbacks give them, null without weights

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "buffer.hpp"
+#include "ids.hpp"
 #include "parameters.hpp"
 
 #include <rrcb/points.hpp>
@@ -21,8 +22,8 @@ struct Objects {
     int count = 0;
     bool warned = false;       ///< a callback returned ZOLTAN_WARN
     bool names_parts = false;  ///< a callback tells the part of each object
-    ZoltanArray<ZOLTAN_ID_TYPE> global_ids;
-    ZoltanArray<ZOLTAN_ID_TYPE> local_ids;  ///< null when ids have no local part
+    ZoltanArray<IdWord> global_ids;
+    ZoltanArray<IdWord> local_ids;   ///< null when ids have no local part
     ZoltanArray<int> initial_parts;         ///< null when no callback tells them
     ZoltanArray<int> new_ranks;             ///< room for where each object goes, while a failure
     ZoltanArray<int> new_parts;             ///< can still be agreed on; null when not asked for

@@ -4,6 +4,7 @@
 #include "balance_mpi.hpp"
 #include "dump_mpi.hpp"
 #include "failure.hpp"
+#include "fortran_lists_mpi.hpp"
 #include "layout_mpi.hpp"
 #include "lists_mpi.hpp"
 #include "message.hpp"
@@ -123,9 +124,11 @@ void select_lists(const Parameters& parameters, std::span<std::int64_t> per_rank
 int migrate(Zoltan_Struct* zz, const Partition& result) {
     const List& imports = result.imports;
     const List& exports = result.exports;
-    return Zoltan_Migrate(zz, imports.count, imports.global_ids.get(), imports.local_ids.get(),
-                          imports.ranks.get(), imports.parts.get(), exports.count,
-                          exports.global_ids.get(), exports.local_ids.get(), exports.ranks.get(),
+    return Zoltan_Migrate(zz, imports.count, as_zoltan_ids(imports.global_ids.get()),
+                          as_zoltan_ids(imports.local_ids.get()), imports.ranks.get(),
+                          imports.parts.get(), exports.count,
+                          as_zoltan_ids(exports.global_ids.get()),
+                          as_zoltan_ids(exports.local_ids.get()), exports.ranks.get(),
                           exports.parts.get());
 }
 
@@ -134,6 +137,7 @@ struct Call {
     Zoltan_Struct* zz;
     State& state;
     const char* function;
+    const CallerLists& to;
     std::optional<Kept> previous;
     bool may_start_there = false;  ///< its axes are those that this one chooses
 };
@@ -219,6 +223,10 @@ int balance_objects(const Call& call, const Agreement& agreement, Objects&& obje
     Remap remap = prepared.renumbering->run(layout, objects, balanced.parts, me);
     list_exports(call, layout, std::move(objects), balanced.parts, prepared.rest, result);
     select_lists(parameters, prepared.per_rank, me, result);
+    if (agreement.any_fortran && result.changes) {
+        copy_for_fortran(call.zz, result.imports, result.exports, call.to, me);
+        result.with_caller = true;
+    }
     review(balanced.report, layout.map.num_parts(), remap, call.state, call.function);
     keep(std::move(prepared), std::move(balanced), std::move(layout.map), std::move(remap.numbers),
          call.state);
@@ -228,13 +236,13 @@ int balance_objects(const Call& call, const Agreement& agreement, Objects&& obje
 }  // namespace
 
 int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_part_per_rank,
-              Partition& result) {
+              const CallerLists& to, Partition& result) {
     const int rank = state.communicator->rank();
     Objects objects;
     const LocalStatus local = collect(zz, state, one_part_per_rank, objects);
     const Agreement agreement = agree(local, state);
     const bool stays = agreement.at_rest && agreement.differing == nullptr;
-    Call call{zz, state, function, std::nullopt, !agreement.axes_changed};
+    Call call{zz, state, function, to, std::nullopt, !agreement.axes_changed};
     if (!stays) {
         state.rest.reset();
         call.previous = std::exchange(state.kept, std::nullopt);

@@ -4,20 +4,79 @@
 
 #include <dlfcn.h>
 
+#include <array>
+#include <cstdio>
+
 namespace rrcb::zoltan {
 
 namespace {
 
+/// Finds functions behind the plug-in, and notes which are missing and which are of another library
+/// than the first.
 class Finder {
   public:
     template <typename Function>
     void find(Function& function, const char* name) {
-        function = reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
-        if (function == nullptr) missing_ = name;
+        const Found found(name);
+        function = reinterpret_cast<Function>(found.address);
+        require(found);
     }
+
+    /// For those that the plug-in calls by name.
+    void find(const char* name) { require(Found(name)); }
+
+    /// Null where there is none beside the functions found so far.
+    template <typename Function>
+    void find_beside(Function& function, const char* name) const {
+        const Found found(name);
+        const bool beside = found.address != nullptr && found.base == first_.base;
+        function = beside ? reinterpret_cast<Function>(found.address) : nullptr;
+    }
+
+    /// Null where there is none.
+    template <typename Function>
+    void find_any(Function& function, const char* name) const {
+        function = reinterpret_cast<Function>(Found(name).address);
+    }
+
     const char* missing() const { return missing_; }
+    bool is_mixed() const { return stray_.address != nullptr; }
+    void print_mixture() const {
+        std::array<char, 1024> text{};
+        std::snprintf(text.data(), text.size(),
+                      "%s is from %s, but %s from %s; RRCB needs all of Zoltan from one library, "
+                      "and leaves every call to these",
+                      first_.name, first_.library, stray_.name, stray_.library);
+        print_error(-1, "Zoltan_Create", text.data());
+    }
 
   private:
+    struct Found {
+        Found() = default;
+        explicit Found(const char* its_name)
+            : name(its_name), address(dlsym(RTLD_NEXT, its_name)) {
+            Dl_info info{};
+            if (address == nullptr || dladdr(address, &info) == 0) return;
+            base = info.dli_fbase;
+            library = info.dli_fname;
+        }
+        const char* name = "";
+        void* address = nullptr;
+        const void* base = nullptr;
+        const char* library = "";
+    };
+
+    void require(const Found& found) {
+        if (found.address == nullptr) {
+            missing_ = found.name;
+        } else if (first_.address == nullptr) {
+            first_ = found;
+        } else if (found.base != first_.base) {
+            stray_ = found;
+        }
+    }
+
+    Found first_, stray_;
     const char* missing_ = nullptr;
 };
 
@@ -40,19 +99,42 @@ Finder find_all(RealZoltan& real) {
     finder.find(real.serialize_size, "Zoltan_Serialize_Size");
     finder.find(real.serialize, "Zoltan_Serialize");
     finder.find(real.deserialize, "Zoltan_Deserialize");
+    for (const char* name :
+         {"Zoltan_Malloc", "Zoltan_Realloc", "Zoltan_Free", "Zoltan_Get_Fn", "Zoltan_Migrate"})
+        finder.find(name);
+    finder.find_beside(real.special_malloc, "Zoltan_Special_Malloc");
+    finder.find_beside(real.special_free, "Zoltan_Special_Free");
+    finder.find_any(real.register_fort_malloc, "Zoltan_Register_Fort_Malloc");
     return finder;
+}
+
+/// Libraries that cannot be asked are older than ids of another width.
+std::size_t ask_id_bytes(const Finder& finder) {
+    decltype(&Zoltan_get_global_id_type) ask = nullptr;
+    finder.find_beside(ask, "Zoltan_get_global_id_type");
+    return ask == nullptr ? sizeof(unsigned) : static_cast<std::size_t>(ask(nullptr));
+}
+
+const RealZoltan* find_real() {
+    static RealZoltan real;
+    const Finder finder = find_all(real);
+    if (finder.missing() != nullptr) {
+        print_error(-1, finder.missing(),
+                    "the real function is not found; load or link libtrilinos_zoltan behind "
+                    "librrcb_zoltan");
+        return nullptr;
+    }
+    real.words_per_id_entry = ask_id_bytes(finder) / sizeof(std::uint32_t);
+    real.serves_rrcb = !finder.is_mixed();
+    if (finder.is_mixed()) finder.print_mixture();
+    return &real;
 }
 
 }  // namespace
 
 const RealZoltan* real_zoltan() noexcept {
-    static RealZoltan real;
-    static const Finder finder = find_all(real);
-    if (finder.missing() == nullptr) return &real;
-    print_error(-1, finder.missing(),
-                "the real function is not found; load or link libtrilinos_zoltan behind "
-                "librrcb_zoltan");
-    return nullptr;
+    static const RealZoltan* const real = find_real();
+    return real;
 }
 
 }  // namespace rrcb::zoltan

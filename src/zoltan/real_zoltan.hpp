@@ -3,11 +3,16 @@
 #include <zoltan.h>
 #include <zoltan_partition_tree.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <type_traits>
 
 // Declared in no public header of Zoltan, but exported by it and called by its users.
-extern "C" int Zoltan_RCB_Box(struct Zoltan_Struct* zz, int part, int* dimension, double* xmin,
-                              double* ymin, double* zmin, double* xmax, double* ymax, double* zmax);
+extern "C" {
+int Zoltan_RCB_Box(struct Zoltan_Struct* zz, int part, int* dimension, double* xmin, double* ymin,
+                   double* zmin, double* xmax, double* ymax, double* zmax);
+int Zoltan_get_global_id_type(char** name);
+}
 
 namespace rrcb::zoltan {
 
@@ -30,10 +35,23 @@ struct RealZoltan {
     decltype(&Zoltan_Serialize_Size) serialize_size;
     decltype(&Zoltan_Serialize) serialize;
     decltype(&Zoltan_Deserialize) deserialize;
+
+    /// What Zoltan's Fortran interface stands on; null where it is not there.
+    int (*special_malloc)(Zoltan_Struct* zz, void** array, int size, int type) = nullptr;
+    int (*special_free)(Zoltan_Struct* zz, void** array, int type) = nullptr;
+    void (*register_fort_malloc)(void (*)(), void (*)(), void (*)()) = nullptr;
+
+    std::size_t words_per_id_entry = 1;  ///< of 32 bits
+    bool serves_rrcb = true;             ///< otherwise every call goes to Zoltan
 };
 
-/// Looked up once; null, with a message on stderr, when Zoltan is not behind the plug-in.
+/// Looked up once; null, with one message on stderr, when Zoltan is not behind the plug-in.
 const RealZoltan* real_zoltan() noexcept;
+
+/// 2 where Zoltan was built with ids of 64 bits. For handles that RRCB serves.
+inline std::size_t words_per_id_entry() {
+    return real_zoltan()->words_per_id_entry;
+}
 
 /// Calls the real function as if the plug-in were not there: callbacks and what they throw
 /// included.

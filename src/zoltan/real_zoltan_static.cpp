@@ -3,7 +3,7 @@
 namespace rrcb::zoltan {
 
 const RealZoltan* real_zoltan() noexcept {
-    static constexpr RealZoltan real{
+    static const RealZoltan real{
         .create = Zoltan_Create,
         .copy = Zoltan_Copy,
         .copy_to = Zoltan_Copy_To,
@@ -21,6 +21,8 @@ const RealZoltan* real_zoltan() noexcept {
         .serialize_size = Zoltan_Serialize_Size,
         .serialize = Zoltan_Serialize,
         .deserialize = Zoltan_Deserialize,
+        .words_per_id_entry =
+            static_cast<std::size_t>(Zoltan_get_global_id_type(nullptr)) / sizeof(std::uint32_t),
     };
     return &real;
 }

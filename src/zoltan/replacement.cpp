@@ -2,7 +2,11 @@
 
 #include "message.hpp"
 
+#include <array>
+#include <atomic>
 #include <cstdlib>
+#include <new>
+#include <string>
 
 namespace rrcb::zoltan {
 
@@ -19,10 +23,24 @@ bool read_environment() {
     return false;
 }
 
-bool replaces_rcb() {
-    static const bool replaces = read_environment();
-    return replaces;
+/// LB_METHOD as Zoltan compares it.
+std::string method_of(const State& state) {
+    const auto given = state.parameters.given.find("LB_METHOD");
+    return given == state.parameters.given.end() ? "RCB" : clean(given->second.c_str());
 }
+
+/// Methods whose replacement a user may expect, and why they are left to Zoltan.
+struct Left {
+    const char* method;
+    bool in_hier_only;
+    const char* reason;
+};
+constexpr std::array left_methods = {
+    Left{"RIB", false, "LB_METHOD=RIB stays Zoltan's; RRCB_REPLACE replaces RCB alone"},
+    Left{"HSFC", false, "LB_METHOD=HSFC stays Zoltan's; RRCB_REPLACE replaces RCB alone"},
+    Left{"RCB", true,
+         "RCB inside HIER stays Zoltan's; the callback for HIER's methods can set RRCB by name"},
+};
 
 }  // namespace
 
@@ -37,19 +55,46 @@ InsideZoltan::~InsideZoltan() {
     inside = inside_before_;
 }
 
+bool is_replacement_asked() {
+    static const bool is_asked = read_environment();
+    return is_asked;
+}
+
 Parameters initial_parameters() {
     Parameters parameters;
-    if (!inside) {
-        parameters.replace_rcb = replaces_rcb();
-        parameters.rrcb = parameters.replace_rcb;
-        return parameters;
-    }
+    if (!inside) return parameters;
     parameters.remap = 0;
     if (outer_state != nullptr) {
         parameters.weight_dimension = outer_state->parameters.weight_dimension;
         parameters.debug_level = outer_state->parameters.debug_level;
     }
     return parameters;
+}
+
+bool is_inside_hier() {
+    return outer_state != nullptr &&
+           (outer_state->inside_hier || method_of(*outer_state) == "HIER");
+}
+
+void replace_rcb(State& state) noexcept {
+    state.replacement_asked = true;
+    state.parameters.replace_rcb = !inside;
+    state.parameters.rrcb = !inside;
+}
+
+void tell_if_not_replaced(const State* state, const char* function) noexcept try {
+    static std::array<std::atomic<bool>, left_methods.size()> told;
+    if (state == nullptr || !state->replacement_asked || state->parameters.debug_level <= 0) return;
+    const State& outermost = outer_state == nullptr ? *state : *outer_state;
+    if (outermost.communicator->rank() != 0) return;
+    const std::string method = method_of(*state);
+    for (std::size_t i = 0; i < left_methods.size(); ++i) {
+        const Left& left = left_methods[i];
+        if (method != left.method || (left.in_hier_only && !state->inside_hier)) continue;
+        if (!told[i].exchange(true)) print_warning(0, function, left.reason);
+    }
+} catch (const std::bad_alloc&) {
+    // Only the notice is lost.
 }
 
 }  // namespace rrcb::zoltan

@@ -2,18 +2,37 @@
 
 #include "mpi/communicator.hpp"
 
+#include <atomic>
+#include <cstdint>
 #include <map>
+#include <mutex>
+#include <shared_mutex>
 #include <utility>
 
 namespace rrcb::zoltan {
 
 namespace {
 
-std::map<const Zoltan_Struct*, State>& table() {
+constexpr std::uint64_t first_version = 1;
+
+struct Table {
+    std::shared_mutex mutex;
+    std::map<const Zoltan_Struct*, State> states;
+    std::atomic<std::uint64_t> version = first_version;  ///< of the set of handles
+};
+
+Table& table() {
     // Never destroyed: handles that outlive MPI must not free their communicators at exit.
-    static auto& states = *new std::map<const Zoltan_Struct*, State>;
-    return states;
+    static auto& only = *new Table;
+    return only;
 }
+
+/// What a thread looked up last; without it, point look-ups would wait for the lock.
+struct LastFound {
+    const Zoltan_Struct* zz = nullptr;
+    State* state = nullptr;
+    std::uint64_t version = 0;
+};
 
 }  // namespace
 
@@ -30,31 +49,54 @@ Communicator::~Communicator() {
 }
 
 State* find_state(const Zoltan_Struct* zz) {
-    const auto found = table().find(zz);
-    return found == table().end() ? nullptr : &found->second;
+    thread_local LastFound last;
+    Table& all = table();
+    if (last.zz == zz && last.version == all.version.load(std::memory_order_acquire))
+        return last.state;
+    const std::shared_lock lock(all.mutex);
+    const auto found = all.states.find(zz);
+    last = {zz, found == all.states.end() ? nullptr : &found->second, all.version.load()};
+    return last.state;
 }
 
-State& add_state(const Zoltan_Struct* zz, std::shared_ptr<Communicator> communicator) {
-    State& state = table()[zz];
-    state = State{};
-    state.communicator = std::move(communicator);
-    return state;
+State& add_state(const Zoltan_Struct* zz, State&& state) {
+    Table& all = table();
+    State* place = nullptr;
+    {
+        const std::unique_lock lock(all.mutex);
+        place = &all.states[zz];
+        ++all.version;
+    }
+    // Without the lock: the communicator that was there before is freed with other ranks.
+    *place = std::move(state);
+    return *place;
 }
 
-void copy_state(const Zoltan_Struct* to, const Zoltan_Struct* from) {
-    const State* source = find_state(from);
-    if (source == nullptr || to == from) return;
-    State& copy = add_state(to, source->communicator);
-    copy.parameters = source->parameters;
-    copy.part_sizes = source->part_sizes;
-    copy.kept = source->kept;
-    copy.rest = source->rest;
-    copy.axes_changed = source->axes_changed;
-    copy.deserialized = source->deserialized;
+void copy_contents(State& to, const State& from) {
+    State copy;
+    copy.parameters = from.parameters;
+    copy.part_sizes = from.part_sizes;
+    copy.kept = from.kept;
+    copy.rest = from.rest;
+    copy.axes_changed = from.axes_changed;
+    copy.deserialized = from.deserialized;
+    copy.replacement_asked = from.replacement_asked;
+    copy.inside_hier = from.inside_hier;
+    copy.communicator = std::move(to.communicator);
+    to = std::move(copy);
 }
 
 void remove_state(const Zoltan_Struct* zz) {
-    table().erase(zz);
+    Table& all = table();
+    // Freed behind the lock, as it is freed together with other ranks.
+    decltype(all.states)::node_type removed;
+    const std::unique_lock lock(all.mutex);
+    removed = all.states.extract(zz);
+    ++all.version;
+}
+
+bool any_handle_made() {
+    return table().version.load() != first_version;
 }
 
 }  // namespace rrcb::zoltan

@@ -16,7 +16,7 @@
 
 namespace rrcb::zoltan {
 
-/// A duplicate of the communicator a handle was created with; copies of the handle share it.
+/// A duplicate of the communicator a handle was created with, for this handle alone.
 class Communicator {
   public:
     /// Takes over `duplicate`. Throws Error or std::bad_alloc; then it is still the caller's.
@@ -48,13 +48,15 @@ struct PartSize {
 
 /// What the plug-in knows of one Zoltan_Struct beside what Zoltan keeps itself.
 struct State {
-    std::shared_ptr<Communicator> communicator;
+    std::unique_ptr<Communicator> communicator;
     Parameters parameters;
     std::vector<PartSize> part_sizes;
     std::optional<Kept> kept;   ///< of the last partition
     std::optional<Rest> rest;   ///< of the same; none once a parameter was changed
     bool axes_changed = false;  ///< what chooses axes was changed since
     bool deserialized = false;  ///< Zoltan's parameters were set behind the plug-in's back
+    bool replacement_asked = false;  ///< by RRCB_REPLACE, on any rank of the communicator
+    bool inside_hier = false;        ///< made by Zoltan, for one of HIER's levels
     Workspace workspace;
 };
 
@@ -64,10 +66,13 @@ inline int asked_global_parts(const State& state) {
     return asked == one_per_rank ? state.communicator->size() : asked;
 }
 
-/// The side table. Handles are made and destroyed by one thread at a time, as Zoltan asks.
+/// The side table, which threads may use at the same time. A handle belongs to one of them.
 State* find_state(const Zoltan_Struct* zz);
-State& add_state(const Zoltan_Struct* zz, std::shared_ptr<Communicator> communicator);
-void copy_state(const Zoltan_Struct* to, const Zoltan_Struct* from);
+State& add_state(const Zoltan_Struct* zz, State&& state);
 void remove_state(const Zoltan_Struct* zz);
+bool any_handle_made();  ///< since the process began
+
+/// All but the communicator. Throws std::bad_alloc; then `to` is as it was.
+void copy_contents(State& to, const State& from);
 
 }  // namespace rrcb::zoltan

@@ -1,5 +1,6 @@
 /* Zoltan as a static archive, for a machine that has only the shared library: every function counts
- * its calls and hands them on to a private copy of that. */
+ * its calls and hands them on to a private copy of that. With WIDE_IDS, and as a shared library, it
+ * says that its ids have 64 bits; then only functions that see no id may be called. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdio.h>
@@ -44,6 +45,13 @@ static Function* count_call(struct Entry* entry) {
 static struct Entry* const entries[] = {
 #include "zoltan_functions.h"
 };
+
+#ifdef WIDE_IDS
+int Zoltan_get_global_id_type(char** name) {
+    if (name != NULL) *name = (char*)"unsigned long";
+    return 8;
+}
+#endif
 
 int zoltan_archive_calls(const char* name) {
     for (size_t i = 0; i < sizeof entries / sizeof *entries; ++i)

@@ -80,10 +80,11 @@ Outcome finish(Program& program, Outcome outcome) {
 
 }  // namespace
 
-Program::Program(int dimension_) : dimension(dimension_), reported_dimension(dimension_) {
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    MPI_Comm_size(MPI_COMM_WORLD, &num_ranks);
-    zz = Zoltan_Create(MPI_COMM_WORLD);
+Program::Program(int dimension_, MPI_Comm comm)
+    : dimension(dimension_), reported_dimension(dimension_) {
+    MPI_Comm_rank(comm, &rank);
+    MPI_Comm_size(comm, &num_ranks);
+    zz = Zoltan_Create(comm);
     set("DEBUG_LEVEL", "0");
     register_callbacks(zz);
 }
@@ -145,11 +146,12 @@ void Program::free_lists() {
 ZOLTAN_ID_TYPE Program::gid_word(int object, int word) const {
     const int words[] = {object, rank, 7 * object + rank};
     // A single word must be unique over the ranks by itself.
-    return static_cast<ZOLTAN_ID_TYPE>(gid_width == 1 ? 100000 * rank + object : words[word]);
+    const int number = gid_width == 1 ? 100000 * rank + object : words[word];
+    return first_id + static_cast<ZOLTAN_ID_TYPE>(number);
 }
 
 ZOLTAN_ID_TYPE Program::lid_word(int object, int word) const {
-    return static_cast<ZOLTAN_ID_TYPE>(word == 0 ? object : 1000 + object);
+    return first_id + static_cast<ZOLTAN_ID_TYPE>(word == 0 ? object : 1000 + object);
 }
 
 void scatter_points(Program& program, int count) {

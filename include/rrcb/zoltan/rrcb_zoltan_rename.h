@@ -61,5 +61,6 @@ extern __typeof__(Zoltan_Deserialize) RRCB_Zoltan_Deserialize;
 #define Zoltan_Serialize_Size RRCB_Zoltan_Serialize_Size
 #define Zoltan_Serialize RRCB_Zoltan_Serialize
 #define Zoltan_Deserialize RRCB_Zoltan_Deserialize
+#define Zoltan_Register_Fort_Malloc RRCB_Zoltan_Register_Fort_Malloc
 
 #endif

@@ -1,0 +1,41 @@
+#include "message.hpp"
+#include "replacement.hpp"
+#include "state.hpp"
+
+#include <mpi.h>
+
+#include <cstdlib>
+#include <string_view>
+
+namespace rrcb::zoltan {
+
+namespace {
+
+bool has_used_mpi() {
+    int initialized = 0;
+    return MPI_Initialized(&initialized) == MPI_SUCCESS && initialized != 0;
+}
+
+/// By what the launcher says, as MPI has ended.
+bool is_first_process() {
+    for (const char* name :
+         {"PMIX_RANK", "OMPI_COMM_WORLD_RANK", "PMI_RANK", "MV2_COMM_WORLD_RANK", "SLURM_PROCID"}) {
+        const char* rank = std::getenv(name);
+        if (rank != nullptr) return std::string_view(rank) == "0";
+    }
+    return true;
+}
+
+/// A program that holds Zoltan as a static archive never comes here; nothing else would tell that
+/// it runs without RRCB. Shells and launchers that inherit the environment use no MPI.
+__attribute__((destructor)) void tell_if_asked_for_nothing() {
+    if (any_handle_made() || !has_used_mpi() || !is_first_process() || !is_replacement_asked())
+        return;
+    print_warning(0, "RRCB_REPLACE",
+                  "the program made no handle through RRCB: it holds Zoltan as a static archive, "
+                  "has it in front of RRCB, or does not use it");
+}
+
+}  // namespace
+
+}  // namespace rrcb::zoltan

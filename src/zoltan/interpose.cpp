@@ -181,9 +181,8 @@ RRCB_EXPORT int Zoltan_LB_Balance(Zoltan_Struct* zz, int* changes, int* num_gid_
                                                 import_procs, num_export, export_global_ids,
                                                 export_local_ids, export_procs);
     }
-    const CallerLists to{
-        {num_import, import_global_ids, import_local_ids, import_procs, nullptr},
-        {num_export, export_global_ids, export_local_ids, export_procs, nullptr}};
+    const CallerLists to{{num_import, import_global_ids, import_local_ids, import_procs, nullptr},
+                         {num_export, export_global_ids, export_local_ids, export_procs, nullptr}};
     Partition result;
     const int code = guarded("Zoltan_LB_Balance", state, [&] {
         return partition(zz, *state, "Zoltan_LB_Balance", true, to, result);

@@ -41,6 +41,14 @@ int unpack(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     return ZOLTAN_OK;
 }
 
+/// A handle that the program made is replaced no longer, although it was asked for.
+void tell_if_left_to_zoltan(const State& state) {
+    if (!state.parameters.replace_rcb || state.parameters.debug_level <= 0) return;
+    if (state.communicator->rank() != 0) return;
+    print_warning(0, "Zoltan_Deserialize",
+                  "the buffer is Zoltan's own, so the handle stays with Zoltan's methods");
+}
+
 }  // namespace
 
 RRCB_EXPORT size_t Zoltan_Serialize_Size(Zoltan_Struct const* zz) {
@@ -76,15 +84,10 @@ RRCB_EXPORT int Zoltan_Deserialize(Zoltan_Struct* zz, size_t size, char* buffer)
     }
     // What the buffer holds comes from the real Zoltan and replaces every parameter.
     if (state != nullptr) {
+        tell_if_left_to_zoltan(*state);
         state->parameters.rrcb = false;
         state->deserialized = true;
         state->kept.reset();
     }
-    const int code = forward<&RealZoltan::deserialize>(zz, size, buffer);
-    if (state != nullptr && state->parameters.replace_rcb && state->communicator->rank() == 0 &&
-        state->parameters.debug_level > 0) {
-        print_warning(0, "Zoltan_Deserialize",
-                      "the buffer is Zoltan's own, so the handle stays with Zoltan's methods");
-    }
-    return code;
+    return forward<&RealZoltan::deserialize>(zz, size, buffer);
 }

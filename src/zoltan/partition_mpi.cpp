@@ -124,12 +124,11 @@ void select_lists(const Parameters& parameters, std::span<std::int64_t> per_rank
 int migrate(Zoltan_Struct* zz, const Partition& result) {
     const List& imports = result.imports;
     const List& exports = result.exports;
-    return Zoltan_Migrate(zz, imports.count, as_zoltan_ids(imports.global_ids.get()),
-                          as_zoltan_ids(imports.local_ids.get()), imports.ranks.get(),
-                          imports.parts.get(), exports.count,
-                          as_zoltan_ids(exports.global_ids.get()),
-                          as_zoltan_ids(exports.local_ids.get()), exports.ranks.get(),
-                          exports.parts.get());
+    return Zoltan_Migrate(
+        zz, imports.count, as_zoltan_ids(imports.global_ids.get()),
+        as_zoltan_ids(imports.local_ids.get()), imports.ranks.get(), imports.parts.get(),
+        exports.count, as_zoltan_ids(exports.global_ids.get()),
+        as_zoltan_ids(exports.local_ids.get()), exports.ranks.get(), exports.parts.get());
 }
 
 /// One call of LB_Partition and the cuts of the call before it.
@@ -223,7 +222,7 @@ int balance_objects(const Call& call, const Agreement& agreement, Objects&& obje
     Remap remap = prepared.renumbering->run(layout, objects, balanced.parts, me);
     list_exports(call, layout, std::move(objects), balanced.parts, prepared.rest, result);
     select_lists(parameters, prepared.per_rank, me, result);
-    if (agreement.any_fortran && result.changes) {
+    if (agreement.any_fortran) {
         copy_for_fortran(call.zz, result.imports, result.exports, call.to, me);
         result.with_caller = true;
     }

@@ -53,8 +53,7 @@ class Finder {
   private:
     struct Found {
         Found() = default;
-        explicit Found(const char* its_name)
-            : name(its_name), address(dlsym(RTLD_NEXT, its_name)) {
+        explicit Found(const char* its_name) : name(its_name), address(dlsym(RTLD_NEXT, its_name)) {
             Dl_info info{};
             if (address == nullptr || dladdr(address, &info) == 0) return;
             base = info.dli_fbase;

@@ -84,9 +84,9 @@ void replace_rcb(State& state) noexcept {
 
 void tell_if_not_replaced(const State* state, const char* function) noexcept try {
     static std::array<std::atomic<bool>, left_methods.size()> told;
-    if (state == nullptr || !state->replacement_asked || state->parameters.debug_level <= 0) return;
-    const State& outermost = outer_state == nullptr ? *state : *outer_state;
-    if (outermost.communicator->rank() != 0) return;
+    if (state == nullptr || !state->replacement_asked) return;
+    const State& programs = outer_state == nullptr ? *state : *outer_state;
+    if (programs.communicator->rank() != 0 || programs.parameters.debug_level <= 0) return;
     const std::string method = method_of(*state);
     for (std::size_t i = 0; i < left_methods.size(); ++i) {
         const Left& left = left_methods[i];

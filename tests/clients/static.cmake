@@ -28,6 +28,22 @@ target_include_directories(clients.static PRIVATE ../zoltan)
 target_include_directories(
   clients.static SYSTEM PRIVATE $<TARGET_PROPERTY:Zoltan::zoltan,INTERFACE_INCLUDE_DIRECTORIES>)
 
+# A program of a static Zoltan that nothing was compiled into cannot be reached.
+if(can_preload)
+  add_executable(static_client static_client.c)
+  target_include_directories(
+    static_client SYSTEM PRIVATE $<TARGET_PROPERTY:Zoltan::zoltan,INTERFACE_INCLUDE_DIRECTORIES>)
+  target_link_libraries(static_client PRIVATE zoltan_archive MPI::MPI_C)
+  add_client_run(static.preloaded ${preloaded} -x RRCB_REPLACE=RCB $<TARGET_FILE:static_client>)
+  expect_exit_notice(static.preloaded)
+  # Neither asked nor, in a shell around the program, in the way.
+  add_client_run(static.preloaded.unasked ${preloaded} $<TARGET_FILE:static_client>)
+  add_client_run(static.preloaded.shell ${preloaded} -x RRCB_REPLACE=RCB sh -c true)
+  set_tests_properties(
+    clients.static.preloaded.unasked.np4 clients.static.preloaded.shell.np4
+    PROPERTIES FAIL_REGULAR_EXPRESSION "RRCB")
+endif()
+
 # An entry point that the header forgets would define a function of Zoltan's a second time.
 add_test(
   NAME clients.static.renames_all

@@ -42,7 +42,7 @@ struct Program {
     std::vector<double> coordinates;
     std::vector<float> weights;
     int gid_width = 1, lid_width = 1;
-    ZOLTAN_ID_TYPE first_id = 0;  ///< added to every word of an id
+    ZOLTAN_ID_TYPE first_id = 0;                             ///< added to every word of an id
     std::function<float(int object, int k)> further_weight;  ///< for OBJ_WEIGHT_DIM > 1, k >= 1
 
     /// Called at the start of each callback with its name; may set the code or throw.

@@ -45,6 +45,7 @@ constexpr std::array same_on_all_ranks = {
     SameOnAllRanks{"RCB_REUSE", [](const Parameters& p) { return int{reuses_cuts(p)}; }},
     SameOnAllRanks{"OBJ_WEIGHTS_COMPARABLE",
                    [](const Parameters& p) { return int{p.weights_comparable != 0}; }},
+    SameOnAllRanks{"AVERAGE_CUTS", [](const Parameters& p) { return int{p.average_cuts != 0}; }},
     SameOnAllRanks{"RETURN_LISTS",
                    [](const Parameters& p) { return static_cast<int>(p.return_lists); }},
     SameOnAllRanks{"RCB_LOCK_DIRECTIONS",

@@ -1,7 +1,7 @@
 #include "create_mpi.hpp"
 
 #include "../agreement_mpi.hpp"
-#include "dump_mpi.hpp"
+#include "environment.hpp"
 #include "message.hpp"
 #include "mpi/communicator.hpp"
 #include "real_zoltan.hpp"
@@ -62,7 +62,7 @@ void make(Draft& draft, const Zoltan_Struct* zz, MPI_Comm user, Member& me) {
         draft.duplicate = MPI_COMM_NULL;
         state.parameters = initial_parameters();
         state.inside_hier = is_inside_hier();
-        read_dump_environment(state);
+        read_environment(state);
         add_state(zz, std::move(state));
     });
 }

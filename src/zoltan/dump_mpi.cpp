@@ -6,7 +6,6 @@
 #include <array>
 #include <atomic>
 #include <cstdio>
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
 
@@ -68,17 +67,6 @@ void dump(DumpReason reason, const Agreement& agreement, const State& state,
                                agreement.dumping_rank, comm.get());
     if (sent != MPI_SUCCESS || folder[0] == '\0') return;
     warn_once_if_failing(state, input.function, [&] { write_mine(folder.data(), state, input); });
-}
-
-void read_dump_environment(State& state) {
-    for (const char* name : {"RRCB_DUMP", "RRCB_DUMP_WHEN"}) {
-        const char* value = std::getenv(name);
-        if (value == nullptr || set_own(state.parameters, name, value) == Setting::accepted)
-            continue;
-        print_warning(state.communicator->rank(), "Zoltan_Create",
-                      std::string("illegal value `") + value + "' of " + name +
-                          " in the environment; default value will be used.");
-    }
 }
 
 }  // namespace rrcb::zoltan

@@ -23,7 +23,4 @@ struct DumpInput {
 void dump(DumpReason reason, const Agreement& agreement, const State& state,
           const DumpInput& input) noexcept;
 
-/// Takes RRCB_DUMP and RRCB_DUMP_WHEN from the environment; an illegal value is warned about.
-void read_dump_environment(State& state);
-
 }  // namespace rrcb::zoltan

@@ -1,3 +1,4 @@
+#include "environment.hpp"
 #include "export.hpp"
 #include "guard.hpp"
 #include "real_zoltan.hpp"
@@ -25,6 +26,7 @@ int unpack(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     const bool replace_rcb = state.parameters.replace_rcb;
     state.parameters = Parameters{};
     state.parameters.replace_rcb = replace_rcb;
+    read_environment(state);
     state.part_sizes.clear();
     state.deserialized = false;
     for (const auto& [name, value] : parcel.given) {

@@ -1,7 +1,5 @@
 #include "kept.hpp"
 
-#include "descent.hpp"
-
 #include <algorithm>
 #include <utility>
 
@@ -79,17 +77,6 @@ int Kept::collect(std::int32_t at, const Box& box, Part* parts, int count) const
     if (!is_above(cut, box.lower.data())) count = collect(nodes_[cut].child[0], box, parts, count);
     if (is_above(cut, box.upper.data())) count = collect(nodes_[cut].child[1], box, parts, count);
     return count;
-}
-
-bool Kept::holds(Part part, const Vector& position) const {
-    const Part box = boxes_[static_cast<std::size_t>(part)];
-    Descent at = root_of(cuts_);
-    while (!at.is_part()) {
-        const bool above = box >= at.upper().first;
-        if (rrcb::is_above(cuts_.tree[at.node], position, cuts_.dimension) != above) return false;
-        at = above ? at.upper() : at.lower();
-    }
-    return true;
 }
 
 Box Kept::region_of(Part part) const {

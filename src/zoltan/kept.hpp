@@ -40,9 +40,6 @@ class Kept {
     /// all.
     int parts_touching(const Box& box, Part* parts) const;
 
-    /// Whether a position lies in the region of a part.
-    bool holds(Part part, const Vector& position) const;
-
     /// Region of a part, open sides +-infinity.
     Box region_of(Part part) const;
 

@@ -144,6 +144,7 @@ constexpr CommonInteger common_integers[] = {
     {"RCB_REUSE", &Parameters::reuse_cuts, any_integer},
     {"RCB_LOCK_DIRECTIONS", &Parameters::lock_directions, any_integer},
     {"RCB_SET_DIRECTIONS", &Parameters::set_directions, any_integer},
+    {"AVERAGE_CUTS", &Parameters::average_cuts, any_integer},
     {"RCB_RECTILINEAR_BLOCKS", &Parameters::rectilinear_blocks, any_integer},
     {"OBJ_WEIGHTS_COMPARABLE", &Parameters::weights_comparable, any_integer},
     {"RCB_MULTICRITERIA_NORM", &Parameters::multicriteria_norm, any_integer},
@@ -198,6 +199,14 @@ Setting set_own(Parameters& parameters, std::string_view name, const char* value
     if (!is_default && own->read(parameters, keeps_case ? value : upper)) return Setting::accepted;
     own->reset(parameters);
     return is_default ? Setting::accepted : Setting::defaulted;
+}
+
+bool set_tolerance(Parameters& parameters, std::string_view value) {
+    double tolerance = 0;
+    const bool legal = read_number(without_trailing_blanks(value), tolerance) &&
+                       std::isfinite(tolerance) && tolerance >= 1;
+    if (legal) parameters.options.imbalance_tolerance = tolerance;
+    return legal;
 }
 
 std::vector<const char*> own_parameter_names() {

@@ -35,6 +35,7 @@ struct Parameters {
     int lock_directions = 0;
     int set_directions = 0;
     int rectilinear_blocks = 0;
+    int average_cuts = 0;
     int weights_comparable = 0;
     int multicriteria_norm = 1;
     int reduce_dimensions = 0;
@@ -57,6 +58,9 @@ enum class Setting {
 
 /// Sets a parameter of RRCB's own (RRCB_...). The name is upper-cased, the value as it was given.
 Setting set_own(Parameters& parameters, std::string_view name, const char* value);
+
+/// Sets IMBALANCE_TOL; false for what is no number from 1 on, which leaves it as it was.
+bool set_tolerance(Parameters& parameters, std::string_view value);
 
 /// The names that set_own knows.
 std::vector<const char*> own_parameter_names();

@@ -1,6 +1,7 @@
 #include "partition_mpi.hpp"
 
 #include "agreement_mpi.hpp"
+#include "average_cuts_mpi.hpp"
 #include "balance_mpi.hpp"
 #include "dump_mpi.hpp"
 #include "failure.hpp"
@@ -148,6 +149,7 @@ struct Preparation {
     std::optional<Renumbering> renumbering;
     std::optional<Kept> kept;
     Rest rest;
+    std::optional<CutAverage> average;
     std::vector<std::int64_t> per_rank;  ///< to announce imports with
 };
 
@@ -168,6 +170,8 @@ Preparation prepare(const Call& call, const Layout& layout, const Objects& objec
         made.renumbering.emplace(parameters, layout, objects, *call.state.communicator);
         const auto num_parts = static_cast<std::size_t>(layout.map.num_parts());
         made.kept.emplace(num_parts);
+        if (parameters.average_cuts != 0) made.average.emplace(num_parts);
+        made.rest.dimension = dimension;
         made.rest.checksums.resize(num_parts + 1);
     });
     return made;
@@ -219,6 +223,8 @@ int balance_objects(const Call& call, const Agreement& agreement, Objects&& obje
     combine_weights(parameters, call.state.workspace, me.comm, objects);
     Preparation prepared = prepare(call, layout, objects, me);
     Balance balanced = balance(objects.points, prepared.options, prepared.previous, me);
+    if (prepared.average)
+        prepared.average->run(objects.points, balanced.parts, me.comm, balanced.cuts);
     Remap remap = prepared.renumbering->run(layout, objects, balanced.parts, me);
     list_exports(call, layout, std::move(objects), balanced.parts, prepared.rest, result);
     select_lists(parameters, prepared.per_rank, me, result);

@@ -41,8 +41,7 @@ Remap Renumbering::run(const Layout& layout, const Objects& objects, std::span<P
                        Member& me) {
     if (!room_) return std::move(unchanged_);
     PreviousParts previous;
-    if (by_part(layout, objects))
-        previous.emplace(objects.initial_parts.get(), parts.size());
+    if (by_part(layout, objects)) previous.emplace(objects.initial_parts.get(), parts.size());
     Remap result = remap(parts, previous, layout.map.ranks, *room_, me);
     if (result.identity) return result;
     for (Part& part : parts) part = result.numbers[static_cast<std::size_t>(part)];

@@ -42,7 +42,7 @@ bool is_at_rest(const Rest& rest, const Kept& kept, const Parameters& parameters
                 const Workspace& workspace, const Objects& objects, int rank) {
     const PartMap& map = kept.map();
     if (!map.one_each && !objects.names_parts) return false;
-    if (kept.cuts().dimension != objects.points.dimension) return false;
+    if (rest.dimension != objects.points.dimension) return false;
     const auto is_here = [&](Part part) {
         const RankRange& range = map.ranks[static_cast<std::size_t>(part)];
         return range.first == rank && range.count == 1;
@@ -53,7 +53,7 @@ bool is_at_rest(const Rest& rest, const Kept& kept, const Parameters& parameters
     for (std::size_t i = 0; i < parts.size(); ++i) {
         if (parts[i] < 0 || parts[i] >= map.num_parts() || !is_here(parts[i])) return false;
         const Vector position = objects.points.position(i);
-        if (!is_finite(position) || !kept.holds(parts[i], position)) return false;
+        if (!is_finite(position) || kept.part_of(position.data()) != parts[i]) return false;
     }
     std::vector<std::uint64_t> checksums(rest.checksums.size(), 0);
     add_checksums(parameters, workspace, parts, checksums);

@@ -16,6 +16,7 @@ namespace rrcb::zoltan {
 /// what they did: a program that goes on while anything changes then comes to an end.
 struct Rest {
     Report report;
+    int dimension = 0;
     std::vector<std::uint64_t> checksums;  ///< of the objects of each part
 };
 

@@ -5,6 +5,7 @@ module objects
   implicit none
   integer(c_int), parameter :: num_objects = 400
   integer(c_int) :: rank, num_ranks
+  integer :: allocations_left = huge(0)  ! before they fail
 
 contains
 
@@ -13,10 +14,11 @@ contains
     integer(c_int), pointer :: array(:)
     integer(c_int), intent(in) :: n
     integer(c_intptr_t), intent(out) :: address
-    integer :: status
-    allocate (array(n), stat=status)
     address = 0
-    if (status == 0) address = loc(array)
+    if (allocations_left == 0) return
+    allocations_left = allocations_left - 1
+    allocate (array(n))
+    address = loc(array)
   end subroutine
 
   subroutine free_integers(array)
@@ -96,6 +98,7 @@ program fortran_client
     call partition("NONE", .false., .false.)
     if (round == 2) call layer_copy()
   end do
+  if (method == "RRCB" .and. num_ranks > 1) call run_out_of_memory()
   num_moved = layer_sum(num_moved)
   call expect(num_ranks == 1 .or. num_moved > 0, "nothing moved")
   num_faults = layer_sum(num_faults)
@@ -134,6 +137,25 @@ contains
     num_moved = num_moved + max(exports%count, 0)
     call free(imports)
     call free(exports)
+  end subroutine
+
+  ! On one rank, at each of the arrays of its two lists; all ranks are told, and nothing stays.
+  subroutine run_out_of_memory()
+    type(List) :: imports, exports
+    integer(c_int) :: code, changes
+    integer :: arrays
+    code = layer_set_param("RETURN_LISTS"//c_null_char, "ALL"//c_null_char)
+    do arrays = 0, 7
+      if (rank == num_ranks - 1) allocations_left = arrays
+      code = layer_partition(changes, imports%count, imports%gids, imports%lids, imports%ranks, &
+                             imports%parts, exports%count, exports%gids, exports%lids, &
+                             exports%ranks, exports%parts)
+      allocations_left = huge(0)
+      call expect(code == -2, "out of memory")
+      call check_shape(imports, .false., "imports without memory")
+      call check_shape(exports, .false., "exports without memory")
+    end do
+    call partition("ALL", .true., .true.)
   end subroutine
 
   subroutine check_shape(checked, is_asked, what)

@@ -78,8 +78,9 @@ void write_dump(const std::filesystem::path& folder, const DumpedRank& mine) {
     if (*mine.message != '\0')
         std::fprintf(file.get(), "message %s\n", one_line(mine.message).c_str());
     for (const PartSize& size : mine.part_sizes)
-        std::fprintf(file.get(), "part_size %s %d %a\n", size.global ? "global" : "local",
-                     size.part, static_cast<double>(size.size));
+        if (size.weight == 0)
+            std::fprintf(file.get(), "part_size %s %d %a\n", size.global ? "global" : "local",
+                         size.part, static_cast<double>(size.size));
     std::fprintf(file.get(), "dimension %d\nweights %d\nparts %d\nobjects %zu\n",
                  mine.points.dimension, mine.weight_dimension,
                  mine.initial_parts == nullptr ? 0 : 1, mine.points.count);

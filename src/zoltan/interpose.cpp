@@ -204,8 +204,8 @@ RRCB_EXPORT int Zoltan_LB_Set_Part_Sizes(Zoltan_Struct* zz, int global_num, int 
         state->rest.reset();
         if (length == -1) state->part_sizes.clear();
         for (int i = 0; i < length; ++i) {
-            if (weight_indices != nullptr && weight_indices[i] != 0) continue;
-            state->part_sizes.push_back({part_ids[i], global_num != 0, sizes[i]});
+            const int weight = weight_indices == nullptr ? 0 : weight_indices[i];
+            state->part_sizes.push_back({part_ids[i], global_num != 0, sizes[i], weight});
         }
         return code;
     });

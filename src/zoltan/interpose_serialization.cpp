@@ -34,8 +34,8 @@ int unpack(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
         if (code != ZOLTAN_OK && code != ZOLTAN_WARN) return code;
     }
     for (PartSize& entry : parcel.part_sizes) {
-        const int code = Zoltan_LB_Set_Part_Sizes(zz, entry.global ? 1 : 0, 1, &entry.part, nullptr,
-                                                  &entry.size);
+        const int code = Zoltan_LB_Set_Part_Sizes(zz, entry.global ? 1 : 0, 1, &entry.part,
+                                                  &entry.weight, &entry.size);
         if (code != ZOLTAN_OK && code != ZOLTAN_WARN) return code;
     }
     state.parameters.rrcb = true;

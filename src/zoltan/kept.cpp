@@ -9,8 +9,10 @@ Kept::Kept(std::size_t num_parts) : boxes_(num_parts), tree_(num_parts) {
     nodes_.reserve(num_parts);
 }
 
-void Kept::keep(Cuts&& cuts, PartMap&& map, std::vector<Part>&& numbers) noexcept {
+void Kept::keep(Cuts&& cuts, const Frame& frame, PartMap&& map,
+                std::vector<Part>&& numbers) noexcept {
     cuts_ = std::move(cuts);
+    frame_ = frame;
     map_ = std::move(map);
     numbers_ = std::move(numbers);
     for (std::size_t box = 0; box < numbers_.size(); ++box)
@@ -50,20 +52,26 @@ bool Kept::is_above(std::size_t cut, const double* position) const {
 }
 
 Part Kept::part_of(const double* coordinates) const {
+    if (!frame_.turns()) [[likely]]
+        return descend(coordinates);
+    return descend(place(frame_, coordinates).data());
+}
+
+Part Kept::descend(const double* position) const {
     std::int32_t at = root_;
     while (at >= 0) {
         const auto cut = static_cast<std::size_t>(at);
         // As an index: positions in no order make branches that cannot be predicted.
-        at = nodes_[cut].child[is_above(cut, coordinates) ? 1 : 0];
+        at = nodes_[cut].child[is_above(cut, position) ? 1 : 0];
     }
     return ~at;
 }
 
 int Kept::parts_touching(const Box& box, Part* parts) const {
-    for (std::size_t a = 0; a < static_cast<std::size_t>(cuts_.dimension); ++a) {
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension()); ++a) {
         if (!(box.lower[a] <= box.upper[a])) return 0;
     }
-    const int count = collect(root_, box, parts, 0);
+    const int count = collect(root_, frame_.turns() ? place(frame_, box) : box, parts, 0);
     std::sort(parts, parts + count);
     return count;
 }
@@ -80,7 +88,7 @@ int Kept::collect(std::int32_t at, const Box& box, Part* parts, int count) const
 }
 
 Box Kept::region_of(Part part) const {
-    return box_of(cuts_, boxes_[static_cast<std::size_t>(part)]);
+    return unshifted(frame_, box_of(cuts_, boxes_[static_cast<std::size_t>(part)]));
 }
 
 }  // namespace rrcb::zoltan

@@ -2,6 +2,7 @@
 
 #include "failure.hpp"
 #include "mpi/communicator.hpp"
+#include "rcb_options.hpp"
 
 #include <algorithm>
 #include <array>
@@ -24,9 +25,11 @@ int count_parts(const Agreement& agreement, const State& state, std::span<int> l
 }
 
 /// What this rank asks for of the parts from `first` on.
-void ask_for_sizes(const State& state, int first_here, int first, std::span<double> sizes) {
+void ask_for_sizes(const State& state, int weight, int first_here, int first,
+                   std::span<double> sizes) {
     std::ranges::fill(sizes, not_set);
     for (const PartSize& entry : state.part_sizes) {
+        if (entry.weight != weight) continue;
         const int part = (entry.global ? 0 : first_here) + entry.part - first;
         if (part < 0 || part >= static_cast<int>(sizes.size())) continue;
         sizes[static_cast<std::size_t>(part)] = static_cast<double>(entry.size);
@@ -35,19 +38,20 @@ void ask_for_sizes(const State& state, int first_here, int first, std::span<doub
 
 /// As Zoltan merges them: the largest that any rank asks for, 1 where none does. In pieces, for
 /// which every rank has the memory.
-void merge_part_sizes(int num_parts, const State& state, Layout& layout, Member& me) {
-    me.locally([&] { layout.part_sizes.resize(static_cast<std::size_t>(num_parts)); });
+void merge_part_sizes(int num_parts, const State& state, int weight, const Layout& layout,
+                      std::vector<double>& merged, Member& me) {
+    me.locally([&] { merged.resize(static_cast<std::size_t>(num_parts)); });
     const int first_here = first_part_of(layout.map, state.communicator->rank());
     std::array<double, 4096> piece;
     for (int first = 0; first < num_parts; first += static_cast<int>(piece.size())) {
         const int count = std::min(num_parts - first, static_cast<int>(piece.size()));
         const std::span<double> sizes = std::span(piece).first(static_cast<std::size_t>(count));
-        ask_for_sizes(state, first_here, first, sizes);
+        ask_for_sizes(state, weight, first_here, first, sizes);
         mpi::check(MPI_Allreduce(MPI_IN_PLACE, sizes.data(), count, MPI_DOUBLE, MPI_MAX, me.comm),
                    "MPI_Allreduce");
         std::ranges::replace_if(
             sizes, [](double size) { return size < 0; }, 1.0);
-        if (!me.failure.failed) std::ranges::copy(sizes, layout.part_sizes.begin() + first);
+        if (!me.failure.failed) std::ranges::copy(sizes, merged.begin() + first);
     }
 }
 
@@ -62,7 +66,13 @@ Layout make_layout(const Agreement& agreement, const State& state, Member& me) {
                          ? local_part_map(local_parts, num_parts)
                          : even_part_map(num_parts, state.communicator->size());
     });
-    if (agreement.any_part_sizes) merge_part_sizes(num_parts, state, layout, me);
+    if (!agreement.any_part_sizes) return layout;
+    merge_part_sizes(num_parts, state, 0, layout, layout.part_sizes, me);
+    if (!has_own_norm(state.parameters)) return layout;
+    const int num_weights = std::min(state.parameters.weight_dimension, most_weights);
+    for (int weight = 1; weight < num_weights; ++weight)
+        merge_part_sizes(num_parts, state, weight, layout,
+                         layout.further_sizes[static_cast<std::size_t>(weight - 1)], me);
     return layout;
 }
 

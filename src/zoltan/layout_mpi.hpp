@@ -2,9 +2,11 @@
 
 #include "agreement_mpi.hpp"
 #include "member.hpp"
+#include "multicriteria.hpp"
 #include "part_map.hpp"
 #include "state.hpp"
 
+#include <array>
 #include <vector>
 
 namespace rrcb::zoltan {
@@ -13,6 +15,8 @@ namespace rrcb::zoltan {
 struct Layout {
     PartMap map;
     std::vector<double> part_sizes;  ///< relative; empty: equal
+    /// Those of an object's further weights, where each is balanced by itself.
+    std::array<std::vector<double>, most_weights - 1> further_sizes{};
 };
 
 /// Collective only where NUM_LOCAL_PARTS or part sizes are set somewhere. Throws Failure on all

@@ -15,6 +15,7 @@ struct Workspace {
     Scratch<double> coordinates;
     Scratch<double> weights;
     Scratch<float> callback_weights;
+    Scratch<double> reduced;  ///< coordinates in the frame of a flat geometry
 };
 
 /// One rank's objects, as its callbacks describe them.

@@ -178,6 +178,11 @@ void note_tolerance(Options& options, std::string_view text) {
     options.imbalance_tolerance = legal ? value : Options{}.imbalance_tolerance;
 }
 
+/// A number as Zoltan reads it: what stands behind it is ignored.
+double number_or(std::string_view text, double fallback) {
+    return text == "DEFAULT" ? fallback : std::atof(std::string(text).c_str());
+}
+
 ReturnLists return_lists(std::string_view text) {
     const auto has = [text](std::string_view word) { return text.find(word) != text.npos; };
     if (has("EXPORT")) return has("IMPORT") ? ReturnLists::all : ReturnLists::exports;
@@ -219,6 +224,10 @@ std::vector<const char*> own_parameter_names() {
 void note_common(Parameters& parameters, std::string_view name, std::string_view value) {
     if (name == "LB_METHOD") parameters.rrcb = parameters.replace_rcb && value == "RCB";
     if (name == "IMBALANCE_TOL") note_tolerance(parameters.options, value);
+    if (name == "DEGENERATE_RATIO")
+        parameters.degenerate_ratio = number_or(value, Parameters{}.degenerate_ratio);
+    if (name == "RCB_MAX_ASPECT_RATIO")
+        parameters.max_aspect_ratio = number_or(value, Parameters{}.max_aspect_ratio);
     if (name == "RETURN_LISTS") parameters.return_lists = return_lists(value);
     const auto* common = std::ranges::find(common_integers, name, &CommonInteger::name);
     if (common == std::end(common_integers)) return;

@@ -39,6 +39,8 @@ struct Parameters {
     int weights_comparable = 0;
     int multicriteria_norm = 1;
     int reduce_dimensions = 0;
+    double degenerate_ratio = 10;
+    double max_aspect_ratio = 10;
     int output_level = 0;
     int final_output = 0;
     int debug_level = 1;

@@ -6,9 +6,11 @@
 #include "dump_mpi.hpp"
 #include "failure.hpp"
 #include "fortran_lists_mpi.hpp"
+#include "frame_mpi.hpp"
 #include "layout_mpi.hpp"
 #include "lists_mpi.hpp"
 #include "message.hpp"
+#include "norm_balance_mpi.hpp"
 #include "rcb_options.hpp"
 #include "renumber_mpi.hpp"
 #include "rest.hpp"
@@ -17,6 +19,7 @@
 
 #include <rrcb/error.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -142,6 +145,26 @@ struct Call {
     bool may_start_there = false;  ///< its axes are those that this one chooses
 };
 
+/// The objects where they are cut: in their principal axes where REDUCE_DIMENSIONS finds them flat.
+struct Flattened {
+    Frame frame;
+    Points points;
+};
+
+/// Collective where REDUCE_DIMENSIONS is set.
+Flattened flatten(const Call& call, const Objects& objects, Member& me) {
+    const Parameters& parameters = call.state.parameters;
+    Flattened flat{{}, objects.points};
+    if (parameters.reduce_dimensions == 0) return flat;
+    const Frame* previous = call.previous ? &call.previous->frame() : nullptr;
+    flat.frame = choose_frame(objects.points, degenerate_ratio(parameters), previous, me);
+    if (!flat.frame.turns()) return flat;
+    flat.points = interleaved_points({}, flat.frame.num_axes);
+    me.locally(
+        [&] { flat.points = place(flat.frame, objects.points, call.state.workspace.reduced); });
+    return flat;
+}
+
 /// What a call needs beside its objects; made before the ranks agree for the last time.
 struct Preparation {
     Options options;
@@ -153,13 +176,14 @@ struct Preparation {
     std::vector<std::int64_t> per_rank;  ///< to announce imports with
 };
 
-Preparation prepare(const Call& call, const Layout& layout, const Objects& objects, Member& me) {
+Preparation prepare(const Call& call, const Layout& layout, const Objects& objects,
+                    const Flattened& flat, Member& me) {
     const Parameters& parameters = call.state.parameters;
-    const int dimension = objects.points.dimension;
+    const int dimension = flat.points.dimension;
     const bool fits = call.previous && call.previous->cuts().dimension == dimension &&
+                      call.previous->frame() == flat.frame &&
                       call.previous->cuts().num_parts == layout.map.num_parts();
     Preparation made;
-    made.options.domain = parameters.options.domain;
     if (fits && call.may_start_there && starts_from_previous(parameters))
         made.previous = &call.previous->cuts();
     const bool locks = fits && call.previous->answers_look_ups();
@@ -171,7 +195,7 @@ Preparation prepare(const Call& call, const Layout& layout, const Objects& objec
         const auto num_parts = static_cast<std::size_t>(layout.map.num_parts());
         made.kept.emplace(num_parts);
         if (parameters.average_cuts != 0) made.average.emplace(num_parts);
-        made.rest.dimension = dimension;
+        made.rest.dimension = objects.points.dimension;
         made.rest.checksums.resize(num_parts + 1);
     });
     return made;
@@ -197,9 +221,9 @@ void list_exports(const Call& call, const Layout& layout, Objects&& objects,
 }
 
 /// Keeps what the next call may need of this one.
-void keep(Preparation&& prepared, Balance&& balanced, PartMap&& map, std::vector<Part>&& numbers,
-          State& state) {
-    prepared.kept->keep(std::move(balanced.cuts), std::move(map), std::move(numbers));
+void keep(Preparation&& prepared, Balance&& balanced, const Frame& frame, PartMap&& map,
+          std::vector<Part>&& numbers, State& state) {
+    prepared.kept->keep(std::move(balanced.cuts), frame, std::move(map), std::move(numbers));
     prepared.kept->answer_look_ups(keeps_cuts(state.parameters));
     prepared.rest.report = std::move(balanced.report);
     state.kept = std::move(prepared.kept);
@@ -215,16 +239,35 @@ void stay(State& state, const char* function, Objects&& objects, Partition& resu
     review(state.rest->report, state.kept->map().num_parts(), Remap{}, state, function);
 }
 
+/// By the norm of the weights that is asked for; after the sum of the weights, where the balancer
+/// has looked at all that may be wrong. Collective.
+Balance divide(const Call& call, const Layout& layout, const Preparation& prepared,
+               const Points& points, Member& me) {
+    const Parameters& parameters = call.state.parameters;
+    Balance balanced = balance(points, prepared.options, prepared.previous, me);
+    if (!has_own_norm(parameters) || balanced.report.num_points == 0) return balanced;
+    const auto stride = static_cast<std::size_t>(parameters.weight_dimension);
+    const Criteria criteria{parameters.multicriteria_norm,
+                            {call.state.workspace.callback_weights.data(), points.count * stride},
+                            stride,
+                            parameters.weights_comparable != 0,
+                            layout.further_sizes,
+                            std::max(1.0, parameters.max_aspect_ratio)};
+    balance_norm(points, criteria, prepared.options, balanced, me);
+    return balanced;
+}
+
 int balance_objects(const Call& call, const Agreement& agreement, Objects&& objects,
                     Partition& result) {
     const Parameters& parameters = call.state.parameters;
     Member me{call.state.communicator->get()};
     Layout layout = make_layout(agreement, call.state, me);
     combine_weights(parameters, call.state.workspace, me.comm, objects);
-    Preparation prepared = prepare(call, layout, objects, me);
-    Balance balanced = balance(objects.points, prepared.options, prepared.previous, me);
+    const Flattened flat = flatten(call, objects, me);
+    Preparation prepared = prepare(call, layout, objects, flat, me);
+    Balance balanced = divide(call, layout, prepared, flat.points, me);
     if (prepared.average)
-        prepared.average->run(objects.points, balanced.parts, me.comm, balanced.cuts);
+        prepared.average->run(flat.points, balanced.parts, me.comm, balanced.cuts);
     Remap remap = prepared.renumbering->run(layout, objects, balanced.parts, me);
     list_exports(call, layout, std::move(objects), balanced.parts, prepared.rest, result);
     select_lists(parameters, prepared.per_rank, me, result);
@@ -233,8 +276,8 @@ int balance_objects(const Call& call, const Agreement& agreement, Objects&& obje
         result.with_caller = true;
     }
     review(balanced.report, layout.map.num_parts(), remap, call.state, call.function);
-    keep(std::move(prepared), std::move(balanced), std::move(layout.map), std::move(remap.numbers),
-         call.state);
+    keep(std::move(prepared), std::move(balanced), flat.frame, std::move(layout.map),
+         std::move(remap.numbers), call.state);
     return parameters.auto_migrate != 0 && result.changes ? migrate(call.zz, result) : ZOLTAN_OK;
 }
 

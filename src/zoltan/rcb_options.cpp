@@ -34,6 +34,10 @@ Options make_options(const Parameters& parameters, const Layout& layout, int dim
     options.num_parts = layout.map.num_parts();
     options.part_sizes = layout.part_sizes;
     options.plain_cuts = parameters.rectilinear_blocks != 0;
+    if (has_own_norm(parameters)) {
+        options.domain = DomainKind::analytic;
+        options.refine = Refine::none;
+    }
     if (parameters.lock_directions != 0 && previous != nullptr) {
         options.cut_axes = axes_of(*previous);
     } else if (parameters.set_directions != 0) {
@@ -46,11 +50,15 @@ bool reuses_cuts(const Parameters& parameters) {
     return parameters.reuse_cuts == not_set ? parameters.replace_rcb : parameters.reuse_cuts != 0;
 }
 
+bool has_own_norm(const Parameters& parameters) {
+    return parameters.weight_dimension > 1 && parameters.multicriteria_norm > 1;
+}
+
 bool starts_from_previous(const Parameters& parameters) {
     const Options& options = parameters.options;
     const bool refines = options.refine != Refine::none && options.domain == DomainKind::analytic &&
                          options.cut_rule == CutRule::weighted_fraction;
-    return reuses_cuts(parameters) && refines;
+    return reuses_cuts(parameters) && refines && !has_own_norm(parameters);
 }
 
 bool keeps_cuts(const Parameters& parameters) {
@@ -63,6 +71,11 @@ bool chooses_axes(std::string_view name) {
            name == "REDUCE_DIMENSIONS" || name == "DEGENERATE_RATIO";
 }
 
+double degenerate_ratio(const Parameters& parameters) {
+    return parameters.degenerate_ratio > 1 ? parameters.degenerate_ratio
+                                           : Parameters{}.degenerate_ratio;
+}
+
 std::vector<std::string> shortcomings(const Parameters& parameters) {
     std::vector<std::string> texts;
     if (parameters.set_directions < 0 || parameters.set_directions > 6) {
@@ -73,13 +86,8 @@ std::vector<std::string> shortcomings(const Parameters& parameters) {
                            ") were given; only the first " + std::to_string(most_weights) +
                            " will be used.");
     }
-    if (parameters.weight_dimension > 1 && parameters.multicriteria_norm != 1) {
-        texts.emplace_back(
-            "RCB_MULTICRITERIA_NORM: RRCB balances the sum of the weights, which is norm 1");
-    }
-    if (parameters.reduce_dimensions != 0) {
-        texts.emplace_back(
-            "REDUCE_DIMENSIONS: RRCB cuts across the coordinate axes, also of flat geometries");
+    if (parameters.reduce_dimensions != 0 && !(parameters.degenerate_ratio > 1)) {
+        texts.emplace_back("DEGENERATE_RATIO <= 1, setting it to 10.0");
     }
     return texts;
 }

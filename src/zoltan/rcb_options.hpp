@@ -22,6 +22,10 @@ Options make_options(const Parameters& parameters, const Layout& layout, int dim
 /// distribution that is balanced stays as it is.
 bool reuses_cuts(const Parameters& parameters);
 
+/// Whether the weights of an object are balanced by another norm than their sum
+/// (RCB_MULTICRITERIA_NORM), for which the balancer makes no more than an estimate.
+bool has_own_norm(const Parameters& parameters);
+
 /// Whether the search is to start from the cuts of the last call (RCB_REUSE): only where it goes
 /// on from there to the balance asked for.
 bool starts_from_previous(const Parameters& parameters);
@@ -31,6 +35,9 @@ bool keeps_cuts(const Parameters& parameters);
 
 /// Whether cuts that were made before a parameter changed may lie across the wrong axes.
 bool chooses_axes(std::string_view name);
+
+/// DEGENERATE_RATIO, or its default where that makes no sense.
+double degenerate_ratio(const Parameters& parameters);
 
 /// What is asked for and not kept, one sentence each, in Zoltan's words where it has some.
 std::vector<std::string> shortcomings(const Parameters& parameters);

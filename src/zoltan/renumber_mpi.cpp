@@ -17,11 +17,13 @@ bool by_part(const Layout& layout, const Objects& objects) {
 }
 
 bool may_change_numbers(const Parameters& parameters, const Layout& layout) {
-    const std::vector<double>& sizes = layout.part_sizes;
+    const auto are_equal = [](const std::vector<double>& sizes) {
+        return std::ranges::adjacent_find(sizes, std::not_equal_to<>()) == sizes.end();
+    };
     const auto on_one_rank = [](const RankRange& range) { return range.count == 1; };
     return parameters.remap != 0 && layout.map.num_parts() > 1 &&
-           std::ranges::all_of(layout.map.ranks, on_one_rank) &&
-           std::ranges::adjacent_find(sizes, std::not_equal_to<>()) == sizes.end();
+           std::ranges::all_of(layout.map.ranks, on_one_rank) && are_equal(layout.part_sizes) &&
+           std::ranges::all_of(layout.further_sizes, are_equal);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-constexpr std::array<char, 8> signature = {'R', 'R', 'C', 'B', 'h', 'n', 'd', '1'};
+constexpr std::array<char, 8> signature = {'R', 'R', 'C', 'B', 'h', 'n', 'd', '2'};
 
 struct Header {
     std::array<char, 8> signature = zoltan::signature;
@@ -107,6 +107,7 @@ void write(Writer& writer, const Kept& kept) {
     writer.list(kept.numbers());
     writer.list(kept.map().ranks);
     writer.value(kept.map().one_each);
+    writer.value(kept.frame());
 }
 
 bool is_permutation(std::vector<Part> numbers) {
@@ -115,6 +116,10 @@ bool is_permutation(std::vector<Part> numbers) {
         if (numbers[i] != static_cast<Part>(i)) return false;
     }
     return true;
+}
+
+bool fits(const Frame& frame, const Cuts& cuts) {
+    return is_sound(frame) && (!frame.turns() || frame.num_axes == cuts.dimension);
 }
 
 bool is_consistent(const Cuts& cuts, const PartMap& map, const std::vector<Part>& numbers) {
@@ -142,10 +147,11 @@ Kept read_kept(Reader& reader) {
     PartMap map;
     map.ranks = reader.list<RankRange>();
     map.one_each = reader.flag();
+    const auto frame = reader.value<Frame>();
     cuts.num_parts = static_cast<int>(numbers.size());
-    if (!is_consistent(cuts, map, numbers)) refuse("inconsistent");
+    if (!is_consistent(cuts, map, numbers) || !fits(frame, cuts)) refuse("inconsistent");
     Kept kept(numbers.size());
-    kept.keep(std::move(cuts), std::move(map), std::move(numbers));
+    kept.keep(std::move(cuts), frame, std::move(map), std::move(numbers));
     return kept;
 }
 
@@ -163,6 +169,7 @@ std::vector<char> serialize(const State& state) {
         body.value(entry.part);
         body.value(entry.global);
         body.value(entry.size);
+        body.value(entry.weight);
     }
     const bool has_cuts = state.kept && state.kept->answers_look_ups();
     body.value(has_cuts);
@@ -195,7 +202,8 @@ Parcel deserialize(std::span<const char> bytes) {
     for (auto left = reader.value<std::uint64_t>(); left > 0; --left) {
         const auto part = reader.value<int>();
         const auto global = reader.flag();
-        parcel.part_sizes.push_back({part, global, reader.value<float>()});
+        const auto size = reader.value<float>();
+        parcel.part_sizes.push_back({part, global, size, reader.value<int>()});
     }
     if (reader.flag()) parcel.kept = read_kept(reader);
     return parcel;

@@ -44,6 +44,7 @@ struct PartSize {
     int part = 0;
     bool global = true;  ///< false: the part is counted from the first one on this rank
     float size = 0;
+    int weight = 0;  ///< which of an object's weights it is a share of
 };
 
 /// What the plug-in knows of one Zoltan_Struct beside what Zoltan keeps itself.

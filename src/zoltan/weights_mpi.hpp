@@ -1,13 +1,11 @@
 #pragma once
 
+#include "multicriteria.hpp"
 #include "objects.hpp"
 
 #include <mpi.h>
 
 namespace rrcb::zoltan {
-
-/// Further weights of an object are ignored, as in Zoltan.
-inline constexpr int most_weights = 4;
 
 /// Gives objects of several weights the one weight that norm 1 balances: their sum, each divided
 /// by its sum over all objects unless OBJ_WEIGHTS_COMPARABLE is set.

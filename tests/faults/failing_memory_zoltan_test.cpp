@@ -91,6 +91,16 @@ TEST(FailingMemoryInZoltan, with_all_that_takes_memory) {
     fail_in_partition(program);
 }
 
+TEST(FailingMemoryInZoltan, in_a_flat_geometry) {
+    ShortProgram program;
+    program.set("REDUCE_DIMENSIONS", "1");
+    program.set("KEEP_CUTS", "1");
+    program.set("REMAP", "0");
+    for (std::size_t i = 0; i < program.coordinates.size(); i += 2)
+        program.coordinates[i] = 1.5 * program.coordinates[i + 1];
+    fail_in_partition(program);
+}
+
 TEST(FailingMemoryInZoltan, with_parts_of_different_sizes) {
     ShortProgram program;
     program.set("RETURN_LISTS", "PARTS");

@@ -199,6 +199,7 @@ TEST(Shortcomings, are_told_and_do_not_change_the_code) {
     program.set("LB_METHOD", "RRCB");
     program.set("DEBUG_LEVEL", "1");
     program.set("REDUCE_DIMENSIONS", "1");
+    program.set("DEGENERATE_RATIO", "1");
     program.set("RCB_OUTPUT_LEVEL", "1");
     testing::internal::CaptureStderr();
     testing::internal::CaptureStdout();
@@ -207,7 +208,7 @@ TEST(Shortcomings, are_told_and_do_not_change_the_code) {
     const std::string output = testing::internal::GetCapturedStdout();
     const bool first = program.rank == 0;
     EXPECT_EQ(warnings.find("WARNING") != warnings.npos, first) << warnings;
-    EXPECT_EQ(warnings.find("REDUCE_DIMENSIONS") != warnings.npos, first) << warnings;
+    EXPECT_EQ(warnings.find("DEGENERATE_RATIO") != warnings.npos, first) << warnings;
     EXPECT_EQ(output.find("imbalance") != output.npos, first) << output;
 }
 

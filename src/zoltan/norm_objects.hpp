@@ -1,0 +1,65 @@
+#pragma once
+
+#include "norm_search.hpp"
+
+#include <rrcb/points.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rrcb::zoltan {
+
+/// One rank's objects, grouped by the nodes of a level of the tree.
+class NormObjects {
+  public:
+    /// Room for all that follows. `points` and `loads` are borrowed. Throws std::bad_alloc.
+    NormObjects(const Points& points, std::span<const Load> loads);
+
+    /// A node's objects: a range of `order`.
+    struct Range {
+        std::size_t begin = 0;
+        std::size_t end = 0;
+    };
+    Range all() const { return {0, order_.size()}; }
+
+    Load sum(const Range& range) const;
+
+    /// Makes a list of a node's objects for the search across an axis; returns its length.
+    std::size_t list(const Range& range, int axis);
+
+    /// The first `length` of the list of a node for an axis.
+    std::span<const std::uint32_t> listed(const Range& range, int axis, std::size_t length) const;
+
+    KeyRange key_range(std::span<const std::uint32_t> list, int along) const;
+    void count(std::span<const std::uint32_t> list, int along, const Bins& bins,
+               std::span<Load> slots) const;
+
+    /// Keeps those in the chosen slot; returns how many.
+    std::size_t keep(const Range& range, int axis, std::size_t length, int along, const Bins& bins,
+                     int slot);
+
+    Load sum(std::span<const std::uint32_t> list) const;
+
+    /// Brings what lies below the cut before the rest, both in their order; returns where the rest
+    /// begins. Of the objects in `place`, which share one, those go below that bring the sides
+    /// nearer, after `before` on lower ranks and beneath them.
+    std::size_t split(const Range& range, const Cut& cut);
+    std::size_t split(const Range& range, const Cut& cut, std::span<const std::uint32_t> place,
+                      Load before, const Aim& aim);
+
+    void assign(const Range& range, Part part, std::span<Part> parts) const;
+
+  private:
+    template <class IsBelow>
+    std::size_t separate(const Range& range, IsBelow is_below);
+
+    const Points& points_;
+    std::span<const Load> loads_;
+    std::vector<std::uint32_t> order_;
+    std::vector<std::uint32_t> above_;  ///< scratch of a separation
+    std::array<std::vector<std::uint32_t>, max_dimension> lists_;
+};
+
+}  // namespace rrcb::zoltan

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <numeric>
@@ -22,10 +23,12 @@ constexpr int num_cases = 100;
 
 /// A case, this rank's points of it, and the answer.
 struct Answer {
-    explicit Answer(const Case& input)
+    explicit Answer(const Case& input) : Answer(input, input.options()) {}
+
+    Answer(const Case& input, const Options& asked)
         : cloud(cloud_of(input, num_ranks())),
           mine(cloud.of_rank(rank())),
-          options(input.options()),
+          options(asked),
           result(balance(mine.points(), options, MPI_COMM_WORLD)) {
         parts = gathered(result.parts);
     }
@@ -89,6 +92,42 @@ TEST(Balance, is_within_the_tolerance_or_one_object) {
             if (!is_to_tolerance(answer.options)) return {};
             return fault_of_heaviest_part(answer.cloud, answer.parts, answer.options,
                                           answer.options.imbalance_tolerance);
+        },
+        num_cases);
+}
+
+/// What each part may miss of its share: half of the heaviest point at each cut above it.
+std::string fault_of_shares(const Answer& answer) {
+    const Options& options = answer.options;
+    const auto num_parts = static_cast<std::size_t>(options.num_parts);
+    const std::vector<double>& weights = answer.result.report.part_weights;
+    std::vector<double> sizes = options.part_sizes;
+    if (sizes.empty()) sizes.assign(num_parts, 1);
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    const double size = std::accumulate(sizes.begin(), sizes.end(), 0.0);
+    const bool by_count = answer.result.report.all_weights_zero || answer.cloud.weights.empty();
+    const double heaviest = by_count ? 1 : std::ranges::max(answer.cloud.weights);
+    const int levels = std::bit_width(num_parts - 1);
+    for (std::size_t p = 0; p < num_parts; ++p)
+        if (std::abs(weights[p] - total * (sizes[p] / size)) > levels * heaviest / 2 + 1e-9 * total)
+            return "part " + std::to_string(p) + " has " + std::to_string(weights[p]) + " of " +
+                   std::to_string(total);
+    return {};
+}
+
+TEST(Balance, divides_points_in_one_place_where_that_is_asked_for) {
+    expect_for_all_cases(
+        [](const Case& input) -> std::string {
+            Options options = input.options();
+            options.domain = DomainKind::analytic;
+            options.cut_rule = CutRule::weighted_fraction;
+            options.refine = Refine::exact;
+            options.plain_cuts = false;
+            options.coincident = Coincident::divide;
+            const Answer answer(input, options);
+            if (answer.cloud.size() == 0) return {};
+            return first_of({fault_of_range(answer.parts, options.num_parts),
+                             fault_of_report(answer), fault_of_shares(answer)});
         },
         num_cases);
 }

@@ -1,5 +1,6 @@
 #include "axis_choice.hpp"
 #include "brackets.hpp"
+#include "point_selection.hpp"
 #include "weighted_quantile.hpp"
 
 #include <rrcb/bisection.hpp>
@@ -26,6 +27,23 @@ Box extent_of(const StatisticalDomain& domain) {
         for (std::size_t a = 0; a < max_dimension; ++a) {
             box.lower[a] = std::min(box.lower[a], patch.lower[a]);
             box.upper[a] = std::max(box.upper[a], patch.upper[a]);
+        }
+    }
+    return box;
+}
+
+double weight_of(std::span<const MassPoint> points) {
+    double weight = 0;
+    for (const MassPoint& point : points) weight += point.weight;
+    return weight;
+}
+
+Box extent_of(std::span<const MassPoint> points) {
+    Box box;
+    for (const MassPoint& point : points) {
+        for (std::size_t a = 0; a < max_dimension; ++a) {
+            box.lower[a] = std::min(box.lower[a], point.position[a]);
+            box.upper[a] = std::max(box.upper[a], point.position[a]);
         }
     }
     return box;
@@ -133,6 +151,75 @@ void bisect_node(StatisticalDomain domain, std::span<const double> sizes, int de
     bisect_node(std::move(halves.upper), sizes.subspan(num_below), depth + 1, task);
 }
 
+/// Brings the points below a plane to the front; returns how many they are.
+std::size_t divide_by(const Cut& cut, int dimension, std::span<MassPoint> points) {
+    const auto above = std::ranges::partition(
+        points, [&](const MassPoint& point) { return !is_above(cut, point.position, dimension); });
+    return points.size() - above.size();
+}
+
+/// The cut of a node of points, which it divides in place; returns how many lie below.
+std::size_t cut_points(std::span<MassPoint> points, double below, int depth, const Task& task,
+                       Cut& cut) {
+    const int dimension = task.result.cuts.dimension;
+    const Box box = extent_of(points);
+    const double weight = weight_of(points);
+    const int axis = task.axis_of(task.result.cuts.tree.size(), depth, box);
+    const auto a = static_cast<std::size_t>(axis);
+    // First: a side of size 0 stays empty whatever there is to divide.
+    cut = plane(axis, below >= 1 ? infinity : -infinity);
+    if (below >= 1) return points.size();
+    if (below <= 0 || !(weight > 0)) return 0;
+    if (task.options.cut_rule == CutRule::midpoint) {
+        cut = plane(axis, std::lerp(box.lower[a], box.upper[a], below));
+        return divide_by(cut, dimension, points);
+    }
+    return select_below(points, dimension, below * weight, task.options.plain_cuts, cut);
+}
+
+/// Where the cut of real points may lie: between the points at the shares about its own.
+Bracket bracket_between(std::span<MassPoint> points, std::size_t num_below, const Cut& cut,
+                        double below, int depth) {
+    if (points.empty()) return {};
+    const auto axis = static_cast<std::size_t>(cut.axis);
+    const auto coordinate = [&](std::span<MassPoint> from, double index) {
+        const auto k = std::clamp(index, 0.0, static_cast<double>(from.size() - 1));
+        const auto at = from.begin() + static_cast<std::ptrdiff_t>(k);
+        std::ranges::nth_element(from, at, {},
+                                 [&](const MassPoint& p) { return p.position[axis]; });
+        return at->position[axis];
+    };
+    const double margin = expected_error(depth);
+    const auto count = static_cast<double>(points.size());
+    const auto lower = points.first(num_below);
+    const auto upper = points.subspan(num_below);
+    const double from =
+        lower.empty() ? coordinate(upper, 0) : coordinate(lower, (below - margin) * count);
+    const double to =
+        upper.empty()
+            ? coordinate(lower, count)
+            : coordinate(upper, (below + margin) * count - static_cast<double>(num_below));
+    return {from, std::nextafter(to, infinity)};
+}
+
+void bisect_points(std::span<MassPoint> points, std::span<const double> sizes, int depth,
+                   Task& task) {
+    if (sizes.size() == 1) {
+        task.result.part_weights.push_back(weight_of(points));
+        return;
+    }
+    const auto num_parts_below =
+        static_cast<std::size_t>(lower_parts(static_cast<int>(sizes.size())));
+    const double below = share_below(sizes);
+    Cut cut;
+    const std::size_t num_below = cut_points(points, below, depth, task, cut);
+    task.result.cuts.tree.push_back(cut);
+    if (task.with_brackets)
+        task.result.brackets.push_back(bracket_between(points, num_below, cut, below, depth));
+    bisect_points(points.first(num_below), sizes.first(num_parts_below), depth + 1, task);
+    bisect_points(points.subspan(num_below), sizes.subspan(num_parts_below), depth + 1, task);
+}
+
 }  // namespace
 
 double share_below(std::span<const double> sizes) {
@@ -147,10 +234,16 @@ double expected_error(int depth) {
 }
 
 Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets) {
-    Task task{options, {options, extent_of(domain), domain.dimension}, with_brackets, {}};
+    const bool of_points = !domain.points.empty();
+    const Box box = of_points ? extent_of(domain.points) : extent_of(domain);
+    Task task{options, {options, box, domain.dimension}, with_brackets, {}};
     task.result.cuts.dimension = domain.dimension;
     task.result.cuts.num_parts = options.num_parts;
-    bisect_node(std::move(domain), options.part_sizes, 0, task);
+    if (of_points) {
+        bisect_points(domain.points, options.part_sizes, 0, task);
+    } else {
+        bisect_node(std::move(domain), options.part_sizes, 0, task);
+    }
     return std::move(task.result);
 }
 

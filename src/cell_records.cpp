@@ -142,20 +142,21 @@ void append_points(const Points& points, std::vector<double>& records) {
 }
 
 StatisticalDomain read_points(std::span<const double> records, int dimension) {
-    StatisticalDomain all{dimension, {}};
+    StatisticalDomain all{dimension};
+    all.points.reserve(records.size() / static_cast<std::size_t>(dimension));
     while (!records.empty()) {
         const auto block = take_block<BlockOfPoints>(records);
         const auto count = static_cast<std::size_t>(block.num_points);
         const auto coordinates = take(records, count * static_cast<std::size_t>(dimension));
         const auto weights = take(records, block.has_weights != 0 ? count : 0);
-        const StatisticalDomain domain =
-            point_domain(interleaved_points(coordinates, dimension, weights));
-        all.patches.insert(all.patches.end(), domain.patches.begin(), domain.patches.end());
+        const Points points = interleaved_points(coordinates, dimension, weights);
+        for (LocalIndex i = 0; i < count; ++i)
+            all.points.push_back({points.position(i), points.weight(i)});
     }
-    const bool weightless = std::all_of(all.patches.begin(), all.patches.end(),
-                                        [](const Patch& patch) { return patch.weight == 0; });
+    const bool weightless =
+        std::ranges::all_of(all.points, [](const MassPoint& point) { return point.weight == 0; });
     if (weightless)
-        for (Patch& patch : all.patches) patch.weight = 1;
+        for (MassPoint& point : all.points) point.weight = 1;
     return all;
 }
 

@@ -116,7 +116,7 @@ void spread(std::vector<Patch>& patches, std::size_t first, std::size_t axis, do
 StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension,
                                   const Box& box) {
     const std::vector<double> weights = weights_of(cells);
-    StatisticalDomain domain{dimension, {}};
+    StatisticalDomain domain{dimension};
     domain.patches.reserve(cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const std::size_t first = domain.patches.size();
@@ -129,7 +129,7 @@ StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimens
 
 StatisticalDomain sampled_domain(std::span<const CellMoments> cells, int dimension,
                                  const Options& options) {
-    StatisticalDomain domain{dimension, {}};
+    StatisticalDomain domain{dimension};
     if (cells.empty()) return domain;
     const std::vector<double> weights = weights_of(cells);
     GlobalCount num_points = 0;
@@ -139,26 +139,24 @@ StatisticalDomain sampled_domain(std::span<const CellMoments> cells, int dimensi
                                      options.sample_fraction * static_cast<double>(num_points))));
     const std::vector<GlobalCount> shares = apportion(weights, num_samples);
     std::mt19937_64 engine(options.seed);
-    domain.patches.reserve(static_cast<std::size_t>(num_samples));
+    domain.points.reserve(static_cast<std::size_t>(num_samples));
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const Box box = around(cells[i].moments, options.sigma_multiplier);
         for (GlobalCount k = 0; k < shares[i]; ++k) {
             Vector x{};
             for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
                 x[a] = std::lerp(box.lower[a], box.upper[a], uniform(engine));
-            domain.patches.push_back({x, x, 1.0});
+            domain.points.push_back({x, 1.0});
         }
     }
     return domain;
 }
 
 StatisticalDomain point_domain(const Points& points) {
-    StatisticalDomain domain{points.dimension, {}};
-    domain.patches.reserve(points.count);
-    for (LocalIndex i = 0; i < points.count; ++i) {
-        const Vector x = points.position(i);
-        domain.patches.push_back({x, x, points.weight(i)});
-    }
+    StatisticalDomain domain{points.dimension};
+    domain.points.reserve(points.count);
+    for (LocalIndex i = 0; i < points.count; ++i)
+        domain.points.push_back({points.position(i), points.weight(i)});
     return domain;
 }
 

@@ -177,10 +177,10 @@ std::vector<rrcb::CellMoments> cells_from(const Rows& rows, int dimension) {
 
 void write_sampled(std::ostream& out, const rrcb::StatisticalDomain& domain) {
     const std::size_t stride = std::max<std::size_t>(
-        1, (domain.patches.size() + max_plotted - 1) / static_cast<std::size_t>(max_plotted));
+        1, (domain.points.size() + max_plotted - 1) / static_cast<std::size_t>(max_plotted));
     Rows rows;
-    for (std::size_t i = 0; i < domain.patches.size(); i += stride) {
-        append(rows, domain.patches[i].lower, domain.dimension);
+    for (std::size_t i = 0; i < domain.points.size(); i += stride) {
+        append(rows, domain.points[i].position, domain.dimension);
     }
     write_rows(out, axis_columns("", domain.dimension), rows);
 }

@@ -15,10 +15,17 @@ struct Patch {
     double weight = 0;
 };
 
-/// What the root bisects: an approximation of all points, made of patches.
+/// Weight in one place.
+struct MassPoint {
+    Vector position{};
+    double weight = 0;
+};
+
+/// What the root bisects: an approximation of all points, made of patches or of points.
 struct StatisticalDomain {
     int dimension = 0;
-    std::vector<Patch> patches;
+    std::vector<Patch> patches{};
+    std::vector<MassPoint> points{};  ///< in place of patches
 };
 
 /// A uniform patch per cell, or a few, with the cell's mean and standard deviation. Not collective.
@@ -40,7 +47,7 @@ StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimens
 StatisticalDomain sampled_domain(std::span<const CellMoments> cells, int dimension,
                                  const Options& options);
 
-/// The points themselves, a patch each. Not collective.
+/// The points themselves. Not collective.
 StatisticalDomain point_domain(const Points& points);
 
 }  // namespace rrcb

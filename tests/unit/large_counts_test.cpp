@@ -44,9 +44,9 @@ TEST(LargeCounts, are_sampled_by_a_small_fraction) {
     Options options;
     options.sample_fraction = 0x1p-29;  // 2^34 points give 2^5, 24 and 8 of them in the two cells
     const StatisticalDomain domain = sampled_domain(cells, 1, options);
-    ASSERT_EQ(domain.patches.size(), 32u);
-    EXPECT_LT(domain.patches[23].lower[0], 3);
-    EXPECT_GT(domain.patches[24].lower[0], 3);
+    ASSERT_EQ(domain.points.size(), 32u);
+    EXPECT_LT(domain.points[23].position[0], 3);
+    EXPECT_GT(domain.points[24].position[0], 3);
 }
 
 TEST(LargeCounts, add_up_over_the_ranks) {

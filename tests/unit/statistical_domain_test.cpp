@@ -214,9 +214,10 @@ TEST(SampledDomain, shares_points_by_largest_remainder) {
     std::vector<CellMoments> ten = cells;
     ten[2].moments.count = 2;  // 10 points in all, weights unchanged
     const StatisticalDomain domain = sampled_domain(ten, 1, options);
-    ASSERT_EQ(domain.patches.size(), 10u);
+    ASSERT_EQ(domain.points.size(), 10u);
     std::vector<int> counts(3);
-    for (const Patch& patch : domain.patches) ++counts[static_cast<std::size_t>(patch.lower[0])];
+    for (const MassPoint& point : domain.points)
+        ++counts[static_cast<std::size_t>(point.position[0])];
     EXPECT_EQ(counts, (std::vector<int>{6, 3, 1}));
 }
 
@@ -226,13 +227,12 @@ TEST(SampledDomain, draws_the_fraction_asked_for_within_the_multiplier) {
     options.sample_fraction = 0.125;
     options.sigma_multiplier = 2;
     const StatisticalDomain domain = sampled_domain(cells, 1, options);
-    ASSERT_EQ(domain.patches.size(), 125u);
+    ASSERT_EQ(domain.points.size(), 125u);
     double mean = 0;
-    for (const Patch& patch : domain.patches) {
-        EXPECT_EQ(patch.lower, patch.upper);
-        EXPECT_GE(patch.lower[0], 0.5 - 0.2);
-        EXPECT_LT(patch.lower[0], 0.5 + 0.2);
-        mean += patch.lower[0] / 125;
+    for (const MassPoint& point : domain.points) {
+        EXPECT_GE(point.position[0], 0.5 - 0.2);
+        EXPECT_LT(point.position[0], 0.5 + 0.2);
+        mean += point.position[0] / 125;
     }
     EXPECT_NEAR(mean, 0.5, 4 * 0.4 / std::sqrt(12.0 * 125));
 }
@@ -242,7 +242,7 @@ TEST(SampledDomain, the_seed_decides_the_points) {
     const auto first_point = [&](std::uint64_t seed) {
         Options options;
         options.seed = seed;
-        return sampled_domain(cells, 1, options).patches[0].lower[0];
+        return sampled_domain(cells, 1, options).points[0].position[0];
     };
     EXPECT_EQ(first_point(1), first_point(1));
     EXPECT_NE(first_point(1), first_point(2));
@@ -252,17 +252,16 @@ TEST(SampledDomain, the_seed_decides_the_points) {
 }
 
 TEST(SampledDomain, of_no_cells_is_empty) {
-    EXPECT_TRUE(sampled_domain({}, 2, {}).patches.empty());
+    EXPECT_TRUE(sampled_domain({}, 2, {}).points.empty());
 }
 
 TEST(PointDomain, holds_each_point_with_its_weight) {
     const std::vector<double> coordinates{1, 2, 3, 4};
     const std::vector<double> weights{5, 6};
     const StatisticalDomain domain = point_domain(interleaved_points(coordinates, 2, weights));
-    ASSERT_EQ(domain.patches.size(), 2u);
-    EXPECT_EQ(domain.patches[1].lower, (Vector{3, 4, 0}));
-    EXPECT_EQ(domain.patches[1].upper, (Vector{3, 4, 0}));
-    EXPECT_EQ(domain.patches[1].weight, 6);
+    ASSERT_EQ(domain.points.size(), 2u);
+    EXPECT_EQ(domain.points[1].position, (Vector{3, 4, 0}));
+    EXPECT_EQ(domain.points[1].weight, 6);
 }
 
 }  // namespace

@@ -87,6 +87,14 @@ void add_refinement(ParameterList& list) {
          {"EXACT", Refine::exact, "to the weighted median"}},
         "How far the estimated cuts are moved by what the ranks really hold: AUTO, NONE, TOLERANCE "
         "or EXACT.");
+    add_choice<Coincident>(
+        list, "RRCB_COINCIDENT",
+        {{"TOGETHER", Coincident::together, "they share a part"},
+         {"DIVIDE", Coincident::divide,
+          "by number; where the list is not given to the plug-in it "
+          "does so"}},
+        "What becomes of points in one place where the balance asked for divides them: TOGETHER or "
+        "DIVIDE.");
     add_number(list, "IMBALANCE_TOL", Options{}.imbalance_tolerance, {1.0, largest},
                "Heaviest part / mean part to reach with RRCB_REFINE=TOLERANCE: a number, 1 or "
                "more.");
@@ -232,6 +240,7 @@ Options options_from(const ParameterList& list) {
     options.domain = Teuchos::getIntegralValue<DomainKind>(all, "RRCB_DOMAIN");
     options.cut_rule = Teuchos::getIntegralValue<CutRule>(all, "RRCB_CUT_RULE");
     options.refine = Teuchos::getIntegralValue<Refine>(all, "RRCB_REFINE");
+    options.coincident = Teuchos::getIntegralValue<Coincident>(all, "RRCB_COINCIDENT");
     options.imbalance_tolerance = all.get<double>("IMBALANCE_TOL");
     options.sigma_multiplier = all.get<double>("RRCB_SIGMA_MULTIPLIER");
     options.sample_fraction = all.get<double>("RRCB_SAMPLE_FRACTION");

@@ -69,6 +69,8 @@ constexpr std::array same_on_all_ranks = {
                    [](const Parameters& p) { return static_cast<int>(p.options.refine); }},
     SameOnAllRanks{"RRCB_CUT_RULE",
                    [](const Parameters& p) { return static_cast<int>(p.options.cut_rule); }},
+    SameOnAllRanks{"RRCB_COINCIDENT",
+                   [](const Parameters& p) { return static_cast<int>(p.coincident); }},
     SameOnAllRanks{"RRCB_SUPPORT_MESH", [](const Parameters& p) { return p.options.support_mesh; }},
     SameOnAllRanks{"RRCB_SIGMA_MULTIPLIER",
                    [](const Parameters& p) { return fold(p.options.sigma_multiplier); }},

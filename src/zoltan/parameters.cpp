@@ -78,6 +78,12 @@ bool read_seed(Options& options, std::string_view text) {
     return read_number(text, options.seed);
 }
 
+bool read_coincident(Coincident& coincident, std::string_view text) {
+    if (text != "DIVIDE" && text != "TOGETHER") return false;
+    coincident = text == "DIVIDE" ? Coincident::divide : Coincident::together;
+    return true;
+}
+
 /// The one value whose case counts.
 constexpr std::string_view dump_folder_name = "RRCB_DUMP";
 
@@ -118,6 +124,7 @@ constexpr OwnParameter own_parameters[] = {
     of_balancer<&Options::sigma_multiplier, read_sigma_multiplier>("RRCB_SIGMA_MULTIPLIER"),
     of_balancer<&Options::sample_fraction, read_sample_fraction>("RRCB_SAMPLE_FRACTION"),
     of_balancer<&Options::seed, read_seed>("RRCB_SEED"),
+    of_plug_in<&Parameters::coincident, read_coincident>("RRCB_COINCIDENT"),
     of_plug_in<&Parameters::dump_folder, read_folder>(dump_folder_name),
     of_plug_in<&Parameters::dump_always, read_dump_when>("RRCB_DUMP_WHEN"),
 };

@@ -36,6 +36,7 @@ struct Parameters {
     int set_directions = 0;
     int rectilinear_blocks = 0;
     int average_cuts = 0;
+    Coincident coincident = Coincident::divide;  ///< as RCB; not with RCB_RECTILINEAR_BLOCKS
     int weights_comparable = 0;
     int multicriteria_norm = 1;
     int reduce_dimensions = 0;

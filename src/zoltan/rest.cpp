@@ -53,7 +53,11 @@ bool is_at_rest(const Rest& rest, const Kept& kept, const Parameters& parameters
     for (std::size_t i = 0; i < parts.size(); ++i) {
         if (parts[i] < 0 || parts[i] >= map.num_parts() || !is_here(parts[i])) return false;
         const Vector position = objects.points.position(i);
-        if (!is_finite(position) || kept.part_of(position.data()) != parts[i]) return false;
+        const auto is_in_place = [&] {
+            return kept.part_of(position.data()) == parts[i] ||
+                   (rest.report.coincident_cuts > 0 && kept.may_hold(parts[i], position.data()));
+        };
+        if (!is_finite(position) || !is_in_place()) return false;
     }
     std::vector<std::uint64_t> checksums(rest.checksums.size(), 0);
     add_checksums(parameters, workspace, parts, checksums);

@@ -49,8 +49,9 @@ std::vector<std::string> limits(const Report& report, const Parameters& paramete
         texts.push_back(format("one object outweighs a part: the imbalance is %.4f, at best %.4f",
                                imbalance_of(report), report.least_imbalance));
     }
-    if (report.coincident_cuts > 0) {
-        const bool plain = parameters.rectilinear_blocks != 0;
+    const bool plain = parameters.rectilinear_blocks != 0;
+    const bool divided = parameters.coincident == Coincident::divide && !plain;
+    if (report.coincident_cuts > 0 && !divided) {
         texts.push_back(format("%d cuts met objects in one %s; the imbalance is %.4f",
                                report.coincident_cuts,
                                plain ? "plane, which RCB_RECTILINEAR_BLOCKS keeps together"

@@ -28,6 +28,8 @@ void set_parameters(Program& program, const Cloud& cloud, const Method& method, 
     program.set("OBJ_WEIGHT_DIM", cloud.weight == nullptr ? "0" : "1");
     program.set("NUM_GLOBAL_PARTS", std::to_string(num_parts));
     program.set("KEEP_CUTS", "1");
+    // So that look-ups tell the part of every object.
+    program.set("RRCB_COINCIDENT", "TOGETHER");
 }
 
 void expect_look_ups_agree(const Program& program, std::span<const int> parts, int num_parts) {

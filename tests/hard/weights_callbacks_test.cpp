@@ -41,6 +41,8 @@ TEST(CallbackWeights, heavier_than_a_part_and_coincident_objects_are_warned_of) 
 
         Program coincident;
         for (int i = 0; i < 100; ++i) coincident.add({3, 4});
+        EXPECT_EQ(warnings_of(coincident, method), "");
+        coincident.set("RRCB_COINCIDENT", "TOGETHER");
         EXPECT_EQ(holds(warnings_of(coincident, method), "2 cuts met objects in one place"),
                   coincident.rank == 0);
     }

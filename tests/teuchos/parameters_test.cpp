@@ -44,6 +44,7 @@ void expect_defaults(const Options& options) {
     EXPECT_EQ(options.domain, defaults.domain);
     EXPECT_EQ(options.cut_rule, defaults.cut_rule);
     EXPECT_EQ(options.refine, defaults.refine);
+    EXPECT_EQ(options.coincident, defaults.coincident);
     EXPECT_EQ(options.imbalance_tolerance, defaults.imbalance_tolerance);
     EXPECT_EQ(options.sigma_multiplier, defaults.sigma_multiplier);
     EXPECT_EQ(options.sample_fraction, defaults.sample_fraction);

@@ -137,6 +137,18 @@ void fill_lattice(Moving& program, std::mt19937&) {
     }
 }
 
+void fill_one_place(Moving& program, std::mt19937&) {
+    for (int i = 0; i < 100; ++i)
+        program.add(std::vector<double>(static_cast<std::size_t>(program.dimension), 2.0));
+}
+
+void fill_few_places(Moving& program, std::mt19937& random) {
+    for (int i = 0; i < 300; ++i) {
+        const double place = std::floor(4 * uniform(random));
+        program.add(std::vector<double>(static_cast<std::size_t>(program.dimension), place));
+    }
+}
+
 void fill_one_rank(Moving& program, std::mt19937& random) {
     if (program.rank == program.num_ranks - 1) fill_evenly(program, random);
 }
@@ -144,11 +156,19 @@ void fill_one_rank(Moving& program, std::mt19937& random) {
 struct Cloud {
     const char* name;
     Fill fill;
+    bool is_coincident = false;  ///< RCB exchanges such objects without end
 };
 
-constexpr Cloud clouds[] = {{"even", fill_evenly},          {"clusters", fill_clusters},
-                            {"weights", fill_with_weights}, {"giants", fill_with_giants},
-                            {"lattice", fill_lattice},      {"one rank", fill_one_rank}};
+constexpr Cloud clouds[] = {
+    {"even", fill_evenly},
+    {"clusters", fill_clusters},
+    {"weights", fill_with_weights},
+    {"giants", fill_with_giants},
+    {"lattice", fill_lattice},
+    {"one place", fill_one_place, true},
+    {"few places", fill_few_places, true},
+    {"one rank", fill_one_rank},
+};
 
 /// RRCB in the three ways it may be asked to start: from nothing, from the last cuts, and exactly.
 struct Way {
@@ -169,6 +189,7 @@ void ask(Program& program, const Way& way) {
 TEST(Rest, is_reached_with_the_second_call) {
     for (const Cloud& cloud : clouds) {
         for (const Way& way : ways) {
+            if (cloud.is_coincident && std::string(way.method) == "RCB") continue;
             for (const int dimension : {2, 3}) {
                 SCOPED_TRACE(std::string(cloud.name) + " " + way.method + " " + way.reuse + " " +
                              way.refine);

@@ -28,6 +28,7 @@ int unpack(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     state.parameters.replace_rcb = replace_rcb;
     read_environment(state);
     state.part_sizes.clear();
+    state.rest.reset();
     state.deserialized = false;
     for (const auto& [name, value] : parcel.given) {
         const int code = set_again(zz, name, value);

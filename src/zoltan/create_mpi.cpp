@@ -24,9 +24,8 @@ struct Vote {
     int does_not_ask = 0;
 };
 
-Vote agree_on_environment(const Member& me) {
+Vote agree_on_environment(bool asks, const Member& me) {
     const int num_ranks = mpi::size_of(me.comm);
-    const bool asks = is_replacement_asked();
     Vote vote{me.failure.failed ? num_ranks - mpi::rank_of(me.comm) : 0,
               real_zoltan()->serves_rrcb ? 0 : 1, asks ? 1 : 0, asks ? 0 : 1};
     static_assert(sizeof vote == 4 * sizeof(int));
@@ -52,6 +51,7 @@ bool is_congruent(const Communicator& one, const Communicator& other) {
 struct Draft {
     MPI_Comm duplicate = MPI_COMM_NULL;  ///< until the state has it
     State state;                         ///< until the table has it
+    bool asks_for_replacement = false;
 };
 
 void make(Draft& draft, const Zoltan_Struct* zz, MPI_Comm user, Member& me) {
@@ -63,6 +63,7 @@ void make(Draft& draft, const Zoltan_Struct* zz, MPI_Comm user, Member& me) {
         state.parameters = initial_parameters();
         state.inside_hier = is_inside_hier();
         read_environment(state);
+        draft.asks_for_replacement = is_replacement_asked();
         add_state(zz, std::move(state));
     });
 }
@@ -81,7 +82,7 @@ void create_state(const Zoltan_Struct* zz, MPI_Comm user) {
     Member me{user};
     make(draft, zz, user, me);
     try {
-        const Vote vote = agree_on_environment(me);
+        const Vote vote = agree_on_environment(draft.asks_for_replacement, me);
         if (vote.leaves_all_to_zoltan != 0) return discard(draft, zz);
         State& state = *find_state(zz);
         if (vote.asks_for_replacement != 0) replace_rcb(state);
@@ -100,7 +101,10 @@ void copy_state(const Zoltan_Struct* to, const Zoltan_Struct* from) {
     // is a shared library.
     State* copy = find_state(to);
     const bool fits = copy != nullptr && is_congruent(*copy->communicator, *source->communicator);
-    if (!fits) create_state(to, source->communicator->get());
+    if (!fits) {
+        remove_state(to);
+        create_state(to, source->communicator->get());
+    }
     Member me{source->communicator->get()};
     me.locally([&] { copy_contents(*find_state(to), *source); });
     agree(me);

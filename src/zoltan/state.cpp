@@ -92,7 +92,7 @@ void remove_state(const Zoltan_Struct* zz) {
     decltype(all.states)::node_type removed;
     const std::unique_lock lock(all.mutex);
     removed = all.states.extract(zz);
-    ++all.version;
+    if (!removed.empty()) ++all.version;
 }
 
 bool any_handle_made() {

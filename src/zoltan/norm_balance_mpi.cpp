@@ -1,7 +1,6 @@
 #include "norm_balance_mpi.hpp"
 
 #include "../agreement_mpi.hpp"
-#include "agreement_mpi.hpp"
 #include "axis_choice.hpp"
 #include "brackets.hpp"
 #include "descent.hpp"

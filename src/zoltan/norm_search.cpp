@@ -92,9 +92,9 @@ int NormSearch::choose(std::span<const Load> slots) {
 /// Between the two cuts beside the objects left.
 void NormSearch::finish(bool one_place) {
     done_ = true;
-    one_place_ = one_place;
     below_ = base_;
     const Load with_them = base_ + left_;
+    one_place_ = one_place && norm_below(aim_, with_them) > norm_above(aim_, with_them);
     if (larger_norm(aim_, with_them) >= larger_norm(aim_, base_)) return;
     below_ = with_them;
     double& last = cut_.at[static_cast<std::size_t>(current_axis())];

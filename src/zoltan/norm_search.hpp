@@ -67,8 +67,8 @@ class NormSearch {
     const Load& below() const { return below_; }
     double quality() const { return zoltan::quality(aim_, below_); }
 
-    /// Whether the objects left share a place, so that no cut divides them; `before` lies below all
-    /// of them.
+    /// Whether the norms meet among objects that share a place, so that no cut divides them;
+    /// `before` lies below all of them.
     bool meets_one_place() const { return one_place_; }
     const Load& before() const { return base_; }
     const Aim& aim() const { return aim_; }

@@ -5,6 +5,7 @@
 #include <dlfcn.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstring>
 #include <filesystem>
 
@@ -98,6 +99,20 @@ TEST(FailingMemoryInZoltan, in_a_flat_geometry) {
     program.set("REMAP", "0");
     for (std::size_t i = 0; i < program.coordinates.size(); i += 2)
         program.coordinates[i] = 1.5 * program.coordinates[i + 1];
+    fail_in_partition(program);
+}
+
+TEST(FailingMemoryInZoltan, under_a_norm_of_several_weights) {
+    ShortProgram program;
+    program.set("RETURN_LISTS", "PARTS");
+    program.set("RCB_MULTICRITERIA_NORM", "3");
+    program.set("OBJ_WEIGHT_DIM", "2");
+    program.further_weight = [](int object, int) { return static_cast<float>(1 + object % 3); };
+    program.set("NUM_GLOBAL_PARTS", "6");
+    std::array parts{0, 1};
+    std::array weights{0, 1};
+    std::array sizes{2.0F, 3.0F};
+    Zoltan_LB_Set_Part_Sizes(program.zz, 1, 2, parts.data(), weights.data(), sizes.data());
     fail_in_partition(program);
 }
 

@@ -1,4 +1,5 @@
 #include "program.hpp"
+#include "regions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -40,8 +41,7 @@ struct Weighted : Program {
                     }
                     weight = std::exp(-8 * far);
                 }
-                if (kind == Kind::heavy_tailed)
-                    weight = std::pow(uniform(random) + 1e-3, -0.7);
+                if (kind == Kind::heavy_tailed) weight = std::pow(uniform(random) + 1e-3, -0.7);
                 mine[std::size_t(k)] = static_cast<float>(weight);
             }
             add(at, mine[0]);
@@ -78,34 +78,193 @@ double worst_imbalance(const Weighted& program, const Outcome& outcome, int num_
     return worst;
 }
 
-TEST(Norms, balance_no_worse_than_rcb) {
-    for (int norm = 1; norm <= 3; ++norm) {
-        double mean_rcb = 0, mean_ours = 0, worst_ratio = 0;
-        int n = 0, worse = 0;
-        for (const Kind kind : kinds) {
-            double kr = 0, ko = 0; int kn = 0;
-            for (int weights = 2; weights <= 4; ++weights)
-                for (const int parts : {2, 3, 4, 6, 8, 16}) {
-                    std::array<double, 2> worst{};
-                    for (const bool ours : {false, true}) {
-                        Weighted program(kind, 2 + parts % 2, weights, unsigned(7 * parts + weights),
-                                         2000 / 1);
-                        program.set("LB_METHOD", ours ? "RRCB" : "RCB");
-                        program.set("RCB_MULTICRITERIA_NORM", std::to_string(norm));
-                        program.set("NUM_GLOBAL_PARTS", std::to_string(parts));
-                        const Outcome outcome = program.partition();
-                        EXPECT_EQ(outcome.code, ZOLTAN_OK);
-                        worst[ours] = worst_imbalance(program, outcome, weights, parts);
-                    }
-                    kr += worst[0]; ko += worst[1]; ++kn;
-                    worst_ratio = std::max(worst_ratio, worst[1] / worst[0]);
-                    worse += worst[1] > 1.001 * worst[0];
-                }
-            mean_rcb += kr; mean_ours += ko; n += kn;
-            std::printf("norm %d kind %d RCB %.4f ours %.4f\n", norm, int(kind), kr / kn, ko / kn);
-        }
-        std::printf("norm %d RCB %.4f ours %.4f worst ratio %.3f worse in %d of %d\n", norm, mean_rcb / n, mean_ours / n, worst_ratio, worse, n);
+/// Worst imbalances of a cloud under RCB and under RRCB.
+std::array<double, 2> compare(Kind kind, int norm, int num_weights, int num_parts) {
+    std::array<double, 2> worst{};
+    for (const bool ours : {false, true}) {
+        int num_ranks = 1;
+        MPI_Comm_size(MPI_COMM_WORLD, &num_ranks);
+        Weighted program(kind, 2 + num_parts % 2, num_weights,
+                         unsigned(7 * num_parts + num_weights), 2000 / num_ranks);
+        program.set("LB_METHOD", ours ? "RRCB" : "RCB");
+        program.set("RCB_MULTICRITERIA_NORM", std::to_string(norm));
+        program.set("NUM_GLOBAL_PARTS", std::to_string(num_parts));
+        const Outcome outcome = program.partition();
+        EXPECT_EQ(outcome.code, ZOLTAN_OK);
+        worst[ours] = worst_imbalance(program, outcome, num_weights, num_parts);
     }
+    return worst;
+}
+
+TEST(Norms, balance_the_worst_weight_no_worse_than_rcb) {
+    for (const int norm : {2, 3}) {
+        std::array<double, 2> sum{};
+        double worst_ratio = 0;
+        int count = 0;
+        int num_worse = 0;
+        for (const Kind kind : kinds) {
+            for (int num_weights = 2; num_weights <= 4; ++num_weights) {
+                for (const int num_parts : {3, 6, 16}) {
+                    const auto worst = compare(kind, norm, num_weights, num_parts);
+                    for (std::size_t m = 0; m < 2; ++m) sum[m] += worst[m];
+                    worst_ratio = std::max(worst_ratio, worst[1] / worst[0]);
+                    num_worse += worst[1] > 1.07 * worst[0];
+                    ++count;
+                }
+            }
+        }
+        int rank = 0;
+        MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+        if (rank == 0)
+            std::printf(
+                "norm %d: worst imbalance in the mean RCB %.4f, RRCB %.4f; at most %.3f "
+                "times RCB's\n",
+                norm, sum[0] / count, sum[1] / count, worst_ratio);
+        EXPECT_LE(sum[1], sum[0]);
+        // Both choose cut by cut, and now and then the other is lucky: 1.39 times, seen with 16
+        // parts of weights in three corners on 5 ranks, where RCB divides 2 to 3 first.
+        EXPECT_LE(num_worse, 2);
+        EXPECT_LT(worst_ratio, 1.45);
+    }
+}
+
+/// Two weights that lie on opposite sides, in `num_parts` parts by norm 3.
+struct Opposed : Weighted {
+    explicit Opposed(int num_parts) : Weighted(Kind::opposed, 2, 2, 3, 600) {
+        set("LB_METHOD", "RRCB");
+        set("RCB_MULTICRITERIA_NORM", "3");
+        set("NUM_GLOBAL_PARTS", std::to_string(num_parts));
+        set("KEEP_CUTS", "1");
+    }
+};
+
+void expect_parts_where_objects_are(Program& program, const Outcome& outcome) {
+    const std::vector<int> parts = parts_by_object(outcome);
+    ASSERT_EQ(int(parts.size()), program.size());
+    for (int i = 0; i < program.size(); ++i) {
+        int rank = -1;
+        int part = -1;
+        double* at = program.coordinates.data() + i * program.dimension;
+        ASSERT_EQ(Zoltan_LB_Point_PP_Assign(program.zz, at, &rank, &part), ZOLTAN_OK);
+        ASSERT_EQ(part, parts[std::size_t(i)]);
+    }
+}
+
+TEST(Norms, are_found_again_by_look_ups_copies_and_the_next_call) {
+    for (const char* parameter : {"KEEP_CUTS", "REMAP", "RCB_REUSE", "RCB_LOCK_DIRECTIONS",
+                                  "REDUCE_DIMENSIONS", "AVERAGE_CUTS"}) {
+        SCOPED_TRACE(parameter);
+        Opposed program(5);
+        program.set(parameter, "1");
+        const Outcome first = program.partition();
+        expect_parts_where_objects_are(program, first);
+        const Outcome second = program.partition();
+        EXPECT_EQ(second.exports.parts, first.exports.parts);
+        for (double& x : program.coordinates) x *= 1 + 0.1 * x;
+        const Outcome third = program.partition();
+        expect_parts_where_objects_are(program, third);
+        EXPECT_LT(worst_imbalance(program, third, 2, 5), 1.6);
+    }
+}
+
+TEST(Norms, keep_to_the_axes_that_are_asked_for) {
+    Opposed program(4);
+    for (std::size_t i = 1; i < program.coordinates.size(); i += 2) program.coordinates[i] *= 1.8;
+    program.set("RCB_SET_DIRECTIONS", "4");
+    program.partition();
+    // One cut across y, then one across x on each side of it.
+    EXPECT_EQ(planes_per_axis(program, 4), (std::array{2, 1, 0}));
+}
+
+TEST(Norms, do_not_cut_axes_that_are_too_short) {
+    Opposed program(4);
+    // Weights that lie opposite along x are best cut across y, the half as long.
+    program.partition();
+    EXPECT_EQ(planes_per_axis(program, 4)[0], 0);
+    program.set("RCB_MAX_ASPECT_RATIO", "1.5");
+    program.partition();
+    EXPECT_GT(planes_per_axis(program, 4)[0], 0);
+}
+
+TEST(Norms, divide_planes_of_objects_or_keep_them_together) {
+    for (const bool rectilinear : {false, true}) {
+        Program program;
+        for (int i = program.rank; i < 81; i += program.num_ranks)
+            program.add({double(i % 9), double(i / 9)});
+        program.further_weight = [](int, int) { return 2.0F; };
+        program.set("LB_METHOD", "RRCB");
+        program.set("OBJ_WEIGHT_DIM", "2");
+        program.set("RCB_MULTICRITERIA_NORM", "2");
+        program.set("RETURN_LISTS", "PARTS");
+        program.set("NUM_GLOBAL_PARTS", "2");
+        program.set("RCB_RECTILINEAR_BLOCKS", rectilinear ? "1" : "0");
+        const Outcome outcome = program.partition();
+        EXPECT_DOUBLE_EQ(imbalance(program, outcome, 2), (rectilinear ? 45 : 41) / 40.5);
+    }
+}
+
+TEST(Norms, take_weights_that_are_zero_and_objects_that_are_few) {
+    for (const int count : {0, 1, 2, 50}) {
+        for (const bool all_zero : {false, true}) {
+            Program program;
+            if (program.rank == 0)
+                for (int i = 0; i < count; ++i)
+                    program.add({double(i), double(i * i % 7)}, all_zero ? 0 : 1);
+            program.further_weight = [](int, int) { return 0.0F; };
+            program.set("LB_METHOD", "RRCB");
+            program.set("OBJ_WEIGHT_DIM", "3");
+            program.set("RCB_MULTICRITERIA_NORM", "3");
+            program.set("RETURN_LISTS", "PARTS");
+            program.set("NUM_GLOBAL_PARTS", "5");
+            const Outcome outcome = program.partition();
+            EXPECT_GE(outcome.code, 0);
+            std::array<int, 5> numbers{};
+            for (const int part : parts_by_object(outcome)) ++numbers[std::size_t(part)];
+            MPI_Allreduce(MPI_IN_PLACE, numbers.data(), 5, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+            EXPECT_EQ(*std::ranges::max_element(numbers), (count + 4) / 5);
+        }
+    }
+}
+
+TEST(Norms, give_each_weight_its_own_sizes_of_parts) {
+    for (const char* method : {"RCB", "RRCB"}) {
+        SCOPED_TRACE(method);
+        // Two clouds: the one has the first weight, the other the second.
+        Program program;
+        scatter_points(program, 1000);
+        std::ranges::fill(program.weights, 1.0F);
+        std::vector<float> second(1000, 0.0F);
+        for (std::size_t i = 0; i < second.size(); i += 2) {
+            program.coordinates[2 * i] += 2;
+            std::swap(program.weights[i], second[i]);
+        }
+        program.further_weight = [&](int i, int) { return second[std::size_t(i)]; };
+        program.set("LB_METHOD", method);
+        program.set("OBJ_WEIGHT_DIM", "2");
+        program.set("RCB_MULTICRITERIA_NORM", "3");
+        program.set("RCB_SET_DIRECTIONS", "1");
+        program.set("RETURN_LISTS", "PARTS");
+        program.set("REMAP", "0");
+        program.set("NUM_GLOBAL_PARTS", "2");
+        // All of the first weight below, all of the second above.
+        std::array parts{0, 0, 1, 1};
+        std::array weights{0, 1, 0, 1};
+        std::array sizes{0.99F, 0.01F, 0.01F, 0.99F};
+        ASSERT_EQ(
+            Zoltan_LB_Set_Part_Sizes(program.zz, 1, 4, parts.data(), weights.data(), sizes.data()),
+            ZOLTAN_OK);
+        const Outcome outcome = program.partition();
+        const std::vector<int> found = parts_by_object(outcome);
+        int at_odds = 0;
+        for (std::size_t i = 0; i < found.size(); ++i) at_odds += found[i] != int(i % 2 == 0);
+        EXPECT_LE(at_odds, 25);
+    }
+}
+
+TEST(Norms, that_differ_between_ranks_are_named) {
+    Opposed program(2);
+    if (program.rank == program.num_ranks - 1) program.set("RCB_MULTICRITERIA_NORM", "2");
+    EXPECT_EQ(program.partition().code, program.num_ranks > 1 ? ZOLTAN_FATAL : ZOLTAN_OK);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <rrcb/balance.hpp>
 #include <rrcb/quality.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 namespace rrcb::hard_test {
@@ -56,19 +55,16 @@ TEST(Positions, that_moments_cannot_tell_are_measured_and_refined) {
 }
 
 TEST(Positions, of_equal_extents_stay_in_their_parts_from_call_to_call) {
-    // A rank with few points has one cell, and one cell does not tell extents apart.
-    const int count = std::max(600, 75 * num_ranks());
     Options options;
     options.num_parts = 4;
     for (const char* name : {"far_from_the_origin", "hollow_shell", "cantor_dust", "l_shaped"}) {
         const Cloud& cloud = find_cloud(name);
-        const Share share =
-            share_of(cloud, owners_of(cloud, count, Layout::scattered, num_ranks()), test::rank());
+        const Share share = scattered_share(cloud);
         const Balance first = balance(share.points(), options, MPI_COMM_WORLD);
-        const auto parts = join_parts(share, first.parts, count, 4);
+        const auto parts = join_parts(share, first.parts, 600, 4);
         const Share settled = migrated(cloud, parts, 4);
         const Balance second = balance(settled.points(), options, MPI_COMM_WORLD);
-        EXPECT_LE(count_moves(settled, second.parts, parts), count / 20) << name << " of " << count;
+        EXPECT_LE(count_moves(settled, second.parts, parts), 30) << name << " of 600";
     }
 }
 

@@ -231,12 +231,24 @@ void keep(Preparation&& prepared, Balance&& balanced, const Frame& frame, PartMa
     state.axes_changed = false;
 }
 
-/// The answer where nothing has changed on any rank since the last partition.
-void stay(State& state, const char* function, Objects&& objects, Partition& result) {
+/// Puts the lists where the caller wants them, where Zoltan's Fortran interface is used on any rank.
+/// Collective there.
+void give_to_fortran(const Call& call, const Agreement& agreement, Member& me, Partition& result) {
+    if (!agreement.any_fortran) return;
+    copy_for_fortran(call.zz, result.imports, result.exports, call.to, me);
+    result.with_caller = true;
+}
+
+/// The answer where nothing has changed on any rank since the last partition. Collective as
+/// `give_to_fortran` is.
+void stay(const Call& call, const Agreement& agreement, Objects&& objects, Partition& result) {
+    State& state = call.state;
+    Member me{state.communicator->get()};
     if (state.parameters.return_lists == ReturnLists::parts)
         result.exports = list_in_place(std::move(objects), state.communicator->rank());
+    give_to_fortran(call, agreement, me, result);
     state.kept->answer_look_ups(keeps_cuts(state.parameters));
-    review(state.rest->report, state.kept->map().num_parts(), Remap{}, state, function);
+    review(state.rest->report, state.kept->map().num_parts(), Remap{}, state, call.function);
 }
 
 /// By the norm of the weights that is asked for; after the sum of the weights, where the balancer
@@ -271,10 +283,7 @@ int balance_objects(const Call& call, const Agreement& agreement, Objects&& obje
     Remap remap = prepared.renumbering->run(layout, objects, balanced.parts, me);
     list_exports(call, layout, std::move(objects), balanced.parts, prepared.rest, result);
     select_lists(parameters, prepared.per_rank, me, result);
-    if (agreement.any_fortran) {
-        copy_for_fortran(call.zz, result.imports, result.exports, call.to, me);
-        result.with_caller = true;
-    }
+    give_to_fortran(call, agreement, me, result);
     review(balanced.report, layout.map.num_parts(), remap, call.state, call.function);
     keep(std::move(prepared), std::move(balanced), flat.frame, std::move(layout.map),
          std::move(remap.numbers), call.state);
@@ -315,11 +324,11 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
                       agreement.differing);
         return fail_everywhere(ZOLTAN_FATAL, text.data());
     }
-    if (stays) {
-        stay(state, function, std::move(objects), result);
-        return agreement.code;
-    }
     try {
+        if (stays) {
+            stay(call, agreement, std::move(objects), result);
+            return agreement.code;
+        }
         const int code = balance_objects(call, agreement, std::move(objects), result);
         return code == ZOLTAN_OK ? agreement.code : code;
     } catch (const Failure& failure) {

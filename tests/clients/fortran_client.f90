@@ -95,6 +95,7 @@ program fortran_client
     call partition("IMPORT", .true., .false.)
     call partition("EXPORT", .false., .true.)
     call partition("PARTS", .false., .true.)
+    call partition("PARTS", .false., .true.)
     call partition("NONE", .false., .false.)
     if (round == 2) call layer_copy()
   end do

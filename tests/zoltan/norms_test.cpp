@@ -203,6 +203,26 @@ TEST(Norms, divide_planes_of_objects_or_keep_them_together) {
     }
 }
 
+TEST(Norms, divide_objects_in_one_place_by_number_or_keep_them_together) {
+    for (const bool together : {false, true}) {
+        Program program;
+        for (int i = 0; i < 60; ++i) program.add({3, 4}, float(1 + i % 2));
+        program.further_weight = [](int i, int) { return float(1 + i % 3); };
+        program.set("LB_METHOD", "RRCB");
+        program.set("OBJ_WEIGHT_DIM", "2");
+        program.set("RCB_MULTICRITERIA_NORM", "3");
+        program.set("RETURN_LISTS", "PARTS");
+        program.set("NUM_GLOBAL_PARTS", "4");
+        if (together) program.set("RRCB_COINCIDENT", "TOGETHER");
+        const double found = imbalance(program, program.partition(), 4);
+        if (together) {
+            EXPECT_EQ(found, 4);
+        } else {
+            EXPECT_LT(found, 1.1);
+        }
+    }
+}
+
 TEST(Norms, take_weights_that_are_zero_and_objects_that_are_few) {
     for (const int count : {0, 1, 2, 50}) {
         for (const bool all_zero : {false, true}) {

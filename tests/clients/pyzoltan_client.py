@@ -1,7 +1,7 @@
-"""PyZoltan's geometric partitioner on random points; prints the method and the imbalance.
+"""pyzoltan_client.py [plug-in] [points]: PyZoltan's geometric partitioner on random points.
 
-Ends with 77 where PyZoltan is not installed. With "plug-in" as argument, fails unless the plug-in
-stands in front of Zoltan.
+Prints what tests/clients/real_programs compares; ends with 77 where PyZoltan is not installed. With
+"plug-in", fails unless the plug-in stands in front of Zoltan; without it, if the plug-in does.
 """
 import ctypes
 import sys
@@ -22,10 +22,15 @@ def array_of(kind, values):
     return array
 
 
-def partitioner_of(comm, num_points):
+def ids_of(comm, num_points):
+    """A later rank has more points, so that there is something to balance."""
+    begin = num_points * comm.rank * (comm.rank + 1) // 2
+    return numpy.arange(begin, begin + num_points * (comm.rank + 1), dtype=numpy.uint32)
+
+
+def partitioner_of(comm, ids):
     random = numpy.random.RandomState(comm.rank)
-    x, y = random.rand(2, num_points)
-    ids = numpy.arange(num_points, dtype=numpy.uint32) + num_points * comm.rank
+    x, y = random.rand(2, len(ids))
     coordinates = [array_of(DoubleArray, values) for values in (x, x * y, numpy.zeros_like(x))]
     partitioner = zoltan.ZoltanGeometricPartitioner(
         2, comm, *coordinates, array_of(UIntArray, ids), obj_weight_dim="0")
@@ -39,17 +44,26 @@ def plug_in_is_active():
     return hasattr(program, "RRCB_Zoltan_Active") and program.RRCB_Zoltan_Active() == 1
 
 
+def ids_after_moving(partitioner, ids):
+    ids = set(ids.tolist())
+    ids -= set(partitioner.exportGlobalids.get_npy_array()[: partitioner.numExport].tolist())
+    return ids | set(partitioner.importGlobalids.get_npy_array()[: partitioner.numImport].tolist())
+
+
 def main():
     comm = mpi.COMM_WORLD
-    num_points = 1000 * (comm.rank + 1)
-    partitioner = partitioner_of(comm, num_points)
+    expected = "plug-in" in sys.argv[1:]
+    numbers = [int(word) for word in sys.argv[1:] if word != "plug-in"]
+    own_ids = ids_of(comm, numbers[0] if numbers else 1000)
+    partitioner = partitioner_of(comm, own_ids)
     partitioner.Zoltan_LB_Balance()
-    kept = num_points - partitioner.numExport + partitioner.numImport
-    largest = comm.allreduce(kept, mpi.MAX)
-    imbalance = largest * comm.size / comm.allreduce(num_points)
+    ids = ids_after_moving(partitioner, own_ids)
+    total = comm.allreduce(len(ids))
+    imbalance = comm.allreduce(len(ids), mpi.MAX) * comm.size / total
+    sums = comm.allreduce(sum(ids)), comm.allreduce(sum(id**2 for id in ids))
     if comm.rank == 0:
-        print(f"plug-in active: {plug_in_is_active()}, imbalance {imbalance:.4f}")
-    expected = len(sys.argv) > 1 and sys.argv[1] == "plug-in"
+        print(f"result objects {total} imbalance {imbalance:.4f} answer {sums[0]} {sums[1]}")
+        print(f"plug-in active: {plug_in_is_active()}")
     return 0 if imbalance < 1.02 and plug_in_is_active() == expected else 1
 
 

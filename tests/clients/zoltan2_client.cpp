@@ -1,10 +1,15 @@
-// zoltan2_client METHOD: Zoltan2's own algorithm=zoltan with that LB_METHOD; no word of RRCB.
+// zoltan2_client [method [points]]: Zoltan2's own algorithm=zoltan with that LB_METHOD; no word of
+// RRCB.
+#include "result.hpp"
+
 #include <Tpetra_Core.hpp>
 #include <Zoltan2_BasicVectorAdapter.hpp>
 #include <Zoltan2_PartitioningProblem.hpp>
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -12,14 +17,13 @@ namespace {
 
 using Types = Zoltan2::BasicUserTypes<double, int, long long>;
 using Adapter = Zoltan2::BasicVectorAdapter<Types>;
-constexpr int num_points = 1000;
 
 struct Cloud {
     std::vector<long long> ids;
     std::vector<double> x, y;
 };
 
-Cloud cloud_of(int rank) {
+Cloud cloud_of(int rank, int num_points) {
     std::mt19937 random(static_cast<unsigned>(rank + 1));
     std::uniform_real_distribution<double> uniform(0, 1);
     Cloud cloud;
@@ -40,11 +44,12 @@ Teuchos::ParameterList parameters_with(const char* method) {
     return parameters;
 }
 
-double imbalance_of(const int* parts, int num_parts) {
+/// How many objects each part has. Collective.
+std::vector<int> counts_of(const int* parts, int num_points, int num_parts) {
     std::vector<int> counts(static_cast<std::size_t>(num_parts), 0);
-    for (int i = 0; i < num_points; ++i) ++counts[static_cast<std::size_t>(parts[i])];
+    for (int i = 0; i < num_points; ++i) ++counts.at(static_cast<std::size_t>(parts[i]));
     MPI_Allreduce(MPI_IN_PLACE, counts.data(), num_parts, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
-    return *std::max_element(counts.begin(), counts.end()) / static_cast<double>(num_points);
+    return counts;
 }
 
 }  // namespace
@@ -55,7 +60,8 @@ int main(int argc, char** argv) {
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &num_ranks);
     const char* method = argc > 1 ? argv[1] : "RCB";
-    const Cloud cloud = cloud_of(rank);
+    const int num_points = argc > 2 ? std::atoi(argv[2]) : 1000;
+    const Cloud cloud = cloud_of(rank, num_points);
     Adapter adapter(num_points, cloud.ids.data(), cloud.x.data(), cloud.y.data(), nullptr);
     Teuchos::ParameterList parameters = parameters_with(method);
     Zoltan2::PartitioningProblem<Adapter> problem(&adapter, &parameters);
@@ -65,7 +71,10 @@ int main(int argc, char** argv) {
         if (rank == 0) std::fprintf(stderr, "%s\n", thrown.what());
         return 1;
     }
-    const double imbalance = imbalance_of(problem.getSolution().getPartListView(), num_ranks);
-    if (rank == 0) std::printf("%s: imbalance %.4f\n", method, imbalance);
+    const std::vector<int> counts =
+        counts_of(problem.getSolution().getPartListView(), num_points, num_ranks);
+    const double imbalance =
+        *std::max_element(counts.begin(), counts.end()) / static_cast<double>(num_points);
+    print_result(std::accumulate(counts.begin(), counts.end(), 0), imbalance, {});
     return imbalance < 1.02 ? 0 : 1;
 }

@@ -1,5 +1,5 @@
-// isorropia_client [points]: a cloud of points with values, partitioned by Isorropia's RCB, which is
-// Zoltan's, and moved there; no word of RRCB.
+// isorropia_client [points]: a cloud of points with values, partitioned by Isorropia's RCB, which
+// is Zoltan's, and moved there; no word of RRCB.
 #include "result.hpp"
 
 #include <Epetra_Map.h>

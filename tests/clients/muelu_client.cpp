@@ -86,9 +86,8 @@ double coarse_imbalance(const MueluOperator& preconditioner) {
 int run(int points) {
     const auto comm = Tpetra::getDefaultComm();
     const Poisson problem(points, comm->getRank(), comm->getSize());
-    const RCP<const Map> map =
-        rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
-                    static_cast<std::size_t>(problem.num_rows()), 0, comm));
+    const RCP<const Map> map = rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
+                                           static_cast<std::size_t>(problem.num_rows()), 0, comm));
     const RCP<Matrix> matrix = matrix_of(problem, map);
     Teuchos::ParameterList list = parameters_with(problem, map);
     const auto preconditioner = MueLu::CreateTpetraPreconditioner(RCP<Operator>(matrix), list);

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <vector>
 
-/// Whole planes of the grid lie on a rank; a later rank has more of them, so that there is something
-/// to balance.
+/// Whole planes of the grid lie on a rank; a later rank has more of them, so that there is
+/// something to balance.
 struct Poisson {
     int points_per_axis, begin_plane, end_plane;
 

@@ -64,12 +64,10 @@ if(left_out_clients)
 endif()
 
 # Those that are not installed are skipped with the reason. PySPH's first run compiles for a while.
-if(can_preload)
-  foreach(program IN ITEMS pysph pyzoltan petsc ml muelu zoltan2 isorropia)
-    set(test clients.real_programs.${program}.np2)
-    add_test(NAME ${test} COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/real_programs --smoke --ranks=2
-                                  --only=${program} --build=${PROJECT_BINARY_DIR})
-    set_tests_properties(${test} PROPERTIES LABELS clients TIMEOUT 300 PROCESSORS 2
-                                            SKIP_RETURN_CODE 77)
-  endforeach()
-endif()
+foreach(program IN ITEMS pysph pyzoltan petsc ml muelu zoltan2 isorropia)
+  set(test clients.real_programs.${program}.np2)
+  add_test(NAME ${test} COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/real_programs --smoke --ranks=2
+                                --only=${program} --build=${PROJECT_BINARY_DIR})
+  set_tests_properties(${test} PROPERTIES LABELS clients TIMEOUT 300 PROCESSORS 2
+                                          SKIP_RETURN_CODE 77)
+endforeach()

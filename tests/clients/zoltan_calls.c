@@ -1,6 +1,7 @@
-/* Stands in front of Zoltan, or of the plug-in, and forwards: writes what a program asks of Zoltan's
- * balancer to the file that RRCB_TEST_CALLS names, as lines "name value": calls, seconds (in them,
- * of the rank that spent most), method (the last LB_METHOD), plug_in (1 when it is behind). */
+/* Stands in front of Zoltan, or of the plug-in, and forwards: writes what a program asks of
+ * Zoltan's balancer to the file that RRCB_TEST_CALLS names, as lines "name value": calls, seconds
+ * (in them, of the rank that spent most), method (the last LB_METHOD), plug_in (1 when it is
+ * behind). */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <mpi.h>

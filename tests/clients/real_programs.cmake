@@ -64,7 +64,10 @@ if(left_out_clients)
 endif()
 
 # Those that are not installed are skipped with the reason. PySPH's first run compiles for a while.
-foreach(program IN ITEMS pysph pyzoltan petsc ml muelu zoltan2 isorropia)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS programs.py)
+file(STRINGS programs.py programs REGEX "^ +name=\"")
+list(TRANSFORM programs REPLACE ".*\"(.*)\".*" "\\1")
+foreach(program IN LISTS programs)
   set(test clients.real_programs.${program}.np2)
   add_test(NAME ${test} COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/real_programs --smoke --ranks=2
                                 --only=${program} --build=${PROJECT_BINARY_DIR})

@@ -45,10 +45,9 @@ double uniform(std::mt19937_64& engine) {
     return static_cast<double>(engine() >> 11) * 0x1p-53;
 }
 
-constexpr double largest = std::numeric_limits<double>::max();
-
 /// Box of mean +- half_width, cut off at the largest double.
 Box around(const Moments& moments, double multiplier) {
+    constexpr double largest = std::numeric_limits<double>::max();
     Box box;
     for (std::size_t a = 0; a < max_dimension; ++a) {
         const double half_width = multiplier * moments.deviation[a];
@@ -72,6 +71,10 @@ Reach reach_to(const Box& box, std::size_t axis, double mean) {
             std::max(0.0, box.upper[axis] / 2 - mean / 2)};
 }
 
+Reach shorter_of(const Reach& one, const Reach& other) {
+    return {std::min(one.below, other.below), std::min(one.above, other.above)};
+}
+
 /// Two uniform densities that meet at the mean, one reaching b below it with the share a / (a + b),
 /// one a above it with the rest, have this mean and the variance a b / 3. So where one can't reach
 /// as far as the half-width of a single uniform density, the other has to reach this far.
@@ -80,15 +83,17 @@ double opposite(double half_width, double shorter) {
 }
 
 Reach reach_of(const CellMoments& cell, std::size_t axis, const Box& box) {
-    // To divide more than that costs patches and hardly gains: see docs/moments.md.
+    // Two patches for every cell that one would leave a little cost time and hardly gain: see
+    // docs/moments.md.
     constexpr double bearable = 1.25;
+    const double mean = cell.moments.mean[axis];
     const double half_width = std::sqrt(3.0) / 2 * cell.moments.deviation[axis];
-    Reach room = reach_to(cell.box, axis, cell.moments.mean[axis]);
-    // Points crowded at both ends of a cell are spread too far to be told from those beyond it.
-    if (!(opposite(half_width, room.shorter()) <= room.longer()))
-        room = reach_to(box, axis, cell.moments.mean[axis]);
+    const Reach to_box = reach_to(box, axis, mean);
+    Reach room = shorter_of(reach_to(cell.box, axis, mean), to_box);
+    if (!(opposite(half_width, room.shorter()) <= room.longer())) room = to_box;
     const double shorter = room.shorter();
-    if (half_width <= bearable * shorter) return {half_width, half_width};
+    if (half_width <= std::min(bearable * shorter, to_box.shorter()))
+        return {half_width, half_width};
     if (shorter == 0) return {};
     const double longer = std::min(opposite(half_width, shorter), room.longer());
     return room.below < room.above ? Reach{shorter, longer} : Reach{longer, shorter};
@@ -97,11 +102,13 @@ Reach reach_of(const CellMoments& cell, std::size_t axis, const Box& box) {
 /// Gives the patches from `first` on, all of one cell, their extent along an axis. Where it reaches
 /// farther to one side than to the other each becomes two.
 void spread(std::vector<Patch>& patches, std::size_t first, std::size_t axis, double mean,
-            const Reach& reach) {
+            const Reach& reach, const Box& box) {
     const std::size_t last = patches.size();
     for (std::size_t i = first; i < last; ++i) {
-        patches[i].lower[axis] = std::max(mean - 2 * reach.below, -largest);
-        patches[i].upper[axis] = std::min(mean + 2 * reach.above, largest);
+        patches[i].lower[axis] =
+            std::clamp(mean - 2 * reach.below, box.lower[axis], box.upper[axis]);
+        patches[i].upper[axis] =
+            std::clamp(mean + 2 * reach.above, box.lower[axis], box.upper[axis]);
         if (reach.below == reach.above) continue;
         Patch above = patches[i];
         patches[i].upper[axis] = above.lower[axis] = mean;
@@ -122,7 +129,8 @@ StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimens
         const std::size_t first = domain.patches.size();
         domain.patches.push_back({{}, {}, weights[i]});
         for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
-            spread(domain.patches, first, a, cells[i].moments.mean[a], reach_of(cells[i], a, box));
+            spread(domain.patches, first, a, cells[i].moments.mean[a], reach_of(cells[i], a, box),
+                   box);
     }
     return domain;
 }

@@ -31,11 +31,10 @@ struct StatisticalDomain {
 /// A uniform patch per cell, or a few, with the cell's mean and standard deviation. Not collective.
 ///
 /// A patch reaches sqrt(3) sigma, the half-width of a uniform density, to both sides of the mean.
-/// Along an axis where this is more than 1.25 times the way to the nearer face of the cell, two
-/// take its place: one from that face to the mean, one from the mean as far as the moments ask.
-/// Where that is not inside the cell, the faces are those of `box`, which holds all points, and the
-/// patches end there: the mean stays, sigma becomes less. Where all weights are 0 the counts take
-/// their place.
+/// Two take its place along an axis where it would leave `box`, which holds all points, or the cell
+/// by more than a quarter of the way from the mean to the nearer face: one ends at that face, both
+/// at the mean. Where no such two inside the cell have that sigma, they may fill `box`; where none
+/// inside `box` have, sigma becomes less. Where all weights are 0 the counts take their place.
 StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension,
                                   const Box& box);
 

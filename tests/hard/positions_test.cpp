@@ -55,14 +55,19 @@ TEST(Positions, that_moments_cannot_tell_are_measured_and_refined) {
 }
 
 TEST(Positions, of_equal_extents_stay_in_their_parts_from_call_to_call) {
-    Options options;
-    options.num_parts = 4;
-    for (const char* name : {"far_from_the_origin", "hollow_shell", "cantor_dust", "l_shaped"}) {
+    // Three parts of the L: its second cut into four would find extents of 9.1 and 9.9, which lie
+    // next to the tenth up to which they count as equal.
+    for (const auto& [name, num_parts] : {std::pair{"far_from_the_origin", 4},
+                                          {"hollow_shell", 4},
+                                          {"cantor_dust", 4},
+                                          {"l_shaped", 3}}) {
+        Options options;
+        options.num_parts = num_parts;
         const Cloud& cloud = find_cloud(name);
         const Share share = scattered_share(cloud);
         const Balance first = balance(share.points(), options, MPI_COMM_WORLD);
-        const auto parts = join_parts(share, first.parts, 600, 4);
-        const Share settled = migrated(cloud, parts, 4);
+        const auto parts = join_parts(share, first.parts, 600, num_parts);
+        const Share settled = migrated(cloud, parts, num_parts);
         const Balance second = balance(settled.points(), options, MPI_COMM_WORLD);
         EXPECT_LE(count_moves(settled, second.parts, parts), 30) << name << " of 600";
     }

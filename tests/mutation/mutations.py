@@ -86,6 +86,13 @@ MUTATIONS = [
         ("unit_statistical_domain",),
     ),
     Mutation(
+        "the shares of two patches exchanged",
+        "src/statistical_domain.cpp",
+        "reach.above / (reach.below + reach.above)",
+        "reach.below / (reach.below + reach.above)",
+        ("unit_statistical_domain",),
+    ),
+    Mutation(
         "points beyond the last cell of the mesh",
         "src/support_mesh.cpp",
         "0.0, mesh.cells[a] - 1.0)",

@@ -1,7 +1,5 @@
 #include "kept.hpp"
 
-#include "descent.hpp"
-
 #include <algorithm>
 #include <utility>
 
@@ -67,22 +65,6 @@ Part Kept::descend(const double* position) const {
         at = nodes_[cut].child[is_above(cut, position) ? 1 : 0];
     }
     return ~at;
-}
-
-bool Kept::may_hold(Part part, const double* coordinates) const {
-    Vector position{};
-    std::copy_n(coordinates, cuts_.dimension, position.begin());
-    const Part box = boxes_[static_cast<std::size_t>(part)];
-    Descent at = root_of(cuts_);
-    while (!at.is_part()) {
-        const Cut& cut = cuts_.tree[at.node];
-        const bool above = box >= at.upper().first;
-        const bool lies_on_it =
-            std::equal(cut.at.begin(), cut.at.begin() + cuts_.dimension, position.begin());
-        if (!lies_on_it && rrcb::is_above(cut, position, cuts_.dimension) != above) return false;
-        at = above ? at.upper() : at.lower();
-    }
-    return true;
 }
 
 int Kept::parts_touching(const Box& box, Part* parts) const {

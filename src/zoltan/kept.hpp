@@ -42,10 +42,6 @@ class Kept {
     /// Part of a position, one coordinate per dimension.
     Part part_of(const double* coordinates) const;
 
-    /// Whether a position lies in the region of a part, or on a cut that bounds it: objects in one
-    /// place may have been divided there.
-    bool may_hold(Part part, const double* coordinates) const;
-
     /// Writes the parts a closed box touches, ascending; returns how many. `parts` has room for
     /// all. A box that is turned to the frame may touch more.
     int parts_touching(const Box& box, Part* parts) const;

@@ -204,14 +204,16 @@ Preparation prepare(const Call& call, const Layout& layout, const Objects& objec
 /// Lists what leaves, tells whether anything does on any rank, and takes the sums by which the next
 /// call knows its objects again: one reduction for both.
 void list_exports(const Call& call, const Layout& layout, Objects&& objects,
-                  std::span<const Part> parts, Rest& rest, Partition& result) {
+                  const Balance& balanced, Rest& rest, Partition& result) {
     const Parameters& parameters = call.state.parameters;
     const Communicator& comm = *call.state.communicator;
     if (parameters.return_lists == ReturnLists::none) {
         result.changes = true;
         return;
     }
-    add_checksums(parameters, call.state.workspace, parts, rest.checksums);
+    const std::span<const Part> parts(balanced.parts);
+    add_checksums(parameters, call.state.workspace, objects.points,
+                  Rest::needs_positions(balanced.report), parts, rest.checksums);
     Exports exports = make_exports(std::move(objects), parameters, parts, layout.map, comm.rank());
     result.exports = std::move(exports.list);
     rest.checksums.back() = exports.moves ? 1 : 0;
@@ -233,22 +235,23 @@ void keep(Preparation&& prepared, Balance&& balanced, const Frame& frame, PartMa
 
 /// Puts the lists where the caller wants them, where Zoltan's Fortran interface is used on any rank.
 /// Collective there.
-void give_to_fortran(const Call& call, const Agreement& agreement, Member& me, Partition& result) {
+void serve_fortran(const Call& call, const Agreement& agreement, Partition& result, Member& me) {
     if (!agreement.any_fortran) return;
     copy_for_fortran(call.zz, result.imports, result.exports, call.to, me);
     result.with_caller = true;
 }
 
 /// The answer where nothing has changed on any rank since the last partition. Collective as
-/// `give_to_fortran` is.
-void stay(const Call& call, const Agreement& agreement, Objects&& objects, Partition& result) {
+/// serve_fortran is.
+int stay(const Call& call, const Agreement& agreement, Objects&& objects, Partition& result) {
     State& state = call.state;
-    Member me{state.communicator->get()};
     if (state.parameters.return_lists == ReturnLists::parts)
         result.exports = list_in_place(std::move(objects), state.communicator->rank());
-    give_to_fortran(call, agreement, me, result);
+    Member me{state.communicator->get()};
+    serve_fortran(call, agreement, result, me);
     state.kept->answer_look_ups(keeps_cuts(state.parameters));
     review(state.rest->report, state.kept->map().num_parts(), Remap{}, state, call.function);
+    return ZOLTAN_OK;
 }
 
 /// By the norm of the weights that is asked for; after the sum of the weights, where the balancer
@@ -281,9 +284,9 @@ int balance_objects(const Call& call, const Agreement& agreement, Objects&& obje
     if (prepared.average)
         prepared.average->run(flat.points, balanced.parts, me.comm, balanced.cuts);
     Remap remap = prepared.renumbering->run(layout, objects, balanced.parts, me);
-    list_exports(call, layout, std::move(objects), balanced.parts, prepared.rest, result);
+    list_exports(call, layout, std::move(objects), balanced, prepared.rest, result);
     select_lists(parameters, prepared.per_rank, me, result);
-    give_to_fortran(call, agreement, me, result);
+    serve_fortran(call, agreement, result, me);
     review(balanced.report, layout.map.num_parts(), remap, call.state, call.function);
     keep(std::move(prepared), std::move(balanced), flat.frame, std::move(layout.map),
          std::move(remap.numbers), call.state);
@@ -325,11 +328,8 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
         return fail_everywhere(ZOLTAN_FATAL, text.data());
     }
     try {
-        if (stays) {
-            stay(call, agreement, std::move(objects), result);
-            return agreement.code;
-        }
-        const int code = balance_objects(call, agreement, std::move(objects), result);
+        const int code = stays ? stay(call, agreement, std::move(objects), result)
+                               : balance_objects(call, agreement, std::move(objects), result);
         return code == ZOLTAN_OK ? agreement.code : code;
     } catch (const Failure& failure) {
         return fail_everywhere(failure.code(), failure.what());

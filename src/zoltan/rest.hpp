@@ -12,18 +12,22 @@
 
 namespace rrcb::zoltan {
 
-/// What the last partition found. It stands while the objects are where they were sent and weigh
-/// what they did: a program that goes on while anything changes then comes to an end.
+/// What the last partition found. It stands while the objects are in the parts they were sent to
+/// and weigh what they did: a program that goes on while anything changes then comes to an end.
 struct Rest {
     Report report;
     int dimension = 0;
     std::vector<std::uint64_t> checksums;  ///< of the objects of each part
+
+    /// The cuts do not tell in which part an object is: some are in one place in several parts.
+    static bool needs_positions(const Report& report) { return report.coincident_cuts > 0; }
 };
 
-/// Adds a number for each object of this rank, made of its weights, to that of its part; the same
-/// whatever the order. Not collective.
-void add_checksums(const Parameters& parameters, const Workspace& workspace,
-                   std::span<const Part> parts, std::span<std::uint64_t> checksums);
+/// Adds a number for each object of this rank to that of its part, whatever their order: made of
+/// its weights and, where they are asked for, its coordinates. Not collective.
+void add_checksums(const Parameters& parameters, const Workspace& workspace, const Points& points,
+                   bool with_positions, std::span<const Part> parts,
+                   std::span<std::uint64_t> checksums);
 
 /// Whether every object of this rank is in the part that the last partition gave it, and the parts
 /// of this rank hold what they got. Never where the parts of the objects are not known: without a

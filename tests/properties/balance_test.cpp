@@ -107,7 +107,7 @@ std::string fault_of_shares(const Answer& answer) {
     const double size = std::accumulate(sizes.begin(), sizes.end(), 0.0);
     const bool by_count = answer.result.report.all_weights_zero || answer.cloud.weights.empty();
     const double heaviest = by_count ? 1 : std::ranges::max(answer.cloud.weights);
-    const int levels = std::bit_width(num_parts - 1);
+    const int levels = static_cast<int>(std::bit_width(num_parts - 1));
     for (std::size_t p = 0; p < num_parts; ++p)
         if (std::abs(weights[p] - total * (sizes[p] / size)) > levels * heaviest / 2 + 1e-9 * total)
             return "part " + std::to_string(p) + " has " + std::to_string(weights[p]) + " of " +

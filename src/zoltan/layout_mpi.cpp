@@ -68,7 +68,7 @@ Layout make_layout(const Agreement& agreement, const State& state, Member& me) {
     });
     if (!agreement.any_part_sizes) return layout;
     merge_part_sizes(num_parts, state, 0, layout, layout.part_sizes, me);
-    if (!has_own_norm(state.parameters)) return layout;
+    if (!has_several_weights(state.parameters)) return layout;
     const int num_weights = std::min(state.parameters.weight_dimension, most_weights);
     for (int weight = 1; weight < num_weights; ++weight)
         merge_part_sizes(num_parts, state, weight, layout,

@@ -260,7 +260,7 @@ Balance divide(const Call& call, const Layout& layout, const Preparation& prepar
                const Points& points, Member& me) {
     const Parameters& parameters = call.state.parameters;
     Balance balanced = balance(points, prepared.options, prepared.previous, me);
-    if (!has_own_norm(parameters) || balanced.report.num_points == 0) return balanced;
+    if (!has_several_weights(parameters) || balanced.report.num_points == 0) return balanced;
     const auto stride = static_cast<std::size_t>(parameters.weight_dimension);
     const Criteria criteria{parameters.multicriteria_norm,
                             {call.state.workspace.callback_weights.data(), points.count * stride},

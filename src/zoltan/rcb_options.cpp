@@ -35,7 +35,7 @@ Options make_options(const Parameters& parameters, const Layout& layout, int dim
     options.part_sizes = layout.part_sizes;
     options.plain_cuts = parameters.rectilinear_blocks != 0;
     options.coincident = parameters.coincident;
-    if (has_own_norm(parameters)) {
+    if (has_several_weights(parameters)) {
         options.domain = DomainKind::analytic;
         options.refine = Refine::none;
     }
@@ -51,15 +51,15 @@ bool reuses_cuts(const Parameters& parameters) {
     return parameters.reuse_cuts == not_set ? parameters.replace_rcb : parameters.reuse_cuts != 0;
 }
 
-bool has_own_norm(const Parameters& parameters) {
-    return parameters.weight_dimension > 1 && parameters.multicriteria_norm > 1;
+bool has_several_weights(const Parameters& parameters) {
+    return parameters.weight_dimension > 1;
 }
 
 bool starts_from_previous(const Parameters& parameters) {
     const Options& options = parameters.options;
     const bool refines = options.refine != Refine::none && options.domain == DomainKind::analytic &&
                          options.cut_rule == CutRule::weighted_fraction;
-    return reuses_cuts(parameters) && refines && !has_own_norm(parameters);
+    return reuses_cuts(parameters) && refines && !has_several_weights(parameters);
 }
 
 bool keeps_cuts(const Parameters& parameters) {

@@ -22,9 +22,9 @@ Options make_options(const Parameters& parameters, const Layout& layout, int dim
 /// distribution that is balanced stays as it is.
 bool reuses_cuts(const Parameters& parameters);
 
-/// Whether the weights of an object are balanced by another norm than their sum
-/// (RCB_MULTICRITERIA_NORM), for which the balancer makes no more than an estimate.
-bool has_own_norm(const Parameters& parameters);
+/// Whether objects have several weights, of which a norm is balanced (RCB_MULTICRITERIA_NORM): then
+/// the balancer makes no more than an estimate.
+bool has_several_weights(const Parameters& parameters);
 
 /// Whether the search is to start from the cuts of the last call (RCB_REUSE): only where it goes
 /// on from there to the balance asked for.

@@ -233,8 +233,8 @@ void keep(Preparation&& prepared, Balance&& balanced, const Frame& frame, PartMa
     state.axes_changed = false;
 }
 
-/// Puts the lists where the caller wants them, where Zoltan's Fortran interface is used on any rank.
-/// Collective there.
+/// Puts the lists where the caller wants them, where Zoltan's Fortran interface is used on any
+/// rank. Collective there.
 void serve_fortran(const Call& call, const Agreement& agreement, Partition& result, Member& me) {
     if (!agreement.any_fortran) return;
     copy_for_fortran(call.zz, result.imports, result.exports, call.to, me);

@@ -1,8 +1,7 @@
 #include "rank_numbers.hpp"
 
-#include "assignment.hpp"
-
 #include "../support/clouds.hpp"
+#include "assignment.hpp"
 
 #include <gtest/gtest.h>
 

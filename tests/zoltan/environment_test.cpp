@@ -115,7 +115,9 @@ TEST(Environment, of_illegal_values_is_warned_of_once_and_leaves_the_default) {
         const std::string said = testing::internal::GetCapturedStderr();
         const auto found = said.find(name);
         EXPECT_EQ(found != said.npos, rank == 0) << said;
-        if (rank == 0) EXPECT_EQ(said.find(name, found + 1), said.npos) << said;
+        if (rank == 0) {
+            EXPECT_EQ(said.find(name, found + 1), said.npos) << said;
+        }
     }
 }
 

@@ -83,8 +83,8 @@ double opposite(double half_width, double shorter) {
 }
 
 Reach reach_of(const CellMoments& cell, std::size_t axis, const Box& box) {
-    // Two patches for every cell that one would leave a little cost time and hardly gain: see
-    // docs/moments.md.
+    // Chance alone moves the mean of even points: to divide what leaves its cell a little would
+    // cost time and gain nothing.
     constexpr double bearable = 1.25;
     const double mean = cell.moments.mean[axis];
     const double half_width = std::sqrt(3.0) / 2 * cell.moments.deviation[axis];

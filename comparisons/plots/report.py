@@ -46,9 +46,9 @@ SWEEP_PICTURES = {
 }
 SOURCE_PICTURES = {
     "error_sources.png": "Imbalance when what is bisected goes from all points to a sample of them:"
-    " the support mesh adds what lies between the points and the cells, another half-width than √3 σ"
-    " what lies between cells and boxes, the sampling what lies above the boxes (lines: means over"
-    " three seeds, bands: least to most).",
+    " the support mesh adds what lies between the points and the cells, another half-width than √3 σ,"
+    " or a box cut off, what lies between cells and boxes, the sampling what lies above the boxes"
+    " (lines: means over three seeds, bands: least to most).",
 }
 STUDY_PICTURES = {
     "study.png": "The paper's parameters on snapshots of the failing slope: lines are means of the "

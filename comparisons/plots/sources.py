@@ -56,7 +56,9 @@ def _sampled(fraction: float) -> Callable[[Source], bool]:
 
 
 STAGES = (
-    Stage("cells: √3 σ, kept inside the cell", "#0072B2", "-", lambda r: r.domain == "cells"),
+    Stage("cells, as RRCB does", "#0072B2", "-", lambda r: r.domain == "cells"),
+    Stage("boxes of √3 σ, cut off at the cell", "#0072B2", ":", lambda r: r.domain == "in_cells"),
+    Stage("boxes of √3 σ, cut off at all points", "#0072B2", "-.", lambda r: r.domain == "in_all"),
     Stage("boxes of √3 σ", "#56B4E9", "--", _boxes(3**0.5)),
     Stage("boxes of 1 σ", "#009E73", ":", _boxes(1)),
     Stage("boxes of 1.5 σ", "#009E73", "-", _boxes(OF_THE_PAPER)),

@@ -6,6 +6,7 @@
 #include <rrcb/bisection.hpp>
 #include <rrcb/quality.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -36,10 +37,41 @@ std::vector<rrcb::CellMoments> gather_cells(const rrcb::Points& points, int mesh
     return all;
 }
 
+/// The box of all cells, which is that of all points: its faces are those of the ranks' meshes.
+rrcb::Box box_of(std::span<const rrcb::CellMoments> cells) {
+    rrcb::Box box;
+    for (const rrcb::CellMoments& cell : cells) {
+        for (std::size_t a = 0; a < box.lower.size(); ++a) {
+            box.lower[a] = std::min(box.lower[a], cell.box.lower[a]);
+            box.upper[a] = std::max(box.upper[a], cell.box.upper[a]);
+        }
+    }
+    return box;
+}
+
+/// Cuts the patches of box_domain off at the faces of a box each.
+rrcb::StatisticalDomain clamped(rrcb::StatisticalDomain domain, std::span<const rrcb::Box> boxes) {
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        rrcb::Patch& patch = domain.patches[i];
+        for (std::size_t a = 0; a < static_cast<std::size_t>(domain.dimension); ++a) {
+            patch.lower[a] = std::clamp(patch.lower[a], boxes[i].lower[a], boxes[i].upper[a]);
+            patch.upper[a] = std::clamp(patch.upper[a], boxes[i].lower[a], boxes[i].upper[a]);
+        }
+    }
+    return domain;
+}
+
 rrcb::StatisticalDomain domain_of(const SourceSetting& setting,
                                   std::span<const rrcb::CellMoments> cells, int dimension) {
-    if (setting.source == Source::cells) return rrcb::analytic_domain(cells, dimension);
+    if (setting.source == Source::cells)
+        return rrcb::analytic_domain(cells, dimension, box_of(cells));
     if (setting.source == Source::boxes) return box_domain(cells, dimension, setting.k);
+    if (setting.source == Source::in_cells || setting.source == Source::in_all) {
+        std::vector<rrcb::Box> boxes(cells.size(), box_of(cells));
+        if (setting.source == Source::in_cells)
+            std::ranges::transform(cells, boxes.begin(), &rrcb::CellMoments::box);
+        return clamped(box_domain(cells, dimension, setting.k), boxes);
+    }
     rrcb::Options options;
     options.sigma_multiplier = setting.k;
     options.sample_fraction = setting.fraction;
@@ -67,7 +99,7 @@ rrcb::Cuts cut_cells(const SourceSetting& setting, const rrcb::Points& points, M
 }
 
 std::string name_of(Source source) {
-    const char* const names[] = {"points", "cells", "boxes", "sampled"};
+    const char* const names[] = {"points", "cells", "boxes", "in_cells", "in_all", "sampled"};
     return names[static_cast<int>(source)];
 }
 
@@ -123,6 +155,8 @@ std::vector<SourceSetting> source_settings(bool quick) {
         for (const double k : {1.0, of_the_paper, std::sqrt(3.0), 2.0, 2.5}) {
             settings.push_back({Source::boxes, mesh, k});
         }
+        settings.push_back({Source::in_cells, mesh, std::sqrt(3.0)});
+        settings.push_back({Source::in_all, mesh, std::sqrt(3.0)});
         for (const double fraction : fractions) {
             for (const std::uint64_t seed : {1, 2, 3}) {
                 settings.push_back({Source::sampled, mesh, of_the_paper, fraction, seed});

@@ -9,23 +9,25 @@ namespace comparisons {
 
 /// What the root bisects, stage by stage further from the points.
 enum class Source {
-    points,  ///< all of them: what the bisection itself leaves
-    cells,   ///< a uniform patch per cell, with its moments: what the support mesh adds
-    boxes,   ///< the patch is mean +- k sigma: what another half-width than sqrt(3) sigma adds
-    sampled  ///< pseudo-random points in these boxes: what the sampling adds
+    points,    ///< all of them: what the bisection itself leaves
+    cells,     ///< uniform patches with the moments of the cells: what the support mesh adds
+    boxes,     ///< one patch in mean +- k sigma: what another half-width than sqrt(3) sigma adds
+    in_cells,  ///< these boxes, cut off at their cells: what the shift of the means adds
+    in_all,    ///< these boxes, cut off at the box of all points
+    sampled    ///< pseudo-random points in the boxes: what the sampling adds
 };
 
 /// One domain to bisect.
 struct SourceSetting {
     Source source = Source::points;
     int mesh = 0;         ///< of points: 0
-    double k = 0;         ///< of boxes and sampled
+    double k = 0;         ///< of all but points and cells
     double fraction = 0;  ///< of sampled; may be above 1
     std::uint64_t seed = 0;
 };
 
-/// A uniform patch in mean +- k sigma per cell, unlike analytic_domain not kept inside the cell:
-/// what sampled_domain becomes with ever more points. Not collective.
+/// A uniform patch in mean +- k sigma per cell, unlike in analytic_domain whatever lies there: what
+/// sampled_domain becomes with ever more points. Not collective.
 rrcb::StatisticalDomain box_domain(std::span<const rrcb::CellMoments> cells, int dimension,
                                    double k);
 

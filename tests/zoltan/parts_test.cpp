@@ -1,4 +1,5 @@
 #include "program.hpp"
+#include "regions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -167,6 +168,31 @@ TEST(Parts, get_the_sizes_that_were_set) {
     EXPECT_NEAR(share_of_first_part(program, partition_with(program, "RRCB")), 0.5, 0.02);
     Zoltan_LB_Set_Part_Sizes(program.zz, 1, -1, nullptr, nullptr, nullptr);
     EXPECT_NEAR(share_of_first_part(program, partition_with(program, "RRCB")), 0.25, 0.02);
+}
+
+/// Which of three parts lies alone on its side of the first cut, across the longest axis: the one
+/// that no cut bounds across the other.
+int lone_part(const char* method) {
+    Program program;
+    scatter_points(program, 3000);
+    for (std::size_t i = 0; i < program.coordinates.size(); i += 2) program.coordinates[i] *= 1.2;
+    program.set("NUM_GLOBAL_PARTS", "3");
+    program.set("KEEP_CUTS", "1");
+    partition_with(program, method);
+    const auto is_alone = [&](int part) {
+        const Region region = region_of(program.zz, part);
+        return region.lower[1] == -DBL_MAX && region.upper[1] == DBL_MAX;
+    };
+    EXPECT_FALSE(is_alone(1));
+    EXPECT_NE(is_alone(0), is_alone(2));
+    return is_alone(0) ? 0 : 2;
+}
+
+TEST(Parts, of_an_odd_number_lie_above_by_one_more_where_zoltan_asks_the_ranks) {
+    int num_ranks = 1;
+    MPI_Comm_size(MPI_COMM_WORLD, &num_ranks);
+    EXPECT_EQ(lone_part("RRCB"), 0);
+    EXPECT_EQ(lone_part("RCB"), num_ranks == 1 || num_ranks == 3 ? 2 : 0);
 }
 
 TEST(Parts, of_local_numbers_are_counted_from_the_first_one_of_the_rank) {

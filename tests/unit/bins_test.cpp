@@ -65,8 +65,8 @@ TEST(Bins, hold_each_value_between_their_edges) {
                     i % 3 == 0 ? sign * std::pow(10, exponent(engine))
                                : std::lerp(lower, std::min(upper, largest), share(engine));
                 const int slot = bins.slot_of(value);
-                if (slot > 0) EXPECT_GE(value, bins.edge(slot - 1));
-                if (slot <= 64) EXPECT_LT(value, bins.edge(slot));
+                EXPECT_GE(value, slot > 0 ? bins.edge(slot - 1) : -infinity);
+                EXPECT_LT(value, slot <= 64 ? bins.edge(slot) : infinity);
             }
         }
     }

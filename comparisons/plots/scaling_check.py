@@ -15,6 +15,7 @@ from scaling_model import (
     Traffic,
     answer_bytes,
     beyond_head,
+    checksum_bytes,
     look_bytes,
     multijagged,
     rrcb,
@@ -124,7 +125,7 @@ def read_sizes(counted: dict[tuple[str, int], Counted]) -> Sizes | None:
     rounds = (exact.calls["Bcast"] - none.calls["Bcast"]) // 2 - 1
     searches = exact.bytes_in["Bcast"] - none.bytes_in["Bcast"] - answer_bytes(2)
     return Sizes(
-        none.bytes_in["Allreduce"] // 2,
+        none.bytes_in["Allreduce"] // 2 - checksum_bytes(2),
         none.calls["Allreduce"] // 2,
         none.bytes_in["Gather"] // 2,
         none.bytes_in["Bcast"] - 8 * 2,

@@ -19,7 +19,7 @@ CUT = 32
 BRACKET = 16
 HEAD = 2048  # the verdict and as many cuts as fit
 VERDICT = 56
-AGREEMENT = 4
+AGREEMENT = 8
 LOOKS = {"none": 0, "accepted": 1, "refined": 2, "exact": 1}  # at what the parts weigh
 CELL = 8 * (3 + 2 * DIMENSION)
 MESH_BLOCK = 8 * (3 + 2 * DIMENSION)
@@ -70,7 +70,7 @@ class Traffic:
 class Sizes:
     """Bytes of RRCB's fixed messages."""
 
-    agreements: int  # all reductions to everybody together
+    agreements: int  # all reductions to everybody together, but for checksums of the parts
     num_agreements: int
     parameters: int  # gathered from every rank by the plug-in
     broadcasts: int  # all broadcasts together, but for what grows with the parts, head included
@@ -109,11 +109,17 @@ def subtree(rank: int, ranks: int) -> int:
     return min(stride, ranks - rank)
 
 
-def all_agreements(sizes: Sizes, refine: str) -> tuple[int, int]:
+def checksum_bytes(ranks: int) -> int:
+    """By which the plug-in knows the objects of each part again, and whether any moves."""
+    return 8 * (ranks + 1)
+
+
+def all_agreements(ranks: int, sizes: Sizes, refine: str) -> tuple[int, int]:
     """Number and bytes; a look at the parts tells of failures as well."""
+    number, size = sizes.num_agreements, sizes.agreements + checksum_bytes(ranks)
     if LOOKS[refine]:
-        return sizes.num_agreements - 1, sizes.agreements - AGREEMENT
-    return sizes.num_agreements, sizes.agreements
+        return number - 1, size - AGREEMENT
+    return number, size
 
 
 def look_bytes(ranks: int) -> int:
@@ -135,7 +141,7 @@ def beyond_head(ranks: int, refine: str) -> int:
 def rrcb(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> Traffic:
     """`refine`: none, accepted (one look at the estimate), refined (and one at the end), or exact."""
     traffic = Traffic()
-    num_agreements, agreements = all_agreements(sizes, refine)
+    num_agreements, agreements = all_agreements(ranks, sizes, refine)
     traffic.add("Allreduce", ranks * num_agreements, ranks * agreements, ranks * agreements)
     traffic.gather(ranks, sizes.parameters)
     once = sizes.broadcasts + 8 * ranks
@@ -164,7 +170,7 @@ def _refine(traffic: Traffic, ranks: int, sizes: Sizes, rounds: Rounds) -> None:
 
 def rrcb_root_bytes(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> int:
     """Bytes that rank 0 gets."""
-    into = all_agreements(sizes, refine)[1] + ranks * sizes.parameters
+    into = all_agreements(ranks, sizes, refine)[1] + ranks * sizes.parameters
     into += sum(sizes.summary + subtree(child, ranks) * BLOCK for child in children(0, ranks))
     into += LOOKS[refine] * look_bytes(ranks)
     if refine in ("refined", "exact"):

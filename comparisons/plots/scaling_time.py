@@ -112,7 +112,7 @@ def _steps(row) -> float:
 def rrcb_path(ranks: int, refine: str, observed: Observed, machine: Machine) -> Path:
     sizes = observed.sizes
     path = Path(machine, work=machine.points * machine.per_point)
-    num_agreements, agreements = all_agreements(sizes, refine)
+    num_agreements, agreements = all_agreements(ranks, sizes, refine)
     per_agreement = agreements / num_agreements
     path.collective(ranks, 2 * per_agreement, num_agreements, per_agreement)
     path.collective(ranks, ranks * sizes.parameters, 1, ranks * sizes.parameters)

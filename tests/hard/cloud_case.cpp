@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <map>
+#include <set>
 
 namespace {
 
@@ -32,15 +34,29 @@ int sum_over_ranks(int value) {
     return value;
 }
 
-int wrong_look_ups(const Program& program, std::span<const int> parts) {
+/// The parts of the objects in each place: several where the balance needs them divided.
+std::map<rrcb::Vector, std::set<int>> parts_of_places(const Cloud& cloud,
+                                                      std::span<const rrcb::Part> all) {
+    std::map<rrcb::Vector, std::set<int>> parts;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        rrcb::Vector x = cloud.position(static_cast<int>(i));
+        std::fill(x.begin() + cloud.dimension, x.end(), 0.0);
+        parts[x].insert(all[i]);
+    }
+    return parts;
+}
+
+/// How many objects are looked up in a part that has no object in their place.
+int wrong_look_ups(const Program& program, const Cloud& cloud, std::span<const rrcb::Part> all) {
     int wrong = 0;
+    const auto places = parts_of_places(cloud, all);
     const auto stride = static_cast<std::size_t>(program.dimension);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        std::array<double, 3> x{};
-        std::copy_n(&program.coordinates[i * stride], stride, x.begin());
+    for (int i = 0; i < program.size(); ++i) {
+        rrcb::Vector x{};
+        std::copy_n(&program.coordinates[static_cast<std::size_t>(i) * stride], stride, x.begin());
         int rank = -1, part = -1;
         Zoltan_LB_Point_PP_Assign(program.zz, x.data(), &rank, &part);
-        wrong += part != parts[i] ? 1 : 0;
+        wrong += places.at(x).contains(part) ? 0 : 1;
     }
     return sum_over_ranks(wrong);
 }
@@ -80,7 +96,7 @@ void run(const std::string& method, const Cloud& cloud) {
     const Outcome outcome = program.partition();
     const std::vector<int> parts = parts_of(program, outcome);
     const auto all = join_parts(share, parts, count, num_parts);
-    const int wrong = count == 0 ? 0 : wrong_look_ups(program, parts);
+    const int wrong = count == 0 ? 0 : wrong_look_ups(program, cloud, all);
     const int moved = moved_again(program, cloud, all);
     if (program.rank != 0) return;
     std::printf("%s;%s;%.4f;%s%.4f, %d, %d\n", method.c_str(), cloud.name,

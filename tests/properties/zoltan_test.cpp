@@ -13,6 +13,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 
 namespace rrcb::test {
 namespace {
@@ -116,25 +117,35 @@ std::vector<Part> all_parts(const Cloud& cloud, const std::vector<Part>& mine) {
     return all;
 }
 
-std::string fault_of_look_ups(Program& program, const std::vector<Part>& parts) {
+/// The parts of the objects in each place: several where the balance needs them divided.
+std::map<Vector, std::set<Part>> parts_of_places(const Cloud& cloud,
+                                                 const std::vector<Part>& parts) {
+    std::map<Vector, std::set<Part>> places;
+    const Points points = cloud.points();
+    for (LocalIndex i = 0; i < points.count; ++i) places[points.position(i)].insert(parts[i]);
+    return places;
+}
+
+std::string fault_of_look_ups(Program& program, const Cloud& cloud,
+                              const std::vector<Part>& parts) {
+    const auto places = parts_of_places(cloud, parts);
     for (int i = 0; i < program.size(); ++i) {
-        std::array<double, 3> x{};
+        Vector x{};
         std::copy_n(program.coordinates.begin() + i * program.dimension, program.dimension,
                     x.begin());
         const std::string who = "object " + std::to_string(i);
-        const Part assigned = parts[static_cast<std::size_t>(i)];
         int owner = -1;
         int part = -1;
         if (Zoltan_LB_Point_PP_Assign(program.zz, x.data(), &owner, &part) != ZOLTAN_OK ||
-            part != assigned)
-            return who + " is looked up in another part";
+            !places.at(x).contains(part))
+            return who + " is looked up in a part with none in its place";
         std::vector<int> owners(100);
         std::vector<int> touched(100);
         int num_owners = 0;
         int num_touched = 0;
         Zoltan_LB_Box_PP_Assign(program.zz, x[0], x[1], x[2], x[0], x[1], x[2], owners.data(),
                                 &num_owners, touched.data(), &num_touched);
-        if (num_touched != 1 || touched[0] != assigned) return who + "'s box touches other parts";
+        if (num_touched != 1 || touched[0] != part) return who + "'s box touches other parts";
         if (std::find(owners.begin(), owners.begin() + num_owners, owner) ==
             owners.begin() + num_owners)
             return who + "'s box touches other ranks";
@@ -149,8 +160,9 @@ TEST(ZoltanCall, gives_every_object_one_part_that_look_ups_find) {
             const Outcome outcome = caller.call("PARTS");
             const auto parts = my_parts(caller.program, outcome.exports);
             if (!parts) throw std::runtime_error("an object is missing, doubled or renamed");
+            const std::vector<Part> all = all_parts(caller.cloud, *parts);
             const std::string fault = fault_of_range(*parts, caller.options.num_parts);
-            return fault.empty() ? fault_of_look_ups(caller.program, *parts) : fault;
+            return fault.empty() ? fault_of_look_ups(caller.program, caller.cloud, all) : fault;
         },
         num_cases);
 }

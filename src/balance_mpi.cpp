@@ -27,7 +27,8 @@ Options complete(Options options, int num_ranks) {
 }
 
 /// Checked sizes of a sum in [1, 2), so that weights over sizes stay in range; equal ones where
-/// there are none. By a power of two: the ratios keep their bits.
+/// there are none. By a power of two, so that the ratios keep their bits, but for sizes hundreds of
+/// decades below their sum.
 void normalize(std::vector<double>& sizes, int num_parts) {
     if (sizes.empty()) sizes.assign(static_cast<std::size_t>(num_parts), 1.0);
     const int exponent = std::ilogb(std::accumulate(sizes.begin(), sizes.end(), 0.0));
@@ -109,12 +110,13 @@ Balance balance(const Points& points, const Options& given, const Cuts* previous
     me.locally([&] {
         const StageScope stage(given.observer, Stage::moments);
         options = complete(given, mpi::size_of(me.comm));
-        if (previous) options.domain = DomainKind::analytic;
         const Box box = check_points(points);
         check_options(options, points.dimension);
         if (previous) check_previous(*previous, options, points.dimension);
         mine.summary = summarize(points, box);
         mine.summary.request = request_of(options, points.dimension, previous);
+        // Not before the ranks are compared by what they were given.
+        if (previous) options.domain = DomainKind::analytic;
         normalize(options.part_sizes, options.num_parts);
         make_room(decision, options, points.dimension);
         result.parts.resize(points.count);

@@ -26,8 +26,8 @@ void finish(CutSearch& search, double value, double below) {
 
 /// Ends with the cut at a position, which is the first above it.
 void finish_at(CutSearch& search, const Vector& position, double below) {
-    for (const std::size_t axis : PositionOrder(search).axes())
-        search.cut.at[axis] = position[axis];
+    const PositionOrder order(search);
+    for (const std::size_t axis : order.axes()) search.cut.at[axis] = position[axis];
     search.stage = CutSearch::done;
     search.below = below;
 }
@@ -72,8 +72,8 @@ void break_tie(CutSearch& search, CutTarget& target, std::span<const double> ext
     double weight = 0;
     for (const double w : weights) weight += w;
     Vector position{};
-    for (const std::size_t axis : PositionOrder(search).axes())
-        position[axis] = extents[max_dimension + axis];
+    const PositionOrder order(search);
+    for (const std::size_t axis : order.axes()) position[axis] = extents[max_dimension + axis];
     finish_in_lot(search, target, position, target.base, weight);
 }
 

@@ -18,6 +18,9 @@ void check_arguments(const Points& points, std::span<const Part> parts, int num_
         throw Error(ErrorCode::invalid_argument,
                     "parts has " + std::to_string(parts.size()) + " entries for " +
                         std::to_string(points.count) + " points; give one per point");
+    if (!points.weights.empty() && points.weights.size() != points.count)
+        throw Error(ErrorCode::invalid_argument,
+                    "weights must hold one entry per point, or none for unit weights");
     for (const Part part : parts)
         if (part < 0 || part >= num_parts)
             throw Error(ErrorCode::invalid_argument, "part " + std::to_string(part) +
@@ -74,7 +77,7 @@ double moved_fraction(const Points& points, std::span<const Part> parts, int num
     });
     agree_on_parts(num_parts, me);
     sum_over_ranks(sums, me.comm);
-    return sums[1] > 0 ? sums[0] / sums[1] : 0;
+    return sums[1] == 0 ? 0 : sums[0] / sums[1];
 }
 
 }  // namespace rrcb

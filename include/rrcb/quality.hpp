@@ -30,13 +30,14 @@ double worst_load_unbalance_percent(std::span<const double> part_weights,
 /// Weight of every part over all ranks, length num_parts, on every rank.
 ///
 /// Collective over `comm`: two reductions. `parts` holds one entry in 0 ... num_parts - 1 per local
-/// point; throws Error on all ranks where one holds others, or names another num_parts.
+/// point; throws Error on all ranks where one holds others, has weights of another length or names
+/// another num_parts.
 std::vector<double> part_weights(const Points& points, std::span<const Part> parts, int num_parts,
                                  MPI_Comm comm);
 
 /// Share of the weight, 0 ... 1, whose rank is not among the ranks of its new part.
 ///
-/// Collective over `comm`: two reductions. `parts` and errors as above.
+/// Collective over `comm`: two reductions. `parts` and errors as above. NaN where weights are.
 double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
                       MPI_Comm comm);
 

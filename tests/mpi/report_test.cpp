@@ -2,6 +2,7 @@
 #include "../support/ranks.hpp"
 
 #include <rrcb/balance.hpp>
+#include <rrcb/error.hpp>
 #include <rrcb/quality.hpp>
 
 #include <gtest/gtest.h>
@@ -110,6 +111,18 @@ TEST(Report, measures_parts_of_tiny_sizes_as_they_are) {
             EXPECT_EQ(result.report.part_weights, weights);
         }
     }
+}
+
+TEST(Measures, refuse_weights_of_another_length_and_do_not_hide_those_that_are_no_numbers) {
+    const std::vector<double> mine = test::uniform_cloud(20, 2, 1);
+    const std::vector<Part> parts(20, 0);
+    const std::vector<double> short_weights(rank() == 0 ? 9 : 20, 1.0);
+    const Points points = interleaved_points(mine, 2, short_weights);
+    EXPECT_THROW(part_weights(points, parts, 1, MPI_COMM_WORLD), Error);
+    EXPECT_THROW(moved_fraction(points, parts, 1, MPI_COMM_WORLD), Error);
+    const std::vector<double> nan(20, std::nan(""));
+    EXPECT_TRUE(
+        std::isnan(moved_fraction(interleaved_points(mine, 2, nan), parts, 1, MPI_COMM_WORLD)));
 }
 
 TEST(PartSizes, of_any_magnitude_mean_the_same) {

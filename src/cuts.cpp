@@ -1,5 +1,6 @@
 #include "descent.hpp"
 #include "point_layout.hpp"
+#include "sides.hpp"
 
 #include <rrcb/cuts.hpp>
 
@@ -66,8 +67,10 @@ void collect_touching(const Cuts& cuts, const Box& box, Descent at, std::vector<
         return;
     }
     const Cut& cut = cuts.tree[at.node];
-    if (!is_above(cut, box.lower, cuts.dimension)) collect_touching(cuts, box, at.lower(), parts);
-    if (is_above(cut, box.upper, cuts.dimension)) collect_touching(cuts, box, at.upper(), parts);
+    const Sides sides = sides_of(box, cut, cuts.dimension);
+    if (sides.below || holds_divided_points(box, cut, cuts.dimension))
+        collect_touching(cuts, box, at.lower(), parts);
+    if (sides.above) collect_touching(cuts, box, at.upper(), parts);
 }
 
 }  // namespace

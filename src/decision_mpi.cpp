@@ -92,8 +92,10 @@ void fit(const Options& options, Descent at, Cuts& cuts) {
     double value = cut.at[axis];
     if (share <= 0) value = -std::numeric_limits<double>::infinity();
     if (share >= 1) value = std::numeric_limits<double>::infinity();
-    if (options.plain_cuts || value != cut.at[axis])
+    if (options.plain_cuts || value != cut.at[axis]) {
+        cut.divides = 0;
         cut.at.fill(-std::numeric_limits<double>::infinity());
+    }
     cut.at[axis] = value;
     fit(options, at.lower(), cuts);
     fit(options, at.upper(), cuts);

@@ -42,6 +42,7 @@ void place_in_lots(Refinement& context) {
 void set_aside(const Node& node, const Refinement& context, Cut& cut) {
     const double share = share_below(context.sizes_of(node.at));
     if (share > 0 && share < 1) return;
+    cut.divides = 0;
     cut.at.fill(-infinity);
     if (share > 0) cut.at[static_cast<std::size_t>(cut.axis)] = infinity;
 }
@@ -61,6 +62,7 @@ void descend(Refinement& context) {
             below = search->below;
             lot.below = search->lot_below;
             if (lot.below > 0) lot.before = *lots++;
+            cut.divides = lot.below > 0 ? 1 : 0;
             context.measured.coincident_cuts += search++->coincident;
         } else {
             set_aside(node, context, cut);

@@ -16,6 +16,7 @@ namespace rrcb {
 /// +infinity nothing above.
 struct Cut {
     std::int32_t axis = 0;
+    std::int32_t divides = 0;  ///< 1: of the points exactly at it some lie below, see Coincident
     Vector at{};
 };
 
@@ -48,6 +49,8 @@ void assign(const Cuts& cuts, const Points& points, std::span<Part> parts);
 Box box_of(const Cuts& cuts, Part part);
 
 /// Parts whose region a closed box touches, ascending; none for an empty box. Not collective.
+///
+/// Where the box holds the place of points that a cut divides, both sides of it are touched.
 std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
 
 }  // namespace rrcb

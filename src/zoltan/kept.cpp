@@ -1,5 +1,7 @@
 #include "kept.hpp"
 
+#include "sides.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -82,7 +84,9 @@ int Kept::collect(std::int32_t at, const Box& box, Part* parts, int count) const
         return count + 1;
     }
     const auto cut = static_cast<std::size_t>(at);
-    if (!is_above(cut, box.lower.data())) count = collect(nodes_[cut].child[0], box, parts, count);
+    const bool below = !is_above(cut, box.lower.data()) ||
+                       holds_divided_points(box, cuts_.tree[cut], cuts_.dimension);
+    if (below) count = collect(nodes_[cut].child[0], box, parts, count);
     if (is_above(cut, box.upper.data())) count = collect(nodes_[cut].child[1], box, parts, count);
     return count;
 }

@@ -153,7 +153,7 @@ class NormBisection {
     void choose(Node& node, Balance& result) {
         Cut& cut = result.cuts.tree[node.at.node];
         if (node.num_searches == 0) {
-            cut = {0, {-infinity, -infinity, -infinity}};
+            cut = {0, 0, {-infinity, -infinity, -infinity}};
             if (std::ranges::min(shares_of(node.at)) >= 1) cut.at[0] = infinity;
             return;
         }
@@ -191,7 +191,7 @@ class NormBisection {
     }
 
     /// Collective where objects in one place are divided: lower ranks' come first.
-    void split_level(const Balance& result, MPI_Comm comm) {
+    void split_level(Balance& result, MPI_Comm comm) {
         std::size_t num_lots = 0;
         for (Node& node : nodes_) {
             if (!is_divided(node)) continue;
@@ -201,7 +201,8 @@ class NormBisection {
         }
         lots_before(num_lots, comm);
         for (Node& node : nodes_) {
-            const Cut& cut = result.cuts.tree[node.at.node];
+            Cut& cut = result.cuts.tree[node.at.node];
+            cut.divides = is_divided(node) ? 1 : 0;
             if (!is_divided(node)) {
                 node.first = objects_.split(node.range, cut);
                 continue;

@@ -13,7 +13,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-constexpr std::array<char, 8> signature = {'R', 'R', 'C', 'B', 'h', 'n', 'd', '2'};
+constexpr std::array<char, 8> signature = {'R', 'R', 'C', 'B', 'h', 'n', 'd', '3'};
 
 struct Header {
     std::array<char, 8> signature = zoltan::signature;
@@ -102,6 +102,7 @@ void write(Writer& writer, const Kept& kept) {
     writer.value<std::uint64_t>(kept.cuts().tree.size());
     for (const Cut& cut : kept.cuts().tree) {
         writer.value(cut.axis);
+        writer.value(cut.divides);
         writer.value(cut.at);
     }
     writer.list(kept.numbers());
@@ -141,7 +142,8 @@ Kept read_kept(Reader& reader) {
     cuts.dimension = reader.value<int>();
     for (auto left = reader.value<std::uint64_t>(); left > 0; --left) {
         const auto axis = reader.value<std::int32_t>();
-        cuts.tree.push_back({axis, reader.value<Vector>()});
+        const auto divides = reader.value<std::int32_t>();
+        cuts.tree.push_back({axis, divides, reader.value<Vector>()});
     }
     auto numbers = reader.list<Part>();
     PartMap map;

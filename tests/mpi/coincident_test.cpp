@@ -53,8 +53,12 @@ TEST(CoincidentPoints,
     for (const double weight : part_weights(points, result.parts, 6, MPI_COMM_WORLD))
         EXPECT_LE(std::abs(weight - 7000.0 / 6), 1);
     for (LocalIndex i = 0; i < points.count; ++i) {
+        const Vector x = points.position(i);
+        const std::vector<Part> touched = parts_touching(result.cuts, {x, x});
+        EXPECT_NE(std::ranges::find(touched, result.parts[i]), touched.end());
         if (mine[2 * i + 1] == 0.5) continue;
-        EXPECT_EQ(result.parts[i], part_of(result.cuts, points.position(i)));
+        EXPECT_EQ(touched.size(), 1u);
+        EXPECT_EQ(result.parts[i], part_of(result.cuts, x));
     }
 }
 

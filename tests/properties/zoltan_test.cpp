@@ -145,7 +145,10 @@ std::string fault_of_look_ups(Program& program, const Cloud& cloud,
         int num_touched = 0;
         Zoltan_LB_Box_PP_Assign(program.zz, x[0], x[1], x[2], x[0], x[1], x[2], owners.data(),
                                 &num_owners, touched.data(), &num_touched);
-        if (num_touched != 1 || touched[0] != part) return who + "'s box touches other parts";
+        const auto& here = places.at(x);
+        touched.resize(static_cast<std::size_t>(num_touched));
+        if (!std::ranges::includes(touched, here)) return who + "'s box misses a part";
+        if (here.size() == 1 && num_touched != 1) return who + "'s box touches other parts";
         if (std::find(owners.begin(), owners.begin() + num_owners, owner) ==
             owners.begin() + num_owners)
             return who + "'s box touches other ranks";

@@ -112,11 +112,11 @@ TEST(BinnedPoints, are_assigned_as_the_look_up_has_it) {
     // The second pair of cuts meets the first in the middle of a cell; ties are split by position.
     const std::vector<Cuts> cases{
         {2, 1, {}},
-        {2, 2, {{0, {30, -infinity, 0}}}},
-        {2, 2, {{0, {29, 17, 0}}}},
-        {2, 4, {{0, {29, 17, 0}}, {1, {-infinity, 31, 0}}, {1, {12, 31, 0}}}},
-        {2, 4, {{0, {29, -infinity, 0}}, {0, {28, 3, 0}}, {0, {30, -infinity, 0}}}},
-        {2, 3, {{0, {-infinity, -infinity, 0}}, {1, {5, infinity, 0}}}},
+        {2, 2, {{0, 0, {30, -infinity, 0}}}},
+        {2, 2, {{0, 0, {29, 17, 0}}}},
+        {2, 4, {{0, 0, {29, 17, 0}}, {1, 0, {-infinity, 31, 0}}, {1, 0, {12, 31, 0}}}},
+        {2, 4, {{0, 0, {29, -infinity, 0}}, {0, 0, {28, 3, 0}}, {0, 0, {30, -infinity, 0}}}},
+        {2, 3, {{0, 0, {-infinity, -infinity, 0}}, {1, 0, {5, infinity, 0}}}},
     };
     for (const Cuts& cuts : cases) {
         for (const int cells : {1, 5, 16}) {

@@ -16,9 +16,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// x = 4 first; below it y = 1; above it y = 3 for two parts more.
 Cuts four_quarters() {
     Cuts cuts{2, 4, {}};
-    cuts.tree = {{0, {4, -infinity, -infinity}},
-                 {1, {-infinity, 1, -infinity}},
-                 {1, {-infinity, 3, -infinity}}};
+    cuts.tree = {{0, 0, {4, -infinity, -infinity}},
+                 {1, 0, {-infinity, 1, -infinity}},
+                 {1, 0, {-infinity, 3, -infinity}}};
     return cuts;
 }
 
@@ -38,7 +38,7 @@ TEST(Cuts, a_point_on_a_cut_is_above_it) {
 }
 
 TEST(Cuts, ties_are_broken_along_the_other_axes) {
-    const Cut cut{1, {5, 2, 7}};
+    const Cut cut{1, 0, {5, 2, 7}};
     EXPECT_TRUE(is_above(cut, {0, 2.1, 0}, 3));
     EXPECT_FALSE(is_above(cut, {9, 1.9, 9}, 3));
     EXPECT_TRUE(is_above(cut, {6, 2, 0}, 3));
@@ -55,6 +55,14 @@ TEST(Cuts, box_of_a_part_is_open_outwards) {
     EXPECT_EQ(box.upper[0], infinity);
     EXPECT_EQ(box.lower[1], -infinity);
     EXPECT_EQ(box.upper[1], 3);
+}
+
+TEST(Cuts, a_box_touches_both_sides_of_a_cut_that_divides_the_points_in_it) {
+    Cuts cuts{2, 2, {{0, 0, {4, 2, -infinity}}}};
+    EXPECT_EQ(parts_touching(cuts, box_2d(4, 2, 4, 2)), (std::vector<Part>{1}));
+    cuts.tree[0].divides = 1;
+    EXPECT_EQ(parts_touching(cuts, box_2d(4, 2, 4, 2)), (std::vector<Part>{0, 1}));
+    EXPECT_EQ(parts_touching(cuts, box_2d(4, 2.5, 5, 3)), (std::vector<Part>{1}));
 }
 
 TEST(Cuts, a_box_touches_the_parts_it_reaches_into) {

@@ -37,6 +37,18 @@ std::vector<double> share_of_cloud(
     return mine;
 }
 
+/// Columns of 100, 300 and 200 points: a plane can leave 100, 400 or 600 of them below, and only a
+/// tilted cut halves them.
+std::vector<double> three_columns() {
+    std::vector<double> mine;
+    for (int i = 0; i < 600; ++i) {
+        if (i % num_ranks() != rank()) continue;
+        mine.push_back(i < 100 ? 0 : i < 400 ? 1000 : 2000);
+        mine.push_back(i);
+    }
+    return mine;
+}
+
 struct Cloud {
     std::string name;
     std::function<double(std::size_t i, int axis, double u)> coordinate;
@@ -304,13 +316,7 @@ TEST(EarlierCuts, make_room_for_other_part_sizes) {
 }
 
 TEST(EarlierCuts, that_were_tilted_are_made_planes_where_planes_are_asked_for) {
-    // Columns of 100, 300 and 200 points, which only a tilted cut halves.
-    std::vector<double> mine;
-    for (int i = 0; i < 600; ++i) {
-        if (i % num_ranks() != rank()) continue;
-        mine.push_back(i < 100 ? 0 : i < 400 ? 1000 : 2000);
-        mine.push_back(i);
-    }
+    const std::vector<double> mine = three_columns();
     const Points points = interleaved_points(mine, 2);
     Options options;
     options.refine = Refine::exact;
@@ -359,13 +365,7 @@ TEST(GivenAxes, of_each_cut_are_kept) {
 }
 
 TEST(PlainCuts, keep_points_on_a_plane_together) {
-    // Columns of 100, 300 and 200 points: a plane can leave 100, 400 or 600 of them below.
-    std::vector<double> mine;
-    for (int i = 0; i < 600; ++i) {
-        if (i % num_ranks() != rank()) continue;
-        mine.push_back(i < 100 ? 0 : i < 400 ? 1000 : 2000);
-        mine.push_back(i);
-    }
+    const std::vector<double> mine = three_columns();
     const Points points = interleaved_points(mine, 2);
     Options options;
     options.refine = Refine::exact;

@@ -14,8 +14,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int most_counts = 4;
 
 std::size_t axis_index(const CutSearch& search, int tied) {
-    if (tied == 0) return static_cast<std::size_t>(search.cut.axis);
-    return static_cast<std::size_t>(tied <= search.cut.axis ? tied - 1 : tied);
+    return ordering_axis(search.cut.axis, tied);
 }
 
 void finish(CutSearch& search, double value, double below) {
@@ -26,7 +25,7 @@ void finish(CutSearch& search, double value, double below) {
 
 /// Ends with the cut at a position, which is the first above it.
 void finish_at(CutSearch& search, const Vector& position, double below) {
-    const PositionOrder order(search);
+    const PositionOrder order = order_of(search);
     for (const std::size_t axis : order.axes()) search.cut.at[axis] = position[axis];
     search.stage = CutSearch::done;
     search.below = below;
@@ -34,7 +33,7 @@ void finish_at(CutSearch& search, const Vector& position, double below) {
 
 /// Ends with the cut behind a position, the last below it.
 void finish_behind(CutSearch& search, Vector position, double below) {
-    const std::size_t last = PositionOrder(search).axes().back();
+    const std::size_t last = order_of(search).axes().back();
     position[last] = std::nextafter(position[last], infinity);
     finish_at(search, position, below);
 }
@@ -72,7 +71,7 @@ void break_tie(CutSearch& search, CutTarget& target, std::span<const double> ext
     double weight = 0;
     for (const double w : weights) weight += w;
     Vector position{};
-    const PositionOrder order(search);
+    const PositionOrder order = order_of(search);
     for (const std::size_t axis : order.axes()) position[axis] = extents[max_dimension + axis];
     finish_in_lot(search, target, position, target.base, weight);
 }
@@ -193,15 +192,8 @@ void go_on_in(const Chosen& chosen, double count, CutSearch& search, CutTarget& 
 
 }  // namespace
 
-PositionOrder::PositionOrder(const CutSearch& search) {
-    for (int tied = search.tied; tied < search.num_axes; ++tied)
-        axes_[size_++] = axis_index(search, tied);
-}
-
-bool PositionOrder::operator()(const Vector& a, const Vector& b) const {
-    for (const std::size_t axis : axes())
-        if (a[axis] != b[axis]) return a[axis] < b[axis];
-    return false;
+PositionOrder order_of(const CutSearch& search) {
+    return {search.cut.axis, search.tied, search.num_axes};
 }
 
 int current_axis(const CutSearch& search) {
@@ -296,7 +288,7 @@ void decide_by_splitters(CutSearch& search, CutTarget& target, const HistogramLa
 void decide_among(CutSearch& search, CutTarget& target, std::span<const double> records,
                   int dimension) {
     std::vector<Candidate> candidates = read_candidates(records, dimension);
-    const PositionOrder before(search);
+    const PositionOrder before = order_of(search);
     std::ranges::stable_sort(candidates, before, &Candidate::position);
 
     const Division division = best_division(candidates, before, target);

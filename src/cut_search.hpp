@@ -2,6 +2,7 @@
 
 #include "bins.hpp"
 #include "histogram.hpp"
+#include "position_order.hpp"
 
 #include <rrcb/cuts.hpp>
 
@@ -56,17 +57,7 @@ struct CutTarget {
 int current_axis(const CutSearch& search);
 
 /// The order of positions along the axes that are open to a search.
-class PositionOrder {
-  public:
-    explicit PositionOrder(const CutSearch& search);
-    bool operator()(const Vector& a, const Vector& b) const;
-
-    std::span<const std::size_t> axes() const { return {axes_.data(), size_}; }
-
-  private:
-    std::array<std::size_t, max_dimension> axes_{};
-    std::size_t size_ = 0;
-};
+PositionOrder order_of(const CutSearch& search);
 
 /// Bins of the bracket of a search.
 Bins bins_of(const CutSearch& search, const HistogramLayout& layout);

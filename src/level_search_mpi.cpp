@@ -188,7 +188,7 @@ void follow(Refinement& context) {
             if (is_sampling(room.before[k]))
                 room.local[k].take_splitters(splitters_of(
                     positions_in(histograms.sample(next++), context.binned.dimension()),
-                    PositionOrder(search), histograms.layout()));
+                    order_of(search), histograms.layout()));
             room.local[k].keep_chosen(room.before[k], search, histograms.layout());
         }
     });

@@ -58,7 +58,7 @@ void LocalSearch::count(const CutSearch& search, const HistogramLayout& layout,
             tally.add(bins.slot_of(x[axis]), points_.weight(i), 1);
         }
     } else {
-        const PositionOrder order(search);
+        const PositionOrder order = order_of(search);
         for (const LocalIndex i : candidates_)
             tally.add(slot_between(splitters_, order, points_.position(i)), points_.weight(i), 1);
     }
@@ -94,7 +94,7 @@ void LocalSearch::keep_chosen(const CutSearch& before, const CutSearch& after,
                               const HistogramLayout& layout) {
     if (after.stage == CutSearch::done || before.stage == CutSearch::sampling) return;
     if (before.stage == CutSearch::over_splitters) {
-        const PositionOrder order(before);
+        const PositionOrder order = order_of(before);
         std::erase_if(candidates_, [&](LocalIndex i) {
             return slot_between(splitters_, order, points_.position(i)) != after.chosen;
         });

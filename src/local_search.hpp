@@ -34,8 +34,6 @@ class LocalSearch {
     /// Adds `list`, position and weight of each candidate.
     void append_candidates(double list, std::vector<double>& records) const;
 
-    std::size_t num_candidates() const { return candidates_.size(); }
-
   private:
     void count_fragments(const CutSearch& search, const HistogramLayout& layout,
                          std::span<double> histogram) const;

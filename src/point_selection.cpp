@@ -1,5 +1,7 @@
 #include "point_selection.hpp"
 
+#include "position_order.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,29 +11,6 @@ namespace rrcb {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// Along the axis of a cut, and for points in one plane along the others in ascending order.
-class Order {
-  public:
-    Order(int axis, int dimension, bool plain) {
-        axes_[size_++] = static_cast<std::size_t>(axis);
-        for (int a = 0; a < dimension && !plain; ++a)
-            if (a != axis) axes_[size_++] = static_cast<std::size_t>(a);
-    }
-
-    bool operator()(const MassPoint& a, const MassPoint& b) const {
-        for (std::size_t k = 0; k < size_; ++k)
-            if (a.position[axes_[k]] != b.position[axes_[k]])
-                return a.position[axes_[k]] < b.position[axes_[k]];
-        return false;
-    }
-
-    std::size_t axis(std::size_t k) const { return axes_[k]; }
-
-  private:
-    std::array<std::size_t, max_dimension> axes_{};
-    std::size_t size_ = 0;
-};
 
 double weight_of(std::span<const MassPoint> points) {
     double weight = 0;
@@ -46,7 +25,7 @@ struct Place {
 
 /// Brings the point in which the cumulative weight reaches the target to its place in the order,
 /// those before it to the front.
-Place select(std::span<MassPoint> points, const Order& before, double target) {
+Place select(std::span<MassPoint> points, const PositionOrder& before, double target) {
     // What round-off may leave must not decide on which side of a gap between clusters a cut falls.
     const double enough = target - 1e-12 * target;
     std::size_t first = 0;
@@ -55,10 +34,9 @@ Place select(std::span<MassPoint> points, const Order& before, double target) {
     // The point lies in first ... last - 1, all others on their sides of these.
     while (last - first > 1) {
         const std::size_t middle = first + (last - first) / 2;
-        const auto at = [&](std::size_t k) {
-            return points.begin() + static_cast<std::ptrdiff_t>(k);
-        };
-        std::nth_element(at(first), at(middle), at(last), before);
+        const auto left = points.subspan(first, last - first);
+        std::ranges::nth_element(left, left.begin() + static_cast<std::ptrdiff_t>(middle - first),
+                                 before, &MassPoint::position);
         const double weight = weight_of(points.subspan(first, middle - first));
         if (below + weight >= enough) {
             last = middle;
@@ -79,14 +57,14 @@ struct Lot {
 };
 
 /// Gathers the points equal to the one selected about its place.
-Lot gather_lot(std::span<MassPoint> points, const Order& before, const Place& place) {
-    const MassPoint selected = points[place.index];
+Lot gather_lot(std::span<MassPoint> points, const PositionOrder& before, const Place& place) {
+    const Vector selected = points[place.index].position;
     const auto lower = points.first(place.index);
     const auto upper = points.subspan(place.index);
     const auto first = std::ranges::partition(
-        lower, [&](const MassPoint& point) { return before(point, selected); });
+        lower, [&](const MassPoint& point) { return before(point.position, selected); });
     const auto behind = std::ranges::partition(
-        upper, [&](const MassPoint& point) { return !before(selected, point); });
+        upper, [&](const MassPoint& point) { return !before(selected, point.position); });
     Lot lot{place.index - first.size(), points.size() - behind.size(), place.below, 0};
     lot.below -= weight_of(points.subspan(lot.first, place.index - lot.first));
     lot.weight = weight_of(points.subspan(lot.first, lot.last - lot.first));
@@ -95,16 +73,14 @@ Lot gather_lot(std::span<MassPoint> points, const Order& before, const Place& pl
 
 /// A cut between the last point below it and the first above, halfway or `on` the latter, along the
 /// first axis that tells them apart.
-void cut_between(const MassPoint& last_below, const MassPoint& first_above, const Order& order,
+void cut_between(const Vector& last_below, const Vector& first_above, const PositionOrder& order,
                  bool on, Cut& cut) {
-    std::size_t k = 0;
-    while (last_below.position[order.axis(k)] == first_above.position[order.axis(k)]) {
-        cut.at[order.axis(k)] = first_above.position[order.axis(k)];
-        ++k;
-    }
-    const std::size_t axis = order.axis(k);
-    const double lower = last_below.position[axis];
-    const double upper = first_above.position[axis];
+    auto deciding = order.axes().begin();
+    for (; last_below[*deciding] == first_above[*deciding]; ++deciding)
+        cut.at[*deciding] = first_above[*deciding];
+    const std::size_t axis = *deciding;
+    const double lower = last_below[axis];
+    const double upper = first_above[axis];
     cut.at[axis] = on ? upper : std::max(std::nextafter(lower, infinity), lower / 2 + upper / 2);
 }
 
@@ -112,7 +88,7 @@ void cut_between(const MassPoint& last_below, const MassPoint& first_above, cons
 
 std::size_t select_below(std::span<MassPoint> points, int dimension, double target, bool plain,
                          Cut& cut) {
-    const Order order(cut.axis, dimension, plain);
+    const PositionOrder order(cut.axis, 0, plain ? 1 : dimension);
     const Lot lot = gather_lot(points, order, select(points, order, target));
     const double missing = target - lot.below;
     const bool above = missing < lot.weight / 2;
@@ -123,9 +99,11 @@ std::size_t select_below(std::span<MassPoint> points, int dimension, double targ
         cut.at[axis] = num_below == 0 ? points[lot.first].position[axis] : infinity;
         return num_below;
     }
-    const MassPoint last_below = *std::ranges::max_element(points.first(num_below), order);
-    const MassPoint first_above = *std::ranges::min_element(points.subspan(num_below), order);
-    cut_between(last_below, first_above, order, above, cut);
+    const MassPoint last_below =
+        *std::ranges::max_element(points.first(num_below), order, &MassPoint::position);
+    const MassPoint first_above =
+        *std::ranges::min_element(points.subspan(num_below), order, &MassPoint::position);
+    cut_between(last_below.position, first_above.position, order, above, cut);
     return num_below;
 }
 

@@ -38,7 +38,7 @@ void place_in_lots(Refinement& context) {
     if (is_first) std::ranges::fill(room.lots, 0.0);
 }
 
-/// Cut of a node without weight, or with no part on one side, which keeps all points off that side.
+/// Keeps all points off a side whose parts have no size; another cut without a search stays.
 void set_aside(const Node& node, const Refinement& context, Cut& cut) {
     const double share = share_below(context.sizes_of(node.at));
     if (share > 0 && share < 1) return;

@@ -1,5 +1,7 @@
 #include "sample.hpp"
 
+#include "mix.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -8,14 +10,6 @@ namespace rrcb {
 namespace {
 
 constexpr double empty = -1;
-
-/// The finalizer of SplitMix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators,
-/// 2014).
-std::uint64_t mix(std::uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
 
 /// By key; where keys are equal by position, so that the order of joining stays free.
 bool precedes(std::span<const double> a, std::span<const double> b) {

@@ -1,5 +1,7 @@
 #include "rest.hpp"
 
+#include "mix.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -7,13 +9,6 @@
 namespace rrcb::zoltan {
 
 namespace {
-
-/// Steele, Lea, Flood, Fast splittable pseudorandom number generators, 2014: the finalizer.
-std::uint64_t mix(std::uint64_t bits) {
-    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9U;
-    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebU;
-    return bits ^ (bits >> 31);
-}
 
 std::uint64_t join(std::uint64_t sum, std::uint64_t bits) {
     return mix(sum + 0x9e3779b97f4a7c15U + bits);

@@ -149,7 +149,7 @@ class Search {
                 LocalSearch& one) const {
         if (before.stage == CutSearch::sampling)
             one.take_splitters(splitters_of(positions_in(sample_in(joined), dimension_),
-                                            PositionOrder(after), layout_));
+                                            order_of(after), layout_));
         one.keep_chosen(before, after, layout_);
     }
 
@@ -310,7 +310,7 @@ TEST(CutSearch, does_not_depend_on_the_order_in_which_ranks_are_joined) {
 
 TEST(Splitters, have_a_slot_each_and_one_between_any_two) {
     CutSearch search = across(1, 0, 1, 2);
-    const PositionOrder order(search);
+    const PositionOrder order = order_of(search);
     // Across axis 1 first, then along axis 0.
     const auto splitters = splitters_of({{2, 5}, {1, 5}, {9, 4}, {1, 5}}, order, {});
     ASSERT_EQ(splitters, (std::vector<Vector>{{9, 4}, {1, 5}, {2, 5}}));

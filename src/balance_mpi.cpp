@@ -1,10 +1,10 @@
 #include "balance_mpi.hpp"
 
 #include "binned_assignment.hpp"
+#include "collective/communicator.hpp"
+#include "collective/duplicate.hpp"
 #include "decision_mpi.hpp"
 #include "merge_tree_mpi.hpp"
-#include "mpi/communicator.hpp"
-#include "mpi/duplicate.hpp"
 #include "refinement_mpi.hpp"
 #include "stage_scope.hpp"
 

@@ -1,6 +1,6 @@
 #include "candidates_mpi.hpp"
 
-#include "mpi/communicator.hpp"
+#include "collective/communicator.hpp"
 
 #include <algorithm>
 #include <numeric>

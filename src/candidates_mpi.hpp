@@ -1,7 +1,7 @@
 #pragma once
 
+#include "collective/handles.hpp"
 #include "local_search.hpp"
-#include "mpi/handles.hpp"
 
 #include <mpi.h>
 

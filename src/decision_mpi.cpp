@@ -1,8 +1,8 @@
 #include "decision_mpi.hpp"
 
 #include "brackets.hpp"
+#include "collective/communicator.hpp"
 #include "descent.hpp"
-#include "mpi/communicator.hpp"
 
 #include <rrcb/error.hpp>
 #include <rrcb/quality.hpp>

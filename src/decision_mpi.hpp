@@ -1,6 +1,6 @@
 #pragma once
 
-#include "agreement_mpi.hpp"
+#include "collective/agreement_mpi.hpp"
 #include "contribution.hpp"
 
 #include <rrcb/balance.hpp>

@@ -1,6 +1,6 @@
 #include "histogram_mpi.hpp"
 
-#include "mpi/communicator.hpp"
+#include "collective/communicator.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,8 +1,8 @@
 #include "level_search_mpi.hpp"
 
-#include "agreement_mpi.hpp"
 #include "brackets.hpp"
-#include "mpi/communicator.hpp"
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
 #include "sample.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "merge_tree_mpi.hpp"
 
-#include "agreement_mpi.hpp"
-#include "mpi/communicator.hpp"
-#include "mpi/tags.hpp"
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
+#include "collective/tags.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "collective/member.hpp"
 #include "contribution.hpp"
-#include "member.hpp"
 
 #include <algorithm>
 #include <cstdint>

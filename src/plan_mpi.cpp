@@ -1,7 +1,7 @@
-#include "agreement_mpi.hpp"
-#include "exchange_mpi.hpp"
-#include "mpi/communicator.hpp"
-#include "mpi/duplicate.hpp"
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
+#include "collective/duplicate.hpp"
+#include "collective/exchange_mpi.hpp"
 
 #include <rrcb/error.hpp>
 #include <rrcb/plan.hpp>

@@ -1,6 +1,6 @@
-#include "agreement_mpi.hpp"
-#include "mpi/communicator.hpp"
-#include "mpi/duplicate.hpp"
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
+#include "collective/duplicate.hpp"
 
 #include <rrcb/error.hpp>
 #include <rrcb/plan.hpp>

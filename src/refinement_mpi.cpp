@@ -1,10 +1,10 @@
 #include "refinement_mpi.hpp"
 
-#include "agreement_mpi.hpp"
 #include "binned_assignment.hpp"
 #include "brackets.hpp"
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
 #include "level_search_mpi.hpp"
-#include "mpi/communicator.hpp"
 
 #include <rrcb/quality.hpp>
 

@@ -1,9 +1,9 @@
 #include "remap_mpi.hpp"
 
-#include "agreement_mpi.hpp"
 #include "assignment.hpp"
-#include "mpi/communicator.hpp"
-#include "mpi/duplicate.hpp"
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
+#include "collective/duplicate.hpp"
 #include "rank_numbers.hpp"
 
 #include <rrcb/error.hpp>

@@ -1,7 +1,7 @@
 #include "agreement_mpi.hpp"
 
+#include "collective/communicator.hpp"
 #include "fortran.hpp"
-#include "mpi/communicator.hpp"
 #include "rcb_options.hpp"
 
 #include <array>

@@ -1,9 +1,9 @@
 #include "create_mpi.hpp"
 
-#include "../agreement_mpi.hpp"
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
 #include "environment.hpp"
 #include "message.hpp"
-#include "mpi/communicator.hpp"
 #include "real_zoltan.hpp"
 #include "replacement.hpp"
 #include "state.hpp"

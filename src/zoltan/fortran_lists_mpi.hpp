@@ -1,7 +1,7 @@
 #pragma once
 
 #include "caller_lists.hpp"
-#include "member.hpp"
+#include "collective/member.hpp"
 
 namespace rrcb::zoltan {
 

@@ -1,7 +1,7 @@
 #include "frame_mpi.hpp"
 
-#include "../agreement_mpi.hpp"
-#include "mpi/communicator.hpp"
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "collective/member.hpp"
 #include "frame.hpp"
-#include "member.hpp"
 
 namespace rrcb::zoltan {
 

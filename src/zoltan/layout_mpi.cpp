@@ -1,7 +1,7 @@
 #include "layout_mpi.hpp"
 
+#include "collective/communicator.hpp"
 #include "failure.hpp"
-#include "mpi/communicator.hpp"
 #include "rcb_options.hpp"
 
 #include <algorithm>

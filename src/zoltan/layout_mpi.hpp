@@ -1,7 +1,7 @@
 #pragma once
 
 #include "agreement_mpi.hpp"
-#include "member.hpp"
+#include "collective/member.hpp"
 #include "multicriteria.hpp"
 #include "part_map.hpp"
 #include "state.hpp"

@@ -1,11 +1,11 @@
 #include "norm_balance_mpi.hpp"
 
-#include "../agreement_mpi.hpp"
 #include "axis_choice.hpp"
 #include "brackets.hpp"
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
 #include "descent.hpp"
 #include "loads_mpi.hpp"
-#include "mpi/communicator.hpp"
 #include "norm_level_mpi.hpp"
 
 #include <rrcb/quality.hpp>

@@ -1,6 +1,6 @@
 #include "norm_level_mpi.hpp"
 
-#include "mpi/communicator.hpp"
+#include "collective/communicator.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,6 +1,6 @@
 #include "state.hpp"
 
-#include "mpi/communicator.hpp"
+#include "collective/communicator.hpp"
 
 #include <atomic>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "weights_mpi.hpp"
 
-#include "mpi/communicator.hpp"
+#include "collective/communicator.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // What exceeds MPI's counts, with a limit low enough to be exceeded here.
 #include "candidates_mpi.hpp"
 #include "clouds.hpp"
-#include "mpi/communicator.hpp"
+#include "collective/communicator.hpp"
 #include "mpi_layer.hpp"
 #include "ranks.hpp"
 

@@ -1,7 +1,7 @@
-#include "exchange_mpi.hpp"
+#include "collective/exchange_mpi.hpp"
 
-#include "mpi/communicator.hpp"
-#include "mpi/tags.hpp"
+#include "collective/communicator.hpp"
+#include "collective/tags.hpp"
 
 #include <rrcb/error.hpp>
 

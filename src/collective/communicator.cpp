@@ -1,4 +1,4 @@
-#include "mpi/communicator.hpp"
+#include "collective/communicator.hpp"
 
 #include <rrcb/error.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "failure.hpp"
+#include "collective/failure.hpp"
 
 #include <mpi.h>
 

@@ -1,7 +1,7 @@
-#include "mpi/duplicate.hpp"
+#include "collective/duplicate.hpp"
 
-#include "agreement_mpi.hpp"
-#include "mpi/communicator.hpp"
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
 
 #include <rrcb/error.hpp>
 

@@ -1,6 +1,6 @@
-#include "mpi/handles.hpp"
+#include "collective/handles.hpp"
 
-#include "mpi/communicator.hpp"
+#include "collective/communicator.hpp"
 
 namespace rrcb::mpi {
 

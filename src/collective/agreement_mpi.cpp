@@ -1,6 +1,6 @@
-#include "agreement_mpi.hpp"
+#include "collective/agreement_mpi.hpp"
 
-#include "mpi/communicator.hpp"
+#include "collective/communicator.hpp"
 
 #include <array>
 #include <new>

@@ -5,8 +5,8 @@
 #include "collective/duplicate.hpp"
 #include "decision_mpi.hpp"
 #include "merge_tree_mpi.hpp"
+#include "options/stage_scope.hpp"
 #include "refinement_mpi.hpp"
-#include "stage_scope.hpp"
 
 #include <rrcb/balance.hpp>
 

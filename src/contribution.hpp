@@ -1,6 +1,6 @@
 #pragma once
 
-#include "request.hpp"
+#include "options/request.hpp"
 
 #include <rrcb/binned_points.hpp>
 #include <rrcb/points.hpp>

@@ -1,4 +1,4 @@
-#include "arithmetic.hpp"
+#include "options/arithmetic.hpp"
 
 #include <limits>
 

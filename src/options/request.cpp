@@ -1,6 +1,6 @@
-#include "request.hpp"
+#include "options/request.hpp"
 
-#include "arithmetic.hpp"
+#include "options/arithmetic.hpp"
 
 #include <algorithm>
 #include <bit>

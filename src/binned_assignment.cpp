@@ -1,7 +1,7 @@
 #include "binned_assignment.hpp"
 
+#include "cells/running_sums.hpp"
 #include "descent.hpp"
-#include "running_sums.hpp"
 #include "sides.hpp"
 
 #include <rrcb/sorted_points.hpp>

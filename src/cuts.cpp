@@ -1,5 +1,5 @@
+#include "cells/point_layout.hpp"
 #include "descent.hpp"
-#include "point_layout.hpp"
 #include "sides.hpp"
 
 #include <rrcb/cuts.hpp>

@@ -1,5 +1,5 @@
+#include "cells/point_layout.hpp"
 #include "contribution.hpp"
-#include "point_layout.hpp"
 
 #include <rrcb/error.hpp>
 

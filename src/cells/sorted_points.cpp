@@ -1,4 +1,4 @@
-#include "point_layout.hpp"
+#include "cells/point_layout.hpp"
 
 #include <rrcb/sorted_points.hpp>
 

@@ -1,5 +1,5 @@
-#include "point_layout.hpp"
-#include "running_sums.hpp"
+#include "cells/point_layout.hpp"
+#include "cells/running_sums.hpp"
 
 #include <rrcb/moments.hpp>
 

@@ -3,8 +3,8 @@
 #include "binned_assignment.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
-#include "decision_mpi.hpp"
-#include "merge_tree_mpi.hpp"
+#include "gather/decision_mpi.hpp"
+#include "gather/merge_tree_mpi.hpp"
 #include "options/stage_scope.hpp"
 #include "refinement_mpi.hpp"
 

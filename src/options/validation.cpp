@@ -1,5 +1,5 @@
 #include "cells/point_layout.hpp"
-#include "contribution.hpp"
+#include "gather/contribution.hpp"
 
 #include <rrcb/error.hpp>
 

@@ -2,8 +2,8 @@
 // the contributions merge up the tree of so many ranks, the root bisects what arrives, and the cuts
 // are refined by what all sub-domains hold.
 #include "../support/clouds.hpp"
-#include "decision_mpi.hpp"
-#include "merge_tree_mpi.hpp"
+#include "gather/decision_mpi.hpp"
+#include "gather/merge_tree_mpi.hpp"
 #include "refinement_mpi.hpp"
 
 #include <rrcb/quality.hpp>

@@ -1,6 +1,6 @@
-#include "coarsening.hpp"
+#include "gather/coarsening.hpp"
 
-#include "cell_records.hpp"
+#include "gather/cell_records.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "contribution.hpp"
+#include "gather/contribution.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // More points than 32 bits count, told to the stages by numbers that no memory backs.
-#include "cell_records.hpp"
-#include "contribution.hpp"
-#include "decision_mpi.hpp"
+#include "gather/cell_records.hpp"
+#include "gather/contribution.hpp"
+#include "gather/decision_mpi.hpp"
 
 #include <rrcb/bisection.hpp>
 #include <rrcb/support_mesh.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cell_records.hpp"
+#include "gather/cell_records.hpp"
 
 namespace rrcb {
 

@@ -1,4 +1,4 @@
-#include "cell_records.hpp"
+#include "gather/cell_records.hpp"
 
 #include <rrcb/support_mesh.hpp>
 

@@ -1,4 +1,4 @@
-#include "merge_tree_mpi.hpp"
+#include "gather/merge_tree_mpi.hpp"
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "collective/agreement_mpi.hpp"
-#include "contribution.hpp"
+#include "gather/contribution.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/bisection.hpp>

@@ -1,7 +1,7 @@
-#include "contribution.hpp"
+#include "gather/contribution.hpp"
 
-#include "cell_records.hpp"
-#include "coarsening.hpp"
+#include "gather/cell_records.hpp"
+#include "gather/coarsening.hpp"
 
 #include <rrcb/support_mesh.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "collective/member.hpp"
-#include "contribution.hpp"
+#include "gather/contribution.hpp"
 
 #include <algorithm>
 #include <cstdint>

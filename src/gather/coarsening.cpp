@@ -1,4 +1,4 @@
-#include "coarsening.hpp"
+#include "gather/coarsening.hpp"
 
 #include <algorithm>
 #include <cmath>

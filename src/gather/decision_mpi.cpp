@@ -1,4 +1,4 @@
-#include "decision_mpi.hpp"
+#include "gather/decision_mpi.hpp"
 
 #include "brackets.hpp"
 #include "collective/communicator.hpp"

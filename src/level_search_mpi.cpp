@@ -1,6 +1,6 @@
 #include "level_search_mpi.hpp"
 
-#include "brackets.hpp"
+#include "bisection/brackets.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "sample.hpp"

@@ -1,7 +1,7 @@
 #include "refinement_mpi.hpp"
 
 #include "binned_assignment.hpp"
-#include "brackets.hpp"
+#include "bisection/brackets.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "level_search_mpi.hpp"

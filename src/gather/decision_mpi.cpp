@@ -1,6 +1,6 @@
 #include "gather/decision_mpi.hpp"
 
-#include "brackets.hpp"
+#include "bisection/brackets.hpp"
 #include "collective/communicator.hpp"
 #include "descent.hpp"
 

@@ -1,7 +1,7 @@
-#include "point_selection.hpp"
+#include "bisection/point_selection.hpp"
 
 #include "../support/clouds.hpp"
-#include "weighted_quantile.hpp"
+#include "bisection/weighted_quantile.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
-#include "axis_choice.hpp"
-#include "brackets.hpp"
-#include "point_selection.hpp"
-#include "weighted_quantile.hpp"
+#include "bisection/axis_choice.hpp"
+#include "bisection/brackets.hpp"
+#include "bisection/point_selection.hpp"
+#include "bisection/weighted_quantile.hpp"
 
 #include <rrcb/bisection.hpp>
 

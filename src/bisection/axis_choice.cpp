@@ -1,4 +1,4 @@
-#include "axis_choice.hpp"
+#include "bisection/axis_choice.hpp"
 
 #include <algorithm>
 #include <bit>

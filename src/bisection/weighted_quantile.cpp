@@ -1,4 +1,4 @@
-#include "weighted_quantile.hpp"
+#include "bisection/weighted_quantile.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "point_selection.hpp"
+#include "bisection/point_selection.hpp"
 
 #include "position_order.hpp"
 

@@ -1,5 +1,5 @@
-#include "binned_assignment.hpp"
 #include "clouds.hpp"
+#include "cuts/binned_assignment.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/moments.hpp>

@@ -1,8 +1,8 @@
 #include "balance_mpi.hpp"
 
-#include "binned_assignment.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "cuts/binned_assignment.hpp"
 #include "gather/decision_mpi.hpp"
 #include "gather/merge_tree_mpi.hpp"
 #include "options/stage_scope.hpp"

@@ -1,6 +1,6 @@
 #include "fragments.hpp"
 
-#include "sides.hpp"
+#include "cuts/sides.hpp"
 
 #include <algorithm>
 

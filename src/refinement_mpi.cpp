@@ -1,9 +1,9 @@
 #include "refinement_mpi.hpp"
 
-#include "binned_assignment.hpp"
 #include "bisection/brackets.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
+#include "cuts/binned_assignment.hpp"
 #include "level_search_mpi.hpp"
 
 #include <rrcb/quality.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "candidates_mpi.hpp"
-#include "descent.hpp"
+#include "cuts/descent.hpp"
 #include "histogram_mpi.hpp"
 
 #include <rrcb/options.hpp>

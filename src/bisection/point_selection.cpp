@@ -1,6 +1,6 @@
 #include "bisection/point_selection.hpp"
 
-#include "position_order.hpp"
+#include "cuts/position_order.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "bisection/brackets.hpp"
 #include "collective/communicator.hpp"
-#include "descent.hpp"
+#include "cuts/descent.hpp"
 
 #include <rrcb/error.hpp>
 #include <rrcb/quality.hpp>

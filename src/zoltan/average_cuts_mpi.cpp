@@ -1,7 +1,7 @@
 #include "average_cuts_mpi.hpp"
 
 #include "collective/communicator.hpp"
-#include "descent.hpp"
+#include "cuts/descent.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "kept.hpp"
 
-#include "sides.hpp"
+#include "cuts/sides.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -4,7 +4,7 @@
 #include "bisection/brackets.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "descent.hpp"
+#include "cuts/descent.hpp"
 #include "loads_mpi.hpp"
 #include "norm_level_mpi.hpp"
 

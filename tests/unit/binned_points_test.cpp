@@ -1,5 +1,5 @@
 #include "../support/clouds.hpp"
-#include "binned_assignment.hpp"
+#include "cuts/binned_assignment.hpp"
 
 #include <rrcb/sorted_points.hpp>
 

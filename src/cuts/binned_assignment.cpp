@@ -1,8 +1,8 @@
-#include "binned_assignment.hpp"
+#include "cuts/binned_assignment.hpp"
 
 #include "cells/running_sums.hpp"
-#include "descent.hpp"
-#include "sides.hpp"
+#include "cuts/descent.hpp"
+#include "cuts/sides.hpp"
 
 #include <rrcb/sorted_points.hpp>
 

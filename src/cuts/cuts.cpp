@@ -1,6 +1,6 @@
 #include "cells/point_layout.hpp"
-#include "descent.hpp"
-#include "sides.hpp"
+#include "cuts/descent.hpp"
+#include "cuts/sides.hpp"
 
 #include <rrcb/cuts.hpp>
 

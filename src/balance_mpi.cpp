@@ -6,7 +6,7 @@
 #include "gather/decision_mpi.hpp"
 #include "gather/merge_tree_mpi.hpp"
 #include "options/stage_scope.hpp"
-#include "refinement_mpi.hpp"
+#include "refinement/refinement_mpi.hpp"
 
 #include <rrcb/balance.hpp>
 

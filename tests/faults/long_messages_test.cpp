@@ -1,9 +1,9 @@
 // What exceeds MPI's counts, with a limit low enough to be exceeded here.
-#include "candidates_mpi.hpp"
 #include "clouds.hpp"
 #include "collective/communicator.hpp"
 #include "mpi_layer.hpp"
 #include "ranks.hpp"
+#include "refinement/candidates_mpi.hpp"
 
 #include <rrcb/rrcb.hpp>
 

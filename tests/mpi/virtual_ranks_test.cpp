@@ -4,7 +4,7 @@
 #include "../support/clouds.hpp"
 #include "gather/decision_mpi.hpp"
 #include "gather/merge_tree_mpi.hpp"
-#include "refinement_mpi.hpp"
+#include "refinement/refinement_mpi.hpp"
 
 #include <rrcb/quality.hpp>
 

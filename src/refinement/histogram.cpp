@@ -1,6 +1,6 @@
-#include "histogram.hpp"
+#include "refinement/histogram.hpp"
 
-#include "sample.hpp"
+#include "refinement/sample.hpp"
 
 #include <algorithm>
 #include <functional>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "bins.hpp"
 #include "cuts/position_order.hpp"
-#include "histogram.hpp"
+#include "refinement/bins.hpp"
+#include "refinement/histogram.hpp"
 
 #include <rrcb/cuts.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cut_search.hpp"
-#include "fragments.hpp"
+#include "refinement/cut_search.hpp"
+#include "refinement/fragments.hpp"
 
 #include <span>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "sample.hpp"
+#include "refinement/sample.hpp"
 
 #include "mix.hpp"
 

@@ -1,9 +1,9 @@
-#include "level_search_mpi.hpp"
+#include "refinement/level_search_mpi.hpp"
 
 #include "bisection/brackets.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "sample.hpp"
+#include "refinement/sample.hpp"
 
 #include <algorithm>
 #include <bit>

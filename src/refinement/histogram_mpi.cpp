@@ -1,4 +1,4 @@
-#include "histogram_mpi.hpp"
+#include "refinement/histogram_mpi.hpp"
 
 #include "collective/communicator.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "collective/member.hpp"
-#include "refinement_room.hpp"
+#include "refinement/refinement_room.hpp"
 
 #include <rrcb/bisection.hpp>
 

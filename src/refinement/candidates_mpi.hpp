@@ -1,7 +1,7 @@
 #pragma once
 
 #include "collective/handles.hpp"
-#include "local_search.hpp"
+#include "refinement/local_search.hpp"
 
 #include <mpi.h>
 

@@ -1,10 +1,10 @@
-#include "refinement_mpi.hpp"
+#include "refinement/refinement_mpi.hpp"
 
 #include "bisection/brackets.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/binned_assignment.hpp"
-#include "level_search_mpi.hpp"
+#include "refinement/level_search_mpi.hpp"
 
 #include <rrcb/quality.hpp>
 

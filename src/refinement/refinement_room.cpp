@@ -1,4 +1,4 @@
-#include "refinement_room.hpp"
+#include "refinement/refinement_room.hpp"
 
 namespace rrcb {
 

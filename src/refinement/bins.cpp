@@ -1,4 +1,4 @@
-#include "bins.hpp"
+#include "refinement/bins.hpp"
 
 #include <algorithm>
 #include <bit>

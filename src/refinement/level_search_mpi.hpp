@@ -1,6 +1,6 @@
 #pragma once
 
-#include "refinement_mpi.hpp"
+#include "refinement/refinement_mpi.hpp"
 
 namespace rrcb {
 

@@ -1,4 +1,4 @@
-#include "fragments.hpp"
+#include "refinement/fragments.hpp"
 
 #include "cuts/sides.hpp"
 

@@ -1,4 +1,4 @@
-#include "cut_search.hpp"
+#include "refinement/cut_search.hpp"
 
 #include <algorithm>
 #include <cmath>

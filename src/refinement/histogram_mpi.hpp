@@ -1,7 +1,7 @@
 #pragma once
 
 #include "collective/handles.hpp"
-#include "histogram.hpp"
+#include "refinement/histogram.hpp"
 
 #include <mpi.h>
 

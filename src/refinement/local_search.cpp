@@ -1,6 +1,6 @@
-#include "local_search.hpp"
+#include "refinement/local_search.hpp"
 
-#include "sample.hpp"
+#include "refinement/sample.hpp"
 
 #include <algorithm>
 #include <cmath>

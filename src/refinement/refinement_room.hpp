@@ -1,8 +1,8 @@
 #pragma once
 
-#include "candidates_mpi.hpp"
 #include "cuts/descent.hpp"
-#include "histogram_mpi.hpp"
+#include "refinement/candidates_mpi.hpp"
+#include "refinement/histogram_mpi.hpp"
 
 #include <rrcb/options.hpp>
 

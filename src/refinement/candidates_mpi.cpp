@@ -1,4 +1,4 @@
-#include "candidates_mpi.hpp"
+#include "refinement/candidates_mpi.hpp"
 
 #include "collective/communicator.hpp"
 

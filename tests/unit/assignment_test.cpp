@@ -1,4 +1,4 @@
-#include "assignment.hpp"
+#include "lists/assignment.hpp"
 
 #include "../support/clouds.hpp"
 

@@ -1,7 +1,7 @@
-#include "rank_numbers.hpp"
+#include "lists/rank_numbers.hpp"
 
 #include "../support/clouds.hpp"
-#include "assignment.hpp"
+#include "lists/assignment.hpp"
 
 #include <gtest/gtest.h>
 

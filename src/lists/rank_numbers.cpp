@@ -1,4 +1,4 @@
-#include "rank_numbers.hpp"
+#include "lists/rank_numbers.hpp"
 
 #include <algorithm>
 #include <tuple>

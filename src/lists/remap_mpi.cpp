@@ -1,10 +1,10 @@
-#include "remap_mpi.hpp"
+#include "lists/remap_mpi.hpp"
 
-#include "assignment.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
-#include "rank_numbers.hpp"
+#include "lists/assignment.hpp"
+#include "lists/rank_numbers.hpp"
 
 #include <rrcb/error.hpp>
 

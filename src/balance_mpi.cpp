@@ -4,15 +4,20 @@
 #include "collective/duplicate.hpp"
 #include "cuts/binned_assignment.hpp"
 #include "gather/decision_mpi.hpp"
+#include "gather/keeping.hpp"
 #include "gather/merge_tree_mpi.hpp"
 #include "options/stage_scope.hpp"
+#include "refinement/part_sums_mpi.hpp"
 #include "refinement/refinement_mpi.hpp"
 
 #include <rrcb/balance.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace rrcb {
 
@@ -64,87 +69,158 @@ void decide_together(const Contribution& all, const Options& options, const Cuts
     broadcast(decision, me);
 }
 
-/// Assigns the points by the cuts as they are. Collective.
-void assign_together(const Options& options, const Points& points, const BinnedPoints& binned,
-                     Balance& result, Member& me) {
-    const StageScope stage(options.observer, Stage::assignment);
+/// What a call works with on one rank.
+struct Work {
+    Options options;
+    BinnedPoints binned;
+    Contribution mine;
+    Decision decision;
+    std::optional<RefinementRoom> room;
+    std::vector<double> part_weights;  ///< room to count parts that are not refined
+    std::vector<double> sums;
+    Balance result;
+};
+
+bool is_known(const Verdict& verdict) {
+    return !std::isnan(verdict.current_imbalance);
+}
+
+/// Everything before the first message. Not collective.
+void prepare(const Points& points, const Options& given, const Cuts* previous, bool may_stay,
+             Work& work, const Member& me) {
+    const StageScope stage(given.observer, Stage::moments);
+    const int num_ranks = mpi::size_of(me.comm);
+    Options& options = work.options = complete(given, num_ranks);
+    const Box box = check_points(points);
+    check_options(options, points.dimension);
+    if (previous) check_previous(*previous, options, points.dimension);
+    work.mine.summary = summarize(points, box);
+    work.mine.summary.request = request_of(options, points.dimension, previous);
+    // Not before the ranks are compared by what they were given.
+    if (previous) options.domain = DomainKind::analytic;
+    normalize(options.part_sizes, options.num_parts);
+    const bool reads_current = !previous && reads_current_parts(options, num_ranks);
+    make_room(work.decision, options, points.dimension, reads_current);
+    work.result.parts.resize(points.count);
+    if (is_refined(options)) {
+        work.room.emplace(options, points.dimension, mpi::rank_of(me.comm) == root);
+    } else if (reads_current) {
+        work.part_weights.resize(options.part_sizes.size() + 1);
+        work.sums.resize(options.part_sizes.size() + 2);
+    }
+    work.binned = bin_by_options(points, box, options);
+    if (!previous) add_records(points, work.binned, options, work.mine);
+    if (reads_current && may_stay)
+        append_place(place_of(points, box, work.mine.summary.weight), points.dimension,
+                     work.mine.places);
+}
+
+/// Tells what the parts weigh, as counted.
+void report_measured(double imbalance, std::vector<double>&& part_weights, const Options& options,
+                     Report& report) {
+    report.measured_imbalance = imbalance;
+    report.within_tolerance = imbalance <= options.imbalance_tolerance;
+    report.part_weights = std::move(part_weights);
+}
+
+/// Assigns the points by the cuts as they are, and counts the parts where the ranks hold others
+/// that may be as good. Collective.
+void assign_together(const Points& points, Work& work, Member& me) {
+    const StageScope stage(work.options.observer, Stage::assignment);
+    Balance& result = work.result;
+    const bool counts = is_known(work.decision.verdict);
+    if (counts && result.report.all_weights_zero) work.binned.points.weights = {};
     me.locally([&] {
-        if (options.domain == DomainKind::points) {
+        if (work.options.domain == DomainKind::points) {
             assign(result.cuts, points, result.parts);
         } else {
-            assign(result.cuts, binned, result.parts);
+            const auto weights = assign(result.cuts, work.binned, result.parts);
+            if (counts) std::ranges::copy(weights, work.part_weights.begin());
         }
     });
-    agree(me);
+    if (!counts) return agree(me);
+    const auto& sizes = work.options.part_sizes;
+    const double imbalance = add_up_parts(work.part_weights, work.sums, sizes, me);
+    work.sums.resize(sizes.size());
+    report_measured(imbalance, std::move(work.sums), work.options, result.report);
 }
 
 /// Moves the cuts by what the ranks count, and assigns the points by them. Collective.
-void refine_together(Decision& decision, const Options& options, BinnedPoints& binned,
-                     RefinementRoom& room, Balance& result, Member& me) {
+void refine_together(Work& work, Member& me) {
+    const Options& options = work.options;
     const StageScope stage(options.observer, Stage::refinement);
+    Balance& result = work.result;
     Report& report = result.report;
-    if (report.all_weights_zero) binned.points.weights = {};
+    if (report.all_weights_zero) work.binned.points.weights = {};
     const double weight =
         report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
-    Estimate estimate{std::move(result.cuts), std::move(decision.bisection.brackets), weight,
-                      decision.verdict.grain};
-    Measured measured = refine(estimate, options, binned, room, result.parts, me);
-    report.measured_imbalance = measured.imbalance;
-    report.within_tolerance = measured.imbalance <= options.imbalance_tolerance;
-    report.part_weights = std::move(measured.part_weights);
+    Estimate estimate{std::move(result.cuts), std::move(work.decision.bisection.brackets), weight,
+                      work.decision.verdict.grain, work.decision.verdict.current_imbalance};
+    Measured measured = refine(estimate, options, work.binned, *work.room, result.parts, me);
+    report_measured(measured.imbalance, std::move(measured.part_weights), options, report);
     report.rounds = measured.rounds;
     report.coincident_cuts = measured.coincident_cuts;
     result.cuts = std::move(estimate.cuts);
 }
 
+/// Leaves the points in the parts that they lie in. Not collective.
+void stay(Work& work, const Member& me) {
+    CurrentParts& current = work.decision.current;
+    Balance& result = work.result;
+    const auto rank = static_cast<std::size_t>(mpi::rank_of(me.comm));
+    std::ranges::fill(result.parts, current.parts[rank]);
+    result.cuts = std::move(current.cuts);
+    result.report.kept = true;
+    result.report.coincident_cuts = static_cast<int>(
+        std::ranges::count_if(result.cuts.tree, [](const Cut& cut) { return cut.divides != 0; }));
+    report_measured(work.decision.verdict.current_imbalance, std::move(current.part_weights),
+                    work.options, result.report);
+}
+
+/// Makes the parts, or leaves them as they are. Collective.
+void divide_together(const Points& points, Work& work, Member& me) {
+    const Report& report = work.result.report;
+    const Verdict& verdict = work.decision.verdict;
+    if (verdict.stays) {
+        const StageScope stage(work.options.observer, Stage::assignment);
+        stay(work, me);
+        return agree(me);
+    }
+    if (is_refined(work.options) && report.num_points > 0) {
+        refine_together(work, me);
+    } else {
+        assign_together(points, work, me);
+    }
+    if (!is_known(verdict)) return;
+    if (is_worth_moving(verdict.current_imbalance, report.measured_imbalance, work.options)) return;
+    const StageScope stage(work.options.observer, Stage::broadcast);
+    broadcast_current(work.decision, me);
+    stay(work, me);
+}
+
 }  // namespace
 
-Balance balance(const Points& points, const Options& given, const Cuts* previous, Member& me) {
-    Options options;
-    options.observer = given.observer;
-    Balance result;
-    BinnedPoints binned;
-    Contribution mine;
-    Decision decision;
-    std::optional<RefinementRoom> room;
-    me.locally([&] {
-        const StageScope stage(given.observer, Stage::moments);
-        options = complete(given, mpi::size_of(me.comm));
-        const Box box = check_points(points);
-        check_options(options, points.dimension);
-        if (previous) check_previous(*previous, options, points.dimension);
-        mine.summary = summarize(points, box);
-        mine.summary.request = request_of(options, points.dimension, previous);
-        // Not before the ranks are compared by what they were given.
-        if (previous) options.domain = DomainKind::analytic;
-        normalize(options.part_sizes, options.num_parts);
-        make_room(decision, options, points.dimension);
-        result.parts.resize(points.count);
-        if (is_refined(options))
-            room.emplace(options, points.dimension, mpi::rank_of(me.comm) == root);
-        binned = bin_by_options(points, box, options);
-        if (!previous) add_records(points, binned, options, mine);
-    });
-    gather(mine, options, points.dimension, me);
-    decide_together(mine, options, previous, decision, me);
-    result.report = report_of(decision.verdict, options.num_parts);
-    result.cuts = std::move(decision.bisection.cuts);
-    if (is_refined(options) && result.report.num_points > 0) {
-        refine_together(decision, options, binned, *room, result, me);
-    } else {
-        assign_together(options, points, binned, result, me);
-    }
-    return result;
+Balance balance(const Points& points, const Options& given, const Cuts* previous, bool may_stay,
+                Member& me) {
+    Work work;
+    work.options.observer = given.observer;
+    me.locally([&] { prepare(points, given, previous, may_stay, work, me); });
+    gather(work.mine, work.options, points.dimension, me);
+    decide_together(work.mine, work.options, previous, work.decision, me);
+    work.result.report = report_of(work.decision.verdict, work.options.num_parts);
+    work.result.cuts = std::move(work.decision.bisection.cuts);
+    divide_together(points, work, me);
+    return std::move(work.result);
 }
 
 Balance balance(const Points& points, const Options& options, MPI_Comm comm) {
     Member me{mpi::duplicate_of(comm)};
-    return balance(points, options, nullptr, me);
+    return balance(points, options, nullptr, true, me);
 }
 
 Balance balance(const Points& points, const Options& options, MPI_Comm comm, const Cuts& previous) {
     Member me{mpi::duplicate_of(comm)};
-    return balance(points, options, &previous, me);
+    return balance(points, options, &previous, true, me);
 }
 
 }  // namespace rrcb

@@ -22,6 +22,7 @@ struct Report {
     double least_imbalance = 1;  ///< no partition is better: of the heaviest point in a part alone
     int coincident_cuts = 0;  ///< that met points no allowed cut can tell apart, where the balance
                               ///< asked for divides them; counted by the refinement
+    bool kept = false;        ///< each rank's points were a part and are: the cuts are theirs
     int rounds = 0;           ///< of counting what the ranks hold, for the refinement
     bool all_weights_zero = false;  ///< balanced by count instead
     int surplus_parts = 0;          ///< parts that must stay empty: more parts than points

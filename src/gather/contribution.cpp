@@ -106,6 +106,9 @@ void join(Summary& mine, const Summary& next) {
 }
 
 void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t most) {
+    const auto first_place = mine.records.end() - next.num_place_doubles;
+    mine.places.insert(mine.places.end(), first_place, mine.records.end());
+    mine.records.erase(first_place, mine.records.end());
     join(mine.summary, next);
     if (!mine.summary.is_usable()) mine.records.clear();
     const bool too_many = static_cast<std::size_t>(mine.summary.num_cells) > most;

@@ -26,6 +26,7 @@ struct Summary {
     std::int64_t num_points = 0;
     std::int64_t num_cells = 0;  ///< or points, where these are the records
     std::int64_t num_doubles = 0;
+    std::int64_t num_place_doubles = 0;  ///< the last of them
     double weight = 0;
     double lightest = std::numeric_limits<double>::infinity();  ///< weight of one point
     double heaviest = 0;
@@ -38,6 +39,7 @@ struct Summary {
 struct Contribution {
     Summary summary;
     std::vector<double> records;   ///< the moments of their cells
+    std::vector<double> places{};  ///< of their points, a Place each, where the root wants them
     std::vector<double> points{};  ///< of one rank, in place of cells, until the root wants them
 };
 
@@ -73,8 +75,8 @@ std::size_t most_cells(const Options& options);
 /// Adds the totals of the ranks that follow, and what stands in their way.
 void join(Summary& mine, const Summary& next);
 
-/// Takes in the records of the ranks that follow, already at the end of `mine.records`: joins the
-/// summaries, and coarsens where there are too many cells. Not collective.
+/// Takes in the records and places of the ranks that follow, already at the end of `mine.records`:
+/// joins the summaries, and coarsens where there are too many cells. Not collective.
 void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t most);
 
 /// The domain the root bisects, from what everybody contributed.

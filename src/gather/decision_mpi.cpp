@@ -3,6 +3,7 @@
 #include "bisection/brackets.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/descent.hpp"
+#include "gather/keeping.hpp"
 
 #include <rrcb/error.hpp>
 #include <rrcb/quality.hpp>
@@ -14,12 +15,11 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <utility>
 
 namespace rrcb {
 
 namespace {
-
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 /// Of a partition with the heaviest point alone in the largest part.
 double least_imbalance(double heaviest, double weight, std::span<const double> part_sizes) {
@@ -110,16 +110,37 @@ Bisection reuse(const Cuts& previous, const Options& options, const Box& box, bo
     return bisection;
 }
 
-template <class T>
-std::byte* copy_out(const T* from, std::size_t count, std::byte* to) {
-    if (count > 0) std::memcpy(to, from, count * sizeof(T));
-    return to + count * sizeof(T);
+/// Calls `visit` with each of the arrays that the message holds: of the current parts where they
+/// stay, of the new cuts otherwise.
+template <class Visit>
+void for_each_array(Decision& decision, Visit&& visit) {
+    const bool stays = decision.verdict.stays != 0;
+    visit(std::span(stays ? decision.current.cuts.tree : decision.bisection.cuts.tree));
+    if (stays) visit(std::span(decision.current.part_weights));
+    if (stays) visit(std::span(decision.current.parts));
+    if (!stays) visit(std::span(decision.bisection.brackets));
 }
 
-template <class T>
-const std::byte* copy_in(const std::byte* from, T* to, std::size_t count) {
-    if (count > 0) std::memcpy(to, from, count * sizeof(T));
-    return from + count * sizeof(T);
+/// The message, as long as what it holds.
+std::span<std::byte> message_of(Decision& decision) {
+    std::size_t length = 0;
+    for_each_array(decision, [&](auto array) { length += array.size_bytes(); });
+    return std::span(decision.message).first(length);
+}
+
+void pack(Decision& decision) {
+    auto to = decision.message.begin();
+    for_each_array(decision,
+                   [&](auto array) { to = std::ranges::copy(std::as_bytes(array), to).out; });
+}
+
+void unpack(Decision& decision) {
+    auto from = std::as_const(decision.message).begin();
+    for_each_array(decision, [&](auto array) {
+        const std::span<std::byte> to = std::as_writable_bytes(array);
+        std::copy_n(from, to.size(), to.begin());
+        from += std::ssize(to);
+    });
 }
 
 /// What every rank expects of the root first, whatever it was asked for: the verdict, and as much
@@ -127,10 +148,23 @@ const std::byte* copy_in(const std::byte* from, T* to, std::size_t count) {
 using Head = std::array<std::byte, 2048>;
 
 void broadcast_head(Head& head, Verdict& verdict, const Member& me) {
-    copy_out(&verdict, 1, head.data());
+    std::memcpy(head.data(), &verdict, sizeof verdict);
     mpi::broadcast(head, root, me.comm);
-    copy_in(head.data(), &verdict, 1);
+    std::memcpy(&verdict, head.data(), sizeof verdict);
     if (verdict.failing_rank != no_rank) fail_together(verdict.failing_rank, me);
+}
+
+/// Reads the current parts from the places of all ranks, where these are one part each.
+void look_at_current(const Contribution& all, const Options& options, Decision& decision) {
+    const Cuts& estimate = decision.bisection.cuts;
+    const std::vector<Place> places = read_places(all.places, estimate.dimension);
+    if (places.empty() || places.size() != decision.current.parts.size()) return;
+    if (all.summary.num_points == 0) return;
+    auto current = read_current(places, estimate, options);
+    if (!current) return;
+    decision.verdict.current_imbalance = current->imbalance;
+    decision.verdict.stays = stays_at_once(current->imbalance, options.imbalance_tolerance) ? 1 : 0;
+    decision.current = std::move(*current);
 }
 
 }  // namespace
@@ -154,14 +188,23 @@ bool is_refined(const Options& options) {
            options.domain != DomainKind::points;
 }
 
-void make_room(Decision& decision, const Options& options, int dimension) {
-    const std::size_t num_cuts = options.part_sizes.size() - 1;
+void make_room(Decision& decision, const Options& options, int dimension, bool may_stay) {
+    const std::size_t num_parts = options.part_sizes.size();
+    const std::size_t num_cuts = num_parts - 1;
     Bisection& bisection = decision.bisection;
     bisection.cuts.dimension = dimension;
-    bisection.cuts.num_parts = static_cast<int>(options.part_sizes.size());
+    bisection.cuts.num_parts = static_cast<int>(num_parts);
     bisection.cuts.tree.resize(num_cuts);
     bisection.brackets.resize(is_refined(options) ? num_cuts : 0);
-    decision.message.resize(num_cuts * sizeof(Cut) + bisection.brackets.size() * sizeof(Bracket));
+    if (may_stay) {
+        decision.current.cuts = bisection.cuts;
+        decision.current.part_weights.resize(num_parts);
+        decision.current.parts.resize(num_parts);
+    }
+    const std::size_t beside_cuts =
+        std::max(bisection.brackets.size() * sizeof(Bracket),
+                 decision.current.parts.size() * (sizeof(double) + sizeof(Part)));
+    decision.message.resize(num_cuts * sizeof(Cut) + beside_cuts);
 }
 
 void decide(const Contribution& all, const Options& options, const Cuts* previous,
@@ -174,6 +217,7 @@ void decide(const Contribution& all, const Options& options, const Cuts* previou
                          : bisect(build_domain(all, options, dimension), options, with_brackets);
     bisection.brackets.resize(with_brackets ? bisection.cuts.tree.size() : 0);
     decision.verdict = verdict_of(all.summary, bisection, options.part_sizes);
+    look_at_current(all, options, decision);
 }
 
 void confirm(const Summary& all, Member& me) {
@@ -190,22 +234,28 @@ void confirm(const Summary& all, Member& me) {
 }
 
 void broadcast(Decision& decision, const Member& me) {
-    std::vector<Cut>& tree = decision.bisection.cuts.tree;
-    std::vector<Bracket>& brackets = decision.bisection.brackets;
-    const std::span<std::byte> message(decision.message);
-    if (mpi::rank_of(me.comm) == root && decision.verdict.failing_rank == no_rank) {
-        std::byte* to = copy_out(tree.data(), tree.size(), message.data());
-        copy_out(brackets.data(), brackets.size(), to);
-    }
     Head head{};
-    const std::size_t in_head = std::min(message.size(), head.size() - sizeof(Verdict));
-    copy_out(message.data(), in_head, head.data() + sizeof(Verdict));
+    const std::span<std::byte> room = std::span(head).subspan(sizeof(Verdict));
+    const auto in_head = [&] {
+        const std::span<std::byte> message = message_of(decision);
+        return message.first(std::min(message.size(), room.size()));
+    };
+    if (mpi::rank_of(me.comm) == root && decision.verdict.failing_rank == no_rank) {
+        pack(decision);
+        std::ranges::copy(in_head(), room.begin());
+    }
     broadcast_head(head, decision.verdict, me);
-    const std::byte* from = head.data() + sizeof(Verdict);
-    copy_in(from, message.data(), in_head);
-    mpi::broadcast(message.subspan(in_head), root, me.comm);
-    from = copy_in(message.data(), tree.data(), tree.size());
-    copy_in(from, brackets.data(), brackets.size());
+    // Now all know how long the message is.
+    std::ranges::copy(room.first(in_head().size()), in_head().begin());
+    mpi::broadcast(message_of(decision).subspan(in_head().size()), root, me.comm);
+    unpack(decision);
+}
+
+void broadcast_current(Decision& decision, const Member& me) {
+    decision.verdict.stays = 1;
+    if (mpi::rank_of(me.comm) == root) pack(decision);
+    mpi::broadcast(message_of(decision), root, me.comm);
+    unpack(decision);
 }
 
 }  // namespace rrcb

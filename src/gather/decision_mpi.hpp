@@ -2,30 +2,38 @@
 
 #include "collective/agreement_mpi.hpp"
 #include "gather/contribution.hpp"
+#include "gather/current_parts.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/bisection.hpp>
 
 #include <mpi.h>
 
+#include <limits>
+
 namespace rrcb {
+
+inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 /// What the root tells first: whether there are cuts, and what it saw.
 struct Verdict {
     std::int32_t failing_rank = no_rank;
-    double grain = 0;  ///< weight of each point where all weigh the same, else 0
+    std::int32_t stays = 0;  ///< 1: the current parts stay
+    double grain = 0;        ///< weight of each point where all weigh the same, else 0
     std::int64_t num_points = 0;
     std::int64_t num_records = 0;
     double total_weight = 0;
     double estimated_imbalance = 1;
     double least_imbalance = 1;
+    double current_imbalance = not_known;  ///< of the parts that the ranks hold, where they do
 };
 
 /// The decision of the root: how it went, and the cuts to assign by or to start from.
 struct Decision {
     Verdict verdict;
     Bisection bisection;
-    std::vector<std::byte> message;  ///< the bisection on its way
+    CurrentParts current{};          ///< on all ranks once they were told that these stay
+    std::vector<std::byte> message;  ///< either of them on its way
 };
 
 /// What the verdict says of a partition that nobody has measured.
@@ -35,11 +43,13 @@ Report report_of(const Verdict& verdict, int num_parts);
 /// to aim at, and all points at the root need no second look.
 bool is_refined(const Options& options);
 
-/// Makes room for the cuts that the root will send. Not collective.
-void make_room(Decision& decision, const Options& options, int dimension);
+/// Makes room for what the root will send: the current parts only where it may read them. Not
+/// collective.
+void make_room(Decision& decision, const Options& options, int dimension, bool may_stay);
 
-/// Bisects, at the root, what the ranks contributed; or takes the cuts of an earlier call. Throws
-/// Error when the ranks do not fit together.
+/// Bisects, at the root, what the ranks contributed; or takes the cuts of an earlier call. Finds
+/// out whether the current parts are so good that they stay. Throws Error when the ranks do not fit
+/// together.
 void decide(const Contribution& all, const Options& options, const Cuts* previous,
             Decision& decision);
 
@@ -53,5 +63,8 @@ void confirm(const Summary& all, Member& me);
 /// One message for a few dozen cuts, two for more: the first must be as long on a rank that does
 /// not know how many are coming.
 void broadcast(Decision& decision, const Member& me);
+
+/// Gives everybody the current parts, which the root has read, after all: they stay. Collective.
+void broadcast_current(Decision& decision, const Member& me);
 
 }  // namespace rrcb

@@ -51,6 +51,8 @@ void receive_records(std::vector<double>& records, std::size_t count, int from, 
 
 void send_up(Contribution& mine, int to, Member& me) {
     if (!mine.summary.is_usable()) mine.records.clear();
+    mine.summary.num_place_doubles =
+        mine.summary.is_usable() ? static_cast<std::int64_t>(mine.places.size()) : 0;
     mine.summary.num_doubles = static_cast<std::int64_t>(mine.records.size());
     send(std::as_bytes(std::span(&mine.summary, 1)), to, mpi::contribution_tag, me);
     send_records(mine.records, to, mpi::contribution_tag, me);
@@ -69,6 +71,11 @@ void merge_up(Contribution& mine, int dimension, const MergeTree& tree, std::siz
                         mpi::contribution_tag, me);
         me.locally([&] { absorb(mine, theirs, dimension, most); });
     });
+    // In one message with the cells.
+    if (rank != 0)
+        me.locally([&] {
+            mine.records.insert(mine.records.end(), mine.places.begin(), mine.places.end());
+        });
     if (me.failure.failed) mine.summary.failing_rank = rank;
     if (rank != 0) send_up(mine, tree.parent(rank), me);
 }

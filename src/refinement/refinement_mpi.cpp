@@ -5,6 +5,7 @@
 #include "collective/communicator.hpp"
 #include "cuts/binned_assignment.hpp"
 #include "refinement/level_search_mpi.hpp"
+#include "refinement/part_sums_mpi.hpp"
 
 #include <rrcb/quality.hpp>
 
@@ -79,21 +80,12 @@ void descend(Refinement& context) {
 /// Adds up what the parts weigh on all ranks, on every rank. Collective; throws where one failed.
 void measure(Refinement& context) {
     RefinementRoom& room = context.room;
-    const std::size_t num_parts = context.num_parts();
-    room.part_weights.back() = context.me.failure.failed ? 1 : 0;
-    mpi::check(MPI_Reduce(room.part_weights.data(), room.sums.data(),
-                          mpi::to_int(std::ssize(room.part_weights)), MPI_DOUBLE, MPI_SUM, root,
-                          context.me.comm),
-               "MPI_Reduce");
-    if (context.is_root)
-        room.sums.back() =
-            imbalance(std::span(room.sums).first(num_parts), context.options.part_sizes);
-    mpi::broadcast(std::as_writable_bytes(std::span(room.sums)), root, context.me.comm);
-    if (room.sums[num_parts] > 0) agree(context.me);
-    context.measured.imbalance = room.sums.back();
+    context.measured.imbalance =
+        add_up_parts(room.part_weights, room.sums, context.options.part_sizes, context.me);
 }
 
-/// True when the estimated cuts are good enough as they are; then `parts` is complete.
+/// True when there is nothing to search: the estimated cuts are good enough as they are, and
+/// `parts` is complete, or the current parts are.
 bool accept_estimate(Refinement& context, std::span<Part> parts) {
     context.me.locally([&] {
         std::ranges::copy(assign(context.estimate.cuts, context.binned, parts),
@@ -101,7 +93,9 @@ bool accept_estimate(Refinement& context, std::span<Part> parts) {
     });
     measure(context);
     ++context.measured.rounds;
-    return context.measured.imbalance <= context.options.imbalance_tolerance;
+    const double tolerance = context.options.imbalance_tolerance;
+    return context.measured.imbalance <= tolerance ||
+           context.estimate.current_imbalance <= tolerance;
 }
 
 /// Finds the cuts of one level after the other, and the parts at the end.

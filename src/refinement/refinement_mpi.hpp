@@ -1,6 +1,7 @@
 #pragma once
 
 #include "collective/member.hpp"
+#include "gather/decision_mpi.hpp"
 #include "refinement/refinement_room.hpp"
 
 #include <rrcb/bisection.hpp>
@@ -15,6 +16,7 @@ struct Estimate {
     std::vector<Bracket> brackets;  ///< one per cut
     double total_weight = 0;        ///< over all ranks
     double grain = 0;               ///< weight of each point where all weigh the same, else 0
+    double current_imbalance = not_known;  ///< of the parts that may stay instead
 };
 
 /// How good the parts really are, and what it took to know; the same on every rank.
@@ -28,11 +30,11 @@ struct Measured {
 /// Moves the cuts of `estimate` until the parts of the real points are as even as asked.
 ///
 /// Collective. `options` are complete, `room` is made by them. Writes the part of each point into
-/// `parts`; where the estimate is not good enough it works on a sorted copy of the points. Where a
-/// tolerance is missed because slack was spent on upper levels that lower ones need, it searches
-/// once more, exactly, and keeps the better cuts. Without weight anywhere the cuts stay. A rank
-/// that fails on its own takes part with nothing until the root, told of it by the next histograms
-/// or candidates, ends all searches; then all throw its error.
+/// `parts`; where the estimate is not good enough, and the current parts neither, it works on a
+/// sorted copy of the points. Where a tolerance is missed because slack was spent on upper levels
+/// that lower ones need, it searches once more, exactly, and keeps the better cuts. Without weight
+/// anywhere the cuts stay. A rank that fails on its own takes part with nothing until the root,
+/// told of it by the next histograms or candidates, ends all searches; then all throw its error.
 Measured refine(Estimate& estimate, const Options& options, const BinnedPoints& binned,
                 RefinementRoom& room, std::span<Part> parts, Member& me);
 

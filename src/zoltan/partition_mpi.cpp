@@ -257,9 +257,11 @@ int stay(const Call& call, const Agreement& agreement, Objects&& objects, Partit
 /// By the norm of the weights that is asked for; after the sum of the weights, where the balancer
 /// has looked at all that may be wrong. Collective.
 Balance divide(const Call& call, const Layout& layout, const Preparation& prepared,
-               const Points& points, Member& me) {
+               const Objects& objects, const Points& points, Member& me) {
     const Parameters& parameters = call.state.parameters;
-    Balance balanced = balance(points, prepared.options, prepared.previous, me);
+    const bool may_stay = !has_several_weights(parameters) &&
+                          are_in_own_part(objects, layout.map, call.state.communicator->rank());
+    Balance balanced = balance(points, prepared.options, prepared.previous, may_stay, me);
     if (!has_several_weights(parameters) || balanced.report.num_points == 0) return balanced;
     const auto stride = static_cast<std::size_t>(parameters.weight_dimension);
     const Criteria criteria{parameters.multicriteria_norm,
@@ -280,7 +282,7 @@ int balance_objects(const Call& call, const Agreement& agreement, Objects&& obje
     combine_weights(parameters, call.state.workspace, me.comm, objects);
     const Flattened flat = flatten(call, objects, me);
     Preparation prepared = prepare(call, layout, objects, flat, me);
-    Balance balanced = divide(call, layout, prepared, flat.points, me);
+    Balance balanced = divide(call, layout, prepared, objects, flat.points, me);
     if (prepared.average)
         prepared.average->run(flat.points, balanced.parts, me.comm, balanced.cuts);
     Remap remap = prepared.renumbering->run(layout, objects, balanced.parts, me);

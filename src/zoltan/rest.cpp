@@ -35,6 +35,13 @@ void add_checksums(const Parameters& parameters, const Workspace& workspace, con
     }
 }
 
+bool are_in_own_part(const Objects& objects, const PartMap& map, int rank) {
+    if (!map.one_each) return false;
+    const int* named = objects.initial_parts.get();
+    if (named == nullptr) return true;
+    return std::all_of(named, named + objects.count, [&](int part) { return part == rank; });
+}
+
 bool is_at_rest(const Rest& rest, const Kept& kept, const Parameters& parameters,
                 const Workspace& workspace, const Objects& objects, int rank) {
     const PartMap& map = kept.map();

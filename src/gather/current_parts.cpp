@@ -1,0 +1,148 @@
+#include "gather/current_parts.hpp"
+
+#include "cuts/descent.hpp"
+#include "cuts/position_order.hpp"
+
+#include <rrcb/quality.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace rrcb {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// True when no other axis of the box is much longer: less strict than a new cut has it, which
+/// knows the extents by an estimate, or cuts might turn for ever.
+bool is_long(const Box& box, int axis, int dimension) {
+    constexpr double enough = 0.8;
+    const auto half_extent = [&](int b) {
+        const auto a = static_cast<std::size_t>(b);
+        return box.upper[a] / 2 - box.lower[a] / 2;
+    };
+    for (int other = 0; other < dimension; ++other)
+        if (!(half_extent(axis) >= enough * half_extent(other))) return false;
+    return true;
+}
+
+class Reader {
+  public:
+    Reader(std::span<const Place> places, const Cuts& estimate, const Options& options,
+           bool by_number)
+        : places_(places),
+          estimate_(estimate),
+          options_(options),
+          by_number_(by_number),
+          by_count_(std::ranges::all_of(places, [](const Place& p) { return p.weight == 0; })),
+          ranks_(places.size()) {
+        std::iota(ranks_.begin(), ranks_.end(), std::size_t{0});
+        current_.cuts = estimate;
+        current_.parts.resize(places.size());
+        current_.part_weights.resize(places.size());
+    }
+
+    std::optional<CurrentParts> read() {
+        if (!read_node(root_of(estimate_), ranks_, true)) return std::nullopt;
+        current_.imbalance = imbalance(current_.part_weights, options_.part_sizes);
+        return std::move(current_);
+    }
+
+  private:
+    /// Reads what the ranks hold as the parts of a node; `expected` while all cuts above lie
+    /// across the axes of the estimate.
+    bool read_node(const Descent& at, std::span<std::size_t> ranks, bool expected) {
+        if (at.is_part()) return settle(at.first, ranks.front());
+        const int usual = estimate_.tree[at.node].axis;
+        const auto num_below = static_cast<std::size_t>(at.lower().num_parts);
+        for (int k = 0; k < estimate_.dimension; ++k) {
+            const auto axis = static_cast<int>(ordering_axis(usual, k));
+            if (!by_number_) sort_across(axis, ranks);
+            const Place below = joined(ranks.first(num_below));
+            const Place above = joined(ranks.subspan(num_below));
+            const bool as_expected = expected && axis == usual;
+            if (!may_cross(axis, usual, as_expected, below, above)) continue;
+            if (!find_cut(below, above, axis, current_.cuts.tree[at.node])) continue;
+            return read_node(at.lower(), ranks.first(num_below), as_expected) &&
+                   read_node(at.upper(), ranks.subspan(num_below), as_expected);
+        }
+        return false;
+    }
+
+    bool may_cross(int axis, int usual, bool as_expected, Place all, const Place& above) const {
+        if (!options_.cut_axes.empty() || !options_.grouped_axes.empty()) return axis == usual;
+        join(all, above, estimate_.dimension);
+        return as_expected || is_long(all.box(), axis, estimate_.dimension);
+    }
+
+    void sort_across(int axis, std::span<std::size_t> ranks) const {
+        const PositionOrder is_before(axis, 0, estimate_.dimension);
+        const auto a = static_cast<std::size_t>(axis);
+        std::ranges::sort(ranks, [&](std::size_t i, std::size_t j) {
+            const Vector& one = places_[i].first[a];
+            const Vector& other = places_[j].first[a];
+            return is_before(one, other) || (!is_before(other, one) && i < j);
+        });
+    }
+
+    Place joined(std::span<const std::size_t> ranks) const {
+        Place all;
+        for (const std::size_t rank : ranks) join(all, places_[rank], estimate_.dimension);
+        return all;
+    }
+
+    /// The cut between the points of two groups of ranks, in the middle of the gap where there is
+    /// one; returns false where none is allowed.
+    bool find_cut(const Place& below, const Place& above, int axis, Cut& cut) const {
+        const auto a = static_cast<std::size_t>(axis);
+        cut = {axis, 0, {-infinity, -infinity, -infinity}};
+        if (below.count == 0) return true;
+        cut.at[a] = infinity;
+        if (above.count == 0) return true;
+        const Vector& last = below.last[a];
+        const Vector& first = above.first[a];
+        cut.at[a] = std::midpoint(last[a], first[a]);
+        if (!(cut.at[a] > last[a])) cut.at[a] = first[a];
+        if (last[a] < first[a]) return true;
+        const PositionOrder is_before(axis, 0, estimate_.dimension);
+        if (options_.plain_cuts || is_before(first, last)) return false;
+        cut.divides = is_before(last, first) ? 0 : 1;
+        std::copy_n(first.begin(), estimate_.dimension, cut.at.begin());
+        return cut.divides == 0 || may_divide();
+    }
+
+    bool may_divide() const {
+        return options_.coincident == Coincident::divide && options_.refine != Refine::none;
+    }
+
+    /// Gives the points of a rank their part; returns false where the part must stay empty.
+    bool settle(Part part, std::size_t rank) {
+        const auto index = static_cast<std::size_t>(part);
+        const Place& place = places_[rank];
+        current_.parts[rank] = part;
+        current_.part_weights[index] = by_count_ ? place.count : place.weight;
+        return place.count == 0 || options_.part_sizes[index] > 0;
+    }
+
+    std::span<const Place> places_;
+    const Cuts& estimate_;
+    const Options& options_;
+    bool by_number_;
+    bool by_count_;
+    std::vector<std::size_t> ranks_;  ///< in the order of the parts, as far as read
+    CurrentParts current_;
+};
+
+}  // namespace
+
+std::optional<CurrentParts> read_current(std::span<const Place> places, const Cuts& estimate,
+                                         const Options& options) {
+    if (auto current = Reader(places, estimate, options, true).read()) return current;
+    if (std::ranges::any_of(places, [](const Place& place) { return place.count == 0; })) return {};
+    return Reader(places, estimate, options, false).read();
+}
+
+}  // namespace rrcb

@@ -1,0 +1,29 @@
+#include "gather/keeping.hpp"
+
+#include <algorithm>
+
+namespace rrcb {
+
+bool reads_current_parts(const Options& options, int num_ranks) {
+    constexpr int most_ranks = 4096;
+    return options.domain == DomainKind::analytic &&
+           options.cut_rule == CutRule::weighted_fraction && options.refine != Refine::exact &&
+           num_ranks > 1 && num_ranks <= most_ranks && options.num_parts == num_ranks;
+}
+
+bool stays_at_once(double current, double tolerance) {
+    return current - 1 <= (tolerance - 1) / 10;
+}
+
+bool is_worth_moving(double current, double offered, const Options& options) {
+    constexpr double rounding = 1e-12;
+    const double tolerance = options.imbalance_tolerance;
+    if (current > tolerance && offered <= tolerance) return true;
+    const bool gains = current - offered > std::max((tolerance - 1) / 20, rounding);
+    const bool is_half = offered - 1 <= (current - 1) / 2;
+    // What a search found is the best there is, an estimate is as good as chance has it.
+    const bool was_searched = current > tolerance && options.refine != Refine::none;
+    return gains && (is_half || was_searched);
+}
+
+}  // namespace rrcb

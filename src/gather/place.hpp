@@ -1,0 +1,42 @@
+#pragma once
+
+#include <rrcb/points.hpp>
+
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+/// Where the points of a rank, or of several, lie, and what they weigh.
+///
+/// `first[a]` and `last[a]` are the ends of their positions in the order across axis a, see
+/// position_order.hpp: infinite where there are no points.
+struct Place {
+    double count = 0;
+    double weight = 0;
+    std::array<Vector, max_dimension> first = all_at(std::numeric_limits<double>::infinity());
+    std::array<Vector, max_dimension> last = all_at(-std::numeric_limits<double>::infinity());
+
+    Box box() const;
+
+  private:
+    static constexpr std::array<Vector, max_dimension> all_at(double value) {
+        const Vector corner{value, value, value};
+        return {corner, corner, corner};
+    }
+};
+
+/// Of checked points that weigh `weight` and span `box`.
+Place place_of(const Points& points, const Box& box, double weight);
+
+/// Takes in the points of another place.
+void join(Place& place, const Place& other, int dimension);
+
+/// A place as 2 + 2 dimension^2 doubles, behind those that are there.
+void append_place(const Place& place, int dimension, std::vector<double>& doubles);
+
+/// Places as they were appended.
+std::vector<Place> read_places(std::span<const double> doubles, int dimension);
+
+}  // namespace rrcb

@@ -7,7 +7,6 @@ from pathlib import Path
 
 from results import read_rows
 from scaling_model import (
-    BLOCK,
     LOOKS,
     Exchange,
     Rounds,
@@ -16,6 +15,7 @@ from scaling_model import (
     answer_bytes,
     beyond_head,
     checksum_bytes,
+    hand_up_bytes,
     look_bytes,
     multijagged,
     rrcb,
@@ -130,7 +130,7 @@ def read_sizes(counted: dict[tuple[str, int], Counted]) -> Sizes | None:
         none.bytes_in["Gather"] // 2,
         none.bytes_in["Bcast"] - 8 * 2,
         none.calls["Bcast"] // 2,
-        none.bytes_in["Send"] - BLOCK,
+        none.bytes_in["Send"] - hand_up_bytes(2, "none"),
         exact.bytes_in["Reduce"] // 2 - look_bytes(2),
         searches // rounds,
     )

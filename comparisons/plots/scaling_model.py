@@ -18,12 +18,14 @@ MOST_CELLS = 8192
 CUT = 32
 BRACKET = 16
 HEAD = 2048  # the verdict and as many cuts as fit
-VERDICT = 56
+VERDICT = 64
 AGREEMENT = 8
 LOOKS = {"none": 0, "accepted": 1, "refined": 2, "exact": 1}  # at what the parts weigh
 CELL = 8 * (3 + 2 * DIMENSION)
 MESH_BLOCK = 8 * (3 + 2 * DIMENSION)
 BLOCK = MESH_BLOCK + MESH**DIMENSION * CELL
+PLACE = 8 * (2 + 2 * DIMENSION**2)
+MOST_PLACES = 4096  # ranks that hand them up
 
 
 @dataclass
@@ -138,6 +140,16 @@ def beyond_head(ranks: int, refine: str) -> int:
     return max(0, cut * (ranks - 1) - (HEAD - VERDICT))
 
 
+def place_bytes(ranks: int, refine: str) -> int:
+    """Where a rank's points lie, by which the root may find that they are well where they are."""
+    return PLACE if ranks <= MOST_PLACES and refine != "exact" else 0
+
+
+def hand_up_bytes(ranks: int, refine: str) -> int:
+    """What a rank adds to what passes through the ranks above it."""
+    return BLOCK + place_bytes(ranks, refine)
+
+
 def rrcb(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> Traffic:
     """`refine`: none, accepted (one look at the estimate), refined (and one at the end), or exact."""
     traffic = Traffic()
@@ -149,7 +161,7 @@ def rrcb(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> Tr
     if rest := beyond_head(ranks, refine):
         traffic.broadcast(ranks, rest)
     for rank in range(1, ranks):
-        traffic.add("Send", 2, sizes.summary + subtree(rank, ranks) * BLOCK)
+        traffic.add("Send", 2, sizes.summary + subtree(rank, ranks) * hand_up_bytes(ranks, refine))
     for _ in range(LOOKS[refine]):
         traffic.reduce(ranks, look_bytes(ranks))
         traffic.broadcast(ranks, answer_bytes(ranks))
@@ -171,7 +183,8 @@ def _refine(traffic: Traffic, ranks: int, sizes: Sizes, rounds: Rounds) -> None:
 def rrcb_root_bytes(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> int:
     """Bytes that rank 0 gets."""
     into = all_agreements(ranks, sizes, refine)[1] + ranks * sizes.parameters
-    into += sum(sizes.summary + subtree(child, ranks) * BLOCK for child in children(0, ranks))
+    mine = hand_up_bytes(ranks, refine)
+    into += sum(sizes.summary + subtree(child, ranks) * mine for child in children(0, ranks))
     into += LOOKS[refine] * look_bytes(ranks)
     if refine in ("refined", "exact"):
         into += rounds.histograms * sizes.histogram + 4 * rounds.gathers * ranks

@@ -31,6 +31,7 @@ from scaling_model import (
     expected_iterations,
     expected_rounds,
     look_bytes,
+    place_bytes,
     sets,
     step_bytes,
 )
@@ -119,7 +120,7 @@ def rrcb_path(ranks: int, refine: str, observed: Observed, machine: Machine) -> 
     rest = beyond_head(ranks, refine)
     path.collective(ranks, 0, sizes.num_broadcasts + (rest > 0))
     path.bytes += sizes.broadcasts + 8 * ranks + rest
-    _climb(path, ranks, sizes)
+    _climb(path, ranks, sizes, place_bytes(ranks, refine))
     cells = min(MOST_CELLS, ranks * MESH**DIMENSION)
     path.work += (cells * (ranks - 1).bit_length() + ranks) * machine.per_cell
     looks = LOOKS[refine]
@@ -134,14 +135,15 @@ def rrcb_path(ranks: int, refine: str, observed: Observed, machine: Machine) -> 
     return path
 
 
-def _climb(path: Path, ranks: int, sizes: Sizes) -> None:
+def _climb(path: Path, ranks: int, sizes: Sizes, place: int) -> None:
     """Up the tree of radix 8, at each level seven children one after the other."""
     below = 1
     while below < ranks:
         num_children = min(RADIX - 1, ceil(ranks / below) - 1)
         cells = min(MOST_CELLS, below * MESH**DIMENSION)
-        size = sizes.summary + cells * CELL
-        pieces = 1 + ceil(cells * CELL / 65536)
+        records = cells * CELL + below * place
+        size = sizes.summary + records
+        pieces = 1 + ceil(records / 65536)
         path.messages += num_children * pieces
         path.bytes += num_children * size
         path.root_bytes += num_children * size

@@ -27,8 +27,8 @@ std::vector<double> cloud_here(int dimension) {
 }
 
 /// Balances again and again by `options`, from `previous` if given.
-void fail_in_balance(const Options& options, const Cuts* previous = nullptr) {
-    const std::vector<double> coordinates = cloud_here(2);
+void fail_in_balance(const Options& options, const Cuts* previous = nullptr,
+                     const std::vector<double>& coordinates = cloud_here(2)) {
     const Points points = interleaved_points(coordinates, 2);
     const auto call = [&] {
         return previous ? balance(points, options, MPI_COMM_WORLD, *previous)
@@ -76,6 +76,27 @@ TEST(FailingMemory, in_cuts_from_an_earlier_call) {
     const std::vector<double> coordinates = cloud_here(2);
     const Cuts previous = balance(interleaved_points(coordinates, 2), options, MPI_COMM_WORLD).cuts;
     fail_in_balance(options, &previous);
+}
+
+/// The cloud in slabs, one for each rank, but for a share of it, which the first one has as well.
+std::vector<double> slab_here(std::size_t surplus) {
+    std::vector<double> coordinates = cloud_here(2);
+    for (std::size_t i = 0; i < coordinates.size(); i += 2) coordinates[i] += test::rank();
+    if (test::rank() > 0) coordinates.resize(coordinates.size() - 2 * surplus);
+    return coordinates;
+}
+
+TEST(FailingMemory, in_parts_that_stay) {
+    // At once; because new ones are no better; or not, as they are too uneven.
+    for (const std::size_t surplus : {0u, 4u, 20u}) {
+        for (const Refine refine : {Refine::none, Refine::tolerance}) {
+            Options options = refining(refine);
+            options.num_parts = 0;
+            options.imbalance_tolerance = 1.05;
+            options.cut_axes.assign(static_cast<std::size_t>(test::num_ranks() - 1), 0);
+            fail_in_balance(options, nullptr, slab_here(surplus));
+        }
+    }
 }
 
 /// Parts that send points from every rank to every other.

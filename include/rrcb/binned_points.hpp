@@ -17,8 +17,8 @@ struct BinnedPoints {
     std::vector<double> weights;  ///< of each cell, scaled; empty when every point weighs 1
     /// First point of each cell, in scaled lengths; like the sums `dimension` entries per cell.
     std::vector<double> origins;
-    std::vector<double> first;   ///< sum of w d over the points of a cell, d = x - origin
-    std::vector<double> second;  ///< sum of w d^2
+    std::vector<double> first_moments;   ///< sum of w d over the points of a cell, d = x - origin
+    std::vector<double> second_moments;  ///< sum of w d^2
 
     int dimension() const { return mesh.dimension; }
     double scaled_weight(LocalIndex cell) const {

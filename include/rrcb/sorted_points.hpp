@@ -8,14 +8,14 @@ namespace rrcb {
 
 /// Copy of one rank's points in the order of the cells of its support mesh.
 ///
-/// Points of one cell keep the order they came in. Cell c holds the entries first[c] up to, not
-/// including, first[c + 1].
+/// Points of one cell keep the order they came in. Cell c holds the entries begins[c] up to, not
+/// including, begins[c + 1].
 struct SortedPoints {
     SupportMesh mesh;
     std::vector<double> coordinates;   ///< interleaved
     std::vector<double> weights;       ///< empty when every point weighs 1
     std::vector<LocalIndex> original;  ///< index each entry had before
-    std::vector<LocalIndex> first;     ///< length num_cells + 1
+    std::vector<LocalIndex> begins;    ///< length num_cells + 1
 
     int dimension() const { return mesh.dimension; }
     LocalIndex count() const { return original.size(); }

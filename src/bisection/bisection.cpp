@@ -113,7 +113,7 @@ struct Halves {
     StatisticalDomain upper;
 };
 
-Halves split(const StatisticalDomain& domain, const Cut& cut) {
+Halves split_domain(const StatisticalDomain& domain, const Cut& cut) {
     Halves halves{{domain.dimension, {}}, {domain.dimension, {}}};
     for (const Patch& patch : domain.patches) {
         const auto axis = static_cast<std::size_t>(deciding_axis(cut, patch, domain.dimension));
@@ -145,7 +145,7 @@ void bisect_node(StatisticalDomain domain, std::span<const double> sizes, int de
     const Cut cut = choose_cut(domain, below, depth, task);
     task.result.cuts.tree.push_back(cut);
     if (task.with_brackets) task.result.brackets.push_back(bracket_of(domain, cut, below, depth));
-    Halves halves = split(domain, cut);
+    Halves halves = split_domain(domain, cut);
     domain.patches = {};
     bisect_node(std::move(halves.lower), sizes.first(num_below), depth + 1, task);
     bisect_node(std::move(halves.upper), sizes.subspan(num_below), depth + 1, task);

@@ -49,15 +49,15 @@ Place select(std::span<MassPoint> points, const PositionOrder& before, double ta
 }
 
 /// Points that can't be told apart, consecutive, with the weight below them.
-struct Lot {
-    std::size_t first;
-    std::size_t last;
+struct Ties {
+    std::size_t begin;
+    std::size_t end;
     double below;
     double weight;
 };
 
 /// Gathers the points equal to the one selected about its place.
-Lot gather_lot(std::span<MassPoint> points, const PositionOrder& before, const Place& place) {
+Ties gather_ties(std::span<MassPoint> points, const PositionOrder& before, const Place& place) {
     const Vector selected = points[place.index].position;
     const auto lower = points.first(place.index);
     const auto upper = points.subspan(place.index);
@@ -65,10 +65,10 @@ Lot gather_lot(std::span<MassPoint> points, const PositionOrder& before, const P
         lower, [&](const MassPoint& point) { return before(point.position, selected); });
     const auto behind = std::ranges::partition(
         upper, [&](const MassPoint& point) { return !before(selected, point.position); });
-    Lot lot{place.index - first.size(), points.size() - behind.size(), place.below, 0};
-    lot.below -= weight_of(points.subspan(lot.first, place.index - lot.first));
-    lot.weight = weight_of(points.subspan(lot.first, lot.last - lot.first));
-    return lot;
+    Ties ties{place.index - first.size(), points.size() - behind.size(), place.below, 0};
+    ties.below -= weight_of(points.subspan(ties.begin, place.index - ties.begin));
+    ties.weight = weight_of(points.subspan(ties.begin, ties.end - ties.begin));
+    return ties;
 }
 
 /// A cut between the last point below it and the first above, halfway or `on` the latter, along the
@@ -89,14 +89,14 @@ void cut_between(const Vector& last_below, const Vector& first_above, const Posi
 std::size_t select_below(std::span<MassPoint> points, int dimension, double target, bool plain,
                          Cut& cut) {
     const PositionOrder order(cut.axis, 0, plain ? 1 : dimension);
-    const Lot lot = gather_lot(points, order, select(points, order, target));
-    const double missing = target - lot.below;
-    const bool above = missing < lot.weight / 2;
-    const std::size_t num_below = above ? lot.first : lot.last;
+    const Ties ties = gather_ties(points, order, select(points, order, target));
+    const double missing = target - ties.below;
+    const bool above = missing < ties.weight / 2;
+    const std::size_t num_below = above ? ties.begin : ties.end;
     const auto axis = static_cast<std::size_t>(cut.axis);
     cut.at.fill(-infinity);
     if (num_below == 0 || num_below == points.size()) {
-        cut.at[axis] = num_below == 0 ? points[lot.first].position[axis] : infinity;
+        cut.at[axis] = num_below == 0 ? points[ties.begin].position[axis] : infinity;
         return num_below;
     }
     const MassPoint last_below =

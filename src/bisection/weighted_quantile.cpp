@@ -26,11 +26,11 @@ struct Interval {
 };
 
 /// Where the cumulative weight passes the target: between two neighbouring breakpoints.
-struct Bracket {
+struct Crossing {
     double left = -infinity;       ///< weight below `left` is less than the target
     double right = infinity;       ///< weight below `right` is not
     double below = 0;              ///< weight of the intervals that end at or before `left`
-    std::vector<Interval> active;  ///< jumps at `left`, and intervals that span the bracket
+    std::vector<Interval> active;  ///< jumps at `left`, and intervals that span it
 };
 
 double weight_below(const Interval& interval, double value) {
@@ -51,46 +51,46 @@ double pivot_of(std::span<const double> breakpoints) {
     return *middle;
 }
 
-/// Moves one end of the bracket to `pivot` and drops what then lies outside.
-void narrow(Bracket& bracket, double pivot, double target) {
-    double below = bracket.below;
-    for (const Interval& interval : bracket.active) below += weight_below(interval, pivot);
+/// Moves one end of the crossing to `pivot` and drops what then lies outside.
+void narrow(Crossing& crossing, double pivot, double target) {
+    double below = crossing.below;
+    for (const Interval& interval : crossing.active) below += weight_below(interval, pivot);
     if (below > target - negligible(target)) {
-        bracket.right = pivot;
-        std::erase_if(bracket.active, [&](const Interval& i) { return i.lower >= pivot; });
+        crossing.right = pivot;
+        std::erase_if(crossing.active, [&](const Interval& i) { return i.lower >= pivot; });
         return;
     }
-    bracket.left = pivot;
-    std::erase_if(bracket.active, [&](const Interval& i) {
+    crossing.left = pivot;
+    std::erase_if(crossing.active, [&](const Interval& i) {
         const bool passed = i.upper < pivot || (i.upper == pivot && !i.is_jump());
-        if (passed) bracket.below += i.weight;
+        if (passed) crossing.below += i.weight;
         return passed;
     });
 }
 
-Bracket find_bracket(std::vector<Interval> intervals, double target) {
-    Bracket bracket;
-    bracket.active = std::move(intervals);
+Crossing find_crossing(std::vector<Interval> intervals, double target) {
+    Crossing crossing;
+    crossing.active = std::move(intervals);
     std::vector<double> breakpoints;
-    for (const Interval& interval : bracket.active) {
+    for (const Interval& interval : crossing.active) {
         breakpoints.push_back(interval.lower);
         if (!interval.is_jump()) breakpoints.push_back(interval.upper);
     }
     while (!breakpoints.empty()) {
-        narrow(bracket, pivot_of(breakpoints), target);
+        narrow(crossing, pivot_of(breakpoints), target);
         std::erase_if(breakpoints,
-                      [&](double b) { return b <= bracket.left || b >= bracket.right; });
+                      [&](double b) { return b <= crossing.left || b >= crossing.right; });
     }
-    return bracket;
+    return crossing;
 }
 
-/// A value with the jump at the bracket's left end below it and as little else as can be.
-double after_jump(const Bracket& bracket) {
-    const bool spanned = std::any_of(bracket.active.begin(), bracket.active.end(),
+/// A value with the jump at the left end of the crossing below it and as little else as can be.
+double after_jump(const Crossing& crossing) {
+    const bool spanned = std::any_of(crossing.active.begin(), crossing.active.end(),
                                      [](const Interval& interval) { return !interval.is_jump(); });
-    const double next = std::nextafter(bracket.left, infinity);
-    if (spanned || bracket.right == infinity) return spanned ? next : infinity;
-    return std::max(next, bracket.left / 2 + bracket.right / 2);
+    const double next = std::nextafter(crossing.left, infinity);
+    if (spanned || crossing.right == infinity) return spanned ? next : infinity;
+    return std::max(next, crossing.left / 2 + crossing.right / 2);
 }
 
 /// The middle of the gap that begins at `value`, or `value` where weight begins at once.
@@ -120,16 +120,16 @@ std::vector<Interval> intervals_of(const StatisticalDomain& domain,
 Below divide(const StatisticalDomain& domain, std::span<const std::size_t> patches,
              std::span<const int> axes, double target, Vector& at);
 
-/// Divides the patches that have no extent and lie at the bracket's left end.
-Below divide_jump(const StatisticalDomain& domain, const Bracket& bracket,
+/// Divides the patches that have no extent and lie at the left end of the crossing.
+Below divide_jump(const StatisticalDomain& domain, const Crossing& crossing,
                   std::span<const int> axes, double target, Vector& at) {
     std::vector<std::size_t> tied;
-    for (const Interval& interval : bracket.active)
+    for (const Interval& interval : crossing.active)
         if (interval.is_jump()) tied.push_back(interval.patch);
     const Below below = divide(domain, tied, axes.subspan(1), target, at);
     const auto axis = static_cast<std::size_t>(axes[0]);
     if (below != Below::some) at.fill(-infinity);
-    at[axis] = below == Below::all ? after_jump(bracket) : bracket.left;
+    at[axis] = below == Below::all ? after_jump(crossing) : crossing.left;
     return below;
 }
 
@@ -143,29 +143,29 @@ Below divide(const StatisticalDomain& domain, std::span<const std::size_t> patch
     }
     const auto axis = static_cast<std::size_t>(axes[0]);
     const std::vector<Interval> intervals = intervals_of(domain, patches, axis);
-    const Bracket bracket = find_bracket(intervals, target);
-    double below = bracket.below;
+    const Crossing crossing = find_crossing(intervals, target);
+    double below = crossing.below;
     double jump = 0;
     double slope = 0;
-    for (const Interval& interval : bracket.active) {
-        const double start = weight_below(interval, bracket.left);
+    for (const Interval& interval : crossing.active) {
+        const double start = weight_below(interval, crossing.left);
         below += start;
         if (interval.is_jump())
             jump += interval.weight;
         else
-            slope += weight_below(interval, bracket.right) - start;
+            slope += weight_below(interval, crossing.right) - start;
     }
     if (target - below < jump) {
-        const Below of_jump = divide_jump(domain, bracket, axes, target - below, at);
+        const Below of_jump = divide_jump(domain, crossing, axes, target - below, at);
         if (of_jump == Below::none && below == 0) return Below::none;
     } else if (slope > 0) {
         const double rest = target - below - jump;
-        const double inside = std::lerp(bracket.left, bracket.right, rest / slope);
+        const double inside = std::lerp(crossing.left, crossing.right, rest / slope);
         at[axis] =
-            slope - rest > negligible(target) ? inside : middle_of_gap(intervals, bracket.right);
-        if (jump > 0) at[axis] = std::max(at[axis], std::nextafter(bracket.left, infinity));
+            slope - rest > negligible(target) ? inside : middle_of_gap(intervals, crossing.right);
+        if (jump > 0) at[axis] = std::max(at[axis], std::nextafter(crossing.left, infinity));
     } else {
-        at[axis] = after_jump(bracket);
+        at[axis] = after_jump(crossing);
     }
     return at[axis] == infinity ? Below::all : Below::some;
 }

@@ -114,8 +114,10 @@ class Binner {
         for (const CellSum<dimension, Weighted>& sum : sums_.totals()) {
             binned_.counts.push_back(sum.count);
             binned_.weights.insert(binned_.weights.end(), sum.weight.begin(), sum.weight.end());
-            binned_.first.insert(binned_.first.end(), sum.first.begin(), sum.first.end());
-            binned_.second.insert(binned_.second.end(), sum.second.begin(), sum.second.end());
+            binned_.first_moments.insert(binned_.first_moments.end(), sum.first.begin(),
+                                         sum.first.end());
+            binned_.second_moments.insert(binned_.second_moments.end(), sum.second.begin(),
+                                          sum.second.end());
         }
         for (const Position& origin : origins_)
             binned_.origins.insert(binned_.origins.end(), origin.begin(), origin.end());

@@ -41,8 +41,10 @@ Centred<Dimension> sums_about_first_points(const BinnedPoints& binned) {
                               decltype(result.sums)(num_cells)};
     for (std::size_t cell = 0; cell < num_cells; ++cell) {
         std::copy_n(&binned.origins[cell * Dimension], Dimension, result.origins[cell].begin());
-        std::copy_n(&binned.first[cell * Dimension], Dimension, result.sums[cell].first.begin());
-        std::copy_n(&binned.second[cell * Dimension], Dimension, result.sums[cell].second.begin());
+        std::copy_n(&binned.first_moments[cell * Dimension], Dimension,
+                    result.sums[cell].first.begin());
+        std::copy_n(&binned.second_moments[cell * Dimension], Dimension,
+                    result.sums[cell].second.begin());
     }
     return result;
 }

@@ -13,7 +13,7 @@ namespace {
 template <class Layout>
 void scatter(const Layout& x, const BinnedPoints& binned, SortedPoints& sorted) {
     constexpr auto dimension = static_cast<std::size_t>(Layout::dimension);
-    std::vector<LocalIndex> next(sorted.first.begin(), sorted.first.end() - 1);
+    std::vector<LocalIndex> next(sorted.begins.begin(), sorted.begins.end() - 1);
     const Points& points = binned.points;
     for (LocalIndex i = 0; i < points.count; ++i) {
         const LocalIndex place = next[binned.cells[i]]++;
@@ -37,8 +37,8 @@ SortedPoints sort_by_cell(const BinnedPoints& binned) {
     const Points& points = binned.points;
     SortedPoints sorted;
     sorted.mesh = binned.mesh;
-    sorted.first.resize(binned.counts.size() + 1);
-    std::partial_sum(binned.counts.begin(), binned.counts.end(), sorted.first.begin() + 1);
+    sorted.begins.resize(binned.counts.size() + 1);
+    std::partial_sum(binned.counts.begin(), binned.counts.end(), sorted.begins.begin() + 1);
     sorted.coordinates.resize(points.count * static_cast<std::size_t>(points.dimension));
     sorted.weights.resize(points.weights.size());
     sorted.original.resize(points.count);

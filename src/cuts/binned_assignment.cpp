@@ -1,8 +1,8 @@
 #include "cuts/binned_assignment.hpp"
 
 #include "cells/running_sums.hpp"
-#include "cuts/descent.hpp"
 #include "cuts/sides.hpp"
+#include "cuts/tree.hpp"
 
 #include <rrcb/sorted_points.hpp>
 
@@ -41,7 +41,7 @@ bool is_plane(const Cut& cut, int dimension) {
 
 Rule rule_of(const Cuts& cuts, const Box& box) {
     const Descent at = first_crossing(cuts, box, root_of(cuts));
-    if (at.is_part()) return {0, 0, {at.first, at.first, at.first}};
+    if (at.is_part()) return {0, 0, {at.first_part, at.first_part, at.first_part}};
     const Cut& cut = cuts.tree[at.node];
     const auto axis = static_cast<std::size_t>(cut.axis);
     Box below = box;
@@ -50,8 +50,8 @@ Rule rule_of(const Cuts& cuts, const Box& box) {
     const Descent lower = first_crossing(cuts, below, at.lower());
     const Descent upper = first_crossing(cuts, above, at.upper());
     Rule rule{cut.at[axis], cut.axis, {}};
-    rule.parts[0] = lower.is_part() ? lower.first : look_up;
-    rule.parts[2] = upper.is_part() ? upper.first : look_up;
+    rule.parts[0] = lower.is_part() ? lower.first_part : look_up;
+    rule.parts[2] = upper.is_part() ? upper.first_part : look_up;
     rule.parts[1] = is_plane(cut, cuts.dimension) ? rule.parts[2] : look_up;
     return rule;
 }

@@ -1,6 +1,6 @@
 #include "cells/point_layout.hpp"
-#include "cuts/descent.hpp"
 #include "cuts/sides.hpp"
+#include "cuts/tree.hpp"
 
 #include <rrcb/cuts.hpp>
 
@@ -38,7 +38,7 @@ std::int32_t tabulate(const Cuts& cuts, Descent at, int depth, Table& table) {
     table.nodes.emplace_back();
     table.depth = std::max(table.depth, depth);
     if (at.is_part()) {
-        table.nodes.back() = {infinity, 0, {index, index}, at.first};
+        table.nodes.back() = {infinity, 0, {index, index}, at.first_part};
         return index;
     }
     const Cut& cut = cuts.tree[at.node];
@@ -63,7 +63,7 @@ void assign_by_planes(const Layout& x, const Table& table, std::span<Part> parts
 
 void collect_touching(const Cuts& cuts, const Box& box, Descent at, std::vector<Part>& parts) {
     if (at.is_part()) {
-        parts.push_back(at.first);
+        parts.push_back(at.first_part);
         return;
     }
     const Cut& cut = cuts.tree[at.node];
@@ -87,7 +87,7 @@ Part part_of(const Cuts& cuts, const Vector& position) {
     Descent at = root_of(cuts);
     while (!at.is_part())
         at = is_above(cuts.tree[at.node], position, cuts.dimension) ? at.upper() : at.lower();
-    return at.first;
+    return at.first_part;
 }
 
 void assign(const Cuts& cuts, const Points& points, std::span<Part> parts) {
@@ -110,7 +110,7 @@ Box box_of(const Cuts& cuts, Part part) {
     while (!at.is_part()) {
         const Cut& cut = cuts.tree[at.node];
         const auto axis = static_cast<std::size_t>(cut.axis);
-        const bool above = part >= at.upper().first;
+        const bool above = part >= at.upper().first_part;
         if (above) box.lower[axis] = std::max(box.lower[axis], cut.at[axis]);
         if (!above) box.upper[axis] = std::min(box.upper[axis], cut.at[axis]);
         at = above ? at.upper() : at.lower();

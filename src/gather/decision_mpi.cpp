@@ -2,7 +2,7 @@
 
 #include "bisection/brackets.hpp"
 #include "collective/communicator.hpp"
-#include "cuts/descent.hpp"
+#include "cuts/tree.hpp"
 #include "gather/keeping.hpp"
 
 #include <rrcb/error.hpp>
@@ -84,9 +84,9 @@ void bracket_previous(const Cuts& cuts, Descent at, Box box, int depth,
 void fit(const Options& options, Descent at, Cuts& cuts) {
     if (at.is_part()) return;
     Cut& cut = cuts.tree[at.node];
-    const auto sizes =
-        std::span(options.part_sizes)
-            .subspan(static_cast<std::size_t>(at.first), static_cast<std::size_t>(at.num_parts));
+    const auto sizes = std::span(options.part_sizes)
+                           .subspan(static_cast<std::size_t>(at.first_part),
+                                    static_cast<std::size_t>(at.num_parts));
     const double share = share_below(sizes);
     const auto axis = static_cast<std::size_t>(cut.axis);
     double value = cut.at[axis];

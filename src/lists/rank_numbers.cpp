@@ -13,15 +13,18 @@ constexpr int nowhere = -1;
 class Placement {
   public:
     explicit Placement(std::span<const RankRange> ranks_of_parts)
-        : homes_(ranks_of_parts),
+        : ranks_of_numbers_(ranks_of_parts),
           vacancies_(static_cast<std::size_t>(ranks_of_parts.back().first) + 1, 0),
           ranks_(ranks_of_parts.size(), nowhere) {
-        for (const RankRange& home : homes_) ++vacancies_[static_cast<std::size_t>(home.first)];
+        for (const RankRange& owner : ranks_of_numbers_)
+            ++vacancies_[static_cast<std::size_t>(owner.first)];
     }
 
-    int home_of(Part number) const { return homes_[static_cast<std::size_t>(number)].first; }
+    int owner_of(Part number) const {
+        return ranks_of_numbers_[static_cast<std::size_t>(number)].first;
+    }
     int rank_of(Part part) const { return ranks_[static_cast<std::size_t>(part)]; }
-    int num_parts() const { return static_cast<int>(homes_.size()); }
+    int num_parts() const { return static_cast<int>(ranks_of_numbers_.size()); }
 
     /// Where the part has no rank yet and the rank has a number left.
     void place(Part part, int rank) {
@@ -31,7 +34,7 @@ class Placement {
     }
 
     void place_the_rest() {
-        for (Part part = 0; part < num_parts(); ++part) place(part, home_of(part));
+        for (Part part = 0; part < num_parts(); ++part) place(part, owner_of(part));
         int rank = 0;
         for (Part part = 0; part < num_parts(); ++part) {
             if (rank_of(part) != nowhere) continue;
@@ -46,7 +49,7 @@ class Placement {
         return index < vacancies_.size() && vacancies_[index] > 0;
     }
 
-    std::span<const RankRange> homes_;
+    std::span<const RankRange> ranks_of_numbers_;
     std::vector<int> vacancies_;  ///< numbers left of each rank
     std::vector<int> ranks_;      ///< of each part
 };
@@ -56,7 +59,7 @@ std::vector<Part> numbers_of(const Placement& placement) {
     std::vector<Part> numbers(static_cast<std::size_t>(placement.num_parts()), nowhere);
     std::vector<Part> movers, left;
     for (Part part = 0; part < placement.num_parts(); ++part) {
-        if (placement.rank_of(part) == placement.home_of(part)) {
+        if (placement.rank_of(part) == placement.owner_of(part)) {
             numbers[static_cast<std::size_t>(part)] = part;
         } else {
             movers.push_back(part);
@@ -79,8 +82,8 @@ std::vector<Part> numbers_by_rank(std::span<const Overlap> overlaps,
     std::ranges::copy_if(overlaps, std::back_inserter(sorted),
                          [](const Overlap& overlap) { return overlap.count > 0; });
     std::ranges::sort(sorted, [&](const Overlap& a, const Overlap& b) {
-        const bool a_moves = placement.home_of(a.part) != a.origin;
-        const bool b_moves = placement.home_of(b.part) != b.origin;
+        const bool a_moves = placement.owner_of(a.part) != a.origin;
+        const bool b_moves = placement.owner_of(b.part) != b.origin;
         return std::tie(b.count, a_moves, a.part, a.origin) <
                std::tie(a.count, b_moves, b.part, b.origin);
     });

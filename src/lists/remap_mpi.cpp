@@ -3,7 +3,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
-#include "lists/assignment.hpp"
+#include "lists/hungarian.hpp"
 #include "lists/rank_numbers.hpp"
 
 #include <rrcb/error.hpp>
@@ -24,7 +24,7 @@ constexpr int none_failed = -1;
 constexpr int some_failed = -2;
 
 /// Where points stay.
-struct Homes {
+struct Owners {
     std::span<const RankRange> ranks_of_parts;
     bool by_rank = true;  ///< origins are ranks, not earlier parts
 
@@ -87,7 +87,8 @@ std::vector<Overlap> overlaps_by_part(std::span<const Part> parts, std::span<con
 /// A fixed number of overlaps from each rank, so that one gather carries all. Unused entries count
 /// 0; the first holds the number of points, and 1 as its part where the rank has failed.
 /// Collective.
-void gather(std::vector<Overlap> mine, std::size_t num_points, RemapRoom& room, const Member& me) {
+void gather_overlaps(std::vector<Overlap> mine, std::size_t num_points, RemapRoom& room,
+                     const Member& me) {
     keep_largest(room.mine.size() - 1, mine);
     std::ranges::fill(room.mine, Overlap{});
     room.mine[0] = {0, me.failure.failed ? 1 : 0, static_cast<GlobalCount>(num_points)};
@@ -145,11 +146,11 @@ GlobalCount extract_num_points(RemapRoom& room) {
     return num_points;
 }
 
-std::vector<Gain> gains_of(std::span<const Overlap> overlaps, const Homes& homes) {
+std::vector<Gain> gains_of(std::span<const Overlap> overlaps, const Owners& owners) {
     std::vector<Gain> gains;
     for (const Overlap& overlap : overlaps) {
         if (overlap.count == 0) continue;
-        const auto [first, last] = homes.numbers_for(overlap.origin);
+        const auto [first, last] = owners.numbers_for(overlap.origin);
         for (Part number = first; number < last; ++number) {
             gains.push_back({overlap.part, number, overlap.count});
         }
@@ -159,18 +160,18 @@ std::vector<Gain> gains_of(std::span<const Overlap> overlaps, const Homes& homes
 
 /// Numbers that keep many points. A rank of many parts has too many gains to list: as many for each
 /// overlap as it has parts.
-std::vector<Part> good_numbers(std::span<const Overlap> overlaps, const Homes& homes) {
-    if (homes.by_rank && homes.num_parts() > most_parts_exact)
-        return numbers_by_rank(overlaps, homes.ranks_of_parts);
-    return best_numbers(gains_of(overlaps, homes), homes.num_parts());
+std::vector<Part> good_numbers(std::span<const Overlap> overlaps, const Owners& owners) {
+    if (owners.by_rank && owners.num_parts() > most_parts_exact)
+        return numbers_by_rank(overlaps, owners.ranks_of_parts);
+    return best_numbers(gains_of(overlaps, owners), owners.num_parts());
 }
 
 GlobalCount kept(std::span<const Overlap> overlaps, std::span<const Part> numbers,
-                 const Homes& homes) {
+                 const Owners& owners) {
     GlobalCount sum = 0;
     for (const Overlap& overlap : overlaps) {
         if (overlap.count == 0) continue;
-        const auto [first, last] = homes.numbers_for(overlap.origin);
+        const auto [first, last] = owners.numbers_for(overlap.origin);
         const Part number = numbers[static_cast<std::size_t>(overlap.part)];
         if (number >= first && number < last) sum += overlap.count;
     }
@@ -178,17 +179,17 @@ GlobalCount kept(std::span<const Overlap> overlaps, std::span<const Part> number
 }
 
 /// The root's decision.
-Remap decide(RemapRoom& room, const Homes& homes) {
+Remap decide_numbers(RemapRoom& room, const Owners& owners) {
     Remap remap;
     remap.num_points = extract_num_points(room);
     const std::vector<Overlap> sums =
         room.holds_sums() ? overlaps_of(room) : std::vector<Overlap>();
     const std::span<const Overlap> overlaps = room.holds_sums() ? sums : room.all;
-    std::vector<Part> unchanged(static_cast<std::size_t>(homes.num_parts()));
+    std::vector<Part> unchanged(static_cast<std::size_t>(owners.num_parts()));
     std::iota(unchanged.begin(), unchanged.end(), 0);
-    remap.numbers = good_numbers(overlaps, homes);
-    remap.kept_before = kept(overlaps, unchanged, homes);
-    remap.kept_after = kept(overlaps, remap.numbers, homes);
+    remap.numbers = good_numbers(overlaps, owners);
+    remap.kept_before = kept(overlaps, unchanged, owners);
+    remap.kept_after = kept(overlaps, remap.numbers, owners);
     if (remap.kept_after > remap.kept_before) return remap;
     remap.numbers = std::move(unchanged);
     remap.kept_after = remap.kept_before;
@@ -273,24 +274,24 @@ RemapRoom::RemapRoom(int num_parts, int num_ranks, bool is_root, Origins origins
 
 Remap remap(std::span<const Part> parts, const PreviousParts& previous,
             std::span<const RankRange> ranks_of_parts, RemapRoom& room, Member& me) {
-    const Homes homes{ranks_of_parts, !previous};
+    const Owners owners{ranks_of_parts, !previous};
     const int rank = mpi::rank_of(me.comm);
     if (room.holds_sums()) {
         sum_up(parts, *previous, room, me);
     } else {
         std::vector<Overlap> overlaps;
         me.locally([&] {
-            overlaps = previous ? overlaps_by_part(parts, *previous, homes.num_parts())
-                                : overlaps_by_rank(parts, homes.num_parts(), rank);
+            overlaps = previous ? overlaps_by_part(parts, *previous, owners.num_parts())
+                                : overlaps_by_rank(parts, owners.num_parts(), rank);
         });
-        gather(std::move(overlaps), parts.size(), room, me);
+        gather_overlaps(std::move(overlaps), parts.size(), room, me);
     }
     Remap result;
     int failing_rank = none_failed;
     if (rank == root) {
         failing_rank = lowest_failing_rank(room);
         me.locally([&] {
-            if (failing_rank == none_failed) result = decide(room, homes);
+            if (failing_rank == none_failed) result = decide_numbers(room, owners);
         });
         if (me.failure.failed) failing_rank = root;
     }

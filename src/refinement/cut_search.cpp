@@ -38,19 +38,19 @@ void finish_behind(CutSearch& search, Vector position, double below) {
     finish_at(search, position, below);
 }
 
-/// Ends among points that no cut tells apart: divides them, or leaves the lot on the side that is
-/// nearer to the target.
-void finish_in_lot(CutSearch& search, const CutTarget& target, const Vector& position,
-                   double below_lot, double weight) {
-    const double missing = target.target - below_lot;
+/// Ends among points that no cut tells apart: divides them, or leaves all of them on the side that
+/// is nearer to the target.
+void finish_among_ties(CutSearch& search, const CutTarget& target, const Vector& position,
+                       double below_ties, double weight) {
+    const double missing = target.target - below_ties;
     search.coincident = 1;
     if (search.divides != 0) {
         search.lot_below = missing;
         finish_at(search, position, target.target);
     } else if (missing < weight / 2) {
-        finish_at(search, position, below_lot);
+        finish_at(search, position, below_ties);
     } else {
-        finish_behind(search, position, below_lot + weight);
+        finish_behind(search, position, below_ties + weight);
     }
 }
 
@@ -73,7 +73,7 @@ void break_tie(CutSearch& search, CutTarget& target, std::span<const double> ext
     Vector position{};
     const PositionOrder order = order_of(search);
     for (const std::size_t axis : order.axes()) position[axis] = extents[max_dimension + axis];
-    finish_in_lot(search, target, position, target.base, weight);
+    finish_among_ties(search, target, position, target.base, weight);
 }
 
 struct Extent {
@@ -118,8 +118,8 @@ std::vector<Candidate> read_candidates(std::span<const double> records, int dime
 }
 
 /// Candidates at one position, the first of them and how many, with the weight below them.
-struct Lot {
-    std::size_t first = 0;
+struct Ties {
+    std::size_t begin = 0;
     std::size_t count = 0;
     double below = 0;
     double weight = 0;
@@ -129,7 +129,7 @@ struct Lot {
 struct Division {
     std::size_t num_below = 0;
     double below = 0;  ///< weight of the node below the cut
-    Lot lot;           ///< that the target lies in, of several candidates; else empty
+    Ties ties;         ///< that the target lies in, of several candidates; else empty
 };
 
 /// The division of sorted candidates that comes nearest to the target.
@@ -137,14 +137,14 @@ Division best_division(std::span<const Candidate> sorted, const PositionOrder& b
                        const CutTarget& target) {
     Division best{0, target.base, {}};
     double below = target.base;
-    Lot lot{0, 0, below, 0};
+    Ties ties{0, 0, below, 0};
     for (std::size_t k = 0; k < sorted.size(); ++k) {
         below += sorted[k].weight;
         if (k + 1 < sorted.size() && !before(sorted[k].position, sorted[k + 1].position)) continue;
-        lot.count = k + 1 - lot.first;
-        lot.weight = below - lot.below;
-        if (lot.count > 1 && lot.below < target.target && target.target < below) best.lot = lot;
-        lot = {k + 1, 0, below, 0};
+        ties.count = k + 1 - ties.begin;
+        ties.weight = below - ties.below;
+        if (ties.count > 1 && ties.below < target.target && target.target < below) best.ties = ties;
+        ties = {k + 1, 0, below, 0};
         if (std::abs(below - target.target) >= std::abs(best.below - target.target)) continue;
         best.num_below = k + 1;
         best.below = below;
@@ -276,7 +276,7 @@ void decide_by_splitters(CutSearch& search, CutTarget& target, const HistogramLa
         return;
     }
     if (at_splitter) {
-        finish_in_lot(search, target, splitters[slot / 2], chosen.below, weights[slot]);
+        finish_among_ties(search, target, splitters[slot / 2], chosen.below, weights[slot]);
         return;
     }
     go_on_in(chosen, counts[slot], search, target);
@@ -293,11 +293,11 @@ void decide_among(CutSearch& search, CutTarget& target, std::span<const double> 
 
     const Division division = best_division(candidates, before, target);
     const std::size_t best = division.num_below;
-    search.coincident = division.lot.count > 0 ? 1 : 0;
+    search.coincident = division.ties.count > 0 ? 1 : 0;
     const bool good = std::abs(division.below - target.target) <= target.slack;
     if (search.coincident != 0 && search.divides != 0 && !good) {
-        const Lot& lot = division.lot;
-        finish_in_lot(search, target, candidates[lot.first].position, lot.below, lot.weight);
+        const Ties& ties = division.ties;
+        finish_among_ties(search, target, candidates[ties.begin].position, ties.below, ties.weight);
         return;
     }
     if (best == 0 || best == candidates.size()) {

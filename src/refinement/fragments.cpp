@@ -16,10 +16,10 @@ void swap_entries(SortedPoints& points, LocalIndex i, LocalIndex j) {
     if (!points.weights.empty()) std::swap(points.weights[i], points.weights[j]);
 }
 
-double weight_of(const SortedPoints& points, LocalIndex first, LocalIndex last) {
-    if (points.weights.empty()) return static_cast<double>(last - first);
+double weight_of(const SortedPoints& points, LocalIndex begin, LocalIndex end) {
+    if (points.weights.empty()) return static_cast<double>(end - begin);
     double weight = 0;
-    for (LocalIndex i = first; i < last; ++i) weight += points.weights[i];
+    for (LocalIndex i = begin; i < end; ++i) weight += points.weights[i];
     return weight;
 }
 
@@ -64,8 +64,8 @@ class Divider {
 
 /// Brings the entries below the cut to the front; returns where those above begin.
 LocalIndex partition(const Fragment& fragment, Divider& divider, SortedPoints& points) {
-    LocalIndex front = fragment.first;
-    LocalIndex back = fragment.last;
+    LocalIndex front = fragment.begin;
+    LocalIndex back = fragment.end;
     // Every entry is asked for once: those in front of `front` and behind `back` were.
     while (front < back) {
         if (!divider.is_above(front)) {
@@ -81,12 +81,12 @@ LocalIndex partition(const Fragment& fragment, Divider& divider, SortedPoints& p
 
 std::vector<Fragment> cell_fragments(const SortedPoints& points) {
     std::vector<Fragment> fragments;
-    for (LocalIndex cell = 0; cell + 1 < points.first.size(); ++cell) {
-        const LocalIndex first = points.first[cell];
-        const LocalIndex last = points.first[cell + 1];
-        if (first == last) continue;
+    for (LocalIndex cell = 0; cell + 1 < points.begins.size(); ++cell) {
+        const LocalIndex begin = points.begins[cell];
+        const LocalIndex end = points.begins[cell + 1];
+        if (begin == end) continue;
         fragments.push_back(
-            {first, last, weight_of(points, first, last), enclosing_box(points.mesh, cell)});
+            {begin, end, weight_of(points, begin, end), enclosing_box(points.mesh, cell)});
     }
     return fragments;
 }
@@ -96,7 +96,7 @@ double weight_at(const Cut& cut, const std::vector<Fragment>& fragments,
     double weight = 0;
     for (const Fragment& fragment : fragments) {
         if (!touches(fragment.box, cut, points.dimension())) continue;
-        for (LocalIndex i = fragment.first; i < fragment.last; ++i)
+        for (LocalIndex i = fragment.begin; i < fragment.end; ++i)
             if (is_at(cut, points.position(i), points.dimension())) weight += points.weight(i);
     }
     return weight;
@@ -117,15 +117,15 @@ std::pair<std::vector<Fragment>, std::vector<Fragment>> split(
         const LocalIndex middle = partition(fragment, divider, points);
         Fragment below = fragment;
         Fragment above = fragment;
-        below.last = above.first = middle;
-        if (middle == fragment.last) {
+        below.end = above.begin = middle;
+        if (middle == fragment.end) {
             lower.push_back(fragment);
-        } else if (middle == fragment.first) {
+        } else if (middle == fragment.begin) {
             upper.push_back(fragment);
         } else {
             below.box.upper[axis] = above.box.lower[axis] = cut.at[axis];
-            below.weight = weight_of(points, below.first, below.last);
-            above.weight = weight_of(points, above.first, above.last);
+            below.weight = weight_of(points, below.begin, below.end);
+            above.weight = weight_of(points, above.begin, above.end);
             lower.push_back(below);
             upper.push_back(above);
         }
@@ -137,8 +137,7 @@ double write_part(const std::vector<Fragment>& fragments, Part part, const Sorte
                   std::span<Part> parts) {
     double weight = 0;
     for (const Fragment& fragment : fragments) {
-        for (LocalIndex i = fragment.first; i < fragment.last; ++i)
-            parts[points.original[i]] = part;
+        for (LocalIndex i = fragment.begin; i < fragment.end; ++i) parts[points.original[i]] = part;
         weight += fragment.weight;
     }
     return weight;

@@ -11,8 +11,8 @@ namespace rrcb {
 /// Consecutive entries of the sorted points that lie in one node of the tree: a cell, or the piece
 /// of a cell that earlier cuts left.
 struct Fragment {
-    LocalIndex first = 0;
-    LocalIndex last = 0;
+    LocalIndex begin = 0;
+    LocalIndex end = 0;
     double weight = 0;
     Box box;  ///< encloses the entries
 };

@@ -77,7 +77,7 @@ bool is_over(const CutSearch& search) {
 }
 
 /// This rank's histogram or sample for search number `k`.
-void count(std::size_t k, Refinement& context) {
+void count_search(std::size_t k, Refinement& context) {
     RefinementRoom& room = context.room;
     Histograms& histograms = room.histograms;
     const CutSearch& search = room.searches[k];
@@ -93,7 +93,7 @@ void count(std::size_t k, Refinement& context) {
 }
 
 /// The root's decision on search number `k`, by its joined histogram.
-void decide(std::size_t k, std::span<const double> histogram, Refinement& context) {
+void decide_search(std::size_t k, std::span<const double> histogram, Refinement& context) {
     RefinementRoom& room = context.room;
     CutSearch& search = room.searches[k];
     const HistogramLayout& layout = room.histograms.layout();
@@ -117,7 +117,7 @@ void count_and_decide(Refinement& context) {
     histograms.clear();
     room.samples.clear();
     for (std::size_t k = 0; k < room.searches.size(); ++k)
-        if (is_counting(room.searches[k])) count(k, context);
+        if (is_counting(room.searches[k])) count_search(k, context);
     if (histograms.size() == 0) return;
     histograms.join(root, context.me.comm);
     if (!context.is_root) return;
@@ -126,7 +126,7 @@ void count_and_decide(Refinement& context) {
     std::size_t next = 0;
     context.me.locally([&] {
         for (std::size_t k = 0; k < room.searches.size(); ++k)
-            if (is_counting(room.before[k])) decide(k, histograms.joined(next++), context);
+            if (is_counting(room.before[k])) decide_search(k, histograms.joined(next++), context);
     });
 }
 

@@ -21,7 +21,8 @@ struct Refinement {
 
     std::span<const double> sizes_of(const Descent& at) const {
         return std::span(options.part_sizes)
-            .subspan(static_cast<std::size_t>(at.first), static_cast<std::size_t>(at.num_parts));
+            .subspan(static_cast<std::size_t>(at.first_part),
+                     static_cast<std::size_t>(at.num_parts));
     }
     std::size_t num_parts() const { return options.part_sizes.size(); }
 };

@@ -76,10 +76,10 @@ void LocalSearch::count_fragments(const CutSearch& search, const HistogramLayout
         const std::int32_t first = bins.slot_of(fragment.box.lower[axis]);
         const std::int32_t last = bins.slot_of(fragment.box.upper[axis]);
         if (first == last) {
-            tally.add(first, fragment.weight, static_cast<double>(fragment.last - fragment.first));
+            tally.add(first, fragment.weight, static_cast<double>(fragment.end - fragment.begin));
             continue;
         }
-        for (LocalIndex i = fragment.first; i < fragment.last; ++i)
+        for (LocalIndex i = fragment.begin; i < fragment.end; ++i)
             tally.add(bins.slot_of(points_.coordinates[i * d + axis]), points_.weight(i), 1);
     }
 }
@@ -114,7 +114,7 @@ void LocalSearch::keep_chosen(const CutSearch& before, const CutSearch& after,
     for (const Fragment& fragment : fragments_) {
         if (bins.slot_of(fragment.box.lower[axis]) > after.chosen) continue;
         if (bins.slot_of(fragment.box.upper[axis]) < after.chosen) continue;
-        for (LocalIndex i = fragment.first; i < fragment.last; ++i)
+        for (LocalIndex i = fragment.begin; i < fragment.end; ++i)
             if (is_chosen(i)) candidates_.push_back(i);
     }
 }

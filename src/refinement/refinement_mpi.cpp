@@ -111,8 +111,8 @@ void search_all_levels(Refinement& context, std::span<Part> parts) {
     while (!nodes.empty()) {
         std::erase_if(nodes, [&](const Node& node) {
             if (!node.at.is_part()) return false;
-            room.part_weights[static_cast<std::size_t>(node.at.first)] =
-                write_part(node.fragments, node.at.first, context.points, parts);
+            room.part_weights[static_cast<std::size_t>(node.at.first_part)] =
+                write_part(node.fragments, node.at.first_part, context.points, parts);
             return true;
         });
         start_level(context);

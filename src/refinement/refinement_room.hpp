@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cuts/descent.hpp"
+#include "cuts/tree.hpp"
 #include "refinement/candidates_mpi.hpp"
 #include "refinement/histogram_mpi.hpp"
 

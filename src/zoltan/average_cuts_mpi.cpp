@@ -1,7 +1,7 @@
 #include "average_cuts_mpi.hpp"
 
 #include "collective/communicator.hpp"
-#include "cuts/descent.hpp"
+#include "cuts/tree.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@ double between(double lower, double upper) {
 /// The box of the points of a node, by those of its parts; tells it for both sides of each cut.
 template <class Tell>
 Box join_boxes(const Cuts& cuts, Descent at, std::span<const Box> of_parts, Tell&& tell) {
-    if (at.is_part()) return of_parts[static_cast<std::size_t>(at.first)];
+    if (at.is_part()) return of_parts[static_cast<std::size_t>(at.first_part)];
     const Box below = join_boxes(cuts, at.lower(), of_parts, tell);
     const Box above = join_boxes(cuts, at.upper(), of_parts, tell);
     tell(at.node, below, above);

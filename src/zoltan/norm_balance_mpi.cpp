@@ -4,7 +4,7 @@
 #include "bisection/brackets.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "cuts/descent.hpp"
+#include "cuts/tree.hpp"
 #include "loads_mpi.hpp"
 #include "norm_level_mpi.hpp"
 
@@ -115,7 +115,7 @@ class NormBisection {
         Shares shares{};
         for (std::size_t k = 0; k < shares.size(); ++k)
             shares[k] = share_below(std::span(sizes_[k < num_weights ? k : 0])
-                                        .subspan(static_cast<std::size_t>(at.first),
+                                        .subspan(static_cast<std::size_t>(at.first_part),
                                                  static_cast<std::size_t>(at.num_parts)));
         return shares;
     }
@@ -257,8 +257,8 @@ class NormBisection {
     }
 
     void finish_part(const Node& node, Balance& result) {
-        objects_.assign(node.range, node.at.first, result.parts);
-        part_loads_[static_cast<std::size_t>(node.at.first)] = node.all;
+        objects_.assign(node.range, node.at.first_part, result.parts);
+        part_loads_[static_cast<std::size_t>(node.at.first_part)] = node.all;
     }
 
     /// The worst of the weights counts.

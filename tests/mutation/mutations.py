@@ -143,10 +143,10 @@ MUTATIONS = [
     ),
     Mutation(
         "numbers of parts that lose most are chosen",
-        "src/lists/assignment.cpp",
+        "src/lists/hungarian.cpp",
         "= -scale * gain.value;",
         "= scale * gain.value;",
-        ("unit_assignment",),
+        ("unit_hungarian",),
     ),
     Mutation(
         "infinite weights are let in",

@@ -65,8 +65,8 @@ TEST(BinnedPoints, faces_belong_to_the_cell_above_and_those_of_the_box_to_the_la
     EXPECT_EQ(binned.counts, (std::vector<LocalIndex>{1, 2, 1, 2}));
     EXPECT_EQ(binned.weights, (std::vector<double>{1, 6, 8, 48}));
     EXPECT_EQ(binned.origins, (std::vector<double>{0, 1, 2, 3}));
-    EXPECT_EQ(binned.first, (std::vector<double>{0, 0, 0, 32}));
-    EXPECT_EQ(binned.second, (std::vector<double>{0, 0, 0, 32}));
+    EXPECT_EQ(binned.first_moments, (std::vector<double>{0, 0, 0, 32}));
+    EXPECT_EQ(binned.second_moments, (std::vector<double>{0, 0, 0, 32}));
 }
 
 TEST(BinnedPoints, are_sorted_by_cell_in_the_order_they_came_in) {
@@ -77,7 +77,7 @@ TEST(BinnedPoints, are_sorted_by_cell_in_the_order_they_came_in) {
     EXPECT_EQ(sorted.original, (std::vector<LocalIndex>{1, 5, 4, 0, 2, 3}));
     EXPECT_EQ(sorted.coordinates, (std::vector<double>{0, 0, 1, 3, 2, 3}));
     EXPECT_EQ(sorted.weights, (std::vector<double>{2, 6, 5, 1, 3, 4}));
-    EXPECT_EQ(sorted.first, (std::vector<LocalIndex>{0, 2, 3, 6}));
+    EXPECT_EQ(sorted.begins, (std::vector<LocalIndex>{0, 2, 3, 6}));
 }
 
 /// Points of a lattice, so that many lie on the cuts, in an order that jumps.

@@ -1,7 +1,7 @@
 #include "lists/rank_numbers.hpp"
 
 #include "../support/clouds.hpp"
-#include "lists/assignment.hpp"
+#include "lists/hungarian.hpp"
 
 #include <gtest/gtest.h>
 

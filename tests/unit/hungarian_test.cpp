@@ -1,4 +1,4 @@
-#include "lists/assignment.hpp"
+#include "lists/hungarian.hpp"
 
 #include "../support/clouds.hpp"
 
@@ -28,13 +28,13 @@ std::vector<Gain> random_gains(int num_parts, int count, unsigned seed) {
     return gains;
 }
 
-TEST(Assignment, gives_up_the_largest_gain_for_a_larger_sum) {
+TEST(Hungarian, gives_up_the_largest_gain_for_a_larger_sum) {
     // 0 -> 0 alone is the best pair, but 0 -> 1 with 1 -> 0 brings 9 + 9 > 10.
     const std::vector<Gain> gains = {{0, 0, 10}, {0, 1, 9}, {1, 0, 9}};
     EXPECT_EQ(best_numbers(gains, 2), (std::vector<Part>{1, 0}));
 }
 
-TEST(Assignment, is_the_best_of_all_permutations) {
+TEST(Hungarian, is_the_best_of_all_permutations) {
     for (unsigned seed = 0; seed < 50; ++seed) {
         const std::vector<Gain> gains = random_gains(6, 14, seed);
         std::vector<Part> numbers(6);
@@ -47,12 +47,12 @@ TEST(Assignment, is_the_best_of_all_permutations) {
     }
 }
 
-TEST(Assignment, keeps_numbers_among_equals) {
+TEST(Hungarian, keeps_numbers_among_equals) {
     const std::vector<Gain> gains = {{0, 0, 5}, {0, 2, 5}, {2, 0, 5}, {2, 2, 5}};
     EXPECT_EQ(best_numbers(gains, 4), (std::vector<Part>{0, 1, 2, 3}));
 }
 
-TEST(Assignment, of_many_parts_is_a_permutation_and_undoes_a_shift) {
+TEST(Hungarian, of_many_parts_is_a_permutation_and_undoes_a_shift) {
     constexpr int num_parts = 1000;
     std::vector<Gain> gains = random_gains(num_parts, 5000, 1);
     for (Part part = 0; part < num_parts - 1; ++part) gains.push_back({part, part + 1, 100000});

@@ -1,4 +1,4 @@
-#include "lists/assignment.hpp"
+#include "lists/hungarian.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -7,6 +7,7 @@
 #include "gather/keeping.hpp"
 #include "gather/merge_tree_mpi.hpp"
 #include "options/stage_scope.hpp"
+#include "options/validation.hpp"
 #include "refinement/part_sums_mpi.hpp"
 #include "refinement/refinement_mpi.hpp"
 

@@ -1,5 +1,6 @@
+#include "bisection/bisection.hpp"
+
 #include "bisection/axis_choice.hpp"
-#include "bisection/brackets.hpp"
 #include "bisection/point_selection.hpp"
 #include "bisection/weighted_quantile.hpp"
 

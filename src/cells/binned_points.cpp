@@ -1,5 +1,6 @@
 #include "cells/point_layout.hpp"
 #include "cells/running_sums.hpp"
+#include "cells/safe_scale.hpp"
 
 #include <rrcb/binned_points.hpp>
 
@@ -135,14 +136,11 @@ class Binner {
     std::vector<char> seen_;
     std::array<std::uint32_t, dimension * block_length> layers_;  ///< of the points of a block
 };
+
 /// Power of two with which weights times squares of lengths neither overflow nor vanish.
-double safe_scale(std::span<const double> weights) {
+double scale_of_weights(std::span<const double> weights) {
     constexpr int harmless_exponent = 200;
-    const double heaviest = weights.empty() ? 0 : std::ranges::max(weights);
-    if (!(heaviest > 0)) return 1;
-    const int exponent = std::ilogb(heaviest);
-    if (std::abs(exponent) <= harmless_exponent) return 1;
-    return std::ldexp(1.0, std::clamp(-exponent, -1000, 1000));
+    return safe_scale(weights.empty() ? 0 : std::ranges::max(weights), harmless_exponent);
 }
 
 }  // namespace
@@ -152,7 +150,7 @@ BinnedPoints bin_by_cell(const Points& points, const SupportMesh& mesh) {
     binned.mesh = mesh;
     binned.points = points;
     binned.cells.resize(points.count);
-    binned.weight_scale = safe_scale(points.weights);
+    binned.weight_scale = scale_of_weights(points.weights);
     visit_layout(points, [&]<class Layout>(const Layout& x) {
         if (points.weights.empty()) {
             Binner<Layout, false>(x, binned).run();

@@ -1,3 +1,5 @@
+#include "cells/safe_scale.hpp"
+
 #include <rrcb/support_mesh.hpp>
 
 #include <algorithm>
@@ -7,16 +9,10 @@ namespace rrcb {
 
 namespace {
 
-// Squares of lengths between 2^-453 and 2^401 are normal numbers; beyond, coordinates are scaled
-// by the power of two that brings the largest near 1.
-double safe_scale(double lower, double upper) {
+// Squares of lengths between 2^-453 and 2^401 are normal numbers; beyond, coordinates are scaled.
+double scale_of_lengths(double lower, double upper) {
     constexpr int harmless_exponent = 400;
-    const double largest = std::max(std::abs(lower), std::abs(upper));
-    if (largest == 0) return 1;
-    const int exponent = std::ilogb(largest);
-    return std::abs(exponent) <= harmless_exponent
-               ? 1
-               : std::ldexp(1.0, std::clamp(-exponent, -1000, 1000));
+    return safe_scale(std::max(std::abs(lower), std::abs(upper)), harmless_exponent);
 }
 
 }  // namespace
@@ -27,7 +23,7 @@ SupportMesh make_support_mesh(const Box& box, int dimension, int cells_per_axis)
     mesh.box = box;
     for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
         if (!(box.lower[a] < box.upper[a])) continue;
-        mesh.scale[a] = safe_scale(box.lower[a], box.upper[a]);
+        mesh.scale[a] = scale_of_lengths(box.lower[a], box.upper[a]);
         mesh.cells[a] = cells_per_axis;
         mesh.cells_per_length[a] =
             cells_per_axis / (box.upper[a] * mesh.scale[a] - box.lower[a] * mesh.scale[a]);

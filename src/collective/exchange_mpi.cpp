@@ -1,7 +1,6 @@
 #include "collective/exchange_mpi.hpp"
 
 #include "collective/communicator.hpp"
-#include "collective/tags.hpp"
 
 #include <rrcb/error.hpp>
 

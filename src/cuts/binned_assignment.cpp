@@ -1,7 +1,6 @@
 #include "cuts/binned_assignment.hpp"
 
 #include "cells/running_sums.hpp"
-#include "cuts/sides.hpp"
 #include "cuts/tree.hpp"
 
 #include <rrcb/sorted_points.hpp>
@@ -29,14 +28,6 @@ Descent first_crossing(const Cuts& cuts, const Box& box, Descent at) {
         at = sides.above ? at.upper() : at.lower();
     }
     return at;
-}
-
-bool is_plane(const Cut& cut, int dimension) {
-    for (int a = 0; a < dimension; ++a)
-        if (a != cut.axis &&
-            cut.at[static_cast<std::size_t>(a)] != -std::numeric_limits<double>::infinity())
-            return false;
-    return true;
 }
 
 Rule rule_of(const Cuts& cuts, const Box& box) {

@@ -1,5 +1,4 @@
 #include "cells/point_layout.hpp"
-#include "cuts/sides.hpp"
 #include "cuts/tree.hpp"
 
 #include <rrcb/cuts.hpp>
@@ -27,12 +26,6 @@ struct Table {
     bool plain = true;  ///< every cut is a plane, none breaks ties by position
 };
 
-bool is_plain(const Cut& cut, int dimension) {
-    for (int a = 0; a < dimension; ++a)
-        if (a != cut.axis && cut.at[static_cast<std::size_t>(a)] != -infinity) return false;
-    return true;
-}
-
 std::int32_t tabulate(const Cuts& cuts, Descent at, int depth, Table& table) {
     const auto index = static_cast<std::int32_t>(table.nodes.size());
     table.nodes.emplace_back();
@@ -42,7 +35,7 @@ std::int32_t tabulate(const Cuts& cuts, Descent at, int depth, Table& table) {
         return index;
     }
     const Cut& cut = cuts.tree[at.node];
-    table.plain = table.plain && is_plain(cut, cuts.dimension);
+    table.plain = table.plain && is_plane(cut, cuts.dimension);
     const std::int32_t below = tabulate(cuts, at.lower(), depth + 1, table);
     const std::int32_t above = tabulate(cuts, at.upper(), depth + 1, table);
     table.nodes[static_cast<std::size_t>(index)] = {
@@ -74,6 +67,12 @@ void collect_touching(const Cuts& cuts, const Box& box, Descent at, std::vector<
 }
 
 }  // namespace
+
+bool is_plane(const Cut& cut, int dimension) {
+    for (int a = 0; a < dimension; ++a)
+        if (a != cut.axis && cut.at[static_cast<std::size_t>(a)] != -infinity) return false;
+    return true;
+}
 
 bool is_above(const Cut& cut, const Vector& position, int dimension) {
     const auto axis = static_cast<std::size_t>(cut.axis);

@@ -43,16 +43,6 @@ struct Contribution {
     std::vector<double> points{};  ///< of one rank, in place of cells, until the root wants them
 };
 
-/// Throws Error naming the option and its range when `options` can't be used.
-void check_options(const Options& options, int dimension);
-
-/// Box of the points; throws Error naming the first object and how many there are when they are
-/// unusable.
-Box check_points(const Points& points);
-
-/// Throws Error when the cuts of an earlier call don't fit these options.
-void check_previous(const Cuts& previous, const Options& options, int dimension);
-
 /// Cells per axis of a rank's mesh where the options leave it open: enough for about a percent of
 /// error on a smooth cloud, not so many that cells are nearly empty.
 int automatic_cells_per_axis(int dimension, LocalIndex num_points);

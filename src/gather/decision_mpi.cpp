@@ -1,6 +1,6 @@
 #include "gather/decision_mpi.hpp"
 
-#include "bisection/brackets.hpp"
+#include "bisection/bisection.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/tree.hpp"
 #include "gather/keeping.hpp"

@@ -2,7 +2,6 @@
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "collective/tags.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,6 @@
+#include "options/validation.hpp"
+
 #include "cells/point_layout.hpp"
-#include "gather/contribution.hpp"
 
 #include <rrcb/error.hpp>
 

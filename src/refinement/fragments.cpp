@@ -1,6 +1,6 @@
 #include "refinement/fragments.hpp"
 
-#include "cuts/sides.hpp"
+#include "cuts/tree.hpp"
 
 #include <algorithm>
 

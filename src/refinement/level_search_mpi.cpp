@@ -1,6 +1,6 @@
 #include "refinement/level_search_mpi.hpp"
 
-#include "bisection/brackets.hpp"
+#include "bisection/bisection.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "refinement/sample.hpp"

@@ -1,6 +1,6 @@
 #include "refinement/refinement_mpi.hpp"
 
-#include "bisection/brackets.hpp"
+#include "bisection/bisection.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/binned_assignment.hpp"

@@ -1,6 +1,6 @@
 #include "kept.hpp"
 
-#include "cuts/sides.hpp"
+#include "cuts/tree.hpp"
 
 #include <algorithm>
 #include <utility>

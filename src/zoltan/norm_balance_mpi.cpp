@@ -1,7 +1,7 @@
 #include "norm_balance_mpi.hpp"
 
 #include "bisection/axis_choice.hpp"
-#include "bisection/brackets.hpp"
+#include "bisection/bisection.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/tree.hpp"

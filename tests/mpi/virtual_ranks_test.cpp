@@ -4,6 +4,7 @@
 #include "../support/clouds.hpp"
 #include "gather/decision_mpi.hpp"
 #include "gather/merge_tree_mpi.hpp"
+#include "options/validation.hpp"
 #include "refinement/refinement_mpi.hpp"
 
 #include <rrcb/quality.hpp>

@@ -31,9 +31,9 @@ MUTATIONS = [
     ),
     Mutation(
         "the wrong corner of a box",
-        "src/cuts/cuts.cpp",
-        "if (is_above(cut, box.upper, cuts.dimension))",
-        "if (is_above(cut, box.lower, cuts.dimension))",
+        "src/cuts/tree.hpp",
+        "is_above(cut, box.upper, dimension)};",
+        "is_above(cut, box.lower, dimension)};",
         ("unit_cuts",),
     ),
     Mutation(
@@ -74,8 +74,8 @@ MUTATIONS = [
     Mutation(
         "the weights of the other set in the merged mean",
         "src/cells/moments.cpp",
-        "2 * (half_distance * share_b)",
-        "2 * (half_distance * share_a)",
+        "a + share_b * (b - a)",
+        "a + share_a * (b - a)",
         ("unit_moments",),
     ),
     Mutation(
@@ -116,8 +116,8 @@ MUTATIONS = [
     Mutation(
         "the farther of two edges of a bin",
         "src/refinement/cut_search.cpp",
-        "at_lower_edge = too_little <= too_much",
-        "at_lower_edge = too_little > too_much",
+        "return lower <= upper",
+        "return lower > upper",
         ("mpi_refinement", "properties.balance"),
     ),
     Mutation(

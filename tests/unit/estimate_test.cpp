@@ -3,6 +3,7 @@
 #include "../support/clouds.hpp"
 #include "gather/contribution.hpp"
 #include "gather/merge_tree_mpi.hpp"
+#include "options/validation.hpp"
 
 #include <rrcb/bisection.hpp>
 #include <rrcb/quality.hpp>

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <rrcb/cuts.hpp>
+#include <rrcb/options.hpp>
+#include <rrcb/points.hpp>
+
+namespace rrcb {
+
+/// Throws Error naming the option and its range when `options` can't be used.
+void check_options(const Options& options, int dimension);
+
+/// Box of the points; throws Error naming the first object and how many there are when they are
+/// unusable.
+Box check_points(const Points& points);
+
+/// Throws Error when the cuts of an earlier call don't fit these options.
+void check_previous(const Cuts& previous, const Options& options, int dimension);
+
+}  // namespace rrcb

@@ -1,6 +1,6 @@
 #include "gather/current_parts.hpp"
 
-#include "cuts/descent.hpp"
+#include "cuts/tree.hpp"
 #include "cuts/position_order.hpp"
 
 #include <rrcb/quality.hpp>
@@ -55,7 +55,7 @@ class Reader {
     /// Reads what the ranks hold as the parts of a node; `expected` while all cuts above lie
     /// across the axes of the estimate.
     bool read_node(const Descent& at, std::span<std::size_t> ranks, bool expected) {
-        if (at.is_part()) return settle(at.first, ranks.front());
+        if (at.is_part()) return settle(at.first_part, ranks.front());
         const int usual = estimate_.tree[at.node].axis;
         const auto num_below = static_cast<std::size_t>(at.lower().num_parts);
         for (int k = 0; k < estimate_.dimension; ++k) {

@@ -1,4 +1,4 @@
-#include "current_parts.hpp"
+#include "gather/current_parts.hpp"
 
 #include "descent.hpp"
 #include "position_order.hpp"

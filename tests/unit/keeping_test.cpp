@@ -1,4 +1,4 @@
-#include "keeping.hpp"
+#include "gather/keeping.hpp"
 
 #include <gtest/gtest.h>
 

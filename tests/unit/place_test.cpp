@@ -1,4 +1,4 @@
-#include "place.hpp"
+#include "gather/place.hpp"
 
 #include "position_order.hpp"
 

@@ -1,51 +1,67 @@
-# Finds what the enabled parts stand on; a part whose package of Trilinos is missing is left out.
+# Finds what the enabled parts stand on.
 include(rrcb_trilinos)
+
+# rrcb_part(<option> <default> <help>)
+#
+# A part of the project: ON, OFF, or AUTO, which is on where its packages are.
+function(rrcb_part option default help)
+  set(${option} ${default} CACHE STRING "${help}: ON, OFF or AUTO")
+  set_property(CACHE ${option} PROPERTY STRINGS AUTO ON OFF)
+endfunction()
+
+# rrcb_needs(<option> <found> <what> <where from>)
+#
+# Where a part lacks what it needs, AUTO leaves it out with a message; ON fails.
+function(rrcb_needs option found what origin)
+  if(NOT ${option} OR ${found})
+    return()
+  endif()
+  if(NOT ${option} STREQUAL "AUTO")
+    message(FATAL_ERROR "${option}=${${option}} needs ${what}, not found (${origin});"
+                        " or leave it out: ${option}=OFF")
+  endif()
+  message(STATUS "${option}: left out, because ${what} was not found (${origin})")
+  set(${option} OFF PARENT_SCOPE)
+endfunction()
+
+set(examples OFF)
+if(RRCB_EXAMPLES)
+  set(examples AUTO)
+endif()
+set(benchmarks OFF)
+if(PROJECT_IS_TOP_LEVEL)
+  set(benchmarks AUTO)
+endif()
+rrcb_part(RRCB_ZOLTAN AUTO "The Zoltan plug-in (needs Zoltan of Trilinos)")
+rrcb_part(RRCB_TEUCHOS AUTO "The parameter lists and timers of Trilinos (needs Teuchos)")
+rrcb_part(RRCB_MPM ${examples} "The material point example (needs Teuchos and muParser)")
+rrcb_part(RRCB_COMPARISONS ${examples}
+          "The comparison driver (needs the plug-in and the material point example)")
+rrcb_part(RRCB_BENCHMARKS ${benchmarks} "The benchmarks (need Google Benchmark)")
 
 find_package(MPI REQUIRED COMPONENTS C CXX)
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 
-function(rrcb_leave_out_unless_found option package debian_package)
-  string(TOLOWER ${package} name)
-  if(NOT ${option})
-    return()
-  endif()
-  rrcb_find_trilinos(${package})
-  if(NOT TARGET ${package}::${name})
-    message(STATUS "${option}: left out, because ${package} of Trilinos was not found"
-                   " (Debian package ${debian_package})")
-    set(${option} OFF PARENT_SCOPE)
-  endif()
-endfunction()
-
-rrcb_leave_out_unless_found(RRCB_ZOLTAN Zoltan libtrilinos-zoltan-dev)
-rrcb_leave_out_unless_found(RRCB_TEUCHOS Teuchos libtrilinos-teuchos-dev)
-rrcb_leave_out_unless_found(RRCB_MPM Teuchos libtrilinos-teuchos-dev)
+if(RRCB_ZOLTAN)
+  rrcb_find_trilinos(Zoltan)
+  rrcb_needs(RRCB_ZOLTAN "TARGET;Zoltan::zoltan" "Zoltan of Trilinos"
+             "Debian package libtrilinos-zoltan-dev")
+endif()
+if(RRCB_TEUCHOS OR RRCB_MPM)
+  rrcb_find_trilinos(Teuchos)
+  foreach(option IN ITEMS RRCB_TEUCHOS RRCB_MPM)
+    rrcb_needs(${option} "TARGET;Teuchos::teuchos" "Teuchos of Trilinos"
+               "Debian package libtrilinos-teuchos-dev")
+  endforeach()
+endif()
 if(RRCB_MPM)
-  find_path(MUPARSER_INCLUDE_DIR muParser.h)
-  find_library(MUPARSER_LIBRARY muparser)
-  mark_as_advanced(MUPARSER_INCLUDE_DIR MUPARSER_LIBRARY)
-  if(MUPARSER_INCLUDE_DIR AND MUPARSER_LIBRARY)
-    add_library(muparser::muparser UNKNOWN IMPORTED)
-    set_target_properties(
-      muparser::muparser PROPERTIES IMPORTED_LOCATION ${MUPARSER_LIBRARY}
-                                    INTERFACE_INCLUDE_DIRECTORIES ${MUPARSER_INCLUDE_DIR})
-  else()
-    message(STATUS "RRCB_MPM: left out, because muParser was not found"
-                   " (Debian package libmuparser-dev)")
-    set(RRCB_MPM OFF)
-  endif()
+  find_package(muParser MODULE QUIET)
+  rrcb_needs(RRCB_MPM muParser_FOUND muParser "Debian package libmuparser-dev")
 endif()
-if(RRCB_COMPARISONS AND NOT (RRCB_ZOLTAN AND RRCB_MPM))
-  message(STATUS "RRCB_COMPARISONS: left out, because it compares RRCB with Zoltan on the slope"
-                 " (needs RRCB_ZOLTAN and RRCB_MPM)")
-  set(RRCB_COMPARISONS OFF)
-endif()
-
+foreach(option IN ITEMS RRCB_ZOLTAN RRCB_MPM)
+  rrcb_needs(RRCB_COMPARISONS ${option} ${option} "it compares RRCB with Zoltan on the slope")
+endforeach()
 if(RRCB_BENCHMARKS)
   find_package(benchmark QUIET)
-  if(NOT benchmark_FOUND)
-    message(STATUS "RRCB_BENCHMARKS: left out, because Google Benchmark was not found"
-                   " (Debian package libbenchmark-dev)")
-    set(RRCB_BENCHMARKS OFF)
-  endif()
+  rrcb_needs(RRCB_BENCHMARKS benchmark_FOUND "Google Benchmark" "Debian package libbenchmark-dev")
 endif()

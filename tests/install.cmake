@@ -22,6 +22,13 @@ add_test(
     ${CMAKE_CURRENT_BINARY_DIR}/without_trilinos --build-generator ${CMAKE_GENERATOR}
     --build-options -DCMAKE_BUILD_TYPE=Debug -DCMAKE_DISABLE_FIND_PACKAGE_Zoltan=ON
     -DCMAKE_DISABLE_FIND_PACKAGE_Teuchos=ON -DRRCB_TESTS=OFF -DRRCB_WERROR=${RRCB_WERROR})
+add_test(
+  NAME install.asked_for_but_missing
+  COMMAND
+    ${CMAKE_COMMAND} -D FAILS=TRUE -D "OUTPUT=RRCB_ZOLTAN=ON needs Zoltan of Trilinos" -P
+    ${CMAKE_CURRENT_SOURCE_DIR}/cmake/expect.cmake -- ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B
+    ${CMAKE_CURRENT_BINARY_DIR}/asked_for -G ${CMAKE_GENERATOR} -DRRCB_ZOLTAN=ON
+    -DCMAKE_DISABLE_FIND_PACKAGE_Zoltan=ON)
 
 set_tests_properties(install.clean PROPERTIES FIXTURES_SETUP clean_prefix)
 set_tests_properties(install.install PROPERTIES FIXTURES_REQUIRED clean_prefix FIXTURES_SETUP
@@ -29,4 +36,4 @@ set_tests_properties(install.install PROPERTIES FIXTURES_REQUIRED clean_prefix F
 set_tests_properties(install.consumer PROPERTIES FIXTURES_REQUIRED installed)
 set_tests_properties(
   install.clean install.install install.consumer install.builds_without_trilinos
-  PROPERTIES LABELS install TIMEOUT 300 PROCESSORS 2)
+  install.asked_for_but_missing PROPERTIES LABELS install TIMEOUT 300 PROCESSORS 2)

@@ -1,6 +1,6 @@
 # Zoltan2 over the plug-in, where it is installed.
-include(rrcb_zoltan2)
-if(NOT TARGET Zoltan2::zoltan2)
+find_package(Zoltan2 MODULE QUIET)
+if(NOT Zoltan2_FOUND)
   return()
 endif()
 

@@ -60,7 +60,7 @@ function(rrcb_add_example_test)
     NAME ${ARG_NAME}
     COMMAND
       ${CMAKE_COMMAND} -D SOURCE=${CMAKE_CURRENT_SOURCE_DIR}/${ARG_SOURCE} -P
-      ${PROJECT_SOURCE_DIR}/cmake/rrcb_check_output.cmake -- ${MPIEXEC_EXECUTABLE}
+      ${PROJECT_SOURCE_DIR}/tests/cmake/check_output.cmake -- ${MPIEXEC_EXECUTABLE}
       ${MPIEXEC_NUMPROC_FLAG} ${ARG_RANKS} ${RRCB_MPIEXEC_FLAGS} ${ARG_COMMAND})
   set_tests_properties(${ARG_NAME} PROPERTIES TIMEOUT 60 PROCESSORS ${ARG_RANKS} LABELS examples)
 endfunction()

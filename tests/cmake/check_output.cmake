@@ -1,4 +1,4 @@
-# cmake -D SOURCE=main.cpp -P rrcb_check_output.cmake -- command ...
+# cmake -D SOURCE=main.cpp -P check_output.cmake -- command ...
 #
 # Fails unless the command ends with 0 and prints what the comment at the end of SOURCE says: the
 # lines after the one that reads "// Output ...:".
@@ -14,7 +14,7 @@ foreach(line IN LISTS lines)
   endif()
 endforeach()
 
-include(${CMAKE_CURRENT_LIST_DIR}/rrcb_command_after_dashes.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/command_after_dashes.cmake)
 
 execute_process(COMMAND ${command} OUTPUT_VARIABLE output RESULT_VARIABLE result)
 if(NOT result EQUAL 0 OR NOT output STREQUAL expected)

@@ -1,7 +1,7 @@
 # cmake -D OUTPUT=regex [-D FAILS=TRUE] -P expect.cmake -- command ...
 #
 # Fails unless the command prints what matches, and ends with 0, or with FAILS with another code.
-include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/rrcb_command_after_dashes.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/command_after_dashes.cmake)
 
 execute_process(COMMAND ${command} OUTPUT_VARIABLE output ERROR_VARIABLE output
                 RESULT_VARIABLE result)

@@ -3,10 +3,11 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "environment.hpp"
-#include "message.hpp"
-#include "real_zoltan.hpp"
+#include "collective/communicator.hpp"
 #include "replacement.hpp"
 #include "state.hpp"
+#include "zoltan/real/message.hpp"
+#include "zoltan/real/real_zoltan.hpp"
 
 #include <atomic>
 #include <memory>

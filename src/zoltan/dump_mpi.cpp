@@ -1,7 +1,7 @@
 #include "dump_mpi.hpp"
 
 #include "dump_files.hpp"
-#include "message.hpp"
+#include "zoltan/real/message.hpp"
 
 #include <array>
 #include <atomic>

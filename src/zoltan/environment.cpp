@@ -1,6 +1,6 @@
 #include "environment.hpp"
 
-#include "message.hpp"
+#include "zoltan/real/message.hpp"
 
 #include <cstdlib>
 #include <mutex>

@@ -1,6 +1,6 @@
-#include "message.hpp"
 #include "replacement.hpp"
 #include "state.hpp"
+#include "zoltan/real/message.hpp"
 
 #include <mpi.h>
 

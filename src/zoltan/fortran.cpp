@@ -1,7 +1,7 @@
 #include "fortran.hpp"
 
 #include "export.hpp"
-#include "real_zoltan.hpp"
+#include "zoltan/real/real_zoltan.hpp"
 
 #include <atomic>
 

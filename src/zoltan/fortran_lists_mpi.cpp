@@ -1,7 +1,7 @@
 #include "fortran_lists_mpi.hpp"
 
 #include "collective/agreement_mpi.hpp"
-#include "real_zoltan.hpp"
+#include "zoltan/real/real_zoltan.hpp"
 
 #include <array>
 #include <cstring>

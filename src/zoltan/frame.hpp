@@ -1,6 +1,6 @@
 #pragma once
 
-#include "buffer.hpp"
+#include "zoltan/real/buffer.hpp"
 
 #include <rrcb/points.hpp>
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "failure.hpp"
-#include "message.hpp"
 #include "state.hpp"
+#include "zoltan/real/failure.hpp"
+#include "zoltan/real/message.hpp"
 
 #include <exception>
 #include <new>

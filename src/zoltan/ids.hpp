@@ -1,7 +1,7 @@
 #pragma once
 
 #include "parameters.hpp"
-#include "real_zoltan.hpp"
+#include "zoltan/real/real_zoltan.hpp"
 
 #include <zoltan_types.h>
 

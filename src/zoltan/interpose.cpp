@@ -4,8 +4,8 @@
 #include "guard.hpp"
 #include "partition_mpi.hpp"
 #include "rcb_options.hpp"
-#include "real_zoltan.hpp"
 #include "replacement.hpp"
+#include "zoltan/real/real_zoltan.hpp"
 
 #include <string>
 #include <utility>

@@ -1,7 +1,7 @@
 #include "export.hpp"
 #include "guard.hpp"
 #include "lookups.hpp"
-#include "real_zoltan.hpp"
+#include "zoltan/real/real_zoltan.hpp"
 
 #include <cfloat>
 

@@ -1,8 +1,8 @@
 #include "environment.hpp"
 #include "export.hpp"
 #include "guard.hpp"
-#include "real_zoltan.hpp"
 #include "serialization.hpp"
+#include "zoltan/real/real_zoltan.hpp"
 
 #include <algorithm>
 #include <charconv>

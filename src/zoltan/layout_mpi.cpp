@@ -1,8 +1,8 @@
 #include "layout_mpi.hpp"
 
 #include "collective/communicator.hpp"
-#include "failure.hpp"
 #include "rcb_options.hpp"
+#include "zoltan/real/failure.hpp"
 
 #include <algorithm>
 #include <array>

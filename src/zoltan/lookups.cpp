@@ -1,6 +1,6 @@
 #include "lookups.hpp"
 
-#include "failure.hpp"
+#include "zoltan/real/failure.hpp"
 
 #include <algorithm>
 #include <cfloat>

@@ -1,7 +1,7 @@
 #include "objects.hpp"
 
 #include "callback.hpp"
-#include "failure.hpp"
+#include "zoltan/real/failure.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "buffer.hpp"
 #include "ids.hpp"
 #include "parameters.hpp"
+#include "zoltan/real/buffer.hpp"
 
 #include <rrcb/points.hpp>
 

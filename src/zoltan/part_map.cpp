@@ -1,6 +1,6 @@
 #include "part_map.hpp"
 
-#include "failure.hpp"
+#include "zoltan/real/failure.hpp"
 
 #include <zoltan_types.h>
 

@@ -4,18 +4,18 @@
 #include "average_cuts_mpi.hpp"
 #include "balance_mpi.hpp"
 #include "dump_mpi.hpp"
-#include "failure.hpp"
 #include "fortran_lists_mpi.hpp"
 #include "frame_mpi.hpp"
 #include "layout_mpi.hpp"
 #include "lists_mpi.hpp"
-#include "message.hpp"
 #include "norm_balance_mpi.hpp"
 #include "rcb_options.hpp"
 #include "renumber_mpi.hpp"
 #include "rest.hpp"
 #include "summary.hpp"
 #include "weights_mpi.hpp"
+#include "zoltan/real/failure.hpp"
+#include "zoltan/real/message.hpp"
 
 #include <rrcb/error.hpp>
 

@@ -1,6 +1,6 @@
 #include "replacement.hpp"
 
-#include "message.hpp"
+#include "zoltan/real/message.hpp"
 
 #include <array>
 #include <atomic>

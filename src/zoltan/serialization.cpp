@@ -1,6 +1,6 @@
 #include "serialization.hpp"
 
-#include "failure.hpp"
+#include "zoltan/real/failure.hpp"
 
 #include <algorithm>
 #include <array>

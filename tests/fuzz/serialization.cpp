@@ -1,10 +1,10 @@
 // The buffer of Zoltan_Serialize: read, or refused; what is read can be looked up in and written.
 //
 // The first byte decides: odd, and the rest is the buffer; even, and it is given a head that fits.
-#include "serialization.hpp"
+#include "zoltan/serialization.hpp"
 
-#include "failure.hpp"
 #include "fuzzing.hpp"
+#include "zoltan/real/failure.hpp"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "message.hpp"
+#include "zoltan/real/message.hpp"
 
 #include <cstdio>
 

@@ -1,4 +1,4 @@
-#include "real_zoltan.hpp"
+#include "zoltan/real/real_zoltan.hpp"
 
 namespace rrcb::zoltan {
 

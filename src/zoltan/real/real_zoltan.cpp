@@ -1,6 +1,6 @@
-#include "real_zoltan.hpp"
+#include "zoltan/real/real_zoltan.hpp"
 
-#include "message.hpp"
+#include "zoltan/real/message.hpp"
 
 #include <dlfcn.h>
 

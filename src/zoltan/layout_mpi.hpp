@@ -1,10 +1,10 @@
 #pragma once
 
 #include "agreement_mpi.hpp"
-#include "collective/member.hpp"
-#include "multicriteria.hpp"
+#include "member.hpp"
 #include "part_map.hpp"
 #include "state.hpp"
+#include "zoltan/norm/multicriteria.hpp"
 
 #include <array>
 #include <vector>

@@ -8,12 +8,12 @@
 #include "frame_mpi.hpp"
 #include "layout_mpi.hpp"
 #include "lists_mpi.hpp"
-#include "norm_balance_mpi.hpp"
 #include "rcb_options.hpp"
 #include "renumber_mpi.hpp"
 #include "rest.hpp"
 #include "summary.hpp"
 #include "weights_mpi.hpp"
+#include "zoltan/norm/norm_balance_mpi.hpp"
 #include "zoltan/real/failure.hpp"
 #include "zoltan/real/message.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "multicriteria.hpp"
 #include "objects.hpp"
+#include "zoltan/norm/multicriteria.hpp"
 
 #include <mpi.h>
 

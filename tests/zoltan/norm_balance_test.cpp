@@ -1,6 +1,6 @@
 // Several weights per object under the plug-in's norms, without Zoltan around.
 #include "../support/ranks.hpp"
-#include "zoltan/norm_balance_mpi.hpp"
+#include "zoltan/norm/norm_balance_mpi.hpp"
 
 #include <gtest/gtest.h>
 

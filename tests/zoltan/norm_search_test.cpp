@@ -1,7 +1,7 @@
 // The search for one cut, against all cuts there are.
-#include "zoltan/norm_search.hpp"
+#include "zoltan/norm/norm_search.hpp"
 
-#include "zoltan/norm_objects.hpp"
+#include "zoltan/norm/norm_objects.hpp"
 
 #include <gtest/gtest.h>
 

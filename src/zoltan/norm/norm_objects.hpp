@@ -1,6 +1,6 @@
 #pragma once
 
-#include "norm_search.hpp"
+#include "zoltan/norm/norm_search.hpp"
 
 #include <rrcb/points.hpp>
 

@@ -1,4 +1,4 @@
-#include "norm_objects.hpp"
+#include "zoltan/norm/norm_objects.hpp"
 
 #include <algorithm>
 #include <numeric>

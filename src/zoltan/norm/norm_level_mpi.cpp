@@ -1,4 +1,4 @@
-#include "norm_level_mpi.hpp"
+#include "zoltan/norm/norm_level_mpi.hpp"
 
 #include "collective/communicator.hpp"
 

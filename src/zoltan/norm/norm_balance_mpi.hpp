@@ -1,7 +1,7 @@
 #pragma once
 
-#include "collective/member.hpp"
-#include "multicriteria.hpp"
+#include "member.hpp"
+#include "zoltan/norm/multicriteria.hpp"
 
 #include <rrcb/balance.hpp>
 

@@ -1,4 +1,4 @@
-#include "loads_mpi.hpp"
+#include "zoltan/norm/loads_mpi.hpp"
 
 #include "collective/communicator.hpp"
 

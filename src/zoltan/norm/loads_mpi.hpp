@@ -1,6 +1,6 @@
 #pragma once
 
-#include "norm_balance_mpi.hpp"
+#include "zoltan/norm/norm_balance_mpi.hpp"
 
 namespace rrcb::zoltan {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "multicriteria.hpp"
+#include "zoltan/norm/multicriteria.hpp"
 
 #include <rrcb/cuts.hpp>
 

@@ -1,4 +1,4 @@
-#include "norm_search.hpp"
+#include "zoltan/norm/norm_search.hpp"
 
 #include <algorithm>
 #include <bit>

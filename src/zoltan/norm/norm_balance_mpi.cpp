@@ -1,12 +1,12 @@
-#include "norm_balance_mpi.hpp"
+#include "zoltan/norm/norm_balance_mpi.hpp"
 
-#include "bisection/axis_choice.hpp"
-#include "bisection/bisection.hpp"
-#include "collective/agreement_mpi.hpp"
+#include "agreement_mpi.hpp"
+#include "axis_choice.hpp"
+#include "brackets.hpp"
 #include "collective/communicator.hpp"
-#include "cuts/tree.hpp"
-#include "loads_mpi.hpp"
-#include "norm_level_mpi.hpp"
+#include "descent.hpp"
+#include "zoltan/norm/loads_mpi.hpp"
+#include "zoltan/norm/norm_level_mpi.hpp"
 
 #include <rrcb/quality.hpp>
 

@@ -1,4 +1,4 @@
-#include "multicriteria.hpp"
+#include "zoltan/norm/multicriteria.hpp"
 
 #include <algorithm>
 #include <cmath>

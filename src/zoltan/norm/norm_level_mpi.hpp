@@ -1,6 +1,6 @@
 #pragma once
 
-#include "norm_objects.hpp"
+#include "zoltan/norm/norm_objects.hpp"
 
 #include <mpi.h>
 

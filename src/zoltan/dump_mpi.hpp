@@ -2,7 +2,7 @@
 
 #include "agreement_mpi.hpp"
 #include "objects.hpp"
-#include "state.hpp"
+#include "zoltan/handle/state.hpp"
 
 namespace rrcb::zoltan {
 

@@ -1,5 +1,5 @@
-#include "replacement.hpp"
-#include "state.hpp"
+#include "zoltan/handle/replacement.hpp"
+#include "zoltan/handle/state.hpp"
 #include "zoltan/real/message.hpp"
 
 #include <mpi.h>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "collective/member.hpp"
-#include "frame.hpp"
+#include "member.hpp"
+#include "zoltan/handle/frame.hpp"
 
 namespace rrcb::zoltan {
 

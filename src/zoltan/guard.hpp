@@ -1,6 +1,6 @@
 #pragma once
 
-#include "state.hpp"
+#include "zoltan/handle/state.hpp"
 #include "zoltan/real/failure.hpp"
 #include "zoltan/real/message.hpp"
 

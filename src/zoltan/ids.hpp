@@ -1,6 +1,6 @@
 #pragma once
 
-#include "parameters.hpp"
+#include "zoltan/handle/parameters.hpp"
 #include "zoltan/real/real_zoltan.hpp"
 
 #include <zoltan_types.h>

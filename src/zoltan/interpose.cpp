@@ -1,10 +1,10 @@
-#include "create_mpi.hpp"
 #include "dump_mpi.hpp"
 #include "export.hpp"
 #include "guard.hpp"
 #include "partition_mpi.hpp"
 #include "rcb_options.hpp"
-#include "replacement.hpp"
+#include "zoltan/handle/create_mpi.hpp"
+#include "zoltan/handle/replacement.hpp"
 #include "zoltan/real/real_zoltan.hpp"
 
 #include <string>

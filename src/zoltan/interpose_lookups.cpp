@@ -1,6 +1,6 @@
 #include "export.hpp"
 #include "guard.hpp"
-#include "lookups.hpp"
+#include "zoltan/handle/lookups.hpp"
 #include "zoltan/real/real_zoltan.hpp"
 
 #include <cfloat>

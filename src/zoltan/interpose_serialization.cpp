@@ -1,7 +1,7 @@
-#include "environment.hpp"
 #include "export.hpp"
 #include "guard.hpp"
-#include "serialization.hpp"
+#include "zoltan/handle/environment.hpp"
+#include "zoltan/handle/serialization.hpp"
 #include "zoltan/real/real_zoltan.hpp"
 
 #include <algorithm>

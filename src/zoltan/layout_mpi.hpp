@@ -2,8 +2,8 @@
 
 #include "agreement_mpi.hpp"
 #include "member.hpp"
-#include "part_map.hpp"
-#include "state.hpp"
+#include "zoltan/handle/part_map.hpp"
+#include "zoltan/handle/state.hpp"
 #include "zoltan/norm/multicriteria.hpp"
 
 #include <array>

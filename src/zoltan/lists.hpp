@@ -1,7 +1,7 @@
 #pragma once
 
 #include "objects.hpp"
-#include "part_map.hpp"
+#include "zoltan/handle/part_map.hpp"
 
 #include <span>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ids.hpp"
-#include "parameters.hpp"
+#include "zoltan/handle/parameters.hpp"
 #include "zoltan/real/buffer.hpp"
 
 #include <rrcb/points.hpp>

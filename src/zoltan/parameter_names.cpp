@@ -1,5 +1,5 @@
 #include "export.hpp"
-#include "parameters.hpp"
+#include "zoltan/handle/parameters.hpp"
 
 #include <rrcb/zoltan/rrcb_zoltan.h>
 

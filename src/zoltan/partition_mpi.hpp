@@ -2,7 +2,7 @@
 
 #include "caller_lists.hpp"
 #include "lists.hpp"
-#include "state.hpp"
+#include "zoltan/handle/state.hpp"
 
 namespace rrcb::zoltan {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "layout_mpi.hpp"
-#include "parameters.hpp"
+#include "zoltan/handle/parameters.hpp"
 
 #include <rrcb/cuts.hpp>
 #include <rrcb/options.hpp>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kept.hpp"
 #include "objects.hpp"
-#include "parameters.hpp"
+#include "zoltan/handle/kept.hpp"
+#include "zoltan/handle/parameters.hpp"
 
 #include <rrcb/balance.hpp>
 

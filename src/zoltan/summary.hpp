@@ -1,6 +1,6 @@
 #pragma once
 
-#include "parameters.hpp"
+#include "zoltan/handle/parameters.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/remap.hpp>

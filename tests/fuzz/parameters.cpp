@@ -1,6 +1,6 @@
 // Parameters of the plug-in, one a line: name, blank, value. Whatever they say, the options stay
 // legal.
-#include "zoltan/parameters.hpp"
+#include "zoltan/handle/parameters.hpp"
 
 #include "fuzzing.hpp"
 

@@ -1,7 +1,7 @@
 // The buffer of Zoltan_Serialize: read, or refused; what is read can be looked up in and written.
 //
 // The first byte decides: odd, and the rest is the buffer; even, and it is given a head that fits.
-#include "zoltan/serialization.hpp"
+#include "zoltan/handle/serialization.hpp"
 
 #include "fuzzing.hpp"
 #include "zoltan/real/failure.hpp"

@@ -157,7 +157,7 @@ MUTATIONS = [
     ),
     Mutation(
         "a flag in a buffer may be anything",
-        "src/zoltan/serialization.cpp",
+        "src/zoltan/handle/serialization.cpp",
         "if (byte > 1) refuse",
         "if (byte > 255) refuse",
         ("zoltan.serialization",),

@@ -1,4 +1,4 @@
-#include "environment.hpp"
+#include "zoltan/handle/environment.hpp"
 
 #include "zoltan/real/message.hpp"
 

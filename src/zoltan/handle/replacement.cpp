@@ -1,4 +1,4 @@
-#include "replacement.hpp"
+#include "zoltan/handle/replacement.hpp"
 
 #include "zoltan/real/message.hpp"
 

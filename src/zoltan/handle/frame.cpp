@@ -1,4 +1,4 @@
-#include "frame.hpp"
+#include "zoltan/handle/frame.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "part_map.hpp"
+#include "zoltan/handle/part_map.hpp"
 
 #include "zoltan/real/failure.hpp"
 

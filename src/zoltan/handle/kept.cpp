@@ -1,4 +1,4 @@
-#include "kept.hpp"
+#include "zoltan/handle/kept.hpp"
 
 #include "cuts/tree.hpp"
 

@@ -1,4 +1,4 @@
-#include "lookups.hpp"
+#include "zoltan/handle/lookups.hpp"
 
 #include "zoltan/real/failure.hpp"
 

@@ -1,4 +1,4 @@
-#include "state.hpp"
+#include "zoltan/handle/state.hpp"
 
 #include "collective/communicator.hpp"
 

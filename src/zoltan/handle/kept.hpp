@@ -1,7 +1,7 @@
 #pragma once
 
-#include "frame.hpp"
-#include "part_map.hpp"
+#include "zoltan/handle/frame.hpp"
+#include "zoltan/handle/part_map.hpp"
 
 #include <rrcb/cuts.hpp>
 

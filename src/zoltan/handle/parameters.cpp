@@ -1,4 +1,4 @@
-#include "parameters.hpp"
+#include "zoltan/handle/parameters.hpp"
 
 #include <algorithm>
 #include <cctype>

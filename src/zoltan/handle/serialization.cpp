@@ -1,4 +1,4 @@
-#include "serialization.hpp"
+#include "zoltan/handle/serialization.hpp"
 
 #include "zoltan/real/failure.hpp"
 

@@ -1,11 +1,10 @@
-#include "create_mpi.hpp"
+#include "zoltan/handle/create_mpi.hpp"
 
-#include "collective/agreement_mpi.hpp"
+#include "agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "environment.hpp"
-#include "collective/communicator.hpp"
-#include "replacement.hpp"
-#include "state.hpp"
+#include "zoltan/handle/environment.hpp"
+#include "zoltan/handle/replacement.hpp"
+#include "zoltan/handle/state.hpp"
 #include "zoltan/real/message.hpp"
 #include "zoltan/real/real_zoltan.hpp"
 

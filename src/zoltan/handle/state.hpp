@@ -1,10 +1,10 @@
 #pragma once
 
-#include "kept.hpp"
-#include "objects.hpp"
-#include "parameters.hpp"
-#include "part_map.hpp"
-#include "rest.hpp"
+#include "zoltan/handle/kept.hpp"
+#include "zoltan/handle/parameters.hpp"
+#include "zoltan/handle/part_map.hpp"
+#include "zoltan/objects.hpp"
+#include "zoltan/rest.hpp"
 
 #include <mpi.h>
 #include <zoltan.h>

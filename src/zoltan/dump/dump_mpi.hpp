@@ -1,8 +1,8 @@
 #pragma once
 
-#include "agreement_mpi.hpp"
-#include "objects.hpp"
+#include "zoltan/agreement_mpi.hpp"
 #include "zoltan/handle/state.hpp"
+#include "zoltan/objects.hpp"
 
 namespace rrcb::zoltan {
 

@@ -1,6 +1,6 @@
-#include "dump_mpi.hpp"
+#include "zoltan/dump/dump_mpi.hpp"
 
-#include "dump_files.hpp"
+#include "zoltan/dump/dump_files.hpp"
 #include "zoltan/real/message.hpp"
 
 #include <array>

@@ -1,4 +1,4 @@
-#include "dump_files.hpp"
+#include "zoltan/dump/dump_files.hpp"
 
 #include <rrcb/version.hpp>
 

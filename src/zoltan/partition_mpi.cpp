@@ -1,6 +1,5 @@
 #include "partition_mpi.hpp"
 
-#include "agreement_mpi.hpp"
 #include "average_cuts_mpi.hpp"
 #include "balance_mpi.hpp"
 #include "fortran_lists_mpi.hpp"
@@ -11,6 +10,7 @@
 #include "renumber_mpi.hpp"
 #include "rest.hpp"
 #include "summary.hpp"
+#include "vote_mpi.hpp"
 #include "weights_mpi.hpp"
 #include "zoltan/dump/dump_mpi.hpp"
 #include "zoltan/norm/norm_balance_mpi.hpp"

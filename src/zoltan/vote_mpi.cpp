@@ -1,4 +1,4 @@
-#include "agreement_mpi.hpp"
+#include "vote_mpi.hpp"
 
 #include "collective/communicator.hpp"
 #include "fortran.hpp"

@@ -164,7 +164,7 @@ MUTATIONS = [
     ),
     Mutation(
         "weights are not divided by their totals",
-        "src/zoltan/weights_mpi.cpp",
+        "src/zoltan/call/weights_mpi.cpp",
         "comparable || sum == 0 ? 1 : 1 / sum",
         "1",
         ("zoltan.rcb_parameters",),

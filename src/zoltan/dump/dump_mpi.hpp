@@ -1,8 +1,8 @@
 #pragma once
 
+#include "zoltan/call/objects.hpp"
+#include "zoltan/call/vote_mpi.hpp"
 #include "zoltan/handle/state.hpp"
-#include "zoltan/objects.hpp"
-#include "zoltan/vote_mpi.hpp"
 
 namespace rrcb::zoltan {
 

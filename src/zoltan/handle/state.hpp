@@ -1,10 +1,10 @@
 #pragma once
 
+#include "zoltan/call/objects.hpp"
+#include "zoltan/call/rest.hpp"
 #include "zoltan/handle/kept.hpp"
 #include "zoltan/handle/parameters.hpp"
 #include "zoltan/handle/part_map.hpp"
-#include "zoltan/objects.hpp"
-#include "zoltan/rest.hpp"
 
 #include <mpi.h>
 #include <zoltan.h>

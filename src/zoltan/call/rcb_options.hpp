@@ -1,6 +1,6 @@
 #pragma once
 
-#include "layout_mpi.hpp"
+#include "zoltan/call/layout_mpi.hpp"
 #include "zoltan/handle/parameters.hpp"
 
 #include <rrcb/cuts.hpp>

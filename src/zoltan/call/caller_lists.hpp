@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lists.hpp"
+#include "zoltan/call/lists.hpp"
 
 namespace rrcb::zoltan {
 

@@ -1,4 +1,4 @@
-#include "summary.hpp"
+#include "zoltan/call/summary.hpp"
 
 #include <cmath>
 #include <cstdio>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "collective/member.hpp"
-#include "lists.hpp"
+#include "member.hpp"
+#include "zoltan/call/lists.hpp"
 
 #include <cstdint>
 #include <span>

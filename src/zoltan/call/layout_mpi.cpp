@@ -1,7 +1,7 @@
-#include "layout_mpi.hpp"
+#include "zoltan/call/layout_mpi.hpp"
 
 #include "collective/communicator.hpp"
-#include "rcb_options.hpp"
+#include "zoltan/call/rcb_options.hpp"
 #include "zoltan/real/failure.hpp"
 
 #include <algorithm>

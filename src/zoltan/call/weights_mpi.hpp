@@ -1,6 +1,6 @@
 #pragma once
 
-#include "objects.hpp"
+#include "zoltan/call/objects.hpp"
 #include "zoltan/norm/multicriteria.hpp"
 
 #include <mpi.h>

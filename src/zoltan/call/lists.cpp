@@ -1,4 +1,4 @@
-#include "lists.hpp"
+#include "zoltan/call/lists.hpp"
 
 #include <algorithm>
 #include <utility>

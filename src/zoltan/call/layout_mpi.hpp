@@ -1,7 +1,7 @@
 #pragma once
 
 #include "member.hpp"
-#include "vote_mpi.hpp"
+#include "zoltan/call/vote_mpi.hpp"
 #include "zoltan/handle/part_map.hpp"
 #include "zoltan/handle/state.hpp"
 #include "zoltan/norm/multicriteria.hpp"

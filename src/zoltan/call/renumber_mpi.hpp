@@ -1,8 +1,8 @@
 #pragma once
 
-#include "layout_mpi.hpp"
-#include "lists/remap_mpi.hpp"
-#include "objects.hpp"
+#include "remap_mpi.hpp"
+#include "zoltan/call/layout_mpi.hpp"
+#include "zoltan/call/objects.hpp"
 
 #include <optional>
 #include <span>

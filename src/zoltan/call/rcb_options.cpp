@@ -1,6 +1,6 @@
-#include "rcb_options.hpp"
+#include "zoltan/call/rcb_options.hpp"
 
-#include "weights_mpi.hpp"
+#include "zoltan/call/weights_mpi.hpp"
 
 #include <array>
 

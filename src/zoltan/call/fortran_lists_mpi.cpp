@@ -1,6 +1,6 @@
-#include "fortran_lists_mpi.hpp"
+#include "zoltan/call/fortran_lists_mpi.hpp"
 
-#include "collective/agreement_mpi.hpp"
+#include "agreement_mpi.hpp"
 #include "zoltan/real/real_zoltan.hpp"
 
 #include <array>

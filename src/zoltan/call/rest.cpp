@@ -1,4 +1,4 @@
-#include "rest.hpp"
+#include "zoltan/call/rest.hpp"
 
 #include "mix.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "caller_lists.hpp"
-#include "lists.hpp"
+#include "zoltan/call/caller_lists.hpp"
+#include "zoltan/call/lists.hpp"
 #include "zoltan/handle/state.hpp"
 
 namespace rrcb::zoltan {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ids.hpp"
+#include "zoltan/call/ids.hpp"
 #include "zoltan/handle/parameters.hpp"
 #include "zoltan/real/buffer.hpp"
 

@@ -1,8 +1,8 @@
-#include "vote_mpi.hpp"
+#include "zoltan/call/vote_mpi.hpp"
 
 #include "collective/communicator.hpp"
-#include "fortran.hpp"
-#include "rcb_options.hpp"
+#include "zoltan/call/rcb_options.hpp"
+#include "zoltan/fortran.hpp"
 
 #include <array>
 #include <bit>

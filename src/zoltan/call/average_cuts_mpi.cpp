@@ -1,4 +1,4 @@
-#include "average_cuts_mpi.hpp"
+#include "zoltan/call/average_cuts_mpi.hpp"
 
 #include "collective/communicator.hpp"
 #include "cuts/tree.hpp"

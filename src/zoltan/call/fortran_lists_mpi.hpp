@@ -1,7 +1,7 @@
 #pragma once
 
-#include "caller_lists.hpp"
-#include "collective/member.hpp"
+#include "member.hpp"
+#include "zoltan/call/caller_lists.hpp"
 
 namespace rrcb::zoltan {
 

@@ -1,6 +1,6 @@
-#include "objects.hpp"
+#include "zoltan/call/objects.hpp"
 
-#include "callback.hpp"
+#include "zoltan/call/callback.hpp"
 #include "zoltan/real/failure.hpp"
 
 #include <algorithm>

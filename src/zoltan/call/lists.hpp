@@ -1,6 +1,6 @@
 #pragma once
 
-#include "objects.hpp"
+#include "zoltan/call/objects.hpp"
 #include "zoltan/handle/part_map.hpp"
 
 #include <span>

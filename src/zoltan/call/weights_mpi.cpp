@@ -1,4 +1,4 @@
-#include "weights_mpi.hpp"
+#include "zoltan/call/weights_mpi.hpp"
 
 #include "collective/communicator.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "collective/communicator.hpp"
 #include "zoltan/call/rcb_options.hpp"
-#include "zoltan/fortran.hpp"
+#include "zoltan/entry/fortran.hpp"
 
 #include <array>
 #include <bit>

@@ -1,6 +1,6 @@
-#include "fortran.hpp"
+#include "zoltan/entry/fortran.hpp"
 
-#include "export.hpp"
+#include "zoltan/entry/export.hpp"
 #include "zoltan/real/real_zoltan.hpp"
 
 #include <atomic>

@@ -1,5 +1,5 @@
-#include "export.hpp"
-#include "guard.hpp"
+#include "zoltan/entry/export.hpp"
+#include "zoltan/entry/guard.hpp"
 #include "zoltan/handle/environment.hpp"
 #include "zoltan/handle/serialization.hpp"
 #include "zoltan/real/real_zoltan.hpp"

@@ -1,4 +1,4 @@
-#include "export.hpp"
+#include "zoltan/entry/export.hpp"
 #include "zoltan/handle/parameters.hpp"
 
 #include <rrcb/zoltan/rrcb_zoltan.h>

@@ -18,6 +18,20 @@ struct List {
     ZoltanArray<int> parts;
 };
 
+/// Where one of the two lists goes in the caller's variables; `parts` may be null.
+struct CallerList {
+    int* count;
+    ZOLTAN_ID_PTR* global_ids;
+    ZOLTAN_ID_PTR* local_ids;
+    int** ranks;
+    int** parts;
+};
+
+struct CallerLists {
+    CallerList imports;
+    CallerList exports;
+};
+
 struct Exports {
     List list;
     bool moves = false;  ///< the rank or part of some object of this rank changes

@@ -1,21 +1,35 @@
 #pragma once
 
-#include "zoltan/call/ids.hpp"
 #include "zoltan/handle/parameters.hpp"
-#include "zoltan/real/buffer.hpp"
+#include "zoltan/handle/workspace.hpp"
+#include "zoltan/real/real_zoltan.hpp"
+#include "zoltan/real/zoltan_array.hpp"
 
 #include <rrcb/points.hpp>
 
 #include <zoltan.h>
 
+#include <cstddef>
+#include <cstdint>
+
 namespace rrcb::zoltan {
 
-/// Memory that one handle's calls share.
-struct Workspace {
-    Scratch<double> coordinates;
-    Scratch<double> weights;
-    Scratch<float> callback_weights;
-    Scratch<double> reduced;  ///< coordinates in the frame of a flat geometry
+/// What ids are made of here. The Zoltan found at run time decides how many an entry of
+/// NUM_GID_ENTRIES has, whatever ZOLTAN_ID_TYPE was where the plug-in was compiled.
+using IdWord = std::uint32_t;
+
+inline ZOLTAN_ID_PTR as_zoltan_ids(IdWord* words) {
+    return reinterpret_cast<ZOLTAN_ID_PTR>(words);
+}
+
+/// Words of one object's ids.
+struct IdWidths {
+    explicit IdWidths(const Parameters& parameters)
+        : global(static_cast<std::size_t>(parameters.num_gid_entries) * words_per_id_entry()),
+          local(static_cast<std::size_t>(parameters.num_lid_entries) * words_per_id_entry()) {}
+
+    std::size_t global;
+    std::size_t local;
 };
 
 /// One rank's objects, as its callbacks describe them.

@@ -2,7 +2,7 @@
 
 #include "balance_mpi.hpp"
 #include "zoltan/call/average_cuts_mpi.hpp"
-#include "zoltan/call/fortran_lists_mpi.hpp"
+#include "zoltan/call/fortran_mpi.hpp"
 #include "zoltan/call/frame_mpi.hpp"
 #include "zoltan/call/layout_mpi.hpp"
 #include "zoltan/call/lists_mpi.hpp"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "zoltan/call/caller_lists.hpp"
 #include "zoltan/call/lists.hpp"
 #include "zoltan/handle/state.hpp"
 

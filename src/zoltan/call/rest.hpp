@@ -1,27 +1,12 @@
 #pragma once
 
 #include "zoltan/call/objects.hpp"
-#include "zoltan/handle/kept.hpp"
-#include "zoltan/handle/parameters.hpp"
-
-#include <rrcb/balance.hpp>
+#include "zoltan/handle/state.hpp"
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace rrcb::zoltan {
-
-/// What the last partition found. It stands while the objects are in the parts they were sent to
-/// and weigh what they did: a program that goes on while anything changes then comes to an end.
-struct Rest {
-    Report report;
-    int dimension = 0;
-    std::vector<std::uint64_t> checksums;  ///< of the objects of each part
-
-    /// The cuts do not tell in which part an object is: some are in one place in several parts.
-    static bool needs_positions(const Report& report) { return report.coincident_cuts > 0; }
-};
 
 /// Adds a number for each object of this rank to that of its part, whatever their order: made of
 /// its weights and, where they are asked for, its coordinates. Not collective.

@@ -1,8 +1,8 @@
 #include "zoltan/call/vote_mpi.hpp"
 
 #include "collective/communicator.hpp"
+#include "zoltan/call/fortran_mpi.hpp"
 #include "zoltan/call/rcb_options.hpp"
-#include "zoltan/entry/fortran.hpp"
 
 #include <array>
 #include <bit>

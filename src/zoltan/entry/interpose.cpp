@@ -1,8 +1,8 @@
+#include "zoltan/call/fortran_mpi.hpp"
 #include "zoltan/call/partition_mpi.hpp"
 #include "zoltan/call/rcb_options.hpp"
 #include "zoltan/dump/dump_mpi.hpp"
-#include "zoltan/entry/export.hpp"
-#include "zoltan/entry/guard.hpp"
+#include "zoltan/entry/entry_point.hpp"
 #include "zoltan/handle/create_mpi.hpp"
 #include "zoltan/handle/replacement.hpp"
 #include "zoltan/real/real_zoltan.hpp"
@@ -209,4 +209,10 @@ RRCB_EXPORT int Zoltan_LB_Set_Part_Sizes(Zoltan_Struct* zz, int global_num, int 
         }
         return code;
     });
+}
+
+// Declared in no public header: what Zoltan's Fortran interface calls when it is initialised.
+RRCB_EXPORT void Zoltan_Register_Fort_Malloc(void (*allocate)(), void (*free)(),
+                                             void (*set_struct)()) {
+    register_fortran(allocate, free, set_struct);
 }

@@ -1,5 +1,4 @@
-#include "zoltan/entry/export.hpp"
-#include "zoltan/entry/guard.hpp"
+#include "zoltan/entry/entry_point.hpp"
 #include "zoltan/handle/environment.hpp"
 #include "zoltan/handle/serialization.hpp"
 #include "zoltan/real/real_zoltan.hpp"

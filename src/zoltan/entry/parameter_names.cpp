@@ -1,4 +1,4 @@
-#include "zoltan/entry/export.hpp"
+#include "zoltan/entry/entry_point.hpp"
 #include "zoltan/handle/parameters.hpp"
 
 #include <rrcb/zoltan/rrcb_zoltan.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "zoltan/real/buffer.hpp"
+#include "zoltan/handle/workspace.hpp"
 
 #include <rrcb/points.hpp>
 

@@ -1,14 +1,15 @@
 #pragma once
 
-#include "zoltan/call/objects.hpp"
-#include "zoltan/call/rest.hpp"
 #include "zoltan/handle/kept.hpp"
 #include "zoltan/handle/parameters.hpp"
-#include "zoltan/handle/part_map.hpp"
+#include "zoltan/handle/workspace.hpp"
+
+#include <rrcb/balance.hpp>
 
 #include <mpi.h>
 #include <zoltan.h>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -45,6 +46,17 @@ struct PartSize {
     bool global = true;  ///< false: the part is counted from the first one on this rank
     float size = 0;
     int weight = 0;  ///< which of an object's weights it is a share of
+};
+
+/// What the last partition found. It stands while the objects are in the parts they were sent to
+/// and weigh what they did: a program that goes on while anything changes then comes to an end.
+struct Rest {
+    Report report;
+    int dimension = 0;
+    std::vector<std::uint64_t> checksums;  ///< of the objects of each part
+
+    /// The cuts do not tell in which part an object is: some are in one place in several parts.
+    static bool needs_positions(const Report& report) { return report.coincident_cuts > 0; }
 };
 
 /// What the plug-in knows of one Zoltan_Struct beside what Zoltan keeps itself.

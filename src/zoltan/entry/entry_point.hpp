@@ -1,11 +1,18 @@
 #pragma once
 
+#ifdef RRCB_ZOLTAN_STATIC
+#include <rrcb/zoltan/rrcb_zoltan_rename.h>
+#endif
+
 #include "zoltan/handle/state.hpp"
 #include "zoltan/real/failure.hpp"
 #include "zoltan/real/message.hpp"
 
 #include <exception>
 #include <new>
+
+/// Marks the only symbols the plug-in shows: Zoltan's interposed functions and its own three.
+#define RRCB_EXPORT extern "C" __attribute__((visibility("default")))
 
 namespace rrcb::zoltan {
 

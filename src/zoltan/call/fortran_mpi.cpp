@@ -1,15 +1,18 @@
-#include "zoltan/call/fortran_lists_mpi.hpp"
+#include "zoltan/call/fortran_mpi.hpp"
 
 #include "agreement_mpi.hpp"
 #include "zoltan/real/real_zoltan.hpp"
 
 #include <array>
+#include <atomic>
 #include <cstring>
 #include <new>
 
 namespace rrcb::zoltan {
 
 namespace {
+
+std::atomic<bool> registered = false;
 
 /// What Zoltan_Special_Malloc calls an array, as it numbers them.
 enum class Kind : int { integers, global_ids, local_ids };
@@ -60,6 +63,17 @@ class FortranList {
 };
 
 }  // namespace
+
+void register_fortran(FortranFunction allocate, FortranFunction free, FortranFunction set_struct) {
+    const RealZoltan* real = real_zoltan();
+    if (real == nullptr || real->register_fort_malloc == nullptr) return;
+    real->register_fort_malloc(allocate, free, set_struct);
+    registered = real->special_malloc != nullptr && real->special_free != nullptr;
+}
+
+bool is_fortran_used() noexcept {
+    return registered;
+}
 
 void copy_for_fortran(Zoltan_Struct* zz, const List& imports, const List& exports,
                       const CallerLists& to, Member& me) {

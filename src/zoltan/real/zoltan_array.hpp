@@ -4,7 +4,6 @@
 #include <zoltan_types.h>
 
 #include <cstddef>
-#include <memory>
 #include <new>
 #include <utility>
 
@@ -56,24 +55,6 @@ class ZoltanArray {
 
     T* data_ = nullptr;
     std::size_t size_ = 0;
-};
-
-/// Uninitialised memory that grows and stays, so that repeated calls touch the same pages.
-template <typename T>
-class Scratch {
-  public:
-    T* get(std::size_t size) {
-        if (size > capacity_) {
-            data_ = std::make_unique_for_overwrite<T[]>(size);
-            capacity_ = size;
-        }
-        return data_.get();
-    }
-    const T* data() const { return data_.get(); }  ///< null before the first get
-
-  private:
-    std::unique_ptr<T[]> data_;
-    std::size_t capacity_ = 0;
 };
 
 }  // namespace rrcb::zoltan

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+namespace rrcb::zoltan {
+
+/// Uninitialised memory that grows and stays, so that repeated calls touch the same pages.
+template <typename T>
+class Scratch {
+  public:
+    T* get(std::size_t size) {
+        if (size > capacity_) {
+            data_ = std::make_unique_for_overwrite<T[]>(size);
+            capacity_ = size;
+        }
+        return data_.get();
+    }
+    const T* data() const { return data_.get(); }  ///< null before the first get
+
+  private:
+    std::unique_ptr<T[]> data_;
+    std::size_t capacity_ = 0;
+};
+
+/// Memory that one handle's calls share.
+struct Workspace {
+    Scratch<double> coordinates;
+    Scratch<double> weights;
+    Scratch<float> callback_weights;
+    Scratch<double> reduced;  ///< coordinates in the frame of a flat geometry
+};
+
+}  // namespace rrcb::zoltan

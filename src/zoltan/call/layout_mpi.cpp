@@ -14,14 +14,14 @@ namespace {
 constexpr double not_set = -1;
 
 /// How many parts there are; fills `local_parts` where any rank sets NUM_LOCAL_PARTS.
-int count_parts(const Agreement& agreement, const State& state, std::span<int> local_parts) {
+int count_parts(const Outcome& outcome, const State& state, std::span<int> local_parts) {
     const Communicator& comm = *state.communicator;
-    if (!agreement.any_local_parts)
-        return agreement.num_global_parts > 0 ? agreement.num_global_parts : comm.size();
+    if (!outcome.any_local_parts)
+        return outcome.num_global_parts > 0 ? outcome.num_global_parts : comm.size();
     mpi::check(MPI_Allgather(&state.parameters.num_local_parts, 1, MPI_INT, local_parts.data(), 1,
                              MPI_INT, comm.get()),
                "MPI_Allgather");
-    return num_parts_of(local_parts, agreement.num_global_parts);
+    return num_parts_of(local_parts, outcome.num_global_parts);
 }
 
 /// What this rank asks for of the parts from `first` on.
@@ -57,16 +57,15 @@ void merge_part_sizes(int num_parts, const State& state, int weight, const Layou
 
 }  // namespace
 
-Layout make_layout(const Agreement& agreement, const State& state, Member& me) {
+Layout make_layout(const Outcome& outcome, const State& state, Member& me) {
     const std::span<int> local_parts = state.communicator->per_rank();
-    const int num_parts = count_parts(agreement, state, local_parts);
+    const int num_parts = count_parts(outcome, state, local_parts);
     Layout layout;
     me.locally([&] {
-        layout.map = agreement.any_local_parts
-                         ? local_part_map(local_parts, num_parts)
-                         : even_part_map(num_parts, state.communicator->size());
+        layout.map = outcome.any_local_parts ? local_part_map(local_parts, num_parts)
+                                             : even_part_map(num_parts, state.communicator->size());
     });
-    if (!agreement.any_part_sizes) return layout;
+    if (!outcome.any_part_sizes) return layout;
     merge_part_sizes(num_parts, state, 0, layout, layout.part_sizes, me);
     if (!has_several_weights(state.parameters)) return layout;
     const int num_weights = std::min(state.parameters.weight_dimension, most_weights);

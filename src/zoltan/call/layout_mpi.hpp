@@ -21,6 +21,6 @@ struct Layout {
 
 /// Collective only where NUM_LOCAL_PARTS or part sizes are set somewhere. Throws Failure on all
 /// ranks alike for numbers of parts that do not add up; other errors are held back in `me`.
-Layout make_layout(const Agreement& agreement, const State& state, Member& me);
+Layout make_layout(const Outcome& outcome, const State& state, Member& me);
 
 }  // namespace rrcb::zoltan

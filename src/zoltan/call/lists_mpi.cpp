@@ -72,7 +72,7 @@ List invert(const List& exports, const Parameters& parameters, std::span<std::in
     const std::size_t count = exchange.announce(me);
     List imports;
     me.locally([&] { imports = make_list(count, record); });
-    rrcb::agree(me);
+    agree(me);
     exchange.run(me);
     exchange.for_each([&, i = std::size_t{0}](int source, const std::byte* place) mutable {
         imports.ranks[i] = source;

@@ -235,20 +235,20 @@ void keep(Preparation&& prepared, Balance&& balanced, const Frame& frame, PartMa
 
 /// Puts the lists where the caller wants them, where Zoltan's Fortran interface is used on any
 /// rank. Collective there.
-void serve_fortran(const Call& call, const Agreement& agreement, Partition& result, Member& me) {
-    if (!agreement.any_fortran) return;
+void serve_fortran(const Call& call, const Outcome& outcome, Partition& result, Member& me) {
+    if (!outcome.any_fortran) return;
     copy_for_fortran(call.zz, result.imports, result.exports, call.to, me);
     result.with_caller = true;
 }
 
 /// The answer where nothing has changed on any rank since the last partition. Collective as
 /// serve_fortran is.
-int stay(const Call& call, const Agreement& agreement, Objects&& objects, Partition& result) {
+int stay(const Call& call, const Outcome& outcome, Objects&& objects, Partition& result) {
     State& state = call.state;
     if (state.parameters.return_lists == ReturnLists::parts)
         result.exports = list_in_place(std::move(objects), state.communicator->rank());
     Member me{state.communicator->get()};
-    serve_fortran(call, agreement, result, me);
+    serve_fortran(call, outcome, result, me);
     state.kept->answer_look_ups(keeps_cuts(state.parameters));
     review(state.rest->report, state.kept->map().num_parts(), Remap{}, state, call.function);
     return ZOLTAN_OK;
@@ -274,11 +274,11 @@ Balance divide(const Call& call, const Layout& layout, const Preparation& prepar
     return balanced;
 }
 
-int balance_objects(const Call& call, const Agreement& agreement, Objects&& objects,
+int balance_objects(const Call& call, const Outcome& outcome, Objects&& objects,
                     Partition& result) {
     const Parameters& parameters = call.state.parameters;
     Member me{call.state.communicator->get()};
-    Layout layout = make_layout(agreement, call.state, me);
+    Layout layout = make_layout(outcome, call.state, me);
     combine_weights(parameters, call.state.workspace, me.comm, objects);
     const Flattened flat = flatten(call, objects, me);
     Preparation prepared = prepare(call, layout, objects, flat, me);
@@ -288,7 +288,7 @@ int balance_objects(const Call& call, const Agreement& agreement, Objects&& obje
     Remap remap = prepared.renumbering->run(layout, objects, balanced.parts, me);
     list_exports(call, layout, std::move(objects), balanced, prepared.rest, result);
     select_lists(parameters, prepared.per_rank, me, result);
-    serve_fortran(call, agreement, result, me);
+    serve_fortran(call, outcome, result, me);
     review(balanced.report, layout.map.num_parts(), remap, call.state, call.function);
     keep(std::move(prepared), std::move(balanced), flat.frame, std::move(layout.map),
          std::move(remap.numbers), call.state);
@@ -302,37 +302,42 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
     const int rank = state.communicator->rank();
     Objects objects;
     const LocalStatus local = collect(zz, state, one_part_per_rank, objects);
-    const Agreement agreement = agree(local, state);
-    const bool stays = agreement.at_rest && agreement.differing == nullptr;
-    Call call{zz, state, function, to, std::nullopt, !agreement.axes_changed};
+    const Outcome outcome = vote(local, state);
+    const bool stays = outcome.at_rest && outcome.differing == nullptr;
+    Call call{zz, state, function, to, std::nullopt, !outcome.axes_changed};
     if (!stays) {
         state.rest.reset();
         call.previous = std::exchange(state.kept, std::nullopt);
-        if (!agreement.all_kept_cuts) call.previous.reset();
+        if (!outcome.all_kept_cuts) call.previous.reset();
     }
-    dump(DumpReason::asked, agreement, state, {function, objects, local});
-    if (agreement.failed()) {
-        dump(DumpReason::failure, agreement, state, {function, objects, local});
-        if (rank == agreement.failing_rank) print_error(rank, function, local.text.data());
-        return agreement.code;
+    const auto dump_inputs = [&](DumpReason reason, const LocalStatus& status) {
+        dump(reason, outcome.dump, state,
+             {function, objects.points, objects.initial_parts.get(), status.code,
+              status.text.data()});
+    };
+    dump_inputs(DumpReason::asked, local);
+    if (outcome.failed()) {
+        dump_inputs(DumpReason::failure, local);
+        if (rank == outcome.failing_rank) print_error(rank, function, local.text.data());
+        return outcome.code;
     }
     const auto fail_everywhere = [&](int code, std::string_view text) {
         if (rank == 0) print_error(rank, function, text);
-        dump(DumpReason::failure, agreement, state, {function, objects, {code, text}});
+        dump_inputs(DumpReason::failure, {code, text});
         result = Partition{};
         return code;
     };
-    if (agreement.differing != nullptr) {
+    if (outcome.differing != nullptr) {
         std::array<char, 128> text{};
         std::snprintf(text.data(), text.size(),
                       "parameter %s differs between ranks; set the same value on all of them",
-                      agreement.differing);
+                      outcome.differing);
         return fail_everywhere(ZOLTAN_FATAL, text.data());
     }
     try {
-        const int code = stays ? stay(call, agreement, std::move(objects), result)
-                               : balance_objects(call, agreement, std::move(objects), result);
-        return code == ZOLTAN_OK ? agreement.code : code;
+        const int code = stays ? stay(call, outcome, std::move(objects), result)
+                               : balance_objects(call, outcome, std::move(objects), result);
+        return code == ZOLTAN_OK ? outcome.code : code;
     } catch (const Failure& failure) {
         return fail_everywhere(failure.code(), failure.what());
     } catch (const Error& error) {

@@ -80,7 +80,7 @@ constexpr std::array same_on_all_ranks = {
 };
 
 /// Reduced by maximum; a minimum travels as the maximum of the complement.
-struct Vote {
+struct Ballot {
     int severity = 0;
     int failing_rank_from_last = 0;  ///< ranks - lowest failing rank
     int num_global_parts = -1;
@@ -96,58 +96,59 @@ struct Vote {
     std::array<int, same_on_all_ranks.size()> complement_of_smallest{};
 };
 
-Vote vote_of(const LocalStatus& local, const State& state) {
+Ballot ballot_of(const LocalStatus& local, const State& state) {
     const Parameters& parameters = state.parameters;
-    Vote vote;
-    vote.severity = severity(local.code);
+    Ballot ballot;
+    ballot.severity = severity(local.code);
     if (local.code != ZOLTAN_OK && local.code != ZOLTAN_WARN) {
-        vote.failing_rank_from_last = state.communicator->size() - state.communicator->rank();
+        ballot.failing_rank_from_last = state.communicator->size() - state.communicator->rank();
     }
-    vote.num_global_parts = asked_global_parts(state);
-    vote.any_local_parts = parameters.num_local_parts >= 0 ? 1 : 0;
-    vote.any_part_sizes = state.part_sizes.empty() ? 0 : 1;
-    vote.any_fortran = is_fortran_used() ? 1 : 0;
-    vote.lacks_cuts = state.kept ? 0 : 1;
-    vote.axes_changed = state.axes_changed ? 1 : 0;
-    vote.not_at_rest = local.at_rest ? 0 : 1;
+    ballot.num_global_parts = asked_global_parts(state);
+    ballot.any_local_parts = parameters.num_local_parts >= 0 ? 1 : 0;
+    ballot.any_part_sizes = state.part_sizes.empty() ? 0 : 1;
+    ballot.any_fortran = is_fortran_used() ? 1 : 0;
+    ballot.lacks_cuts = state.kept ? 0 : 1;
+    ballot.axes_changed = state.axes_changed ? 1 : 0;
+    ballot.not_at_rest = local.at_rest ? 0 : 1;
     if (!parameters.dump_folder.empty()) {
-        vote.dumping_rank_from_last = state.communicator->size() - state.communicator->rank();
-        vote.dump_always = parameters.dump_always ? 1 : 0;
+        ballot.dumping_rank_from_last = state.communicator->size() - state.communicator->rank();
+        ballot.dump_always = parameters.dump_always ? 1 : 0;
     }
     for (std::size_t i = 0; i < same_on_all_ranks.size(); ++i) {
-        vote.largest[i] = same_on_all_ranks[i].value(parameters);
-        vote.complement_of_smallest[i] = ~vote.largest[i];
+        ballot.largest[i] = same_on_all_ranks[i].value(parameters);
+        ballot.complement_of_smallest[i] = ~ballot.largest[i];
     }
-    return vote;
+    return ballot;
 }
 
 }  // namespace
 
-Agreement agree(const LocalStatus& local, const State& state) {
-    Vote vote = vote_of(local, state);
-    static_assert(sizeof(Vote) % sizeof(int) == 0);
-    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &vote, sizeof(Vote) / sizeof(int), MPI_INT, MPI_MAX,
+Outcome vote(const LocalStatus& local, const State& state) {
+    Ballot ballot = ballot_of(local, state);
+    static_assert(sizeof(Ballot) % sizeof(int) == 0);
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &ballot, sizeof(Ballot) / sizeof(int), MPI_INT, MPI_MAX,
                              state.communicator->get()),
                "MPI_Allreduce");
-    Agreement agreement;
-    agreement.code = codes[static_cast<std::size_t>(vote.severity)];
-    agreement.failing_rank = state.communicator->size() - vote.failing_rank_from_last;
-    agreement.num_global_parts = vote.num_global_parts;
-    agreement.any_local_parts = vote.any_local_parts != 0;
-    agreement.any_part_sizes = vote.any_part_sizes != 0;
-    agreement.any_fortran = vote.any_fortran != 0;
-    agreement.all_kept_cuts = vote.lacks_cuts == 0;
-    agreement.axes_changed = vote.axes_changed != 0;
-    agreement.at_rest = vote.not_at_rest == 0;
-    if (vote.dumping_rank_from_last > 0)
-        agreement.dumping_rank = state.communicator->size() - vote.dumping_rank_from_last;
-    agreement.dump_always = vote.dump_always != 0;
+    Outcome outcome;
+    outcome.code = codes[static_cast<std::size_t>(ballot.severity)];
+    outcome.failing_rank = state.communicator->size() - ballot.failing_rank_from_last;
+    outcome.num_global_parts = ballot.num_global_parts;
+    outcome.any_local_parts = ballot.any_local_parts != 0;
+    outcome.any_part_sizes = ballot.any_part_sizes != 0;
+    outcome.any_fortran = ballot.any_fortran != 0;
+    outcome.all_kept_cuts = ballot.lacks_cuts == 0;
+    outcome.axes_changed = ballot.axes_changed != 0;
+    outcome.at_rest = ballot.not_at_rest == 0;
+    if (ballot.dumping_rank_from_last > 0)
+        outcome.dump.rank = state.communicator->size() - ballot.dumping_rank_from_last;
+    outcome.dump.always = ballot.dump_always != 0;
     for (std::size_t i = 0; i < same_on_all_ranks.size(); ++i) {
-        if (vote.largest[i] != ~vote.complement_of_smallest[i] && agreement.differing == nullptr) {
-            agreement.differing = same_on_all_ranks[i].name;
+        if (ballot.largest[i] != ~ballot.complement_of_smallest[i] &&
+            outcome.differing == nullptr) {
+            outcome.differing = same_on_all_ranks[i].name;
         }
     }
-    return agreement;
+    return outcome;
 }
 
 void sum_over_ranks(std::span<std::uint64_t> numbers, MPI_Comm comm) {

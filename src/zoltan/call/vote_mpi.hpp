@@ -1,5 +1,6 @@
 #pragma once
 
+#include "zoltan/dump/dump_mpi.hpp"
 #include "zoltan/handle/state.hpp"
 
 #include <array>
@@ -23,25 +24,24 @@ struct LocalStatus {
 };
 
 /// What all ranks know after one reduction.
-struct Agreement {
-    int code = ZOLTAN_OK;             ///< the worst of all ranks
-    int failing_rank = 0;             ///< lowest rank that failed; it speaks for all
-    int num_global_parts = -1;        ///< largest of all ranks, -1: set nowhere
-    bool any_local_parts = false;     ///< NUM_LOCAL_PARTS is set somewhere
-    bool any_part_sizes = false;      ///< Zoltan_LB_Set_Part_Sizes was called somewhere
-    bool any_fortran = false;         ///< Zoltan's Fortran interface is used somewhere
-    bool all_kept_cuts = false;       ///< of the last call, on every rank
-    bool axes_changed = false;        ///< what chooses axes was changed somewhere since then
-    bool at_rest = false;             ///< nothing has changed since then on any rank
-    int dumping_rank = -1;            ///< lowest rank with RRCB_DUMP, -1: none
-    bool dump_always = false;         ///< RRCB_DUMP_WHEN is ALWAYS on a rank with RRCB_DUMP
+struct Outcome {
+    int code = ZOLTAN_OK;          ///< the worst of all ranks
+    int failing_rank = 0;          ///< lowest rank that failed; it speaks for all
+    int num_global_parts = -1;     ///< largest of all ranks, -1: set nowhere
+    bool any_local_parts = false;  ///< NUM_LOCAL_PARTS is set somewhere
+    bool any_part_sizes = false;   ///< Zoltan_LB_Set_Part_Sizes was called somewhere
+    bool any_fortran = false;      ///< Zoltan's Fortran interface is used somewhere
+    bool all_kept_cuts = false;    ///< of the last call, on every rank
+    bool axes_changed = false;     ///< what chooses axes was changed somewhere since then
+    bool at_rest = false;          ///< nothing has changed since then on any rank
+    DumpWish dump;
     const char* differing = nullptr;  ///< name of a parameter that differs between ranks
 
     bool failed() const { return code != ZOLTAN_OK && code != ZOLTAN_WARN; }
 };
 
 /// Collective over the handle's communicator: one reduction of a few integers.
-Agreement agree(const LocalStatus& local, const State& state);
+Outcome vote(const LocalStatus& local, const State& state);
 
 /// Sums modulo 2^64, on every rank. Collective: one reduction.
 void sum_over_ranks(std::span<std::uint64_t> numbers, MPI_Comm comm);

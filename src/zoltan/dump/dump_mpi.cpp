@@ -23,7 +23,7 @@ PathText choose_folder(const State& state, const DumpInput& input) {
     const std::string name = std::filesystem::absolute(folder).string();
     if (name.size() >= text.size()) throw std::length_error("the name of the folder is too long");
     const int num_ranks = state.communicator->size();
-    write_dump(folder, DumpedCall{input.function, input.status.code, num_ranks, state.parameters});
+    write_dump(folder, DumpedCall{input.function, input.code, num_ranks, state.parameters});
     name.copy(text.data(), name.size());
     return text;
 }
@@ -31,12 +31,10 @@ PathText choose_folder(const State& state, const DumpInput& input) {
 void write_mine(const std::filesystem::path& folder, const State& state, const DumpInput& input) {
     // Needed where ranks do not share their file systems.
     std::filesystem::create_directories(folder);
-    const Objects& objects = input.objects;
-    write_dump(
-        folder,
-        DumpedRank{state.communicator->rank(), objects.points, state.parameters.weight_dimension,
-                   state.workspace.callback_weights.data(), objects.initial_parts.get(),
-                   state.part_sizes, input.status.text.data()});
+    write_dump(folder, DumpedRank{state.communicator->rank(), input.points,
+                                  state.parameters.weight_dimension,
+                                  state.workspace.callback_weights.data(), input.initial_parts,
+                                  state.part_sizes, input.message});
 }
 
 /// Runs a step of which the call must not notice when it fails.
@@ -55,16 +53,16 @@ void warn_once_if_failing(const State& state, const char* function, Step step) {
 
 }  // namespace
 
-void dump(DumpReason reason, const Agreement& agreement, const State& state,
+void dump(DumpReason reason, const DumpWish& wish, const State& state,
           const DumpInput& input) noexcept {
-    const bool is_time = agreement.dump_always == (reason == DumpReason::asked);
-    if (agreement.dumping_rank < 0 || !is_time) return;
+    const bool is_time = wish.always == (reason == DumpReason::asked);
+    if (wish.rank < 0 || !is_time) return;
     const Communicator& comm = *state.communicator;
     PathText folder{};
-    if (comm.rank() == agreement.dumping_rank)
+    if (comm.rank() == wish.rank)
         warn_once_if_failing(state, input.function, [&] { folder = choose_folder(state, input); });
-    const int sent = MPI_Bcast(folder.data(), static_cast<int>(folder.size()), MPI_CHAR,
-                               agreement.dumping_rank, comm.get());
+    const int sent =
+        MPI_Bcast(folder.data(), static_cast<int>(folder.size()), MPI_CHAR, wish.rank, comm.get());
     if (sent != MPI_SUCCESS || folder[0] == '\0') return;
     warn_once_if_failing(state, input.function, [&] { write_mine(folder.data(), state, input); });
 }

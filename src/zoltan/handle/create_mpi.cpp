@@ -17,21 +17,22 @@ namespace rrcb::zoltan {
 namespace {
 
 /// Reduced by maximum.
-struct Vote {
+struct Ballot {
     int failing_rank_from_last = 0;  ///< ranks - lowest failing rank
     int leaves_all_to_zoltan = 0;
     int asks_for_replacement = 0;
     int does_not_ask = 0;
 };
 
-Vote agree_on_environment(bool asks, const Member& me) {
+Ballot vote_on_environment(bool asks, const Member& me) {
     const int num_ranks = mpi::size_of(me.comm);
-    Vote vote{me.failure.failed ? num_ranks - mpi::rank_of(me.comm) : 0,
-              real_zoltan()->serves_rrcb ? 0 : 1, asks ? 1 : 0, asks ? 0 : 1};
-    static_assert(sizeof vote == 4 * sizeof(int));
-    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &vote, 4, MPI_INT, MPI_MAX, me.comm), "MPI_Allreduce");
-    if (vote.failing_rank_from_last > 0) fail_together(num_ranks - vote.failing_rank_from_last, me);
-    return vote;
+    Ballot ballot{me.failure.failed ? num_ranks - mpi::rank_of(me.comm) : 0,
+                  real_zoltan()->serves_rrcb ? 0 : 1, asks ? 1 : 0, asks ? 0 : 1};
+    static_assert(sizeof ballot == 4 * sizeof(int));
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &ballot, 4, MPI_INT, MPI_MAX, me.comm), "MPI_Allreduce");
+    if (ballot.failing_rank_from_last > 0)
+        fail_together(num_ranks - ballot.failing_rank_from_last, me);
+    return ballot;
 }
 
 void warn_once_of_difference(int rank) {
@@ -82,11 +83,11 @@ void create_state(const Zoltan_Struct* zz, MPI_Comm user) {
     Member me{user};
     make(draft, zz, user, me);
     try {
-        const Vote vote = agree_on_environment(draft.asks_for_replacement, me);
-        if (vote.leaves_all_to_zoltan != 0) return discard(draft, zz);
+        const Ballot ballot = vote_on_environment(draft.asks_for_replacement, me);
+        if (ballot.leaves_all_to_zoltan != 0) return discard(draft, zz);
         State& state = *find_state(zz);
-        if (vote.asks_for_replacement != 0) replace_rcb(state);
-        if (vote.asks_for_replacement == vote.does_not_ask)
+        if (ballot.asks_for_replacement != 0) replace_rcb(state);
+        if (ballot.asks_for_replacement == ballot.does_not_ask)
             warn_once_of_difference(state.communicator->rank());
     } catch (...) {
         discard(draft, zz);

@@ -4,7 +4,7 @@
 #include "zoltan/handle/serialization.hpp"
 
 #include "fuzzing.hpp"
-#include "zoltan/real/failure.hpp"
+#include "zoltan/real/zoltan_error.hpp"
 
 #include <vector>
 
@@ -24,7 +24,7 @@ std::vector<char> with_head(std::span<const char> body) {
     return bytes;
 }
 
-void look_up(const rrcb::zoltan::Kept& kept) {
+void look_up(const rrcb::zoltan::KeptPartition& kept) {
     const int num_parts = kept.cuts().num_parts;
     std::vector<rrcb::Part> touched(static_cast<std::size_t>(num_parts));
     for (const double x : {-1e300, 0.0, 0.5, 3.0}) {
@@ -54,7 +54,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         const std::vector<char> again = rrcb::zoltan::serialize(state);
         expect(rrcb::zoltan::serialize(state) == again, "the same bytes twice");
         expect(rrcb::zoltan::deserialize(again).given == parcel.given, "the same parameters");
-    } catch (const rrcb::zoltan::Failure&) {
+    } catch (const rrcb::zoltan::ZoltanError&) {
     }
     return 0;
 }

@@ -2,7 +2,7 @@
 
 #include "collective/communicator.hpp"
 #include "zoltan/call/rcb_options.hpp"
-#include "zoltan/real/failure.hpp"
+#include "zoltan/real/zoltan_error.hpp"
 
 #include <algorithm>
 #include <array>

@@ -19,7 +19,7 @@ struct Layout {
     std::array<std::vector<double>, most_weights - 1> further_sizes{};
 };
 
-/// Collective only where NUM_LOCAL_PARTS or part sizes are set somewhere. Throws Failure on all
+/// Collective only where NUM_LOCAL_PARTS or part sizes are set somewhere. Throws ZoltanError on all
 /// ranks alike for numbers of parts that do not add up; other errors are held back in `me`.
 Layout make_layout(const Outcome& outcome, const State& state, Member& me);
 

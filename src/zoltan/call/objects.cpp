@@ -1,6 +1,6 @@
 #include "zoltan/call/objects.hpp"
 
-#include "zoltan/real/failure.hpp"
+#include "zoltan/real/zoltan_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -66,31 +66,32 @@ class Collector {
     void check(int code, const char* name) {
         if (code == ZOLTAN_WARN) objects_.warned = true;
         if (code == ZOLTAN_OK || code == ZOLTAN_WARN) return;
-        throw Failure(code == ZOLTAN_MEMERR ? ZOLTAN_MEMERR : ZOLTAN_FATAL,
-                      std::string(name) + " returned error code " + std::to_string(code));
+        throw ZoltanError(code == ZOLTAN_MEMERR ? ZOLTAN_MEMERR : ZOLTAN_FATAL,
+                          std::string(name) + " returned error code " + std::to_string(code));
     }
 
     void read_count() {
         const auto num_objects = callback<ZOLTAN_NUM_OBJ_FN>(zz_, ZOLTAN_NUM_OBJ_FN_TYPE);
-        if (!num_objects) throw Failure(ZOLTAN_FATAL, "Must register ZOLTAN_NUM_OBJ_FN.");
+        if (!num_objects) throw ZoltanError(ZOLTAN_FATAL, "Must register ZOLTAN_NUM_OBJ_FN.");
         int code = ZOLTAN_OK;
         objects_.count = num_objects(&code);
         check(code, "ZOLTAN_NUM_OBJ_FN");
         if (objects_.count >= 0) return;
-        throw Failure(ZOLTAN_FATAL, "ZOLTAN_NUM_OBJ_FN returned a negative number of objects: " +
-                                        std::to_string(objects_.count));
+        throw ZoltanError(ZOLTAN_FATAL,
+                          "ZOLTAN_NUM_OBJ_FN returned a negative number of objects: " +
+                              std::to_string(objects_.count));
     }
 
     void read_dimension() {
         const auto dimension = callback<ZOLTAN_NUM_GEOM_FN>(zz_, ZOLTAN_NUM_GEOM_FN_TYPE);
-        if (!dimension) throw Failure(ZOLTAN_FATAL, "Must register ZOLTAN_NUM_GEOM_FN.");
+        if (!dimension) throw ZoltanError(ZOLTAN_FATAL, "Must register ZOLTAN_NUM_GEOM_FN.");
         int code = ZOLTAN_OK;
         objects_.points.dimension = dimension(&code);
         check(code, "ZOLTAN_NUM_GEOM_FN");
         if (objects_.points.dimension >= 1 && objects_.points.dimension <= max_dimension) return;
-        throw Failure(ZOLTAN_FATAL, "ZOLTAN_NUM_GEOM_FN returned dimension " +
-                                        std::to_string(objects_.points.dimension) +
-                                        "; it must be 1, 2 or 3");
+        throw ZoltanError(ZOLTAN_FATAL, "ZOLTAN_NUM_GEOM_FN returned dimension " +
+                                            std::to_string(objects_.points.dimension) +
+                                            "; it must be 1, 2 or 3");
     }
 
     void read_ids_and_weights(std::size_t count) {
@@ -114,20 +115,20 @@ class Collector {
         const auto valid = [](float weight) { return std::isfinite(weight) && weight >= 0; };
         const float* fault = std::find_if_not(weights_, weights_ + size, valid);
         if (fault == weights_ + size) return;
-        throw Failure(ZOLTAN_FATAL,
-                      "object " +
-                          std::to_string((fault - weights_) / parameters_.weight_dimension) +
-                          " has the weight " + std::to_string(*fault) +
-                          "; weights must be finite and not negative");
+        throw ZoltanError(ZOLTAN_FATAL,
+                          "object " +
+                              std::to_string((fault - weights_) / parameters_.weight_dimension) +
+                              " has the weight " + std::to_string(*fault) +
+                              "; weights must be finite and not negative");
     }
 
     void iterate_objects(std::size_t count) {
         const auto first = callback<ZOLTAN_FIRST_OBJ_FN>(zz_, ZOLTAN_FIRST_OBJ_FN_TYPE);
         const auto next = callback<ZOLTAN_NEXT_OBJ_FN>(zz_, ZOLTAN_NEXT_OBJ_FN_TYPE);
         if (!first || !next) {
-            throw Failure(ZOLTAN_FATAL,
-                          "Must register ZOLTAN_OBJ_LIST_FN or "
-                          "ZOLTAN_FIRST_OBJ_FN/ZOLTAN_NEXT_OBJ_FN.");
+            throw ZoltanError(ZOLTAN_FATAL,
+                              "Must register ZOLTAN_OBJ_LIST_FN or "
+                              "ZOLTAN_FIRST_OBJ_FN/ZOLTAN_NEXT_OBJ_FN.");
         }
         int code = ZOLTAN_OK;
         const int gid = parameters_.num_gid_entries;
@@ -143,9 +144,9 @@ class Collector {
             check(code, "ZOLTAN_NEXT_OBJ_FN");
         }
         if (found == 0) {
-            throw Failure(ZOLTAN_FATAL,
-                          "ZOLTAN_FIRST_OBJ_FN/ZOLTAN_NEXT_OBJ_FN ended before the number of "
-                          "objects that ZOLTAN_NUM_OBJ_FN returned");
+            throw ZoltanError(ZOLTAN_FATAL,
+                              "ZOLTAN_FIRST_OBJ_FN/ZOLTAN_NEXT_OBJ_FN ended before the number of "
+                              "objects that ZOLTAN_NUM_OBJ_FN returned");
         }
     }
 
@@ -177,7 +178,8 @@ class Collector {
             return;
         }
         if (!single) {
-            throw Failure(ZOLTAN_FATAL, "Must register ZOLTAN_GEOM_MULTI_FN or ZOLTAN_GEOM_FN.");
+            throw ZoltanError(ZOLTAN_FATAL,
+                              "Must register ZOLTAN_GEOM_MULTI_FN or ZOLTAN_GEOM_FN.");
         }
         for (std::size_t i = 0; i < count; ++i) {
             single(gid, lid, global_id(i), local_id(i), coordinates + i * dimension, &code);

@@ -45,8 +45,8 @@ struct Objects {
     Points points;                   ///< borrowed from the workspace
 };
 
-/// Asks the registered callbacks. Not collective. Throws Failure for a missing or failing callback,
-/// a negative count, or a dimension that is not 1, 2 or 3.
+/// Asks the registered callbacks. Not collective. Throws ZoltanError for a missing or failing
+/// callback, a negative count, or a dimension that is not 1, 2 or 3.
 Objects collect_objects(Zoltan_Struct* zz, const Parameters& parameters, Workspace& workspace);
 
 }  // namespace rrcb::zoltan

@@ -8,14 +8,14 @@
 #include "zoltan/call/lists_mpi.hpp"
 #include "zoltan/call/rcb_options.hpp"
 #include "zoltan/call/renumber_mpi.hpp"
+#include "zoltan/call/report_line.hpp"
 #include "zoltan/call/rest.hpp"
-#include "zoltan/call/summary.hpp"
 #include "zoltan/call/vote_mpi.hpp"
 #include "zoltan/call/weights_mpi.hpp"
 #include "zoltan/dump/dump_mpi.hpp"
 #include "zoltan/norm/norm_balance_mpi.hpp"
-#include "zoltan/real/failure.hpp"
 #include "zoltan/real/message.hpp"
+#include "zoltan/real/zoltan_error.hpp"
 
 #include <rrcb/error.hpp>
 
@@ -38,15 +38,15 @@ namespace {
 void check_parameters(const State& state, bool one_part_per_rank) {
     const Parameters& parameters = state.parameters;
     if (parameters.return_lists == ReturnLists::candidates) {
-        throw Failure(ZOLTAN_FATAL, "RRCB makes no candidate lists; change RETURN_LISTS");
+        throw ZoltanError(ZOLTAN_FATAL, "RRCB makes no candidate lists; change RETURN_LISTS");
     }
     const int global = asked_global_parts(state);
     const int local = parameters.num_local_parts;
     const bool other_global = global != -1 && global != state.communicator->size();
     if (one_part_per_rank && (other_global || (local != -1 && local != 1))) {
-        throw Failure(ZOLTAN_FATAL,
-                      "Zoltan_LB_Balance makes one part per rank; use Zoltan_LB_Partition for "
-                      "other NUM_GLOBAL_PARTS or NUM_LOCAL_PARTS");
+        throw ZoltanError(ZOLTAN_FATAL,
+                          "Zoltan_LB_Balance makes one part per rank; use Zoltan_LB_Partition for "
+                          "other NUM_GLOBAL_PARTS or NUM_LOCAL_PARTS");
     }
 }
 
@@ -61,8 +61,8 @@ LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Obj
                          is_at_rest(*state.rest, *state.kept, state.parameters, state.workspace,
                                     objects, state.communicator->rank());
         return status;
-    } catch (const Failure& failure) {
-        return {failure.code(), failure.what()};
+    } catch (const ZoltanError& error) {
+        return {error.code(), error.what()};
     } catch (const std::bad_alloc&) {
         return {ZOLTAN_MEMERR, "out of memory for the objects"};
     } catch (const std::exception& thrown) {
@@ -81,8 +81,8 @@ bool leaves_parts_empty(const Report& report) {
 /// Prints what is legal but not as good as it was asked for, and the summary where it is wanted.
 void print_review(const Report& report, int num_parts, const Remap& remap,
                   const Parameters& parameters, const char* function) {
-    if (asks_for_summary(parameters))
-        std::printf("%s\n", summary(report, num_parts, remap).c_str());
+    if (asks_for_report_line(parameters))
+        std::printf("%s\n", report_line(report, num_parts, remap).c_str());
     if (parameters.debug_level <= 0) return;
     for (const std::string& shortcoming : shortcomings(parameters)) {
         print_warning(0, function, shortcoming);
@@ -141,7 +141,7 @@ struct Call {
     State& state;
     const char* function;
     const CallerLists& to;
-    std::optional<Kept> previous;
+    std::optional<KeptPartition> previous;
     bool may_start_there = false;  ///< its axes are those that this one chooses
 };
 
@@ -170,7 +170,7 @@ struct Preparation {
     Options options;
     const Cuts* previous = nullptr;  ///< to start from
     std::optional<Renumbering> renumbering;
-    std::optional<Kept> kept;
+    std::optional<KeptPartition> kept;
     Rest rest;
     std::optional<CutAverage> average;
     std::vector<std::int64_t> per_rank;  ///< to announce imports with
@@ -338,8 +338,8 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
         const int code = stays ? stay(call, outcome, std::move(objects), result)
                                : balance_objects(call, outcome, std::move(objects), result);
         return code == ZOLTAN_OK ? outcome.code : code;
-    } catch (const Failure& failure) {
-        return fail_everywhere(failure.code(), failure.what());
+    } catch (const ZoltanError& error) {
+        return fail_everywhere(error.code(), error.what());
     } catch (const Error& error) {
         result = Partition{};
         // An error of MPI's may be this rank's alone; nothing more can be done together.

@@ -42,7 +42,7 @@ bool are_in_own_part(const Objects& objects, const PartMap& map, int rank) {
     return std::all_of(named, named + objects.count, [&](int part) { return part == rank; });
 }
 
-bool is_at_rest(const Rest& rest, const Kept& kept, const Parameters& parameters,
+bool is_at_rest(const Rest& rest, const KeptPartition& kept, const Parameters& parameters,
                 const Workspace& workspace, const Objects& objects, int rank) {
     const PartMap& map = kept.map();
     if (!map.one_each && !objects.names_parts) return false;

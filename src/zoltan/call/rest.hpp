@@ -21,7 +21,7 @@ bool are_in_own_part(const Objects& objects, const PartMap& map, int rank);
 /// Whether every object of this rank is in the part that the last partition gave it, and the parts
 /// of this rank hold what they got. Never where the parts of the objects are not known: without a
 /// callback that names them only one part on each rank tells. Not collective.
-bool is_at_rest(const Rest& rest, const Kept& kept, const Parameters& parameters,
+bool is_at_rest(const Rest& rest, const KeptPartition& kept, const Parameters& parameters,
                 const Workspace& workspace, const Objects& objects, int rank);
 
 }  // namespace rrcb::zoltan

@@ -5,8 +5,8 @@
 #endif
 
 #include "zoltan/handle/state.hpp"
-#include "zoltan/real/failure.hpp"
 #include "zoltan/real/message.hpp"
+#include "zoltan/real/zoltan_error.hpp"
 
 #include <exception>
 #include <new>
@@ -23,9 +23,9 @@ int guarded(const char* function, const State* state, Body body) noexcept {
     int code = ZOLTAN_FATAL;
     try {
         return body();
-    } catch (const Failure& failure) {
-        code = failure.code();
-        print_error(rank, function, failure.what());
+    } catch (const ZoltanError& error) {
+        code = error.code();
+        print_error(rank, function, error.what());
     } catch (const std::bad_alloc&) {
         code = ZOLTAN_MEMERR;
         print_error(rank, function, "out of memory");

@@ -16,9 +16,10 @@ namespace {
 
 int switch_to_rrcb(State& state) {
     if (state.deserialized) {
-        throw Failure(ZOLTAN_FATAL,
-                      "a handle filled by Zoltan_Deserialize cannot be switched to RRCB; create "
-                      "one with Zoltan_Create");
+        throw ZoltanError(
+            ZOLTAN_FATAL,
+            "a handle filled by Zoltan_Deserialize cannot be switched to RRCB; create "
+            "one with Zoltan_Create");
     }
     state.parameters.rrcb = true;
     return ZOLTAN_OK;

@@ -70,7 +70,7 @@ RRCB_EXPORT int Zoltan_Serialize(Zoltan_Struct const* zz, size_t size, char* buf
     return guarded("Zoltan_Serialize", state, [&] {
         const std::vector<char> bytes = serialize(*state);
         if (bytes.size() > size) {
-            throw Failure(ZOLTAN_FATAL, "the buffer is too small; ask Zoltan_Serialize_Size");
+            throw ZoltanError(ZOLTAN_FATAL, "the buffer is too small; ask Zoltan_Serialize_Size");
         }
         std::ranges::copy(bytes, buffer);
         return ZOLTAN_OK;

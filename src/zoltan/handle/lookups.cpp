@@ -1,6 +1,6 @@
 #include "zoltan/handle/lookups.hpp"
 
-#include "zoltan/real/failure.hpp"
+#include "zoltan/real/zoltan_error.hpp"
 
 #include <algorithm>
 #include <cfloat>
@@ -27,21 +27,22 @@ int write_ranks(const PartMap& map, const Part* parts, int num_parts, int* ranks
 
 }  // namespace
 
-const Kept& kept_by(const State& state) {
+const KeptPartition& kept_by(const State& state) {
     if (!state.kept || !state.kept->answers_look_ups()) {
-        throw Failure(ZOLTAN_FATAL, "No Decomposition Data available; use KEEP_CUTS parameter.");
+        throw ZoltanError(ZOLTAN_FATAL,
+                          "No Decomposition Data available; use KEEP_CUTS parameter.");
     }
     return *state.kept;
 }
 
 Place place_of(const State& state, const double* coordinates) {
-    const Kept& kept = kept_by(state);
+    const KeptPartition& kept = kept_by(state);
     const Part part = kept.part_of(coordinates);
     return {kept.map().ranks[static_cast<std::size_t>(part)].first, part};
 }
 
 void find_touched(const State& state, const Box& box, const Touched& touched) {
-    const Kept& kept = kept_by(state);
+    const KeptPartition& kept = kept_by(state);
     // Stays between calls: programs make tens of thousands of them.
     thread_local std::vector<Part> unasked;
     Part* parts = touched.parts;
@@ -56,9 +57,9 @@ void find_touched(const State& state, const Box& box, const Touched& touched) {
 }
 
 Box region_of(const State& state, int part) {
-    const Kept& kept = kept_by(state);
+    const KeptPartition& kept = kept_by(state);
     if (part < 0 || part >= kept.cuts().num_parts) {
-        throw Failure(ZOLTAN_FATAL, "Invalid part number " + std::to_string(part));
+        throw ZoltanError(ZOLTAN_FATAL, "Invalid part number " + std::to_string(part));
     }
     Box box = kept.region_of(part);
     for (std::size_t a = 0; a < max_dimension; ++a) {
@@ -70,19 +71,19 @@ Box region_of(const State& state, int part) {
 }
 
 TreeNode tree_node_of(const State& state, int node) {
-    const Kept& kept = kept_by(state);
+    const KeptPartition& kept = kept_by(state);
     if (node < 0 || node >= kept.cuts().num_parts) {
-        throw Failure(ZOLTAN_FATAL, "Invalid tree node " + std::to_string(node));
+        throw ZoltanError(ZOLTAN_FATAL, "Invalid tree node " + std::to_string(node));
     }
     return kept.tree_node(node);
 }
 
 void require_one_part_per_rank(const State& state, const char* alternative) {
     if (kept_by(state).map().one_each) return;
-    throw Failure(ZOLTAN_FATAL,
-                  std::string("Non-uniform distribution of parts over processors is specified; "
-                              "use ") +
-                      alternative);
+    throw ZoltanError(ZOLTAN_FATAL,
+                      std::string("Non-uniform distribution of parts over processors is specified; "
+                                  "use ") +
+                          alternative);
 }
 
 }  // namespace rrcb::zoltan

@@ -6,11 +6,11 @@
 
 namespace rrcb::zoltan {
 
-/// What the last partition kept. Throws Failure when it kept no cuts. Not collective.
-const Kept& kept_by(const State& state);
+/// What the last partition kept. Throws ZoltanError when it kept no cuts. Not collective.
+const KeptPartition& kept_by(const State& state);
 
 /// Part and lowest rank of a position; `coordinates` has one entry per dimension. Not collective.
-/// All look-ups throw Failure when no cuts were kept.
+/// All look-ups throw ZoltanError when no cuts were kept.
 struct Place {
     int rank = -1;
     int part = -1;
@@ -29,13 +29,13 @@ struct Touched {
 void find_touched(const State& state, const Box& box, const Touched& touched);
 
 /// Region of a part, along the axes of the frame; open sides are +-DBL_MAX, as in Zoltan. Throws
-/// Failure for an unknown part.
+/// ZoltanError for an unknown part.
 Box region_of(const State& state, int part);
 
-/// Throws Failure for an unknown node.
+/// Throws ZoltanError for an unknown node.
 TreeNode tree_node_of(const State& state, int node);
 
-/// Throws Failure unless part p is on rank p, which the look-ups without parts ask for.
+/// Throws ZoltanError unless part p is on rank p, which the look-ups without parts ask for.
 void require_one_part_per_rank(const State& state, const char* alternative);
 
 }  // namespace rrcb::zoltan

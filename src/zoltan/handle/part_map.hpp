@@ -28,7 +28,8 @@ struct PartMap {
 PartMap even_part_map(int num_parts, int num_ranks);
 
 /// How many parts NUM_LOCAL_PARTS and NUM_GLOBAL_PARTS ask for. `local_parts` holds one number per
-/// rank, -1 where it is not set; so is `num_global_parts`. Throws Failure when they do not add up.
+/// rank, -1 where it is not set; so is `num_global_parts`. Throws ZoltanError when they do not add
+/// up.
 int num_parts_of(std::span<const int> local_parts, int num_global_parts);
 
 /// That many parts where NUM_LOCAL_PARTS asks for them; ranks where it is not set share the rest.

@@ -1,6 +1,6 @@
 #include "zoltan/handle/serialization.hpp"
 
-#include "zoltan/real/failure.hpp"
+#include "zoltan/real/zoltan_error.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +22,7 @@ struct Header {
 };
 
 [[noreturn]] void refuse(const char* why) {
-    throw Failure(ZOLTAN_FATAL, std::string("the buffer of Zoltan_Serialize is ") + why);
+    throw ZoltanError(ZOLTAN_FATAL, std::string("the buffer of Zoltan_Serialize is ") + why);
 }
 
 /// FNV-1a, 64 bits (Fowler, Noll, Vo).
@@ -97,7 +97,7 @@ class Reader {
     std::span<const char> bytes_;
 };
 
-void write(Writer& writer, const Kept& kept) {
+void write(Writer& writer, const KeptPartition& kept) {
     writer.value(kept.cuts().dimension);
     writer.value<std::uint64_t>(kept.cuts().tree.size());
     for (const Cut& cut : kept.cuts().tree) {
@@ -137,7 +137,7 @@ bool is_consistent(const Cuts& cuts, const PartMap& map, const std::vector<Part>
            std::ranges::all_of(map.ranks, valid_range) && is_permutation(numbers);
 }
 
-Kept read_kept(Reader& reader) {
+KeptPartition read_kept(Reader& reader) {
     Cuts cuts;
     cuts.dimension = reader.value<int>();
     for (auto left = reader.value<std::uint64_t>(); left > 0; --left) {
@@ -152,7 +152,7 @@ Kept read_kept(Reader& reader) {
     const auto frame = reader.value<Frame>();
     cuts.num_parts = static_cast<int>(numbers.size());
     if (!is_consistent(cuts, map, numbers) || !fits(frame, cuts)) refuse("inconsistent");
-    Kept kept(numbers.size());
+    KeptPartition kept(numbers.size());
     kept.keep(std::move(cuts), frame, std::move(map), std::move(numbers));
     return kept;
 }

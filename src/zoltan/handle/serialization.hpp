@@ -15,7 +15,7 @@ namespace rrcb::zoltan {
 struct Parcel {
     std::map<std::string, std::string> given;  ///< see Parameters::given
     std::vector<PartSize> part_sizes;
-    std::optional<Kept> kept;
+    std::optional<KeptPartition> kept;
 };
 
 /// The parcel of a handle as bytes, for machines of one kind. Not collective.
@@ -24,8 +24,8 @@ std::vector<char> serialize(const State& state);
 /// Whether the bytes begin as `serialize` begins; otherwise they are Zoltan's.
 bool is_parcel(std::span<const char> bytes);
 
-/// Reads what `serialize` wrote; more bytes behind it are ignored. Throws Failure for a buffer that
-/// is truncated or changed.
+/// Reads what `serialize` wrote; more bytes behind it are ignored. Throws ZoltanError for a buffer
+/// that is truncated or changed.
 Parcel deserialize(std::span<const char> bytes);
 
 }  // namespace rrcb::zoltan

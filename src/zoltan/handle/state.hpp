@@ -1,6 +1,6 @@
 #pragma once
 
-#include "zoltan/handle/kept.hpp"
+#include "zoltan/handle/kept_partition.hpp"
 #include "zoltan/handle/parameters.hpp"
 #include "zoltan/handle/workspace.hpp"
 
@@ -64,12 +64,12 @@ struct State {
     std::unique_ptr<Communicator> communicator;
     Parameters parameters;
     std::vector<PartSize> part_sizes;
-    std::optional<Kept> kept;        ///< of the last partition
-    std::optional<Rest> rest;        ///< of the same; none once a parameter was changed
-    bool axes_changed = false;       ///< what chooses axes was changed since
-    bool deserialized = false;       ///< Zoltan's parameters were set behind the plug-in's back
-    bool replacement_asked = false;  ///< by RRCB_REPLACE, on any rank of the communicator
-    bool inside_hier = false;        ///< made by Zoltan, for one of HIER's levels
+    std::optional<KeptPartition> kept;  ///< of the last partition
+    std::optional<Rest> rest;           ///< of the same; none once a parameter was changed
+    bool axes_changed = false;          ///< what chooses axes was changed since
+    bool deserialized = false;          ///< Zoltan's parameters were set behind the plug-in's back
+    bool replacement_asked = false;     ///< by RRCB_REPLACE, on any rank of the communicator
+    bool inside_hier = false;           ///< made by Zoltan, for one of HIER's levels
     Workspace workspace;
 };
 

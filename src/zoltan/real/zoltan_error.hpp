@@ -6,9 +6,9 @@
 namespace rrcb::zoltan {
 
 /// An error of one rank, on its way to becoming a Zoltan return code.
-class Failure : public std::runtime_error {
+class ZoltanError : public std::runtime_error {
   public:
-    Failure(int code, const std::string& text) : std::runtime_error(text), code_(code) {}
+    ZoltanError(int code, const std::string& text) : std::runtime_error(text), code_(code) {}
     int code() const noexcept { return code_; }
 
   private:

@@ -18,10 +18,10 @@ struct TreeNode {
 };
 
 /// What look-ups and the next partition need of the last one, laid out for look-ups.
-class Kept {
+class KeptPartition {
   public:
     /// Room for the cuts between so many parts.
-    explicit Kept(std::size_t num_parts);
+    explicit KeptPartition(std::size_t num_parts);
 
     /// Keeps the cuts, which cross the axes of `frame`, without asking for memory; `numbers` is the
     /// new number of each part.

@@ -1,4 +1,4 @@
-#include "zoltan/handle/kept.hpp"
+#include "zoltan/handle/kept_partition.hpp"
 
 #include "cuts/tree.hpp"
 
@@ -7,12 +7,12 @@
 
 namespace rrcb::zoltan {
 
-Kept::Kept(std::size_t num_parts) : boxes_(num_parts), tree_(num_parts) {
+KeptPartition::KeptPartition(std::size_t num_parts) : boxes_(num_parts), tree_(num_parts) {
     nodes_.reserve(num_parts);
 }
 
-void Kept::keep(Cuts&& cuts, const Frame& frame, PartMap&& map,
-                std::vector<Part>&& numbers) noexcept {
+void KeptPartition::keep(Cuts&& cuts, const Frame& frame, PartMap&& map,
+                         std::vector<Part>&& numbers) noexcept {
     cuts_ = std::move(cuts);
     frame_ = frame;
     map_ = std::move(map);
@@ -24,7 +24,7 @@ void Kept::keep(Cuts&& cuts, const Frame& frame, PartMap&& map,
 }
 
 /// The nodes of a subtree in preorder, and its first as a child; `parent` as in TreeNode.
-std::int32_t Kept::build(Part first, int num_parts, int parent) {
+std::int32_t KeptPartition::build(Part first, int num_parts, int parent) {
     if (num_parts == 1) return ~numbers_[static_cast<std::size_t>(first)];
     const auto index = nodes_.size();
     const Cut& cut = cuts_.tree[index];
@@ -43,7 +43,7 @@ std::int32_t Kept::build(Part first, int num_parts, int parent) {
     return static_cast<std::int32_t>(index);
 }
 
-bool Kept::is_above(std::size_t cut, const double* position) const {
+bool KeptPartition::is_above(std::size_t cut, const double* position) const {
     const Node& node = nodes_[cut];
     const double x = position[node.axis];
     if (x != node.plane) [[likely]]
@@ -53,13 +53,13 @@ bool Kept::is_above(std::size_t cut, const double* position) const {
     return rrcb::is_above(cuts_.tree[cut], exact, cuts_.dimension);
 }
 
-Part Kept::part_of(const double* coordinates) const {
+Part KeptPartition::part_of(const double* coordinates) const {
     if (!frame_.turns()) [[likely]]
         return descend(coordinates);
     return descend(place(frame_, coordinates).data());
 }
 
-Part Kept::descend(const double* position) const {
+Part KeptPartition::descend(const double* position) const {
     std::int32_t at = root_;
     while (at >= 0) {
         const auto cut = static_cast<std::size_t>(at);
@@ -69,7 +69,7 @@ Part Kept::descend(const double* position) const {
     return ~at;
 }
 
-int Kept::parts_touching(const Box& box, Part* parts) const {
+int KeptPartition::parts_touching(const Box& box, Part* parts) const {
     for (std::size_t a = 0; a < static_cast<std::size_t>(dimension()); ++a) {
         if (!(box.lower[a] <= box.upper[a])) return 0;
     }
@@ -78,7 +78,7 @@ int Kept::parts_touching(const Box& box, Part* parts) const {
     return count;
 }
 
-int Kept::collect(std::int32_t at, const Box& box, Part* parts, int count) const {
+int KeptPartition::collect(std::int32_t at, const Box& box, Part* parts, int count) const {
     if (at < 0) {
         parts[count] = ~at;
         return count + 1;
@@ -91,7 +91,7 @@ int Kept::collect(std::int32_t at, const Box& box, Part* parts, int count) const
     return count;
 }
 
-Box Kept::region_of(Part part) const {
+Box KeptPartition::region_of(Part part) const {
     return unshifted(frame_, box_of(cuts_, boxes_[static_cast<std::size_t>(part)]));
 }
 

@@ -1,4 +1,4 @@
-#include "zoltan/call/summary.hpp"
+#include "zoltan/call/report_line.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -25,13 +25,13 @@ double imbalance_of(const Report& report) {
 
 }  // namespace
 
-bool asks_for_summary(const Parameters& parameters) {
+bool asks_for_report_line(const Parameters& parameters) {
     constexpr int debug_all = 10;
     return parameters.output_level > 0 || parameters.final_output > 0 ||
            parameters.debug_level >= debug_all;
 }
 
-std::string summary(const Report& report, int num_parts, const Remap& remap) {
+std::string report_line(const Report& report, int num_parts, const Remap& remap) {
     const bool measured = !std::isnan(report.measured_imbalance);
     std::string text =
         format("RRCB: %lld objects in %d parts, imbalance %.4f (%s), %d rounds",

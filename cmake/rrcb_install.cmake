@@ -15,6 +15,7 @@ if(RRCB_ZOLTAN)
   install(TARGETS rrcb_zoltan rrcb_zoltan_static EXPORT rrcbZoltanTargets)
   install(EXPORT rrcbZoltanTargets NAMESPACE rrcb:: DESTINATION ${RRCB_CONFIG_DIR})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/rrcb/zoltan
+                    ${PROJECT_BINARY_DIR}/src/zoltan/include/rrcb/zoltan
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rrcb)
 endif()
 if(RRCB_TEUCHOS)

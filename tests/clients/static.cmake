@@ -43,11 +43,3 @@ if(can_preload)
     clients.static.preloaded.unasked.np4 clients.static.preloaded.shell.np4
     PROPERTIES FAIL_REGULAR_EXPRESSION "RRCB")
 endif()
-
-# An entry point that the header forgets would define a function of Zoltan's a second time.
-add_test(
-  NAME clients.static.renames_all
-  COMMAND
-    ${CMAKE_COMMAND} -D NM=${CMAKE_NM} -D ARCHIVE=$<TARGET_FILE:rrcb_zoltan_static> -D
-    PLUG_IN=$<TARGET_FILE:rrcb_zoltan> -P ${CMAKE_CURRENT_SOURCE_DIR}/renames_all.cmake)
-set_tests_properties(clients.static.renames_all PROPERTIES LABELS clients TIMEOUT 60)

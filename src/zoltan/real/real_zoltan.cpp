@@ -81,29 +81,14 @@ class Finder {
 
 Finder find_all(RealZoltan& real) {
     Finder finder;
-    finder.find(real.create, "Zoltan_Create");
-    finder.find(real.copy, "Zoltan_Copy");
-    finder.find(real.copy_to, "Zoltan_Copy_To");
-    finder.find(real.destroy, "Zoltan_Destroy");
-    finder.find(real.set_param_vec, "Zoltan_Set_Param_Vec");
-    finder.find(real.lb_partition, "Zoltan_LB_Partition");
-    finder.find(real.lb_balance, "Zoltan_LB_Balance");
-    finder.find(real.lb_set_part_sizes, "Zoltan_LB_Set_Part_Sizes");
-    finder.find(real.lb_point_pp_assign, "Zoltan_LB_Point_PP_Assign");
-    finder.find(real.lb_point_assign, "Zoltan_LB_Point_Assign");
-    finder.find(real.lb_box_pp_assign, "Zoltan_LB_Box_PP_Assign");
-    finder.find(real.lb_box_assign, "Zoltan_LB_Box_Assign");
-    finder.find(real.rcb_box, "Zoltan_RCB_Box");
-    finder.find(real.rcb_partition_tree, "Zoltan_RCB_Partition_Tree");
-    finder.find(real.serialize_size, "Zoltan_Serialize_Size");
-    finder.find(real.serialize, "Zoltan_Serialize");
-    finder.find(real.deserialize, "Zoltan_Deserialize");
+#define RRCB_FORWARDED(function, member) finder.find(real.member, #function);
+#define RRCB_OPTIONAL(function, member) finder.find_any(real.member, #function);
+#include "zoltan/real/functions.inc"
     for (const char* name :
          {"Zoltan_Malloc", "Zoltan_Realloc", "Zoltan_Free", "Zoltan_Get_Fn", "Zoltan_Migrate"})
         finder.find(name);
     finder.find_beside(real.special_malloc, "Zoltan_Special_Malloc");
     finder.find_beside(real.special_free, "Zoltan_Special_Free");
-    finder.find_any(real.register_fort_malloc, "Zoltan_Register_Fort_Malloc");
     return finder;
 }
 

@@ -11,6 +11,7 @@
 extern "C" {
 int Zoltan_RCB_Box(struct Zoltan_Struct* zz, int part, int* dimension, double* xmin, double* ymin,
                    double* zmin, double* xmax, double* ymax, double* zmax);
+void Zoltan_Register_Fort_Malloc(void (*allocate)(), void (*free)(), void (*set_struct)());
 int Zoltan_get_global_id_type(char** name);
 }
 
@@ -18,28 +19,13 @@ namespace rrcb::zoltan {
 
 /// The functions behind the ones the plug-in interposes.
 struct RealZoltan {
-    decltype(&Zoltan_Create) create;
-    decltype(&Zoltan_Copy) copy;
-    decltype(&Zoltan_Copy_To) copy_to;
-    decltype(&Zoltan_Destroy) destroy;
-    decltype(&Zoltan_Set_Param_Vec) set_param_vec;
-    decltype(&Zoltan_LB_Partition) lb_partition;
-    decltype(&Zoltan_LB_Balance) lb_balance;
-    decltype(&Zoltan_LB_Set_Part_Sizes) lb_set_part_sizes;
-    decltype(&Zoltan_LB_Point_PP_Assign) lb_point_pp_assign;
-    decltype(&Zoltan_LB_Point_Assign) lb_point_assign;
-    decltype(&Zoltan_LB_Box_PP_Assign) lb_box_pp_assign;
-    decltype(&Zoltan_LB_Box_Assign) lb_box_assign;
-    decltype(&Zoltan_RCB_Box) rcb_box;
-    decltype(&Zoltan_RCB_Partition_Tree) rcb_partition_tree;
-    decltype(&Zoltan_Serialize_Size) serialize_size;
-    decltype(&Zoltan_Serialize) serialize;
-    decltype(&Zoltan_Deserialize) deserialize;
+#define RRCB_FORWARDED(function, member) decltype(&function) member;
+#define RRCB_OPTIONAL(function, member) decltype(&function) member = nullptr;
+#include "zoltan/real/functions.inc"
 
     /// What Zoltan's Fortran interface stands on; null where it is not there.
     int (*special_malloc)(Zoltan_Struct* zz, void** array, int size, int type) = nullptr;
     int (*special_free)(Zoltan_Struct* zz, void** array, int type) = nullptr;
-    void (*register_fort_malloc)(void (*)(), void (*)(), void (*)()) = nullptr;
 
     std::size_t words_per_id_entry = 1;  ///< of 32 bits
     bool serves_rrcb = true;             ///< otherwise every call goes to Zoltan

@@ -8,7 +8,34 @@
 
 namespace rrcb::zoltan {
 
-// The format is described in comparisons/README.md, whose driver reads it.
+// A dump is text, one entry a line; comparisons/run --replay reads it. Numbers are as C's %a writes
+// them, so nothing is lost; nan and inf may occur.
+//
+// call.txt, written by the rank that chose the folder:
+//
+//     rrcb-dump 1
+//     version 0.1.0
+//     function Zoltan_LB_Partition
+//     code -1                         Zoltan's code, as far as known when the dump was written
+//     ranks 4
+//     parameter LB_METHOD RRCB        all that were set on the handle, as set on this rank
+//     end
+//
+// rank-0.txt, rank-1.txt, ..., written by every rank:
+//
+//     rrcb-dump-rank 1
+//     rank 0
+//     message ...                     of the error, if there is one
+//     part_size global 2 0x1p+0       every entry of Zoltan_LB_Set_Part_Sizes on this rank
+//                                     for the first weight
+//     dimension 2                     0 on a rank whose callbacks failed
+//     weights 1                       per object
+//     parts 1                         1: initial parts are known, else 0
+//     objects 3                       followed by that many lines: coordinates, weights, part
+//     0x1.8p+0 0x1p-1 0x1p+0 0
+//     0x1.9p+0 nan 0x1p+0 0
+//     0x1.ap+0 0x1p-1 0x1p+0 0
+//     end
 
 /// What holds for all ranks of a dumped call.
 struct DumpedCall {

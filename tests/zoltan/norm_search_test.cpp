@@ -215,7 +215,7 @@ TEST(OnePlace, is_divided_where_the_norms_are_nearest) {
         ASSERT_TRUE(found.search.meets_one_place());
         const auto place = mine.listed(mine.all(), 0, mine.list(mine.all(), 0));
         const std::size_t middle =
-            mine.split(mine.all(), found.search.cut(), place, found.search.before(), aim);
+            mine.divide(mine.all(), found.search.cut(), place, found.search.before(), aim);
         Load below{};
         double best = larger_norm(aim, below);
         for (const Load& load : objects.loads) {

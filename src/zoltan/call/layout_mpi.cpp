@@ -24,13 +24,13 @@ int count_parts(const Outcome& outcome, const State& state, std::span<int> local
     return num_parts_of(local_parts, outcome.num_global_parts);
 }
 
-/// What this rank asks for of the parts from `first` on.
-void ask_for_sizes(const State& state, int weight, int first_here, int first,
+/// What this rank asks for of the parts from `first_part` on.
+void ask_for_sizes(const State& state, int weight, int first_here, int first_part,
                    std::span<double> sizes) {
     std::ranges::fill(sizes, not_set);
     for (const PartSize& entry : state.part_sizes) {
         if (entry.weight != weight) continue;
-        const int part = (entry.global ? 0 : first_here) + entry.part - first;
+        const int part = (entry.global ? 0 : first_here) + entry.part - first_part;
         if (part < 0 || part >= static_cast<int>(sizes.size())) continue;
         sizes[static_cast<std::size_t>(part)] = static_cast<double>(entry.size);
     }
@@ -43,15 +43,15 @@ void merge_part_sizes(int num_parts, const State& state, int weight, const Layou
     me.locally([&] { merged.resize(static_cast<std::size_t>(num_parts)); });
     const int first_here = first_part_of(layout.map, state.communicator->rank());
     std::array<double, 4096> piece;
-    for (int first = 0; first < num_parts; first += static_cast<int>(piece.size())) {
-        const int count = std::min(num_parts - first, static_cast<int>(piece.size()));
+    for (int first_part = 0; first_part < num_parts; first_part += static_cast<int>(piece.size())) {
+        const int count = std::min(num_parts - first_part, static_cast<int>(piece.size()));
         const std::span<double> sizes = std::span(piece).first(static_cast<std::size_t>(count));
-        ask_for_sizes(state, weight, first_here, first, sizes);
+        ask_for_sizes(state, weight, first_here, first_part, sizes);
         mpi::check(MPI_Allreduce(MPI_IN_PLACE, sizes.data(), count, MPI_DOUBLE, MPI_MAX, me.comm),
                    "MPI_Allreduce");
         std::ranges::replace_if(
             sizes, [](double size) { return size < 0; }, 1.0);
-        if (!me.failure.failed) std::ranges::copy(sizes, merged.begin() + first);
+        if (!me.failure.failed) std::ranges::copy(sizes, merged.begin() + first_part);
     }
 }
 

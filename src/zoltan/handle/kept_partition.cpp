@@ -24,20 +24,21 @@ void KeptPartition::keep(Cuts&& cuts, const Frame& frame, PartMap&& map,
 }
 
 /// The nodes of a subtree in preorder, and its first as a child; `parent` as in TreeNode.
-std::int32_t KeptPartition::build(Part first, int num_parts, int parent) {
-    if (num_parts == 1) return ~numbers_[static_cast<std::size_t>(first)];
+std::int32_t KeptPartition::build(Part first_part, int num_parts, int parent) {
+    if (num_parts == 1) return ~numbers_[static_cast<std::size_t>(first_part)];
     const auto index = nodes_.size();
     const Cut& cut = cuts_.tree[index];
     nodes_.push_back({cut.at[static_cast<std::size_t>(cut.axis)], cut.axis, {}});
     // A node has the number of the first part above its cut.
     const int below = lower_parts(num_parts);
     const int above = num_parts - below;
-    const Part middle = first + below;
+    const Part middle = first_part + below;
     const auto name = [](Part start, int size) {
         return size == 1 ? -start : start + lower_parts(size);
     };
-    tree_[static_cast<std::size_t>(middle)] = {parent, name(first, below), name(middle, above)};
-    const std::int32_t lower = build(first, below, middle + 1);
+    tree_[static_cast<std::size_t>(middle)] = {parent, name(first_part, below),
+                                               name(middle, above)};
+    const std::int32_t lower = build(first_part, below, middle + 1);
     const std::int32_t upper = build(middle, above, -(middle + 1));
     nodes_[index].child = {lower, upper};
     return static_cast<std::int32_t>(index);

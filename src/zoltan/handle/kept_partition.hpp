@@ -61,7 +61,7 @@ class KeptPartition {
         std::array<std::int32_t, 2> child{};  ///< below the cut, above it
     };
 
-    std::int32_t build(Part first, int num_parts, int parent);
+    std::int32_t build(Part first_part, int num_parts, int parent);
     Part descend(const double* position) const;
     bool is_above(std::size_t cut, const double* position) const;
     int collect(std::int32_t at, const Box& box, Part* parts, int count) const;

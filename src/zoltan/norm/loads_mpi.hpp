@@ -1,6 +1,12 @@
 #pragma once
 
-#include "zoltan/norm/norm_balance_mpi.hpp"
+#include "zoltan/norm/multicriteria.hpp"
+
+#include <rrcb/points.hpp>
+
+#include <mpi.h>
+
+#include <vector>
 
 namespace rrcb::zoltan {
 

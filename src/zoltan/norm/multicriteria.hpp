@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace rrcb::zoltan {
 
@@ -18,6 +19,18 @@ using Factors = std::array<double, most_weights + 1>;
 
 Load operator+(const Load& a, const Load& b);
 Load operator-(const Load& a, const Load& b);
+
+/// Several weights per object, and how they are to be balanced (RCB_MULTICRITERIA_NORM).
+struct Criteria {
+    int norm = 1;
+    std::span<const float> weights;  ///< of all objects, one after another; finite, not negative
+    std::size_t stride = 1;   ///< weights of an object; those beyond most_weights are ignored
+    bool comparable = false;  ///< not divided by their totals
+    /// Sizes of the parts of the second weight and so on, empty: equal; the first's are the
+    /// options'.
+    std::span<const std::vector<double>> further_sizes{};
+    double max_aspect_ratio = 10;  ///< axes shorter than the longest by more are not cut
+};
 
 /// What a cut of objects with several weights aims at: that the norms of the loads on its two
 /// sides, each weight over the side's share of it, are the same.

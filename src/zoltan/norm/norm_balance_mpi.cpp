@@ -31,8 +31,9 @@ struct Node {
     int depth = 0;
     NormObjects::Range range{};  ///< this rank's objects
     Load all{};                  ///< of all ranks
-    std::size_t first = 0;       ///< of its searches
+    std::size_t first_search = 0;
     std::size_t num_searches = 0;
+    std::size_t middle = 0;  ///< in the range: where those above the cut begin
     const LevelSearch* chosen = nullptr;
     std::size_t lot = 0;  ///< number among those whose objects in one place are divided
 };
@@ -86,7 +87,7 @@ class NormBisection {
             start_searches();
             result.report.rounds += messages_.run(searches_, objects_, comm);
             for (Node& node : nodes_) choose(node, result);
-            split_level(result, comm);
+            divide_level(result, comm);
             descend(result, comm);
         }
         measure(all, result.report);
@@ -130,7 +131,7 @@ class NormBisection {
     void start_searches() {
         searches_.clear();
         for (Node& node : nodes_) {
-            node.first = searches_.size();
+            node.first_search = searches_.size();
             const Shares shares = shares_of(node.at);
             if (is_searched(node, shares)) {
                 const Aim aim = aim_of(criteria_.norm, values_, shares, node.all);
@@ -139,7 +140,7 @@ class NormBisection {
                 for (int axis = 0; axis < points_.dimension; ++axis)
                     if (is_free || axis == given) start_search(node, axis, aim);
             }
-            node.num_searches = searches_.size() - node.first;
+            node.num_searches = searches_.size() - node.first_search;
         }
     }
 
@@ -157,7 +158,8 @@ class NormBisection {
             if (std::ranges::min(shares_of(node.at)) >= 1) cut.at[0] = infinity;
             return;
         }
-        const std::span searches = std::span(searches_).subspan(node.first, node.num_searches);
+        const std::span searches =
+            std::span(searches_).subspan(node.first_search, node.num_searches);
         double longest = 0;
         for (const LevelSearch& s : searches) longest = std::max(longest, s.search.half_extent());
         const auto is_long = [&](const LevelSearch& s) {
@@ -191,7 +193,7 @@ class NormBisection {
     }
 
     /// Collective where objects in one place are divided: lower ranks' come first.
-    void split_level(Balance& result, MPI_Comm comm) {
+    void divide_level(Balance& result, MPI_Comm comm) {
         std::size_t num_lots = 0;
         for (Node& node : nodes_) {
             if (!is_divided(node)) continue;
@@ -204,13 +206,13 @@ class NormBisection {
             Cut& cut = result.cuts.tree[node.at.node];
             cut.divides = is_divided(node) ? 1 : 0;
             if (!is_divided(node)) {
-                node.first = objects_.split(node.range, cut);
+                node.middle = objects_.divide(node.range, cut);
                 continue;
             }
             const LevelSearch& s = *node.chosen;
-            node.first = objects_.split(node.range, cut,
-                                        objects_.listed(node.range, s.search.axis(), s.length),
-                                        s.search.before() + children_[node.lot], s.search.aim());
+            node.middle = objects_.divide(node.range, cut,
+                                          objects_.listed(node.range, s.search.axis(), s.length),
+                                          s.search.before() + children_[node.lot], s.search.aim());
         }
     }
 
@@ -229,19 +231,21 @@ class NormBisection {
     void descend(Balance& result, MPI_Comm comm) {
         for (std::size_t k = 0; k < nodes_.size(); ++k) {
             const Node& node = nodes_[k];
-            children_[2 * k] = objects_.sum({node.range.begin, node.first});
-            children_[2 * k + 1] = objects_.sum({node.first, node.range.end});
+            children_[2 * k] = objects_.sum({node.range.begin, node.middle});
+            children_[2 * k + 1] = objects_.sum({node.middle, node.range.end});
         }
         LevelMessages::add_up(std::span(children_).first(2 * nodes_.size()), comm);
         next_.clear();
         for (std::size_t k = 0; k < nodes_.size(); ++k) {
             const Node& node = nodes_[k];
-            go_to(
-                {node.at.lower(), node.depth + 1, {node.range.begin, node.first}, children_[2 * k]},
-                result);
+            go_to({node.at.lower(),
+                   node.depth + 1,
+                   {node.range.begin, node.middle},
+                   children_[2 * k]},
+                  result);
             go_to({node.at.upper(),
                    node.depth + 1,
-                   {node.first, node.range.end},
+                   {node.middle, node.range.end},
                    children_[2 * k + 1]},
                   result);
         }

@@ -5,23 +5,7 @@
 
 #include <rrcb/balance.hpp>
 
-#include <array>
-#include <span>
-#include <vector>
-
 namespace rrcb::zoltan {
-
-/// Several weights per object, and how they are to be balanced (RCB_MULTICRITERIA_NORM).
-struct Criteria {
-    int norm = 1;
-    std::span<const float> weights;  ///< of all objects, one after another; finite, not negative
-    std::size_t stride = 1;   ///< weights of an object; those beyond most_weights are ignored
-    bool comparable = false;  ///< not divided by their totals
-    /// Sizes of the parts of the second weight and so on, empty: equal; the first's are the
-    /// options'.
-    std::span<const std::vector<double>> further_sizes{};
-    double max_aspect_ratio = 10;  ///< axes shorter than the longest by more are not cut
-};
 
 /// Divides the objects so that the norms of the loads of the two sides of every cut are the same,
 /// across the axis that gives the smallest norm, or, of those within the tolerance, the longest.

@@ -72,14 +72,14 @@ std::size_t NormObjects::separate(const Range& range, IsBelow is_below) {
     return below;
 }
 
-std::size_t NormObjects::split(const Range& range, const Cut& cut) {
+std::size_t NormObjects::divide(const Range& range, const Cut& cut) {
     return separate(range, [&](std::uint32_t i) {
         return !is_above(cut, points_.position(i), points_.dimension);
     });
 }
 
-std::size_t NormObjects::split(const Range& range, const Cut& cut,
-                               std::span<const std::uint32_t> place, Load before, const Aim& aim) {
+std::size_t NormObjects::divide(const Range& range, const Cut& cut,
+                                std::span<const std::uint32_t> place, Load before, const Aim& aim) {
     // Lists keep the order of the node's objects: one walk along both.
     auto next = place.begin();
     return separate(range, [&](std::uint32_t i) {

@@ -45,9 +45,9 @@ class NormObjects {
     /// Brings what lies below the cut before the rest, both in their order; returns where the rest
     /// begins. Of the objects in `place`, which share one, those go below that bring the sides
     /// nearer, after `before` on lower ranks and beneath them.
-    std::size_t split(const Range& range, const Cut& cut);
-    std::size_t split(const Range& range, const Cut& cut, std::span<const std::uint32_t> place,
-                      Load before, const Aim& aim);
+    std::size_t divide(const Range& range, const Cut& cut);
+    std::size_t divide(const Range& range, const Cut& cut, std::span<const std::uint32_t> place,
+                       Load before, const Aim& aim);
 
     void assign(const Range& range, Part part, std::span<Part> parts) const;
 

@@ -61,6 +61,7 @@ void CutAverage::run(const Points& points, std::span<const Part> parts, MPI_Comm
         const double upper = -gaps_[node].minus_upper;
         if (!std::isfinite(lower) || !std::isfinite(upper) || !(lower < upper)) continue;
         Cut& cut = cuts.tree[node];
+        // What lies on the plane lies above it, whatever its other coordinates.
         cut.at.fill(-infinity);
         cut.at[static_cast<std::size_t>(cut.axis)] = between(lower, upper);
     }

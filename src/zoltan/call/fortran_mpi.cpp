@@ -83,6 +83,7 @@ void copy_for_fortran(Zoltan_Struct* zz, const List& imports, const List& export
         import_copy.copy(imports);
         export_copy.copy(exports);
     });
+    // A rank without memory leaves all of them without lists: these are freed as the error passes.
     agree(me);
     import_copy.stay();
     export_copy.stay();

@@ -11,7 +11,7 @@
 
 namespace rrcb::zoltan {
 
-/// Where the parts are and how large each is to be.
+/// Ranks and sizes of the parts.
 struct Layout {
     PartMap map;
     std::vector<double> part_sizes;  ///< relative; empty: equal
@@ -19,6 +19,8 @@ struct Layout {
     std::array<std::vector<double>, most_weights - 1> further_sizes{};
 };
 
+/// The layout that the ranks ask for together.
+///
 /// Collective only where NUM_LOCAL_PARTS or part sizes are set somewhere. Throws ZoltanError on all
 /// ranks alike for numbers of parts that do not add up; other errors are held back in `me`.
 Layout make_layout(const Outcome& outcome, const State& state, Member& me);

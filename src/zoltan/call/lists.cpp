@@ -49,7 +49,7 @@ void move_entry(T* array, std::size_t width, std::size_t from, std::size_t to) {
     }
 }
 
-/// Keeps the entries of objects that move, in their order.
+/// Keeps the entries of objects that move, in their order. In place, so that it cannot fail.
 void keep_moving(const Moves& moves, const IdWidths& widths, List& list) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(list.count); ++i) {

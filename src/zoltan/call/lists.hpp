@@ -18,7 +18,7 @@ struct List {
     ZoltanArray<int> parts;
 };
 
-/// Where one of the two lists goes in the caller's variables; `parts` may be null.
+/// The caller's variables for one of the two lists; `parts` may be null.
 struct CallerList {
     int* count;
     ZOLTAN_ID_PTR* global_ids;
@@ -27,11 +27,13 @@ struct CallerList {
     int** parts;
 };
 
+/// The caller's variables for both lists.
 struct CallerLists {
     CallerList imports;
     CallerList exports;
 };
 
+/// What leaves this rank.
 struct Exports {
     List list;
     bool moves = false;  ///< the rank or part of some object of this rank changes

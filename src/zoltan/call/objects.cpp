@@ -212,6 +212,7 @@ class Collector {
         }
     }
 
+    /// What later steps write to: they run between messages, where no rank may fail alone.
     void make_room(std::size_t count) {
         if (parameters_.weight_dimension > 1) workspace_.weights.get(count);
         if (parameters_.return_lists == ReturnLists::none) return;

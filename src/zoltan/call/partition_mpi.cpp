@@ -78,16 +78,18 @@ bool leaves_parts_empty(const Report& report) {
     return report.num_points > 0 && report.surplus_parts > 0;
 }
 
-/// Prints what is legal but not as good as it was asked for, and the summary where it is wanted.
-void print_review(const Report& report, int num_parts, const Remap& remap,
-                  const Parameters& parameters, const char* function) {
+/// Prints what is legal but not as good as it was asked for, and the report line where it is
+/// wanted.
+void print_messages(const Report& report, int num_parts, const Remap& remap,
+                    const Parameters& parameters, const char* function) {
     if (asks_for_report_line(parameters))
         std::printf("%s\n", report_line(report, num_parts, remap).c_str());
     if (parameters.debug_level <= 0) return;
-    for (const std::string& shortcoming : shortcomings(parameters)) {
-        print_warning(0, function, shortcoming);
+    for (const std::string& warning : parameter_warnings(parameters)) {
+        print_warning(0, function, warning);
     }
-    for (const std::string& limit : limits(report, parameters)) print_warning(0, function, limit);
+    for (const std::string& warning : balance_warnings(report, parameters))
+        print_warning(0, function, warning);
     if (leaves_parts_empty(report)) {
         print_warning(0, function,
                       std::to_string(report.surplus_parts) +
@@ -98,11 +100,11 @@ void print_review(const Report& report, int num_parts, const Remap& remap,
 }
 
 /// Prints on one rank, for which memory may lack.
-void review(const Report& report, int num_parts, const Remap& remap, const State& state,
-            const char* function) noexcept {
+void print_on_first_rank(const Report& report, int num_parts, const Remap& remap,
+                         const State& state, const char* function) noexcept {
     try {
         if (state.communicator->rank() == 0)
-            print_review(report, num_parts, remap, state.parameters, function);
+            print_messages(report, num_parts, remap, state.parameters, function);
     } catch (const std::exception&) {
         print_warning(0, function, "out of memory for messages");
     }
@@ -250,7 +252,8 @@ int stay(const Call& call, const Outcome& outcome, Objects&& objects, Partition&
     Member me{state.communicator->get()};
     serve_fortran(call, outcome, result, me);
     state.kept->answer_look_ups(keeps_cuts(state.parameters));
-    review(state.rest->report, state.kept->map().num_parts(), Remap{}, state, call.function);
+    print_on_first_rank(state.rest->report, state.kept->map().num_parts(), Remap{}, state,
+                        call.function);
     return ZOLTAN_OK;
 }
 
@@ -289,7 +292,7 @@ int balance_objects(const Call& call, const Outcome& outcome, Objects&& objects,
     list_exports(call, layout, std::move(objects), balanced, prepared.rest, result);
     select_lists(parameters, prepared.per_rank, me, result);
     serve_fortran(call, outcome, result, me);
-    review(balanced.report, layout.map.num_parts(), remap, call.state, call.function);
+    print_on_first_rank(balanced.report, layout.map.num_parts(), remap, call.state, call.function);
     keep(std::move(prepared), std::move(balanced), flat.frame, std::move(layout.map),
          std::move(remap.numbers), call.state);
     return parameters.auto_migrate != 0 && result.changes ? migrate(call.zz, result) : ZOLTAN_OK;
@@ -306,6 +309,7 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
     const bool stays = outcome.at_rest && outcome.differing == nullptr;
     Call call{zz, state, function, to, std::nullopt, !outcome.axes_changed};
     if (!stays) {
+        // Should this call fail, the next one must not build on what came before it.
         state.rest.reset();
         call.previous = std::exchange(state.kept, std::nullopt);
         if (!outcome.all_kept_cuts) call.previous.reset();

@@ -1,6 +1,6 @@
 #include "zoltan/call/rcb_options.hpp"
 
-#include "zoltan/call/weights_mpi.hpp"
+#include "zoltan/norm/multicriteria.hpp"
 
 #include <array>
 
@@ -77,7 +77,7 @@ double degenerate_ratio(const Parameters& parameters) {
                                            : Parameters{}.degenerate_ratio;
 }
 
-std::vector<std::string> shortcomings(const Parameters& parameters) {
+std::vector<std::string> parameter_warnings(const Parameters& parameters) {
     std::vector<std::string> texts;
     if (parameters.set_directions < 0 || parameters.set_directions > 6) {
         texts.emplace_back("Parameter RCB_SET_DIRECTIONS out of bounds; reset to 1.");

@@ -12,34 +12,34 @@
 
 namespace rrcb::zoltan {
 
-/// What a call asks of the balancer. `previous` are the cuts of the last call, or null.
+/// The balancer's options for one call. `previous` are the cuts of the last call, or null.
 ///
-/// RCB_LOCK_DIRECTIONS takes their axes, otherwise RCB_SET_DIRECTIONS names the order of axes.
+/// RCB_LOCK_DIRECTIONS takes their axes; otherwise RCB_SET_DIRECTIONS names the order of axes.
 Options make_options(const Parameters& parameters, const Layout& layout, int dimension,
                      const Cuts* previous);
 
-/// RCB_REUSE; where the program does not set it, so it is where RRCB replaces RCB: then a
-/// distribution that is balanced stays as it is.
+/// Whether RCB_REUSE holds. Where RRCB replaces RCB it does by default: a distribution in balance
+/// then stays as it is.
 bool reuses_cuts(const Parameters& parameters);
 
-/// Whether objects have several weights, of which a norm is balanced (RCB_MULTICRITERIA_NORM): then
-/// the balancer makes no more than an estimate.
+/// Whether objects have several weights, of which a norm is balanced (RCB_MULTICRITERIA_NORM). The
+/// balancer then makes no more than an estimate.
 bool has_several_weights(const Parameters& parameters);
 
-/// Whether the search is to start from the cuts of the last call (RCB_REUSE): only where it goes
-/// on from there to the balance asked for.
+/// Whether the search is to start from the cuts of the last call (RCB_REUSE). It may only where it
+/// goes on from there to the balance asked for.
 bool starts_from_previous(const Parameters& parameters);
 
 /// Whether look-ups may use the cuts.
 bool keeps_cuts(const Parameters& parameters);
 
-/// Whether cuts that were made before a parameter changed may lie across the wrong axes.
+/// Whether the parameter decides which axes are cut: older cuts may lie across others.
 bool chooses_axes(std::string_view name);
 
 /// DEGENERATE_RATIO, or its default where that makes no sense.
 double degenerate_ratio(const Parameters& parameters);
 
 /// What is asked for and not kept, one sentence each, in Zoltan's words where it has some.
-std::vector<std::string> shortcomings(const Parameters& parameters);
+std::vector<std::string> parameter_warnings(const Parameters& parameters);
 
 }  // namespace rrcb::zoltan

@@ -43,7 +43,7 @@ std::string report_line(const Report& report, int num_parts, const Remap& remap)
                          percent(remap.kept_before, remap.num_points));
 }
 
-std::vector<std::string> limits(const Report& report, const Parameters& parameters) {
+std::vector<std::string> balance_warnings(const Report& report, const Parameters& parameters) {
     std::vector<std::string> texts;
     if (report.least_imbalance > 1 && report.surplus_parts == 0) {
         texts.push_back(format("one object outweighs a part: the imbalance is %.4f, at best %.4f",

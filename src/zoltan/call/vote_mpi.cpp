@@ -13,6 +13,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
+/// From the mildest to the gravest, which counts.
 constexpr std::array codes = {ZOLTAN_OK, ZOLTAN_WARN, ZOLTAN_FATAL, ZOLTAN_MEMERR};
 
 int severity(int code) {
@@ -31,6 +32,7 @@ int fold(double value) {
     return fold(std::bit_cast<std::uint64_t>(value));
 }
 
+/// A parameter on which ranks that differ would exchange messages that do not fit.
 struct SameOnAllRanks {
     const char* name;
     int (*value)(const Parameters&);

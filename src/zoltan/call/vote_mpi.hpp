@@ -10,7 +10,7 @@
 
 namespace rrcb::zoltan {
 
-/// How far one rank got on its own; it takes no memory to hold it.
+/// One rank's result of what it does alone; to hold it takes no memory.
 struct LocalStatus {
     LocalStatus() = default;
     /// `text` is cut short where it is too long.
@@ -23,7 +23,7 @@ struct LocalStatus {
     std::array<char, 512> text{};  ///< ends with a 0
 };
 
-/// What all ranks know after one reduction.
+/// The result of a vote, the same on every rank.
 struct Outcome {
     int code = ZOLTAN_OK;          ///< the worst of all ranks
     int failing_rank = 0;          ///< lowest rank that failed; it speaks for all
@@ -40,6 +40,8 @@ struct Outcome {
     bool failed() const { return code != ZOLTAN_OK && code != ZOLTAN_WARN; }
 };
 
+/// The vote of all ranks on what each found alone and on the parameters that must be the same.
+///
 /// Collective over the handle's communicator: one reduction of a few integers.
 Outcome vote(const LocalStatus& local, const State& state);
 

@@ -7,7 +7,7 @@ namespace rrcb::zoltan {
 /// Why the inputs of a call are written.
 enum class DumpReason { asked, failure };
 
-/// What the ranks found out together about dumps.
+/// What the ranks together ask of the dump.
 struct DumpWish {
     int rank = -1;        ///< lowest rank with RRCB_DUMP, -1: none
     bool always = false;  ///< RRCB_DUMP_WHEN is ALWAYS on a rank with RRCB_DUMP
@@ -22,7 +22,7 @@ struct DumpInput {
     const char* message;  ///< of an error; empty: none
 };
 
-/// Writes what the call got, where RRCB_DUMP is set on any rank and RRCB_DUMP_WHEN asks for it.
+/// Writes what the call got, where RRCB_DUMP is set on any rank and RRCB_DUMP_WHEN asks for it now.
 ///
 /// Collective then, nothing at all otherwise. The lowest rank with a folder chooses it for all.
 /// What cannot be written is warned about once, and never a reason for the call to fail.

@@ -11,12 +11,13 @@
 #include <exception>
 #include <new>
 
-/// Marks the only symbols the plug-in shows: Zoltan's interposed functions and its own three.
+/// A symbol that the plug-in shows: a function of Zoltan's (real/functions.inc) or one of its own.
 #define RRCB_EXPORT extern "C" __attribute__((visibility("default")))
 
 namespace rrcb::zoltan {
 
-/// Runs the body of an entry point; no exception leaves it. Not for forwarded calls.
+/// Runs the body of an entry point; no exception leaves it. Forwarded calls go without: what a
+/// program's callbacks throw under Zoltan is the program's to catch.
 template <typename Body>
 int guarded(const char* function, const State* state, Body body) noexcept {
     const int rank = state == nullptr ? -1 : state->communicator->rank();

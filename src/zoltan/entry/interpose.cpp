@@ -1,7 +1,6 @@
 #include "zoltan/call/fortran_mpi.hpp"
 #include "zoltan/call/partition_mpi.hpp"
 #include "zoltan/call/rcb_options.hpp"
-#include "zoltan/dump/dump_mpi.hpp"
 #include "zoltan/entry/entry_point.hpp"
 #include "zoltan/handle/create_mpi.hpp"
 #include "zoltan/handle/replacement.hpp"
@@ -57,6 +56,7 @@ void note_change(State& state, const std::string& name, int code, const char* ra
         if (!is_new && entry->second == raw_value) return;
         entry->second = raw_value;
     }
+    // These two decide what is handed out, not what is found.
     if (name != "RETURN_LISTS" && name != "KEEP_CUTS") state.rest.reset();
     if (chooses_axes(name)) state.axes_changed = true;
 }
@@ -97,6 +97,8 @@ void hand_out(Partition&& result, const CallerLists& to) {
 RRCB_EXPORT Zoltan_Struct* Zoltan_Create(MPI_Comm user) {
     Zoltan_Struct* zz = forward<&RealZoltan::create>(user);
     if (zz == nullptr || user == MPI_COMM_NULL) return zz;
+    // A handle without a state is Zoltan's alone: it refuses LB_METHOD=RRCB, and so the program
+    // knows.
     guarded("Zoltan_Create", nullptr, [&] {
         create_state(zz, user);
         return ZOLTAN_OK;

@@ -55,6 +55,7 @@ struct Draft {
     bool asks_for_replacement = false;
 };
 
+/// All ranks duplicate, whatever fails on one of them.
 void make(Draft& draft, const Zoltan_Struct* zz, MPI_Comm user, Member& me) {
     me.always([&] { mpi::check(MPI_Comm_dup(user, &draft.duplicate), "MPI_Comm_dup"); });
     me.locally([&] {

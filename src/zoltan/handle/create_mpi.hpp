@@ -5,8 +5,8 @@
 
 namespace rrcb::zoltan {
 
-/// Enters a new handle into the side table, on all ranks or on none: not where the functions of
-/// Zoltan are from several libraries on some rank. RRCB_REPLACE on one rank holds on all.
+/// Enters a new handle into the side table, on all ranks or on none. It is none where Zoltan's
+/// functions are from several libraries on some rank. RRCB_REPLACE on one rank holds on all.
 ///
 /// Collective over `user`: one duplication, one reduction. Throws Error on all ranks alike.
 void create_state(const Zoltan_Struct* zz, MPI_Comm user);

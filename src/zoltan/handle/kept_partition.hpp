@@ -17,7 +17,7 @@ struct TreeNode {
     int upper = 0;
 };
 
-/// What look-ups and the next partition need of the last one, laid out for look-ups.
+/// The last partition as look-ups and the next one need it, laid out for look-ups.
 class KeptPartition {
   public:
     /// Room for the cuts between so many parts.

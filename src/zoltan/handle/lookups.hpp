@@ -6,7 +6,7 @@
 
 namespace rrcb::zoltan {
 
-/// What the last partition kept. Throws ZoltanError when it kept no cuts. Not collective.
+/// The last partition, for look-ups. Throws ZoltanError where no cuts were kept. Not collective.
 const KeptPartition& kept_by(const State& state);
 
 /// Part and lowest rank of a position; `coordinates` has one entry per dimension. Not collective.

@@ -8,7 +8,7 @@
 
 namespace rrcb::zoltan {
 
-/// Which ranks hold which part, as Zoltan lays parts out.
+/// The ranks of each part, as Zoltan lays parts out.
 struct PartMap {
     std::vector<RankRange> ranks;  ///< of each part
     bool one_each = true;          ///< part p is on rank p and on no other
@@ -24,18 +24,18 @@ struct PartMap {
     }
 };
 
-/// Equal numbers of parts on all ranks, or ranks on all parts.
+/// Equal numbers of parts on all ranks, or of ranks for all parts.
 PartMap even_part_map(int num_parts, int num_ranks);
 
-/// How many parts NUM_LOCAL_PARTS and NUM_GLOBAL_PARTS ask for. `local_parts` holds one number per
-/// rank, -1 where it is not set; so is `num_global_parts`. Throws ZoltanError when they do not add
-/// up.
+/// The number of parts that NUM_LOCAL_PARTS and NUM_GLOBAL_PARTS ask for. `local_parts` holds one
+/// number per rank, -1 where it is not set; so is `num_global_parts`. Throws ZoltanError when they
+/// do not add up.
 int num_parts_of(std::span<const int> local_parts, int num_global_parts);
 
-/// That many parts where NUM_LOCAL_PARTS asks for them; ranks where it is not set share the rest.
+/// As many parts on a rank as its NUM_LOCAL_PARTS; ranks where it is not set share the rest.
 PartMap local_part_map(std::span<const int> local_parts, int num_parts);
 
-/// Lowest part on a rank, -1 when there is none.
+/// The lowest part on a rank, -1 where there is none.
 int first_part_of(const PartMap& map, int rank);
 
 }  // namespace rrcb::zoltan

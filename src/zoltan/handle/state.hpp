@@ -48,8 +48,8 @@ struct PartSize {
     int weight = 0;  ///< which of an object's weights it is a share of
 };
 
-/// What the last partition found. It stands while the objects are in the parts they were sent to
-/// and weigh what they did: a program that goes on while anything changes then comes to an end.
+/// The result of the last partition. It stands while the objects are in the parts they were sent to
+/// and weigh what they did: a program that balances while anything changes comes to an end.
 struct Rest {
     Report report;
     int dimension = 0;
@@ -80,12 +80,12 @@ inline int asked_global_parts(const State& state) {
 }
 
 /// The side table, which threads may use at the same time. A handle belongs to one of them.
-State* find_state(const Zoltan_Struct* zz);
+State* find_state(const Zoltan_Struct* zz);  ///< null: not in the table
 State& add_state(const Zoltan_Struct* zz, State&& state);
-void remove_state(const Zoltan_Struct* zz);
-bool any_handle_made();  ///< since the process began
+void remove_state(const Zoltan_Struct* zz);  ///< collective, as it frees the communicator
+bool any_handle_made();                      ///< since the process began
 
-/// All but the communicator. Throws std::bad_alloc; then `to` is as it was.
+/// Copies all but the communicator. Throws std::bad_alloc; then `to` is as it was.
 void copy_contents(State& to, const State& from);
 
 }  // namespace rrcb::zoltan

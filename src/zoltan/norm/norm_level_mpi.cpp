@@ -72,6 +72,7 @@ void LevelMessages::count_slots(std::span<LevelSearch> searches, NormObjects& ob
     add_up(slots, comm);
     for (std::size_t k = 0; k < counting_.size(); ++k) {
         LevelSearch& s = searches[counting_[k]];
+        // Before choose(), after which the search has other bins.
         const Bins bins = s.search.bins(static_cast<int>(most));
         const int slot = s.search.choose(slots.subspan(k * most, most));
         s.length =

@@ -17,7 +17,7 @@ int Zoltan_get_global_id_type(char** name);
 
 namespace rrcb::zoltan {
 
-/// The functions behind the ones the plug-in interposes.
+/// The real Zoltan behind the plug-in: the functions of functions.inc and what else is needed.
 struct RealZoltan {
 #define RRCB_FORWARDED(function, member) decltype(&function) member;
 #define RRCB_OPTIONAL(function, member) decltype(&function) member = nullptr;
@@ -31,10 +31,12 @@ struct RealZoltan {
     bool serves_rrcb = true;             ///< otherwise every call goes to Zoltan
 };
 
-/// Looked up once; null, with one message on stderr, when Zoltan is not behind the plug-in.
+/// The real Zoltan, looked up once. Null, with one message on stderr, where none is behind the
+/// plug-in.
 const RealZoltan* real_zoltan() noexcept;
 
-/// 2 where Zoltan was built with ids of 64 bits. For handles that RRCB serves.
+/// Words in an entry of an id: 2 where Zoltan was built with ids of 64 bits. For handles that RRCB
+/// serves.
 inline std::size_t words_per_id_entry() {
     return real_zoltan()->words_per_id_entry;
 }

@@ -6,9 +6,9 @@
 #include "zoltan/call/frame_mpi.hpp"
 #include "zoltan/call/layout_mpi.hpp"
 #include "zoltan/call/lists_mpi.hpp"
+#include "zoltan/call/notices.hpp"
 #include "zoltan/call/rcb_options.hpp"
 #include "zoltan/call/renumber_mpi.hpp"
-#include "zoltan/call/report_line.hpp"
 #include "zoltan/call/rest.hpp"
 #include "zoltan/call/vote_mpi.hpp"
 #include "zoltan/call/weights_mpi.hpp"
@@ -71,42 +71,6 @@ LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Obj
         return {ZOLTAN_FATAL, text.data()};
     } catch (...) {
         return {ZOLTAN_FATAL, "a callback threw"};
-    }
-}
-
-bool leaves_parts_empty(const Report& report) {
-    return report.num_points > 0 && report.surplus_parts > 0;
-}
-
-/// Prints what is legal but not as good as it was asked for, and the report line where it is
-/// wanted.
-void print_messages(const Report& report, int num_parts, const Remap& remap,
-                    const Parameters& parameters, const char* function) {
-    if (asks_for_report_line(parameters))
-        std::printf("%s\n", report_line(report, num_parts, remap).c_str());
-    if (parameters.debug_level <= 0) return;
-    for (const std::string& warning : parameter_warnings(parameters)) {
-        print_warning(0, function, warning);
-    }
-    for (const std::string& warning : balance_warnings(report, parameters))
-        print_warning(0, function, warning);
-    if (leaves_parts_empty(report)) {
-        print_warning(0, function,
-                      std::to_string(report.surplus_parts) +
-                          " parts stay empty: there are more parts than objects");
-    } else if (report.all_weights_zero) {
-        print_warning(0, function, "all weights are zero; balanced by number of objects");
-    }
-}
-
-/// Prints on one rank, for which memory may lack.
-void print_on_first_rank(const Report& report, int num_parts, const Remap& remap,
-                         const State& state, const char* function) noexcept {
-    try {
-        if (state.communicator->rank() == 0)
-            print_messages(report, num_parts, remap, state.parameters, function);
-    } catch (const std::exception&) {
-        print_warning(0, function, "out of memory for messages");
     }
 }
 
@@ -252,8 +216,7 @@ int stay(const Call& call, const Outcome& outcome, Objects&& objects, Partition&
     Member me{state.communicator->get()};
     serve_fortran(call, outcome, result, me);
     state.kept->answer_look_ups(keeps_cuts(state.parameters));
-    print_on_first_rank(state.rest->report, state.kept->map().num_parts(), Remap{}, state,
-                        call.function);
+    print_notices(state.rest->report, state.kept->map().num_parts(), Remap{}, state, call.function);
     return ZOLTAN_OK;
 }
 
@@ -292,7 +255,7 @@ int balance_objects(const Call& call, const Outcome& outcome, Objects&& objects,
     list_exports(call, layout, std::move(objects), balanced, prepared.rest, result);
     select_lists(parameters, prepared.per_rank, me, result);
     serve_fortran(call, outcome, result, me);
-    print_on_first_rank(balanced.report, layout.map.num_parts(), remap, call.state, call.function);
+    print_notices(balanced.report, layout.map.num_parts(), remap, call.state, call.function);
     keep(std::move(prepared), std::move(balanced), flat.frame, std::move(layout.map),
          std::move(remap.numbers), call.state);
     return parameters.auto_migrate != 0 && result.changes ? migrate(call.zz, result) : ZOLTAN_OK;

@@ -1,7 +1,13 @@
-#include "zoltan/call/report_line.hpp"
+#include "zoltan/call/notices.hpp"
+
+#include "zoltan/call/rcb_options.hpp"
+#include "zoltan/real/message.hpp"
 
 #include <cmath>
 #include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
 
 namespace rrcb::zoltan {
 
@@ -23,14 +29,15 @@ double imbalance_of(const Report& report) {
                                                  : report.measured_imbalance;
 }
 
-}  // namespace
-
+/// Whether RCB_OUTPUT_LEVEL or FINAL_OUTPUT is above 0, or DEBUG_LEVEL at 10, from which Zoltan
+/// tells of REMAP.
 bool asks_for_report_line(const Parameters& parameters) {
     constexpr int debug_all = 10;
     return parameters.output_level > 0 || parameters.final_output > 0 ||
            parameters.debug_level >= debug_all;
 }
 
+/// The line of RCB_OUTPUT_LEVEL: size, imbalance, rounds and what the new part numbers saved.
 std::string report_line(const Report& report, int num_parts, const Remap& remap) {
     const bool measured = !std::isnan(report.measured_imbalance);
     std::string text =
@@ -43,6 +50,7 @@ std::string report_line(const Report& report, int num_parts, const Remap& remap)
                          percent(remap.kept_before, remap.num_points));
 }
 
+/// What kept the parts from the balance asked for, a sentence each.
 std::vector<std::string> balance_warnings(const Report& report, const Parameters& parameters) {
     std::vector<std::string> texts;
     if (report.least_imbalance > 1 && report.surplus_parts == 0) {
@@ -59,6 +67,42 @@ std::vector<std::string> balance_warnings(const Report& report, const Parameters
                                imbalance_of(report)));
     }
     return texts;
+}
+
+bool leaves_parts_empty(const Report& report) {
+    return report.num_points > 0 && report.surplus_parts > 0;
+}
+
+/// On the one rank that prints.
+void print_messages(const Report& report, int num_parts, const Remap& remap,
+                    const Parameters& parameters, const char* function) {
+    if (asks_for_report_line(parameters))
+        std::printf("%s\n", report_line(report, num_parts, remap).c_str());
+    if (parameters.debug_level <= 0) return;
+    for (const std::string& warning : parameter_warnings(parameters)) {
+        print_warning(0, function, warning);
+    }
+    for (const std::string& warning : balance_warnings(report, parameters))
+        print_warning(0, function, warning);
+    if (leaves_parts_empty(report)) {
+        print_warning(0, function,
+                      std::to_string(report.surplus_parts) +
+                          " parts stay empty: there are more parts than objects");
+    } else if (report.all_weights_zero) {
+        print_warning(0, function, "all weights are zero; balanced by number of objects");
+    }
+}
+
+}  // namespace
+
+void print_notices(const Report& report, int num_parts, const Remap& remap, const State& state,
+                   const char* function) noexcept {
+    try {
+        if (state.communicator->rank() == 0)
+            print_messages(report, num_parts, remap, state.parameters, function);
+    } catch (const std::exception&) {
+        print_warning(0, function, "out of memory for messages");
+    }
 }
 
 }  // namespace rrcb::zoltan

@@ -1,7 +1,7 @@
 #include "gather/current_parts.hpp"
 
-#include "descent.hpp"
-#include "position_order.hpp"
+#include "cuts/position_order.hpp"
+#include "cuts/tree.hpp"
 
 #include <rrcb/quality.hpp>
 

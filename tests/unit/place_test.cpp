@@ -1,6 +1,6 @@
 #include "gather/place.hpp"
 
-#include "position_order.hpp"
+#include "cuts/position_order.hpp"
 
 #include <gtest/gtest.h>
 

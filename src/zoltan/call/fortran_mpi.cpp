@@ -1,6 +1,6 @@
 #include "zoltan/call/fortran_mpi.hpp"
 
-#include "agreement_mpi.hpp"
+#include "collective/agreement_mpi.hpp"
 #include "zoltan/real/real_zoltan.hpp"
 
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "member.hpp"
+#include "collective/member.hpp"
 #include "zoltan/call/lists.hpp"
 
 namespace rrcb::zoltan {

@@ -1,6 +1,6 @@
 #include "zoltan/call/frame_mpi.hpp"
 
-#include "agreement_mpi.hpp"
+#include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 
 #include <Eigen/Eigenvalues>

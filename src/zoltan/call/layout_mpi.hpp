@@ -1,6 +1,6 @@
 #pragma once
 
-#include "member.hpp"
+#include "collective/member.hpp"
 #include "zoltan/call/vote_mpi.hpp"
 #include "zoltan/handle/part_map.hpp"
 #include "zoltan/handle/state.hpp"

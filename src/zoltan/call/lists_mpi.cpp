@@ -1,8 +1,8 @@
 #include "zoltan/call/lists_mpi.hpp"
 
-#include "agreement_mpi.hpp"
+#include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "exchange_mpi.hpp"
+#include "collective/exchange_mpi.hpp"
 
 #include <cstring>
 

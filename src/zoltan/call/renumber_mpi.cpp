@@ -1,6 +1,6 @@
 #include "zoltan/call/renumber_mpi.hpp"
 
-#include "agreement_mpi.hpp"
+#include "collective/agreement_mpi.hpp"
 
 #include <algorithm>
 #include <functional>

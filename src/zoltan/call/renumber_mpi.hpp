@@ -1,6 +1,6 @@
 #pragma once
 
-#include "remap_mpi.hpp"
+#include "lists/remap_mpi.hpp"
 #include "zoltan/call/layout_mpi.hpp"
 #include "zoltan/call/objects.hpp"
 

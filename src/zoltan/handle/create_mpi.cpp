@@ -1,6 +1,6 @@
 #include "zoltan/handle/create_mpi.hpp"
 
-#include "agreement_mpi.hpp"
+#include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "zoltan/handle/environment.hpp"
 #include "zoltan/handle/replacement.hpp"

@@ -1,10 +1,10 @@
 #include "zoltan/norm/norm_balance_mpi.hpp"
 
-#include "agreement_mpi.hpp"
-#include "axis_choice.hpp"
-#include "brackets.hpp"
+#include "bisection/axis_choice.hpp"
+#include "bisection/bisection.hpp"
+#include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "descent.hpp"
+#include "cuts/tree.hpp"
 #include "zoltan/norm/loads_mpi.hpp"
 #include "zoltan/norm/norm_level_mpi.hpp"
 

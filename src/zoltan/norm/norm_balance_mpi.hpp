@@ -1,6 +1,6 @@
 #pragma once
 
-#include "member.hpp"
+#include "collective/member.hpp"
 #include "zoltan/norm/multicriteria.hpp"
 
 #include <rrcb/balance.hpp>

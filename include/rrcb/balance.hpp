@@ -22,8 +22,8 @@ struct Report {
     double least_imbalance = 1;  ///< no partition is better: of the heaviest point in a part alone
     int coincident_cuts = 0;  ///< that met points no allowed cut can tell apart, where the balance
                               ///< asked for divides them; counted by the refinement
-    bool kept = false;        ///< each rank's points were a part and are: the cuts are theirs
-    int rounds = 0;           ///< of counting what the ranks hold, for the refinement
+    bool kept = false;  ///< the points stay as they lie: each rank's are one part, see balance()
+    int rounds = 0;     ///< of counting what the ranks hold, for the refinement
     bool all_weights_zero = false;  ///< balanced by count instead
     int surplus_parts = 0;          ///< parts that must stay empty: more parts than points
 };
@@ -42,7 +42,19 @@ struct Balance {
 /// the non-empty cells travel up a tree of ranks to rank 0, merged on the way where there are too
 /// many; the cuts are broadcast, moved by what the ranks count around them (see Refine), and every
 /// rank assigns its own points; no point moves. The same
-/// input on the same ranks gives the same bits. The library communicates on a duplicate of `comm`,
+/// input on the same ranks gives the same bits.
+///
+/// Points stay as they lie where that is good enough: where there is a part for each rank, up to
+/// 4096, and what the ranks hold is a bisection such as a new one might be, the cuts are those
+/// between the ranks (Report::kept). This holds for DomainKind::analytic with estimated cuts, also
+/// refined to a tolerance, if
+/// - the imbalance exceeds 1 by a tenth of what the tolerance allows at most, or
+/// - new cuts, counted, neither reach a tolerance that is missed, nor halve the excess and gain a
+///   twentieth of what the tolerance allows; where it is missed before and after a refinement, the
+///   twentieth is enough.
+/// So each move is a gain, and repeated calls come to rest while the points do. Part r goes to rank
+/// r where it lay there, as after the last call; to another where ranks were renumbered.
+/// The library communicates on a duplicate of `comm`,
 /// made at the first call, kept with it and freed with it.
 ///
 /// Throws Error on every rank alike: for NaN or infinite coordinates, negative, NaN or infinite

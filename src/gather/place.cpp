@@ -1,6 +1,5 @@
 #include "gather/place.hpp"
 
-#include "cells/point_layout.hpp"
 #include "cells/running_sums.hpp"
 #include "cuts/position_order.hpp"
 
@@ -10,26 +9,20 @@ namespace rrcb {
 
 namespace {
 
-/// Whether any of consecutive points lies on a face of the box across `axis`.
-template <class Layout>
-bool any_on_face(const Layout& x, const Box& box, int axis, LocalIndex first, LocalIndex last) {
-    const double lower = box.lower[static_cast<std::size_t>(axis)];
-    const double upper = box.upper[static_cast<std::size_t>(axis)];
-    std::int64_t found = 0;
-    // No way out before the end, so that the loop can be one of vectors.
-    for (LocalIndex i = first; i < last; ++i) {
-        const double value = x(i, axis);
-        found |= static_cast<std::int64_t>(value == lower) | (value == upper);
-    }
-    return found != 0;
+/// Consecutive points.
+Points range_of(const Points& points, LocalIndex first, LocalIndex last) {
+    Points range = points;
+    range.count = last - first;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a)
+        range.axes[a] = points.axes[a].subspan(first * points.stride);
+    return range;
 }
 
-/// Looks for the ends across `axis` among consecutive points.
-void widen(const Points& points, const Box& box, int axis, LocalIndex first, LocalIndex last,
-           Place& place) {
+/// Looks for the ends across `axis` of the order of the points in `box`.
+void widen(const Points& points, const Box& box, int axis, Place& place) {
     const auto a = static_cast<std::size_t>(axis);
     const PositionOrder is_before(axis, 1, points.dimension);
-    for (LocalIndex i = first; i < last; ++i) {
+    for (LocalIndex i = 0; i < points.count; ++i) {
         const double value = points.coordinate(i, axis);
         if (value != box.lower[a] && value != box.upper[a]) continue;
         const Vector position = points.position(i);
@@ -71,12 +64,15 @@ Place place_of(const Points& points, const Box& box, double weight) {
     Place place;
     place.count = static_cast<double>(points.count);
     place.weight = weight;
-    visit_layout(points, [&]<class Layout>(const Layout& x) {
-        in_ranges(points.count, block_length, [&](LocalIndex first, LocalIndex last) {
-            for (int axis = 0; axis < Layout::dimension; ++axis)
-                if (any_on_face(x, box, axis, first, last))
-                    widen(points, box, axis, first, last, place);
-        });
+    // The faces of the box hold few points, and their blocks are found at the cost of its own.
+    in_ranges(points.count, block_length, [&](LocalIndex first, LocalIndex last) {
+        const Points block = range_of(points, first, last);
+        const Box its_own = bounding_box(block);
+        for (int axis = 0; axis < points.dimension; ++axis) {
+            const auto a = static_cast<std::size_t>(axis);
+            if (its_own.lower[a] == box.lower[a] || its_own.upper[a] == box.upper[a])
+                widen(block, box, axis, place);
+        }
     });
     return place;
 }

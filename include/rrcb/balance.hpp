@@ -41,8 +41,9 @@ struct Balance {
 /// hold no points (null arrays are legal) but states the dimension. The statistics of
 /// the non-empty cells travel up a tree of ranks to rank 0, merged on the way where there are too
 /// many; the cuts are broadcast, moved by what the ranks count around them (see Refine), and every
-/// rank assigns its own points; no point moves. The same
-/// input on the same ranks gives the same bits.
+/// rank assigns its own points; no point moves. The same input on the same ranks gives the same
+/// bits. The library communicates on a duplicate of `comm`, made at the first call, kept with it
+/// and freed with it.
 ///
 /// Points stay as they lie where that is good enough: where there is a part for each rank, up to
 /// 4096, and what the ranks hold is a bisection such as a new one might be, the cuts are those
@@ -54,8 +55,6 @@ struct Balance {
 ///   twentieth is enough.
 /// So each move is a gain, and repeated calls come to rest while the points do. Part r goes to rank
 /// r where it lay there, as after the last call; to another where ranks were renumbered.
-/// The library communicates on a duplicate of `comm`,
-/// made at the first call, kept with it and freed with it.
 ///
 /// Throws Error on every rank alike: for NaN or infinite coordinates, negative, NaN or infinite
 /// weights, arrays of inconsistent length, options out of range or different between ranks, ranks

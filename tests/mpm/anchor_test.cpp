@@ -1,8 +1,8 @@
+#include "effects/penetrator/penetrator.hpp"
+#include "scene_file/scene_file_mpi.hpp"
 #include "support.hpp"
 
 #include <gtest/gtest.h>
-#include <penetrator.hpp>
-#include <scene_file/scene_file_mpi.hpp>
 
 #include <numbers>
 

@@ -1,4 +1,4 @@
-#include "balancers_mpi.hpp"
+#include "balancers/balancers_mpi.hpp"
 #include "scene_file/scene_file_mpi.hpp"
 #include "support.hpp"
 

@@ -1,7 +1,7 @@
+#include "parallel/carried_motion_mpi.hpp"
 #include "support.hpp"
 
 #include <gtest/gtest.h>
-#include <mpm/carried_motion_mpi.hpp>
 
 namespace mpm::test {
 namespace {

@@ -1,5 +1,6 @@
+#include "materials/drucker_prager.hpp"
+
 #include <gtest/gtest.h>
-#include <mpm/drucker_prager.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
+#include "parallel/ghost_nodes_mpi.hpp"
 #include "support.hpp"
 
 #include <gtest/gtest.h>
-#include <mpm/ghost_nodes_mpi.hpp>
 
 namespace mpm::test {
 namespace {

@@ -1,9 +1,10 @@
+#include "materials/drucker_prager.hpp"
+#include "materials/herschel_bulkley.hpp"
+#include "materials/neo_hookean.hpp"
+#include "materials/undrained.hpp"
+#include "transfer/shape_functions.hpp"
+
 #include <gtest/gtest.h>
-#include <mpm/drucker_prager.hpp>
-#include <mpm/herschel_bulkley.hpp>
-#include <mpm/neo_hookean.hpp>
-#include <mpm/shape_functions.hpp>
-#include <mpm/undrained.hpp>
 
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,7 @@
+#include "boundaries/contact.hpp"
+#include "effects/penetrator/friction_bands.hpp"
 #include "support.hpp"
 
-#include <contact.hpp>
-#include <friction_bands.hpp>
 #include <gtest/gtest.h>
 
 #include <numbers>

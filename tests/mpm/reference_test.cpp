@@ -1,7 +1,7 @@
+#include "scene_file/scene_file_mpi.hpp"
 #include "support.hpp"
 
 #include <gtest/gtest.h>
-#include <scene_file/scene_file_mpi.hpp>
 
 #include <numbers>
 

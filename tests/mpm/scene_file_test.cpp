@@ -1,9 +1,9 @@
+#include "scene/lattice.hpp"
+#include "scene_file/expression.hpp"
+#include "scene_file/scene_file_mpi.hpp"
 #include "support.hpp"
 
 #include <gtest/gtest.h>
-#include <mpm/lattice.hpp>
-#include <scene_file/expression.hpp>
-#include <scene_file/scene_file_mpi.hpp>
 
 #include <fstream>
 #include <numbers>

@@ -1,8 +1,9 @@
+#include "materials/tresca.hpp"
+
+#include "materials/undrained.hpp"
 #include "support.hpp"
 
 #include <gtest/gtest.h>
-#include <mpm/tresca.hpp>
-#include <mpm/undrained.hpp>
 
 #include <numbers>
 #include <random>

@@ -2,10 +2,10 @@
 // step_scene SCENE CELL_SIZE STEPS FILE
 // It prints the number of points, and the materials and effects that the program has.
 
+#include "effects/effect.hpp"
+#include "materials/material.hpp"
 #include "scene_file/scene_file_mpi.hpp"
 
-#include <mpm/effect.hpp>
-#include <mpm/material.hpp>
 #include <mpm/simulation.hpp>
 
 #include <cstdio>

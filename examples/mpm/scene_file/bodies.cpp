@@ -1,6 +1,6 @@
-#include "bodies.hpp"
+#include "scene_file/bodies.hpp"
 
-#include "expression.hpp"
+#include "scene_file/expression.hpp"
 
 #include <mpm/region.hpp>
 

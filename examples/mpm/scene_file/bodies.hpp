@@ -1,6 +1,6 @@
 #pragma once
 
-#include "list.hpp"
+#include "scene_file/list.hpp"
 
 #include <mpm/scene.hpp>
 

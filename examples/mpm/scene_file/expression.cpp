@@ -1,4 +1,4 @@
-#include "expression.hpp"
+#include "scene_file/expression.hpp"
 
 #include <muParser.h>
 

@@ -1,4 +1,4 @@
-#include "list.hpp"
+#include "scene_file/list.hpp"
 
 #include <Teuchos_Array.hpp>
 #include <Teuchos_TwoDArray.hpp>

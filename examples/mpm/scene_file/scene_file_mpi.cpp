@@ -1,6 +1,6 @@
-#include "scene_file_mpi.hpp"
+#include "scene_file/scene_file_mpi.hpp"
 
-#include "bodies.hpp"
+#include "scene_file/bodies.hpp"
 
 #include <Teuchos_XMLParameterListCoreHelpers.hpp>
 #include <Teuchos_YamlParameterListCoreHelpers.hpp>

@@ -1,0 +1,61 @@
+#include "balancers/balancers_mpi.hpp"
+
+#include "balancers/rrcb_balancer_mpi.hpp"
+#ifdef RRCB_MPM_ZOLTAN
+#include "balancers/zoltan_balancer_mpi.hpp"
+#endif
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+namespace {
+
+constexpr std::array<std::string_view, 6> names{"none",         "rrcb",     "rrcb-exact",
+                                                "rrcb-sampled", "root-rcb", "zoltan-rcb"};
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> without_boxes{{
+    {"zoltan-rib", "RIB cuts along the axes of inertia"},
+    {"zoltan-hsfc", "HSFC cuts along a curve"},
+    {"zoltan2-mj", "those of multijagged need Zoltan2, which it does without"},
+}};
+
+[[noreturn]] void refuse(const std::string& name, const std::string& reason) {
+    throw std::invalid_argument("--balancer: '" + name + "' " + reason +
+                                "; choose from: " + balancer_names());
+}
+
+/// The paper's own two methods, and ours.
+rrcb::Options options_of(const std::string& name) {
+    rrcb::Options options;
+    if (name == "rrcb-exact") options.refine = rrcb::Refine::exact;
+    if (name == "rrcb-sampled") options.domain = rrcb::DomainKind::sampled;
+    if (name == "root-rcb") options.domain = rrcb::DomainKind::points;
+    return options;
+}
+
+}  // namespace
+
+std::string balancer_names() {
+    std::string text;
+    for (const std::string_view name : names)
+        text += (text.empty() ? "" : ", ") + std::string(name);
+    return text;
+}
+
+std::optional<mpm::Balancer> make_balancer(const std::string& name) {
+    for (const auto& [method, reason] : without_boxes) {
+        if (name == method)
+            refuse(name, "makes no boxes, which the simulation needs: " + std::string(reason));
+    }
+    if (std::ranges::find(names, name) == names.end()) refuse(name, "is not known");
+    if (name == "none") return std::nullopt;
+    if (name != "zoltan-rcb") return rrcb_balancer(options_of(name));
+#ifdef RRCB_MPM_ZOLTAN
+    return zoltan_rcb_balancer();
+#else
+    refuse(name, "is not there, because this was built without Zoltan");
+#endif
+}

@@ -1,0 +1,212 @@
+#include "boundaries/contact.hpp"
+#include "effects/effect.hpp"
+
+namespace mpm {
+
+namespace {
+
+template <int D>
+void hold(Node<D>& node, std::size_t axis) {
+    node.momentum[axis] = 0;
+    node.force[axis] = 0;
+}
+
+template <int D>
+void hold(Node<D>& node, Wall::Kind kind, std::size_t axis) {
+    hold(node, axis);
+    for (std::size_t a = 0; kind == Wall::fixed && a < D; ++a) hold(node, a);
+}
+
+/// Nodes on one side of the domain and beyond it.
+template <int D>
+NodeRange<D> nodes_at(const GridPatch<D>& patch, std::size_t axis, bool is_upper) {
+    NodeRange<D> side = patch.nodes;
+    side.first[axis] = is_upper ? patch.shape.num_cells[axis] : -patch.margin;
+    side.count[axis] = 1 + patch.margin;
+    return intersection<D>(side, patch.nodes);
+}
+
+/// Calls visit(node, wall, axis, inward sign) for the nodes on all sides and beyond.
+template <int D, typename Visit>
+void visit_sides(const GridPatch<D>& patch, const Walls& walls, Visit visit) {
+    const std::array<const Wall*, 3> lower{&walls.left, &walls.bottom, &walls.back};
+    const std::array<const Wall*, 3> upper{&walls.right, &walls.top, &walls.front};
+    for (std::size_t axis = 0; axis < D; ++axis)
+        for (const bool is_upper : {false, true}) {
+            const Wall& wall = is_upper ? *upper[axis] : *lower[axis];
+            if (wall.kind == Wall::open) continue;
+            visit_nodes<D>(nodes_at(patch, axis, is_upper), [&](const std::array<int, D>& node) {
+                visit(node, wall, axis, is_upper ? -1.0 : 1.0);
+            });
+        }
+}
+
+bool has(const Walls& walls, Wall::Kind kind) {
+    for (const Wall* wall :
+         {&walls.left, &walls.right, &walls.bottom, &walls.top, &walls.back, &walls.front})
+        if (wall->kind == kind) return true;
+    return false;
+}
+
+/// Calls visit(node beyond a roller or fixed wall, its mirror image, wall, axis) where a patch has
+/// them; a patch that reaches beyond a wall has the layer of images, too.
+template <int D, typename Visit>
+void visit_images(const GridPatch<D>& patch, const Walls& walls, Visit visit) {
+    visit_sides(patch, walls,
+                [&](std::array<int, D> node, const Wall& wall, std::size_t axis, double inward) {
+                    const int side = inward > 0 ? 0 : patch.shape.num_cells[axis];
+                    if (node[axis] == side || wall.kind == Wall::frictional) return;
+                    const std::size_t beyond = patch.index(node);
+                    node[axis] = 2 * side - node[axis];
+                    visit(beyond, patch.index(node), wall, axis);
+                });
+}
+
+/// The sign of a component in the image.
+double parity(const Wall& wall, std::size_t axis, std::size_t component) {
+    return wall.kind == Wall::fixed || component == axis ? -1 : 1;
+}
+
+template <int D>
+Surface<D> surface_of(const Wall& wall, std::size_t axis, double inward) {
+    Surface<D> surface{.normal = {}, .friction = wall.friction};
+    surface.normal[axis] = inward;
+    return surface;
+}
+
+/// Holds the velocities that strain after they were mapped back to the nodes.
+template <int D>
+void hold_strain(const Walls& walls, GridPatch<D>& patch) {
+    visit_sides(
+        patch, walls,
+        [&](const std::array<int, D>& node, const Wall& wall, std::size_t axis, double inward) {
+            Components<D>& velocity = patch.motion[patch.index(node)].strain_velocity;
+            if (wall.kind == Wall::frictional)
+                velocity = after_contact<D>(surface_of<D>(wall, axis, inward), velocity);
+            else if (wall.kind == Wall::fixed)
+                velocity = {};
+            else
+                velocity[axis] = 0;
+        });
+}
+
+/// What points hand to nodes beyond a wall is their images' share of the nodes inside.
+template <int D>
+void fold(const Walls& walls, GridPatch<D>& patch) {
+    visit_images(patch, walls,
+                 [&](std::size_t beyond, std::size_t image, const Wall& wall, std::size_t axis) {
+                     Node<D>& from = patch.sums[beyond];
+                     Node<D>& to = patch.sums[image];
+                     to.mass += from.mass;
+                     for (std::size_t a = 0; a < D; ++a) {
+                         to.momentum[a] += parity(wall, axis, a) * from.momentum[a];
+                         to.force[a] += parity(wall, axis, a) * from.force[a];
+                     }
+                     from = {};
+                 });
+}
+
+/// The same for the fields of effects, each a scalar or a component of a vector.
+template <int D>
+void fold_fields(const Walls& walls, const std::vector<int>& components, GridPatch<D>& patch) {
+    visit_images(
+        patch, walls,
+        [&](std::size_t beyond, std::size_t image, const Wall& wall, std::size_t axis) {
+            for (std::size_t f = 0; f < components.size(); ++f) {
+                const int component = components[f];
+                const double sign =
+                    component < 0 ? 1 : parity(wall, axis, static_cast<std::size_t>(component));
+                patch.fields[f][image] += sign * patch.fields[f][beyond];
+                patch.fields[f][beyond] = 0;
+            }
+        });
+}
+
+/// Nodes beyond a wall move as the images of those inside.
+template <int D>
+void mirror(const Walls& walls, GridPatch<D>& patch) {
+    visit_images(patch, walls,
+                 [&](std::size_t beyond, std::size_t image, const Wall& wall, std::size_t axis) {
+                     const NodeMotion<D>& from = patch.motion[image];
+                     NodeMotion<D>& to = patch.motion[beyond];
+                     for (std::size_t a = 0; a < D; ++a) {
+                         const double sign = parity(wall, axis, a);
+                         to.velocity[a] = sign * from.velocity[a];
+                         to.velocity_change[a] = sign * from.velocity_change[a];
+                         to.strain_velocity[a] = sign * from.strain_velocity[a];
+                     }
+                 });
+}
+
+template <int D>
+void add_remapped_walls(const Scene& scene, Stages<D>& stages) {
+    const Walls& walls = scene.walls;
+    if (!has(walls, Wall::roller) && !has(walls, Wall::fixed) && !has(walls, Wall::frictional))
+        return;
+    stages.remapped.push_back(
+        {"walls", [walls](GridPatch<D>& patch, const StepTime&) { hold_strain(walls, patch); }});
+}
+
+/// Whether shape functions reach beyond walls that hold nodes.
+bool has_images(const Scene& scene) {
+    return scene.shape_function != ShapeFunction::linear &&
+           (has(scene.walls, Wall::roller) || has(scene.walls, Wall::fixed));
+}
+
+}  // namespace
+
+template <int D>
+void add_walls(const Scene& scene, Stages<D>& stages) {
+    const Walls& walls = scene.walls;
+    if (has_images(scene)) {
+        stages.scatters.push_back({"walls", [walls](const Particles&, std::span<const CellRun<D>>,
+                                                    GridPatch<D>& patch) { fold(walls, patch); }});
+        if (remaps(scene)) stages.remap_scatters.push_back(stages.scatters.back());
+    }
+    if (has(walls, Wall::roller) || has(walls, Wall::fixed))
+        stages.constraints.push_back(
+            {"walls", [walls](GridPatch<D>& patch, const StepTime&) {
+                 visit_sides(patch, walls,
+                             [&](const std::array<int, D>& node, const Wall& wall, std::size_t axis,
+                                 double) {
+                                 if (wall.kind != Wall::frictional)
+                                     hold(patch.sums[patch.index(node)], wall.kind, axis);
+                             });
+             }});
+    if (has(walls, Wall::frictional))
+        stages.moved.push_back({"friction", [walls](GridPatch<D>& patch, const StepTime&) {
+                                    visit_sides(
+                                        patch, walls,
+                                        [&](const std::array<int, D>& node, const Wall& wall,
+                                            std::size_t axis, double inward) {
+                                            if (wall.kind != Wall::frictional) return;
+                                            meet<D>(surface_of<D>(wall, axis, inward),
+                                                    patch.motion[patch.index(node)]);
+                                        });
+                                }});
+    if (remaps(scene)) add_remapped_walls(scene, stages);
+}
+
+template <int D>
+void add_images(const Scene& scene, Stages<D>& stages) {
+    if (!has_images(scene)) return;
+    std::vector<int> components;
+    for (const NodeField& field : stages.fields) components.push_back(field.component);
+    if (!components.empty())
+        stages.scatters.push_back(
+            {"walls", [walls = scene.walls, components](
+                          const Particles&, std::span<const CellRun<D>>, GridPatch<D>& patch) {
+                 fold_fields(walls, components, patch);
+             }});
+    stages.moved.push_back({"walls", [walls = scene.walls](GridPatch<D>& patch, const StepTime&) {
+                                mirror(walls, patch);
+                            }});
+    if (remaps(scene)) stages.remapped.push_back(stages.moved.back());
+}
+
+template void add_walls<2>(const Scene&, Stages<2>&);
+template void add_walls<3>(const Scene&, Stages<3>&);
+template void add_images<2>(const Scene&, Stages<2>&);
+template void add_images<3>(const Scene&, Stages<3>&);
+
+}  // namespace mpm

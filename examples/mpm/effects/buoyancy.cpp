@@ -1,0 +1,45 @@
+#include "effects/effect.hpp"
+#include "materials/material.hpp"
+
+#include <stdexcept>
+
+namespace mpm {
+
+namespace {
+
+double density_of(const Scene& scene) {
+    const auto density = [&](const Material& material) {
+        return values_of(material, scene.dimension).number("density");
+    };
+    for (const Material& material : scene.materials)
+        if (density(material) != density(scene.materials.front()))
+            throw std::invalid_argument(
+                "effects / buoyancy: all materials must have the same density");
+    return density(scene.materials.front());
+}
+
+template <int D>
+void build(const EffectBuilder<D>& builder) {
+    if (!builder.stages.gravity)
+        throw std::invalid_argument("effects / buoyancy: needs the effect gravity");
+    const Gravity<D> gravity = *builder.stages.gravity;
+    const double share = builder.values.number("water_density") / density_of(builder.scene);
+    for (double& component : builder.stages.gravity->acceleration) component *= 1 - share;
+    builder.stages.forces.push_back({"buoyancy", [=](GridPatch<D>& patch, const StepTime& step) {
+                                         Components<D> lift = gravity.acceleration;
+                                         for (double& component : lift)
+                                             component *= share * gravity.share_at(step.time);
+                                         for (Node<D>& node : patch.sums)
+                                             for (std::size_t a = 0; a < D; ++a)
+                                                 node.force[a] -= node.mass * lift[a];
+                                     }});
+}
+
+}  // namespace
+
+/// The weight of the water displaced: gravity is reduced to (1 - water / density), inertia is not.
+EffectKind buoyancy_effect() {
+    return {"buoyancy", {not_negative("water_density", "kg/m^3")}, build<2>, build<3>};
+}
+
+}  // namespace mpm

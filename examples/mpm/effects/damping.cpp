@@ -1,0 +1,26 @@
+#include "effects/effect.hpp"
+
+namespace mpm {
+
+namespace {
+
+template <int D>
+void build(const EffectBuilder<D>& builder) {
+    const double rate = builder.values.number("rate"), until = builder.values.number("until");
+    builder.stages.forces.push_back({"damping", [=](GridPatch<D>& patch, const StepTime& step) {
+                                         if (step.time >= until) return;
+                                         for (Node<D>& node : patch.sums)
+                                             for (std::size_t a = 0; a < D; ++a)
+                                                 node.force[a] -= rate * node.momentum[a];
+                                     }});
+}
+
+}  // namespace
+
+/// A force against the motion, rate * momentum, until a time: for a start at rest.
+EffectKind damping_effect() {
+    return {
+        "damping", {not_negative("rate", "1/s"), not_negative("until", "s")}, build<2>, build<3>};
+}
+
+}  // namespace mpm

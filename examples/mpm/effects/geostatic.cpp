@@ -1,0 +1,48 @@
+#include "effects/effect.hpp"
+
+#include <stdexcept>
+
+namespace mpm {
+
+namespace {
+
+constexpr std::size_t vertical = 1;
+
+template <int D>
+void build(const EffectBuilder<D>& builder) {
+    if (!builder.stages.gravity)
+        throw std::invalid_argument("effects / geostatic: needs the effect gravity");
+    for (const Material& material : builder.scene.materials)
+        if (material.model == "neo_hookean")
+            throw std::invalid_argument("effects / geostatic: the material '" + material.name +
+                                        "' is neo_hookean, whose stress follows from its strain "
+                                        "alone; take elastic");
+    const double pull = -builder.stages.gravity->acceleration[vertical];
+    const double surface = builder.values.number("surface");
+    const double ratio = builder.values.number("lateral_ratio");
+    const MotionColumns motion = add_motion_columns(builder.particles, D);
+    const StressColumns<D> stress = add_stress_columns<D>(builder.particles);
+    builder.stages.starts.push_back([=](Particles& particles) {
+        for (std::size_t p = 0; p < particles.size(); ++p) {
+            const double depth = surface - particles[motion.position[vertical]][p];
+            const double density = particles[motion.mass][p] / particles[motion.volume][p];
+            const double pressure = density * pull * std::max(depth, 0.0);
+            // The first three columns are those along the axes.
+            for (std::size_t a = 0; a < 3; ++a)
+                particles.data(stress[a])[p] = a == vertical ? -pressure : -ratio * pressure;
+        }
+    });
+}
+
+}  // namespace
+
+/// Ground that rests under its weight from the start: vertical stress density * gravity * depth
+/// below a level surface, lateral stress a share of it; exact for one density.
+EffectKind geostatic_effect() {
+    return {"geostatic",
+            {number("surface", "m", 0.0), not_negative("lateral_ratio", "", 1.0)},
+            build<2>,
+            build<3>};
+}
+
+}  // namespace mpm

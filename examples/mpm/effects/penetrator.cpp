@@ -1,0 +1,177 @@
+#include "effects/effect.hpp"
+#include "effects/penetrator/fluid_loads.hpp"
+#include "effects/penetrator/rigid_contact.hpp"
+#include "effects/penetrator/soil_strength.hpp"
+
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+namespace mpm {
+
+namespace {
+
+constexpr std::size_t vertical = 1;
+
+/// What the body's own motion depends on, and what it has come to.
+template <int D>
+struct Motion {
+    Gravity<D> gravity;                   ///< the share that weight has of it
+    double inertia = 0;                   ///< mass and added mass, kg
+    std::vector<BodyLoad<D>> loads = {};  ///< beside weight and soil
+    double force = 0;                     ///< of the soil on it in the last step, N
+    double kinetic_at_start = 0;          ///< J
+    double potential = 0;                 ///< of weight and buoyancy, 0 at the start, J
+    bool is_first_rank = false;
+};
+
+template <int D>
+double kinetic_energy(const Motion<D>& motion, const Penetrator<D>& body) {
+    return 0.5 * motion.inertia * body.velocity * body.velocity;
+}
+
+/// Settles what the contact has summed in this step, with one reduction, and returns the force that
+/// has acted on the soil in it.
+template <int D>
+double sum_of_ranks(RigidContact<D>& contact, MPI_Comm comm) {
+    std::vector<double> sums{contact.force};
+    if (contact.bands)
+        sums.insert(sums.end(), contact.bands->sums().begin(), contact.bands->sums().end());
+    std::vector<double> total(sums.size());
+    const auto count = static_cast<int>(sums.size());
+    MPI_Reduce(sums.data(), total.data(), count, MPI_DOUBLE, MPI_SUM, 0, comm);
+    MPI_Bcast(total.data(), count, MPI_DOUBLE, 0, comm);
+    if (contact.bands) contact.bands->settle(std::span(total).subspan(1));
+    contact.force = std::exchange(contact.next_force, 0);
+    return total.front();
+}
+
+/// The body's own equation of motion.
+template <int D>
+void move_body(RigidContact<D>& contact, Motion<D>& motion, const StepTime& step, MPI_Comm comm) {
+    const double push = sum_of_ranks(contact, comm);
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    motion.is_first_rank = rank == 0;
+    Penetrator<D>& body = contact.body;
+    const Gravity<D>& gravity = motion.gravity;
+    double weight = body.mass * gravity.acceleration[vertical] * gravity.share_at(step.time);
+    double drag = 0;
+    for (const BodyLoad<D>& load : motion.loads)
+        (load.does_return_work ? weight : drag) += load.force(body, step);
+    motion.force = -push;
+    body.velocity += step.time_step * (weight + drag - push) / motion.inertia;
+    body.tip[vertical] += step.time_step * body.velocity;
+    motion.potential -= step.time_step * weight * body.velocity;
+}
+
+template <int D>
+Penetrator<D> read_body(const Values& values) {
+    Penetrator<D> body{.radius = values.number("radius"),
+                       .cone_height = values.number("cone_height"),
+                       .length = values.number("length"),
+                       .mass = values.number("mass"),
+                       .velocity = values.number("velocity")};
+    std::copy_n(values.list("tip").begin(), D, body.tip.begin());
+    if (body.cone_height > body.length)
+        throw std::invalid_argument(
+            "effects / penetrator: 'cone_height' must be at most the length");
+    return body;
+}
+
+template <int D>
+Rubbing<D> read_rubbing(const EffectBuilder<D>& builder) {
+    const Values& values = builder.values;
+    Rubbing<D> rubbing{.friction = values.number("friction")};
+    if (values.has("adhesion") && values.has("adhesion_factor"))
+        throw std::invalid_argument(
+            "effects / penetrator: give 'adhesion' or 'adhesion_factor', not both");
+    if (values.has("adhesion"))
+        rubbing.limit = [most = values.number("adhesion")](const Particles&, const PointBlock<D>&,
+                                                           std::size_t) { return most; };
+    if (values.has("adhesion_factor"))
+        rubbing.limit = [factor = values.number("adhesion_factor"),
+                         strength =
+                             SoilStrength<D>(builder, "effects / penetrator: 'adhesion_factor'")](
+                            const Particles& particles, const PointBlock<D>& block, std::size_t p) {
+            return factor * strength.at(particles, block, p);
+        };
+    return rubbing;
+}
+
+template <int D>
+Motion<D> read_motion(const EffectBuilder<D>& builder, const Penetrator<D>& body) {
+    const Values& values = builder.values;
+    if (values.has("weight_share") && values.has("fluid_density"))
+        throw std::invalid_argument(
+            "effects / penetrator: give 'weight_share' or 'fluid_density', not both");
+    Motion<D> motion{.gravity = builder.stages.gravity.value_or(Gravity<D>{}),
+                     .inertia = body.mass + values.number("added_mass"),
+                     .loads = fluid_loads<D>(builder, body)};
+    if (values.has("weight_share"))
+        motion.gravity.acceleration[vertical] *= values.number("weight_share");
+    motion.kinetic_at_start = kinetic_energy(motion, body);
+    return motion;
+}
+
+/// Its energy is the scene's, and what it has lost of it is no loss of the soil's.
+template <int D>
+void report(const std::shared_ptr<RigidContact<D>>& contact,
+            const std::shared_ptr<Motion<D>>& motion, Stages<D>& stages) {
+    stages.reports.push_back({"penetrator_tip_y", [=] { return contact->body.tip[vertical]; }});
+    stages.reports.push_back({"penetrator_velocity", [=] { return contact->body.velocity; }});
+    stages.reports.push_back({"penetrator_force", [=] { return motion->force; }});
+    stages.rigid_energies.push_back([=]() -> RigidEnergy {
+        return {kinetic_energy(*motion, contact->body), motion->potential};
+    });
+    stages.dissipated.push_back([=](const Particles&) {
+        if (!motion->is_first_rank) return 0.0;
+        return motion->kinetic_at_start - kinetic_energy(*motion, contact->body) -
+               motion->potential;
+    });
+}
+
+template <int D>
+void build(const EffectBuilder<D>& builder) {
+    Stages<D>& stages = builder.stages;
+    const auto contact = std::make_shared<RigidContact<D>>(
+        RigidContact<D>{.body = read_body<D>(builder.values), .rubbing = read_rubbing<D>(builder)});
+    const auto motion = std::make_shared<Motion<D>>(read_motion<D>(builder, contact->body));
+    if (contact->rubbing.limit)
+        contact->bands.emplace(contact->body, builder.scene.grid.spacing,
+                               contact->body.share_in(builder.scene.grid));
+    add_contact<D>(builder, contact);
+    stages.ends.push_back({"penetrator", [=](const StepTime& step, MPI_Comm comm) {
+                               move_body(*contact, *motion, step, comm);
+                           }});
+    report(contact, motion, stages);
+}
+
+std::vector<Rule> rules() {
+    std::vector<Rule> rules{vector("tip", "m"),
+                            positive("radius", "m"),
+                            not_negative("cone_height", "m", 0.0),
+                            positive("length", "m"),
+                            positive("mass", "kg"),
+                            number("velocity", "m/s", 0.0),
+                            optional(number("weight_share", "")),
+                            not_negative("friction", "", 0.0),
+                            optional(not_negative("adhesion", "Pa")),
+                            optional(not_negative("adhesion_factor", "")),
+                            not_negative("added_mass", "kg", 0.0)};
+    for (Rule& rule : fluid_rules()) rules.push_back(std::move(rule));
+    return rules;
+}
+
+}  // namespace
+
+/// A rigid upright cylinder with a conical tip, in two dimensions a wall with a wedge, that moves
+/// along y by its weight and the forces of the soil, of fluid and of added mass on request.
+///
+/// Friction is at most friction * normal force and adhesion * area, where adhesion is a number or a
+/// share of the soil's undrained strength.
+EffectKind penetrator_effect() {
+    return {"penetrator", rules(), build<2>, build<3>};
+}
+
+}  // namespace mpm

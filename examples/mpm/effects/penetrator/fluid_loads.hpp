@@ -1,0 +1,29 @@
+#pragma once
+
+#include "effects/effect.hpp"
+#include "effects/penetrator/penetrator.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace mpm {
+
+/// A force on a penetrator along y, N, over a step.
+template <int D>
+struct BodyLoad {
+    std::function<double(const Penetrator<D>&, const StepTime&)> force;
+    bool does_return_work = false;  ///< to the body, when it moves back
+};
+
+/// What still fluid does to a penetrator, as far as the parameters ask for it: buoyancy of what is
+/// below `fluid_level`, and drag, density * coefficient * area of the section * speed^2 / 2, while
+/// the tip is there. A body on a side of the domain is cut by symmetry there.
+///
+/// Throws std::invalid_argument for drag without a fluid.
+template <int D>
+std::vector<BodyLoad<D>> fluid_loads(const EffectBuilder<D>& builder, const Penetrator<D>& body);
+
+/// fluid_density, fluid_level and drag_coefficient.
+std::vector<Rule> fluid_rules();
+
+}  // namespace mpm

@@ -1,0 +1,105 @@
+#pragma once
+
+#include "transfer/transfers.hpp"
+
+#include <mpi.h>
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mpm {
+
+/// The time at the start of a step and its length, s.
+struct StepTime {
+    double time;
+    double time_step;
+};
+
+/// Changes the nodes of a patch. Shared nodes hold the same bits on all ranks, and must after it.
+template <int D>
+using NodeKernel = std::function<void(GridPatch<D>&, const StepTime&)>;
+
+/// Adds to the sums of a patch what points hand to their nodes beside p2g.
+template <int D>
+using ScatterKernel =
+    std::function<void(const Particles&, std::span<const CellRun<D>>, GridPatch<D>&)>;
+
+/// Reads nodes, given the runs of a block: for the velocity gradients of its points, or columns.
+template <int D>
+using GradientKernel = std::function<void(Particles&, const GridPatch<D>&,
+                                          std::span<const CellRun<D>>, const PointBlock<D>&)>;
+
+/// Advances a block of points; called for all points of a step, never for one.
+template <int D>
+using PointKernel = std::function<void(Particles&, const PointBlock<D>&)>;
+
+/// Collective work at the end of a step.
+using StepKernel = std::function<void(const StepTime&, MPI_Comm)>;
+
+template <typename Kernel>
+struct Named {
+    std::string name;
+    Kernel kernel;
+};
+
+/// A column of the points that is summed on the nodes into a field of the patch, one double more
+/// in the message per shared node.
+struct NodeField {
+    std::string name;
+    Column column;
+    int axis = -1;  ///< weighted by the shape functions' derivatives along it; -1: by themselves
+    int component = -1;  ///< of a vector, which the mirror image in a wall turns; -1: a scalar
+};
+
+/// The acceleration that weight has, buoyancy included, at its full strength, m/s^2.
+template <int D>
+struct Gravity {
+    Components<D> acceleration{};
+    double ramp = 0;  ///< s until it is there; 0: at once
+
+    double share_at(double time) const { return time < ramp ? time / ramp : 1; }
+};
+
+/// A number that an effect has to tell, the same on all ranks.
+struct Report {
+    std::string name;
+    std::function<double()> value;
+};
+
+/// Energies of a rigid body, J, the same on all ranks.
+struct RigidEnergy {
+    double kinetic;
+    double potential;  ///< 0 at the start
+};
+
+/// Where in a step kernels can go, in the order of the step. An empty stage is a loop over nothing.
+template <int D>
+struct Stages {
+    std::vector<std::function<void(Particles&)>> starts;  ///< once, on the points in place
+    std::vector<NodeField> fields;                        ///< summed with mass, momentum and force
+    std::vector<Named<ScatterKernel<D>>> scatters;        ///< to the sums of this rank
+    std::vector<Named<NodeKernel<D>>> forces;             ///< on the sums over all ranks
+    std::vector<Named<NodeKernel<D>>> constraints;        ///< after all forces
+    std::vector<Named<NodeKernel<D>>> moved;              ///< after the nodes have moved
+    /// Where velocities are mapped back to the nodes (remap.hpp): on this rank's momenta, and then
+    /// on NodeMotion::strain_velocity, which walls and contacts must hold again.
+    std::vector<Named<ScatterKernel<D>>> remap_scatters;
+    std::vector<Named<NodeKernel<D>>> remapped;
+    std::vector<Named<GradientKernel<D>>> gradients;      ///< after points have moved
+    std::vector<Named<PointKernel<D>>> before_materials;  ///< stresses are the old ones
+    std::vector<Named<PointKernel<D>>> after_materials;   ///< stresses are the new ones
+    std::vector<Named<StepKernel>> ends;                  ///< after all points have moved
+    /// Energies this rank has seen lost since the start, J, for whoever asks between steps.
+    std::vector<std::function<double(const Particles&)>> dissipated;
+    std::vector<std::function<RigidEnergy()>> rigid_energies = {};  ///< added to the points'
+    std::vector<Report> reports = {};                               ///< for the history
+    std::optional<Column> internal_work = {};  ///< of the stress in each point since the start, J
+    std::optional<Gravity<D>> gravity = {};    ///< for the potential energy
+    bool counts_nodes = false;                 ///< asks for GridPatch::is_counted
+    bool carries_motion = false;  ///< asks for the last step's GridPatch::motion after a rebalance
+};
+
+}  // namespace mpm

@@ -1,0 +1,70 @@
+#include "grid/grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mpm {
+
+template <int D>
+NodeRange<D> intersection(const NodeRange<D>& a, const NodeRange<D>& b) {
+    NodeRange<D> both;
+    for (std::size_t axis = 0; axis < D; ++axis) {
+        both.first[axis] = std::max(a.first[axis], b.first[axis]);
+        both.count[axis] = std::min(a.first[axis] + a.count[axis], b.first[axis] + b.count[axis]) -
+                           both.first[axis];
+    }
+    return both;
+}
+
+template <int D>
+NodeRange<D> nodes_of(const GridShape& shape, const Box& box, int margin) {
+    const Vector grid_upper = shape.upper();
+    NodeRange<D> nodes;
+    for (std::size_t axis = 0; axis < D; ++axis) {
+        const double lower = std::max(box.lower[axis], shape.lower[axis]);
+        const double upper = std::min(box.upper[axis], grid_upper[axis]);
+        if (!(lower <= upper)) return {};
+        const int first = cell_of(shape, lower, axis);
+        nodes.first[axis] = first - margin;
+        nodes.count[axis] = cell_of(shape, upper, axis) - first + 2 + 2 * margin;
+    }
+    return nodes;
+}
+
+template <int D>
+void resize(GridPatch<D>& patch, const NodeRange<D>& nodes) {
+    patch.nodes = nodes;
+    std::size_t num_nodes = nodes.empty() ? 0 : 1;
+    for (const int count : nodes.count) num_nodes *= static_cast<std::size_t>(std::max(count, 0));
+    patch.sums.resize(num_nodes);
+    patch.motion.resize(num_nodes);
+    for (std::vector<double>& field : patch.fields) field.resize(num_nodes);
+}
+
+template <int D>
+void move_nodes(GridPatch<D>& patch, double time_step, double least_mass) {
+    for (std::size_t n = 0; n < patch.sums.size(); ++n) {
+        const Node<D>& node = patch.sums[n];
+        NodeMotion<D>& motion = patch.motion[n];
+        motion = {};
+        if (!(node.mass > 0)) continue;
+        for (std::size_t a = 0; a < D; ++a) {
+            const double old_velocity = node.momentum[a] / node.mass;
+            const double impulse = time_step * node.force[a];
+            motion.velocity_change[a] = impulse / node.mass;
+            motion.velocity[a] = old_velocity + motion.velocity_change[a];
+            motion.strain_velocity[a] = old_velocity + impulse / std::max(node.mass, least_mass);
+        }
+    }
+}
+
+template NodeRange<2> intersection<2>(const NodeRange<2>&, const NodeRange<2>&);
+template NodeRange<3> intersection<3>(const NodeRange<3>&, const NodeRange<3>&);
+template NodeRange<2> nodes_of<2>(const GridShape&, const Box&, int);
+template NodeRange<3> nodes_of<3>(const GridShape&, const Box&, int);
+template void resize<2>(GridPatch<2>&, const NodeRange<2>&);
+template void resize<3>(GridPatch<3>&, const NodeRange<3>&);
+template void move_nodes<2>(GridPatch<2>&, double, double);
+template void move_nodes<3>(GridPatch<3>&, double, double);
+
+}  // namespace mpm

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "effects/stages.hpp"
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mpm {
+
+/// What a material does to its points.
+template <int D>
+struct MaterialModel {
+    std::vector<Named<PointKernel<D>>> kernels;
+    /// Elastic energy stored in a point, J; per metre of depth in two dimensions.
+    std::function<double(const Particles&, std::size_t point)> strain_energy;
+};
+
+/// A model of materials: one file in src/materials, named in CMakeLists.txt.
+struct MaterialKind {
+    std::string name;
+    std::vector<Rule> rules;              ///< of its parameters, `density` among them
+    double (*wave_speed)(const Values&);  ///< of pressure waves, m/s
+    /// Make the kernels and add the columns they need.
+    MaterialModel<2> (*build_2)(const Values&, Particles&);
+    MaterialModel<3> (*build_3)(const Values&, Particles&);
+};
+
+/// All models there are.
+std::span<const MaterialKind> material_kinds();
+
+/// Throws std::invalid_argument that lists the models when there is none of this name.
+const MaterialKind& find_material_kind(const Material& material);
+
+/// The parameters of a material, checked; throws std::invalid_argument.
+Values values_of(const Material& material, int dimension);
+
+/// Number of the scene's material a body is made of; throws std::invalid_argument.
+std::size_t material_of(const Scene& scene, const Body& body);
+
+template <int D>
+MaterialModel<D> build_material(const Material& material, Particles& particles) {
+    const Values values = values_of(material, D);
+    if constexpr (D == 2)
+        return find_material_kind(material).build_2(values, particles);
+    else
+        return find_material_kind(material).build_3(values, particles);
+}
+
+}  // namespace mpm

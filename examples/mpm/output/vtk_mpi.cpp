@@ -1,0 +1,190 @@
+#include "output/vtk_mpi.hpp"
+
+#include "output/vtk_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <numeric>
+#include <stdexcept>
+
+namespace mpm {
+
+namespace {
+
+/// The name of a column without the axis, when it is the first of a vector.
+std::string vector_name(const std::string& column) {
+    constexpr std::string_view ending = "_x";
+    if (!column.ends_with(ending)) return "";
+    return column.substr(0, column.size() - ending.size());
+}
+
+bool is_vector(const Particles& particles, const std::string& name) {
+    return !name.empty() && particles.has_column(name + "_x") && particles.has_column(name + "_y");
+}
+
+/// Columns as rows of three, those that are not there 0.
+std::vector<double> triples(const Particles& particles, const std::string& prefix) {
+    std::vector<double> rows(3 * particles.size());
+    for (std::size_t a = 0; a < 3; ++a) {
+        const std::string name = prefix + "xyz"[a];
+        if (!particles.has_column(name)) continue;
+        const auto column = particles[name];
+        for (std::size_t p = 0; p < column.size(); ++p) rows[3 * p + a] = column[p];
+    }
+    return rows;
+}
+
+/// One field of the points: a column, or the columns of a vector.
+struct Field {
+    std::string name;
+    std::size_t num_components;
+};
+
+std::vector<Field> fields_of(const Particles& particles) {
+    std::vector<Field> fields;
+    for (const std::string& column : particles.column_names()) {
+        const std::string vector = vector_name(column);
+        if (column.size() == 1) continue;
+        if (is_vector(particles, vector))
+            fields.push_back({vector, 3});
+        else if (!(column[column.size() - 2] == '_' &&
+                   is_vector(particles, column.substr(0, column.size() - 2))))
+            fields.push_back({column, 1});
+    }
+    return fields;
+}
+
+void write_cells(std::ofstream& file, const std::string& tag,
+                 const std::vector<std::int64_t>& connectivity,
+                 const std::vector<std::int64_t>& offsets) {
+    file << '<' << tag << ">\n";
+    write_array<std::int64_t>(file, "Int64", "connectivity", 1, connectivity);
+    write_array<std::int64_t>(file, "Int64", "offsets", 1, offsets);
+}
+
+bool write_points(const std::string& path, const Particles& particles, int rank) {
+    std::ofstream file(path, std::ios::binary);
+    const std::size_t count = particles.size();
+    std::vector<std::int64_t> numbers(count), offsets(count);
+    std::iota(numbers.begin(), numbers.end(), 0);
+    std::iota(offsets.begin(), offsets.end(), 1);
+    write_head(file, "PolyData");
+    file << "<PolyData><Piece NumberOfPoints=\"" << count << "\" NumberOfVerts=\"" << count
+         << "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData>\n";
+    for (const Field& field : fields_of(particles)) {
+        if (field.num_components == 3)
+            write_array<double>(file, "Float64", field.name, 3,
+                                triples(particles, field.name + "_"));
+        else
+            write_array<double>(file, "Float64", field.name, 1, particles[field.name]);
+    }
+    write_array<std::int32_t>(file, "Int32", "part", 1, std::vector<std::int32_t>(count, rank));
+    file << "</PointData>\n<Points>\n";
+    write_array<double>(file, "Float64", "position", 3, triples(particles, ""));
+    file << "</Points>\n";
+    write_cells(file, "Verts", numbers, offsets);
+    file << "</Verts></Piece></PolyData></VTKFile>\n";
+    return file.good();
+}
+
+bool write_parallel_points(const std::string& path, const std::string& piece,
+                           const Particles& particles, int num_ranks) {
+    std::ofstream file(path);
+    write_head(file, "PPolyData");
+    file << "<PPolyData GhostLevel=\"0\">\n<PPointData>\n";
+    for (const Field& field : fields_of(particles))
+        file << "<PDataArray type=\"Float64\" Name=\"" << field.name << "\" NumberOfComponents=\""
+             << field.num_components << "\"/>\n";
+    file << "<PDataArray type=\"Int32\" Name=\"part\"/>\n</PPointData>\n<PPoints>\n"
+            "<PDataArray type=\"Float64\" Name=\"position\" NumberOfComponents=\"3\"/>\n"
+            "</PPoints>\n";
+    for (int rank = 0; rank < num_ranks; ++rank)
+        file << "<Piece Source=\"" << piece << '_' << rank << ".vtp\"/>\n";
+    file << "</PPolyData></VTKFile>\n";
+    return file.good();
+}
+
+/// Corners of a box clipped to the grid, in VTK's order of a pixel or voxel.
+void append_corners(const Box& box, const GridShape& grid, int dimension,
+                    std::vector<double>& corners) {
+    const Vector end = grid.upper();
+    for (int corner = 0; corner < 1 << dimension; ++corner)
+        for (std::size_t a = 0; a < 3; ++a) {
+            const bool is_upper = (corner >> a & 1) != 0;
+            const double side = is_upper ? box.upper[a] : box.lower[a];
+            corners.push_back(a < static_cast<std::size_t>(dimension)
+                                  ? std::clamp(side, grid.lower[a], end[a])
+                                  : 0);
+        }
+}
+
+bool write_boxes(const std::string& path, const Decomposition& decomposition, const GridShape& grid,
+                 int dimension) {
+    constexpr std::uint8_t pixel = 8, voxel = 11;
+    const std::size_t count = decomposition.boxes.size(), num_corners = 1U << dimension;
+    std::vector<double> corners;
+    for (const Box& box : decomposition.boxes) append_corners(box, grid, dimension, corners);
+    std::vector<std::int64_t> numbers(count * num_corners), offsets(count);
+    std::iota(numbers.begin(), numbers.end(), 0);
+    for (std::size_t i = 0; i < count; ++i)
+        offsets[i] = static_cast<std::int64_t>((i + 1) * num_corners);
+    std::vector<std::int32_t> parts(count);
+    std::iota(parts.begin(), parts.end(), 0);
+
+    std::ofstream file(path, std::ios::binary);
+    write_head(file, "UnstructuredGrid");
+    file << "<UnstructuredGrid><Piece NumberOfPoints=\"" << numbers.size() << "\" NumberOfCells=\""
+         << count << "\">\n<CellData>\n";
+    write_array<std::int32_t>(file, "Int32", "part", 1, parts);
+    file << "</CellData>\n<Points>\n";
+    write_array<double>(file, "Float64", "corner", 3, corners);
+    file << "</Points>\n";
+    write_cells(file, "Cells", numbers, offsets);
+    write_array<std::uint8_t>(file, "UInt8", "types", 1,
+                              std::vector<std::uint8_t>(count, dimension == 2 ? pixel : voxel));
+    file << "</Cells></Piece></UnstructuredGrid></VTKFile>\n";
+    return file.good();
+}
+
+std::string padded(std::int64_t step) {
+    const std::string number = std::to_string(step);
+    return std::string(number.size() < 8 ? 8 - number.size() : 0, '0') + number;
+}
+
+}  // namespace
+
+VtkSeries::VtkSeries(std::string folder, const Scene& scene, MPI_Comm comm)
+    : folder_(std::move(folder)), grid_(scene.grid), dimension_(scene.dimension), comm_(comm) {
+    MPI_Comm_rank(comm, &rank_);
+    MPI_Comm_size(comm, &num_ranks_);
+}
+
+void VtkSeries::write(const Simulation& simulation) {
+    frames_.push_back({simulation.time(), padded(simulation.step_count())});
+    const std::string piece = "points_" + frames_.back().number;
+    const std::string base = folder_ + "/" + piece;
+    int good =
+        write_points(base + '_' + std::to_string(rank_) + ".vtp", simulation.particles(), rank_);
+    if (rank_ == 0) {
+        good &= write_parallel_points(base + ".pvtp", piece, simulation.particles(), num_ranks_);
+        good &= write_boxes(folder_ + "/boxes_" + frames_.back().number + ".vtu",
+                            simulation.decomposition(), grid_, dimension_);
+        good &= write_series("points", ".pvtp") && write_series("boxes", ".vtu");
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, comm_);
+    if (good == 0) throw std::runtime_error(folder_ + ": a VTK file cannot be written there");
+}
+
+bool VtkSeries::write_series(const std::string& name, const std::string& extension) const {
+    std::ofstream file(folder_ + "/" + name + ".pvd");
+    write_head(file, "Collection");
+    file << "<Collection>\n";
+    for (const Frame& frame : frames_)
+        file << "<DataSet timestep=\"" << frame.time << "\" part=\"0\" file=\"" << name << '_'
+             << frame.number << extension << "\"/>\n";
+    file << "</Collection></VTKFile>\n";
+    return file.good();
+}
+
+}  // namespace mpm

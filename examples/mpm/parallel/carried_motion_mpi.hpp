@@ -1,0 +1,19 @@
+#pragma once
+
+#include "grid/grid.hpp"
+
+#include <mpi.h>
+
+#include <span>
+
+namespace mpm {
+
+/// Hands the motion of the last step's nodes to whoever has them next. Collective over `comm`.
+///
+/// `before` and `after` are the patches of all ranks, `from` this rank's by the former; `to` has
+/// the size of the latter, and its motion is replaced. A node that no rank had rests.
+template <int D>
+void carry_motion(std::span<const NodeRange<D>> before, std::span<const NodeRange<D>> after,
+                  const GridPatch<D>& from, GridPatch<D>& to, MPI_Comm comm);
+
+}  // namespace mpm

@@ -1,0 +1,150 @@
+#include "parallel/ghost_nodes_mpi.hpp"
+
+#include <algorithm>
+
+namespace mpm {
+
+namespace {
+
+constexpr int ghost_tag = 1;
+
+/// All sums and fields of a patch.
+template <int D>
+struct AllSums {
+    GridPatch<D>& patch;
+
+    std::size_t width() const {
+        static_assert(sizeof(Node<D>) == (1 + 2 * D) * sizeof(double));
+        return 1 + 2 * D + patch.fields.size();
+    }
+    double* pack(std::size_t n, double* to) const {
+        const Node<D>& node = patch.sums[n];
+        *to++ = node.mass;
+        to = std::copy(node.momentum.begin(), node.momentum.end(), to);
+        to = std::copy(node.force.begin(), node.force.end(), to);
+        for (const std::vector<double>& field : patch.fields) *to++ = field[n];
+        return to;
+    }
+    const double* add(const double* from, std::size_t n) const {
+        Node<D>& node = patch.sums[n];
+        node.mass += *from++;
+        for (double& component : node.momentum) component += *from++;
+        for (double& component : node.force) component += *from++;
+        for (std::vector<double>& field : patch.fields) field[n] += *from++;
+        return from;
+    }
+    void clear(std::size_t n) const {
+        patch.sums[n] = {};
+        for (std::vector<double>& field : patch.fields) field[n] = 0;
+    }
+};
+
+/// The momenta of a patch.
+template <int D>
+struct Momenta {
+    GridPatch<D>& patch;
+
+    std::size_t width() const { return D; }
+    double* pack(std::size_t n, double* to) const {
+        return std::ranges::copy(patch.sums[n].momentum, to).out;
+    }
+    const double* add(const double* from, std::size_t n) const {
+        for (double& component : patch.sums[n].momentum) component += *from++;
+        return from;
+    }
+    void clear(std::size_t n) const { patch.sums[n].momentum = {}; }
+};
+
+/// Copies a slice of nodes into a message.
+template <typename Slice>
+void pack(const Slice& slice, const std::vector<std::size_t>& nodes, std::vector<double>& message) {
+    message.resize(nodes.size() * slice.width());
+    double* to = message.data();
+    for (const std::size_t n : nodes) to = slice.pack(n, to);
+}
+
+/// Adds a message to a slice of nodes.
+template <typename Slice>
+void unpack(const std::vector<double>& message, const std::vector<std::size_t>& nodes,
+            const Slice& slice) {
+    const double* from = message.data();
+    for (const std::size_t n : nodes) from = slice.add(from, n);
+}
+
+}  // namespace
+
+template <int D>
+GhostNodes<D>::GhostNodes(std::span<const NodeRange<D>> patches, MPI_Comm comm) : comm_(comm) {
+    MPI_Comm_rank(comm, &rank_);
+    GridPatch<D> numbering;
+    numbering.nodes = patches[static_cast<std::size_t>(rank_)];
+    for (int rank = 0; rank < static_cast<int>(patches.size()); ++rank) {
+        const NodeRange<D> range =
+            intersection<D>(numbering.nodes, patches[static_cast<std::size_t>(rank)]);
+        if (rank == rank_ || range.empty()) continue;
+        ranks_.push_back(rank);
+        nodes_.emplace_back();
+        visit_nodes<D>(range, [&](const std::array<int, D>& node) {
+            nodes_.back().push_back(numbering.index(node));
+        });
+        shared_.insert(shared_.end(), nodes_.back().begin(), nodes_.back().end());
+    }
+    outgoing_.resize(ranks_.size());
+    incoming_.resize(ranks_.size());
+    requests_.resize(2 * ranks_.size());
+    std::ranges::sort(shared_);
+    shared_.erase(std::unique(shared_.begin(), shared_.end()), shared_.end());
+}
+
+template <int D>
+void GhostNodes<D>::sum(GridPatch<D>& patch) {
+    add_up(AllSums<D>{patch});
+}
+
+template <int D>
+void GhostNodes<D>::sum_momentum(GridPatch<D>& patch) {
+    add_up(Momenta<D>{patch});
+}
+
+template <int D>
+template <typename Slice>
+void GhostNodes<D>::add_up(Slice slice) {
+    exchange(slice);
+    pack(slice, shared_, own_);
+    for (const std::size_t n : shared_) slice.clear(n);
+    std::size_t neighbour = 0;
+    for (; neighbour < ranks_.size() && ranks_[neighbour] < rank_; ++neighbour)
+        unpack(incoming_[neighbour], nodes_[neighbour], slice);
+    unpack(own_, shared_, slice);
+    for (; neighbour < ranks_.size(); ++neighbour)
+        unpack(incoming_[neighbour], nodes_[neighbour], slice);
+}
+
+template <int D>
+void GhostNodes<D>::mark_counted(GridPatch<D>& patch) const {
+    patch.is_counted.assign(patch.sums.size(), 1);
+    for (std::size_t k = 0; k < ranks_.size() && ranks_[k] < rank_; ++k)
+        for (const std::size_t n : nodes_[k]) patch.is_counted[n] = 0;
+}
+
+template <int D>
+template <typename Slice>
+void GhostNodes<D>::exchange(const Slice& slice) {
+    const std::size_t num_neighbours = ranks_.size();
+    for (std::size_t k = 0; k < num_neighbours; ++k) {
+        incoming_[k].resize(nodes_[k].size() * slice.width());
+        MPI_Irecv(incoming_[k].data(), static_cast<int>(incoming_[k].size()), MPI_DOUBLE, ranks_[k],
+                  ghost_tag, comm_, &requests_[k]);
+    }
+    for (std::size_t k = 0; k < num_neighbours; ++k) {
+        pack(slice, nodes_[k], outgoing_[k]);
+        MPI_Isend(outgoing_[k].data(), static_cast<int>(outgoing_[k].size()), MPI_DOUBLE, ranks_[k],
+                  ghost_tag, comm_, &requests_[num_neighbours + k]);
+    }
+    MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
+}
+
+template class GhostNodes<2>;
+template class GhostNodes<3>;
+
+}  // namespace mpm

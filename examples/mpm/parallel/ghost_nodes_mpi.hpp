@@ -1,0 +1,55 @@
+#pragma once
+
+#include "grid/grid.hpp"
+
+#include <mpi.h>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace mpm {
+
+/// The nodes a rank's patch shares with those of other ranks, and their summation.
+template <int D>
+class GhostNodes {
+  public:
+    /// Finds the shared nodes from the patches of all ranks. Not collective.
+    GhostNodes(std::span<const NodeRange<D>> patches, MPI_Comm comm);
+
+    /// Adds what the other ranks have on the shared nodes, sums and fields; collective over the
+    /// neighbours.
+    ///
+    /// One message to each neighbour. Every rank adds the contributions to a node in ascending
+    /// order of the ranks, so that all hold the same bits.
+    void sum(GridPatch<D>& patch);
+
+    /// The same for the momenta alone.
+    void sum_momentum(GridPatch<D>& patch);
+
+    /// Marks the nodes this rank stands for: each node of the grid is one rank's, the lowest that
+    /// has it.
+    void mark_counted(GridPatch<D>& patch) const;
+
+    /// Ranks that share a node with this one, ascending.
+    const std::vector<int>& neighbours() const { return ranks_; }
+
+  private:
+    /// Of a slice: what of each node is summed.
+    template <typename Slice>
+    void add_up(Slice slice);
+    template <typename Slice>
+    void exchange(const Slice& slice);
+
+    MPI_Comm comm_;
+    int rank_ = 0;
+    std::vector<int> ranks_;
+    std::vector<std::vector<std::size_t>> nodes_;  ///< shared with each neighbour
+    std::vector<std::vector<double>> outgoing_;    ///< one message per neighbour
+    std::vector<std::vector<double>> incoming_;
+    std::vector<MPI_Request> requests_;
+    std::vector<std::size_t> shared_;  ///< nodes of the patch with any neighbour
+    std::vector<double> own_;          ///< this rank's contribution to them
+};
+
+}  // namespace mpm

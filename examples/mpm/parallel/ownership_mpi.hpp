@@ -1,0 +1,60 @@
+#pragma once
+
+#include "parallel/migration_mpi.hpp"
+
+#include <mpi.h>
+#include <mpm/decomposition.hpp>
+#include <mpm/scene.hpp>
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace mpm {
+
+/// What the ranks agree on after points have moved or a balancer has spoken.
+struct Agreement {
+    Reach reach = Reach::nowhere;
+    double max_speed = 0;  ///< m/s
+};
+
+/// Finds the points that belong to other ranks, and makes all ranks agree on what follows.
+class Ownership {
+  public:
+    Ownership(const GridShape& grid, MPI_Comm comm);
+
+    /// Finds the points that have left this rank's box. Not collective.
+    void find_leavers(const Decomposition& decomposition, Positions positions,
+                      std::span<const int> neighbours);
+
+    /// Finds the points that a new decomposition gives to other ranks. Not collective.
+    void find_reassigned(const Decomposition& next, Positions positions);
+
+    /// Collective; throws on all ranks when one of them found a fault since the last time.
+    Agreement agree(double speed);
+
+    const Leavers& leavers() const { return leavers_; }
+
+  private:
+    /// What can go wrong on one rank, in ascending order of gravity.
+    enum class Fault { none, misplaced, no_owner, left_grid };
+
+    static void throw_fault(Fault fault);
+    void report(Fault fault);
+    template <int D>
+    void find_outside(const Box& box, Positions positions);
+    bool ask_owners(const Decomposition& decomposition, Positions positions);
+    bool check_owners(const Decomposition& decomposition, Positions positions);
+
+    MPI_Comm comm_;
+    int rank_ = 0;
+    std::size_t num_ranks_ = 1;
+    Box grid_;
+    Leavers leavers_;
+    std::array<std::vector<double>, 3> at_;  ///< positions of the leavers
+    std::vector<int> owners_;
+    Reach reach_ = Reach::nowhere;
+    Fault fault_ = Fault::none;
+};
+
+}  // namespace mpm

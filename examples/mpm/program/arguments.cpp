@@ -1,0 +1,66 @@
+#include "program/arguments.hpp"
+
+#include "balancers/balancers_mpi.hpp"
+
+#include <Teuchos_CommandLineProcessor.hpp>
+
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+namespace {
+
+/// The number an option was given, or what stands for none; throws what is wrong with the text.
+template <typename Number>
+Number number(const std::string& option, const std::string& text, Number none, Number least) {
+    if (text.empty()) return none;
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !(value >= least) ||
+        !std::isfinite(static_cast<double>(value)))
+        throw std::invalid_argument("--" + option + ": '" + text +
+                                    "' is not a number of at least " + std::to_string(least));
+    return value;
+}
+
+/// As text, because Teuchos tells of a number it cannot read on rank 0 only.
+struct Texts {
+    std::string every, vtk_every, end_time, cell_size;
+};
+
+void set_options(Teuchos::CommandLineProcessor& parser, Arguments& arguments, Texts& texts) {
+    parser.setDocString("Simulates a scene of material points.");
+    parser.setOption("scene", &arguments.scene, "scene file, YAML or XML");
+    parser.setOption("balancer", &arguments.balancer, balancer_names().c_str());
+    parser.setOption("every", &texts.every, "steps between two rebalances");
+    parser.setOption("end-time", &texts.end_time, "simulated seconds, in place of the scene's");
+    parser.setOption("cell-size", &texts.cell_size, "m, in place of the scene's");
+    parser.setOption("vtk-every", &texts.vtk_every, "steps between VTK files; 0: none");
+    parser.setOption("out", &arguments.out, "folder for history.csv and VTK files");
+    parser.setOption("list-kernels", "no-list-kernels", &arguments.list_kernels,
+                     "tell what a step does, owns and sends, and stop");
+}
+
+}  // namespace
+
+std::optional<Arguments> read_arguments(int argc, char** argv) {
+    Arguments arguments;
+    arguments.balancer = "rrcb";
+    arguments.out = "out";
+    Texts texts;
+    Teuchos::CommandLineProcessor parser(false, true);
+    set_options(parser, arguments, texts);
+    const auto outcome = parser.parse(argc, argv);
+    if (outcome == Teuchos::CommandLineProcessor::PARSE_HELP_PRINTED) return std::nullopt;
+    if (outcome != Teuchos::CommandLineProcessor::PARSE_SUCCESSFUL)
+        throw std::invalid_argument("an option is not known; --help lists them all");
+    make_balancer(arguments.balancer);
+    if (arguments.scene.empty())
+        throw std::invalid_argument("--scene=FILE is missing; examples/mpm/scenes has some");
+    if (arguments.out.empty()) throw std::invalid_argument("--out: must name a folder");
+    arguments.every = number("every", texts.every, 10, 1);
+    arguments.vtk_every = number("vtk-every", texts.vtk_every, -1, 0);
+    arguments.end_time = number("end-time", texts.end_time, 0.0, 1e-300);
+    arguments.cell_size = number("cell-size", texts.cell_size, 0.0, 1e-300);
+    return arguments;
+}

@@ -1,0 +1,144 @@
+#include "balancers/balancers_mpi.hpp"
+#include "program/arguments.hpp"
+#include "scene_file/scene_file_mpi.hpp"
+#ifdef RRCB_MPM_ZOLTAN
+#include <zoltan.h>
+#endif
+
+#include "output/history_mpi.hpp"
+#include "output/vtk_mpi.hpp"
+
+#include <mpi.h>
+#include <mpm/simulation.hpp>
+#include <unistd.h>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+
+namespace {
+
+int rank_in(MPI_Comm comm) {
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    return rank;
+}
+
+void print_words(const char* title, const std::vector<std::string>& words) {
+    std::printf("%s:", title);
+    for (const std::string& word : words) std::printf(" %s", word.c_str());
+    std::printf("\n");
+}
+
+/// What a step of a scene does, owns and sends.
+void list_kernels(const mpm::Simulation& simulation) {
+    const auto& columns = simulation.particles().column_names();
+    print_words("kernels", simulation.kernels());
+    print_words("columns", columns);
+    std::printf("%zu bytes per point\n%zu bytes per migrated point\n%zu doubles per ghost node\n",
+                columns.size() * sizeof(double), columns.size() * sizeof(double),
+                simulation.doubles_per_ghost_node());
+}
+
+/// Writes what the output plan asks for, into a folder that is there on rank 0's machine.
+class Recorder {
+  public:
+    Recorder(const std::string& folder, const mpm::SceneFile& file, MPI_Comm comm)
+        : plan_(file.output) {
+        std::error_code error;
+        if (rank_in(comm) == 0) std::filesystem::create_directories(folder, error);
+        mpm::fail_together(error ? folder + ": " + error.message() : "", comm);
+        history_.emplace(folder + "/history.csv", file.scene, comm);
+        vtk_.emplace(folder, file.scene, comm);
+    }
+
+    void record(const mpm::Simulation& simulation, bool is_last) {
+        if (is_due(plan_.history_every, simulation, is_last)) history_->write(simulation);
+        if (is_due(plan_.vtk_every, simulation, is_last)) vtk_->write(simulation);
+    }
+
+  private:
+    static bool is_due(int every, const mpm::Simulation& simulation, bool is_last) {
+        return every > 0 && (is_last || simulation.step_count() % every == 0);
+    }
+
+    mpm::OutputPlan plan_;
+    std::optional<mpm::History> history_;
+    std::optional<mpm::VtkSeries> vtk_;
+};
+
+void show_progress(const mpm::Simulation& simulation, double end_time, bool is_last) {
+    if (!isatty(STDERR_FILENO) || (simulation.step_count() % 20 != 0 && !is_last)) return;
+    std::fprintf(stderr, "\r%10.4g of %.4g s, step %lld, %lld points%s", simulation.time(),
+                 end_time, static_cast<long long>(simulation.step_count()),
+                 static_cast<long long>(simulation.num_points()), is_last ? "\n" : "");
+}
+
+void simulate(mpm::Simulation& simulation, const Arguments& arguments, Recorder& recorder,
+              MPI_Comm comm) {
+    const std::optional<mpm::Balancer> balancer = make_balancer(arguments.balancer);
+    for (bool is_last = false; !is_last;) {
+        is_last = !(simulation.time() < arguments.end_time);
+        if (balancer && !is_last && simulation.step_count() % arguments.every == 0)
+            simulation.rebalance(*balancer);
+        recorder.record(simulation, is_last);
+        if (rank_in(comm) == 0) show_progress(simulation, arguments.end_time, is_last);
+        if (!is_last) simulation.step();
+    }
+}
+
+void print_end(const mpm::Simulation& simulation, const Arguments& arguments, double seconds) {
+    const auto steps = static_cast<double>(simulation.step_count());
+    std::printf("%s: %lld points, %lld steps to %.6g s in %.4g s (%.1f million point-steps/s)\n",
+                arguments.scene.c_str(), static_cast<long long>(simulation.num_points()),
+                static_cast<long long>(simulation.step_count()), simulation.time(), seconds,
+                steps * static_cast<double>(simulation.num_points()) / seconds * 1e-6);
+    std::printf("history: %s/history.csv\n", arguments.out.c_str());
+}
+
+/// A simulation whose errors name the file.
+mpm::Simulation start(const std::string& path, const mpm::Scene& scene, MPI_Comm comm) {
+    try {
+        return mpm::Simulation(scene, comm);
+    } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(path + ": " + error.what());
+    }
+}
+
+void run(Arguments arguments, MPI_Comm comm) {
+    mpm::SceneFile file = mpm::read_scene(arguments.scene, comm);
+    if (arguments.cell_size > 0) mpm::resize_cells(file.scene, arguments.cell_size);
+    if (arguments.vtk_every >= 0) file.output.vtk_every = arguments.vtk_every;
+    if (!(arguments.end_time > 0)) arguments.end_time = file.scene.end_time;
+    mpm::Simulation simulation = start(arguments.scene, file.scene, comm);
+    if (arguments.list_kernels) {
+        if (rank_in(comm) == 0) list_kernels(simulation);
+        return;
+    }
+    Recorder recorder(arguments.out, file, comm);
+    const double start_time = MPI_Wtime();
+    simulate(simulation, arguments, recorder, comm);
+    if (rank_in(comm) == 0) print_end(simulation, arguments, MPI_Wtime() - start_time);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    MPI_Init(&argc, &argv);
+#ifdef RRCB_MPM_ZOLTAN
+    float version = 0;
+    Zoltan_Initialize(argc, argv, &version);
+#endif
+    int exit_code = 0;
+    try {
+        const std::optional<Arguments> arguments = read_arguments(argc, argv);
+        if (arguments) run(*arguments, MPI_COMM_WORLD);
+    } catch (const std::exception& error) {
+        if (rank_in(MPI_COMM_WORLD) == 0) std::fprintf(stderr, "rrcb_mpm: %s\n", error.what());
+        exit_code = 1;
+    }
+    MPI_Finalize();
+    return exit_code;
+}

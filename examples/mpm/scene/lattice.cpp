@@ -1,0 +1,168 @@
+#include "scene/lattice.hpp"
+
+#include "materials/material.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+namespace mpm {
+
+namespace {
+
+std::array<int, 3> num_points_along(const Scene& scene, const Body& body) {
+    std::array<int, 3> count{1, 1, 1};
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
+        count[a] = scene.grid.num_cells[a] * body.points_per_cell[a];
+    return count;
+}
+
+/// Distance of the points; in two dimensions a metre along z.
+Vector lattice_spacing(const Scene& scene, const Body& body) {
+    Vector step{1, 1, 1};
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
+        step[a] = scene.grid.spacing / body.points_per_cell[a];
+    return step;
+}
+
+template <typename Visit>
+void visit_body(const Scene& scene, const Body& body, Visit visit) {
+    const Vector step = lattice_spacing(scene, body);
+    const std::array<int, 3> count = num_points_along(scene, body);
+    for (int k = 0; k < count[2]; ++k)
+        for (int j = 0; j < count[1]; ++j)
+            for (int i = 0; i < count[0]; ++i) {
+                Vector at{scene.grid.lower[0] + (i + 0.5) * step[0],
+                          scene.grid.lower[1] + (j + 0.5) * step[1], 0};
+                if (scene.dimension == 3) at[2] = scene.grid.lower[2] + (k + 0.5) * step[2];
+                if (body.contains(at)) visit(at);
+            }
+}
+
+/// Positions apart by this tell the gradient of the velocity at the start, m.
+double difference_step(const Scene& scene) {
+    return 0.25 * scene.grid.spacing;
+}
+
+/// Two positions around a point, apart along an axis.
+std::pair<Vector, Vector> around(const Scene& scene, const Vector& at, std::size_t axis) {
+    std::pair<Vector, Vector> below_and_above{at, at};
+    below_and_above.first[axis] -= 0.5 * difference_step(scene);
+    below_and_above.second[axis] += 0.5 * difference_step(scene);
+    return below_and_above;
+}
+
+void require_finite(const Body& body, const Vector& at) {
+    for (const double component : body.velocity(at)) {
+        if (std::isfinite(component)) continue;
+        std::ostringstream text;
+        text << "bodies / " << body.name << ": the velocity at x = " << at[0] << ", y = " << at[1]
+             << ", z = " << at[2] << " m must be finite";
+        throw std::invalid_argument(text.str());
+    }
+}
+
+/// Checks what place_points will ask of a body's velocity, on all ranks alike.
+void check_velocity(const Scene& scene, const Body& body, const Vector& at) {
+    if (!body.velocity) return;
+    require_finite(body, at);
+    if (scene.transfer != Transfer::apic) return;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a) {
+        const auto [below, above] = around(scene, at, a);
+        require_finite(body, below);
+        require_finite(body, above);
+    }
+}
+
+/// Writes one point of a body into a row of columns.
+class RowWriter {
+  public:
+    RowWriter(const Scene& scene, const MotionColumns& motion, const Particles& particles)
+        : scene_(scene), motion_(motion), row_(particles.initial_row()) {
+        if (particles.has_column("material")) material_ = particles.find_column("material");
+        for (std::size_t a = 0; a < num_axes(); ++a)
+            for (std::size_t b = 0; b < num_axes(); ++b) {
+                const std::string name = std::string("affine_") + "xyz"[a] + "xyz"[b];
+                if (particles.has_column(name)) affine_.push_back(particles.find_column(name));
+            }
+    }
+
+    std::span<const double> write(const Body& body, const Vector& at, std::int64_t id) {
+        const Vector velocity = body.velocity ? body.velocity(at) : Vector{};
+        for (std::size_t a = 0; a < num_axes(); ++a) {
+            row_[motion_.position[a]] = at[a];
+            row_[motion_.velocity[a]] = velocity[a];
+        }
+        write_affine(body, at);
+        row_[motion_.volume] = volume_;
+        row_[motion_.mass] = mass_;
+        row_[motion_.id] = static_cast<double>(id);
+        return row_;
+    }
+
+    void start(const Body& body) {
+        const std::size_t number = material_of(scene_, body);
+        const Vector step = lattice_spacing(scene_, body);
+        volume_ = step[0] * step[1] * step[2];
+        mass_ = values_of(scene_.materials[number], scene_.dimension).number("density") * volume_;
+        if (material_) row_[*material_] = static_cast<double>(number);
+    }
+
+  private:
+    std::size_t num_axes() const { return static_cast<std::size_t>(scene_.dimension); }
+
+    /// The gradient of the velocity at the start, from differences over a quarter of a cell.
+    void write_affine(const Body& body, const Vector& at) {
+        if (affine_.empty() || !body.velocity) return;
+        const double step = difference_step(scene_);
+        for (std::size_t b = 0; b < num_axes(); ++b) {
+            const auto [below, above] = around(scene_, at, b);
+            const Vector high = body.velocity(above), low = body.velocity(below);
+            for (std::size_t a = 0; a < num_axes(); ++a)
+                row_[affine_[a * num_axes() + b]] = (high[a] - low[a]) / step;
+        }
+    }
+
+    const Scene& scene_;
+    const MotionColumns& motion_;
+    std::vector<Column> affine_;  ///< of APIC
+    std::vector<double> row_;
+    std::optional<Column> material_;
+    double volume_ = 0, mass_ = 0;
+};
+
+}  // namespace
+
+Extent extent_of(const Scene& scene) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Extent extent{0, {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}}};
+    for (const Body& body : scene.bodies)
+        visit_body(scene, body, [&](const Vector& at) {
+            check_velocity(scene, body, at);
+            ++extent.num_points;
+            for (std::size_t a = 0; a < 3; ++a) {
+                extent.box.lower[a] = std::min(extent.box.lower[a], at[a]);
+                extent.box.upper[a] = std::max(extent.box.upper[a], at[a]);
+            }
+        });
+    return extent;
+}
+
+void place_points(const Scene& scene, const Decomposition& decomposition, int rank,
+                  const MotionColumns& motion, Particles& particles) {
+    RowWriter writer(scene, motion, particles);
+    std::int64_t id = 0;
+    for (const Body& body : scene.bodies) {
+        writer.start(body);
+        visit_body(scene, body, [&](const Vector& at) {
+            int owner = 0;
+            decomposition.owners({{&at[0], 1}, {&at[1], 1}, {&at[2], 1}}, {&owner, 1});
+            if (owner == rank) particles.append(writer.write(body, at, id));
+            ++id;
+        });
+    }
+}
+
+}  // namespace mpm

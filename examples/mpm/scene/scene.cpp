@@ -1,0 +1,96 @@
+#include "effects/effect.hpp"
+#include "materials/material.hpp"
+
+#include <mpm/scene.hpp>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace mpm {
+
+namespace {
+
+void require(bool condition, const std::string& text) {
+    if (!condition) throw std::invalid_argument("scene: " + text);
+}
+
+void check_grid(const Scene& scene) {
+    require(scene.dimension == 2 || scene.dimension == 3, "the dimension must be 2 or 3");
+    require(scene.grid.spacing > 0 && std::isfinite(scene.grid.spacing),
+            "the size of a cell must be positive");
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a) {
+        require(std::isfinite(scene.grid.lower[a]), "the domain must have a finite lower corner");
+        require(scene.grid.num_cells[a] > 0, "the domain needs a cell along each axis");
+    }
+}
+
+void check_body(const Scene& scene, const Body& body) {
+    require(static_cast<bool>(body.contains), "a body has no shape");
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
+        require(body.points_per_cell[a] > 0,
+                "a body needs at least one point per cell along each axis");
+    material_of(scene, body);
+}
+
+void check_walls(const Walls& walls) {
+    for (const Wall* wall :
+         {&walls.left, &walls.right, &walls.bottom, &walls.top, &walls.back, &walls.front})
+        require(wall->friction >= 0 && std::isfinite(wall->friction),
+                "the friction of a wall must not be negative");
+}
+
+void check_planes(const Scene& scene) {
+    for (const Plane& plane : scene.planes) {
+        double square = 0;
+        for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a) {
+            square += plane.normal[a] * plane.normal[a];
+            require(std::isfinite(plane.point[a]),
+                    "plane '" + plane.name + "' must have a finite point");
+        }
+        require(square > 0 && std::isfinite(square),
+                "plane '" + plane.name + "' must have a normal that is not zero");
+        require(plane.wall.kind != Wall::open, "plane '" + plane.name + "' must not be open");
+        require(plane.wall.friction >= 0 && std::isfinite(plane.wall.friction),
+                "the friction of plane '" + plane.name + "' must not be negative");
+    }
+}
+
+void check_transfer(const Scene& scene) {
+    require(scene.flip_fraction >= 0 && scene.flip_fraction <= 1,
+            "the FLIP fraction must lie in 0 ... 1");
+    require(scene.courant_number > 0 && scene.courant_number <= 1,
+            "the Courant number must lie in 0 ... 1");
+    require(scene.least_node_mass >= 0 && scene.least_node_mass < 1,
+            "the least mass of a node must lie in 0 ... 1");
+    require(!remaps(scene) || scene.transfer == Transfer::flip,
+            "the modified time integration works with the transfer flip only");
+    if (scene.shape_function != ShapeFunction::gimp) return;
+    require(scene.transfer != Transfer::apic, "APIC works with linear and quadratic shapes only");
+    for (const Body& body : scene.bodies)
+        for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
+            require(body.points_per_cell[a] == scene.bodies.front().points_per_cell[a] &&
+                        body.points_per_cell[a] > 1,
+                    "GIMP needs the same number of points per cell in all bodies, at least 2 "
+                    "along each axis");
+}
+
+}  // namespace
+
+void validate(const Scene& scene) {
+    check_grid(scene);
+    require(!scene.bodies.empty(), "there is no body");
+    for (const Material& material : scene.materials) values_of(material, scene.dimension);
+    for (const Body& body : scene.bodies) check_body(scene, body);
+    check_walls(scene.walls);
+    check_planes(scene);
+    check_transfer(scene);
+    effect_values(scene);
+}
+
+Parameters* find_effect(Scene& scene, const std::string& name) {
+    for (Effect& effect : scene.effects)
+        if (effect.name == name) return &effect.parameters;
+    return nullptr;
+}
+
+}  // namespace mpm

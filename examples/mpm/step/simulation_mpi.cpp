@@ -1,0 +1,55 @@
+#include "step/model.hpp"
+
+namespace mpm {
+
+Simulation::Simulation(const Scene& scene, MPI_Comm comm) {
+    validate(scene);
+    model_ = make_model(scene, comm);
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::step() {
+    model_->step();
+}
+RebalanceReport Simulation::rebalance(const Balancer& balancer) {
+    return model_->rebalance(balancer);
+}
+double Simulation::time() const {
+    return model_->time;
+}
+double Simulation::time_step() const {
+    return model_->time_step;
+}
+std::int64_t Simulation::step_count() const {
+    return model_->num_steps;
+}
+std::int64_t Simulation::num_points() const {
+    return model_->num_points;
+}
+double Simulation::max_speed() const {
+    return model_->max_speed;
+}
+const Particles& Simulation::particles() const {
+    return model_->particles;
+}
+Positions Simulation::positions() const {
+    return model_->positions();
+}
+const Decomposition& Simulation::decomposition() const {
+    return model_->decomposition;
+}
+std::vector<std::string> Simulation::kernels() const {
+    return model_->kernels();
+}
+std::size_t Simulation::doubles_per_ghost_node() const {
+    return model_->doubles_per_ghost_node();
+}
+std::vector<std::pair<std::string, double>> Simulation::reports() const {
+    return model_->reports();
+}
+Totals Simulation::totals() const {
+    return model_->totals();
+}
+
+}  // namespace mpm

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "effects/effect.hpp"
+#include "materials/material.hpp"
+#include "parallel/ghost_nodes_mpi.hpp"
+#include "parallel/ownership_mpi.hpp"
+#include "scene/lattice.hpp"
+#include "step/model.hpp"
+#include "transfer/velocity_remap.hpp"
+
+#include <optional>
+#include <span>
+
+namespace mpm {
+
+/// The steps of a scene of D dimensions; `step` is the list of what is done.
+template <int D>
+class Stepper final : public Simulation::Model {
+  public:
+    Stepper(const Scene& scene, const Extent& extent, MPI_Comm comm);
+    ~Stepper() override { MPI_Comm_free(&comm_); }
+
+    void step() override;
+    RebalanceReport rebalance(const Balancer& balancer) override;
+    std::vector<std::string> kernels() const override;
+    std::size_t doubles_per_ghost_node() const override;
+    Totals totals() const override;
+    std::vector<std::pair<std::string, double>> reports() const override;
+    Positions positions() const override { return positions_of(particles, motion_, D); }
+
+  private:
+    void build_materials();
+    void start_points();
+    double strain_energy(std::size_t point) const;
+    void adopt(Decomposition next);
+    void gather_on_nodes();
+    void remap_velocities();
+    void advance_points();
+    void apply_materials(const PointBlock<D>& block);
+    double fastest_point() const;
+    void set_time_step(double fastest);
+    void take_in(std::size_t num_arrived);
+
+    Scene scene_;
+    MPI_Comm comm_;
+    MotionColumns motion_ = add_motion_columns(particles, D);
+    std::unique_ptr<Transfers<D>> transfers_;
+    std::vector<MaterialModel<D>> materials_;
+    std::optional<Column> material_column_;  ///< where there is more than one
+    Stages<D> stages_;
+    std::unique_ptr<Remap<D>> remap_;  ///< where the scene asks for it
+    double wave_speed_ = 0, least_mass_ = 0;
+
+    Ownership ownership_;
+    GridPatch<D> patch_;
+    std::vector<NodeRange<D>> patches_;  ///< of all ranks
+    std::optional<GhostNodes<D>> ghosts_;
+    std::vector<CellRun<D>> runs_;
+    std::unique_ptr<VelocityGradients<D>> gradients_ = std::make_unique<VelocityGradients<D>>();
+    std::size_t num_out_of_order_ = 0;
+    int steps_since_sort_ = 0;
+};
+
+}  // namespace mpm

@@ -1,0 +1,269 @@
+#include "parallel/carried_motion_mpi.hpp"
+#include "particles/pair.hpp"
+#include "step/stepper.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace mpm {
+
+namespace {
+
+/// Steps between sorts, within which points cross few cells.
+constexpr int sort_interval = 50;
+/// Arrivals are appended; when this share of the points is out of order it is sorted at once.
+constexpr double tolerated_disorder = 0.1;
+
+MPI_Comm duplicate(MPI_Comm comm) {
+    MPI_Comm own = MPI_COMM_NULL;
+    MPI_Comm_dup(comm, &own);
+    return own;
+}
+
+int rank_of(MPI_Comm comm) {
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    return rank;
+}
+
+int size_of(MPI_Comm comm) {
+    int size = 1;
+    MPI_Comm_size(comm, &size);
+    return size;
+}
+
+double max_wave_speed(const Scene& scene) {
+    double largest = 0;
+    for (const Body& body : scene.bodies) {
+        const Material& material = scene.materials[material_of(scene, body)];
+        const Values values = values_of(material, scene.dimension);
+        largest = std::max(largest, find_material_kind(material).wave_speed(values));
+    }
+    return largest;
+}
+
+/// Scene::least_node_mass, or what keeps layers of points stable.
+///
+/// A node that only the rim of a layer touches is as stiff as a full one but light: in units of
+/// the cell, its frequency squared is 1 / (layers * share of mass) wave speeds; beside its
+/// neighbours and at a corner it must stay near 1 per time step.
+double least_mass_share(const Scene& scene, const Body& body) {
+    constexpr double least = 0.01;
+    if (scene.least_node_mass > 0) return scene.least_node_mass;
+    const auto& per_cell = body.points_per_cell;
+    const double layers = *std::min_element(per_cell.begin(), per_cell.begin() + scene.dimension);
+    const double courant_number = scene.courant_number;
+    return std::max(least, courant_number * courant_number / layers);
+}
+
+double least_mass(const Scene& scene) {
+    double largest = 0;
+    for (const Body& body : scene.bodies) {
+        const Material& material = scene.materials[material_of(scene, body)];
+        double mass = values_of(material, scene.dimension).number("density");
+        for (int a = 0; a < scene.dimension; ++a) mass *= scene.grid.spacing;
+        largest = std::max(largest, least_mass_share(scene, body) * mass);
+    }
+    return largest;
+}
+
+}  // namespace
+
+template <int D>
+Stepper<D>::Stepper(const Scene& scene, const Extent& extent, MPI_Comm comm)
+    : scene_(scene),
+      comm_(duplicate(comm)),
+      transfers_(make_transfers<D>(scene_, particles)),
+      wave_speed_(max_wave_speed(scene)),
+      least_mass_(least_mass(scene)),
+      ownership_(scene.grid, comm_) {
+    build_materials();
+    stages_ = build_stages<D>(scene_, particles);
+    remap_ = make_remap<D>(scene_, particles);
+    patch_.shape = scene.grid;
+    patch_.margin = transfers_->margin();
+    patch_.fields.resize(stages_.fields.size());
+    num_points = extent.num_points;
+    adopt(slabs(extent.box, size_of(comm_)));
+    place_points(scene_, decomposition, rank_of(comm_), motion_, particles);
+    start_points();
+    transfers_->sort(particles, patch_);
+    set_time_step(ownership_.agree(fastest_point()).max_speed);
+}
+
+template <int D>
+void Stepper<D>::build_materials() {
+    if (scene_.materials.size() > 1) material_column_ = particles.add_column("material");
+    for (const Material& material : scene_.materials)
+        materials_.push_back(build_material<D>(material, particles));
+}
+
+/// Lays the patches of all ranks by the boxes of a decomposition.
+template <int D>
+void Stepper<D>::adopt(Decomposition next) {
+    decomposition = std::move(next);
+    decomposition.local_owners.clear();
+    std::vector<NodeRange<D>> patches;
+    for (const Box& box : decomposition.boxes)
+        patches.push_back(nodes_of<D>(scene_.grid, box, patch_.margin));
+    const bool carries = stages_.carries_motion && !patches_.empty();
+    const GridPatch<D> last = carries ? patch_ : GridPatch<D>{};
+    resize<D>(patch_, patches[static_cast<std::size_t>(rank_of(comm_))]);
+    ghosts_.emplace(patches, comm_);
+    if (stages_.counts_nodes) ghosts_->mark_counted(patch_);
+    if (carries) carry_motion<D>(patches_, patches, last, patch_, comm_);
+    patches_ = std::move(patches);
+}
+
+template <int D>
+void Stepper<D>::gather_on_nodes() {
+    transfers_->find_runs(particles, patch_, runs_);
+    transfers_->p2g(particles, runs_, patch_);
+    for (std::size_t f = 0; f < stages_.fields.size(); ++f) {
+        std::ranges::fill(patch_.fields[f], 0.0);
+        const NodeField& field = stages_.fields[f];
+        transfers_->gather(particles, field.column, field.axis, runs_, patch_, patch_.fields[f]);
+    }
+    for (const auto& effect : stages_.scatters) effect.kernel(particles, runs_, patch_);
+    ghosts_->sum(patch_);
+    const StepTime now{time, time_step};
+    for (const auto& effect : stages_.forces) effect.kernel(patch_, now);
+    for (const auto& effect : stages_.constraints) effect.kernel(patch_, now);
+    move_nodes(patch_, time_step, least_mass_);
+    for (const auto& effect : stages_.moved) effect.kernel(patch_, now);
+    if (remap_) remap_velocities();
+}
+
+template <int D>
+void Stepper<D>::remap_velocities() {
+    remap_->scatter(particles, runs_, patch_);
+    for (const auto& effect : stages_.remap_scatters) effect.kernel(particles, runs_, patch_);
+    ghosts_->sum_momentum(patch_);
+    strain_by_momentum(patch_);
+    for (const auto& effect : stages_.remapped) effect.kernel(patch_, {time, time_step});
+}
+
+template <int D>
+void Stepper<D>::advance_points() {
+    PointBlock<D> block{0, 0, 0, time, time_step, gradients_.get()};
+    std::size_t run = 0;
+    for (; block.begin < particles.size(); block.begin = block.end) {
+        block.block_begin = block.begin;
+        block.end = std::min(block.begin + block_size, particles.size());
+        const std::size_t first_run = run;
+        run = transfers_->g2p(particles, patch_, runs_, run, block);
+        for (const auto& effect : stages_.gradients)
+            effect.kernel(particles, patch_, std::span(runs_).subspan(first_run, run - first_run),
+                          block);
+        for (const auto& effect : stages_.before_materials) effect.kernel(particles, block);
+        apply_materials(block);
+        for (const auto& effect : stages_.after_materials) effect.kernel(particles, block);
+    }
+}
+
+template <int D>
+void Stepper<D>::apply_materials(const PointBlock<D>& block) {
+    if (!material_column_) {
+        for (const auto& model : materials_.front().kernels) model.kernel(particles, block);
+        return;
+    }
+    const std::span<const double> material = particles[*material_column_];
+    PointBlock<D> part = block;
+    for (part.begin = block.begin; part.begin < block.end; part.begin = part.end) {
+        const double number = material[part.begin];
+        part.end = part.begin + 1;
+        while (part.end < block.end && material[part.end] == number) ++part.end;
+        for (const auto& model : materials_[static_cast<std::size_t>(number)].kernels)
+            model.kernel(particles, part);
+    }
+}
+
+template <int D>
+double Stepper<D>::fastest_point() const {
+    std::array<const double*, D> velocity;
+    for (std::size_t a = 0; a < D; ++a) velocity[a] = particles[motion_.velocity[a]].data();
+    Pair largest{};
+    const auto take = [&](const std::array<Pair, D>& pair) {
+        Pair square{};
+        for (const Pair& component : pair) square += component * component;
+        largest = square > largest ? square : largest;
+    };
+    std::array<Pair, D> pair;
+    std::size_t p = 0;
+    for (; p + 2 <= particles.size(); p += 2) {
+        for (std::size_t a = 0; a < D; ++a) pair[a] = load_pair(velocity[a] + p);
+        take(pair);
+    }
+    for (std::size_t a = 0; a < D; ++a) pair[a] = Pair{p < particles.size() ? velocity[a][p] : 0};
+    take(pair);
+    return std::sqrt(std::max(largest[0], largest[1]));
+}
+
+template <int D>
+void Stepper<D>::set_time_step(double fastest) {
+    max_speed = fastest;
+    time_step = scene_.courant_number * scene_.grid.spacing / (wave_speed_ + max_speed);
+}
+
+/// Sorts when enough points are out of order to slow the transfers down.
+template <int D>
+void Stepper<D>::take_in(std::size_t num_arrived) {
+    num_out_of_order_ += num_arrived;
+    const double tolerated = tolerated_disorder * static_cast<double>(particles.size());
+    if (steps_since_sort_ < sort_interval && static_cast<double>(num_out_of_order_) <= tolerated)
+        return;
+    transfers_->sort(particles, patch_);
+    num_out_of_order_ = 0;
+    steps_since_sort_ = 0;
+}
+
+template <int D>
+void Stepper<D>::step() {
+    gather_on_nodes();
+    advance_points();
+    for (const auto& effect : stages_.ends) effect.kernel({time, time_step}, comm_);
+    time += time_step;
+    ++num_steps;
+    ++steps_since_sort_;
+
+    ownership_.find_leavers(decomposition, positions(), ghosts_->neighbours());
+    const Agreement agreement = ownership_.agree(fastest_point());
+    num_sent += static_cast<std::int64_t>(ownership_.leavers().points.size());
+    take_in(
+        migrate(particles, ownership_.leavers(), agreement.reach, ghosts_->neighbours(), comm_));
+    set_time_step(agreement.max_speed);
+}
+
+template <int D>
+RebalanceReport Stepper<D>::rebalance(const Balancer& balancer) {
+    Decomposition next = balancer(positions(), comm_);
+    ownership_.find_reassigned(next, positions());
+    const Agreement agreement = ownership_.agree(0);
+
+    RebalanceReport report;
+    report.moved_points = static_cast<std::int64_t>(ownership_.leavers().points.size());
+    num_sent += report.moved_points;
+    MPI_Allreduce(MPI_IN_PLACE, &report.moved_points, 1, MPI_INT64_T, MPI_SUM, comm_);
+    adopt(std::move(next));
+    take_in(migrate(particles, ownership_.leavers(), agreement.reach, {}, comm_));
+    return report;
+}
+
+template <int D>
+std::size_t Stepper<D>::doubles_per_ghost_node() const {
+    return 1 + 2 * D + stages_.fields.size() + (remap_ ? D : 0);
+}
+
+template class Stepper<2>;
+template class Stepper<3>;
+
+std::unique_ptr<Simulation::Model> make_model(const Scene& scene, MPI_Comm comm) {
+    const Extent extent = extent_of(scene);
+    if (extent.num_points == 0)
+        throw std::invalid_argument("scene: no body holds a point of the grid's lattice");
+    if (scene.dimension == 2) return std::make_unique<Stepper<2>>(scene, extent, comm);
+    return std::make_unique<Stepper<3>>(scene, extent, comm);
+}
+
+}  // namespace mpm

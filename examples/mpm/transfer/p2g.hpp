@@ -1,0 +1,172 @@
+#pragma once
+
+#include "particles/vector_clones.hpp"
+#include "transfer/shape_functions.hpp"
+#include "transfer/transfers.hpp"
+#include "transfer/unrolled.hpp"
+
+#include <algorithm>
+
+namespace mpm {
+
+/// What one point hands to its nodes.
+template <int D>
+struct Contribution {
+    double mass;
+    Components<D> momentum;
+    Stress<D> stress;  ///< times volume and cells per metre
+};
+
+template <int D>
+[[gnu::always_inline]] inline void add_force(const Components<D>& slope, const Stress<D>& stress,
+                                             Node<D>& node) {
+    if constexpr (D == 2) {
+        node.force[0] -= stress.xx * slope[0] + stress.xy * slope[1];
+        node.force[1] -= stress.xy * slope[0] + stress.yy * slope[1];
+    } else {
+        node.force[0] -= stress.xx * slope[0] + stress.xy * slope[1] + stress.zx * slope[2];
+        node.force[1] -= stress.xy * slope[0] + stress.yy * slope[1] + stress.yz * slope[2];
+        node.force[2] -= stress.zx * slope[0] + stress.yz * slope[1] + stress.zz * slope[2];
+    }
+}
+
+/// Offset in the patch of each node of a run from its lowest.
+template <int D, std::size_t N>
+std::array<std::size_t, power(N, D)> node_offsets(const GridPatch<D>& patch) {
+    std::array<std::size_t, power(N, D)> offsets{};
+    for (std::size_t n = 0; n < offsets.size(); ++n) {
+        std::size_t stride = 1, digits = n;
+        for (std::size_t a = 0; a < D; ++a) {
+            offsets[n] += stride * (digits % N);
+            digits /= N;
+            stride *= static_cast<std::size_t>(patch.nodes.count[a]);
+        }
+    }
+    return offsets;
+}
+
+/// The place along an axis of a node that is number `n` of its run.
+template <std::size_t N>
+constexpr std::size_t digit(std::size_t n, std::size_t axis) {
+    return n / power(N, axis) % N;
+}
+
+template <int D, std::size_t N, std::size_t n>
+[[gnu::always_inline]] inline double weight_of(const std::array<Weights<N>, D>& weights) {
+    double product = weights[0].value[digit<N>(n, 0)];
+    unrolled<D - 1>([&](auto a) __attribute__((always_inline)) {
+        product *= weights[a + 1].value[digit<N>(n, a + 1)];
+    });
+    return product;
+}
+
+/// Derivative of a shape function along an axis, per cell.
+template <int D, std::size_t N, std::size_t n, std::size_t axis>
+[[gnu::always_inline]] inline double slope_of(const std::array<Weights<N>, D>& weights) {
+    double product = weights[axis].slope[digit<N>(n, axis)];
+    unrolled<D>([&](auto a) __attribute__((always_inline)) {
+        if constexpr (a != axis) product *= weights[a].value[digit<N>(n, a)];
+    });
+    return product;
+}
+
+/// Columns of the points that p2g reads.
+template <int D, bool is_affine>
+struct PointReader {
+    PointReader(Particles& particles, const TransferColumns<D>& columns)
+        : mass(particles.data(columns.motion.mass)),
+          volume(particles.data(columns.motion.volume)),
+          stress(stress_pointers<D>(particles, columns.stress)) {
+        for (std::size_t a = 0; a < D; ++a) {
+            position[a] = particles.data(columns.motion.position[a]);
+            velocity[a] = particles.data(columns.motion.velocity[a]);
+            for (std::size_t b = 0; is_affine && b < D; ++b)
+                affine[a][b] = particles.data(columns.affine[a][b]);
+        }
+    }
+
+    [[gnu::always_inline]] Contribution<D> at(std::size_t p, double inverse_spacing) const {
+        Contribution<D> point;
+        point.mass = mass[p];
+        unrolled<D>([&](auto a) { point.momentum[a] = point.mass * velocity[a][p]; });
+        const double factor = volume[p] * inverse_spacing;
+        point.stress = load<D>(stress, p);
+        point.stress.xx *= factor;
+        point.stress.yy *= factor;
+        point.stress.xy *= factor;
+        if constexpr (D == 3) {
+            point.stress.zz *= factor;
+            point.stress.yz *= factor;
+            point.stress.zx *= factor;
+        }
+        return point;
+    }
+
+    std::array<const double*, D> position, velocity;
+    std::array<std::array<const double*, D>, D> affine;
+    const double *mass, *volume;
+    StressPointers<D> stress;
+};
+
+/// Momentum at a node: of the point, or with its affine velocity field (Jiang et al. 2015).
+template <int D, std::size_t N, std::size_t n, bool is_affine>
+[[gnu::always_inline]] inline Components<D> momentum_at(const PointReader<D, is_affine>& from,
+                                                        const Contribution<D>& point, std::size_t p,
+                                                        const Components<D>& u, double spacing) {
+    if constexpr (!is_affine) {
+        return point.momentum;
+    } else {
+        Components<D> momentum = point.momentum;
+        unrolled<D>([&](auto b) {
+            const double lever = (static_cast<double>(digit<N>(n, b)) - u[b]) * spacing;
+            unrolled<D>([&](auto a) { momentum[a] += point.mass * from.affine[a][b][p] * lever; });
+        });
+        return momentum;
+    }
+}
+
+template <int D, class Shape, bool is_affine>
+[[gnu::always_inline]] inline std::array<Node<D>, power(Shape::num_nodes, D)> sum_run(
+    const PointReader<D, is_affine>& from, const Shape& shape, const CellRun<D>& run,
+    double spacing) {
+    constexpr std::size_t N = Shape::num_nodes;
+    const double inverse_spacing = 1 / spacing;
+    std::array<Node<D>, power(N, D)> sums{};
+    for (std::size_t p = run.begin; p < run.end; ++p) {
+        Components<D> u;
+        std::array<Weights<N>, D> weights;
+        unrolled<D>([&](auto a) __attribute__((always_inline)) {
+            u[a] = (from.position[a][p] - run.corner[a]) * inverse_spacing;
+            weights[a] = shape.at(u[a], a);
+        });
+        const Contribution<D> point = from.at(p, inverse_spacing);
+        unrolled<power(N, D)>([&](auto n) __attribute__((always_inline)) {
+            const double weight = weight_of<D, N, n>(weights);
+            const Components<D> momentum = momentum_at<D, N, n>(from, point, p, u, spacing);
+            sums[n].mass += weight * point.mass;
+            Components<D> slope;
+            unrolled<D>([&](auto a) __attribute__((always_inline)) {
+                sums[n].momentum[a] += weight * momentum[a];
+                slope[a] = slope_of<D, N, n, a>(weights);
+            });
+            add_force<D>(slope, point.stress, sums[n]);
+        });
+    }
+    return sums;
+}
+
+template <int D, class Shape, bool is_affine>
+MPM_VECTOR_CLONES void points_to_grid(Particles& particles, const TransferColumns<D>& columns,
+                                      const Shape& shape, const std::vector<CellRun<D>>& runs,
+                                      GridPatch<D>& patch) {
+    const PointReader<D, is_affine> source(particles, columns);
+    const auto offsets = node_offsets<D, Shape::num_nodes>(patch);
+    std::ranges::fill(patch.sums, Node<D>{});
+    for (const CellRun<D>& run : runs) {
+        const auto sums = sum_run<D, Shape, is_affine>(source, shape, run, patch.shape.spacing);
+        Node<D>* const lowest = patch.sums.data() + run.node;
+        for (std::size_t n = 0; n < sums.size(); ++n) add(sums[n], lowest[offsets[n]]);
+    }
+}
+
+}  // namespace mpm

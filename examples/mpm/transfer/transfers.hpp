@@ -1,0 +1,127 @@
+#pragma once
+
+#include "grid/grid.hpp"
+#include "particles/stress.hpp"
+
+#include <mpm/particles.hpp>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace mpm {
+
+/// Points are advanced in blocks of this size, so that what is between kernels stays in cache.
+inline constexpr std::size_t block_size = 512;
+
+/// Consecutive points of one block that share their nodes.
+template <int D>
+struct CellRun {
+    std::size_t begin, end;
+    std::size_t node;      ///< the lowest of their nodes, in the patch
+    Components<D> corner;  ///< its position, m
+};
+
+/// Calls visit(number of a node in the patch) for each node of a run, along x first.
+template <int D, typename Visit>
+void visit_run_nodes(const GridPatch<D>& patch, const CellRun<D>& run, Visit visit) {
+    // Shapes of a margin have a node more along each axis.
+    const auto width = static_cast<std::size_t>(2 + patch.margin);
+    const auto row = static_cast<std::size_t>(patch.nodes.count[0]);
+    const std::size_t layer = D == 3 ? row * static_cast<std::size_t>(patch.nodes.count[1]) : 0;
+    for (std::size_t k = 0; k < (D == 3 ? width : 1); ++k)
+        for (std::size_t j = 0; j < width; ++j)
+            for (std::size_t i = 0; i < width; ++i) visit(run.node + k * layer + j * row + i);
+}
+
+/// Velocity gradients of one block of points, 1/s; [i][j] is component i along axis j.
+template <int D>
+using VelocityGradients = std::array<std::array<std::array<double, block_size>, D>, D>;
+
+/// Points on their way through the point kernels: a block, or the part of it in one material.
+template <int D>
+struct PointBlock {
+    std::size_t begin, end;
+    std::size_t block_begin;  ///< where the block begins whose gradients these are
+    double time;              ///< at the start of the step, s
+    double time_step;         ///< s
+    VelocityGradients<D>* gradients;
+
+    std::size_t size() const { return end - begin; }
+    /// One entry of the gradients, from the first point on.
+    double* gradient(std::size_t i, std::size_t j) const {
+        return (*gradients)[i][j].data() + (begin - block_begin);
+    }
+};
+
+/// Gradient of the displacement over the step of the point k of a block.
+template <int D>
+struct StepGradients {
+    explicit StepGradients(const PointBlock<D>& block) : time_step(block.time_step) {
+        for (std::size_t i = 0; i < D; ++i)
+            for (std::size_t j = 0; j < D; ++j) entry[i][j] = block.gradient(i, j);
+    }
+    DisplacementGradient<D> operator[](std::size_t k) const {
+        if constexpr (D == 2)
+            return {{{time_step * entry[0][0][k], time_step * entry[0][1][k]},
+                     {time_step * entry[1][0][k], time_step * entry[1][1][k]}}};
+        else
+            return {{{time_step * entry[0][0][k], time_step * entry[0][1][k],
+                      time_step * entry[0][2][k]},
+                     {time_step * entry[1][0][k], time_step * entry[1][1][k],
+                      time_step * entry[1][2][k]},
+                     {time_step * entry[2][0][k], time_step * entry[2][1][k],
+                      time_step * entry[2][2][k]}}};
+    }
+    double time_step;
+    std::array<std::array<const double*, D>, D> entry;
+};
+
+/// The columns the transfers read and change.
+template <int D>
+struct TransferColumns {
+    MotionColumns motion;
+    StressColumns<D> stress;
+    std::array<std::array<Column, D>, D> affine{};  ///< APIC only: velocity gradient, 1/s
+};
+
+/// The transfers between points and nodes, made for a dimension, shape function and kind.
+template <int D>
+class Transfers {
+  public:
+    virtual ~Transfers() = default;
+
+    /// Layers of nodes the points touch beyond their cells.
+    virtual int margin() const = 0;
+
+    /// Groups the points by their nodes; runs are long when the points are sorted.
+    virtual void find_runs(const Particles& particles, const GridPatch<D>& patch,
+                           std::vector<CellRun<D>>& runs) const = 0;
+
+    /// Orders the points by their nodes, keeping the order among equals.
+    virtual void sort(Particles& particles, const GridPatch<D>& patch) const = 0;
+
+    /// Particles to grid: overwrites the patch with the sums of mass, momentum, internal force.
+    virtual void p2g(Particles& particles, const std::vector<CellRun<D>>& runs,
+                     GridPatch<D>& patch) const = 0;
+
+    /// Grid to particles: moves the points of one block and reads their velocity gradients.
+    ///
+    /// Takes runs from `first_run` on; returns the first run of the next block.
+    virtual std::size_t g2p(Particles& particles, const GridPatch<D>& patch,
+                            const std::vector<CellRun<D>>& runs, std::size_t first_run,
+                            const PointBlock<D>& block) const = 0;
+
+    /// Adds a column of the points to a field of the nodes, weighted by the shape functions, or by
+    /// their derivatives along an axis where that is not -1.
+    virtual void gather(const Particles& particles, Column column, int axis,
+                        const std::vector<CellRun<D>>& runs, const GridPatch<D>& patch,
+                        std::vector<double>& field) const = 0;
+};
+
+/// The transfers a scene asks for; adds the columns they need.
+template <int D>
+std::unique_ptr<Transfers<D>> make_transfers(const Scene& scene, Particles& particles);
+
+}  // namespace mpm

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "transfer/transfers.hpp"
+
+#include <memory>
+#include <span>
+
+namespace mpm {
+
+/// The modified update stress last of Sulsky, Zhou and Schreyer (1995): what strains the points are
+/// the velocities that they have at the end of the step, mapped back to the nodes.
+///
+/// So a node with next to no mass moves as the points around it, however large its acceleration.
+template <int D>
+class Remap {
+  public:
+    virtual ~Remap() = default;
+
+    /// Overwrites the momenta of a patch with those of this rank's points at the end of the step,
+    /// which the points have not taken yet; with the shape functions of its start.
+    virtual void scatter(const Particles& particles, std::span<const CellRun<D>> runs,
+                         GridPatch<D>& patch) const = 0;
+};
+
+/// The remap a scene asks for, or none.
+template <int D>
+std::unique_ptr<Remap<D>> make_remap(const Scene& scene, Particles& particles);
+
+/// Strains with the momenta of a patch, summed over the ranks.
+template <int D>
+void strain_by_momentum(GridPatch<D>& patch);
+
+}  // namespace mpm

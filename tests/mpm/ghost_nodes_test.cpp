@@ -24,7 +24,8 @@ GridPatch<2> patch_with(const GridShape& shape, const NodeRange<2>& nodes, doubl
     GridPatch<2> patch;
     patch.shape = shape;
     resize<2>(patch, nodes);
-    for (Node<2>& node : patch.sums) node = {value, {2 * value, 3 * value}, {4 * value, 5 * value}};
+    for (NodeSums<2>& node : patch.sums)
+        node = {value, {2 * value, 3 * value}, {4 * value, 5 * value}};
     return patch;
 }
 
@@ -38,14 +39,14 @@ TEST(GhostNodes, adds_what_every_sharing_rank_has) {
     GhostNodes<2> ghosts(patches, MPI_COMM_WORLD);
     ghosts.sum(patch);
     // The cell of the cuts has nodes 2 and 3 on each axis; the left patches end, the right begin.
-    for (int j = mine.first[1]; j < mine.first[1] + mine.count[1]; ++j)
-        for (int i = mine.first[0]; i < mine.first[0] + mine.count[0]; ++i) {
+    for (int j = mine.begin[1]; j < mine.begin[1] + mine.count[1]; ++j)
+        for (int i = mine.begin[0]; i < mine.begin[0] + mine.count[0]; ++i) {
             double expected = 0;
             if (i <= 3 && j <= 3) expected += 1;
             if (i >= 2 && j <= 3 && num_ranks > 1) expected += 10;
             if (i <= 3 && j >= 2 && num_ranks > 2) expected += 100;
             if (i >= 2 && j >= 2 && num_ranks > 3) expected += 1000;
-            const Node<2>& node = patch.sums[patch.index({i, j})];
+            const NodeSums<2>& node = patch.sums[patch.index({i, j})];
             EXPECT_EQ(node.mass, expected);
             EXPECT_EQ(node.momentum[0], 2 * expected);
             EXPECT_EQ(node.momentum[1], 3 * expected);

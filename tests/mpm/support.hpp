@@ -1,5 +1,7 @@
 #pragma once
 
+#include "parallel/communicator_mpi.hpp"
+
 #include <mpi.h>
 #include <mpm/region.hpp>
 #include <mpm/simulation.hpp>
@@ -14,18 +16,6 @@
 #include <vector>
 
 namespace mpm::test {
-
-inline int rank_of(MPI_Comm comm) {
-    int rank = 0;
-    MPI_Comm_rank(comm, &rank);
-    return rank;
-}
-
-inline int size_of(MPI_Comm comm) {
-    int size = 1;
-    MPI_Comm_size(comm, &size);
-    return size;
-}
 
 /// A column of all points in the order of their ids, on every rank. Exact: ids have one owner.
 inline std::vector<double> gathered(const Simulation& simulation, const std::string& column,

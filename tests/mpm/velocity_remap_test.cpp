@@ -15,7 +15,7 @@ Scene bar(ShapeFunction shape) {
     return scene;
 }
 
-TEST(Remap, keeps_velocity_period_and_energy_of_a_bar) {
+TEST(VelocityRemap, keeps_velocity_period_and_energy_of_a_bar) {
     for (const auto shape :
          {ShapeFunction::linear, ShapeFunction::quadratic, ShapeFunction::gimp}) {
         Simulation simulation(bar(shape), MPI_COMM_WORLD);
@@ -42,7 +42,7 @@ TEST(Remap, keeps_velocity_period_and_energy_of_a_bar) {
 }
 
 // The same bar with a third axis that nothing happens along.
-TEST(Remap, is_the_same_in_three_dimensions) {
+TEST(VelocityRemap, is_the_same_in_three_dimensions) {
     Scene solid = bar(ShapeFunction::linear);
     solid.dimension = 3;
     solid.grid.num_cells[2] = 1;
@@ -91,7 +91,7 @@ double error_of(int cells_up, ShapeFunction shape) {
 
 // A cell of linear functions has the stress of its middle, a quarter of a cell from its points; see
 // hydrostatic_test.
-TEST(Remap, leaves_a_column_at_rest_under_its_weight) {
+TEST(VelocityRemap, leaves_a_column_at_rest_under_its_weight) {
     EXPECT_NEAR(error_of(8, ShapeFunction::linear), 0.25 / 8, 0.003);
     EXPECT_NEAR(error_of(16, ShapeFunction::linear), 0.25 / 16, 0.003);
     EXPECT_LT(error_of(8, ShapeFunction::quadratic), 0.05);
@@ -107,7 +107,7 @@ Scene bare_disk(TimeIntegration integration) {
     return scene;
 }
 
-TEST(Remap, needs_no_least_mass_of_nodes) {
+TEST(VelocityRemap, needs_no_least_mass_of_nodes) {
     Simulation simulation(bare_disk(TimeIntegration::modified), MPI_COMM_WORLD);
     const double initial = simulation.totals().kinetic_energy;
     while (simulation.time() < 1.5) simulation.step();
@@ -135,7 +135,7 @@ Scene bumping_disk(ShapeFunction shape) {
     return scene;
 }
 
-TEST(Remap, is_the_same_on_any_number_of_ranks_and_accounts_for_energy) {
+TEST(VelocityRemap, is_the_same_on_any_number_of_ranks_and_accounts_for_energy) {
     for (const auto shape : {ShapeFunction::linear, ShapeFunction::quadratic}) {
         Simulation parallel(bumping_disk(shape), MPI_COMM_WORLD);
         Simulation serial(bumping_disk(shape), MPI_COMM_SELF);
@@ -155,7 +155,7 @@ TEST(Remap, is_the_same_on_any_number_of_ranks_and_accounts_for_energy) {
     }
 }
 
-TEST(Remap, is_there_where_it_is_named_only) {
+TEST(VelocityRemap, is_there_where_it_is_named_only) {
     Scene scene = bar(ShapeFunction::linear);
     const Simulation modified(scene, MPI_COMM_WORLD);
     EXPECT_EQ(modified.kernels(),
@@ -168,7 +168,7 @@ TEST(Remap, is_there_where_it_is_named_only) {
     EXPECT_EQ(std::ranges::count(plain.kernels(), "remap"), 0);
 }
 
-TEST(Remap, refuses_what_it_does_not_know) {
+TEST(VelocityRemap, refuses_what_it_does_not_know) {
     Scene scene = bar(ShapeFunction::linear);
     scene.transfer = Transfer::apic;
     EXPECT_THROW(validate(scene), std::invalid_argument);

@@ -1,5 +1,5 @@
+#include "boundaries/boundaries.hpp"
 #include "boundaries/contact.hpp"
-#include "effects/effect.hpp"
 
 #include <optional>
 
@@ -103,7 +103,7 @@ void add_planes(const Scene& scene, Stages<D>& stages) {
                 });
         };
         stages.moved.push_back({"planes", hold});
-        if (remaps(scene)) stages.remapped.push_back({"planes", hold_strain});
+        if (remaps_velocities(scene)) stages.remapped_velocities.push_back({"planes", hold_strain});
     }
 }
 

@@ -1,18 +1,18 @@
+#include "boundaries/boundaries.hpp"
 #include "boundaries/contact.hpp"
-#include "effects/effect.hpp"
 
 namespace mpm {
 
 namespace {
 
 template <int D>
-void hold(Node<D>& node, std::size_t axis) {
+void hold(NodeSums<D>& node, std::size_t axis) {
     node.momentum[axis] = 0;
     node.force[axis] = 0;
 }
 
 template <int D>
-void hold(Node<D>& node, Wall::Kind kind, std::size_t axis) {
+void hold(NodeSums<D>& node, Wall::Kind kind, std::size_t axis) {
     hold(node, axis);
     for (std::size_t a = 0; kind == Wall::fixed && a < D; ++a) hold(node, a);
 }
@@ -21,7 +21,7 @@ void hold(Node<D>& node, Wall::Kind kind, std::size_t axis) {
 template <int D>
 NodeRange<D> nodes_at(const GridPatch<D>& patch, std::size_t axis, bool is_upper) {
     NodeRange<D> side = patch.nodes;
-    side.first[axis] = is_upper ? patch.shape.num_cells[axis] : -patch.margin;
+    side.begin[axis] = is_upper ? patch.shape.num_cells[axis] : -patch.margin;
     side.count[axis] = 1 + patch.margin;
     return intersection<D>(side, patch.nodes);
 }
@@ -95,8 +95,8 @@ template <int D>
 void fold(const Walls& walls, GridPatch<D>& patch) {
     visit_images(patch, walls,
                  [&](std::size_t beyond, std::size_t image, const Wall& wall, std::size_t axis) {
-                     Node<D>& from = patch.sums[beyond];
-                     Node<D>& to = patch.sums[image];
+                     NodeSums<D>& from = patch.sums[beyond];
+                     NodeSums<D>& to = patch.sums[image];
                      to.mass += from.mass;
                      for (std::size_t a = 0; a < D; ++a) {
                          to.momentum[a] += parity(wall, axis, a) * from.momentum[a];
@@ -143,7 +143,7 @@ void add_remapped_walls(const Scene& scene, Stages<D>& stages) {
     const Walls& walls = scene.walls;
     if (!has(walls, Wall::roller) && !has(walls, Wall::fixed) && !has(walls, Wall::frictional))
         return;
-    stages.remapped.push_back(
+    stages.remapped_velocities.push_back(
         {"walls", [walls](GridPatch<D>& patch, const StepTime&) { hold_strain(walls, patch); }});
 }
 
@@ -161,7 +161,7 @@ void add_walls(const Scene& scene, Stages<D>& stages) {
     if (has_images(scene)) {
         stages.scatters.push_back({"walls", [walls](const Particles&, std::span<const CellRun<D>>,
                                                     GridPatch<D>& patch) { fold(walls, patch); }});
-        if (remaps(scene)) stages.remap_scatters.push_back(stages.scatters.back());
+        if (remaps_velocities(scene)) stages.velocity_scatters.push_back(stages.scatters.back());
     }
     if (has(walls, Wall::roller) || has(walls, Wall::fixed))
         stages.constraints.push_back(
@@ -184,7 +184,7 @@ void add_walls(const Scene& scene, Stages<D>& stages) {
                                                     patch.motion[patch.index(node)]);
                                         });
                                 }});
-    if (remaps(scene)) add_remapped_walls(scene, stages);
+    if (remaps_velocities(scene)) add_remapped_walls(scene, stages);
 }
 
 template <int D>
@@ -201,7 +201,7 @@ void add_images(const Scene& scene, Stages<D>& stages) {
     stages.moved.push_back({"walls", [walls = scene.walls](GridPatch<D>& patch, const StepTime&) {
                                 mirror(walls, patch);
                             }});
-    if (remaps(scene)) stages.remapped.push_back(stages.moved.back());
+    if (remaps_velocities(scene)) stages.remapped_velocities.push_back(stages.moved.back());
 }
 
 template void add_walls<2>(const Scene&, Stages<2>&);

@@ -29,7 +29,7 @@ void build(const EffectBuilder<D>& builder) {
                                          Components<D> lift = gravity.acceleration;
                                          for (double& component : lift)
                                              component *= share * gravity.share_at(step.time);
-                                         for (Node<D>& node : patch.sums)
+                                         for (NodeSums<D>& node : patch.sums)
                                              for (std::size_t a = 0; a < D; ++a)
                                                  node.force[a] -= node.mass * lift[a];
                                      }});

@@ -9,7 +9,7 @@ void build(const EffectBuilder<D>& builder) {
     const double rate = builder.values.number("rate"), until = builder.values.number("until");
     builder.stages.forces.push_back({"damping", [=](GridPatch<D>& patch, const StepTime& step) {
                                          if (step.time >= until) return;
-                                         for (Node<D>& node : patch.sums)
+                                         for (NodeSums<D>& node : patch.sums)
                                              for (std::size_t a = 0; a < D; ++a)
                                                  node.force[a] -= rate * node.momentum[a];
                                      }});

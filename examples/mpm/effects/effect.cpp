@@ -6,6 +6,10 @@
 
 namespace mpm {
 
+#define MPM_EFFECT(name) EffectKind name##_effect();
+#include "effects/effects.inc"
+#undef MPM_EFFECT
+
 namespace {
 
 std::size_t number_of(const std::string& name) {
@@ -20,6 +24,15 @@ std::size_t number_of(const std::string& name) {
 
 }  // namespace
 
+std::span<const EffectKind> effect_kinds() {
+#define MPM_EFFECT(name) name##_effect(),
+    static const std::vector<EffectKind> kinds{
+#include "effects/effects.inc"
+    };
+#undef MPM_EFFECT
+    return kinds;
+}
+
 std::vector<std::optional<Values>> effect_values(const Scene& scene) {
     std::vector<std::optional<Values>> values(effect_kinds().size());
     for (const Effect& effect : scene.effects) {
@@ -30,26 +43,5 @@ std::vector<std::optional<Values>> effect_values(const Scene& scene) {
     }
     return values;
 }
-
-template <int D>
-Stages<D> build_stages(const Scene& scene, Particles& particles) {
-    Stages<D> stages;
-    add_walls<D>(scene, stages);
-    add_planes<D>(scene, stages);
-    const std::vector<std::optional<Values>> values = effect_values(scene);
-    for (std::size_t k = 0; k < values.size(); ++k) {
-        if (!values[k]) continue;
-        const EffectBuilder<D> builder{scene, *values[k], particles, stages};
-        if constexpr (D == 2)
-            effect_kinds()[k].build_2(builder);
-        else
-            effect_kinds()[k].build_3(builder);
-    }
-    add_images<D>(scene, stages);
-    return stages;
-}
-
-template Stages<2> build_stages<2>(const Scene&, Particles&);
-template Stages<3> build_stages<3>(const Scene&, Particles&);
 
 }  // namespace mpm

@@ -12,7 +12,7 @@ struct Ledger {
     std::vector<Components<D>> start;    ///< velocity the step begins with
     std::vector<Components<D>> jump;     ///< of it from the velocity that strained last
     std::vector<Components<D>> impulse;  ///< beside that of stress and of full weight
-    std::vector<Node<D>> before;         ///< such a kernel
+    std::vector<NodeSums<D>> before;     ///< such a kernel
     double lost_on_nodes = 0;            ///< J
     double gained_by_nodes = 0;          ///< kinetic energy over all steps, J
     double kinetic_at_start = 0;         ///< of the points, J
@@ -144,7 +144,7 @@ void build(const EffectBuilder<D>& builder) {
                                       note_start(*ledger, patch);
                                   }});
     // Last of what changes the velocities that strain the points.
-    auto& last = remaps(builder.scene) ? stages.remapped : stages.moved;
+    auto& last = remaps_velocities(builder.scene) ? stages.remapped_velocities : stages.moved;
     last.push_back({"energy_audit", [ledger](GridPatch<D>& patch, const StepTime&) {
                         close_step(*ledger, patch);
                     }});

@@ -13,7 +13,7 @@ void build(const EffectBuilder<D>& builder) {
         {"gravity", [gravity](GridPatch<D>& patch, const StepTime& step) {
              Components<D> pull = gravity.acceleration;
              for (double& component : pull) component *= gravity.share_at(step.time);
-             for (Node<D>& node : patch.sums)
+             for (NodeSums<D>& node : patch.sums)
                  for (std::size_t a = 0; a < D; ++a) node.force[a] += node.mass * pull[a];
          }});
 }

@@ -13,7 +13,7 @@ void build(const EffectBuilder<D>& builder) {
     builder.stages.forces.push_back(
         {"local_damping", [=](GridPatch<D>& patch, const StepTime& step) {
              if (step.time >= until) return;
-             for (Node<D>& node : patch.sums)
+             for (NodeSums<D>& node : patch.sums)
                  for (std::size_t a = 0; a < D; ++a) {
                      const double resistance = fraction * std::abs(node.force[a]);
                      if (node.momentum[a] != 0)

@@ -2,6 +2,7 @@
 #include "effects/penetrator/fluid_loads.hpp"
 #include "effects/penetrator/rigid_contact.hpp"
 #include "effects/penetrator/soil_strength.hpp"
+#include "parallel/communicator_mpi.hpp"
 
 #include <memory>
 #include <stdexcept>
@@ -22,7 +23,7 @@ struct Motion {
     double force = 0;                     ///< of the soil on it in the last step, N
     double kinetic_at_start = 0;          ///< J
     double potential = 0;                 ///< of weight and buoyancy, 0 at the start, J
-    bool is_first_rank = false;
+    bool is_counting_rank = false;        ///< one rank tells what the body has lost
 };
 
 template <int D>
@@ -50,9 +51,7 @@ double sum_of_ranks(RigidContact<D>& contact, MPI_Comm comm) {
 template <int D>
 void move_body(RigidContact<D>& contact, Motion<D>& motion, const StepTime& step, MPI_Comm comm) {
     const double push = sum_of_ranks(contact, comm);
-    int rank = 0;
-    MPI_Comm_rank(comm, &rank);
-    motion.is_first_rank = rank == 0;
+    motion.is_counting_rank = rank_of(comm) == 0;
     Penetrator<D>& body = contact.body;
     const Gravity<D>& gravity = motion.gravity;
     double weight = body.mass * gravity.acceleration[vertical] * gravity.share_at(step.time);
@@ -125,7 +124,7 @@ void report(const std::shared_ptr<RigidContact<D>>& contact,
         return {kinetic_energy(*motion, contact->body), motion->potential};
     });
     stages.dissipated.push_back([=](const Particles&) {
-        if (!motion->is_first_rank) return 0.0;
+        if (!motion->is_counting_rank) return 0.0;
         return motion->kinetic_at_start - kinetic_energy(*motion, contact->body) -
                motion->potential;
     });

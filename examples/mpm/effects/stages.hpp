@@ -1,49 +1,13 @@
 #pragma once
 
-#include "transfer/transfers.hpp"
-
-#include <mpi.h>
+#include "transfer/kernels.hpp"
 
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 namespace mpm {
-
-/// The time at the start of a step and its length, s.
-struct StepTime {
-    double time;
-    double time_step;
-};
-
-/// Changes the nodes of a patch. Shared nodes hold the same bits on all ranks, and must after it.
-template <int D>
-using NodeKernel = std::function<void(GridPatch<D>&, const StepTime&)>;
-
-/// Adds to the sums of a patch what points hand to their nodes beside p2g.
-template <int D>
-using ScatterKernel =
-    std::function<void(const Particles&, std::span<const CellRun<D>>, GridPatch<D>&)>;
-
-/// Reads nodes, given the runs of a block: for the velocity gradients of its points, or columns.
-template <int D>
-using GradientKernel = std::function<void(Particles&, const GridPatch<D>&,
-                                          std::span<const CellRun<D>>, const PointBlock<D>&)>;
-
-/// Advances a block of points; called for all points of a step, never for one.
-template <int D>
-using PointKernel = std::function<void(Particles&, const PointBlock<D>&)>;
-
-/// Collective work at the end of a step.
-using StepKernel = std::function<void(const StepTime&, MPI_Comm)>;
-
-template <typename Kernel>
-struct Named {
-    std::string name;
-    Kernel kernel;
-};
 
 /// A column of the points that is summed on the nodes into a field of the patch, one double more
 /// in the message per shared node.
@@ -86,8 +50,8 @@ struct Stages {
     std::vector<Named<NodeKernel<D>>> moved;              ///< after the nodes have moved
     /// Where velocities are mapped back to the nodes (remap.hpp): on this rank's momenta, and then
     /// on NodeMotion::strain_velocity, which walls and contacts must hold again.
-    std::vector<Named<ScatterKernel<D>>> remap_scatters;
-    std::vector<Named<NodeKernel<D>>> remapped;
+    std::vector<Named<ScatterKernel<D>>> velocity_scatters;
+    std::vector<Named<NodeKernel<D>>> remapped_velocities;
     std::vector<Named<GradientKernel<D>>> gradients;      ///< after points have moved
     std::vector<Named<PointKernel<D>>> before_materials;  ///< stresses are the old ones
     std::vector<Named<PointKernel<D>>> after_materials;   ///< stresses are the new ones

@@ -19,7 +19,7 @@ struct Drag {
 
 /// The force on one node against its velocity, on the area that faces it; it never turns the node.
 template <int D>
-void slow_down(double factor, const Components<D>& area, double time_step, Node<D>& node) {
+void slow_down(double factor, const Components<D>& area, double time_step, NodeSums<D>& node) {
     double facing = 0;
     for (std::size_t a = 0; a < D; ++a) facing += node.momentum[a] / node.mass * area[a];
     if (!(facing > 0)) return;
@@ -32,7 +32,7 @@ template <int D>
 NodeKernel<D> force_kernel(const Drag& drag) {
     return [drag](GridPatch<D>& patch, const StepTime& step) {
         for (std::size_t n = 0; n < patch.sums.size(); ++n) {
-            Node<D>& node = patch.sums[n];
+            NodeSums<D>& node = patch.sums[n];
             if (!(node.mass > 0) || !(patch.fields[drag.mark_field][n] > 0)) continue;
             // The volume integral of a shape function's gradient is its outward surface integral.
             Components<D> area;

@@ -9,9 +9,9 @@ template <int D>
 NodeRange<D> intersection(const NodeRange<D>& a, const NodeRange<D>& b) {
     NodeRange<D> both;
     for (std::size_t axis = 0; axis < D; ++axis) {
-        both.first[axis] = std::max(a.first[axis], b.first[axis]);
-        both.count[axis] = std::min(a.first[axis] + a.count[axis], b.first[axis] + b.count[axis]) -
-                           both.first[axis];
+        both.begin[axis] = std::max(a.begin[axis], b.begin[axis]);
+        both.count[axis] = std::min(a.begin[axis] + a.count[axis], b.begin[axis] + b.count[axis]) -
+                           both.begin[axis];
     }
     return both;
 }
@@ -25,7 +25,7 @@ NodeRange<D> nodes_of(const GridShape& shape, const Box& box, int margin) {
         const double upper = std::min(box.upper[axis], grid_upper[axis]);
         if (!(lower <= upper)) return {};
         const int first = cell_of(shape, lower, axis);
-        nodes.first[axis] = first - margin;
+        nodes.begin[axis] = first - margin;
         nodes.count[axis] = cell_of(shape, upper, axis) - first + 2 + 2 * margin;
     }
     return nodes;
@@ -44,7 +44,7 @@ void resize(GridPatch<D>& patch, const NodeRange<D>& nodes) {
 template <int D>
 void move_nodes(GridPatch<D>& patch, double time_step, double least_mass) {
     for (std::size_t n = 0; n < patch.sums.size(); ++n) {
-        const Node<D>& node = patch.sums[n];
+        const NodeSums<D>& node = patch.sums[n];
         NodeMotion<D>& motion = patch.motion[n];
         motion = {};
         if (!(node.mass > 0)) continue;

@@ -14,14 +14,14 @@ using Components = std::array<double, D>;
 /// What the points sum on a node, and neighbours sum over ranks in one message: five doubles in
 /// two dimensions, seven in three.
 template <int D>
-struct Node {
+struct NodeSums {
     double mass = 0;
     Components<D> momentum{};
     Components<D> force{};
 };
 
 template <int D>
-inline void add(const Node<D>& from, Node<D>& to) {
+inline void add(const NodeSums<D>& from, NodeSums<D>& to) {
     to.mass += from.mass;
     for (std::size_t a = 0; a < D; ++a) {
         to.momentum[a] += from.momentum[a];
@@ -40,7 +40,7 @@ struct NodeMotion {
 /// Box of nodes, numbered over the whole grid.
 template <int D>
 struct NodeRange {
-    std::array<int, D> first{};
+    std::array<int, D> begin{};
     std::array<int, D> count{};
 
     bool empty() const {
@@ -71,7 +71,7 @@ struct GridPatch {
     GridShape shape;
     int margin = 0;  ///< layers of nodes beyond the grid's sides
     NodeRange<D> nodes;
-    std::vector<Node<D>> sums;
+    std::vector<NodeSums<D>> sums;
     std::vector<NodeMotion<D>> motion;
     std::vector<std::vector<double>> fields;  ///< more sums of the points, of the effects
     /// Whether this rank stands for a node where ranks add up; empty unless an effect asks.
@@ -82,7 +82,7 @@ struct GridPatch {
         std::size_t index = 0;
         for (std::size_t a = D; a-- > 0;)
             index = index * static_cast<std::size_t>(nodes.count[a]) +
-                    static_cast<std::size_t>(node[a] - nodes.first[a]);
+                    static_cast<std::size_t>(node[a] - nodes.begin[a]);
         return index;
     }
 
@@ -97,12 +97,12 @@ struct GridPatch {
 template <int D, typename Visit>
 void visit_rows(const NodeRange<D>& range, Visit visit) {
     if (range.empty()) return;
-    std::array<int, D> node = range.first;
+    std::array<int, D> node = range.begin;
     for (;;) {
         visit(node, static_cast<std::size_t>(range.count[0]));
         std::size_t axis = 1;
-        while (axis < D && ++node[axis] == range.first[axis] + range.count[axis]) {
-            node[axis] = range.first[axis];
+        while (axis < D && ++node[axis] == range.begin[axis] + range.count[axis]) {
+            node[axis] = range.begin[axis];
             ++axis;
         }
         if (axis == D) return;

@@ -4,6 +4,10 @@
 
 namespace mpm {
 
+#define MPM_MATERIAL(name) MaterialKind name##_material();
+#include "materials/materials.inc"
+#undef MPM_MATERIAL
+
 namespace {
 
 std::string place_of(const Material& material) {
@@ -11,6 +15,15 @@ std::string place_of(const Material& material) {
 }
 
 }  // namespace
+
+std::span<const MaterialKind> material_kinds() {
+#define MPM_MATERIAL(name) name##_material(),
+    static const std::vector<MaterialKind> kinds{
+#include "materials/materials.inc"
+    };
+#undef MPM_MATERIAL
+    return kinds;
+}
 
 const MaterialKind& find_material_kind(const Material& material) {
     std::vector<std::string> names;

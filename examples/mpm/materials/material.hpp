@@ -1,6 +1,6 @@
 #pragma once
 
-#include "effects/stages.hpp"
+#include "transfer/kernels.hpp"
 
 #include <functional>
 #include <span>

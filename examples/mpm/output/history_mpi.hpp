@@ -35,7 +35,4 @@ class History {
     std::int64_t num_migrated_ = 0;
 };
 
-/// Throws std::runtime_error with the text on all ranks when it is not empty on rank 0.
-void fail_together(const std::string& text, MPI_Comm comm);
-
 }  // namespace mpm

@@ -1,6 +1,7 @@
 #include "output/vtk_mpi.hpp"
 
 #include "output/vtk_text.hpp"
+#include "parallel/communicator_mpi.hpp"
 
 #include <algorithm>
 #include <array>
@@ -155,10 +156,12 @@ std::string padded(std::int64_t step) {
 }  // namespace
 
 VtkSeries::VtkSeries(std::string folder, const Scene& scene, MPI_Comm comm)
-    : folder_(std::move(folder)), grid_(scene.grid), dimension_(scene.dimension), comm_(comm) {
-    MPI_Comm_rank(comm, &rank_);
-    MPI_Comm_size(comm, &num_ranks_);
-}
+    : folder_(std::move(folder)),
+      grid_(scene.grid),
+      dimension_(scene.dimension),
+      comm_(comm),
+      rank_(rank_of(comm)),
+      num_ranks_(size_of(comm)) {}
 
 void VtkSeries::write(const Simulation& simulation) {
     frames_.push_back({simulation.time(), padded(simulation.step_count())});

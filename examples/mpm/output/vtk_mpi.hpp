@@ -32,7 +32,7 @@ class VtkSeries {
     GridShape grid_;
     int dimension_;
     MPI_Comm comm_;
-    int rank_ = 0, num_ranks_ = 1;
+    int rank_, num_ranks_;
     std::vector<Frame> frames_;
 };
 

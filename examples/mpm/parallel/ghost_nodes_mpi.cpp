@@ -1,5 +1,7 @@
 #include "parallel/ghost_nodes_mpi.hpp"
 
+#include "parallel/communicator_mpi.hpp"
+
 #include <algorithm>
 
 namespace mpm {
@@ -14,11 +16,11 @@ struct AllSums {
     GridPatch<D>& patch;
 
     std::size_t width() const {
-        static_assert(sizeof(Node<D>) == (1 + 2 * D) * sizeof(double));
+        static_assert(sizeof(NodeSums<D>) == (1 + 2 * D) * sizeof(double));
         return 1 + 2 * D + patch.fields.size();
     }
     double* pack(std::size_t n, double* to) const {
-        const Node<D>& node = patch.sums[n];
+        const NodeSums<D>& node = patch.sums[n];
         *to++ = node.mass;
         to = std::copy(node.momentum.begin(), node.momentum.end(), to);
         to = std::copy(node.force.begin(), node.force.end(), to);
@@ -26,7 +28,7 @@ struct AllSums {
         return to;
     }
     const double* add(const double* from, std::size_t n) const {
-        Node<D>& node = patch.sums[n];
+        NodeSums<D>& node = patch.sums[n];
         node.mass += *from++;
         for (double& component : node.momentum) component += *from++;
         for (double& component : node.force) component += *from++;
@@ -74,8 +76,8 @@ void unpack(const std::vector<double>& message, const std::vector<std::size_t>& 
 }  // namespace
 
 template <int D>
-GhostNodes<D>::GhostNodes(std::span<const NodeRange<D>> patches, MPI_Comm comm) : comm_(comm) {
-    MPI_Comm_rank(comm, &rank_);
+GhostNodes<D>::GhostNodes(std::span<const NodeRange<D>> patches, MPI_Comm comm)
+    : comm_(comm), rank_(rank_of(comm)) {
     GridPatch<D> numbering;
     numbering.nodes = patches[static_cast<std::size_t>(rank_)];
     for (int rank = 0; rank < static_cast<int>(patches.size()); ++rank) {

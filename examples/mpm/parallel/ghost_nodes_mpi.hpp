@@ -42,7 +42,7 @@ class GhostNodes {
     void exchange(const Slice& slice);
 
     MPI_Comm comm_;
-    int rank_ = 0;
+    int rank_;
     std::vector<int> ranks_;
     std::vector<std::vector<std::size_t>> nodes_;  ///< shared with each neighbour
     std::vector<std::vector<double>> outgoing_;    ///< one message per neighbour

@@ -1,5 +1,7 @@
 #include "parallel/migration_mpi.hpp"
 
+#include "parallel/communicator_mpi.hpp"
+
 #include <algorithm>
 
 namespace mpm {
@@ -42,9 +44,7 @@ struct Partners {
 };
 
 Partners find_partners(const Leavers& leavers, MPI_Comm comm) {
-    int num_ranks = 0;
-    MPI_Comm_size(comm, &num_ranks);
-    std::vector<int> outgoing(static_cast<std::size_t>(num_ranks)), incoming(outgoing.size());
+    std::vector<int> outgoing(static_cast<std::size_t>(size_of(comm))), incoming(outgoing.size());
     for (const int owner : leavers.owners) outgoing[static_cast<std::size_t>(owner)] = 1;
     MPI_Alltoall(outgoing.data(), 1, MPI_INT, incoming.data(), 1, MPI_INT, comm);
     return {ranks_with(outgoing), ranks_with(incoming)};

@@ -1,5 +1,6 @@
 #include "parallel/ownership_mpi.hpp"
 
+#include "parallel/communicator_mpi.hpp"
 #include "particles/pair.hpp"
 
 #include <algorithm>
@@ -9,12 +10,10 @@
 namespace mpm {
 
 Ownership::Ownership(const GridShape& grid, MPI_Comm comm)
-    : comm_(comm), grid_{grid.lower, grid.upper()} {
-    int num_ranks = 1;
-    MPI_Comm_rank(comm, &rank_);
-    MPI_Comm_size(comm, &num_ranks);
-    num_ranks_ = static_cast<std::size_t>(num_ranks);
-}
+    : comm_(comm),
+      rank_(rank_of(comm)),
+      num_ranks_(static_cast<std::size_t>(size_of(comm))),
+      grid_{grid.lower, grid.upper()} {}
 
 /// Whether a point lies in the box along all axes.
 template <int D>

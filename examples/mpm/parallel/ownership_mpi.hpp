@@ -47,8 +47,8 @@ class Ownership {
     bool check_owners(const Decomposition& decomposition, Positions positions);
 
     MPI_Comm comm_;
-    int rank_ = 0;
-    std::size_t num_ranks_ = 1;
+    int rank_;
+    std::size_t num_ranks_;
     Box grid_;
     Leavers leavers_;
     std::array<std::vector<double>, 3> at_;  ///< positions of the leavers

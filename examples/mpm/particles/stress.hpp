@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 
 namespace mpm {
 
@@ -35,7 +36,13 @@ using StressColumns = std::array<Column, num_stresses<D>>;
 
 /// stress_xx, stress_yy, stress_zz, stress_xy, and in three dimensions stress_yz, stress_zx.
 template <int D>
-StressColumns<D> add_stress_columns(Particles& particles);
+StressColumns<D> add_stress_columns(Particles& particles) {
+    constexpr std::array<const char*, 6> names{"xx", "yy", "zz", "xy", "yz", "zx"};
+    StressColumns<D> columns{};
+    for (std::size_t c = 0; c < columns.size(); ++c)
+        columns[c] = particles.add_column(std::string("stress_") + names[c]);
+    return columns;
+}
 
 /// Pointers to the stress columns.
 template <int D>

@@ -1,4 +1,5 @@
 #include "balancers/balancers_mpi.hpp"
+#include "parallel/communicator_mpi.hpp"
 #include "program/arguments.hpp"
 #include "scene_file/scene_file_mpi.hpp"
 #ifdef RRCB_MPM_ZOLTAN
@@ -19,12 +20,6 @@
 #include <stdexcept>
 
 namespace {
-
-int rank_in(MPI_Comm comm) {
-    int rank = 0;
-    MPI_Comm_rank(comm, &rank);
-    return rank;
-}
 
 void print_words(const char* title, const std::vector<std::string>& words) {
     std::printf("%s:", title);
@@ -48,7 +43,7 @@ class Recorder {
     Recorder(const std::string& folder, const mpm::SceneFile& file, MPI_Comm comm)
         : plan_(file.output) {
         std::error_code error;
-        if (rank_in(comm) == 0) std::filesystem::create_directories(folder, error);
+        if (mpm::rank_of(comm) == 0) std::filesystem::create_directories(folder, error);
         mpm::fail_together(error ? folder + ": " + error.message() : "", comm);
         history_.emplace(folder + "/history.csv", file.scene, comm);
         vtk_.emplace(folder, file.scene, comm);
@@ -84,7 +79,7 @@ void simulate(mpm::Simulation& simulation, const Arguments& arguments, Recorder&
         if (balancer && !is_last && simulation.step_count() % arguments.every == 0)
             simulation.rebalance(*balancer);
         recorder.record(simulation, is_last);
-        if (rank_in(comm) == 0) show_progress(simulation, arguments.end_time, is_last);
+        if (mpm::rank_of(comm) == 0) show_progress(simulation, arguments.end_time, is_last);
         if (!is_last) simulation.step();
     }
 }
@@ -114,13 +109,13 @@ void run(Arguments arguments, MPI_Comm comm) {
     if (!(arguments.end_time > 0)) arguments.end_time = file.scene.end_time;
     mpm::Simulation simulation = start(arguments.scene, file.scene, comm);
     if (arguments.list_kernels) {
-        if (rank_in(comm) == 0) list_kernels(simulation);
+        if (mpm::rank_of(comm) == 0) list_kernels(simulation);
         return;
     }
     Recorder recorder(arguments.out, file, comm);
     const double start_time = MPI_Wtime();
     simulate(simulation, arguments, recorder, comm);
-    if (rank_in(comm) == 0) print_end(simulation, arguments, MPI_Wtime() - start_time);
+    if (mpm::rank_of(comm) == 0) print_end(simulation, arguments, MPI_Wtime() - start_time);
 }
 
 }  // namespace
@@ -136,7 +131,7 @@ int main(int argc, char** argv) {
         const std::optional<Arguments> arguments = read_arguments(argc, argv);
         if (arguments) run(*arguments, MPI_COMM_WORLD);
     } catch (const std::exception& error) {
-        if (rank_in(MPI_COMM_WORLD) == 0) std::fprintf(stderr, "rrcb_mpm: %s\n", error.what());
+        if (mpm::rank_of(MPI_COMM_WORLD) == 0) std::fprintf(stderr, "rrcb_mpm: %s\n", error.what());
         exit_code = 1;
     }
     MPI_Finalize();

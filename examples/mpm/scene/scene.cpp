@@ -62,7 +62,7 @@ void check_transfer(const Scene& scene) {
             "the Courant number must lie in 0 ... 1");
     require(scene.least_node_mass >= 0 && scene.least_node_mass < 1,
             "the least mass of a node must lie in 0 ... 1");
-    require(!remaps(scene) || scene.transfer == Transfer::flip,
+    require(!remaps_velocities(scene) || scene.transfer == Transfer::flip,
             "the modified time integration works with the transfer flip only");
     if (scene.shape_function != ShapeFunction::gimp) return;
     require(scene.transfer != Transfer::apic, "APIC works with linear and quadratic shapes only");

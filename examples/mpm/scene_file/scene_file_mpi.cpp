@@ -1,5 +1,6 @@
 #include "scene_file/scene_file_mpi.hpp"
 
+#include "parallel/communicator_mpi.hpp"
 #include "scene_file/bodies.hpp"
 
 #include <Teuchos_XMLParameterListCoreHelpers.hpp>
@@ -152,14 +153,6 @@ std::string text_of(const std::string& path) {
     return text.str();
 }
 
-std::string broadcast(std::string text, MPI_Comm comm) {
-    auto length = static_cast<int>(text.size());
-    MPI_Bcast(&length, 1, MPI_INT, 0, comm);
-    text.resize(static_cast<std::size_t>(length));
-    MPI_Bcast(text.data(), length, MPI_CHAR, 0, comm);
-    return text;
-}
-
 }  // namespace
 
 SceneFile parse_scene(const std::string& text, SceneFormat format, const std::string& name) {
@@ -171,9 +164,7 @@ SceneFile parse_scene(const std::string& text, SceneFormat format, const std::st
 }
 
 SceneFile read_scene(const std::string& path, MPI_Comm comm) {
-    int rank = 0;
-    MPI_Comm_rank(comm, &rank);
-    const std::string text = broadcast(rank == 0 ? text_of(path) : "", comm);
+    const std::string text = broadcast(rank_of(comm) == 0 ? text_of(path) : "", comm);
     if (text.empty())
         throw std::invalid_argument(path +
                                     ": cannot be read, or is empty; it must be a scene file");

@@ -5,13 +5,33 @@
 #include "parallel/ghost_nodes_mpi.hpp"
 #include "parallel/ownership_mpi.hpp"
 #include "scene/lattice.hpp"
-#include "step/model.hpp"
 #include "transfer/velocity_remap.hpp"
+
+#include <mpm/simulation.hpp>
 
 #include <optional>
 #include <span>
 
 namespace mpm {
+
+/// A simulation whose dimension is not known; every call is one of a step, never of a point.
+class Simulation::Model {
+  public:
+    virtual ~Model() = default;
+    virtual void step() = 0;
+    virtual RebalanceReport rebalance(const Balancer& balancer) = 0;
+    virtual std::vector<std::string> kernels() const = 0;
+    virtual std::size_t doubles_per_ghost_node() const = 0;
+    virtual Totals totals() const = 0;
+    virtual std::vector<std::pair<std::string, double>> reports() const = 0;
+    virtual Positions positions() const = 0;
+
+    Particles particles;
+    Decomposition decomposition;
+    std::int64_t num_points = 0, num_steps = 0;
+    std::int64_t num_sent = 0;  ///< by this rank
+    double time = 0, time_step = 0, max_speed = 0;
+};
 
 /// The steps of a scene of D dimensions; `step` is the list of what is done.
 template <int D>
@@ -33,7 +53,7 @@ class Stepper final : public Simulation::Model {
     void start_points();
     double strain_energy(std::size_t point) const;
     void adopt(Decomposition next);
-    void gather_on_nodes();
+    void advance_nodes();
     void remap_velocities();
     void advance_points();
     void apply_materials(const PointBlock<D>& block);
@@ -48,7 +68,7 @@ class Stepper final : public Simulation::Model {
     std::vector<MaterialModel<D>> materials_;
     std::optional<Column> material_column_;  ///< where there is more than one
     Stages<D> stages_;
-    std::unique_ptr<Remap<D>> remap_;  ///< where the scene asks for it
+    std::unique_ptr<VelocityRemap<D>> velocity_remap_;  ///< where the scene asks for it
     double wave_speed_ = 0, least_mass_ = 0;
 
     Ownership ownership_;

@@ -1,4 +1,6 @@
+#include "boundaries/boundaries.hpp"
 #include "parallel/carried_motion_mpi.hpp"
+#include "parallel/communicator_mpi.hpp"
 #include "particles/pair.hpp"
 #include "step/stepper.hpp"
 
@@ -19,18 +21,6 @@ MPI_Comm duplicate(MPI_Comm comm) {
     MPI_Comm own = MPI_COMM_NULL;
     MPI_Comm_dup(comm, &own);
     return own;
-}
-
-int rank_of(MPI_Comm comm) {
-    int rank = 0;
-    MPI_Comm_rank(comm, &rank);
-    return rank;
-}
-
-int size_of(MPI_Comm comm) {
-    int size = 1;
-    MPI_Comm_size(comm, &size);
-    return size;
 }
 
 double max_wave_speed(const Scene& scene) {
@@ -68,6 +58,25 @@ double least_mass(const Scene& scene) {
     return largest;
 }
 
+/// The stages of a scene: its walls and planes hold nodes before its effects do.
+template <int D>
+Stages<D> build_stages(const Scene& scene, Particles& particles) {
+    Stages<D> stages;
+    add_walls<D>(scene, stages);
+    add_planes<D>(scene, stages);
+    const std::vector<std::optional<Values>> values = effect_values(scene);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        if (!values[k]) continue;
+        const EffectBuilder<D> builder{scene, *values[k], particles, stages};
+        if constexpr (D == 2)
+            effect_kinds()[k].build_2(builder);
+        else
+            effect_kinds()[k].build_3(builder);
+    }
+    add_images<D>(scene, stages);
+    return stages;
+}
+
 }  // namespace
 
 template <int D>
@@ -80,7 +89,7 @@ Stepper<D>::Stepper(const Scene& scene, const Extent& extent, MPI_Comm comm)
       ownership_(scene.grid, comm_) {
     build_materials();
     stages_ = build_stages<D>(scene_, particles);
-    remap_ = make_remap<D>(scene_, particles);
+    velocity_remap_ = make_velocity_remap<D>(scene_, particles);
     patch_.shape = scene.grid;
     patch_.margin = transfers_->margin();
     patch_.fields.resize(stages_.fields.size());
@@ -117,13 +126,13 @@ void Stepper<D>::adopt(Decomposition next) {
 }
 
 template <int D>
-void Stepper<D>::gather_on_nodes() {
+void Stepper<D>::advance_nodes() {
     transfers_->find_runs(particles, patch_, runs_);
     transfers_->p2g(particles, runs_, patch_);
     for (std::size_t f = 0; f < stages_.fields.size(); ++f) {
         std::ranges::fill(patch_.fields[f], 0.0);
         const NodeField& field = stages_.fields[f];
-        transfers_->gather(particles, field.column, field.axis, runs_, patch_, patch_.fields[f]);
+        transfers_->scatter(particles, field.column, field.axis, runs_, patch_, patch_.fields[f]);
     }
     for (const auto& effect : stages_.scatters) effect.kernel(particles, runs_, patch_);
     ghosts_->sum(patch_);
@@ -132,16 +141,16 @@ void Stepper<D>::gather_on_nodes() {
     for (const auto& effect : stages_.constraints) effect.kernel(patch_, now);
     move_nodes(patch_, time_step, least_mass_);
     for (const auto& effect : stages_.moved) effect.kernel(patch_, now);
-    if (remap_) remap_velocities();
+    if (velocity_remap_) remap_velocities();
 }
 
 template <int D>
 void Stepper<D>::remap_velocities() {
-    remap_->scatter(particles, runs_, patch_);
-    for (const auto& effect : stages_.remap_scatters) effect.kernel(particles, runs_, patch_);
+    velocity_remap_->scatter(particles, runs_, patch_);
+    for (const auto& effect : stages_.velocity_scatters) effect.kernel(particles, runs_, patch_);
     ghosts_->sum_momentum(patch_);
     strain_by_momentum(patch_);
-    for (const auto& effect : stages_.remapped) effect.kernel(patch_, {time, time_step});
+    for (const auto& effect : stages_.remapped_velocities) effect.kernel(patch_, {time, time_step});
 }
 
 template <int D>
@@ -220,7 +229,7 @@ void Stepper<D>::take_in(std::size_t num_arrived) {
 
 template <int D>
 void Stepper<D>::step() {
-    gather_on_nodes();
+    advance_nodes();
     advance_points();
     for (const auto& effect : stages_.ends) effect.kernel({time, time_step}, comm_);
     time += time_step;
@@ -252,18 +261,10 @@ RebalanceReport Stepper<D>::rebalance(const Balancer& balancer) {
 
 template <int D>
 std::size_t Stepper<D>::doubles_per_ghost_node() const {
-    return 1 + 2 * D + stages_.fields.size() + (remap_ ? D : 0);
+    return 1 + 2 * D + stages_.fields.size() + (velocity_remap_ ? D : 0);
 }
 
 template class Stepper<2>;
 template class Stepper<3>;
-
-std::unique_ptr<Simulation::Model> make_model(const Scene& scene, MPI_Comm comm) {
-    const Extent extent = extent_of(scene);
-    if (extent.num_points == 0)
-        throw std::invalid_argument("scene: no body holds a point of the grid's lattice");
-    if (scene.dimension == 2) return std::make_unique<Stepper<2>>(scene, extent, comm);
-    return std::make_unique<Stepper<3>>(scene, extent, comm);
-}
 
 }  // namespace mpm

@@ -30,8 +30,8 @@ std::vector<std::string> Stepper<D>::kernels() const {
     append_names(stages_.constraints, names);
     names.push_back("move_nodes");
     append_names(stages_.moved, names);
-    if (remap_) names.push_back("remap");
-    append_names(stages_.remapped, names);
+    if (velocity_remap_) names.push_back("remap");
+    append_names(stages_.remapped_velocities, names);
     names.push_back("g2p");
     append_names(stages_.gradients, names);
     append_names(stages_.before_materials, names);

@@ -111,6 +111,13 @@ struct PointWriter {
     double* volume;
 };
 
+/// Velocity of a point after a step by FLIP: its own one with the change of the grid's, but for a
+/// share 1 - `flip_fraction` the grid's (Scene::flip_fraction).
+[[gnu::always_inline]] inline double flip_velocity(double flip_fraction, double velocity,
+                                                   double change, double of_grid) {
+    return flip_fraction * (velocity + change) + (1 - flip_fraction) * of_grid;
+}
+
 template <int D>
 struct G2pFactors {
     double spacing, flip_fraction;
@@ -162,9 +169,8 @@ template <int D, class Shape, bool is_affine>
                         affine_at<D, N, b>(motion.velocity[a], motion.strain[a], weights, u[b]);
                 });
             } else {
-                points.velocity[a][p] =
-                    flip * (points.velocity[a][p] + interpolated<D, N>(motion.change[a], values)) +
-                    (1 - flip) * of_grid;
+                const double change = interpolated<D, N>(motion.change[a], values);
+                points.velocity[a][p] = flip_velocity(flip, points.velocity[a][p], change, of_grid);
             }
             points.position[a][p] += time_step * of_grid;
             points.displacement[a][p] += time_step * of_grid;

@@ -19,7 +19,7 @@ struct Contribution {
 
 template <int D>
 [[gnu::always_inline]] inline void add_force(const Components<D>& slope, const Stress<D>& stress,
-                                             Node<D>& node) {
+                                             NodeSums<D>& node) {
     if constexpr (D == 2) {
         node.force[0] -= stress.xx * slope[0] + stress.xy * slope[1];
         node.force[1] -= stress.xy * slope[0] + stress.yy * slope[1];
@@ -126,12 +126,12 @@ template <int D, std::size_t N, std::size_t n, bool is_affine>
 }
 
 template <int D, class Shape, bool is_affine>
-[[gnu::always_inline]] inline std::array<Node<D>, power(Shape::num_nodes, D)> sum_run(
+[[gnu::always_inline]] inline std::array<NodeSums<D>, power(Shape::num_nodes, D)> sum_run(
     const PointReader<D, is_affine>& from, const Shape& shape, const CellRun<D>& run,
     double spacing) {
     constexpr std::size_t N = Shape::num_nodes;
     const double inverse_spacing = 1 / spacing;
-    std::array<Node<D>, power(N, D)> sums{};
+    std::array<NodeSums<D>, power(N, D)> sums{};
     for (std::size_t p = run.begin; p < run.end; ++p) {
         Components<D> u;
         std::array<Weights<N>, D> weights;
@@ -161,10 +161,10 @@ MPM_VECTOR_CLONES void points_to_grid(Particles& particles, const TransferColumn
                                       GridPatch<D>& patch) {
     const PointReader<D, is_affine> source(particles, columns);
     const auto offsets = node_offsets<D, Shape::num_nodes>(patch);
-    std::ranges::fill(patch.sums, Node<D>{});
+    std::ranges::fill(patch.sums, NodeSums<D>{});
     for (const CellRun<D>& run : runs) {
         const auto sums = sum_run<D, Shape, is_affine>(source, shape, run, patch.shape.spacing);
-        Node<D>* const lowest = patch.sums.data() + run.node;
+        NodeSums<D>* const lowest = patch.sums.data() + run.node;
         for (std::size_t n = 0; n < sums.size(); ++n) add(sums[n], lowest[offsets[n]]);
     }
 }

@@ -1,8 +1,138 @@
-#include "transfer/transfers_of.hpp"
+#include "transfer/transfers.hpp"
+
+#include "transfer/g2p.hpp"
 
 namespace mpm {
 
 namespace {
+
+/// The transfers of one dimension, shape function and kind.
+template <int D, class Shape, bool is_affine>
+class TransfersOf final : public Transfers<D> {
+  public:
+    TransfersOf(const Scene& scene, Particles& particles)
+        : shape_(scene), flip_fraction_(scene.flip_fraction) {
+        columns_.motion = add_motion_columns(particles, D);
+        columns_.stress = add_stress_columns<D>(particles);
+        for (std::size_t a = 0; is_affine && a < D; ++a)
+            for (std::size_t b = 0; b < D; ++b)
+                columns_.affine[a][b] =
+                    particles.add_column(std::string("affine_") + "xyz"[a] + "xyz"[b]);
+    }
+
+    int margin() const override { return Shape::margin; }
+
+    void find_runs(const Particles& particles, const GridPatch<D>& patch,
+                   std::vector<CellRun<D>>& runs) const override {
+        runs.clear();
+        const auto at = positions(particles);
+        for (std::size_t begin = 0; begin < particles.size(); begin += block_size) {
+            const std::size_t end = std::min(begin + block_size, particles.size());
+            const FirstNodes first = first_nodes(patch, at, begin, end);
+            for (std::size_t p = begin; p < end; ++p)
+                if (p == begin || starts_run(first, p - begin))
+                    runs.push_back(run_from(patch, first, p, p - begin));
+        }
+        for (std::size_t r = 0; r + 1 < runs.size(); ++r) runs[r].end = runs[r + 1].begin;
+        if (!runs.empty()) runs.back().end = particles.size();
+    }
+
+    void sort(Particles& particles, const GridPatch<D>& patch) const override {
+        const auto at = positions(particles);
+        std::vector<std::size_t> cells(particles.size());
+        std::vector<std::size_t> places(patch.sums.size() + 1);
+        for (std::size_t p = 0; p < cells.size(); ++p) {
+            cells[p] = patch.index(first_node(patch, at, p));
+            ++places[cells[p] + 1];
+        }
+        for (std::size_t c = 1; c < places.size(); ++c) places[c] += places[c - 1];
+        std::vector<std::size_t> order(cells.size());
+        for (std::size_t p = 0; p < cells.size(); ++p) order[places[cells[p]]++] = p;
+        particles.reorder(order);
+    }
+
+    void p2g(Particles& particles, const std::vector<CellRun<D>>& runs,
+             GridPatch<D>& patch) const override {
+        points_to_grid<D, Shape, is_affine>(particles, columns_, shape_, runs, patch);
+    }
+
+    std::size_t g2p(Particles& particles, const GridPatch<D>& patch,
+                    const std::vector<CellRun<D>>& runs, std::size_t first_run,
+                    const PointBlock<D>& block) const override {
+        return grid_to_points<D, Shape, is_affine>(particles, columns_, shape_, flip_fraction_,
+                                                   patch, runs, first_run, block);
+    }
+
+    void scatter(const Particles& particles, Column column, int axis,
+                 const std::vector<CellRun<D>>& runs, const GridPatch<D>& patch,
+                 std::vector<double>& field) const override {
+        constexpr std::size_t N = Shape::num_nodes;
+        const auto at = positions(particles);
+        const std::span<const double> values = particles[column];
+        const auto offsets = node_offsets<D, N>(patch);
+        const double inverse_spacing = 1 / patch.shape.spacing;
+        for (const CellRun<D>& run : runs)
+            for (std::size_t p = run.begin; p < run.end; ++p) {
+                std::array<Weights<N>, D> weights;
+                for (std::size_t a = 0; a < D; ++a) {
+                    weights[a] = shape_.at((at[a][p] - run.corner[a]) * inverse_spacing, a);
+                    if (static_cast<int>(a) != axis) continue;
+                    for (std::size_t i = 0; i < N; ++i)
+                        weights[a].value[i] = inverse_spacing * weights[a].slope[i];
+                }
+                unrolled<power(N, D)>([&](auto n) {
+                    field[run.node + offsets[n]] += weight_of<D, N, n>(weights) * values[p];
+                });
+            }
+    }
+
+  private:
+    std::array<const double*, D> positions(const Particles& particles) const {
+        std::array<const double*, D> at;
+        for (std::size_t a = 0; a < D; ++a) at[a] = particles[columns_.motion.position[a]].data();
+        return at;
+    }
+
+    /// The lowest nodes of the points of a block, axis by axis.
+    using FirstNodes = std::array<std::array<int, block_size>, D>;
+
+    FirstNodes first_nodes(const GridPatch<D>& patch, const std::array<const double*, D>& at,
+                           std::size_t begin, std::size_t end) const {
+        FirstNodes first;
+        const GridShape shape = patch.shape;
+        for (std::size_t a = 0; a < D; ++a)
+            for (std::size_t k = 0; k < end - begin; ++k)
+                first[a][k] = shape_.first_node(shape, at[a][begin + k], a);
+        return first;
+    }
+
+    static bool starts_run(const FirstNodes& first, std::size_t k) {
+        for (std::size_t a = 0; a < D; ++a)
+            if (first[a][k] != first[a][k - 1]) return true;
+        return false;
+    }
+
+    static CellRun<D> run_from(const GridPatch<D>& patch, const FirstNodes& first, std::size_t p,
+                               std::size_t k) {
+        std::array<int, D> node;
+        for (std::size_t a = 0; a < D; ++a) node[a] = first[a][k];
+        CellRun<D> run{p, p, patch.index(node), {}};
+        for (std::size_t a = 0; a < D; ++a)
+            run.corner[a] = patch.shape.lower[a] + node[a] * patch.shape.spacing;
+        return run;
+    }
+
+    std::array<int, D> first_node(const GridPatch<D>& patch, const std::array<const double*, D>& at,
+                                  std::size_t p) const {
+        std::array<int, D> first;
+        for (std::size_t a = 0; a < D; ++a) first[a] = shape_.first_node(patch.shape, at[a][p], a);
+        return first;
+    }
+
+    Shape shape_;
+    double flip_fraction_;
+    TransferColumns<D> columns_;
+};
 
 template <int D, class Shape>
 std::unique_ptr<Transfers<D>> make(const Scene& scene, Particles& particles) {

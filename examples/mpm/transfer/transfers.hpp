@@ -115,9 +115,9 @@ class Transfers {
 
     /// Adds a column of the points to a field of the nodes, weighted by the shape functions, or by
     /// their derivatives along an axis where that is not -1.
-    virtual void gather(const Particles& particles, Column column, int axis,
-                        const std::vector<CellRun<D>>& runs, const GridPatch<D>& patch,
-                        std::vector<double>& field) const = 0;
+    virtual void scatter(const Particles& particles, Column column, int axis,
+                         const std::vector<CellRun<D>>& runs, const GridPatch<D>& patch,
+                         std::vector<double>& field) const = 0;
 };
 
 /// The transfers a scene asks for; adds the columns they need.

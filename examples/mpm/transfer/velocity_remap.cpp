@@ -1,22 +1,22 @@
 #include "transfer/velocity_remap.hpp"
 
-#include "transfer/p2g.hpp"
+#include "transfer/g2p.hpp"
 
 namespace mpm {
 
 namespace {
 
 template <int D, class Shape>
-class RemapOf final : public Remap<D> {
+class VelocityRemapOf final : public VelocityRemap<D> {
   public:
-    RemapOf(const Scene& scene, Particles& particles)
+    VelocityRemapOf(const Scene& scene, Particles& particles)
         : shape_(scene),
           flip_fraction_(scene.flip_fraction),
           motion_(add_motion_columns(particles, D)) {}
 
     void scatter(const Particles& particles, std::span<const CellRun<D>> runs,
                  GridPatch<D>& patch) const override {
-        for (Node<D>& node : patch.sums) node.momentum = {};
+        for (NodeSums<D>& node : patch.sums) node.momentum = {};
         const auto offsets = node_offsets<D, Shape::num_nodes>(patch);
         for (const CellRun<D>& run : runs) scatter_run(particles, run, offsets, patch);
     }
@@ -39,10 +39,8 @@ class RemapOf final : public Remap<D> {
                     change += weights[n] * node.velocity_change[a];
                     of_grid += weights[n] * node.velocity[a];
                 }
-                // As g2p will do.
-                const double velocity =
-                    flip_fraction_ * (particles[motion_.velocity[a]][p] + change) +
-                    (1 - flip_fraction_) * of_grid;
+                const double velocity = flip_velocity(
+                    flip_fraction_, particles[motion_.velocity[a]][p], change, of_grid);
                 for (std::size_t n = 0; n < num_nodes; ++n)
                     sums[n][a] += weights[n] * mass * velocity;
             }
@@ -71,17 +69,17 @@ class RemapOf final : public Remap<D> {
 }  // namespace
 
 template <int D>
-std::unique_ptr<Remap<D>> make_remap(const Scene& scene, Particles& particles) {
-    if (!remaps(scene)) return nullptr;
+std::unique_ptr<VelocityRemap<D>> make_velocity_remap(const Scene& scene, Particles& particles) {
+    if (!remaps_velocities(scene)) return nullptr;
     switch (scene.shape_function) {
         case ShapeFunction::linear:
-            return std::make_unique<RemapOf<D, LinearShape>>(scene, particles);
+            return std::make_unique<VelocityRemapOf<D, LinearShape>>(scene, particles);
         case ShapeFunction::quadratic:
-            return std::make_unique<RemapOf<D, QuadraticShape>>(scene, particles);
+            return std::make_unique<VelocityRemapOf<D, QuadraticShape>>(scene, particles);
         case ShapeFunction::gimp:
             break;
     }
-    return std::make_unique<RemapOf<D, GimpShape>>(scene, particles);
+    return std::make_unique<VelocityRemapOf<D, GimpShape>>(scene, particles);
 }
 
 template <int D>
@@ -93,8 +91,8 @@ void strain_by_momentum(GridPatch<D>& patch) {
     }
 }
 
-template std::unique_ptr<Remap<2>> make_remap<2>(const Scene&, Particles&);
-template std::unique_ptr<Remap<3>> make_remap<3>(const Scene&, Particles&);
+template std::unique_ptr<VelocityRemap<2>> make_velocity_remap<2>(const Scene&, Particles&);
+template std::unique_ptr<VelocityRemap<3>> make_velocity_remap<3>(const Scene&, Particles&);
 template void strain_by_momentum<2>(GridPatch<2>&);
 template void strain_by_momentum<3>(GridPatch<3>&);
 

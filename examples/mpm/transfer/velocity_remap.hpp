@@ -12,9 +12,9 @@ namespace mpm {
 ///
 /// So a node with next to no mass moves as the points around it, however large its acceleration.
 template <int D>
-class Remap {
+class VelocityRemap {
   public:
-    virtual ~Remap() = default;
+    virtual ~VelocityRemap() = default;
 
     /// Overwrites the momenta of a patch with those of this rank's points at the end of the step,
     /// which the points have not taken yet; with the shape functions of its start.
@@ -24,7 +24,7 @@ class Remap {
 
 /// The remap a scene asks for, or none.
 template <int D>
-std::unique_ptr<Remap<D>> make_remap(const Scene& scene, Particles& particles);
+std::unique_ptr<VelocityRemap<D>> make_velocity_remap(const Scene& scene, Particles& particles);
 
 /// Strains with the momenta of a patch, summed over the ranks.
 template <int D>

@@ -11,7 +11,7 @@ namespace mpm {
 
 /// Who owns which part of space.
 ///
-/// In two dimensions the third components of the boxes are 0. The closed boxes cover the grid and
+/// In two dimensions the boxes hold 0 along the third axis. The closed boxes cover the grid and
 /// share at most their faces. A point on a face may be with either side; it stays where it is until
 /// it has left its owner's closed box.
 struct Decomposition {

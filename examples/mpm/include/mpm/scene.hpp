@@ -123,7 +123,7 @@ struct Scene {
 };
 
 /// Whether velocities are mapped back to the nodes before they strain the points.
-inline bool remaps(const Scene& scene) {
+inline bool remaps_velocities(const Scene& scene) {
     return scene.time_integration == TimeIntegration::modified;
 }
 

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <string>
+
+namespace mpm {
+
+/// Number of this rank in a communicator. Not collective.
+inline int rank_of(MPI_Comm comm) {
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    return rank;
+}
+
+/// Number of ranks of a communicator. Not collective.
+inline int size_of(MPI_Comm comm) {
+    int size = 1;
+    MPI_Comm_size(comm, &size);
+    return size;
+}
+
+/// The text of rank 0 on every rank. Collective.
+std::string broadcast(std::string text, MPI_Comm comm);
+
+/// Throws std::runtime_error with the text of rank 0 on all ranks, unless it is empty. Collective.
+void fail_together(const std::string& text, MPI_Comm comm);
+
+}  // namespace mpm

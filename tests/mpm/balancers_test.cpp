@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 #ifdef RRCB_MPM_ZOLTAN
+#include "balancers/zoltan_balancer_mpi.hpp"
+
 #include <zoltan.h>
 #endif
 
@@ -161,6 +163,30 @@ TEST(Balancers, without_boxes_are_refused_with_the_reason) {
         }
     }
 }
+
+#ifdef RRCB_MPM_ZOLTAN
+/// What a balancer of Zoltan throws on this rank.
+std::string refusal(const ZoltanParameters& parameters) {
+    float version = 0;
+    Zoltan_Initialize(0, nullptr, &version);
+    const std::vector<double> x{1, 2, 3}, y{3, 1, 2};
+    try {
+        zoltan_balancer(parameters)({x, y}, MPI_COMM_WORLD);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Balancers, of_zoltan_tell_every_rank_what_it_refuses) {
+    const bool is_asked = size_of(MPI_COMM_WORLD) > 1;
+    EXPECT_EQ(refusal({{"DEBUG_LEVEL", "0"}, {"LB_METHOD", "RCB"}}), "");
+    const std::string unknown = refusal({{"DEBUG_LEVEL", "0"}, {"NO_SUCH", "1"}});
+    EXPECT_EQ(unknown, is_asked ? "Zoltan refuses the parameter NO_SUCH=1" : "");
+    const std::string curve = refusal({{"DEBUG_LEVEL", "0"}, {"LB_METHOD", "HSFC"}});
+    EXPECT_EQ(curve.find("only LB_METHOD=RCB makes boxes") != curve.npos, is_asked) << curve;
+}
+#endif
 
 }  // namespace
 }  // namespace mpm::test

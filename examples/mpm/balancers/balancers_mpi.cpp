@@ -54,7 +54,7 @@ std::optional<mpm::Balancer> make_balancer(const std::string& name) {
     if (name == "none") return std::nullopt;
     if (name != "zoltan-rcb") return rrcb_balancer(options_of(name));
 #ifdef RRCB_MPM_ZOLTAN
-    return zoltan_rcb_balancer();
+    return zoltan_balancer({{"DEBUG_LEVEL", "0"}, {"LB_METHOD", "RCB"}, {"CHECK_GEOM", "0"}});
 #else
     refuse(name, "is not there, because this was built without Zoltan");
 #endif

@@ -1,13 +1,15 @@
 #include "balancers/zoltan_balancer_mpi.hpp"
 
+#include "parallel/communicator_mpi.hpp"
+
 #include <zoltan.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <memory>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 
 namespace {
 
@@ -52,20 +54,16 @@ void coordinates(void* data, int, int, int count, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR l
 /// Zoltan's handle, kept from one balance to the next because look-ups need its cuts.
 class ZoltanRcb {
   public:
-    explicit ZoltanRcb(MPI_Comm comm) : zoltan_(Zoltan_Create(comm)) {
-        constexpr std::array<std::array<const char*, 2>, 6> parameters{{{"DEBUG_LEVEL", "0"},
-                                                                        {"KEEP_CUTS", "1"},
-                                                                        {"REMAP", "0"},
-                                                                        {"RETURN_LISTS", "PARTS"},
-                                                                        {"LB_METHOD", "RCB"},
-                                                                        {"CHECK_GEOM", "0"}}};
-        for (const auto& [name, value] : parameters) Zoltan_Set_Param(zoltan_, name, value);
-        Zoltan_Set_Num_Obj_Fn(zoltan_, num_objects, &objects_);
-        Zoltan_Set_Obj_List_Fn(zoltan_, object_list, &objects_);
-        Zoltan_Set_Num_Geom_Fn(zoltan_, dimension, &objects_);
-        Zoltan_Set_Geom_Multi_Fn(zoltan_, coordinates, &objects_);
+    ZoltanRcb(const ZoltanParameters& parameters, MPI_Comm comm) : zoltan_(Zoltan_Create(comm)) {
+        if (!zoltan_) throw std::runtime_error("Zoltan_Create failed: not enough memory");
+        for (const auto& [name, value] : parameters)
+            if (Zoltan_Set_Param(zoltan_.get(), name.c_str(), value.c_str()) != ZOLTAN_OK)
+                throw std::runtime_error("Zoltan refuses the parameter " + name + "=" + value);
+        Zoltan_Set_Num_Obj_Fn(zoltan_.get(), num_objects, &objects_);
+        Zoltan_Set_Obj_List_Fn(zoltan_.get(), object_list, &objects_);
+        Zoltan_Set_Num_Geom_Fn(zoltan_.get(), dimension, &objects_);
+        Zoltan_Set_Geom_Multi_Fn(zoltan_.get(), coordinates, &objects_);
     }
-    ~ZoltanRcb() { Zoltan_Destroy(&zoltan_); }
     ZoltanRcb(const ZoltanRcb&) = delete;
     ZoltanRcb& operator=(const ZoltanRcb&) = delete;
 
@@ -75,35 +73,37 @@ class ZoltanRcb {
         MPI_Scan(MPI_IN_PLACE, &end, 1, ZOLTAN_ID_MPI_TYPE, MPI_SUM, comm);
         objects_.first_id = end - static_cast<ZOLTAN_ID_TYPE>(positions.size());
         mpm::Decomposition decomposition;
-        decomposition.local_owners = partition();
-        int num_parts = 0;
-        MPI_Comm_size(comm, &num_parts);
-        for (int part = 0; part < num_parts; ++part) decomposition.boxes.push_back(box_of(part));
+        decomposition.local_owners = partition(comm);
+        for (int part = 0; part < mpm::size_of(comm); ++part)
+            decomposition.boxes.push_back(box_of(part));
         return decomposition;
     }
 
     int owner_of(mpm::Vector at) const {
         int rank = -1, part = -1;
-        Zoltan_LB_Point_PP_Assign(zoltan_, at.data(), &rank, &part);
+        Zoltan_LB_Point_PP_Assign(zoltan_.get(), at.data(), &rank, &part);
         return part;
     }
 
   private:
-    std::vector<int> partition() {
+    std::vector<int> partition(MPI_Comm comm) {
         int changes = 0, gid_entries = 0, lid_entries = 0, num_imports = 0, num_exports = 0;
         ZOLTAN_ID_PTR import_gids = nullptr, import_lids = nullptr;
         ZOLTAN_ID_PTR export_gids = nullptr, export_lids = nullptr;
         int *import_ranks = nullptr, *import_parts = nullptr;
         int *export_ranks = nullptr, *export_parts = nullptr;
-        const int code = Zoltan_LB_Partition(
-            zoltan_, &changes, &gid_entries, &lid_entries, &num_imports, &import_gids, &import_lids,
-            &import_ranks, &import_parts, &num_exports, &export_gids, &export_lids, &export_ranks,
-            &export_parts);
+        int code = Zoltan_LB_Partition(zoltan_.get(), &changes, &gid_entries, &lid_entries,
+                                       &num_imports, &import_gids, &import_lids, &import_ranks,
+                                       &import_parts, &num_exports, &export_gids, &export_lids,
+                                       &export_ranks, &export_parts);
         std::vector<int> owners(objects_.positions.size(), 0);
         for (int i = 0; code >= 0 && i < num_exports; ++i) owners[export_lids[i]] = export_parts[i];
         Zoltan_LB_Free_Part(&import_gids, &import_lids, &import_ranks, &import_parts);
         Zoltan_LB_Free_Part(&export_gids, &export_lids, &export_ranks, &export_parts);
-        if (code < 0) throw std::runtime_error("Zoltan_LB_Partition failed");
+        // Negative codes are errors; one rank's is thrown on all.
+        MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MIN, comm);
+        if (code < 0)
+            throw std::runtime_error("Zoltan_LB_Partition returned " + std::to_string(code));
         return owners;
     }
 
@@ -112,27 +112,35 @@ class ZoltanRcb {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         mpm::Box box{{-open, -open, -open}, {open, open, open}};
         int num_axes = 0;
-        Zoltan_RCB_Box(zoltan_, part, &num_axes, &box.lower[0], &box.lower[1], &box.lower[2],
-                       &box.upper[0], &box.upper[1], &box.upper[2]);
+        const int code =
+            Zoltan_RCB_Box(zoltan_.get(), part, &num_axes, &box.lower[0], &box.lower[1],
+                           &box.lower[2], &box.upper[0], &box.upper[1], &box.upper[2]);
+        if (code != ZOLTAN_OK)
+            throw std::runtime_error("Zoltan_RCB_Box failed: only LB_METHOD=RCB makes boxes");
         std::ranges::replace(box.lower, -open, -infinity);
         std::ranges::replace(box.upper, open, infinity);
         return box;
     }
 
-    Zoltan_Struct* zoltan_;
+    struct Destroy {
+        void operator()(Zoltan_Struct* zoltan) const { Zoltan_Destroy(&zoltan); }
+    };
+
+    std::unique_ptr<Zoltan_Struct, Destroy> zoltan_;
     Objects objects_;
 };
 
 }  // namespace
 
-mpm::Balancer zoltan_rcb_balancer() {
+mpm::Balancer zoltan_balancer(ZoltanParameters parameters) {
+    // Boxes and look-ups are asked of the cuts, by parts that are ranks; the last setting counts.
+    parameters.insert(parameters.end(),
+                      {{"KEEP_CUTS", "1"}, {"RETURN_LISTS", "PARTS"}, {"REMAP", "0"}});
     auto zoltan = std::make_shared<std::unique_ptr<ZoltanRcb>>();
-    return [zoltan](mpm::Positions positions, MPI_Comm comm) {
-        int num_ranks = 1;
-        MPI_Comm_size(comm, &num_ranks);
+    return [zoltan, parameters](mpm::Positions positions, MPI_Comm comm) {
         // Of a single part Zoltan says that its box is the origin.
-        if (num_ranks == 1) return mpm::slabs({}, 1);
-        if (!*zoltan) *zoltan = std::make_unique<ZoltanRcb>(comm);
+        if (mpm::size_of(comm) == 1) return mpm::slabs({}, 1);
+        if (!*zoltan) *zoltan = std::make_unique<ZoltanRcb>(parameters, comm);
         mpm::Decomposition decomposition = (*zoltan)->decompose(positions, comm);
         decomposition.owners = [zoltan](mpm::Positions at, std::span<int> owners) {
             for (std::size_t i = 0; i < owners.size(); ++i) owners[i] = (*zoltan)->owner_of(at[i]);

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-/// Names that make_balancer knows, by commas.
+/// Names that make_balancer knows, with commas between them.
 std::string balancer_names();
 
-/// A balancer by its name; nothing for `none`, which leaves the equal slabs of the start.
+/// Balancer of a name; none for `none`, which leaves the equal slabs of the start.
 ///
 /// The simulation asks for one box a rank: it lays a rank's grid over its box, and a point stays
 /// with its rank until it leaves the box. Throws std::invalid_argument for a method whose parts are

@@ -4,5 +4,5 @@
 
 #include <mpm/decomposition.hpp>
 
-/// The balancer rrcb::balance, as the simulation takes it.
+/// Balancer by rrcb::balance, collective as that is.
 mpm::Balancer rrcb_balancer(const rrcb::Options& options = {});

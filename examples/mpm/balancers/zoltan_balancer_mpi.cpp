@@ -13,7 +13,7 @@
 
 namespace {
 
-/// What Zoltan's callbacks see.
+/// Data of Zoltan's callbacks.
 struct Objects {
     mpm::Positions positions;
     ZOLTAN_ID_TYPE first_id = 0;

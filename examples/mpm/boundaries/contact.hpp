@@ -13,10 +13,10 @@ struct Surface {
     double friction = 0;   ///< Coulomb's coefficient
 };
 
-/// Takes out what goes against the surface, and friction along it.
+/// Velocity after contact, without its part into the surface and less by friction along it.
 ///
-/// A velocity that leaves the surface stays as it is. The tangential velocity is brought down by
-/// at most friction * what the normal one lost (Bardenhagen, Brackbill and Sulsky 2000).
+/// A velocity that leaves the surface stays as it is. The tangential velocity goes down by at most
+/// friction * the loss of the normal one (Bardenhagen, Brackbill and Sulsky 2000).
 template <int D>
 inline Components<D> after_contact(const Surface<D>& surface, const Components<D>& velocity) {
     double across = 0;

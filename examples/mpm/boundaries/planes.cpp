@@ -56,7 +56,7 @@ std::optional<Components<D>> free_normal(const Ground<D>& ground, const Walls& w
     return normal;
 }
 
-/// What a plane leaves of a velocity.
+/// Velocity that a plane leaves.
 template <int D>
 Components<D> left(const Wall& wall, const Components<D>& normal, Components<D> velocity) {
     if (wall.kind == Wall::fixed) return {};

@@ -62,7 +62,7 @@ void visit_images(const GridPatch<D>& patch, const Walls& walls, Visit visit) {
                 });
 }
 
-/// The sign of a component in the image.
+/// Sign of a component in the image.
 double parity(const Wall& wall, std::size_t axis, std::size_t component) {
     return wall.kind == Wall::fixed || component == axis ? -1 : 1;
 }
@@ -90,7 +90,7 @@ void hold_strain(const Walls& walls, GridPatch<D>& patch) {
         });
 }
 
-/// What points hand to nodes beyond a wall is their images' share of the nodes inside.
+/// Adds the sums of nodes beyond a wall to their images inside, and clears them.
 template <int D>
 void fold(const Walls& walls, GridPatch<D>& patch) {
     visit_images(patch, walls,
@@ -106,7 +106,7 @@ void fold(const Walls& walls, GridPatch<D>& patch) {
                  });
 }
 
-/// The same for the fields of effects, each a scalar or a component of a vector.
+/// Folds the fields of effects, each a scalar or a component of a vector.
 template <int D>
 void fold_fields(const Walls& walls, const std::vector<int>& components, GridPatch<D>& patch) {
     visit_images(
@@ -122,7 +122,7 @@ void fold_fields(const Walls& walls, const std::vector<int>& components, GridPat
         });
 }
 
-/// Nodes beyond a wall move as the images of those inside.
+/// Moves the nodes beyond a wall as the images of those inside.
 template <int D>
 void mirror(const Walls& walls, GridPatch<D>& patch) {
     visit_images(patch, walls,

@@ -17,7 +17,7 @@ void build(const EffectBuilder<D>& builder) {
 
 }  // namespace
 
-/// A force against the motion, rate * momentum, until a time: for a start at rest.
+/// A force -rate * momentum until a time, for a start at rest.
 EffectKind damping_effect() {
     return {
         "damping", {not_negative("rate", "1/s"), not_negative("until", "s")}, build<2>, build<3>};

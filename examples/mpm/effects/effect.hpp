@@ -9,7 +9,7 @@
 
 namespace mpm {
 
-/// What an effect has at hand to put itself into the step.
+/// Means of an effect to put itself into the step.
 template <int D>
 struct EffectBuilder {
     const Scene& scene;
@@ -18,7 +18,7 @@ struct EffectBuilder {
     Stages<D>& stages;     ///< to add kernels to
 };
 
-/// An effect: one file in src/effects, named in CMakeLists.txt.
+/// An effect: one file in effects/, named in effects.inc.
 struct EffectKind {
     std::string name;
     std::vector<Rule> rules;  ///< of its parameters
@@ -26,10 +26,10 @@ struct EffectKind {
     void (*build_3)(const EffectBuilder<3>&);
 };
 
-/// All effects there are, in the order they enter a stage.
+/// Effects there are, in the order they enter a stage; see effects.inc.
 std::span<const EffectKind> effect_kinds();
 
-/// The parameters of each effect of a scene, checked, by the number of its kind.
+/// Checked parameters of each effect of a scene, by the number of its kind.
 ///
 /// Throws std::invalid_argument for one that is not known, named twice, or has wrong parameters.
 std::vector<std::optional<Values>> effect_values(const Scene& scene);

@@ -6,7 +6,7 @@ namespace mpm {
 
 namespace {
 
-/// What the nodes this rank stands for lose in a step, and have lost since the start.
+/// Account of the nodes this rank stands for, over a step and since the start.
 template <int D>
 struct Ledger {
     std::vector<Components<D>> start;    ///< velocity the step begins with
@@ -30,7 +30,7 @@ double kinetic_energy(const Particles& particles, const MotionColumns& motion) {
     return energy;
 }
 
-/// What weight lacks of its full strength, as while it grows, is work not done.
+/// Opens the account of a step: weight short of its full strength, as while it grows, does no work.
 template <int D>
 void open_step(Ledger<D>& ledger, const GridPatch<D>& patch, const Components<D>& gravity,
                double time_step) {
@@ -40,7 +40,9 @@ void open_step(Ledger<D>& ledger, const GridPatch<D>& patch, const Components<D>
             ledger.impulse[n][a] = -time_step * patch.sums[n].mass * gravity[a];
 }
 
-/// A held node has no velocity, so nothing does work on it; the points keep what it was handed.
+/// Notes the velocities before the step.
+///
+/// Nothing does work on a held node, which has no velocity; the points keep what they handed it.
 template <int D>
 void note_start(Ledger<D>& ledger, const GridPatch<D>& patch) {
     ledger.start.assign(patch.sums.size(), Components<D>{});
@@ -58,10 +60,11 @@ void note_start(Ledger<D>& ledger, const GridPatch<D>& patch) {
     }
 }
 
-/// The work of an impulse is that times the mean of the velocities before and after.
+/// Adds the losses of the step.
 ///
-/// The points see that of stress with the velocities that strain them: before, those the last step
-/// ended with, and after, others where a node has next to no mass. The rest is lost.
+/// An impulse does the work impulse * mean of the velocities before and after. The points see the
+/// work of stress with the velocities that strain them: before, those of the last step's end, and
+/// after, others where a node has next to no mass. The rest is lost.
 template <int D>
 void close_step(Ledger<D>& ledger, const GridPatch<D>& patch) {
     for (std::size_t n = 0; n < patch.sums.size(); ++n) {
@@ -78,7 +81,7 @@ void close_step(Ledger<D>& ledger, const GridPatch<D>& patch) {
     }
 }
 
-/// The kernel, with the impulse it gives noted.
+/// Kernel of forces that also notes the impulse it gives.
 template <int D>
 NodeKernel<D> noted(NodeKernel<D> kernel, const std::shared_ptr<Ledger<D>>& ledger) {
     return [=](GridPatch<D>& patch, const StepTime& step) {
@@ -91,7 +94,7 @@ NodeKernel<D> noted(NodeKernel<D> kernel, const std::shared_ptr<Ledger<D>>& ledg
     };
 }
 
-/// The same for a kernel that changes the nodes after they have moved.
+/// Kernel of moved nodes that also notes the impulse it gives.
 template <int D>
 NodeKernel<D> noted_motion(NodeKernel<D> kernel, const std::shared_ptr<Ledger<D>>& ledger) {
     return [=](GridPatch<D>& patch, const StepTime& step) {
@@ -107,8 +110,9 @@ NodeKernel<D> noted_motion(NodeKernel<D> kernel, const std::shared_ptr<Ledger<D>
     };
 }
 
-/// Adds half the work of the present stress over the step: called before and after the materials,
-/// that is the work of the mean stress.
+/// Kernel of half the work of the present stress over the step.
+///
+/// Before and after the materials, both halves are the work of the mean stress.
 template <int D>
 PointKernel<D> work_kernel(const StressColumns<D>& stress, Column volume, Column work) {
     return [=](Particles& particles, const PointBlock<D>& block) {
@@ -165,8 +169,8 @@ void build(const EffectBuilder<D>& builder) {
 
 }  // namespace
 
-/// Keeps account of the energy that is lost: in the materials, on the nodes (walls, damping, drag)
-/// and in the transfers between points and nodes.
+/// Account of the energy lost in the materials, on the nodes (walls, damping, drag) and in the
+/// transfers between points and nodes.
 EffectKind energy_audit_effect() {
     return {"energy_audit", {}, build<2>, build<3>};
 }

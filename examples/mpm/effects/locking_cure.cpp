@@ -53,8 +53,9 @@ GradientKernel<D> average_kernel(Column volume) {
     };
 }
 
-/// The forces whose work is that of the stress in these strains: the mean of the stresses along
-/// the axes acts at the centre of the cell instead of at the point.
+/// Forces whose work is that of the stress in these strains.
+///
+/// The mean of the stresses along the axes acts at the centre of the cell, not at the point.
 template <int D>
 ScatterKernel<D> force_kernel(const MotionColumns& motion, const StressColumns<D>& stress) {
     return [=](const Particles& particles, std::span<const CellRun<D>> runs, GridPatch<D>& patch) {
@@ -94,8 +95,8 @@ void build(const EffectBuilder<D>& builder) {
 
 }  // namespace
 
-/// Against locking near incompressibility: the volume change of a point is that of the centre of
-/// its cell (selective reduced integration, as the B-bar method of Hughes 1980).
+/// A cure of locking near incompressibility: a point changes its volume as the centre of its cell
+/// (selective reduced integration, as the B-bar method of Hughes 1980).
 EffectKind locking_cure_effect() {
     return {"locking_cure", {}, build<2>, build<3>};
 }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t vertical = 1;
 
-/// What the body's own motion depends on, and what it has come to.
+/// Motion of the body: its inertia and loads, and its energy.
 template <int D>
 struct Motion {
     Gravity<D> gravity;                   ///< the share that weight has of it
@@ -31,8 +31,7 @@ double kinetic_energy(const Motion<D>& motion, const Penetrator<D>& body) {
     return 0.5 * motion.inertia * body.velocity * body.velocity;
 }
 
-/// Settles what the contact has summed in this step, with one reduction, and returns the force that
-/// has acted on the soil in it.
+/// Force on the soil in this step, with the sums of the contact settled. Collective: one reduction.
 template <int D>
 double sum_of_ranks(RigidContact<D>& contact, MPI_Comm comm) {
     std::vector<double> sums{contact.force};
@@ -47,7 +46,7 @@ double sum_of_ranks(RigidContact<D>& contact, MPI_Comm comm) {
     return total.front();
 }
 
-/// The body's own equation of motion.
+/// Moves the body by its equation of motion. Collective.
 template <int D>
 void move_body(RigidContact<D>& contact, Motion<D>& motion, const StepTime& step, MPI_Comm comm) {
     const double push = sum_of_ranks(contact, comm);
@@ -113,7 +112,7 @@ Motion<D> read_motion(const EffectBuilder<D>& builder, const Penetrator<D>& body
     return motion;
 }
 
-/// Its energy is the scene's, and what it has lost of it is no loss of the soil's.
+/// Reports the body's energy to the scene, with its loss apart from the soil's.
 template <int D>
 void report(const std::shared_ptr<RigidContact<D>>& contact,
             const std::shared_ptr<Motion<D>>& motion, Stages<D>& stages) {

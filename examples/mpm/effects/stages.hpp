@@ -18,7 +18,7 @@ struct NodeField {
     int component = -1;  ///< of a vector, which the mirror image in a wall turns; -1: a scalar
 };
 
-/// The acceleration that weight has, buoyancy included, at its full strength, m/s^2.
+/// Acceleration of weight, buoyancy included, at its full strength, m/s^2.
 template <int D>
 struct Gravity {
     Components<D> acceleration{};
@@ -27,7 +27,7 @@ struct Gravity {
     double share_at(double time) const { return time < ramp ? time / ramp : 1; }
 };
 
-/// A number that an effect has to tell, the same on all ranks.
+/// A number for the history from an effect, the same on all ranks.
 struct Report {
     std::string name;
     std::function<double()> value;
@@ -39,7 +39,7 @@ struct RigidEnergy {
     double potential;  ///< 0 at the start
 };
 
-/// Where in a step kernels can go, in the order of the step. An empty stage is a loop over nothing.
+/// Places of kernels in a step, in its order. An empty stage is a loop over nothing.
 template <int D>
 struct Stages {
     std::vector<std::function<void(Particles&)>> starts;  ///< once, on the points in place
@@ -48,8 +48,8 @@ struct Stages {
     std::vector<Named<NodeKernel<D>>> forces;             ///< on the sums over all ranks
     std::vector<Named<NodeKernel<D>>> constraints;        ///< after all forces
     std::vector<Named<NodeKernel<D>>> moved;              ///< after the nodes have moved
-    /// Where velocities are mapped back to the nodes (remap.hpp): on this rank's momenta, and then
-    /// on NodeMotion::strain_velocity, which walls and contacts must hold again.
+    /// Stages of the velocity remap (velocity_remap.hpp), if there is one: on this rank's momenta,
+    /// and then on NodeMotion::strain_velocity, which walls and contacts must hold again.
     std::vector<Named<ScatterKernel<D>>> velocity_scatters;
     std::vector<Named<NodeKernel<D>>> remapped_velocities;
     std::vector<Named<GradientKernel<D>>> gradients;      ///< after points have moved

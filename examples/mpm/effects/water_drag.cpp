@@ -17,7 +17,7 @@ struct Drag {
     Column mark;                           ///< 1 for a point in a cell with a node of the surface
 };
 
-/// The force on one node against its velocity, on the area that faces it; it never turns the node.
+/// Slows one node down on the area that faces its velocity; it never turns the node.
 template <int D>
 void slow_down(double factor, const Components<D>& area, double time_step, NodeSums<D>& node) {
     double facing = 0;
@@ -83,8 +83,8 @@ void build(const EffectBuilder<D>& builder) {
 /// Quadratic drag of still water, density * coefficient * area * speed^2 / 2, on the surface that
 /// faces the motion.
 ///
-/// The surface is looked for at the nodes of points that were, in the step before, in a cell with a
-/// node less than three quarters full.
+/// It acts on the nodes of points that were, in the step before, in a cell with a node less than
+/// three quarters full.
 EffectKind water_drag_effect() {
     return {"water_drag",
             {not_negative("water_density", "kg/m^3"), not_negative("drag_coefficient", "")},

@@ -11,8 +11,10 @@ namespace mpm {
 template <int D>
 using Components = std::array<double, D>;
 
-/// What the points sum on a node, and neighbours sum over ranks in one message: five doubles in
-/// two dimensions, seven in three.
+/// Sums of the points on a node.
+///
+/// Neighbours sum them over ranks in one message: five doubles a node in two dimensions, seven in
+/// three.
 template <int D>
 struct NodeSums {
     double mass = 0;
@@ -29,7 +31,7 @@ inline void add(const NodeSums<D>& from, NodeSums<D>& to) {
     }
 }
 
-/// What the points read from a node.
+/// Motion of a node, as the points read it.
 template <int D>
 struct NodeMotion {
     Components<D> velocity{};         ///< at the end of the step
@@ -100,6 +102,7 @@ void visit_rows(const NodeRange<D>& range, Visit visit) {
     std::array<int, D> node = range.begin;
     for (;;) {
         visit(node, static_cast<std::size_t>(range.count[0]));
+        // Counts up along the axes beyond x, as an odometer.
         std::size_t axis = 1;
         while (axis < D && ++node[axis] == range.begin[axis] + range.count[axis]) {
             node[axis] = range.begin[axis];
@@ -121,11 +124,11 @@ void visit_nodes(const NodeRange<D>& range, Visit visit) {
 template <int D>
 void resize(GridPatch<D>& patch, const NodeRange<D>& nodes);
 
-/// Velocities at the end of a step from the sums.
+/// Moves the nodes by the sums of a step.
 ///
 /// A node that only the rim of a point's cell touches has next to no mass but a finite force. Its
-/// acceleration is harmless where it is weighted by the same small shape function, but not in
-/// the velocity gradient; there a mass of at least `least_mass` is used. Momentum stays exact.
+/// acceleration does no harm where the same small shape function weights it, but does in the
+/// velocity gradient; there its mass counts as at least `least_mass`. Momentum stays exact.
 template <int D>
 void move_nodes(GridPatch<D>& patch, double time_step, double least_mass);
 

@@ -54,8 +54,9 @@ PointKernel<D> dilating_kernel(const DruckerPrager& cone, const Elastic& elastic
     };
 }
 
-/// Keeps the volume of points that tension has parted from growing without end: it is what gives
-/// them stiffness when they meet again.
+/// Kernel that bounds the volume of points parted by tension.
+///
+/// Their volume is their stiffness when they meet again, so it must not grow without end.
 template <int D>
 PointKernel<D> limit_kernel(double largest_by_mass, Column mass, Column volume) {
     return [=](Particles& particles, const PointBlock<D>& block) {

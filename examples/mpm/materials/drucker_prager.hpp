@@ -8,7 +8,7 @@
 
 namespace mpm {
 
-/// Strength in terms of Mohr-Coulomb.
+/// Strength in the terms of Mohr-Coulomb.
 struct MohrCoulomb {
     double cohesion = 0;         ///< Pa
     double friction_angle = 0;   ///< degrees
@@ -53,7 +53,8 @@ inline Stress<D> returned(const DruckerPrager& cone, const Stress<D>& trial) {
     return composed(new_mean, (strength < tau ? strength : tau) / tau, shear);
 }
 
-/// The same with dilation: along the flow to the cone, as far as the tension limit.
+/// The admissible stress where there is dilation: along the flow to the cone, as far as the tension
+/// limit.
 ///
 /// Between both the bisector of their edge decides (FLAC's theory manual, Drucker-Prager model).
 template <int D>

@@ -59,7 +59,7 @@ PointKernel<D> elastic_kernel(const Elastic& elastic, const StressColumns<D>& co
 
 namespace {
 
-/// p^2 / 2 K + s : s / 4 G per volume.
+/// Energy per volume, p^2 / 2 K + s : s / 4 G.
 template <int D>
 double stored(const Elastic& elastic, const Stress<D>& stress) {
     const double pressure = mean(stress);

@@ -19,14 +19,14 @@ struct Elastic {
     double wave_speed(double density) const;
 };
 
-/// density, youngs_modulus and poissons_ratio.
+/// Rules of density, youngs_modulus and poissons_ratio.
 std::vector<Rule> elastic_rules();
 /// The rules of elasticity and more of a model's own.
 std::vector<Rule> elastic_rules(std::vector<Rule> more);
 Elastic elastic_of(const Values& values);
 double elastic_wave_speed(const Values& values);
 
-/// Rotates and strains the stress of its points: hypoelastic, Jaumann rate.
+/// Kernel that rotates and strains the stress of its points: hypoelastic, Jaumann rate.
 template <int D>
 PointKernel<D> elastic_kernel(const Elastic& elastic, const StressColumns<D>& columns);
 
@@ -34,8 +34,9 @@ PointKernel<D> elastic_kernel(const Elastic& elastic, const StressColumns<D>& co
 template <int D>
 MaterialModel<D> elastic_model(const Values& values, Particles& particles);
 
-/// Stress turned with the material: the Jaumann rate, integrated so that its norm is kept
-/// whatever the angle, by a rational rotation as Hughes and Winget's (1980).
+/// Stress turned with the material by the Jaumann rate.
+///
+/// A rational rotation as Hughes and Winget's (1980) keeps its norm at any angle.
 inline Stress<2> rotated(const Stress<2>& stress, const DisplacementGradient<2>& gradient) {
     const double angle = 0.5 * (gradient[0][1] - gradient[1][0]);
     const double mean = 0.5 * (stress.xx + stress.yy);
@@ -49,7 +50,7 @@ inline Stress<2> rotated(const Stress<2>& stress, const DisplacementGradient<2>&
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-/// (1 - W/2)^-1 (1 + W/2) for the skew W of half a step's rotation vector (Cayley).
+/// Rotation (1 - W/2)^-1 (1 + W/2) for the skew W of half a step's rotation vector (Cayley).
 inline Matrix turn(double x, double y, double z) {
     const double square = x * x + y * y + z * z, scale = 2 / (1 + square);
     Matrix r;

@@ -15,9 +15,11 @@ struct HerschelBulkley {
     double exponent = 1;
 };
 
-/// The rate of viscous shear, 1/s, that uses up an excess of elastic trial stress over the yield
-/// stress within a step: stiffness * rate + consistency * rate^exponent = excess, where stiffness
-/// is shear modulus * time step.
+/// Rate of viscous shear, 1/s, that uses up an excess of elastic trial stress over the yield stress
+/// within a step.
+///
+/// It solves stiffness * rate + consistency * rate^exponent = excess, where stiffness is shear
+/// modulus * time step.
 ///
 /// Newton's method from above on a convex function, in the rate, or in the viscous stress where the
 /// exponent is below 1; it comes down without overshooting.
@@ -42,7 +44,7 @@ inline double viscous_rate(const HerschelBulkley& fluid, double stiffness, doubl
     return is_rate ? unknown : std::pow(unknown / fluid.consistency, power);
 }
 
-/// The stress at the end of a step of an elastic trial stress; its mean stays.
+/// Stress after a step from an elastic trial stress; its mean stays.
 template <int D>
 inline Stress<D> returned(const HerschelBulkley& fluid, double stiffness, const Stress<D>& trial) {
     const double pressure = mean(trial);

@@ -9,7 +9,7 @@
 
 namespace mpm {
 
-/// What a material does to its points.
+/// Kernels and energy of a material.
 template <int D>
 struct MaterialModel {
     std::vector<Named<PointKernel<D>>> kernels;
@@ -17,7 +17,7 @@ struct MaterialModel {
     std::function<double(const Particles&, std::size_t point)> strain_energy;
 };
 
-/// A model of materials: one file in src/materials, named in CMakeLists.txt.
+/// A model of materials: one file in materials/, named in materials.inc.
 struct MaterialKind {
     std::string name;
     std::vector<Rule> rules;              ///< of its parameters, `density` among them
@@ -27,13 +27,14 @@ struct MaterialKind {
     MaterialModel<3> (*build_3)(const Values&, Particles&);
 };
 
-/// All models there are.
+/// Models there are; see materials.inc.
 std::span<const MaterialKind> material_kinds();
 
-/// Throws std::invalid_argument that lists the models when there is none of this name.
+/// Model of a material; throws std::invalid_argument that lists the models where it is none of
+/// them.
 const MaterialKind& find_material_kind(const Material& material);
 
-/// The parameters of a material, checked; throws std::invalid_argument.
+/// Checked parameters of a material; throws std::invalid_argument.
 Values values_of(const Material& material, int dimension);
 
 /// Number of the scene's material a body is made of; throws std::invalid_argument.

@@ -20,7 +20,7 @@ inline double determinant(const Deformation<D>& f) {
                f[0][2] * (f[1][0] * f[2][1] - f[1][1] * f[2][0]);
 }
 
-/// (1 + gradient) F.
+/// Deformation gradient after a step, (1 + gradient) F.
 template <int D>
 inline Deformation<D> deformed(const Deformation<D>& f, const DisplacementGradient<D>& gradient) {
     Deformation<D> next = f;

@@ -22,7 +22,7 @@ Principal principal_of(const Solver& solver) {
     return {values[2], values[1], values[0]};
 }
 
-/// In plane strain: the principal stresses, and the place among them of that along z.
+/// Principal stresses in plane strain, and the place among them of that along z.
 struct PlanePrincipal {
     explicit PlanePrincipal(const Stress<2>& s) : radius(std::hypot(0.5 * (s.xx - s.yy), s.xy)) {
         const double mid = 0.5 * (s.xx + s.yy);

@@ -68,7 +68,7 @@ double shear_rate(const PointBlock<D>& block, std::size_t k) {
     return 2 * std::sqrt(square);
 }
 
-/// The stress a trial stress returns to on sqrt(J2) <= strength: von Mises, and in plane strain,
+/// Return of a trial stress to sqrt(J2) <= strength: von Mises, and in plane strain,
 /// once clay flows, Tresca (tresca.hpp) as well.
 template <int D>
 inline Stress<D> returned(double strength, const Stress<D>& trial) {

@@ -8,7 +8,7 @@ namespace mpm {
 
 namespace {
 
-/// What the return reads and changes.
+/// Columns that the return reads and changes.
 template <int D>
 struct Columns {
     StressColumns<D> stress;
@@ -16,7 +16,7 @@ struct Columns {
     std::optional<Column> plastic_strain;  ///< where the clay softens
 };
 
-/// Where clay yields: what of a stress reaches the strength, and what it returns to.
+/// Criteria of yield: the shear of a stress that reaches the strength, and the return to it.
 struct VonMises {
     static constexpr const char* name = "von_mises";
     template <int D>

@@ -8,7 +8,8 @@
 
 namespace mpm {
 
-/// Hands the motion of the last step's nodes to whoever has them next. Collective over `comm`.
+/// Hands the motion of the last step's nodes to the ranks that have them next. Collective over
+/// `comm`.
 ///
 /// `before` and `after` are the patches of all ranks, `from` this rank's by the former; `to` has
 /// the size of the latter, and its motion is replaced. A node that no rank had rests.

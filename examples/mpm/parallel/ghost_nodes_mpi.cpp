@@ -10,7 +10,7 @@ namespace {
 
 constexpr int ghost_tag = 1;
 
-/// All sums and fields of a patch.
+/// Slice of all sums and fields of a patch.
 template <int D>
 struct AllSums {
     GridPatch<D>& patch;
@@ -41,7 +41,7 @@ struct AllSums {
     }
 };
 
-/// The momenta of a patch.
+/// Slice of the momenta of a patch.
 template <int D>
 struct Momenta {
     GridPatch<D>& patch;
@@ -114,6 +114,7 @@ void GhostNodes<D>::add_up(Slice slice) {
     exchange(slice);
     pack(slice, shared_, own_);
     for (const std::size_t n : shared_) slice.clear(n);
+    // From 0 on and in the order of the ranks, this one in its place: the same bits on all.
     std::size_t neighbour = 0;
     for (; neighbour < ranks_.size() && ranks_[neighbour] < rank_; ++neighbour)
         unpack(incoming_[neighbour], nodes_[neighbour], slice);

@@ -17,25 +17,23 @@ class GhostNodes {
     /// Finds the shared nodes from the patches of all ranks. Not collective.
     GhostNodes(std::span<const NodeRange<D>> patches, MPI_Comm comm);
 
-    /// Adds what the other ranks have on the shared nodes, sums and fields; collective over the
-    /// neighbours.
+    /// Sums the shared nodes over the ranks, sums and fields. Collective over the neighbours.
     ///
-    /// One message to each neighbour. Every rank adds the contributions to a node in ascending
+    /// One message goes to each neighbour. Every rank adds the contributions to a node in ascending
     /// order of the ranks, so that all hold the same bits.
     void sum(GridPatch<D>& patch);
 
-    /// The same for the momenta alone.
+    /// Sums the momenta alone. Collective over the neighbours.
     void sum_momentum(GridPatch<D>& patch);
 
-    /// Marks the nodes this rank stands for: each node of the grid is one rank's, the lowest that
-    /// has it.
+    /// Marks the nodes this rank stands for; the lowest rank that has a node stands for it.
     void mark_counted(GridPatch<D>& patch) const;
 
     /// Ranks that share a node with this one, ascending.
     const std::vector<int>& neighbours() const { return ranks_; }
 
   private:
-    /// Of a slice: what of each node is summed.
+    /// Sums a slice: the part of each node that takes part.
     template <typename Slice>
     void add_up(Slice slice);
     template <typename Slice>

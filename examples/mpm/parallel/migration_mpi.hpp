@@ -9,10 +9,10 @@
 
 namespace mpm {
 
-/// How far the points of any rank must travel; the largest over all ranks decides.
+/// Distance that points must travel; the largest over all ranks decides.
 enum class Reach { nowhere, neighbours, anywhere };
 
-/// Points that leave a rank: local indices, ascending, and where each goes.
+/// Points that leave a rank: local indices, ascending, and the rank each goes to.
 struct Leavers {
     std::vector<std::size_t> points;
     std::vector<int> owners;
@@ -21,8 +21,9 @@ struct Leavers {
 /// Sends the leavers with all their columns, one message per receiver, and appends the points
 /// that arrive, in ascending order of the sender.
 ///
-/// Collective; `reach` is the same on all ranks. Within `neighbours` (ascending, mutual) each
-/// pair exchanges a message, elsewhere counts are exchanged first. Returns how many arrived.
+/// Collective; `reach` is the same on all ranks. Within `neighbours` (ascending, mutual) each pair
+/// exchanges a message; elsewhere ranks first exchange who sends to whom. Returns the number of
+/// points that arrived.
 std::size_t migrate(Particles& particles, const Leavers& leavers, Reach reach,
                     std::span<const int> neighbours, MPI_Comm comm);
 

@@ -23,7 +23,7 @@ bool is_inside(const Box& box, const std::array<const double*, 3>& at, std::size
     return true;
 }
 
-/// Whether all points of a block do, two at a time.
+/// Whether all points of a block lie in the box, two at a time.
 template <int D>
 bool are_inside(const Box& box, const std::array<const double*, 3>& at, std::size_t begin,
                 std::size_t end) {

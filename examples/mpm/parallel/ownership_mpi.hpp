@@ -12,7 +12,7 @@
 
 namespace mpm {
 
-/// What the ranks agree on after points have moved or a balancer has spoken.
+/// Agreement of the ranks after points have moved or a balancer has divided them.
 struct Agreement {
     Reach reach = Reach::nowhere;
     double max_speed = 0;  ///< m/s
@@ -30,13 +30,14 @@ class Ownership {
     /// Finds the points that a new decomposition gives to other ranks. Not collective.
     void find_reassigned(const Decomposition& next, Positions positions);
 
-    /// Collective; throws on all ranks when one of them found a fault since the last time.
+    /// Largest reach and speed over the ranks. Collective; throws std::runtime_error on all ranks
+    /// when one has found a fault since the last agreement.
     Agreement agree(double speed);
 
     const Leavers& leavers() const { return leavers_; }
 
   private:
-    /// What can go wrong on one rank, in ascending order of gravity.
+    /// Faults of a rank, in ascending order of gravity.
     enum class Fault { none, misplaced, no_owner, left_grid };
 
     static void throw_fault(Fault fault);

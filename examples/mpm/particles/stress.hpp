@@ -12,7 +12,7 @@ namespace mpm {
 template <int D>
 struct Stress;
 
-/// In plane strain.
+/// Stress in plane strain.
 template <>
 struct Stress<2> {
     double xx = 0, yy = 0, zz = 0, xy = 0;
@@ -34,7 +34,8 @@ inline constexpr std::size_t num_stresses = D == 2 ? 4 : 6;
 template <int D>
 using StressColumns = std::array<Column, num_stresses<D>>;
 
-/// stress_xx, stress_yy, stress_zz, stress_xy, and in three dimensions stress_yz, stress_zx.
+/// Adds the columns stress_xx, stress_yy, stress_zz, stress_xy, and in three dimensions stress_yz,
+/// stress_zx.
 template <int D>
 StressColumns<D> add_stress_columns(Particles& particles) {
     constexpr std::array<const char*, 6> names{"xx", "yy", "zz", "xy", "yz", "zx"};
@@ -80,7 +81,7 @@ inline double mean(const Stress<D>& stress) {
     return (stress.xx + stress.yy + stress.zz) / 3;
 }
 
-/// Half the squares of the deviator, J2, of a stress with the mean taken off its diagonal.
+/// Half the sum of the squares of a deviator, J2.
 template <int D>
 inline double second_invariant(const Stress<D>& deviator) {
     const double diagonal =
@@ -100,7 +101,7 @@ inline Stress<D> deviator(Stress<D> stress, double mean) {
     return stress;
 }
 
-/// mean + scale * deviator.
+/// Stress mean + scale * deviator.
 template <int D>
 inline Stress<D> composed(double mean, double scale, const Stress<D>& deviator) {
     Stress<D> stress;

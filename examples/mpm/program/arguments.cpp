@@ -10,7 +10,7 @@
 
 namespace {
 
-/// The number an option was given, or what stands for none; throws what is wrong with the text.
+/// Number of an option, or `none` where it is not given; throws std::invalid_argument.
 template <typename Number>
 Number number(const std::string& option, const std::string& text, Number none, Number least) {
     if (text.empty()) return none;
@@ -23,7 +23,7 @@ Number number(const std::string& option, const std::string& text, Number none, N
     return value;
 }
 
-/// As text, because Teuchos tells of a number it cannot read on rank 0 only.
+/// Numbers as text, because Teuchos tells of one it cannot read on rank 0 only.
 struct Texts {
     std::string every, vtk_every, end_time, cell_size;
 };

@@ -15,6 +15,8 @@ struct Arguments {
     bool list_kernels = false;
 };
 
-/// None when the user only asked for help; throws std::invalid_argument that names the option.
-/// Not collective; all ranks must be given the same.
+/// Arguments of a command line, or none where it only asks for help.
+///
+/// Not collective; all ranks must be given the same. Throws std::invalid_argument that names the
+/// option.
 std::optional<Arguments> read_arguments(int argc, char** argv);

@@ -27,7 +27,7 @@ void print_words(const char* title, const std::vector<std::string>& words) {
     std::printf("\n");
 }
 
-/// What a step of a scene does, owns and sends.
+/// Prints the kernels of a step, and the bytes of points and messages.
 void list_kernels(const mpm::Simulation& simulation) {
     const auto& columns = simulation.particles().column_names();
     print_words("kernels", simulation.kernels());
@@ -37,7 +37,7 @@ void list_kernels(const mpm::Simulation& simulation) {
                 simulation.doubles_per_ghost_node());
 }
 
-/// Writes what the output plan asks for, into a folder that is there on rank 0's machine.
+/// Files of the output plan, in a folder that rank 0 makes.
 class Recorder {
   public:
     Recorder(const std::string& folder, const mpm::SceneFile& file, MPI_Comm comm)

@@ -8,13 +8,13 @@
 
 namespace mpm {
 
-/// How many points a scene has, and where.
+/// Number and place of the points of a scene.
 struct Extent {
     std::int64_t num_points = 0;
     Box box;  ///< empty without points
 };
 
-/// Throws std::invalid_argument that names a point whose velocity is not finite.
+/// Extent of a scene; throws std::invalid_argument that names a point whose velocity is not finite.
 Extent extent_of(const Scene& scene);
 
 /// Appends the scene's points that `rank` owns; columns other than those of

@@ -10,7 +10,7 @@ namespace mpm {
 
 namespace {
 
-/// What a shape must have beside `shape` and `operation`.
+/// Rules of a shape, `shape` and `operation` among them.
 std::vector<Rule> shape_rules(const std::string& shape) {
     std::vector<Rule> rules{{.name = "shape",
                              .kind = Rule::Kind::word,

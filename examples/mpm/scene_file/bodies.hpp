@@ -6,7 +6,7 @@
 
 namespace mpm {
 
-/// The body a list describes.
+/// Body of a list.
 Body read_body(List list, const std::string& name, int dimension);
 
 /// A list of whole numbers along the axes, each at least 1; 1 beyond the dimension.

@@ -10,7 +10,7 @@ namespace mpm {
 /// A number at each position; it may be infinite or none (NaN) somewhere.
 using Expression = std::function<double(const Vector&)>;
 
-/// Understands an expression of the coordinates x, y and, in three dimensions, z, in metres.
+/// Expression of the coordinates x, y and, in three dimensions, z, in metres.
 ///
 /// Operators and functions are muParser's, and pi; see the README. Throws std::invalid_argument
 /// that tells what is wrong, where in the text, and what is possible.

@@ -17,20 +17,21 @@ class List {
 
     const std::string& place() const { return place_; }
 
-    /// The lists in this one, in the order of the file; throws when anything else is there.
+    /// Names of the lists in this one, in the order of the file; throws where anything else is
+    /// there.
     std::vector<std::string> sublist_names() const;
     bool has(const std::string& name) const { return list_.isParameter(name); }
-    /// Throws for a list that nobody has taken, and says what lists are possible.
+    /// Throws for a list that nobody has taken, with the possible lists.
     void refuse_other_lists(const std::string& possible) const;
-    /// The list of this name, empty when there is none, and forgets it; throws when it is no list.
+    /// Takes out the list of this name, empty where there is none; throws where it is no list.
     List take_list(const std::string& name);
-    /// Rows of as many numbers as there are dimensions, and forgets them.
+    /// Takes out rows of as many numbers as there are dimensions.
     std::vector<Vector> take_rows(const std::string& name, int dimension);
-    /// As many texts as there are dimensions, and forgets them; numbers count as texts, too.
+    /// Takes out as many texts as there are dimensions; numbers count as texts, too.
     std::vector<std::string> take_texts(const std::string& name, int dimension);
-    /// The rest, which must be numbers, words and rows of numbers.
+    /// Entries not taken, which must be numbers, words and rows of numbers.
     Parameters parameters() const;
-    /// The rest, checked.
+    /// Entries not taken, checked by the rules.
     Values values(const std::vector<Rule>& rules, int dimension) const {
         return {parameters(), rules, place_, dimension};
     }

@@ -7,13 +7,13 @@
 
 namespace mpm {
 
-/// How often a run writes, in steps; 0: never.
+/// Steps between two outputs; 0: never.
 struct OutputPlan {
     int history_every = 10;
     int vtk_every = 0;
 };
 
-/// What a scene file holds.
+/// A scene file: the scene, and its output.
 struct SceneFile {
     Scene scene;
     OutputPlan output;
@@ -21,17 +21,18 @@ struct SceneFile {
 
 enum class SceneFormat { yaml, xml };
 
-/// Reads a scene; not collective. `name` is that of the file, for errors and the scene's name.
+/// Scene of a text; `name` is that of the file, for errors and the scene's name. Not collective.
 ///
 /// Throws std::invalid_argument that names the file, the place and key, and what is allowed.
 SceneFile parse_scene(const std::string& text, SceneFormat format, const std::string& name);
 
-/// Reads a scene file, XML where its name ends in .xml and YAML otherwise. Collective over `comm`:
-/// rank 0 reads; an error is thrown on all ranks.
+/// Scene of a file, XML where its name ends in .xml and YAML otherwise.
+///
+/// Collective over `comm`: rank 0 reads, and an error is thrown on all ranks.
 SceneFile read_scene(const std::string& path, MPI_Comm comm);
 
-/// Gives a scene's domain cells of another size, m; it may grow by part of a cell at its upper
-/// sides.
+/// Gives a scene's domain cells of another size, m; the domain may grow by part of a cell at its
+/// upper sides.
 void resize_cells(Scene& scene, double cell_size);
 
 }  // namespace mpm

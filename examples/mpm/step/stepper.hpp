@@ -14,7 +14,7 @@
 
 namespace mpm {
 
-/// A simulation whose dimension is not known; every call is one of a step, never of a point.
+/// A simulation of either dimension; every call is one of a step, never of a point.
 class Simulation::Model {
   public:
     virtual ~Model() = default;
@@ -33,7 +33,7 @@ class Simulation::Model {
     double time = 0, time_step = 0, max_speed = 0;
 };
 
-/// The steps of a scene of D dimensions; `step` is the list of what is done.
+/// A scene of D dimensions in time; `step` is the list of its stages.
 template <int D>
 class Stepper final : public Simulation::Model {
   public:

@@ -58,7 +58,7 @@ double least_mass(const Scene& scene) {
     return largest;
 }
 
-/// The stages of a scene: its walls and planes hold nodes before its effects do.
+/// Stages of a scene: its walls and planes enter them before its effects, and images last.
 template <int D>
 Stages<D> build_stages(const Scene& scene, Particles& particles) {
     Stages<D> stages;
@@ -179,6 +179,7 @@ void Stepper<D>::apply_materials(const PointBlock<D>& block) {
     }
     const std::span<const double> material = particles[*material_column_];
     PointBlock<D> part = block;
+    // A part is all of the block up to the next change of material.
     for (part.begin = block.begin; part.begin < block.end; part.begin = part.end) {
         const double number = material[part.begin];
         part.end = part.begin + 1;
@@ -215,7 +216,7 @@ void Stepper<D>::set_time_step(double fastest) {
     time_step = scene_.courant_number * scene_.grid.spacing / (wave_speed_ + max_speed);
 }
 
-/// Sorts when enough points are out of order to slow the transfers down.
+/// Counts the arrivals, and sorts when enough points are out of order to slow the transfers down.
 template <int D>
 void Stepper<D>::take_in(std::size_t num_arrived) {
     num_out_of_order_ += num_arrived;

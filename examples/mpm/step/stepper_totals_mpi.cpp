@@ -49,7 +49,7 @@ double Stepper<D>::strain_energy(std::size_t point) const {
     return materials_[material].strain_energy(particles, point);
 }
 
-/// What points hold from the start is no loss.
+/// Starts the points; the energy they hold from the start is no loss.
 template <int D>
 void Stepper<D>::start_points() {
     for (const auto& start : stages_.starts) start(particles);

@@ -111,8 +111,8 @@ struct PointWriter {
     double* volume;
 };
 
-/// Velocity of a point after a step by FLIP: its own one with the change of the grid's, but for a
-/// share 1 - `flip_fraction` the grid's (Scene::flip_fraction).
+/// Velocity of a point after a step by FLIP: its own with the change of the grid, but for a share
+/// 1 - flip_fraction that of the grid (Scene::flip_fraction).
 [[gnu::always_inline]] inline double flip_velocity(double flip_fraction, double velocity,
                                                    double change, double of_grid) {
     return flip_fraction * (velocity + change) + (1 - flip_fraction) * of_grid;

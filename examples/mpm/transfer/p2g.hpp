@@ -9,7 +9,7 @@
 
 namespace mpm {
 
-/// What one point hands to its nodes.
+/// Contribution of one point to its nodes.
 template <int D>
 struct Contribution {
     double mass;

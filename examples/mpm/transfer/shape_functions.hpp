@@ -27,15 +27,18 @@ struct LinearShape {
         return cell_of(shape, coordinate, axis);
     }
 
-    /// Weights at `u` cells from the lowest node. On a face both are above 0 still: the slopes
-    /// there need a velocity of both nodes, and one without mass would have none.
+    /// Weights at `u` cells from the lowest node.
+    ///
+    /// On a face both are above 0 still: the slopes there need a velocity of both nodes, and a node
+    /// without mass has none.
     Weights<2> at(double u, std::size_t) const {
         const double above = u > least ? u : least;
         const double inside = above < most ? above : most;
         return {{1 - inside, inside}, {-1, 1}};
     }
 
-    /// No constants: of these compilers make branches, which keep loops over points from vectors.
+    /// Members, since compilers make branches of constants, which keep loops over points from
+    /// vectors.
     double least = 1e-12, most = 1 - 1e-12;
 };
 

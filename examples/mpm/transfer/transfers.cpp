@@ -33,6 +33,7 @@ class TransfersOf final : public Transfers<D> {
                 if (p == begin || starts_run(first, p - begin))
                     runs.push_back(run_from(patch, first, p, p - begin));
         }
+        // A run ends where the next begins; blocks cut them, so none spans two blocks.
         for (std::size_t r = 0; r + 1 < runs.size(); ++r) runs[r].end = runs[r + 1].begin;
         if (!runs.empty()) runs.back().end = particles.size();
     }
@@ -45,6 +46,7 @@ class TransfersOf final : public Transfers<D> {
             cells[p] = patch.index(first_node(patch, at, p));
             ++places[cells[p] + 1];
         }
+        // A counting sort: places[c] is the next free place of cell c.
         for (std::size_t c = 1; c < places.size(); ++c) places[c] += places[c - 1];
         std::vector<std::size_t> order(cells.size());
         for (std::size_t p = 0; p < cells.size(); ++p) order[places[cells[p]]++] = p;

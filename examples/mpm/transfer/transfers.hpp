@@ -12,7 +12,7 @@
 
 namespace mpm {
 
-/// Points are advanced in blocks of this size, so that what is between kernels stays in cache.
+/// Points of a block; columns between kernels stay in cache.
 inline constexpr std::size_t block_size = 512;
 
 /// Consecutive points of one block that share their nodes.
@@ -78,7 +78,7 @@ struct StepGradients {
     std::array<std::array<const double*, D>, D> entry;
 };
 
-/// The columns the transfers read and change.
+/// Columns that the transfers read and change.
 template <int D>
 struct TransferColumns {
     MotionColumns motion;
@@ -114,13 +114,13 @@ class Transfers {
                             const PointBlock<D>& block) const = 0;
 
     /// Adds a column of the points to a field of the nodes, weighted by the shape functions, or by
-    /// their derivatives along an axis where that is not -1.
+    /// their derivatives along `axis` where that is not -1.
     virtual void scatter(const Particles& particles, Column column, int axis,
                          const std::vector<CellRun<D>>& runs, const GridPatch<D>& patch,
                          std::vector<double>& field) const = 0;
 };
 
-/// The transfers a scene asks for; adds the columns they need.
+/// Transfers of a scene; adds the columns they need.
 template <int D>
 std::unique_ptr<Transfers<D>> make_transfers(const Scene& scene, Particles& particles);
 

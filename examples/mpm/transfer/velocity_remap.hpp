@@ -7,10 +7,11 @@
 
 namespace mpm {
 
-/// The modified update stress last of Sulsky, Zhou and Schreyer (1995): what strains the points are
-/// the velocities that they have at the end of the step, mapped back to the nodes.
+/// Map of the velocities of points back to the nodes, by which the modified update stress last of
+/// Sulsky, Zhou and Schreyer (1995) strains the points.
 ///
-/// So a node with next to no mass moves as the points around it, however large its acceleration.
+/// The velocities are those at the end of the step. So a node with next to no mass moves as the
+/// points around it, however large its acceleration.
 template <int D>
 class VelocityRemap {
   public:
@@ -22,11 +23,11 @@ class VelocityRemap {
                          GridPatch<D>& patch) const = 0;
 };
 
-/// The remap a scene asks for, or none.
+/// Velocity remap of a scene, or none where it asks for none.
 template <int D>
 std::unique_ptr<VelocityRemap<D>> make_velocity_remap(const Scene& scene, Particles& particles);
 
-/// Strains with the momenta of a patch, summed over the ranks.
+/// Sets the velocities that strain the points by the momenta of a patch, summed over the ranks.
 template <int D>
 void strain_by_momentum(GridPatch<D>& patch);
 

@@ -12,18 +12,18 @@ namespace mpm {
 template <int D>
 struct BodyLoad {
     std::function<double(const Penetrator<D>&, const StepTime&)> force;
-    bool does_return_work = false;  ///< to the body, when it moves back
+    bool does_return_work = false;  ///< to the body when it moves back
 };
 
-/// What still fluid does to a penetrator, as far as the parameters ask for it: buoyancy of what is
-/// below `fluid_level`, and drag, density * coefficient * area of the section * speed^2 / 2, while
-/// the tip is there. A body on a side of the domain is cut by symmetry there.
+/// Forces of still fluid on a penetrator, as far as the parameters ask for them.
 ///
+/// Buoyancy carries the part below `fluid_level`. Drag is density * coefficient * area of the
+/// section * speed^2 / 2 while the tip is there. Symmetry cuts a body on a side of the domain.
 /// Throws std::invalid_argument for drag without a fluid.
 template <int D>
 std::vector<BodyLoad<D>> fluid_loads(const EffectBuilder<D>& builder, const Penetrator<D>& body);
 
-/// fluid_density, fluid_level and drag_coefficient.
+/// Rules of fluid_density, fluid_level and drag_coefficient.
 std::vector<Rule> fluid_rules();
 
 }  // namespace mpm

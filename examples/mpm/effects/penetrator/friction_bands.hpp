@@ -7,11 +7,12 @@
 
 namespace mpm {
 
-/// What friction along a penetrator can be where shear stress has a limit.
+/// Bounds of the friction along a penetrator where shear stress has a limit.
 ///
-/// The points that touch a surface are too few, and stretched too far, to tell its area; the body
-/// can. Its surface is cut into bands of a height: friction by normal force is at most the mean
-/// limit * area of the band / mean normal force on it, means over the last steps.
+/// The points that touch a surface are too few, and stretched too far, to tell its area, so the
+/// body tells it. Bands of a height divide its surface. Friction by normal force is at most the
+/// mean limit
+/// * area of the band / mean normal force on it, with means over the last steps.
 template <int D>
 class FrictionBands {
   public:
@@ -24,7 +25,7 @@ class FrictionBands {
         means_ = sums_;
     }
 
-    /// Notes the normal force on a point, N, at a height above the tip, with its most shear stress.
+    /// Adds the normal force on a point, N, at a height above the tip, with its most shear stress.
     void add(double height, double normal_force, double limit) {
         const std::size_t k = band_at(height);
         sums_[2 * k] += normal_force;
@@ -38,10 +39,10 @@ class FrictionBands {
         return allowed < friction * normal * normal ? allowed / (normal * normal) : friction;
     }
 
-    /// What this rank has added in the step, to be summed over all of them.
+    /// Sums of this rank in the step; the caller adds them up over the ranks.
     std::span<const double> sums() const { return sums_; }
 
-    /// Takes the sums of all ranks into the means and begins anew.
+    /// Takes the sums over all ranks into the means and begins a step.
     void settle(std::span<const double> sums) {
         constexpr double weight = 0.05;
         for (std::size_t i = 0; i < sums_.size(); ++i) {

@@ -9,7 +9,7 @@
 
 namespace mpm {
 
-/// How deep something is in a surface, m, and the outward normal there.
+/// Depth in a surface, m, and the outward normal there.
 template <int D>
 struct Touch {
     double depth;
@@ -56,7 +56,7 @@ struct Penetrator {
         return share;
     }
 
-    /// Where a ball meets the surface that it is nearest to, of cone, side and top; none apart.
+    /// Contact of a ball with the nearest surface of cone, side and top; none where they are apart.
     std::optional<Touch<D>> touch(const Vector& at, double ball) const {
         const double height = at[1] - tip[1];
         if (height < -ball || height > length + ball) return std::nullopt;

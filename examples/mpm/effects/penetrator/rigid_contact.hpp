@@ -9,7 +9,7 @@
 
 namespace mpm {
 
-/// How points rub along a rigid body.
+/// Friction of points along a rigid body.
 template <int D>
 struct Rubbing {
     double friction = 0;  ///< Coulomb's coefficient
@@ -17,7 +17,7 @@ struct Rubbing {
     std::function<double(const Particles&, const PointBlock<D>&, std::size_t)> limit = {};
 };
 
-/// A rigid body among points, and what they push it with.
+/// A rigid body among points, and the force between them.
 template <int D>
 struct RigidContact {
     Penetrator<D> body;
@@ -27,12 +27,12 @@ struct RigidContact {
     double next_force = 0;  ///< the same in the next step
 };
 
-/// Pushes the points that touch the body out of it: adds columns of the force on each point, sums
-/// them on the nodes, and leaves what the body feels in the contact.
+/// Adds the kernels that push the points out of the body.
 ///
-/// A point is as wide as its volume tells. It loses in a step the velocity it has into the body and
-/// takes its overlap back; nothing holds it at the body. Friction is at most that of Coulomb and,
-/// where shear stress has a limit, that of its band.
+/// They add columns of the force on each point, sum them on the nodes, and leave the force on the
+/// body in `contact`. A point is as wide as its volume tells. In a step it loses its velocity into
+/// the body and takes its overlap back; nothing holds it at the body. Coulomb bounds the friction
+/// and, where shear stress has a limit, so does its band.
 template <int D>
 void add_contact(const EffectBuilder<D>& builder, const std::shared_ptr<RigidContact<D>>& contact);
 

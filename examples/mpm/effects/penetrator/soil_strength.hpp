@@ -12,7 +12,7 @@ class SoilStrength {
     /// Throws std::invalid_argument where a material of the scene has none; `asked_by` needs it.
     SoilStrength(const EffectBuilder<D>& builder, const std::string& asked_by);
 
-    /// At its depth, of its softening and its rate, Pa; `p` is a point of the block.
+    /// Strength at the depth, softening and rate of point `p` of the block, Pa.
     double at(const Particles& particles, const PointBlock<D>& block, std::size_t p) const;
 
   private:

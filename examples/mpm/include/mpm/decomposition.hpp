@@ -9,7 +9,7 @@
 
 namespace mpm {
 
-/// Who owns which part of space.
+/// Division of space among the ranks.
 ///
 /// In two dimensions the boxes hold 0 along the third axis. The closed boxes cover the grid and
 /// share at most their faces. A point on a face may be with either side; it stays where it is until
@@ -27,7 +27,7 @@ struct Decomposition {
     std::vector<int> local_owners;
 };
 
-/// Divides the points of all ranks anew; collective over the communicator.
+/// A division of the points of all ranks. Collective over the communicator.
 using Balancer = std::function<Decomposition(Positions, MPI_Comm)>;
 
 /// Slabs of equal width across the longest extent, one per rank, whatever they hold.

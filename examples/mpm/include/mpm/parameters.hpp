@@ -11,13 +11,13 @@
 
 namespace mpm {
 
-/// What a parameter of a scene can be: a number, a word, or a list of numbers.
+/// Value of a parameter of a scene: a number, a word, or a list of numbers.
 using Value = std::variant<double, std::string, std::vector<double>>;
 
 /// Parameters by name, as a scene gives them.
 using Parameters = std::map<std::string, Value>;
 
-/// What a parameter must be.
+/// Rule for a parameter.
 struct Rule {
     enum class Kind { number, word, list };
 
@@ -33,10 +33,13 @@ struct Rule {
     std::vector<std::string> choices = {};  ///< of a word; empty: any
 };
 
+/// A number above 0.
 Rule positive(std::string name, std::string unit, std::optional<double> fallback = {});
+/// A number of at least 0.
 Rule not_negative(std::string name, std::string unit, std::optional<double> fallback = {});
+/// Any finite number.
 Rule number(std::string name, std::string unit, std::optional<double> fallback = {});
-/// From `least` to `most`, both included.
+/// A number from `least` to `most`, both included.
 Rule within(std::string name, std::string unit, double least, double most,
             std::optional<double> fallback = {});
 /// A whole number from `least` to `most`, both included.
@@ -46,7 +49,7 @@ Rule whole(std::string name, std::string unit, double least, double most,
 Rule vector(std::string name, std::string unit, std::optional<std::vector<double>> fallback = {});
 /// One of some words; the first where the scene says nothing.
 Rule choice(std::string name, std::vector<std::string> choices);
-/// The same rule for a parameter that may be left out altogether.
+/// Rule for a parameter that may be left out altogether.
 Rule optional(Rule rule);
 
 /// Parameters that keep the rules, with the fallbacks filled in.
@@ -65,7 +68,7 @@ class Values {
     std::map<std::string, Value, std::less<>> values_;
 };
 
-/// The words in one line, with commas between them.
+/// Words in one line, with commas between them.
 std::string joined(std::span<const std::string> words);
 
 }  // namespace mpm

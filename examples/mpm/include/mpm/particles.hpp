@@ -16,8 +16,8 @@ using Column = std::size_t;
 
 /// Material points of one rank: named columns of doubles, all of the same length.
 ///
-/// Whoever needs a property adds its column; all columns travel together. The order of the
-/// points is no property: it changes whenever points are sorted or migrate.
+/// Each user of a property adds its column; all columns travel together. The order of the points is
+/// no property: it changes whenever points are sorted or migrate.
 class Particles {
   public:
     /// Adds a column, or finds the one of this name; new points start with `initial`.
@@ -38,7 +38,7 @@ class Particles {
         return (*this)[find_column(name)];
     }
 
-    /// A row of what new points start with.
+    /// A row of the values new points start with.
     std::vector<double> initial_row() const { return initial_; }
     /// Appends rows, each of one value per column in the order of the columns.
     void append(std::span<const double> rows);

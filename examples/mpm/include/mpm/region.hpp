@@ -6,21 +6,22 @@
 
 namespace mpm {
 
-/// Regions are closed: what lies on the rim, or outside it by no more than round-off, is inside.
+/// A box. Regions are closed: the rim, and what lies outside it by round-off, is inside.
 Region box_region(const Box& box);
-/// A disc in two dimensions.
+/// A ball; in two dimensions a disc.
 Region ball_region(const Vector& centre, double radius);
-/// All that lies behind a plane through a point with an outward normal of any length.
+/// The side behind a plane through a point with an outward normal of any length.
 Region half_space_region(const Vector& point, const Vector& normal);
-/// Between the corners in their order, at least 3; in three dimensions at any z.
+/// A polygon of the corners in their order, at least 3; in three dimensions at any z.
 Region polygon_region(std::vector<Vector> corners);
 
 Region both_of(Region a, Region b);    ///< in a or in b
 Region without(Region a, Region b);    ///< in a but not in b
 Region common_to(Region a, Region b);  ///< in a and in b
 
-/// constant + rate * (turn about the z axis through centre) + amplitude * sin(wave_number . x
-/// + phase), for a velocity at the start.
+/// Velocity constant + rate * (turn about the z axis through centre) + amplitude * sin(wave_number
+/// . x
+/// + phase) at the start.
 struct VelocityForm {
     Vector constant{};          ///< m/s
     double rotation_rate = 0;   ///< rad/s, anticlockwise

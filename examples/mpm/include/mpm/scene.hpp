@@ -95,9 +95,10 @@ enum class TimeIntegration {
     modified             ///< with those that the points have then, mapped to the nodes once more
 };
 
-/// All a simulation needs to know, in SI units. An effect that is not named is not built.
+/// A scene in SI units.
 ///
-/// Two dimensions are plane strain, per metre of depth; y points up.
+/// An effect that is not named is not built. Two dimensions are plane strain, per metre of depth; y
+/// points up.
 struct Scene {
     std::string name;
     int dimension = 2;
@@ -110,8 +111,8 @@ struct Scene {
 
     ShapeFunction shape_function = ShapeFunction::linear;
     Transfer transfer = Transfer::flip;
-    /// Share of the velocity that is carried by the points (FLIP); the rest is read back from the
-    /// grid (PIC) and filters what the grid cannot see. One per cent of PIC calms cell-crossing
+    /// Share of the velocity that the points carry (FLIP); they read the rest back from the grid
+    /// (PIC), which filters what the grid cannot see. One per cent of PIC calms cell-crossing
     /// noise within 0.2 s at the slope's step and leaves waves longer than a few cells alone.
     double flip_fraction = 0.99;
     TimeIntegration time_integration = TimeIntegration::update_stress_last;
@@ -127,7 +128,7 @@ inline bool remaps_velocities(const Scene& scene) {
     return scene.time_integration == TimeIntegration::modified;
 }
 
-/// Throws std::invalid_argument that names what is wrong with a scene.
+/// Checks a scene; throws std::invalid_argument that names its fault.
 void validate(const Scene& scene);
 
 /// The named parameters of a scene's effect, or none when the scene does not name it.

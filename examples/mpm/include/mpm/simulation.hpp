@@ -14,6 +14,7 @@
 
 namespace mpm {
 
+/// Result of a rebalance.
 struct RebalanceReport {
     std::int64_t moved_points = 0;  ///< over all ranks
 };
@@ -35,8 +36,8 @@ struct Totals {
 /// A scene, advanced in time by all ranks of a communicator.
 ///
 /// Construction, destruction, `step` and `rebalance` are collective; ranks may hold no points.
-/// It works on its own duplicate of the communicator. Results do not depend on the number of
-/// ranks or the decomposition beyond round-off, and repeat to the bit on the same ones.
+/// It works on its own duplicate of the communicator. Results are the same on any number of ranks
+/// and decomposition to round-off, and repeat to the bit on the same ones.
 /// Every failure throws std::runtime_error (std::invalid_argument for the scene) on all ranks.
 class Simulation {
   public:
@@ -50,7 +51,8 @@ class Simulation {
     void step();
 
     /// Asks the balancer for a new decomposition and moves the points to their new owners.
-    /// Throws when it has not one box per rank or a box does not hold the points given to it.
+    ///
+    /// Throws where it has not one box per rank or a box does not hold the points given to it.
     RebalanceReport rebalance(const Balancer& balancer);
 
     double time() const;       ///< s
@@ -68,12 +70,12 @@ class Simulation {
     std::vector<std::string> kernels() const;
     /// Doubles in a message per shared node.
     std::size_t doubles_per_ghost_node() const;
-    /// What effects have to tell by name, as where a rigid body is; the same on all ranks.
+    /// Numbers of effects by name, as the place of a rigid body; the same on all ranks.
     std::vector<std::pair<std::string, double>> reports() const;
     /// Sums over the points of all ranks. Collective.
     Totals totals() const;
 
-    /// What a simulation of either dimension can do; private to the library.
+    /// A simulation of either dimension; private to the library.
     class Model;
 
   private:

@@ -40,7 +40,8 @@ struct Options {
     int num_parts = 0;               ///< parts to make; 0: one per rank
     std::vector<double> part_sizes;  ///< relative weight of each part, >= 0, some > 0; empty: equal
 
-    int support_mesh = 0;  ///< cells per axis of each rank's support mesh; 0: by points and ranks
+    int support_mesh = 0;  ///< cells per axis of each rank's support mesh, up to 4096, in
+                           ///< 3-D 256; 0: by its points
     DomainKind domain = DomainKind::analytic;
     CutRule cut_rule = CutRule::weighted_fraction;
 
@@ -55,7 +56,7 @@ struct Options {
     /// Only where cuts are refined and not plain.
     Coincident coincident = Coincident::together;
 
-    double sigma_multiplier = 1.5;  ///< sampled: half-width of a cell's sampling box, in sigmas
+    double sigma_multiplier = 1.5;  ///< sampled: half-width of a cell's sampling box in sigmas, > 0
     double sample_fraction = 1.0;   ///< sampled: points drawn per real point, in (0, 1]
     std::uint64_t seed = 1;         ///< sampled: the same seed gives the same points
 

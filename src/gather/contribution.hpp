@@ -21,7 +21,7 @@ struct Summary {
     std::int32_t failing_rank = no_rank;    ///< lowest of those that can't go on
     std::int32_t differing_rank = no_rank;  ///< one that asks for something else than ...
     std::int32_t reference_rank = no_rank;  ///< ... this one
-    std::uint64_t difference = 0;           ///< index in request_names
+    std::uint64_t difference = 0;           ///< see name_of_request
     Request request{};                      ///< of the first rank
     std::int64_t num_points = 0;
     std::int64_t num_cells = 0;  ///< or points, where these are the records

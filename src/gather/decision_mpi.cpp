@@ -53,7 +53,7 @@ Verdict verdict_of(const Summary& summary, const Bisection& bisection,
 void check_together(const Summary& summary) {
     if (summary.differing_rank != no_rank)
         throw Error(ErrorCode::invalid_argument,
-                    std::string(request_names[summary.difference]) + " differs between rank " +
+                    std::string(name_of_request(summary.difference)) + " differs between rank " +
                         std::to_string(summary.reference_rank) + " and rank " +
                         std::to_string(summary.differing_rank) +
                         "; give the same value on every rank");

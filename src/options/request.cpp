@@ -1,9 +1,9 @@
 #include "options/request.hpp"
 
-#include "options/arithmetic.hpp"
-
 #include <algorithm>
 #include <bit>
+#include <limits>
+#include <type_traits>
 #include <vector>
 
 namespace rrcb {
@@ -18,6 +18,10 @@ std::uint64_t bits_of(int value) {
     return static_cast<std::uint64_t>(value);
 }
 
+std::uint64_t bits_of(std::uint64_t value) {
+    return value;
+}
+
 std::uint64_t hash_of(std::span<const double> values) {
     std::uint64_t hash = values.size();
     for (const double value : values) {
@@ -25,14 +29,6 @@ std::uint64_t hash_of(std::span<const double> values) {
         hash ^= hash >> 32;
     }
     return hash;
-}
-
-std::vector<double> axis_options(const Options& options) {
-    std::vector<double> values{options.plain_cuts ? 1.0 : 0.0};
-    values.insert(values.end(), options.grouped_axes.begin(), options.grouped_axes.end());
-    values.push_back(-1);
-    values.insert(values.end(), options.cut_axes.begin(), options.cut_axes.end());
-    return values;
 }
 
 std::vector<double> values_of(const Cuts& cuts) {
@@ -44,30 +40,70 @@ std::vector<double> values_of(const Cuts& cuts) {
     return values;
 }
 
+/// How this thread rounds and treats subnormal numbers, found out by computing: ranks with
+/// different numbers get different results from the same operands.
+std::uint64_t arithmetic_in_use() {
+    // Volatile, so that it is computed when called and not when compiled.
+    const volatile double one = 1;
+    const volatile double tiny = std::numeric_limits<double>::epsilon() / 1024;
+    const volatile double normal = std::numeric_limits<double>::min();
+    const volatile double subnormal = std::numeric_limits<double>::denorm_min();
+    const volatile double half = normal / 2;
+    const bool found[] = {one + tiny > one, one - tiny < one, -one - tiny < -one, half == 0,
+                          subnormal == 0};
+    std::uint64_t bits = 0;
+    for (const bool bit : found) bits = 2 * bits + (bit ? 1 : 0);
+    return bits;
+}
+
 }  // namespace
 
+std::uint64_t bits_of(const Option& option, const Options& options) {
+    return visit_kind(option, [&]<class Kind>(const Kind& kind) {
+        if constexpr (std::is_same_v<Kind, Choice>) {
+            return bits_of(kind.get(options));
+        } else if constexpr (std::is_same_v<Kind, Lists>) {
+            return hash_of(kind.values(options));
+        } else {
+            return bits_of(options.*kind.field);
+        }
+    });
+}
+
+std::vector<double> values_of_part_sizes(const Options& options) {
+    return options.part_sizes;
+}
+
+std::vector<double> values_of_axes(const Options& options) {
+    std::vector<double> values{options.plain_cuts ? 1.0 : 0.0};
+    values.insert(values.end(), options.grouped_axes.begin(), options.grouped_axes.end());
+    values.push_back(-1);
+    values.insert(values.end(), options.cut_axes.begin(), options.cut_axes.end());
+    return values;
+}
+
 Request request_of(const Options& options, int dimension, const Cuts* previous) {
-    return {bits_of(dimension),
-            bits_of(options.num_parts),
-            hash_of(options.part_sizes),
-            bits_of(options.support_mesh),
-            bits_of(static_cast<int>(options.domain)),
-            bits_of(static_cast<int>(options.cut_rule)),
-            hash_of(axis_options(options)),
-            previous ? hash_of(values_of(*previous)) : 0,
-            bits_of(static_cast<int>(options.refine)),
-            bits_of(static_cast<int>(options.coincident)),
-            bits_of(options.imbalance_tolerance),
-            bits_of(options.sigma_multiplier),
-            bits_of(options.sample_fraction),
-            options.seed,
-            arithmetic_in_use()};
+    Request request{};
+    auto value = request.begin();
+    *value++ = bits_of(dimension);
+    for (const Option& option : option_table) *value++ = bits_of(option, options);
+    *value++ = previous ? hash_of(values_of(*previous)) : 0;
+    *value = arithmetic_in_use();
+    return request;
 }
 
 std::optional<std::size_t> first_difference(const Request& a, const Request& b) {
     const auto at = std::mismatch(a.begin(), a.end(), b.begin()).first;
     if (at == a.end()) return std::nullopt;
     return static_cast<std::size_t>(at - a.begin());
+}
+
+std::string_view name_of_request(std::size_t index) {
+    if (index == 0) return "dimension";
+    if (index <= num_options) return option_table[index - 1].name;
+    return index == num_options + 1
+               ? "previous"
+               : "the floating-point environment (rounding, subnormal numbers)";
 }
 
 }  // namespace rrcb

@@ -1,6 +1,7 @@
 #include "options/validation.hpp"
 
 #include "cells/point_layout.hpp"
+#include "options/option_table.hpp"
 
 #include <rrcb/error.hpp>
 
@@ -18,18 +19,6 @@ namespace {
 
 void require(bool condition, const char* what) {
     if (!condition) reject(what);
-}
-
-void check_part_sizes(std::span<const double> sizes, int num_parts) {
-    if (sizes.empty()) return;
-    require(sizes.size() == static_cast<std::size_t>(num_parts),
-            "part_sizes must hold one entry per part, or none for equal parts");
-    double sum = 0;
-    for (const double size : sizes) {
-        require(std::isfinite(size) && size >= 0, "part_sizes must be finite and not negative");
-        sum += size;
-    }
-    require(sum > 0 && std::isfinite(sum), "part_sizes must have a positive, finite sum");
 }
 
 void check_coordinates(const Points& points) {
@@ -94,6 +83,21 @@ void check_weights(const Points& points) {
     reject("the sum of the weights overflows; scale them down");
 }
 
+}  // namespace
+
+void check_part_sizes(const Options& options, int) {
+    const std::vector<double>& sizes = options.part_sizes;
+    if (sizes.empty()) return;
+    require(sizes.size() == static_cast<std::size_t>(options.num_parts),
+            "part_sizes must hold one entry per part, or none for equal parts");
+    double sum = 0;
+    for (const double size : sizes) {
+        require(std::isfinite(size) && size >= 0, "part_sizes must be finite and not negative");
+        sum += size;
+    }
+    require(sum > 0 && std::isfinite(sum), "part_sizes must have a positive, finite sum");
+}
+
 void check_axes(const Options& options, int dimension) {
     std::array<bool, max_dimension> named{};
     for (const int axis : options.grouped_axes) {
@@ -111,8 +115,6 @@ void check_axes(const Options& options, int dimension) {
         require(axis >= 0 && axis < dimension, "cut_axes must be axes of the points");
 }
 
-}  // namespace
-
 void check_previous(const Cuts& previous, const Options& options, int dimension) {
     require(previous.dimension == dimension && previous.num_parts == options.num_parts &&
                 previous.tree.size() + 1 == static_cast<std::size_t>(options.num_parts),
@@ -124,18 +126,11 @@ void check_previous(const Cuts& previous, const Options& options, int dimension)
 }
 
 void check_options(const Options& options, int dimension) {
-    const int most_cells = dimension < 3 ? 4096 : 256;
-    require(options.num_parts > 0, "num_parts must be positive, or 0 for one part per rank");
-    check_part_sizes(options.part_sizes, options.num_parts);
-    check_axes(options, dimension);
-    if (options.support_mesh < 0 || options.support_mesh > most_cells)
-        reject("support_mesh must be 1 ... " + std::to_string(most_cells) +
-               " cells per axis, or 0 for the default");
-    require(options.imbalance_tolerance >= 1, "imbalance_tolerance must be at least 1");
-    require(options.sigma_multiplier >= 0 && std::isfinite(options.sigma_multiplier),
-            "sigma_multiplier must be finite and not negative");
-    require(options.sample_fraction > 0 && options.sample_fraction <= 1,
-            "sample_fraction must be in (0, 1]");
+    for (const Option& option : option_table) {
+        if (!is_legal(option, options, dimension))
+            reject(std::string(option.name) + " must be " + requirement(option, dimension));
+        if (const auto* lists = std::get_if<Lists>(&option.kind)) lists->check(options, dimension);
+    }
 }
 
 Box check_points(const Points& points) {

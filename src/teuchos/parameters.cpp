@@ -1,3 +1,5 @@
+#include "options/option_table.hpp"
+
 #include <rrcb/error.hpp>
 #include <rrcb/teuchos/parameters.hpp>
 
@@ -19,105 +21,84 @@ namespace {
 using Teuchos::ParameterEntry;
 using Teuchos::ParameterList;
 
-constexpr int most_cells = 4096;
-constexpr double smallest = std::numeric_limits<double>::denorm_min();
-constexpr double largest = std::numeric_limits<double>::max();
-
 template <class Number>
 void add_number(ParameterList& list, const char* name, Number value,
-                std::pair<Number, Number> range, const char* documentation) {
+                std::pair<Number, Number> range, const std::string& documentation) {
     list.set(name, value, documentation,
              Teuchos::rcp(new Teuchos::EnhancedNumberValidator<Number>(range.first, range.second)));
 }
 
-template <class Value>
-struct Word {
-    const char* word;
-    Value value;
-    const char* documentation;
-};
-
-/// The first word is the default.
-template <class Value>
-void add_choice(ParameterList& list, const char* name, const std::vector<Word<Value>>& words,
-                const char* documentation) {
-    const auto size = static_cast<Teuchos::Array<std::string>::size_type>(words.size());
-    Teuchos::Array<std::string> names(size);
-    Teuchos::Array<std::string> documents(size);
-    Teuchos::Array<Value> values(size);
-    for (auto i = 0 * size; i < size; ++i) {
-        const Word<Value>& word = words[static_cast<std::size_t>(i)];
-        names[i] = word.word;
-        documents[i] = word.documentation;
-        values[i] = word.value;
+void add_choice(ParameterList& list, const char* name, const Choice& choice,
+                const std::string& documentation) {
+    Teuchos::Array<std::string> names;
+    Teuchos::Array<std::string> documents;
+    Teuchos::Array<int> values;
+    for (const Word& word : choice) {
+        names.append(word.word);
+        documents.append(word.text);
+        values.append(word.value);
     }
     constexpr bool case_sensitive = false;
     list.set(name, names[0], documentation,
-             Teuchos::rcp(new Teuchos::StringToIntegralParameterEntryValidator<Value>(
+             Teuchos::rcp(new Teuchos::StringToIntegralParameterEntryValidator<int>(
                  names, documents, values, name, case_sensitive)));
 }
 
-void add_partition(ParameterList& list) {
-    const Options defaults;
-    add_number(list, "NUM_GLOBAL_PARTS", defaults.num_parts, {0, std::numeric_limits<int>::max()},
-               "Parts to make: a whole number, 1 or more; 0: one per rank.");
-    add_number(list, "RRCB_SUPPORT_MESH", defaults.support_mesh, {0, most_cells},
-               "Cells per axis of each rank's support mesh: a whole number from 1 to 4096; 0: as "
-               "many as suit the points.");
-    add_choice<DomainKind>(
-        list, "RRCB_DOMAIN",
-        {{"ANALYTIC", DomainKind::analytic, "each cell a uniform density with the cell's moments"},
-         {"SAMPLED", DomainKind::sampled, "pseudo-random points with the cell's moments"},
-         {"POINTS", DomainKind::points, "the points themselves, all gathered at the root"}},
-        "What the root bisects in place of the points: ANALYTIC, SAMPLED or POINTS.");
-    add_choice<CutRule>(list, "RRCB_CUT_RULE",
-                        {{"WEIGHTED", CutRule::weighted_fraction, "by weight"},
-                         {"MIDPOINT", CutRule::midpoint, "by extent"}},
-                        "Where a box is cut across its longest axis: WEIGHTED (where the weight "
-                        "below is the share of the parts below) or MIDPOINT (at that share of the "
-                        "extent).");
-}
+constexpr double largest = std::numeric_limits<double>::max();
 
-void add_refinement(ParameterList& list) {
-    add_choice<Refine>(
-        list, "RRCB_REFINE",
-        {{"AUTO", Refine::automatic, "TOLERANCE for the analytic domain, NONE for others"},
-         {"NONE", Refine::none, "the estimate stands"},
-         {"TOLERANCE", Refine::tolerance, "until the imbalance is within IMBALANCE_TOL"},
-         {"EXACT", Refine::exact, "to the weighted median"}},
-        "How far the estimated cuts are moved by what the ranks really hold: AUTO, NONE, TOLERANCE "
-        "or EXACT.");
-    add_choice<Coincident>(
-        list, "RRCB_COINCIDENT",
-        {{"TOGETHER", Coincident::together, "they share a part"},
-         {"DIVIDE", Coincident::divide,
-          "by number; where the list is not given to the plug-in it "
-          "does so"}},
-        "What becomes of points in one place where the balance asked for divides them: TOGETHER or "
-        "DIVIDE.");
-    add_number(list, "IMBALANCE_TOL", Options{}.imbalance_tolerance, {1.0, largest},
-               "Heaviest part / mean part to reach with RRCB_REFINE=TOLERANCE: a number, 1 or "
-               "more.");
-}
+/// Adds an option, under the name of its parameter, with the default of the library.
+struct Adder {
+    ParameterList& list;
+    const Option& option;
 
-void add_sampling(ParameterList& list) {
-    const Options defaults;
-    add_number(list, "RRCB_SIGMA_MULTIPLIER", defaults.sigma_multiplier, {smallest, largest},
-               "SAMPLED: half-width of a cell's sampling box in standard deviations: a number "
-               "above 0.");
-    add_number(list, "RRCB_SAMPLE_FRACTION", defaults.sample_fraction, {smallest, 1.0},
-               "SAMPLED: points drawn per real point: a number above 0, at most 1.");
-    add_number(list, "RRCB_SEED", static_cast<long long>(defaults.seed),
-               {0, std::numeric_limits<long long>::max()},
-               "SAMPLED: seed of the points: a whole number, 0 or more.");
-}
+    void operator()(const Range<int>& range) const {
+        const int least = range.zero == nullptr ? range.least : 0;
+        add_number(list, option.parameter, Options{}.*range.field, {least, range.most},
+                   documentation(option));
+    }
+    void operator()(const Range<double>& range) const {
+        const double least = range.above_least ? std::nextafter(range.least, largest) : range.least;
+        add_number(list, option.parameter, Options{}.*range.field,
+                   {least, std::min(range.most, largest)}, documentation(option));
+    }
+    /// Teuchos knows no unsigned number of 64 bits.
+    void operator()(const Range<std::uint64_t>& range) const {
+        add_number(list, option.parameter, static_cast<long long>(Options{}.*range.field),
+                   {static_cast<long long>(range.least), std::numeric_limits<long long>::max()},
+                   documentation(option));
+    }
+    void operator()(const Choice& choice) const {
+        add_choice(list, option.parameter, choice, documentation(option));
+    }
+    void operator()(const Lists&) const {}
+};
+
+/// Takes an option over from a complete list.
+struct Getter {
+    const ParameterList& list;
+    const Option& option;
+    Options& options;
+
+    template <class Number>
+    void operator()(const Range<Number>& range) const {
+        options.*range.field = list.get<Number>(option.parameter);
+    }
+    void operator()(const Range<std::uint64_t>& range) const {
+        options.*range.field = static_cast<std::uint64_t>(list.get<long long>(option.parameter));
+    }
+    void operator()(const Choice& choice) const {
+        choice.set(options, Teuchos::getIntegralValue<int>(list, option.parameter));
+    }
+    void operator()(const Lists&) const {}
+};
 
 void add_dump(ParameterList& list) {
+    static constexpr Word words[] = {{"FAILURE", 0, "when a call fails"},
+                                     {"ALWAYS", 1, "at every call"}};
     list.set("RRCB_DUMP", std::string(),
              "Plug-in only: folder to write the input of calls to: a string; empty: none.");
-    add_choice<int>(list, "RRCB_DUMP_WHEN",
-                    {{"FAILURE", 0, "when a call fails"}, {"ALWAYS", 1, "at every call"}},
-                    "Plug-in only: when to write to RRCB_DUMP: FAILURE or ALWAYS.");
+    add_choice(list, "RRCB_DUMP_WHEN", {words, std::size(words), nullptr, nullptr},
+               "Plug-in only: when to write to RRCB_DUMP: FAILURE or ALWAYS.");
 }
 
 std::string text_of(const ParameterEntry& entry) {
@@ -207,9 +188,7 @@ std::string zoltan_string(const ParameterEntry& entry) {
 Teuchos::RCP<const ParameterList> valid_parameters() {
     static const Teuchos::RCP<const ParameterList> valid = [] {
         const auto list = Teuchos::parameterList("RRCB");
-        add_partition(*list);
-        add_refinement(*list);
-        add_sampling(*list);
+        for (const Option& option : option_table) visit_kind(option, Adder{*list, option});
         add_dump(*list);
         return list;
     }();
@@ -235,16 +214,7 @@ ParameterList read_parameters(const std::string& file) {
 Options options_from(const ParameterList& list) {
     const ParameterList all = completed(list);
     Options options;
-    options.num_parts = all.get<int>("NUM_GLOBAL_PARTS");
-    options.support_mesh = all.get<int>("RRCB_SUPPORT_MESH");
-    options.domain = Teuchos::getIntegralValue<DomainKind>(all, "RRCB_DOMAIN");
-    options.cut_rule = Teuchos::getIntegralValue<CutRule>(all, "RRCB_CUT_RULE");
-    options.refine = Teuchos::getIntegralValue<Refine>(all, "RRCB_REFINE");
-    options.coincident = Teuchos::getIntegralValue<Coincident>(all, "RRCB_COINCIDENT");
-    options.imbalance_tolerance = all.get<double>("IMBALANCE_TOL");
-    options.sigma_multiplier = all.get<double>("RRCB_SIGMA_MULTIPLIER");
-    options.sample_fraction = all.get<double>("RRCB_SAMPLE_FRACTION");
-    options.seed = static_cast<std::uint64_t>(all.get<long long>("RRCB_SEED"));
+    for (const Option& option : option_table) visit_kind(option, Getter{all, option, options});
     return options;
 }
 

@@ -79,7 +79,7 @@ TEST(Summaries, tell_the_first_two_ranks_that_differ) {
     EXPECT_FALSE(all.is_usable());
     EXPECT_EQ(all.reference_rank, 8);
     EXPECT_EQ(all.differing_rank, 9);
-    EXPECT_EQ(request_names[all.difference], "num_parts");
+    EXPECT_EQ(name_of_request(all.difference), "num_parts");
 }
 
 TEST(Places, are_taken_off_the_records_in_the_order_of_the_ranks) {

@@ -58,7 +58,7 @@ std::vector<std::string> balance_warnings(const Report& report, const Parameters
                                imbalance_of(report), report.least_imbalance));
     }
     const bool plain = parameters.rectilinear_blocks != 0;
-    const bool divided = parameters.coincident == Coincident::divide && !plain;
+    const bool divided = parameters.options.coincident == Coincident::divide && !plain;
     if (report.coincident_cuts > 0 && !divided) {
         texts.push_back(format("%d cuts met objects in one %s; the imbalance is %.4f",
                                report.coincident_cuts,

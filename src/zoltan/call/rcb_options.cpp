@@ -34,7 +34,6 @@ Options make_options(const Parameters& parameters, const Layout& layout, int dim
     options.num_parts = layout.map.num_parts();
     options.part_sizes = layout.part_sizes;
     options.plain_cuts = parameters.rectilinear_blocks != 0;
-    options.coincident = parameters.coincident;
     if (has_several_weights(parameters)) {
         options.domain = DomainKind::analytic;
         options.refine = Refine::none;

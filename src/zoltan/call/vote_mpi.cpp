@@ -1,9 +1,11 @@
 #include "zoltan/call/vote_mpi.hpp"
 
 #include "collective/communicator.hpp"
+#include "options/request.hpp"
 #include "zoltan/call/fortran_mpi.hpp"
 #include "zoltan/call/rcb_options.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -63,23 +65,25 @@ constexpr std::array same_on_all_ranks = {
                    [](const Parameters& p) { return fold(p.max_aspect_ratio); }},
     SameOnAllRanks{"DEGENERATE_RATIO",
                    [](const Parameters& p) { return fold(p.degenerate_ratio); }},
-    SameOnAllRanks{"IMBALANCE_TOL",
-                   [](const Parameters& p) { return fold(p.options.imbalance_tolerance); }},
-    SameOnAllRanks{"RRCB_DOMAIN",
-                   [](const Parameters& p) { return static_cast<int>(p.options.domain); }},
-    SameOnAllRanks{"RRCB_REFINE",
-                   [](const Parameters& p) { return static_cast<int>(p.options.refine); }},
-    SameOnAllRanks{"RRCB_CUT_RULE",
-                   [](const Parameters& p) { return static_cast<int>(p.options.cut_rule); }},
-    SameOnAllRanks{"RRCB_COINCIDENT",
-                   [](const Parameters& p) { return static_cast<int>(p.coincident); }},
-    SameOnAllRanks{"RRCB_SUPPORT_MESH", [](const Parameters& p) { return p.options.support_mesh; }},
-    SameOnAllRanks{"RRCB_SIGMA_MULTIPLIER",
-                   [](const Parameters& p) { return fold(p.options.sigma_multiplier); }},
-    SameOnAllRanks{"RRCB_SAMPLE_FRACTION",
-                   [](const Parameters& p) { return fold(p.options.sample_fraction); }},
-    SameOnAllRanks{"RRCB_SEED", [](const Parameters& p) { return fold(p.options.seed); }},
 };
+
+/// Options of the balancer that are parameters, but for the parts, which are agreed on as such.
+constexpr bool is_compared(const Option& option) {
+    return option.parameter[0] != '\0' && std::string_view(option.name) != "num_parts";
+}
+
+constexpr auto num_compared_options =
+    static_cast<std::size_t>(std::ranges::count_if(option_table, is_compared));
+
+constexpr std::size_t num_shared = same_on_all_ranks.size() + num_compared_options;
+
+/// Calls visit(name, value) for what must be the same on every rank.
+template <class Visit>
+void for_each_shared(const Parameters& parameters, Visit&& visit) {
+    for (const SameOnAllRanks& one : same_on_all_ranks) visit(one.name, one.value(parameters));
+    for (const Option& option : option_table)
+        if (is_compared(option)) visit(option.parameter, fold(bits_of(option, parameters.options)));
+}
 
 /// Reduced by maximum; a minimum travels as the maximum of the complement.
 struct Ballot {
@@ -94,8 +98,8 @@ struct Ballot {
     int not_at_rest = 0;
     int dumping_rank_from_last = 0;  ///< ranks - lowest rank with a folder
     int dump_always = 0;
-    std::array<int, same_on_all_ranks.size()> largest{};
-    std::array<int, same_on_all_ranks.size()> complement_of_smallest{};
+    std::array<int, num_shared> largest{};
+    std::array<int, num_shared> complement_of_smallest{};
 };
 
 Ballot ballot_of(const LocalStatus& local, const State& state) {
@@ -116,10 +120,11 @@ Ballot ballot_of(const LocalStatus& local, const State& state) {
         ballot.dumping_rank_from_last = state.communicator->size() - state.communicator->rank();
         ballot.dump_always = parameters.dump_always ? 1 : 0;
     }
-    for (std::size_t i = 0; i < same_on_all_ranks.size(); ++i) {
-        ballot.largest[i] = same_on_all_ranks[i].value(parameters);
-        ballot.complement_of_smallest[i] = ~ballot.largest[i];
-    }
+    std::size_t i = 0;
+    for_each_shared(parameters, [&](const char*, int value) {
+        ballot.largest[i] = value;
+        ballot.complement_of_smallest[i++] = ~value;
+    });
     return ballot;
 }
 
@@ -144,12 +149,12 @@ Outcome vote(const LocalStatus& local, const State& state) {
     if (ballot.dumping_rank_from_last > 0)
         outcome.dump.rank = state.communicator->size() - ballot.dumping_rank_from_last;
     outcome.dump.always = ballot.dump_always != 0;
-    for (std::size_t i = 0; i < same_on_all_ranks.size(); ++i) {
-        if (ballot.largest[i] != ~ballot.complement_of_smallest[i] &&
-            outcome.differing == nullptr) {
-            outcome.differing = same_on_all_ranks[i].name;
-        }
-    }
+    std::size_t i = 0;
+    for_each_shared(state.parameters, [&](const char* name, int) {
+        const bool differs = ballot.largest[i] != ~ballot.complement_of_smallest[i];
+        if (differs && outcome.differing == nullptr) outcome.differing = name;
+        ++i;
+    });
     return outcome;
 }
 

@@ -1,5 +1,9 @@
 #include "zoltan/handle/parameters.hpp"
 
+#include "options/option_table.hpp"
+
+#include <rrcb/points.hpp>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -12,77 +16,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-template <typename Number>
-bool read_number(std::string_view text, Number& number) {
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, number);
-    return error == std::errc() && stop == end;
-}
-
-/// In 1-D and 2-D; the balancer, which knows the dimension, takes fewer in 3-D.
-constexpr int most_cells = 4096;
-
-bool read_support_mesh(Options& options, std::string_view text) {
-    int cells = 0;
-    const bool automatic = text == "AUTO";
-    if (!automatic && (!read_number(text, cells) || cells < 1 || cells > most_cells)) return false;
-    options.support_mesh = cells;
-    return true;
-}
-
-bool read_domain(Options& options, std::string_view text) {
-    if (text == "ANALYTIC") {
-        options.domain = DomainKind::analytic;
-    } else if (text == "SAMPLED") {
-        options.domain = DomainKind::sampled;
-    } else if (text == "POINTS") {
-        options.domain = DomainKind::points;
-    } else {
-        return false;
-    }
-    return true;
-}
-
-bool read_cut_rule(Options& options, std::string_view text) {
-    if (text != "WEIGHTED" && text != "MIDPOINT") return false;
-    options.cut_rule = text == "WEIGHTED" ? CutRule::weighted_fraction : CutRule::midpoint;
-    return true;
-}
-
-bool read_refine(Options& options, std::string_view text) {
-    constexpr std::pair<std::string_view, Refine> words[] = {{"AUTO", Refine::automatic},
-                                                             {"NONE", Refine::none},
-                                                             {"TOLERANCE", Refine::tolerance},
-                                                             {"EXACT", Refine::exact}};
-    const auto* word = std::ranges::find(words, text, &std::pair<std::string_view, Refine>::first);
-    if (word == std::end(words)) return false;
-    options.refine = word->second;
-    return true;
-}
-
-bool read_sigma_multiplier(Options& options, std::string_view text) {
-    double value = 0;
-    if (!read_number(text, value) || !std::isfinite(value) || value <= 0) return false;
-    options.sigma_multiplier = value;
-    return true;
-}
-
-bool read_sample_fraction(Options& options, std::string_view text) {
-    double value = 0;
-    if (!read_number(text, value) || !(value > 0 && value <= 1)) return false;
-    options.sample_fraction = value;
-    return true;
-}
-
-bool read_seed(Options& options, std::string_view text) {
-    return read_number(text, options.seed);
-}
-
-bool read_coincident(Coincident& coincident, std::string_view text) {
-    if (text != "DIVIDE" && text != "TOGETHER") return false;
-    coincident = text == "DIVIDE" ? Coincident::divide : Coincident::together;
-    return true;
-}
+constexpr std::string_view tolerance_name = "IMBALANCE_TOL";
 
 /// The one value whose case counts.
 constexpr std::string_view dump_folder_name = "RRCB_DUMP";
@@ -98,17 +32,12 @@ bool read_dump_when(bool& always, std::string_view text) {
     return true;
 }
 
+/// What only the plug-in has: a name, a reader, and what sets the default.
 struct OwnParameter {
     std::string_view name;
     bool (*read)(Parameters&, std::string_view);
     void (*reset)(Parameters&);
 };
-
-template <auto field, bool (*read)(Options&, std::string_view)>
-constexpr OwnParameter of_balancer(std::string_view name) {
-    return {name, [](Parameters& p, std::string_view text) { return read(p.options, text); },
-            [](Parameters& p) { p.options.*field = Options{}.*field; }};
-}
 
 template <auto field, auto read>
 constexpr OwnParameter of_plug_in(std::string_view name) {
@@ -117,17 +46,13 @@ constexpr OwnParameter of_plug_in(std::string_view name) {
 }
 
 constexpr OwnParameter own_parameters[] = {
-    of_balancer<&Options::support_mesh, read_support_mesh>("RRCB_SUPPORT_MESH"),
-    of_balancer<&Options::domain, read_domain>("RRCB_DOMAIN"),
-    of_balancer<&Options::cut_rule, read_cut_rule>("RRCB_CUT_RULE"),
-    of_balancer<&Options::refine, read_refine>("RRCB_REFINE"),
-    of_balancer<&Options::sigma_multiplier, read_sigma_multiplier>("RRCB_SIGMA_MULTIPLIER"),
-    of_balancer<&Options::sample_fraction, read_sample_fraction>("RRCB_SAMPLE_FRACTION"),
-    of_balancer<&Options::seed, read_seed>("RRCB_SEED"),
-    of_plug_in<&Parameters::coincident, read_coincident>("RRCB_COINCIDENT"),
     of_plug_in<&Parameters::dump_folder, read_folder>(dump_folder_name),
     of_plug_in<&Parameters::dump_always, read_dump_when>("RRCB_DUMP_WHEN"),
 };
+
+bool is_own(const Option& option) {
+    return std::string_view(option.parameter).starts_with("RRCB_");
+}
 
 struct CommonInteger {
     std::string_view name;
@@ -181,7 +106,10 @@ void note_tolerance(Options& options, std::string_view text) {
     if (text.starts_with('+')) text.remove_prefix(1);
     double value = 0;
     std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool legal = std::isfinite(value) && value >= 1;
+    const Option& tolerance = *find_parameter(tolerance_name);
+    Options read;
+    read.imbalance_tolerance = value;
+    const bool legal = std::isfinite(value) && is_legal(tolerance, read, max_dimension);
     options.imbalance_tolerance = legal ? value : Options{}.imbalance_tolerance;
 }
 
@@ -201,28 +129,39 @@ ReturnLists return_lists(std::string_view text) {
 
 }  // namespace
 
+Options default_options() {
+    Options options;
+    options.coincident = Coincident::divide;  // as RCB
+    return options;
+}
+
 Setting set_own(Parameters& parameters, std::string_view name, const char* value) {
+    const Option* option = find_parameter(name);
     const auto* own = std::ranges::find(own_parameters, name, &OwnParameter::name);
-    if (own == std::end(own_parameters)) return Setting::unknown;
+    const bool of_balancer = option != nullptr && is_own(*option);
+    if (!of_balancer && own == std::end(own_parameters)) return Setting::unknown;
     const std::string cleaned = clean(value);
     const std::string_view upper = without_trailing_blanks(cleaned);
     const bool is_default = upper == "DEFAULT";
     const bool keeps_case = name == dump_folder_name;
-    if (!is_default && own->read(parameters, keeps_case ? value : upper)) return Setting::accepted;
-    own->reset(parameters);
+    const bool is_read =
+        !is_default && (of_balancer ? read_option(*option, upper, parameters.options)
+                                    : own->read(parameters, keeps_case ? value : upper));
+    if (is_read) return Setting::accepted;
+    if (of_balancer) copy_option(*option, default_options(), parameters.options);
+    if (!of_balancer) own->reset(parameters);
     return is_default ? Setting::accepted : Setting::defaulted;
 }
 
 bool set_tolerance(Parameters& parameters, std::string_view value) {
-    double tolerance = 0;
-    const bool legal = read_number(without_trailing_blanks(value), tolerance) &&
-                       std::isfinite(tolerance) && tolerance >= 1;
-    if (legal) parameters.options.imbalance_tolerance = tolerance;
-    return legal;
+    return read_option(*find_parameter(tolerance_name), without_trailing_blanks(value),
+                       parameters.options);
 }
 
 std::vector<const char*> own_parameter_names() {
     std::vector<const char*> names;
+    for (const Option& option : option_table)
+        if (is_own(option)) names.push_back(option.parameter);
     // Views of literals, so a null byte follows.
     for (const OwnParameter& own : own_parameters) names.push_back(own.name.data());
     return names;
@@ -230,7 +169,7 @@ std::vector<const char*> own_parameter_names() {
 
 void note_common(Parameters& parameters, std::string_view name, std::string_view value) {
     if (name == "LB_METHOD") parameters.rrcb = parameters.replace_rcb && value == "RCB";
-    if (name == "IMBALANCE_TOL") note_tolerance(parameters.options, value);
+    if (name == tolerance_name) note_tolerance(parameters.options, value);
     if (name == "DEGENERATE_RATIO")
         parameters.degenerate_ratio = number_or(value, Parameters{}.degenerate_ratio);
     if (name == "RCB_MAX_ASPECT_RATIO")

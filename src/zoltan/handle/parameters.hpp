@@ -19,6 +19,9 @@ inline constexpr int one_per_rank = 0;
 /// Of a parameter whose default depends on others.
 inline constexpr int not_set = std::numeric_limits<int>::min();
 
+/// The options of a new handle: points in one place are divided, as by RCB.
+Options default_options();
+
 /// What the plug-in must know of a handle's parameters; the defaults are Zoltan's.
 struct Parameters {
     bool rrcb = false;         ///< LB_METHOD is RRCB, or RCB where that is replaced
@@ -36,7 +39,6 @@ struct Parameters {
     int set_directions = 0;
     int rectilinear_blocks = 0;
     int average_cuts = 0;
-    Coincident coincident = Coincident::divide;  ///< as RCB; not with RCB_RECTILINEAR_BLOCKS
     int weights_comparable = 0;
     int multicriteria_norm = 1;
     int reduce_dimensions = 0;
@@ -46,7 +48,7 @@ struct Parameters {
     int final_output = 0;
     int debug_level = 1;
     ReturnLists return_lists = ReturnLists::all;
-    Options options;  ///< RRCB_* only; parts are filled in per call
+    Options options = default_options();  ///< RRCB_* only; parts are filled in per call
 
     std::string dump_folder;   ///< where the inputs of calls go; empty: nowhere
     bool dump_always = false;  ///< the inputs of all calls, not only of failing ones

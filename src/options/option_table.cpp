@@ -1,0 +1,240 @@
+#include "options/option_table.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <span>
+#include <type_traits>
+
+namespace rrcb {
+
+namespace {
+
+constexpr std::string_view automatic = "AUTO";
+
+template <class Kind>
+constexpr bool is_range = requires(Kind kind) {
+    kind.field;
+};
+
+template <class Number>
+std::string text_of(Number number) {
+    char text[32];
+    const auto end = std::to_chars(std::begin(text), std::end(text), number);
+    return {text, end.ptr};
+}
+
+template <class Number>
+bool lies_in(const Range<Number>& range, Number most, Number value) {
+    if (range.zero != nullptr && value == 0) return true;
+    return (range.above_least ? value > range.least : value >= range.least) && value <= most;
+}
+
+template <class Number>
+bool is_bounded(const Range<Number>& range) {
+    return range.most < std::numeric_limits<Number>::max();
+}
+
+bool equal_words(std::string_view a, std::string_view b) {
+    return std::ranges::equal(
+        a, b, {}, [](unsigned char c) { return std::toupper(c); },
+        [](unsigned char c) { return std::toupper(c); });
+}
+
+/// Text in the case of a sentence's middle, unless it begins with a word of the interface.
+std::string continued(std::string_view text) {
+    std::string result(text);
+    const bool is_name = result.size() > 1 && std::isupper(static_cast<unsigned char>(result[1]));
+    if (!is_name)
+        result[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(result[0])));
+    return result;
+}
+
+/// Words of the interface, which are all of capitals, in the type of code.
+std::string with_code_marks(std::string_view text) {
+    const auto is_part = [](char c) {
+        return std::isupper(static_cast<unsigned char>(c)) || c == '_' || c == '=';
+    };
+    std::string result;
+    for (std::size_t begin = 0; begin < text.size();) {
+        std::size_t end = begin;
+        while (end < text.size() && is_part(text[end])) ++end;
+        const std::string word(text.substr(begin, std::max(end, begin + 1) - begin));
+        const bool of_the_interface = word.size() > 3 && word != "RRCB";
+        result += of_the_interface ? '`' + word + '`' : word;
+        begin += word.size();
+    }
+    return result;
+}
+
+std::string listed(const Choice& choice) {
+    std::string text;
+    for (const Word& word : choice) {
+        const bool last = &word + 1 == choice.end();
+        text += std::string(&word == choice.begin() ? "" : last ? " or " : ", ") + word.word;
+    }
+    return text;
+}
+
+const Word& word_of(const Choice& choice, const Options& options) {
+    return *std::ranges::find(choice, choice.get(options), &Word::value);
+}
+
+/// Limits of a range in words, such as ", 1 or more" or " from 1 to 4096".
+template <class Number>
+std::string limits_of(const Range<Number>& range) {
+    const std::string least = text_of(range.least);
+    if (range.above_least)
+        return " above " + least + (is_bounded(range) ? ", at most " + text_of(range.most) : "");
+    return is_bounded(range) ? " from " + least + " to " + text_of(range.most)
+                             : ", " + least + " or more";
+}
+
+template <class Number>
+std::string values_in_table(const Range<Number>& range, const Options& first) {
+    std::string limits = limits_of(range);
+    limits.erase(0, limits.find_first_not_of(", "));
+    if (limits.starts_with("from ")) limits.erase(0, 5);
+    if (range.most_in_3d != range.most) limits += " (" + text_of(range.most_in_3d) + " in 3-D)";
+    const bool is_automatic = range.zero != nullptr && first.*range.field == 0;
+    return (is_automatic ? '`' + std::string(automatic) + '`' : text_of(first.*range.field)) +
+           ", " + limits;
+}
+
+std::string values_in_table(const Choice& choice, const Options& first) {
+    const Word& front = word_of(choice, first);
+    std::string text = '`' + std::string(front.word) + '`';
+    for (const Word& word : choice)
+        if (&word != &front) text += ", `" + std::string(word.word) + '`';
+    return text;
+}
+
+}  // namespace
+
+const Option* find_option(std::string_view name) {
+    for (const Option& option : option_table)
+        if (option.name == name) return &option;
+    return nullptr;
+}
+
+const Option* find_parameter(std::string_view parameter) {
+    for (const Option& option : option_table)
+        if (!parameter.empty() && option.parameter == parameter) return &option;
+    return nullptr;
+}
+
+bool is_legal(const Option& option, const Options& options, int dimension) {
+    return visit_kind(option, [&]<class Kind>(const Kind& kind) {
+        if constexpr (is_range<Kind>) {
+            return lies_in(kind, dimension < 3 ? kind.most : kind.most_in_3d, options.*kind.field);
+        } else {
+            return true;
+        }
+    });
+}
+
+std::string requirement(const Option& option, int dimension) {
+    return visit_kind(option, [&]<class Kind>(const Kind& kind) -> std::string {
+        if constexpr (is_range<Kind>) {
+            const std::string least = text_of(kind.least);
+            const std::string most = text_of(dimension < 3 ? kind.most : kind.most_in_3d);
+            if (kind.above_least)
+                return is_bounded(kind) ? "in (" + least + ", " + most + "]"
+                                        : "finite and above " + least;
+            if (kind.zero == nullptr) return "at least " + least;
+            return (is_bounded(kind) ? least + " ... " + most : std::string("positive")) +
+                   kind.unit + ", or 0 for " + kind.zero;
+        } else {
+            return legal_values(option);
+        }
+    });
+}
+
+std::string legal_values(const Option& option) {
+    return visit_kind(option, []<class Kind>(const Kind& kind) -> std::string {
+        if constexpr (std::is_same_v<Kind, Choice>) {
+            return listed(kind);
+        } else if constexpr (is_range<Kind>) {
+            const bool is_real = std::is_same_v<Kind, Range<double>>;
+            return (is_real ? "a number" : "a whole number") + limits_of(kind);
+        } else {
+            return "a list";
+        }
+    });
+}
+
+std::string documentation(const Option& option) {
+    return visit_kind(option, [&]<class Kind>(const Kind& kind) {
+        std::string text = std::string(option.text) + ": " + legal_values(option);
+        if constexpr (is_range<Kind>)
+            if (kind.zero != nullptr) text += std::string("; 0: ") + kind.zero;
+        return text + '.';
+    });
+}
+
+bool read_option(const Option& option, std::string_view text, Options& options) {
+    return visit_kind(option, [&]<class Kind>(const Kind& kind) {
+        if constexpr (std::is_same_v<Kind, Choice>) {
+            const auto same = [&](const Word& word) { return equal_words(word.word, text); };
+            const auto* word = std::ranges::find_if(kind, same);
+            if (word == kind.end()) return false;
+            kind.set(options, word->value);
+            return true;
+        } else if constexpr (is_range<Kind>) {
+            std::remove_reference_t<decltype(options.*kind.field)> value{};
+            const bool is_automatic = kind.zero != nullptr && equal_words(text, automatic);
+            const char* end = text.data() + text.size();
+            const auto [stop, error] = std::from_chars(text.data(), end, value);
+            const bool is_number = error == std::errc() && stop == end &&
+                                   (value != 0 || kind.zero == nullptr) &&
+                                   std::isfinite(static_cast<double>(value));
+            if (!is_automatic && !(is_number && lies_in(kind, kind.most, value))) return false;
+            options.*kind.field = is_automatic ? 0 : value;
+            return true;
+        } else {
+            return false;
+        }
+    });
+}
+
+std::string write_option(const Option& option, const Options& options) {
+    return visit_kind(option, [&]<class Kind>(const Kind& kind) -> std::string {
+        if constexpr (std::is_same_v<Kind, Choice>) {
+            return word_of(kind, options).word;
+        } else if constexpr (is_range<Kind>) {
+            const bool is_automatic = kind.zero != nullptr && options.*kind.field == 0;
+            return is_automatic ? std::string(automatic) : text_of(options.*kind.field);
+        } else {
+            return "";
+        }
+    });
+}
+
+void copy_option(const Option& option, const Options& from, Options& to) {
+    visit_kind(option, [&]<class Kind>(const Kind& kind) {
+        if constexpr (std::is_same_v<Kind, Choice>) {
+            kind.set(to, kind.get(from));
+        } else if constexpr (is_range<Kind>) {
+            to.*kind.field = from.*kind.field;
+        }
+    });
+}
+
+std::string table_row(const Option& option, const Options& first) {
+    return visit_kind(option, [&]<class Kind>(const Kind& kind) -> std::string {
+        std::string text = continued(option.text);
+        if constexpr (std::is_same_v<Kind, Choice>) {
+            for (const Word& word : kind) text += std::string("; ") + word.word + ": " + word.text;
+        } else if constexpr (is_range<Kind>) {
+            if (kind.zero != nullptr) text += "; " + std::string(automatic) + ": " + kind.zero;
+        }
+        if constexpr (std::is_same_v<Kind, Lists>)
+            return "";
+        else
+            return '|' + (" `" + std::string(option.parameter)) + "` | " +
+                   values_in_table(kind, first) + " | " + with_code_marks(text) + " |";
+    });
+}
+
+}  // namespace rrcb

@@ -1,0 +1,179 @@
+#pragma once
+
+#include <rrcb/options.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+// What there is to know of each option stands here once. The checks, the comparison between ranks,
+// the parameters of the plug-in, the list for Teuchos and the table of docs/zoltan.md are made of
+// it. C++17, as the header of Teuchos' validators is no C++20.
+
+namespace rrcb {
+
+/// Values of an option that is a number.
+template <class Number>
+struct Range {
+    Number Options::*field;
+    Number least;
+    Number most;
+    bool above_least = false;    ///< `least` itself is not legal
+    Number most_in_3d = most;    ///< the most for points in space
+    const char* unit = "";       ///< as it follows a number
+    const char* zero = nullptr;  ///< what 0 stands for, beside what lies in the range
+};
+
+/// A value of an option by its name.
+struct Word {
+    const char* word;
+    int value;
+    const char* text;  ///< what it makes of the option
+};
+
+/// Values of an option that is an enumeration.
+struct Choice {
+    const Word* words;
+    std::size_t num_words;
+    int (*get)(const Options&);
+    void (*set)(Options&, int);
+
+    const Word* begin() const { return words; }
+    const Word* end() const { return words + num_words; }
+};
+
+/// An option, or several that belong together, of any number of values; not to be had as text.
+struct Lists {
+    std::vector<double> (*values)(const Options&);
+    /// Throws Error that names the option; `options` have their number of parts.
+    void (*check)(const Options& options, int dimension);
+};
+
+struct Option {
+    const char* name;       ///< in Options, as errors have it
+    const char* parameter;  ///< in the plug-in and in Teuchos' list; empty: in neither
+    const char* text;       ///< what it sets
+    std::variant<Range<int>, Range<double>, Range<std::uint64_t>, Choice, Lists> kind;
+};
+
+inline constexpr Word domain_words[] = {
+    {"ANALYTIC", static_cast<int>(DomainKind::analytic),
+     "each cell a uniform density with the cell's moments"},
+    {"SAMPLED", static_cast<int>(DomainKind::sampled),
+     "pseudo-random points with the cell's moments, the paper's RRCB"},
+    {"POINTS", static_cast<int>(DomainKind::points),
+     "the points themselves, all gathered at the root, the paper's RCB"}};
+
+inline constexpr Word cut_rule_words[] = {
+    {"WEIGHTED", static_cast<int>(CutRule::weighted_fraction),
+     "where the weight below is the share of the parts below"},
+    {"MIDPOINT", static_cast<int>(CutRule::midpoint), "at that share of the extent"}};
+
+inline constexpr Word refine_words[] = {
+    {"AUTO", static_cast<int>(Refine::automatic), "TOLERANCE with ANALYTIC, NONE with SAMPLED"},
+    {"NONE", static_cast<int>(Refine::none), "the estimate stands"},
+    {"TOLERANCE", static_cast<int>(Refine::tolerance),
+     "until the imbalance is within IMBALANCE_TOL"},
+    {"EXACT", static_cast<int>(Refine::exact), "to the weighted median"}};
+
+inline constexpr Word coincident_words[] = {
+    {"TOGETHER", static_cast<int>(Coincident::together), "they share a part"},
+    {"DIVIDE", static_cast<int>(Coincident::divide),
+     "by number, where cuts are refined and not plain"}};
+
+template <auto field>
+int value_of(const Options& options) {
+    return static_cast<int>(options.*field);
+}
+
+template <class Enumeration, Enumeration Options::*field>
+void set_value(Options& options, int value) {
+    options.*field = static_cast<Enumeration>(value);
+}
+
+template <class Enumeration, Enumeration Options::*field, std::size_t num_words>
+constexpr Choice choice_of(const Word (&words)[num_words]) {
+    return {words, num_words, value_of<field>, set_value<Enumeration, field>};
+}
+
+std::vector<double> values_of_part_sizes(const Options& options);
+void check_part_sizes(const Options& options, int dimension);
+
+std::vector<double> values_of_axes(const Options& options);
+void check_axes(const Options& options, int dimension);
+
+/// Every option but the observer, which belongs to its rank alone.
+inline constexpr Option option_table[] = {
+    {"num_parts", "NUM_GLOBAL_PARTS", "Parts to make",
+     Range<int>{&Options::num_parts, 1, std::numeric_limits<int>::max(), false,
+                std::numeric_limits<int>::max(), "", "one part per rank"}},
+    {"part_sizes", "", "Relative weight of each part",
+     Lists{values_of_part_sizes, check_part_sizes}},
+    {"support_mesh", "RRCB_SUPPORT_MESH", "Cells per axis of each rank's support mesh",
+     Range<int>{&Options::support_mesh, 1, 4096, false, 256, " cells per axis",
+                "as many as suit the points of the rank"}},
+    {"domain", "RRCB_DOMAIN", "What the root bisects in place of the points",
+     choice_of<DomainKind, &Options::domain>(domain_words)},
+    {"cut_rule", "RRCB_CUT_RULE", "Where a box is cut across its longest axis",
+     choice_of<CutRule, &Options::cut_rule>(cut_rule_words)},
+    {"one of grouped_axes, cut_axes, plain_cuts", "", "Which axes are cut, and how",
+     Lists{values_of_axes, check_axes}},
+    {"refine", "RRCB_REFINE", "How far the estimated cuts are moved by what the ranks really hold",
+     choice_of<Refine, &Options::refine>(refine_words)},
+    {"coincident", "RRCB_COINCIDENT",
+     "What becomes of points in one place where the balance asked for divides them",
+     choice_of<Coincident, &Options::coincident>(coincident_words)},
+    {"imbalance_tolerance", "IMBALANCE_TOL",
+     "Heaviest part / mean part to reach with RRCB_REFINE=TOLERANCE",
+     Range<double>{&Options::imbalance_tolerance, 1, std::numeric_limits<double>::infinity()}},
+    {"sigma_multiplier", "RRCB_SIGMA_MULTIPLIER",
+     "SAMPLED: half-width of a cell's sampling box in standard deviations",
+     Range<double>{&Options::sigma_multiplier, 0, std::numeric_limits<double>::max(), true}},
+    {"sample_fraction", "RRCB_SAMPLE_FRACTION", "SAMPLED: points drawn per real point",
+     Range<double>{&Options::sample_fraction, 0, 1, true}},
+    {"seed", "RRCB_SEED", "SAMPLED: seed of the points",
+     Range<std::uint64_t>{&Options::seed, 0, std::numeric_limits<std::uint64_t>::max()}},
+};
+
+inline constexpr std::size_t num_options = sizeof option_table / sizeof *option_table;
+
+/// The option of a name in Options, or of a parameter; null where there is none.
+const Option* find_option(std::string_view name);
+const Option* find_parameter(std::string_view parameter);
+
+/// Calls visit(kind) with what kind of values the option has.
+template <class Visit>
+decltype(auto) visit_kind(const Option& option, Visit&& visit) {
+    return std::visit(visit, option.kind);
+}
+
+/// True when the value in `options` is legal for points of this dimension; of lists always.
+bool is_legal(const Option& option, const Options& options, int dimension);
+
+/// What a number must be, as an error has it: "at least 1".
+std::string requirement(const Option& option, int dimension);
+
+/// What may stand for the option as text: "a number above 0, at most 1", "WEIGHTED or MIDPOINT".
+std::string legal_values(const Option& option);
+
+/// What the option sets and what it may be, in a sentence.
+std::string documentation(const Option& option);
+
+/// Reads a value in points of any dimension: a number, a word in any case, AUTO where 0 stands for
+/// something. False, and nothing is set, for what is no legal value.
+bool read_option(const Option& option, std::string_view text, Options& options);
+
+/// The value as read_option() takes it.
+std::string write_option(const Option& option, const Options& options);
+
+/// Makes the option what it is in `from`.
+void copy_option(const Option& option, const Options& from, Options& to);
+
+/// Its row in a table of parameters, in Markdown: name, values with `first` in front, what it sets.
+std::string table_row(const Option& option, const Options& first);
+
+}  // namespace rrcb

@@ -1,0 +1,188 @@
+#include "options/option_table.hpp"
+
+#include "options/request.hpp"
+#include "options/validation.hpp"
+
+#include <rrcb/error.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace rrcb {
+namespace {
+
+/// An option by its name in Options.
+const Option& named(std::string_view name) {
+    const Option* option = find_option(name);
+    if (option == nullptr) throw Error(ErrorCode::internal, "no option " + std::string(name));
+    return *option;
+}
+
+bool reads(std::string_view name, std::string_view text) {
+    Options options;
+    return read_option(named(name), text, options);
+}
+
+/// What the check of options says of these; empty when they are legal.
+template <class Change>
+std::string complaint(Change&& change, int dimension = 2) {
+    Options options;
+    options.num_parts = 4;
+    change(options);
+    try {
+        check_options(options, dimension);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(OptionTable, is_searched_by_the_name_of_an_option_or_of_a_parameter) {
+    EXPECT_EQ(find_option("seed"), find_parameter("RRCB_SEED"));
+    EXPECT_EQ(find_option("imbalance_tolerance"), find_parameter("IMBALANCE_TOL"));
+    EXPECT_EQ(find_option("colour"), nullptr);
+    EXPECT_EQ(find_parameter(""), nullptr);
+}
+
+TEST(OptionTable, writes_what_it_reads) {
+    const std::vector<std::pair<std::string_view, std::vector<std::string>>> texts = {
+        {"num_parts", {"AUTO", "1", "2147483647"}},
+        {"support_mesh", {"AUTO", "1", "4096"}},
+        {"domain", {"ANALYTIC", "SAMPLED", "POINTS"}},
+        {"cut_rule", {"WEIGHTED", "MIDPOINT"}},
+        {"refine", {"AUTO", "NONE", "TOLERANCE", "EXACT"}},
+        {"coincident", {"TOGETHER", "DIVIDE"}},
+        {"imbalance_tolerance", {"1", "1.01", "1e+300"}},
+        {"sigma_multiplier", {"0.1", "5e-324", "1.7976931348623157e+308"}},
+        {"sample_fraction", {"0.25", "1"}},
+        {"seed", {"0", "18446744073709551615"}}};
+    for (const auto& [name, values] : texts) {
+        for (const std::string& value : values) {
+            Options options;
+            ASSERT_TRUE(read_option(named(name), value, options)) << name << '=' << value;
+            EXPECT_EQ(write_option(named(name), options), value) << name;
+            Options copy;
+            copy_option(named(name), options, copy);
+            EXPECT_EQ(bits_of(named(name), copy), bits_of(named(name), options)) << name;
+        }
+    }
+}
+
+TEST(OptionTable, reads_words_in_any_case) {
+    Options options;
+    EXPECT_TRUE(read_option(named("refine"), "exact", options));
+    EXPECT_EQ(options.refine, Refine::exact);
+    EXPECT_TRUE(read_option(named("support_mesh"), "auto", options));
+    EXPECT_FALSE(reads("refine", "exactly"));
+    EXPECT_FALSE(reads("refine", ""));
+}
+
+TEST(OptionTable, reads_no_number_beyond_its_range_and_leaves_the_value) {
+    for (const char* text : {"0", "-1", "4097", "1.5", "8X", "", "99999999999"})
+        EXPECT_FALSE(reads("support_mesh", text)) << text;
+    for (const char* text : {"0", "-2", "nan", "inf", "two"})
+        EXPECT_FALSE(reads("sigma_multiplier", text)) << text;
+    for (const char* text : {"0", "1.01", "-0.5", "nan"})
+        EXPECT_FALSE(reads("sample_fraction", text)) << text;
+    for (const char* text : {"0.99", "nan", "inf"})
+        EXPECT_FALSE(reads("imbalance_tolerance", text)) << text;
+    EXPECT_FALSE(reads("seed", "-1"));
+    EXPECT_FALSE(reads("part_sizes", "1"));
+    Options options;
+    read_option(named("sample_fraction"), "7", options);
+    EXPECT_EQ(options.sample_fraction, 1);
+}
+
+TEST(Check, refuses_what_lies_beyond_the_range_of_an_option_and_tells_the_range) {
+    EXPECT_EQ(complaint([](Options&) {}), "");
+    EXPECT_EQ(complaint([](Options& o) { o.num_parts = -1; }),
+              "num_parts must be positive, or 0 for one part per rank");
+    for (const int dimension : {1, 2, 3}) {
+        const int most = dimension < 3 ? 4096 : 256;
+        const auto mesh = [&](int cells) {
+            return complaint([&](Options& o) { o.support_mesh = cells; }, dimension);
+        };
+        EXPECT_EQ(mesh(0) + mesh(1) + mesh(most), "");
+        const std::string refusal = "support_mesh must be 1 ... " + std::to_string(most) +
+                                    " cells per axis, or 0 for as many as suit the points of the "
+                                    "rank";
+        EXPECT_EQ(mesh(most + 1), refusal);
+        EXPECT_EQ(mesh(-1), refusal);
+    }
+    for (const double value : {0.0, -1.0, std::nan(""), HUGE_VAL})
+        EXPECT_EQ(complaint([&](Options& o) { o.sigma_multiplier = value; }),
+                  "sigma_multiplier must be finite and above 0");
+    for (const double value : {0.0, 1.5, std::nan("")})
+        EXPECT_EQ(complaint([&](Options& o) { o.sample_fraction = value; }),
+                  "sample_fraction must be in (0, 1]");
+    for (const double value : {0.99, std::nan("")})
+        EXPECT_EQ(complaint([&](Options& o) { o.imbalance_tolerance = value; }),
+                  "imbalance_tolerance must be at least 1");
+    EXPECT_EQ(complaint([](Options& o) { o.imbalance_tolerance = HUGE_VAL; }), "");
+}
+
+TEST(OptionTable, tells_what_each_option_may_be) {
+    EXPECT_EQ(legal_values(named("sample_fraction")), "a number above 0, at most 1");
+    EXPECT_EQ(legal_values(named("sigma_multiplier")), "a number above 0");
+    EXPECT_EQ(legal_values(named("imbalance_tolerance")), "a number, 1 or more");
+    EXPECT_EQ(legal_values(named("support_mesh")), "a whole number from 1 to 4096");
+    EXPECT_EQ(legal_values(named("seed")), "a whole number, 0 or more");
+    EXPECT_EQ(legal_values(named("refine")), "AUTO, NONE, TOLERANCE or EXACT");
+    EXPECT_EQ(documentation(named("num_parts")),
+              "Parts to make: a whole number, 1 or more; 0: one part per rank.");
+}
+
+TEST(Request, differs_in_every_option_by_its_name) {
+    using Change = void (*)(Options&);
+    const std::vector<std::pair<std::string_view, Change>> changes = {
+        {"num_parts", [](Options& o) { o.num_parts = 3; }},
+        {"part_sizes", [](Options& o) { o.part_sizes = {1}; }},
+        {"support_mesh", [](Options& o) { o.support_mesh = 3; }},
+        {"domain", [](Options& o) { o.domain = DomainKind::points; }},
+        {"cut_rule", [](Options& o) { o.cut_rule = CutRule::midpoint; }},
+        {"one of grouped_axes, cut_axes, plain_cuts", [](Options& o) { o.plain_cuts = true; }},
+        {"one of grouped_axes, cut_axes, plain_cuts", [](Options& o) { o.cut_axes = {1}; }},
+        {"one of grouped_axes, cut_axes, plain_cuts", [](Options& o) { o.grouped_axes = {1}; }},
+        {"refine", [](Options& o) { o.refine = Refine::none; }},
+        {"coincident", [](Options& o) { o.coincident = Coincident::divide; }},
+        {"imbalance_tolerance", [](Options& o) { o.imbalance_tolerance = 2; }},
+        {"sigma_multiplier", [](Options& o) { o.sigma_multiplier = 2; }},
+        {"sample_fraction", [](Options& o) { o.sample_fraction = 0.5; }},
+        {"seed", [](Options& o) { o.seed = 2; }}};
+    const Request reference = request_of({}, 2, nullptr);
+    EXPECT_EQ(first_difference(reference, request_of({}, 2, nullptr)), std::nullopt);
+    for (const auto& [name, change] : changes) {
+        Options options;
+        change(options);
+        const auto index = first_difference(reference, request_of(options, 2, nullptr));
+        ASSERT_TRUE(index) << name;
+        EXPECT_EQ(name_of_request(*index), name);
+    }
+    const Cuts previous{1, 2, {Cut{}}};
+    EXPECT_EQ(name_of_request(*first_difference(reference, request_of({}, 2, &previous))),
+              "previous");
+    EXPECT_EQ(name_of_request(*first_difference(reference, request_of({}, 3, nullptr))),
+              "dimension");
+}
+
+TEST(OptionTable, is_the_table_of_the_document) {
+    std::ifstream file(RRCB_DOCUMENT);
+    ASSERT_TRUE(file) << RRCB_DOCUMENT;
+    std::ostringstream document;
+    document << file.rdbuf();
+    Options plug_in;  // whose handles divide points in one place, as RCB
+    plug_in.coincident = Coincident::divide;
+    for (const Option& option : option_table) {
+        if (!std::string_view(option.parameter).starts_with("RRCB_")) continue;
+        const std::string row = table_row(option, plug_in);
+        EXPECT_NE(document.str().find('\n' + row + '\n'), std::string::npos)
+            << "not a line of " << RRCB_DOCUMENT << ":\n"
+            << row;
+    }
+}
+
+}  // namespace
+}  // namespace rrcb

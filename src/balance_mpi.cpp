@@ -1,5 +1,6 @@
 #include "balance_mpi.hpp"
 
+#include "bisection/domain_kinds.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "cuts/binned_assignment.hpp"
@@ -28,7 +29,7 @@ namespace {
 Options complete(Options options, int num_ranks) {
     if (options.num_parts == 0) options.num_parts = num_ranks;
     if (options.refine == Refine::automatic)
-        options.refine = options.domain == DomainKind::sampled ? Refine::none : Refine::tolerance;
+        options.refine = traits_of(options.domain).automatic_refine;
     return options;
 }
 
@@ -48,7 +49,7 @@ void normalize(std::vector<double>& sizes, int num_parts) {
 void gather(Contribution& mine, const Options& options, int dimension, Member& me) {
     const StageScope stage(options.observer, Stage::gather);
     merge_up(mine, dimension, MergeTree{mpi::size_of(me.comm)}, most_cells(options), me);
-    if (options.domain != DomainKind::points) return;
+    if (!traits_of(options.domain).sends_points) return;
     confirm(mine.summary, me);
     gather_points(mine.points, me);
 }
@@ -132,7 +133,7 @@ void assign_together(const Points& points, Work& work, Member& me) {
     const bool counts = is_known(work.decision.verdict);
     if (counts && result.report.all_weights_zero) work.binned.points.weights = {};
     me.locally([&] {
-        if (work.options.domain == DomainKind::points) {
+        if (traits_of(work.options.domain).sends_points) {
             assign(result.cuts, points, result.parts);
         } else {
             const auto weights = assign(result.cuts, work.binned, result.parts);

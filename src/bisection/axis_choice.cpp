@@ -1,5 +1,7 @@
 #include "bisection/axis_choice.hpp"
 
+#include "bisection/domain_kinds.hpp"
+
 #include <algorithm>
 #include <bit>
 
@@ -42,7 +44,7 @@ int longest_axis(const Box& box, int dimension, double enough) {
 AxisChoice::AxisChoice(const Options& options, const Box& box, int dimension)
     : cut_axes_(options.cut_axes),
       dimension_(dimension),
-      enough_(options.domain == DomainKind::analytic ? 0.9 : 1) {
+      enough_(traits_of(options.domain).share_of_longest) {
     const int num_levels = std::bit_width(static_cast<unsigned>(options.num_parts - 1));
     if (!options.grouped_axes.empty())
         level_axes_ = group_levels(options.grouped_axes, box, dimension, num_levels);

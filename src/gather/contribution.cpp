@@ -1,5 +1,6 @@
 #include "gather/contribution.hpp"
 
+#include "bisection/domain_kinds.hpp"
 #include "gather/cell_records.hpp"
 #include "gather/coarsening.hpp"
 
@@ -51,7 +52,7 @@ int automatic_cells_per_axis(int dimension, LocalIndex num_points) {
 }
 
 BinnedPoints bin_by_options(const Points& points, const Box& box, const Options& options) {
-    if (options.domain == DomainKind::points) return {};
+    if (traits_of(options.domain).sends_points) return {};
     const int cells_per_axis = options.support_mesh > 0
                                    ? options.support_mesh
                                    : automatic_cells_per_axis(points.dimension, points.count);
@@ -78,7 +79,7 @@ Summary summarize(const Points& points, const Box& box) {
 void add_records(const Points& points, const BinnedPoints& binned, const Options& options,
                  Contribution& mine) {
     if (points.count == 0) return;
-    if (options.domain == DomainKind::points) {
+    if (traits_of(options.domain).sends_points) {
         append_points(points, mine.points);
         mine.summary.num_cells = mine.summary.num_points;
     } else {
@@ -90,7 +91,7 @@ void add_records(const Points& points, const BinnedPoints& binned, const Options
 
 std::size_t most_cells(const Options& options) {
     constexpr std::size_t most = 8192;
-    const bool may_coarsen = options.support_mesh == 0 && options.domain != DomainKind::points;
+    const bool may_coarsen = options.support_mesh == 0 && !traits_of(options.domain).sends_points;
     return may_coarsen ? most : std::numeric_limits<std::size_t>::max();
 }
 
@@ -116,11 +117,10 @@ void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t 
 }
 
 StatisticalDomain build_domain(const Contribution& all, const Options& options, int dimension) {
-    if (options.domain == DomainKind::points) return read_points(all.points, dimension);
+    const DomainTraits& traits = traits_of(options.domain);
+    if (traits.sends_points) return read_points(all.points, dimension);
     const CellSet set = read_cells(all.records, dimension);
-    return options.domain == DomainKind::analytic
-               ? analytic_domain(set.cells, dimension, all.summary.box)
-               : sampled_domain(set.cells, dimension, options);
+    return traits.build(set.cells, dimension, all.summary.box, options);
 }
 
 }  // namespace rrcb

@@ -1,6 +1,7 @@
 #include "gather/decision_mpi.hpp"
 
 #include "bisection/bisection.hpp"
+#include "bisection/domain_kinds.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/tree.hpp"
 #include "gather/keeping.hpp"
@@ -185,7 +186,7 @@ Report report_of(const Verdict& verdict, int num_parts) {
 
 bool is_refined(const Options& options) {
     return options.refine != Refine::none && options.cut_rule == CutRule::weighted_fraction &&
-           options.domain != DomainKind::points;
+           !traits_of(options.domain).sends_points;
 }
 
 void make_room(Decision& decision, const Options& options, int dimension, bool may_stay) {

@@ -1,10 +1,10 @@
+#include "cells/sorted_points.hpp"
 #include "clouds.hpp"
 #include "cuts/binned_assignment.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/moments.hpp>
 #include <rrcb/plan.hpp>
-#include <rrcb/sorted_points.hpp>
 
 #include <benchmark/benchmark.h>
 #include <mpi.h>

@@ -40,7 +40,6 @@ rrcb_part(RRCB_COMPARISONS ${examples}
 rrcb_part(RRCB_BENCHMARKS ${benchmarks} "The benchmarks (need Google Benchmark)")
 
 find_package(MPI REQUIRED COMPONENTS C CXX)
-find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 
 if(RRCB_ZOLTAN)
   rrcb_find_trilinos(Zoltan)
@@ -61,6 +60,12 @@ endif()
 foreach(option IN ITEMS RRCB_ZOLTAN RRCB_MPM)
   rrcb_needs(RRCB_COMPARISONS ${option} ${option} "it compares RRCB with Zoltan on the slope")
 endforeach()
+
+# The plug-in and the example solve for eigenvalues; the library has no more than a header for it.
+if(RRCB_ZOLTAN OR RRCB_MPM OR RRCB_TESTS)
+  find_package(Eigen3 3.3 REQUIRED NO_MODULE)
+endif()
+
 if(RRCB_BENCHMARKS)
   find_package(benchmark QUIET)
   rrcb_needs(RRCB_BENCHMARKS benchmark_FOUND "Google Benchmark" "Debian package libbenchmark-dev")

@@ -6,6 +6,8 @@
 
 namespace rrcb {
 
+// Needs Eigen, which rrcb::rrcb does not bring along: link Eigen3::Eigen as well.
+
 /// View of a column-major matrix with one point per column as points. Not collective.
 ///
 /// `coordinates` has `dimension` (1 to 3) rows, contiguous columns and must outlive the view;

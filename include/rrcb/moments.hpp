@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/binned_points.hpp>
+#include <rrcb/support_mesh.hpp>
 
 #include <vector>
 
@@ -33,14 +33,13 @@ Moments merge(const Moments& a, const Moments& b);
 
 /// Moments of every cell that holds weight, in the order of the cells. Not collective.
 ///
+/// The points must be finite and lie in the box of `mesh`, in any order.
+///
 /// Shifted sums (Chan, Golub, LeVeque: Algorithms for computing the sample variance, 1983, section
 /// 3), about the first point of each cell, and in a second pass about the mean where that point
 /// lies more than four standard deviations off: neither the offset of the cloud nor the spread of
 /// the weights costs more than a digit. When all points weigh 0 their moments are those of the same
 /// points with weight 1, under weight 0.
-std::vector<CellMoments> cell_moments(const BinnedPoints& binned);
-
-/// The same for points in any order, which must be finite and lie in the box of `mesh`.
 std::vector<CellMoments> cell_moments(const Points& points, const SupportMesh& mesh);
 
 }  // namespace rrcb

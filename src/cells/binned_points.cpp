@@ -1,8 +1,8 @@
+#include "cells/binned_points.hpp"
+
 #include "cells/point_layout.hpp"
 #include "cells/running_sums.hpp"
 #include "cells/safe_scale.hpp"
-
-#include <rrcb/binned_points.hpp>
 
 #include <algorithm>
 #include <cmath>

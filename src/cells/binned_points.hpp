@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/support_mesh.hpp>
+#include <rrcb/moments.hpp>
 
 #include <cstdint>
 #include <vector>
@@ -28,5 +28,8 @@ struct BinnedPoints {
 
 /// Finds the cells of finite points that lie in the box of `mesh`, in one pass. Not collective.
 BinnedPoints bin_by_cell(const Points& points, const SupportMesh& mesh);
+
+/// As the public function, of points whose cells are known.
+std::vector<CellMoments> cell_moments(const BinnedPoints& binned);
 
 }  // namespace rrcb

@@ -1,3 +1,4 @@
+#include "cells/binned_points.hpp"
 #include "cells/point_layout.hpp"
 #include "cells/running_sums.hpp"
 

@@ -1,6 +1,6 @@
-#include "cells/point_layout.hpp"
+#include "cells/sorted_points.hpp"
 
-#include <rrcb/sorted_points.hpp>
+#include "cells/point_layout.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/binned_points.hpp>
+#include "cells/binned_points.hpp"
 
 #include <vector>
 

@@ -1,9 +1,8 @@
 #include "cuts/binned_assignment.hpp"
 
 #include "cells/running_sums.hpp"
+#include "cells/sorted_points.hpp"
 #include "cuts/tree.hpp"
-
-#include <rrcb/sorted_points.hpp>
 
 #include <limits>
 

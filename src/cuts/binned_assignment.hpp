@@ -1,6 +1,7 @@
 #pragma once
 
-#include <rrcb/binned_points.hpp>
+#include "cells/binned_points.hpp"
+
 #include <rrcb/cuts.hpp>
 
 #include <span>

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "cells/binned_points.hpp"
 #include "options/request.hpp"
 
-#include <rrcb/binned_points.hpp>
 #include <rrcb/points.hpp>
 #include <rrcb/statistical_domain.hpp>
 

@@ -1,7 +1,8 @@
 #pragma once
 
+#include "cells/sorted_points.hpp"
+
 #include <rrcb/cuts.hpp>
-#include <rrcb/sorted_points.hpp>
 
 #include <utility>
 #include <vector>

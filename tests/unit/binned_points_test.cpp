@@ -1,7 +1,6 @@
 #include "../support/clouds.hpp"
+#include "cells/sorted_points.hpp"
 #include "cuts/binned_assignment.hpp"
-
-#include <rrcb/sorted_points.hpp>
 
 #include <gtest/gtest.h>
 

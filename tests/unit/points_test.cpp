@@ -1,9 +1,9 @@
 #include "../support/clouds.hpp"
+#include "cells/sorted_points.hpp"
 
 #include <rrcb/eigen.hpp>
 #include <rrcb/moments.hpp>
 #include <rrcb/points.hpp>
-#include <rrcb/sorted_points.hpp>
 
 #include <gtest/gtest.h>
 

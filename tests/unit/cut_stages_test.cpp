@@ -1,0 +1,286 @@
+// Every stage of the search for one cut by itself, on histograms and candidates worked out by hand.
+#include "refinement/local_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace rrcb {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr HistogramLayout layout{4};  // six slots
+constexpr double many = 5000;         // more than are gathered
+constexpr double few = 1000;
+
+/// A histogram of one axis with these weights and as many points in each slot.
+std::vector<double> histogram_of(std::vector<double> weights, double count, double smallest = 0,
+                                 double largest = 4) {
+    std::vector<double> histogram(layout.length());
+    clear_histogram(histogram);
+    histogram[0] = -smallest;
+    histogram[max_dimension] = largest;
+    weights.resize(layout.num_slots());
+    std::copy(weights.begin(), weights.end(), histogram.begin() + layout.num_extents);
+    std::fill_n(histogram.end() - static_cast<std::ptrdiff_t>(layout.num_slots()),
+                layout.num_slots(), count);
+    return histogram;
+}
+
+/// In the bracket [0, 4) of axis 0: four bins of width one.
+CutSearch search_in(CutSearch::Stage stage, std::int32_t num_axes = 1) {
+    CutSearch search;
+    search.stage = stage;
+    search.num_axes = num_axes;
+    search.cut.at.fill(-infinity);
+    search.upper = 4;
+    return search;
+}
+
+CutTarget target_of(double weight, double slack = 0, double base = 0) {
+    CutTarget target;
+    target.target = weight;
+    target.slack = slack;
+    target.base = base;
+    return target;
+}
+
+const std::vector<double> slot_weights{2, 3, 5.25, 4, 1, 0};
+
+TEST(CountInBins, ends_at_the_edge_that_is_near_enough) {
+    CutSearch search = search_in(CutSearch::over_fragments);
+    CutTarget target = target_of(10, 0.5);
+    decide_by_bins(search, target, layout, histogram_of(slot_weights, many));
+    EXPECT_EQ(search.stage, CutSearch::done);
+    EXPECT_EQ(search.cut.at[0], 2);  // below it 2 + 3 + 5.25
+    EXPECT_EQ(search.below, 10.25);
+
+    search = search_in(CutSearch::over_fragments);
+    target = target_of(5.25, 0.5);
+    decide_by_bins(search, target, layout, histogram_of(slot_weights, many));
+    EXPECT_EQ(search.cut.at[0], 1);  // the lower edge of the slot is nearer
+    EXPECT_EQ(search.below, 5);
+}
+
+TEST(CountInBins, ends_at_once_where_nothing_belongs_below) {
+    CutSearch search = search_in(CutSearch::over_fragments);
+    CutTarget target = target_of(0);
+    decide_by_bins(search, target, layout, histogram_of(slot_weights, many));
+    EXPECT_EQ(search.stage, CutSearch::done);
+    EXPECT_EQ(search.cut.at[0], -infinity);
+}
+
+TEST(Narrow, goes_on_in_the_slot_of_the_target) {
+    CutSearch search = search_in(CutSearch::over_fragments);
+    CutTarget target = target_of(8);
+    decide_by_bins(search, target, layout, histogram_of(slot_weights, many));
+    EXPECT_EQ(search.stage, CutSearch::over_candidates);
+    EXPECT_EQ(search.chosen, 2);
+    EXPECT_EQ(search.lower, 1);
+    EXPECT_EQ(search.upper, 2);
+    EXPECT_EQ(search.by_bits, 0);
+    EXPECT_EQ(target.base, 5);
+    EXPECT_EQ(target.num_candidates, 5000);
+    EXPECT_EQ(target.num_counts, 0);  // the fragments are none of the counts of candidates
+}
+
+TEST(Narrow, reaches_to_the_outermost_point_beyond_the_bracket) {
+    CutSearch search = search_in(CutSearch::over_fragments);
+    CutTarget target = target_of(1);
+    decide_by_bins(search, target, layout, histogram_of({2, 1}, many, -7, 9));
+    EXPECT_EQ(search.chosen, 0);
+    EXPECT_EQ(search.lower, -7);
+    EXPECT_EQ(search.upper, 0);
+
+    search = search_in(CutSearch::over_fragments);
+    target = target_of(4);
+    decide_by_bins(search, target, layout, histogram_of({2, 0, 0, 0, 0, 4}, many, -7, 9));
+    EXPECT_EQ(search.chosen, 5);
+    EXPECT_EQ(search.lower, 4);
+    EXPECT_EQ(search.upper, std::nextafter(9.0, infinity));
+}
+
+TEST(Narrow, takes_bins_by_bits_then_splitters_where_bins_of_equal_width_do_not_help) {
+    CutSearch search = search_in(CutSearch::over_candidates);
+    CutTarget target = target_of(8);
+    decide_by_bins(search, target, layout, histogram_of(slot_weights, many));
+    EXPECT_EQ(search.stage, CutSearch::over_candidates);
+    EXPECT_EQ(search.by_bits, 1);
+    EXPECT_EQ(target.num_counts, 1);
+
+    search = search_in(CutSearch::over_candidates);
+    target = target_of(8);
+    target.num_counts = 3;
+    decide_by_bins(search, target, layout, histogram_of(slot_weights, many));
+    EXPECT_EQ(search.stage, CutSearch::sampling);
+}
+
+TEST(Narrow, gathers_candidates_once_they_are_few) {
+    CutSearch search = search_in(CutSearch::over_fragments);
+    CutTarget target = target_of(8);
+    decide_by_bins(search, target, layout, histogram_of(slot_weights, few));
+    EXPECT_EQ(search.stage, CutSearch::gathering);
+    EXPECT_EQ(target.num_candidates, 1000);
+}
+
+TEST(Tie, goes_on_along_the_next_axis) {
+    CutSearch search = search_in(CutSearch::over_candidates, 2);
+    CutTarget target = target_of(8, 0, 3);
+    auto histogram = histogram_of({10}, many, 2.5, 2.5);
+    histogram[1] = 1;  // from -1 ...
+    histogram[max_dimension + 1] = 6;
+    decide_by_bins(search, target, layout, histogram);
+    EXPECT_EQ(search.stage, CutSearch::over_candidates);
+    EXPECT_EQ(search.tied, 1);
+    EXPECT_EQ(search.cut.at[0], 2.5);
+    EXPECT_EQ(search.lower, -1);
+    EXPECT_EQ(search.upper, std::nextafter(6.0, infinity));
+    EXPECT_EQ(target.base, 3);
+}
+
+TEST(Tie, on_all_axes_leaves_the_points_on_the_nearer_side) {
+    const auto histogram = histogram_of({0, 10}, many, 2.5, 2.5);
+    for (const auto& [weight, at, below] :
+         {std::tuple{7.0, 2.5, 3.0}, std::tuple{9.0, std::nextafter(2.5, infinity), 13.0}}) {
+        CutSearch search = search_in(CutSearch::over_candidates);
+        CutTarget target = target_of(weight, 0, 3);
+        decide_by_bins(search, target, layout, histogram);
+        EXPECT_EQ(search.stage, CutSearch::done);
+        EXPECT_EQ(search.cut.at[0], at);
+        EXPECT_EQ(search.below, below);
+        EXPECT_EQ(search.coincident, 1);
+        EXPECT_EQ(search.lot_below, 0);
+    }
+}
+
+TEST(Tie, on_all_axes_divides_the_points_where_they_are_to_be_divided) {
+    CutSearch search = search_in(CutSearch::over_candidates);
+    search.divides = 1;
+    CutTarget target = target_of(7, 0, 3);
+    decide_by_bins(search, target, layout, histogram_of({0, 10}, many, 2.5, 2.5));
+    EXPECT_EQ(search.cut.at[0], 2.5);
+    EXPECT_EQ(search.lot_below, 4);
+    EXPECT_EQ(search.below, 7);
+}
+
+/// Below, at, between, at and above the splitters 2 and 5.
+const std::vector<double> weights_about_splitters{3, 1, 4, 1, 3};
+const std::vector<Vector> splitters{{2}, {5}};
+
+CutSearch search_by_splitters(double weight, double count, CutTarget& target) {
+    CutSearch search = search_in(CutSearch::over_splitters);
+    target = target_of(weight);
+    decide_by_splitters(search, target, layout, splitters,
+                        histogram_of(weights_about_splitters, count));
+    return search;
+}
+
+TEST(CountBetweenSplitters, ends_before_or_behind_a_splitter) {
+    CutTarget target;
+    const CutSearch before = search_by_splitters(8, many, target);
+    EXPECT_EQ(before.stage, CutSearch::done);
+    EXPECT_EQ(before.cut.at[0], 5);
+    EXPECT_EQ(before.below, 8);
+    const CutSearch behind = search_by_splitters(4, many, target);
+    EXPECT_EQ(behind.cut.at[0], std::nextafter(2.0, infinity));
+    EXPECT_EQ(behind.below, 4);
+}
+
+TEST(CountBetweenSplitters, ends_among_the_points_at_a_splitter) {
+    CutTarget target;
+    const CutSearch search = search_by_splitters(3.25, many, target);
+    EXPECT_EQ(search.stage, CutSearch::done);
+    EXPECT_EQ(search.coincident, 1);
+    EXPECT_EQ(search.cut.at[0], 2);
+    EXPECT_EQ(search.below, 3);
+}
+
+TEST(CountBetweenSplitters, goes_on_between_two_by_a_sample_or_by_all_points) {
+    for (const bool is_many : {true, false}) {
+        CutTarget target;
+        const CutSearch search = search_by_splitters(6, is_many ? many : few, target);
+        EXPECT_EQ(search.stage, is_many ? CutSearch::sampling : CutSearch::gathering);
+        EXPECT_EQ(search.between_splitters, 1);
+        EXPECT_EQ(search.chosen, 2);
+        EXPECT_EQ(target.base, 4);
+    }
+}
+
+/// Ends among candidates of weight 1 on a line.
+CutSearch search_among(const std::vector<double>& positions, CutTarget target, int divides = 0) {
+    CutSearch search = search_in(CutSearch::gathering);
+    search.divides = divides;
+    std::vector<double> records;
+    for (const double x : positions) records.insert(records.end(), {x, 1});
+    decide_among(search, target, records, 1);
+    return search;
+}
+
+TEST(DecideAmong, cuts_halfway_between_two_candidates) {
+    const CutSearch search = search_among({4, 1, 2}, target_of(12, 0, 10));
+    EXPECT_EQ(search.stage, CutSearch::done);
+    EXPECT_EQ(search.cut.at[0], 3);
+    EXPECT_EQ(search.below, 12);
+    EXPECT_EQ(search.coincident, 0);
+}
+
+TEST(DecideAmong, ends_at_the_ends_of_the_bracket_beyond_all_candidates) {
+    EXPECT_EQ(search_among({1, 2}, target_of(10.25, 0, 10)).cut.at[0], 0);
+    EXPECT_EQ(search_among({1, 2}, target_of(13, 0, 10)).cut.at[0], 4);
+}
+
+TEST(DecideAmong, keeps_candidates_in_one_place_together_or_divides_them) {
+    const std::vector<double> positions{1, 2, 2, 2, 3};
+    const CutSearch together = search_among(positions, target_of(2));
+    EXPECT_EQ(together.coincident, 1);
+    EXPECT_EQ(together.cut.at[0], 1.5);
+    EXPECT_EQ(together.below, 1);
+    const CutSearch divided = search_among(positions, target_of(2), 1);
+    EXPECT_EQ(divided.coincident, 1);
+    EXPECT_EQ(divided.cut.at[0], 2);
+    EXPECT_EQ(divided.lot_below, 1);
+    EXPECT_EQ(divided.below, 2);
+}
+
+TEST(DecideAmong, breaks_ties_along_the_next_axis) {
+    CutSearch search = search_in(CutSearch::gathering, 2);
+    CutTarget target = target_of(1);
+    decide_among(search, target, std::vector<double>{1, 7, 1, 1, 3, 1}, 2);
+    EXPECT_EQ(search.cut.at[0], 1);
+    EXPECT_EQ(search.cut.at[1], 5);
+    EXPECT_EQ(search.below, 1);
+}
+
+TEST(LocalSearch, counts_its_points_then_its_candidates_and_hands_them_over) {
+    const std::vector<double> x{0.5, 1.5, 1.25, 3.5};
+    const std::vector<double> weights{1, 2, 3, 4};
+    const Points points = interleaved_points(x, 1, weights);
+    const SortedPoints sorted =
+        sort_by_cell(bin_by_cell(points, make_support_mesh(bounding_box(points), 1, 1)));
+    const std::vector<Fragment> fragments = cell_fragments(sorted);
+    LocalSearch local(fragments, sorted);
+    const auto count = [&](const CutSearch& search) {
+        std::vector<double> histogram(layout.length());
+        clear_histogram(histogram);
+        local.count(search, layout, histogram);
+        return std::vector<double>(histogram.begin() + layout.num_extents, histogram.end());
+    };
+    CutSearch before = search_in(CutSearch::over_fragments);
+    before.quantum = quantum_for(10);
+    EXPECT_EQ(count(before), (std::vector<double>{0, 1, 5, 0, 4, 0, 0, 1, 2, 0, 1, 0}));
+
+    CutSearch after = before;
+    after.stage = CutSearch::over_candidates;
+    after.chosen = 2;
+    after.lower = 1;
+    after.upper = 2;
+    local.keep_chosen(before, after, layout);
+    EXPECT_EQ(count(after), (std::vector<double>{0, 0, 3, 2, 0, 0, 0, 0, 1, 1, 0, 0}));
+    std::vector<double> records;
+    local.append_candidates(9, records);
+    EXPECT_EQ(records, (std::vector<double>{9, 1.5, 2, 9, 1.25, 3}));
+}
+
+}  // namespace
+}  // namespace rrcb

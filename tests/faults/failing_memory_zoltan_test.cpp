@@ -18,7 +18,7 @@ long num_arrays = 0;  // that the plug-in asked Zoltan's allocator for
 extern "C" double* Zoltan_Malloc(std::size_t size, char* file, int line) {
     using Function = double*(std::size_t, char*, int);
     static auto* const real = reinterpret_cast<Function*>(dlsym(RTLD_NEXT, "Zoltan_Malloc"));
-    const bool is_plug_in = std::strcmp(file, "buffer.hpp") == 0;
+    const bool is_plug_in = std::strcmp(file, "zoltan_array.hpp") == 0;
     num_arrays += is_plug_in ? 1 : 0;
     return is_plug_in && memory_layer::next_fails() ? nullptr : real(size, file, line);
 }

@@ -16,7 +16,7 @@ endfunction()
 # Rows of the other parts, where they were run.
 function(read_others result)
   set(text)
-  foreach(name IN ITEMS error_sources sweep_simulation)
+  foreach(name IN ITEMS error_sources cycle sweep_simulation paper_simulation)
     if(EXISTS ${FOLDER}/${name}.csv)
       file(READ ${FOLDER}/${name}.csv rows)
       string(APPEND text "${rows}")

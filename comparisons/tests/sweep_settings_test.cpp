@@ -63,5 +63,29 @@ TEST(SweepSettings, quick_ones_are_among_the_paper_s) {
     }
 }
 
+TEST(SweepSettings, winning_ones_are_the_paper_s_four) {
+    const std::set<std::string> names = labels(winning_settings());
+    EXPECT_EQ(names, (std::set<std::string>{"rrcb-sampled[mesh=2,k=1.5,fraction=0.25]",
+                                            "rrcb-sampled[mesh=4,k=2,fraction=0.125]",
+                                            "rrcb-sampled[mesh=6,k=2,fraction=0.125]",
+                                            "rrcb-sampled[mesh=8,k=2,fraction=0.125]"}));
+    const std::set<std::string> all = labels(study_settings(false));
+    for (const std::string& name : labels(repeated_settings(false))) {
+        EXPECT_TRUE(all.contains(name)) << name;
+    }
+}
+
+TEST(SweepSettings, call_each_setting_of_the_cycle_once) {
+    EXPECT_EQ(labels(cycle_settings(false)).size(), cycle_settings(false).size());
+    EXPECT_EQ(cycle_settings(false).size(), 5U * 2U + 3U + 4U);
+}
+
+TEST(SweepSettings, seeds_reach_the_methods_that_draw_points) {
+    EXPECT_EQ(with_seed(read_method("rrcb-sampled"), 7).options->seed, 7U);
+    EXPECT_FALSE(is_random(read_method("rrcb")));
+    EXPECT_FALSE(is_random(read_method("zoltan-rcb")));
+    EXPECT_EQ(with_seed(read_method("zoltan-rcb"), 7).label, "zoltan-rcb");
+}
+
 }  // namespace
 }  // namespace comparisons

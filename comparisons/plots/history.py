@@ -26,7 +26,7 @@ def draw_history(directory: Path, picture: Path) -> bool:
     )
     draw_worst(rows[0], histories)
     for axes, (method, history) in zip(rows[1:], histories.items()):
-        _draw_parts(axes, method, history)
+        draw_parts_of(axes, method, history)
     rows[-1].set_xlabel("time simulated [s]")
     save(figure, picture)
     return True
@@ -61,7 +61,8 @@ def draw_worst(axes: Axes, histories: dict[str, Columns]) -> None:
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=3.5)
 
 
-def _draw_parts(axes: Axes, method: str, history: Columns) -> None:
+def draw_parts_of(axes: Axes, method: str, history: Columns) -> None:
+    """Lu of every part, from least to most of each window."""
     times, unbalance = _per_part(history)
     axes.axhline(0, color="#999999", linewidth=0.6)
     windows = _windows(len(times))

@@ -27,14 +27,6 @@ std::array<std::vector<double>, 3> by_axis(const Workload& workload) {
     return columns;
 }
 
-Workload start_of_slope(const Sweep& sweep) {
-    const mpm::Simulation simulation(choose_scene("slope", sweep.arguments.quick, sweep.comm),
-                                     sweep.comm);
-    Workload workload;
-    workload.coordinates = interleaved(simulation.positions());
-    return workload;
-}
-
 /// Every setting with every seed that it has; none: no seed.
 struct SeededMethod {
     Method method;
@@ -82,6 +74,16 @@ std::string cycle_rows(const Sweep& sweep, const Workload& start, rrcb::GlobalCo
 }
 
 }  // namespace
+
+Workload start_of_slope(const Sweep& sweep) {
+    const mpm::Simulation simulation(choose_scene("slope", sweep.arguments.quick, sweep.comm),
+                                     sweep.comm);
+    Workload workload;
+    workload.name = "slope-start";
+    workload.layout = "simulation";
+    workload.coordinates = interleaved(simulation.positions());
+    return workload;
+}
 
 std::vector<StillCall> balance_still_points(Workload workload, const mpm::Balancer& balancer,
                                             int num_calls, MPI_Comm comm) {

@@ -21,8 +21,11 @@ struct StillCall {
 std::vector<StillCall> balance_still_points(Workload workload, const mpm::Balancer& balancer,
                                             int num_calls, MPI_Comm comm);
 
-/// That of the slope's points at the start, from slabs of equal width, under every one of the
-/// cycle_settings: cycle.csv. True when none failed. Collective.
+/// The slope's points at the start, in slabs of equal width. Collective.
+Workload start_of_slope(const Sweep& sweep);
+
+/// That of the start_of_slope under every one of the cycle_settings: cycle.csv. True when none
+/// failed. Collective.
 bool study_cycle(const Sweep& sweep);
 
 }  // namespace comparisons

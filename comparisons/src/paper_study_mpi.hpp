@@ -13,7 +13,8 @@ bool study_snapshots(const Sweep& sweep, SavedRows& rows);
 /// several times, the others once. True when none failed. Collective.
 bool study_simulations(const Sweep& sweep);
 
-/// The methods with their standard settings only, at the number of ranks there are. Collective.
+/// The methods with their standard settings only, at the number of ranks there are; on six ranks
+/// data/{points,boxes,cells,statistical}_six-boxes*.csv as well. Collective.
 bool study_ranks(const Sweep& sweep);
 
 /// The simulation rebalanced at every step, as the paper does it, once under the winning settings

@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 from cycle import lasting, read_cycle
 from order_statistics import Spread, spread_of
@@ -14,6 +15,8 @@ from settings import SETTING, setting_of
 from sources import Source, mean_excess, read_sources
 from speed_up import EVERY_STEP, SIMULATIONS, STANDARD, WINNERS, SpeedUp, read_speed_ups
 from sweep import read_snapshots
+
+T = TypeVar("T")
 
 CONFIRMED, REFUTED = "confirmed", "refuted"
 NOT_TOLD_APART = "not told apart"
@@ -185,35 +188,47 @@ def _because_of_share(fraction: float, boxes: list[Source], sampled: list[Source
     return Claim("... because of the pseudo-random points", ours, verdict, "sources")
 
 
+ONE = Spread(1, (1, 1), 1)
+COARSE, FINE = 2, 10  # the ends of the paper's meshes
+
+
 def _finer_mesh(directory: Path) -> list[Claim]:
-    runs = {
-        setting_of(s.run.method): s
-        for s in read_speed_ups(directory)
-        if SETTING.fullmatch(s.run.method) and s.run.ranks == PROCESSES
-    }
-    pairs = [(s, runs[10, k, f]) for (mesh, k, f), s in runs.items() if mesh == 2 and (10, k, f) in runs]
-    if not pairs:
-        return []
-    lower = spread_of(
-        [(coarse.run.mean_imbalance - 1) / (fine.run.mean_imbalance - 1) for coarse, fine in pairs]
-    )
-    speed = spread_of([coarse.every_step / fine.every_step for coarse, fine in pairs])
-    one = Spread(1, (1, 1), 1)
-    return [
-        Claim(
-            "a finer mesh lowers the unbalance",
-            f"mesh 2 has {lower.text(1)} times the unbalance of mesh 10; {lower.count} pairs of k"
-            " and fraction",
-            compare(lower, one),
-            "simulations",
-        ),
-        Claim(
-            "... and costs speed",
-            f"speed-up with mesh 2 / with mesh 10: {speed.text(2)}; {speed.count} pairs",
-            compare(speed, one),
-            "simulations",
-        ),
+    ratios = [
+        _excess(coarse) / _excess(fine)
+        for rows in _snapshots(directory)
+        for coarse, fine in _by_mesh(rows)
     ]
+    if not ratios:
+        return []
+    found = spread_of(ratios)
+    ours = f"mesh {COARSE} has {found.text(1)} times the unbalance of mesh {FINE}: {found.count}"
+    ours += " pairs of k, fraction and snapshot"
+    return [Claim("a finer mesh lowers the unbalance", ours, compare(found, ONE), "snapshots")]
+
+
+def _finer_mesh_costs(directory: Path) -> list[Claim]:
+    runs = {s.run.method: s for s in read_speed_ups(directory) if s.run.ranks == PROCESSES}
+    ratios = [coarse.every_step / fine.every_step for coarse, fine in _by_mesh(runs)]
+    if not ratios:
+        return []
+    found = spread_of(ratios)
+    ours = f"speed-up with mesh {COARSE} / with mesh {FINE}: {found.text(2)}; {found.count} pairs"
+    return [Claim("... and costs speed", ours, compare(found, ONE), "simulations")]
+
+
+def _by_mesh(rows: dict[str, T]) -> list[tuple[T, T]]:
+    """Rows of the coarsest and the finest mesh with the same k and fraction."""
+    settings = {setting_of(name): row for name, row in rows.items() if SETTING.fullmatch(name)}
+    return [
+        (row, settings[FINE, k, fraction])
+        for (mesh, k, fraction), row in settings.items()
+        if mesh == COARSE and (FINE, k, fraction) in settings
+    ]
+
+
+def _excess(row: Measurement) -> float:
+    """Not less than what one point makes."""
+    return max(row.imbalance - 1, row.ranks / row.points)
 
 
 def _literal_midpoint(directory: Path) -> list[Claim]:
@@ -248,6 +263,7 @@ FINDERS: tuple[Callable[[Path], list[Claim]], ...] = (
     _larger_unbalance,
     _because_of_samples,
     _finer_mesh,
+    _finer_mesh_costs,
     _literal_midpoint,
     _learned,
 )

@@ -13,11 +13,11 @@ function(read_rows result)
   set(${result} "${text}" PARENT_SCOPE)
 endfunction()
 
-# Rows of the other parts, where they were run.
+# Rows of the other parts, which a sweep of all parts must have.
 function(read_others result)
   set(text)
   foreach(name IN ITEMS error_sources cycle sweep_simulation paper_simulation)
-    if(EXISTS ${FOLDER}/${name}.csv)
+    if(EXISTS ${FOLDER}/${name}.csv OR NOT "${COMMAND}" MATCHES "--only")
       file(READ ${FOLDER}/${name}.csv rows)
       string(APPEND text "${rows}")
     endif()

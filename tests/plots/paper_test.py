@@ -13,6 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "pl
 
 import claims  # noqa: E402
 import cycle  # noqa: E402
+import paper_methods  # noqa: E402
 import speed_up  # noqa: E402
 from order_statistics import Spread  # noqa: E402
 
@@ -64,6 +65,13 @@ class CycleTest(unittest.TestCase):
         (found,) = cycle.lasting(calls)
         self.assertEqual((found.better.median, found.worse.median), (1.0, 1.1))
         self.assertAlmostEqual(found.moved.median, 0.115)
+
+    def test_pictures_of_the_methods_and_the_map_are_drawn(self) -> None:
+        with tempfile.TemporaryDirectory() as directory:
+            sys.argv = ["paper_methods.py", directory]
+            self.assertEqual(paper_methods.main(), 0)
+            names = sorted(path.name for path in Path(directory).glob("*.png"))
+        self.assertEqual(names, ["paper_cycle_map.png", "paper_methods.png"])
 
 
 RUN = (

@@ -12,6 +12,8 @@ from cost import draw_cost
 from domains import draw_domains, draw_support_mesh
 from history import draw_history
 from parts import draw_parts
+from price import draw_price
+from prices import write_prices
 from simulation import draw_simulation
 from sources import draw_sources
 from speed_up import draw_ranks, draw_speed_up, draw_study_history, write_speed_ups
@@ -19,6 +21,7 @@ from style import use_style
 from sweep import draw_study, draw_sweep_bytes, draw_sweep_time
 
 PICTURES = {
+    "price.png": draw_price,
     "time_against_imbalance.png": draw_cost,
     "parts.png": draw_parts,
     "support_mesh.png": draw_support_mesh,
@@ -41,6 +44,7 @@ def main() -> int:
         return 2
     use_style()
     write_speed_ups(directory)
+    write_prices(directory)
     for name, draw in PICTURES.items():
         if draw(directory, directory / name):
             print(f"Picture: {directory / name}")

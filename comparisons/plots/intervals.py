@@ -1,0 +1,49 @@
+"""Intervals of 95 %: how they are written, and what they tell apart."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from statistics import geometric_mean
+
+from results import Interval
+
+NOT_TOLD_APART = "not told apart"
+
+
+def with_interval(value: float, interval: Interval | None, digits: int) -> str:
+    """As in 17.5 [17.1, 18.0]; the value alone where no interval was measured."""
+    if interval is None:
+        return f"{value:.{digits}f}"
+    low, high = interval
+    return f"{value:.{digits}f} [{low:.{digits}f}, {high:.{digits}f}]"
+
+
+def are_apart(first: Interval | None, second: Interval | None) -> bool:
+    """False where the intervals overlap; where one was not measured the values alone count."""
+    if first is None or second is None:
+        return True
+    return first[1] < second[0] or second[1] < first[0]
+
+
+def differs_from_one(ratio: Interval | None) -> bool:
+    return are_apart(ratio, (1.0, 1.0))
+
+
+def quotient(first: Interval | None, second: Interval | None) -> Interval | None:
+    """Bounds of first / second; too wide where the two were measured in turns."""
+    if first is None or second is None or min(second) <= 0:
+        return None
+    return first[0] / second[1], first[1] / second[0]
+
+
+def inverse(interval: Interval | None) -> Interval | None:
+    return quotient((1.0, 1.0), interval)
+
+
+def mean_interval(intervals: Iterable[Interval | None]) -> Interval | None:
+    """Bounds of a geometric mean; as wide as if all erred to the same side."""
+    known = list(intervals)
+    if not known or any(interval is None or min(interval) <= 0 for interval in known):
+        return None
+    low, high = zip(*known)
+    return geometric_mean(low), geometric_mean(high)

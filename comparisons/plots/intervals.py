@@ -11,8 +11,8 @@ NOT_TOLD_APART = "not told apart"
 
 
 def with_interval(value: float, interval: Interval | None, digits: int) -> str:
-    """As in 17.5 [17.1, 18.0]; the value alone where no interval was measured."""
-    if interval is None:
+    """As in 17.5 [17.1, 18.0]; the value alone where no interval was measured or it is one number."""
+    if interval is None or interval[0] == interval[1]:
         return f"{value:.{digits}f}"
     low, high = interval
     return f"{value:.{digits}f} [{low:.{digits}f}, {high:.{digits}f}]"

@@ -35,11 +35,14 @@ COST = {
     "the mean is the least that can be told."
 }
 PICTURES = {
-    "parts.png": "The points, coloured by part, with the boxes of the parts.",
+    "parts.png": "The points, coloured by part, with the boxes of the parts; in each part its number"
+    " and, where every point is drawn, its points and their Lu. All scales are equal.",
     "support_mesh.png": "A support mesh with the centroids and standard deviations of its cells.",
-    "statistical_domain.png": "The real points and the statistical domain that stands for them.",
-    "unbalance_history.png": "Load unbalance over the steps of the simulation.",
-    "simulation_time.png": "Where the time of the whole simulation goes.",
+    "statistical_domain.png": "The real points and the statistical domain that stands for them,"
+    " on equal scales.",
+    "unbalance_history.png": "Load unbalance over the steps of the simulation: the largest of each"
+    " method, then Lu of every part, bands from least to most of a window of steps; scales differ.",
+    "simulation_time.png": "Where the time of the whole simulation goes, on the critical path.",
 }
 SWEEP_PICTURES = {
     "sweep_time.png": "What accuracy costs in time: every setting on every cloud, and the front of "
@@ -60,7 +63,7 @@ STUDY_PICTURES = {
     " a network of 1.5 µs and 12 GB/s; middle, by the points of the fullest rank alone; bottom, as"
     " the clock on this machine saw it.",
     "ranks.png": "Table 1 of the paper: speed-up over the number of ranks.",
-    "study_history.png": "Figure 6 of the paper: load unbalance over the simulation, worst |Lu| of"
+    "study_history.png": "Figure 6 of the paper: load unbalance over the simulation, largest |Lu| of"
     " the parts.",
 }
 

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from style import PART_COLOURS
+from style import multiplier_colour
 
 SETTING = re.compile(r"rrcb-sampled\[mesh=(\d+),k=([\d.]+),fraction=([\d.]+)\]")
 MARKERS = "osD^vP"
@@ -37,7 +37,7 @@ def draw_lines(
             if k == multiplier:
                 by_mesh.setdefault(mesh, []).append(value(row))
         meshes = sorted(by_mesh)
-        colour = PART_COLOURS[number]
+        colour = multiplier_colour(multiplier)
         axes.plot(
             meshes,
             [sum(by_mesh[mesh]) / len(by_mesh[mesh]) for mesh in meshes],

@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 
 from results import Simulation, read_simulations, read_study_history
 from settings import SETTING, draw_lines, legend_above, setting_of, values_of
-from style import PART_COLOURS, method_style, save
+from style import method_style, multiplier_colour, save
 
 SIMULATIONS = "sweep_simulation.csv"
 STANDARD = "rrcb-sampled[mesh=4,k=1.5,fraction=1]"  # the paper's RRCB
@@ -206,19 +206,17 @@ def draw_study_history(directory: Path, picture: Path) -> bool:
         sharex=True,
         sharey=True,
     )
-    multipliers = sorted(values_of(methods, 2))
     for method in methods:
         mesh, k, fraction = setting_of(method)
         axes = grid[meshes.index(mesh), fractions.index(fraction)]
-        colour = PART_COLOURS[multipliers.index(k)]
+        colour = multiplier_colour(k)
         axes.plot(*_worst_over_time(histories[method]), color=colour, linewidth=0.9, label=f"k = {k:g}")
     for axes, fraction in zip(grid[0], fractions):
         axes.set_title(f"{100 * fraction:g} % of the points")
     for axes, mesh in zip(grid[:, 0], meshes):
-        axes.set_ylabel(f"mesh {mesh:g}\nworst |Lu| [%]")
+        axes.set_ylabel(f"mesh {mesh:g}\nlargest |Lu| [%]")
     for axes in grid.flat:
         axes.set_yscale("log")
-        axes.yaxis.set_major_formatter("{x:g}")
         axes.grid(True, axis="y")
     for axes in grid[-1]:
         axes.set_xlabel("time simulated [s]")

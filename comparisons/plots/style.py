@@ -31,7 +31,7 @@ PART_COLOURS = (
     "#B197FF #E5D870 #FF7D70 #7DA43C #3CE5FF #FF7DBE #E5A449 #8A97BE #63F2B1 #CB8A97 "
     "#F2D8BE #49B163 #FFCBFF #7DA48A #BEE5A4 #B1A463 #3CA4FF #FFA4FF #70D8BE #3CA4BE"
 ).split()
-MULTIPLIER_COLOURS = "#A8DDD8 #5FB3AE #2A7F80 #0B4A50".split()  # of k, smallest first
+MULTIPLIER_COLOURS = "#A8DDD8 #5FB3AE #2A7F80 #0B4A50".split()  # of k = 1, 1.5, 2 and 2.5
 POINT_COLOUR = "#666666"
 IDEAL_COLOUR, UNBALANCE_COLOUR, CALL_COLOUR = "#DDDDDD", "#AAAAAA", "#444444"  # of time spent
 
@@ -72,6 +72,11 @@ def method_style(method: str) -> MethodStyle:
     """Of the setting, of its method where the setting has none."""
     other = MethodStyle("#7A5C4A", "-", "8")
     return _METHODS.get(method, _METHODS.get(method.split("[")[0], other))
+
+
+def multiplier_colour(k: float) -> str:
+    """The darker, the larger k is, from 1 to 2.5 in steps of a half."""
+    return MULTIPLIER_COLOURS[int(np.clip(round(2 * k) - 2, 0, len(MULTIPLIER_COLOURS) - 1))]
 
 
 def part_colours(parts: np.ndarray) -> np.ndarray:
@@ -145,17 +150,19 @@ def length_ratio(clouds: Iterable[dict[str, np.ndarray]]) -> float:
     return float(np.clip(height / max(width, 1e-300), 0.2, 1.2))
 
 
-def draw_cloud(axes: Axes, points: dict[str, np.ndarray], colours: np.ndarray | str) -> int:
+def draw_cloud(
+    axes: Axes, points: dict[str, np.ndarray], colours: np.ndarray | str, largest: float = 20
+) -> int:
     """Draws at most MAX_POINTS of the points, evenly chosen; returns how many.
 
-    The markers are so large that all together cover about the area of the axes.
+    The markers are so large that all together cover about the area of the axes, or the largest.
     """
     chosen = slice(None, None, len(points["x"]) // MAX_POINTS + 1)
     x, y = points["x"][chosen], points["y"][chosen]
     size = axes.get_position(original=True).size * axes.figure.get_size_inches() * 72
     if not isinstance(colours, str):
         colours = colours[chosen]
-    axes.scatter(x, y, c=colours, s=np.clip(size.prod() / len(x), 0.5, 20), linewidths=0)
+    axes.scatter(x, y, c=colours, s=np.clip(size.prod() / len(x), 0.5, largest), linewidths=0)
     return len(x)
 
 

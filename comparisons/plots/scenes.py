@@ -35,13 +35,13 @@ def _cell(method: str, runs: list[Simulation]) -> str:
 
 
 def draw(directory: Path, scenes: list[str]) -> None:
-    size = (9, 2.4 * len(scenes) + 0.8)
+    size = (9, 2.4 * len(scenes) + 1)
     figure, rows = plt.subplots(len(scenes), 1, figsize=size, squeeze=False)
     for axes, scene in zip(rows[:, 0], scenes):
         draw_worst(axes, read_history(directory / scene))
         axes.set_title(scene)
     rows[-1, 0].set_xlabel("time simulated [s]")
-    legend_above(figure, rows[0, 0].get_legend_handles_labels()[0])
+    legend_above(figure, rows[0, 0].get_legend_handles_labels()[0], inches=3)
     save(figure, directory / "scenes.png")
 
 

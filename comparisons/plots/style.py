@@ -66,12 +66,12 @@ _METHODS = {
     "rrcb-exact": MethodStyle("#0A2A66", (0, (4, 1)), "*"),
     "rrcb-arrays": MethodStyle("#7B2D8E", "-", "h"),
 }
+_OTHER = MethodStyle("#7A5C4A", "-", "8")
 
 
 def method_style(method: str) -> MethodStyle:
     """Of the setting, of its method where the setting has none."""
-    other = MethodStyle("#7A5C4A", "-", "8")
-    return _METHODS.get(method, _METHODS.get(method.split("[")[0], other))
+    return _METHODS.get(method) or _METHODS.get(method.split("[")[0]) or _OTHER
 
 
 def multiplier_colour(k: float) -> str:
@@ -112,12 +112,16 @@ def save(figure: Figure, path: Path) -> None:
 
 
 def plain_number(value: float) -> str:
+    """Without powers of ten: 0.001, 1,000,000, 10 M."""
+    for least, unit, letter in ((1e12, 1e12, "T"), (1e9, 1e9, "G"), (1e7, 1e6, "M")):
+        if value >= least:
+            return f"{value / unit:g} {letter}"
     return f"{value:,.0f}" if value >= 1 and value == round(value) else f"{value:.12f}".rstrip("0")
 
 
 def _label_plainly(axis: Axis) -> None:
     low, high = sorted(axis.get_view_interval())
-    if not 1e-7 < low < high < 1e8:
+    if not 1e-7 < low < high < 1e13:
         return
     locators = [axis.get_major_locator()]
     locators += [LogLocator(subs=subs, numticks=12) for subs in ((1, 2, 5), (1, 1.5, 2, 3, 4, 6))]

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from choice import cases, fastest, find_method, is_within
+from intervals import NOT_TOLD_APART, are_apart, with_interval
 from results import Measurement
 
 LIMIT = 1.2  # times the best setting's time
@@ -40,6 +41,13 @@ class Judgement:
     @property
     def reached(self) -> bool:
         return is_within(self.automatic, self.tolerance)
+
+    @property
+    def told_apart(self) -> bool:
+        """Of two settings; a setting is always as fast as itself."""
+        return self.automatic is self.best or are_apart(
+            self.automatic.time_interval, self.best.time_interval
+        )
 
     @property
     def passed(self) -> bool:
@@ -85,11 +93,11 @@ def automatic_table(found: list[Judgement]) -> tuple[list[str], list[list[str]]]
         [
             j.case,
             j.tolerance,
-            f"{j.automatic.time_ms:.2f}",
+            with_interval(j.automatic.time_ms, j.automatic.time_interval, 2),
             f"{j.automatic.imbalance:.5f}" + ("" if j.reached else " (not reached)"),
             j.best.method,
-            f"{j.best.time_ms:.2f}",
-            f"{j.ratio:.2f}",
+            with_interval(j.best.time_ms, j.best.time_interval, 2),
+            f"{j.ratio:.2f}" + f", {NOT_TOLD_APART}" * (not j.told_apart),
             f"{j.ratio_of_least:.2f}",
             _yes(j.passed),
         ]

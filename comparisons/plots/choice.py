@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from statistics import geometric_mean
 
-from results import Measurement
+from intervals import NOT_TOLD_APART, are_apart, inverse, mean_interval
+from results import Interval, Measurement
 
 TOLERANCES = ("1.10", "1.05", "1.01", "1.001", "exact")
 EVERYWHERE = "all of these"
@@ -24,6 +25,17 @@ class Choice:
     time_ms: float | None = None
     times_as_fast: float | None = None  # as Zoltan's RCB; over all cases the geometric mean
     imbalance: float | None = None
+    time_interval: Interval | None = None
+    speed_interval: Interval | None = None
+    rivals: tuple[str, ...] = ()  # settings whose time is not told apart from this one's
+
+    @property
+    def remark(self) -> str:
+        """Empty where the setting is the fastest beyond the noise."""
+        if not self.rivals:
+            return ""
+        others = self.rivals[0] if len(self.rivals) == 1 else f"{len(self.rivals)} others"
+        return f" ({NOT_TOLD_APART} from {others})"
 
 
 def cases(rows: list[Measurement]) -> dict[str, list[Measurement]]:
@@ -40,7 +52,7 @@ def cases(rows: list[Measurement]) -> dict[str, list[Measurement]]:
 
 def is_within(row: Measurement, tolerance: str) -> bool:
     """Exact: no part has more than one point above the mean."""
-    limit = 1 + row.ranks / row.points if tolerance == "exact" else float(tolerance)
+    limit = 1 + row.point if tolerance == "exact" else float(tolerance)
     return row.imbalance <= limit * (1 + 1e-9)
 
 
@@ -99,19 +111,26 @@ def write_choices(directory: Path, rows: list[Measurement]) -> None:
         return
     with (directory / "choices.csv").open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow("case,tolerance,setting,time_ms,times_as_fast,imbalance".split(","))
+        writer.writerow("case,tolerance,setting,time_ms,times_as_fast,imbalance,not_told_apart_from".split(","))
         for c in choices(rows):
             numbers = [c.time_ms, c.times_as_fast, c.imbalance]
-            writer.writerow([c.case, c.tolerance, c.setting, *numbers])
+            writer.writerow([c.case, c.tolerance, c.setting, *numbers, ";".join(c.rivals)])
 
 
 def _choose(case: str, rows: list[Measurement], tolerance: str) -> Choice:
-    best = fastest(rows, tolerance)
-    if best is None:
-        return Choice(case, tolerance)
-    return Choice(
-        case, tolerance, best.method, best.time_ms, _speed(best, rows), best.imbalance
-    )
+    within = [row for row in rows if is_within(row, tolerance) and row.time_ms > 0]
+    candidates = [_candidate(case, tolerance, [row], [rows]) for row in within]
+    return _fastest_of(candidates, Choice(case, tolerance))
+
+
+def _fastest_of(candidates: list[Choice], none: Choice) -> Choice:
+    best = min(candidates, key=lambda c: c.time_ms, default=none)
+    rivals = [
+        c.setting
+        for c in candidates
+        if c is not best and not are_apart(c.time_interval, best.time_interval)
+    ]
+    return replace(best, rivals=tuple(rivals))
 
 
 def _speed(row: Measurement, rows: list[Measurement]) -> float | None:
@@ -125,17 +144,23 @@ def _everywhere(by_case: dict[str, list[Measurement]], tolerance: str) -> Choice
     candidates = []
     for setting in sorted(settings):
         found = [find_method(rows, setting) for rows in by_case.values()]
-        if not all(row and is_within(row, tolerance) and row.time_ms > 0 for row in found):
-            continue
-        speeds = [_speed(row, rows) for row, rows in zip(found, by_case.values())]
-        candidates.append(
-            Choice(
-                EVERYWHERE,
-                tolerance,
-                setting,
-                geometric_mean([row.time_ms for row in found]),
-                geometric_mean(speeds) if all(speeds) else None,
-                max(row.imbalance for row in found),
-            )
-        )
-    return min(candidates, key=lambda c: c.time_ms, default=Choice(EVERYWHERE, tolerance))
+        if all(row and is_within(row, tolerance) and row.time_ms > 0 for row in found):
+            candidates.append(_candidate(EVERYWHERE, tolerance, found, list(by_case.values())))
+    return _fastest_of(candidates, Choice(EVERYWHERE, tolerance))
+
+
+def _candidate(
+    case: str, tolerance: str, found: list[Measurement], by_case: list[list[Measurement]]
+) -> Choice:
+    """One setting on one case or more: geometric means, and the worst imbalance."""
+    speeds = [_speed(row, rows) for row, rows in zip(found, by_case)]
+    return Choice(
+        case,
+        tolerance,
+        found[0].method,
+        geometric_mean([row.time_ms for row in found]),
+        geometric_mean(speeds) if all(speeds) else None,
+        max(row.imbalance for row in found),
+        mean_interval(row.time_interval for row in found),
+        inverse(mean_interval(row.share_interval for row in found)),
+    )

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from cycle import lasting, read_cycle
-from order_statistics import Spread, spread_of
+from intervals import NOT_TOLD_APART, Spread, spread_of
 from results import Measurement
 from settings import SETTING, setting_of
 from sources import Source, mean_excess, read_sources
@@ -19,7 +19,6 @@ from sweep import read_snapshots
 T = TypeVar("T")
 
 CONFIRMED, REFUTED = "confirmed", "refuted"
-NOT_TOLD_APART = "not told apart"
 NOT_TESTABLE = "not testable here"
 COMMAND = "comparisons/run --sweep --only="
 RCB = "root-rcb"  # the paper's

@@ -6,11 +6,11 @@ from pathlib import Path
 
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 
 from results import Measurement, read_table, unique
+from settings import legend_above
 from style import method_style, place_labels, save
-
-FLOOR = 1e-6
 
 
 def draw_cost(directory: Path, picture: Path) -> bool:
@@ -22,7 +22,7 @@ def draw_cost(directory: Path, picture: Path) -> bool:
     figure, axes = plt.subplots(
         1,
         len(workloads),
-        figsize=(4.4 * len(workloads) + 0.9, 4.2),
+        figsize=(max(7.5, 3.7 * len(workloads) + 0.9), 5.4),
         squeeze=False,
         sharex=True,
         sharey=True,
@@ -31,49 +31,74 @@ def draw_cost(directory: Path, picture: Path) -> bool:
     for workload, panel in panels.items():
         _draw_workload(panel, [row for row in table if row.workload == workload])
     _set_limits(axes[0, 0], table)
-    axes[0, 0].set_ylabel("imbalance − 1  (heaviest part / mean part − 1)")
+    axes[0, 0].set_ylabel("heaviest part above the mean [%]")
+    methods = unique([row.method for row in table])
+    legend_above(figure, [_key(method) for method in methods if _has_own_style(method, methods)], 3.6)
     for workload, panel in panels.items():
-        _label(panel, [row for row in table if row.workload == workload])
+        rows = [row for row in table if row.workload == workload]
+        _label(panel, [row for row in rows if not _has_own_style(row.method, methods)])
     save(figure, picture)
     return True
 
 
-def _excess(row: Measurement) -> float:
-    return max(row.imbalance - 1, FLOOR)
+def percent_above(row: Measurement) -> float:
+    """Of the heaviest part above the mean; no less than one point, which is all that shows."""
+    return 100 * max(row.imbalance - 1, row.point)
+
+
+def shade_one_point(axes: Axes, rows: list[Measurement]) -> None:
+    """What one point more in a part is, where a method was as good as that."""
+    point = 100 * min(row.point for row in rows)
+    if min(map(percent_above, rows)) <= 1.001 * point:
+        axes.axhspan(point / 10, point, color="#F0F0F0", zorder=0)
+        axes.set_ylim(bottom=point / 4)
+        axes.annotate(
+            "one point or less", (0.99, point), (0, -7), xycoords=axes.get_yaxis_transform(),
+            textcoords="offset points", ha="right", va="top", fontsize=8,
+        )  # fmt: skip
 
 
 def _draw_workload(axes: Axes, rows: list[Measurement]) -> None:
     for row in rows:
         style = method_style(row.method)
-        spread = [[row.time_ms - row.time_ms_min], [row.time_ms_max - row.time_ms]]
+        low, high = row.time_interval or (row.time_ms_min, row.time_ms_max)
         axes.errorbar(
             [row.time_ms],
-            [_excess(row)],
-            xerr=spread,
+            [percent_above(row)],
+            xerr=[[max(row.time_ms - low, 0)], [max(high - row.time_ms, 0)]],
             color=style.colour,
             marker=style.marker,
-            markersize=6,
+            markersize=7,
             elinewidth=0.8,
             alpha=0.9,
         )
     first = rows[0]
     axes.set_title(f"{first.workload}: {first.points:,} points, {first.ranks} ranks")
-    axes.set_xlabel("time of a call [ms]: median, from least to most")
-    if any(_excess(row) == FLOOR for row in rows):
-        axes.axhspan(FLOOR / 10, FLOOR, color="#F0F0F0", zorder=0)
-        axes.text(0.02, 0.01, "$10^{-6}$ or less", transform=axes.transAxes, fontsize=8)
+    has_intervals = all(row.time_interval for row in rows)
+    axes.set_xlabel("time of a call [ms]: " + ("95 %" if has_intervals else "least to most"))
     axes.grid(True)
 
 
 def _set_limits(axes: Axes, table: list[Measurement]) -> None:
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.xaxis.set_major_formatter("{x:g}")
-    axes.set_xlim(min(r.time_ms_min for r in table) / 2, max(r.time_ms_max for r in table) * 3)
-    lowest = min(map(_excess, table))
-    axes.set_ylim(lowest / (3 if lowest > FLOOR else 2), max(map(_excess, table)) * 4)
+    axes.set_xlim(min(r.time_ms_min for r in table) / 1.5, max(r.time_ms_max for r in table) * 1.5)
+    lowest = min(map(percent_above, table))
+    axes.set_ylim(lowest / 2, max(map(percent_above, table)) * 2)
+    for panel in axes.figure.axes:
+        shade_one_point(panel, table)
+
+
+def _has_own_style(method: str, methods: list[str]) -> bool:
+    return [method_style(other) for other in methods].count(method_style(method)) == 1
+
+
+def _key(method: str) -> Line2D:
+    style = method_style(method)
+    return Line2D([], [], color=style.colour, marker=style.marker, linestyle="", label=method)
 
 
 def _label(axes: Axes, rows: list[Measurement]) -> None:
-    marks = [(row.time_ms_min, row.time_ms, row.time_ms_max, _excess(row)) for row in rows]
+    """Settings that share a style are told apart by their names."""
+    marks = [(row.time_ms_min, row.time_ms, row.time_ms_max, percent_above(row)) for row in rows]
     place_labels(axes, marks, [row.method.replace("[", "\n[") for row in rows])

@@ -10,10 +10,10 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
-from order_statistics import Spread, spread_of
+from intervals import Spread, spread_of
 from results import read_rows, unique
 from settings import SETTING, legend_above, setting_of
-from style import PART_COLOURS, method_style, save
+from style import CALL_COLOUR, method_style, multiplier_colour, save
 
 LATE = 10  # calls after which what remains is called lasting
 
@@ -64,8 +64,8 @@ def draw_cycle(directory: Path, picture: Path) -> bool:
         sharey="row",
     )
     for column, (name, methods) in enumerate(panels.items()):
-        for number, method in enumerate(methods):
-            _draw_method(grid[:, column], [c for c in calls if c.method == method], number)
+        for method in methods:
+            _draw_method(grid[:, column], [c for c in calls if c.method == method])
         grid[0, column].set_title(name)
         grid[1, column].set_xlabel("call")
         grid[1, column].legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), fontsize=8)
@@ -84,7 +84,7 @@ def draw_cycle(directory: Path, picture: Path) -> bool:
 def _panels(calls: list[Call]) -> dict[str, list[str]]:
     methods = unique([call.method for call in calls])
     sampled = [method for method in methods if SETTING.fullmatch(method)]
-    of_mesh_4 = [method for method in sampled if setting_of(method)[0] == 4]
+    of_mesh_4 = [method for method in sampled if _is_of_mesh_4(method)]
     return {
         "mesh 4, 100 % of the points": [m for m in of_mesh_4 if setting_of(m)[2] == 1],
         "mesh 4, 12.5 %": [m for m in of_mesh_4 if setting_of(m)[2] == 0.125],
@@ -93,13 +93,18 @@ def _panels(calls: list[Call]) -> dict[str, list[str]]:
     }
 
 
-def _draw_method(panels: np.ndarray, calls: list[Call], number: int) -> None:
+def _is_of_mesh_4(method: str) -> bool:
+    return SETTING.fullmatch(method) is not None and setting_of(method)[0] == 4
+
+
+def _draw_method(panels: np.ndarray, calls: list[Call]) -> None:
     method = calls[0].method
     numbers = sorted({call.call for call in calls})
-    colour, line = PART_COLOURS[number % len(PART_COLOURS)], "-"
-    if not SETTING.fullmatch(method):
-        style = method_style(method)
-        colour, line = style.colour, style.line
+    style = method_style(method)
+    colour, line = style.colour, style.line
+    if _is_of_mesh_4(method):
+        k = setting_of(method)[1]
+        colour, line = multiplier_colour(k), "-" if (2 * k).is_integer() else "--"
     for axes, value in zip(panels, (lambda c: c.imbalance, lambda c: 100 * c.moved)):
         spreads = [spread_of([value(c) for c in calls if c.call == n]) for n in numbers]
         axes.plot(
@@ -201,11 +206,12 @@ def _draw_steps(axes: Axes, mesh: int, multiplier: float, start: float) -> None:
         offsets = side * np.linspace(1e-9, reach, 50)
         mapped = [100 * next_offset(e, mesh, multiplier) for e in offsets]
         label = "the next cut" if side < 0 else None
-        axes.plot(100 * offsets, mapped, color="#0067A5", linewidth=1.8, label=label)
+        axes.plot(100 * offsets, mapped, color=CALL_COLOUR, linewidth=1.8, label=label)
     offset, path = start, [(start, 0.0)]
     for _ in range(12):
         following = next_offset(offset, mesh, multiplier)
         path += [(offset, following), (following, following)]
         offset = following
     x, y = (100 * np.array(values) for values in zip(*path))
-    axes.plot(x, y, color="#D55E00", linewidth=1, marker=".", label="twelve calls")
+    colour = method_style("rrcb-sampled").colour
+    axes.plot(x, y, color=colour, linewidth=1, marker=".", label="twelve calls")

@@ -130,7 +130,9 @@ def _cell(tag: str, text: str, left: bool) -> str:
 
 
 def _is_number(text: str) -> bool:
-    return re.fullmatch(r"[-–]|[-+\d.,e]*\d( ?(ms|s|%|×|MiB))?", text) is not None
+    """Also with an interval behind it."""
+    number = r"[-+±\d.,e]*\d( ?(ms|s|%|×|MiB))?"
+    return re.fullmatch(rf"[-–]|{number}( \[{number}, {number}\])?(, not told apart)?", text) is not None
 
 
 def _tag(name: str, text: str) -> str:

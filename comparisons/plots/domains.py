@@ -8,10 +8,20 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PatchCollection
-from matplotlib.patches import Rectangle
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, Rectangle
 
 from results import Columns, read_data, read_table, unique
-from style import draw_cloud, length_ratio, part_colours, save, show_lengths
+from settings import legend_above
+from style import (
+    PART_COLOURS,
+    POINT_COLOUR,
+    draw_cloud,
+    length_ratio,
+    part_colours,
+    save,
+    show_lengths,
+)
 
 
 def draw_support_mesh(directory: Path, picture: Path) -> bool:
@@ -33,13 +43,23 @@ def draw_support_mesh(directory: Path, picture: Path) -> bool:
         if _ranks_overlap(cells):
             cells = {name: column[cells["rank"] == 0] for name, column in cells.items()}
             whose = f"rank 0 ({num_ranks} ranks' meshes lie over each other)"
+        if points := _real_points(directory, workload):
+            draw_cloud(panel, points, "#C8C8C8", largest=3)
         _draw_cells(panel, cells)
-        panel.set_title(
-            f"{workload}: {len(cells['cell'])} cells of {whose}; centroid ± standard deviation"
-        )
+        panel.set_title(f"{workload}: {len(cells['cell'])} cells of {whose}")
         show_lengths(panel, panel is axes[-1, 0])
+    legend_above(figure, _keys(), inches=2.6)
     save(figure, picture)
     return True
+
+
+def _keys() -> list:
+    return [
+        Patch(facecolor=PART_COLOURS[0] + "40", edgecolor=PART_COLOURS[0], label="cell of a rank"),
+        Line2D([], [], color="#C8C8C8", marker="o", markersize=3, ls="", label="points"),
+        Line2D([], [], color="black", marker="o", markersize=3, ls="", label="centroid"),
+        Line2D([], [], color="#333333", lw=0.9, label="± standard deviation"),
+    ]
 
 
 def draw_domains(directory: Path, picture: Path) -> bool:
@@ -59,7 +79,7 @@ def draw_domains(directory: Path, picture: Path) -> bool:
     )
     for i, (workload, domains) in enumerate(pairs.items()):
         for j, (points, kind) in enumerate(zip(domains, ("real", "statistical"))):
-            shown = draw_cloud(axes[i, j], points, "#0067A5")
+            shown = draw_cloud(axes[i, j], points, POINT_COLOUR)
             axes[i, j].set_title(f"{workload}, {kind} domain ({shown:,} points shown)")
             show_lengths(axes[i, j], i == len(pairs) - 1, j == 0)
     save(figure, picture)
@@ -96,9 +116,9 @@ def _draw_cells(axes: Axes, cells: Columns) -> None:
     colours = part_colours(cells["rank"])
     corners = zip(cells["lower_x"], cells["lower_y"], cells["upper_x"], cells["upper_y"])
     boxes = [Rectangle((x0, y0), x1 - x0, y1 - y0) for x0, y0, x1, y1 in corners]
-    axes.add_collection(PatchCollection(boxes, facecolors=colours, alpha=0.12))
+    axes.add_collection(PatchCollection(boxes, facecolors=colours, alpha=0.25))
     axes.add_collection(
-        PatchCollection(boxes, facecolors="none", edgecolors=colours, linewidths=0.7)
+        PatchCollection(boxes, facecolors="none", edgecolors=colours, linewidths=1.2)
     )
     x, y, dx, dy = (cells[name] for name in ("mean_x", "mean_y", "sigma_x", "sigma_y"))
     bars = [[(a - s, b), (a + s, b)] for a, b, s in zip(x, y, dx)]

@@ -14,6 +14,8 @@ from domains import draw_domains, draw_support_mesh
 from history import draw_history
 from paper_figures import draw_figure_2, draw_figure_6, draw_study_history
 from parts import draw_parts
+from price import draw_price
+from prices import write_prices
 from simulation import draw_simulation
 from sources import draw_sources
 from speed_up import draw_ranks, draw_speed_up, write_speed_ups
@@ -21,6 +23,7 @@ from style import use_style
 from sweep import draw_study, draw_sweep_bytes, draw_sweep_time
 
 PICTURES = {
+    "price.png": draw_price,
     "time_against_imbalance.png": draw_cost,
     "parts.png": draw_parts,
     "support_mesh.png": draw_support_mesh,
@@ -46,6 +49,7 @@ def main() -> int:
         return 2
     use_style()
     write_speed_ups(directory)
+    write_prices(directory)
     for name, draw in PICTURES.items():
         if draw(directory, directory / name):
             print(f"Picture: {directory / name}")

@@ -7,11 +7,12 @@ from pathlib import Path
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 
 from results import Columns, read_history
+from settings import legend_above
 from style import PART_COLOURS, method_style, save
 
-FLOOR_PERCENT = 1e-3
 MOST_WINDOWS = 150  # lines that swing at every rebalance would run into one another
 
 
@@ -20,14 +21,24 @@ def draw_history(directory: Path, picture: Path) -> bool:
     histories = read_history(directory)
     if not histories:
         return False
-    figure = plt.figure(figsize=(9, 3.4 + 1.5 * len(histories)))
-    rows = figure.subplots(
-        len(histories) + 1, 1, sharex=True, height_ratios=[2.2] + [1] * len(histories)
-    )
-    draw_worst(rows[0], histories)
-    for axes, (method, history) in zip(rows[1:], histories.items()):
+    lines = -(-len(histories) // 2)
+    figure = plt.figure(figsize=(11, 4.6 + 1.6 * lines))
+    grid = figure.add_gridspec(lines + 1, 2, height_ratios=[2.4] + [1] * lines)
+    top = figure.add_subplot(grid[0, :])
+    draw_worst(top, histories)
+    top.set_xlabel("time simulated [s]")
+    for number, (method, history) in enumerate(histories.items()):
+        axes = figure.add_subplot(grid[1 + number // 2, number % 2], sharex=top)
         draw_parts_of(axes, method, history)
-    rows[-1].set_xlabel("time simulated [s]")
+        if number >= len(histories) - 2:
+            axes.set_xlabel("time simulated [s]")
+    parts = max(int(history["part"].max()) for history in histories.values()) + 1
+    keys = top.get_legend_handles_labels()[0]
+    keys += [
+        Line2D([], [], color=PART_COLOURS[part], label=f"part {part}")
+        for part in range(min(parts, len(PART_COLOURS)))
+    ]
+    legend_above(figure, keys, inches=3.4)
     save(figure, picture)
     return True
 
@@ -40,6 +51,11 @@ def _per_part(history: Columns) -> tuple[np.ndarray, np.ndarray]:
     return history["time"][first], unbalance
 
 
+def _one_point(history: Columns) -> float:
+    """What one point more in a part is, in percent of the mean."""
+    return 100 / max(history["points"][history["step"] == history["step"][0]].mean(), 1)
+
+
 def _windows(steps: int) -> np.ndarray:
     """First step of each window of consecutive steps."""
     return np.unique(np.linspace(0, steps, min(steps, MOST_WINDOWS), endpoint=False).astype(int))
@@ -50,15 +66,14 @@ def draw_worst(axes: Axes, histories: dict[str, Columns]) -> None:
     for method, history in histories.items():
         style = method_style(method)
         times, unbalance = _per_part(history)
-        worst = np.maximum(np.nanmax(np.abs(unbalance), axis=0), FLOOR_PERCENT)
+        worst = np.maximum(np.nanmax(np.abs(unbalance), axis=0), _one_point(history))
         windows = _windows(len(times))
         worst = np.maximum.reduceat(worst, windows)
         axes.plot(times[windows], worst, color=style.colour, linestyle=style.line, label=method)
     axes.set_yscale("log")
-    axes.set_ylabel("worst |Lu| [%]")
-    axes.set_title("Load unbalance Lu = (ideal − actual) / ideal of the worst part, worst step of each window")
+    axes.set_ylabel("largest |Lu| [%]")
+    axes.set_title("Largest |Lu| of the parts, Lu = (ideal − actual) / ideal; worst step of each window")
     axes.grid(True, axis="y")
-    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=3.5)
 
 
 def draw_parts_of(axes: Axes, method: str, history: Columns) -> None:
@@ -73,4 +88,5 @@ def draw_parts_of(axes: Axes, method: str, history: Columns) -> None:
         axes.fill_between(times[windows], lowest, highest, color=colour, alpha=0.35, linewidth=0)
         axes.plot(times[windows], (lowest + highest) / 2, color=colour, linewidth=0.9)
     axes.set_ylabel("Lu [%]")
-    axes.set_title(f"{method}: Lu of every part, from least to most", fontsize=9, loc="left")
+    most = np.nanmax(np.abs(unbalance))
+    axes.set_title(f"{method}: |Lu| ≤ {most:.2g} %, a scale of its own", fontsize=9, loc="left")

@@ -17,6 +17,25 @@ def read_record(folder: Path) -> dict[str, str]:
     return dict(line.split(": ", 1) for line in lines if ": " in line)
 
 
+def warnings(record: dict[str, str], ranks: int) -> list[str]:
+    """What a reader must know of the machine before any time."""
+    texts = []
+    if record.get("busy") == "yes":
+        share = record.get("processor time used by other processes", "part")
+        texts.append(
+            f"The machine was busy: other processes used {share} of its processor time during this"
+            " run, so times are not to be relied on."
+        )
+    cores = os.cpu_count() or 1
+    if ranks > cores:
+        texts.append(
+            f"{ranks} ranks share {cores} {'cores' if cores > 1 else 'core'}: wall times show neither"
+            " balance nor scaling; the critical path, reckoned from the processor time of each rank"
+            " outside MPI, stands for a core for every rank."
+        )
+    return texts
+
+
 def add_machine(document: Document, folder: Path, arguments: str) -> None:
     """Machine and arguments, and run.txt of the folder: versions and parameters."""
     document.heading("Machine, versions and arguments")

@@ -12,15 +12,15 @@ from pathlib import Path
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
-from style import save, use_style
+from style import method_style, save, use_style
 
 FLOOR = 1e-17
-# M. Okabe and K. Ito: Color universal design (2008).
+# Colours that no balancer has, but for RRCB's own.
 STYLES = {
-    "naive sums": ("#000000", "--", "s"),
-    "Welford": ("#E69F00", ":", "^"),
-    "Chan, pairwise": ("#009E73", "-.", "D"),
-    "RRCB": ("#0072B2", "-", "o"),
+    "naive sums": ("#7A5C4A", "--", "s"),
+    "Welford": ("#B0005E", ":", "^"),
+    "Chan, pairwise": ("#4B5D0B", "-.", "D"),
+    "RRCB": (method_style("rrcb").colour, "-", "o"),
 }
 
 

@@ -12,9 +12,9 @@ from matplotlib.patches import Rectangle
 
 from history import draw_parts_of
 from results import Columns, read_data, read_histories, read_study_history
-from settings import SETTING, legend_above, setting_of, values_of
+from settings import SETTING, handles_of, legend_above, setting_of, values_of
 from speed_up import EVERY_STEP, SIMULATIONS, WINNERS, read_speed_ups
-from style import PART_COLOURS, draw_cloud, length_ratio, part_colours, save, show_lengths
+from style import draw_cloud, length_ratio, multiplier_colour, part_colours, save, show_lengths
 
 SIX = "six-boxes"  # the driver's name of the data of figure 2
 CONFIGURATIONS = ("root-rcb", *WINNERS)
@@ -87,7 +87,7 @@ def _configurations(directory: Path) -> tuple[dict[str, Columns], str]:
 
 
 def draw_study_history(directory: Path, picture: Path) -> bool:
-    """Figure 6: worst |Lu| over the steps, a panel per mesh and fraction, a line per k."""
+    """Largest |Lu| over the steps, a panel per mesh and fraction, a line per k."""
     runs = [s.run for s in read_speed_ups(directory) if SETTING.fullmatch(s.run.method)]
     if not runs:
         return False
@@ -105,23 +105,22 @@ def draw_study_history(directory: Path, picture: Path) -> bool:
         sharex=True,
         sharey=True,
     )
-    multipliers = sorted(values_of(methods, 2))
     for method in methods:
         mesh, k, fraction = setting_of(method)
         axes = grid[meshes.index(mesh), fractions.index(fraction)]
-        colour = PART_COLOURS[multipliers.index(k)]
-        axes.plot(*_worst_over_time(histories[method]), color=colour, linewidth=0.9, label=f"k = {k:g}")
+        colour = multiplier_colour(k)
+        times, worst = _worst_over_time(histories[method])
+        axes.plot(times, worst, color=colour, linewidth=0.9, label=f"k = {k:g}")
     for axes, fraction in zip(grid[0], fractions):
         axes.set_title(f"{100 * fraction:g} % of the points")
     for axes, mesh in zip(grid[:, 0], meshes):
-        axes.set_ylabel(f"mesh {mesh:g}\nworst |Lu| [%]")
+        axes.set_ylabel(f"mesh {mesh:g}\nlargest |Lu| [%]")
     for axes in grid.flat:
         axes.set_yscale("log")
-        axes.yaxis.set_major_formatter("{x:g}")
         axes.grid(True, axis="y")
     for axes in grid[-1]:
         axes.set_xlabel("time simulated [s]")
-    legend_above(figure, grid[0, 0].get_legend_handles_labels()[0])
+    legend_above(figure, handles_of(grid.flat))
     save(figure, picture)
     return True
 

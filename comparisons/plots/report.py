@@ -10,22 +10,14 @@ import sys
 from pathlib import Path
 
 from automatic import automatic_sentence, automatic_table, judgements, write_automatic
-from choice import (
-    EVERYWHERE,
-    TOLERANCES,
-    Choice,
-    cases,
-    choices,
-    find_method,
-    write_choices,
-    write_fronts,
-)
+from choice import EVERYWHERE, cases, choices, write_choices, write_fronts
 from claims import HEADER, claim_table, set_up_table
 from cycle import cycle_table, read_cycle
 from document import Document, write_html, write_markdown
-from machine import add_machine, read_record
-from results import Measurement, Simulation, read_simulations, read_table
-from sentences import sentences
+from machine import add_machine, read_record, warnings
+from prices import exchange_rate
+from results import Measurement, Simulation, read_noise, read_simulations, read_table
+from sentences import sentences, simulation_sentence
 from sources import read_sources, source_table
 from speed_up import (
     EVERY_STEP,
@@ -40,17 +32,30 @@ from speed_up import (
     read_speed_ups,
 )
 from sweep import read_clouds, read_snapshots
+from tables import choice_matrix, choice_table, method_table, noise_table, simulation_table
 
+PRICE = {
+    "price.png": "The price of accuracy. Left, the time of a call as a share of Zoltan's RCB over the"
+    " imbalance asked for; the paper's methods, which take no tolerance, stand at the imbalance they"
+    " left. Over several workloads: geometric means, and bands from the least to the most end of the"
+    " intervals of 95 %. Right, the simulation on the critical path: seconds that its calls and the"
+    " unbalance of its steps cost, over those of ideally balanced steps. What noise of the processors"
+    " and messages of the steps add is the same under all and left out. price.csv has the numbers.",
+}
 COST = {
     "time_against_imbalance.png": "What accuracy costs: the time of a call against the imbalance "
-    "it leaves; lower is better balanced, further left is faster."
+    "it leaves; lower is better balanced, further left is faster. One point more in a part than in "
+    "the mean is the least that can be told."
 }
 PICTURES = {
-    "parts.png": "The points, coloured by part, with the boxes of the parts.",
+    "parts.png": "The points, coloured by part, with the boxes of the parts; in each part its number"
+    " and, where every point is drawn, its points and their Lu. All scales are equal.",
     "support_mesh.png": "A support mesh with the centroids and standard deviations of its cells.",
-    "statistical_domain.png": "The real points and the statistical domain that stands for them.",
-    "unbalance_history.png": "Load unbalance over the steps of the simulation.",
-    "simulation_time.png": "Where the time of the whole simulation goes.",
+    "statistical_domain.png": "The real points and the statistical domain that stands for them,"
+    " on equal scales.",
+    "unbalance_history.png": "Load unbalance over the steps of the simulation: the largest of each"
+    " method, then Lu of every part, bands from least to most of a window of steps; scales differ.",
+    "simulation_time.png": "Where the time of the whole simulation goes, on the critical path.",
 }
 SWEEP_PICTURES = {
     "sweep_time.png": "What accuracy costs in time: every setting on every cloud, and the front of "
@@ -80,7 +85,7 @@ STUDY_PICTURES = {
     "ranks.png": "Table 1 of the paper: speed-up over the number of ranks.",
     "figure_6.png": "Figure 6 of the paper: Lu of every part under its RCB and the four settings of"
     " its RRCB that were faster.",
-    "study_history.png": "Load unbalance over the simulation under all settings, worst |Lu| of the"
+    "study_history.png": "Load unbalance over the simulation under all settings, largest |Lu| of the"
     " parts.",
 }
 
@@ -103,37 +108,30 @@ def main() -> int:
 
 def comparison_report(directory: Path) -> Document:
     rows = read_table(directory)
+    runs = read_simulations(directory)
     document = Document("RRCB beside Zoltan's balancers")
-    document.conclude(sentences(rows))
+    _begin(document, directory, rows, runs)
     _add_pictures(document, directory, COST)
     document.heading("Every method on the same points")
     for case, measured in cases(rows).items():
-        document.table(_title(case, measured), *_method_table(measured))
-    _add_simulations(document, read_simulations(directory), "none")
+        document.table(_title(case, measured), *method_table(measured))
+    _add_noise(document, directory)
+    _add_simulations(document, runs, "none")
     _add_pictures(document, directory, PICTURES)
     return document
 
 
 def sweep_report(directory: Path) -> Document:
     clouds = read_clouds(directory)
+    snapshots = read_snapshots(directory)
+    runs = middle_runs(read_simulations(directory, SIMULATIONS))
     write_automatic(directory, clouds)
     write_choices(directory, clouds)
     write_fronts(directory, clouds)
     document = Document("What accuracy costs")
-    document.conclude(sentences(clouds))
+    _begin(document, directory, clouds or snapshots, runs)
     _add_claims(document, directory)
-    document.heading("Which setting for which tolerance")
-    chosen = choices(clouds)
-    everywhere = [choice for choice in chosen if choice.case == EVERYWHERE]
-    if everywhere:
-        caption = "Within the tolerance on every cloud, fastest in the mean"
-        document.summarise(caption, *_choice_table(everywhere))
-    _add_pictures(document, directory, SWEEP_PICTURES)
-    on_each = [choice for choice in chosen if choice.case != EVERYWHERE]
-    if on_each:
-        table = _choice_matrix(on_each) if everywhere else _choice_table(on_each)
-        caption = "Fastest within the tolerance, cloud by cloud"
-        document.summarise(caption + ": ms, times as fast as Zoltan's RCB" * bool(everywhere), *table)
+    _add_choices(document, directory, clouds)
     _add_automatic(document, clouds)
     _add_sources(document, directory)
     _add_cycle(document, directory)
@@ -141,10 +139,46 @@ def sweep_report(directory: Path) -> Document:
     _add_pictures(document, directory, STUDY_PICTURES)
     _add_speed_ups(document, directory)
     _add_every_step(document, directory)
-    for case, measured in cases(read_snapshots(directory)).items():
-        document.table(_title(case, measured), *_method_table(measured))
-    _add_simulations(document, middle_runs(read_simulations(directory, SIMULATIONS)), "serial")
+    for case, measured in cases(snapshots).items():
+        document.table(_title(case, measured), *method_table(measured))
+    _add_noise(document, directory)
+    _add_simulations(document, runs, "serial")
     return document
+
+
+def _begin(
+    document: Document, directory: Path, rows: list[Measurement], runs: list[Simulation]
+) -> None:
+    """The price at a glance, and what must be known of the machine."""
+    _add_pictures(document, directory, PRICE)
+    ranks = max([row.ranks for row in rows] + [run.ranks for run in runs], default=1)
+    texts = warnings(read_record(directory), ranks) + sentences(rows)
+    texts += [text for text in (simulation_sentence(runs), exchange_rate(runs)) if text]
+    document.conclude(texts or ["Nothing was measured."])
+
+
+def _add_choices(document: Document, directory: Path, clouds: list[Measurement]) -> None:
+    chosen = choices(clouds)
+    if not chosen:
+        return
+    document.heading("Which setting for which tolerance")
+    everywhere = [choice for choice in chosen if choice.case == EVERYWHERE]
+    if everywhere:
+        caption = "Within the tolerance on every cloud, fastest in the mean"
+        document.summarise(caption, *choice_table(everywhere))
+    _add_pictures(document, directory, SWEEP_PICTURES)
+    on_each = [choice for choice in chosen if choice.case != EVERYWHERE]
+    table = choice_matrix(on_each) if everywhere else choice_table(on_each)
+    caption = "Fastest within the tolerance, cloud by cloud"
+    document.summarise(caption + ": ms, times as fast as Zoltan's RCB" * bool(everywhere), *table)
+
+
+def _add_noise(document: Document, directory: Path) -> None:
+    repeats = read_noise(directory)
+    if not repeats:
+        return
+    caption = "Noise: a baseline measured twice; less than this is not told apart"
+    document.table(caption, *noise_table(repeats))
 
 
 def _add_claims(document: Document, directory: Path) -> None:
@@ -252,87 +286,30 @@ def _title(case: str, rows: list[Measurement]) -> str:
     return f"{case}: {rows[0].points:,} points, {rows[0].ranks} ranks"
 
 
-def _method_table(rows: list[Measurement]) -> tuple[list[str], list[list[str]]]:
-    header = ["method", "imbalance", "worst Lu %", "time ms", "times as fast", "bytes", "messages"]
-    header += ["into root", "moved %"]
-    reference = find_method(rows, "zoltan-rcb")
-    table = [
-        [
-            row.method,
-            f"{row.imbalance:.5f}",
-            f"{row.lu_percent:.3f}",
-            f"{row.time_ms:.2f}",
-            f"{reference.time_ms / row.time_ms:.2f}" if reference and row.time_ms > 0 else "–",
-            f"{row.bytes:,}",
-            f"{row.messages:,}",
-            f"{row.root_bytes_in:,}",
-            f"{100 * row.moved_fraction:.1f}",
-        ]
-        for row in rows
-    ]
-    return header, table
-
-
-def _choice_table(chosen: list[Choice]) -> tuple[list[str], list[list[str]]]:
-    header = ["cloud", "imbalance ≤", "fastest setting", "time ms", "times as fast", "imbalance"]
-    table = [
-        [
-            choice.case,
-            choice.tolerance,
-            choice.setting or "none",
-            _number(choice.time_ms, 2),
-            _number(choice.times_as_fast, 2),
-            _number(choice.imbalance, 5),
-        ]
-        for choice in chosen
-    ]
-    return header, table
-
-
-def _choice_matrix(chosen: list[Choice]) -> tuple[list[str], list[list[str]]]:
-    """A row per cloud, a column per tolerance."""
-    table: dict[str, list[str]] = {}
-    for choice in chosen:
-        text = "none"
-        if choice.setting:
-            text = f"{choice.setting} {_number(choice.time_ms, 2)}"
-            text += f"\N{NO-BREAK SPACE}{_number(choice.times_as_fast, 1)}×"
-        table.setdefault(choice.case, [choice.case]).append(text)
-    return ["cloud", *(f"≤ {t}" for t in TOLERANCES[:-1]), TOLERANCES[-1]], list(table.values())
-
-
-def _number(value: float | None, digits: int) -> str:
-    return "–" if value is None else f"{value:.{digits}f}"
-
-
 def _add_simulations(document: Document, runs: list[Simulation], reference: str) -> None:
     if not runs:
         return
-    base = next((run for run in runs if run.method == reference), None)
-    header = ["method", "ranks", f"times as fast as {reference}", "wall s", "balance s", "step s"]
-    header.append("mean imbalance")
-    table = [
-        [
-            run.method,
-            str(run.ranks),
-            f"{base.wall / run.wall:.2f}" if base and run.wall > 0 else "–",
-            f"{run.wall:.3f}",
-            f"{run.balance:.3f}",
-            f"{run.step:.3f}",
-            f"{run.mean_imbalance:.4f}",
-        ]
-        for run in runs
-    ]
-    caption = f"Simulations: {runs[-1].points:,} points, {runs[-1].steps:,} steps"
-    document.table(caption, header, table)
+    first = runs[-1]
+    caption = f"Simulations: {first.points:,} points, {first.steps:,} steps"
+    document.table(caption, *simulation_table(runs, reference))
+    shared = f" {first.ranks} ranks share {os.cpu_count()} cores here, so it hides unbalance."
+    document.paragraph(
+        "critical path: what the run would take with a core for every rank, the processor time of the"
+        " slowest rank of each step and rebalance outside MPI and its messages on a network of 1.5 µs"
+        " and 12 GB/s. gain kept: of what ideal balance without cost would gain. moved: weight that"
+        " changed rank, of all weight, in a rebalance. wall: by the clock."
+        + shared * (first.ranks > (os.cpu_count() or 1))
+    )
 
 
 def _define(document: Document) -> None:
     document.paragraph(
-        "imbalance: heaviest part / mean part. Lu: (ideal − actual) / ideal of a part. time: slowest"
+        "imbalance: heaviest part / mean part. Lu: (ideal − actual) / ideal of a part, below 0 where it is too heavy. time: slowest"
         " rank, median of the repeats. times as fast: Zoltan RCB's time / this method's. bytes and"
         " messages: of one call over all ranks. into root: bytes that rank 0 receives."
         " moved: weight that changes rank. exact: no part holds more than one point above the mean."
+        " In brackets: intervals of 95 %; where they overlap, or that of a ratio holds 1, two methods"
+        " are not told apart."
     )
 
 

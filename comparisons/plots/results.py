@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 Columns = dict[str, np.ndarray]
+Interval = tuple[float, float]  # of 95 %
 
 
 @dataclass(frozen=True)
@@ -33,6 +34,16 @@ class Measurement:
     collectives: int
     communicators: int
     moved_fraction: float
+    time_interval: Interval | None = None
+    share: float | None = None  # of Zoltan RCB's time, measured in turns with it
+    share_interval: Interval | None = None
+    imbalance_interval: Interval | None = None
+    worst_lu: float | None = None  # percent, with its sign
+
+    @property
+    def point(self) -> float:
+        """What one point more in a part adds to the imbalance."""
+        return self.ranks / self.points
 
 
 @dataclass(frozen=True)
@@ -54,6 +65,34 @@ class Simulation:
     step_network: float
     balance_path: float
     balance_network: float
+    step_work: float = 0.0
+    rebalances: int | None = None
+    moved_fraction: float | None = None
+    gain_kept: float | None = None
+    speed_up: float | None = None  # on the critical path
+    speed_up_interval: Interval | None = None
+    critical_path_interval: Interval | None = None
+    wall_interval: Interval | None = None
+    imbalance_interval: Interval | None = None
+
+    path_s: float | None = None
+
+    @property
+    def critical_path(self) -> float:
+        """Seconds that the run would take with a core for every rank; the median of several."""
+        if self.path_s is not None:
+            return self.path_s
+        return self.step_path + self.step_network + self.balance_path + self.balance_network
+
+
+@dataclass(frozen=True)
+class Repeat:
+    """A baseline measured twice: second over first."""
+
+    workload: str
+    what: str
+    ratio: float
+    interval: Interval | None
 
 
 def read_table(directory: Path, name: str = "table.csv") -> list[Measurement]:
@@ -77,6 +116,11 @@ def read_table(directory: Path, name: str = "table.csv") -> list[Measurement]:
             collectives=int(row["collectives"]),
             communicators=int(row["communicators"]),
             moved_fraction=float(row["moved_fraction"]),
+            time_interval=_interval(row, "time_ms"),
+            share=_number(row, "time_vs_zoltan_rcb"),
+            share_interval=_interval(row, "time_vs_zoltan_rcb"),
+            imbalance_interval=_interval(row, "imbalance"),
+            worst_lu=_number(row, "lu_worst_percent"),
         )
         for row in read_rows(directory / name)
         if not row.get("error")
@@ -102,14 +146,45 @@ def read_simulations(directory: Path, name: str = "simulation.csv") -> list[Simu
             step_network=float(row["step_network_s"]),
             balance_path=float(row["balance_path_s"]),
             balance_network=float(row["balance_network_s"]),
+            step_work=float(row["step_work_s"]),
+            rebalances=_whole(row, "rebalances"),
+            moved_fraction=_number(row, "moved_fraction"),
+            gain_kept=_number(row, "gain_kept"),
+            speed_up=_number(row, "speed_up_critical_path"),
+            speed_up_interval=_interval(row, "speed_up_critical_path"),
+            critical_path_interval=_interval(row, "critical_path_s"),
+            wall_interval=_interval(row, "wall_s"),
+            imbalance_interval=_interval(row, "mean_imbalance"),
+            path_s=_number(row, "critical_path_s"),
         )
         for row in read_rows(directory / name)
         if not row.get("error")
     ]
 
 
+def read_noise(directory: Path) -> list[Repeat]:
+    return [
+        Repeat(row["workload"], row["what"], float(row["ratio"]), _interval(row, ""))
+        for row in read_rows(directory / "noise.csv")
+    ]
+
+
+def _number(row: dict[str, str], column: str) -> float | None:
+    """None where the column is missing, as in the files of an earlier version, or empty."""
+    return float(row[column]) if row.get(column) else None
+
+
+def _whole(row: dict[str, str], column: str) -> int | None:
+    return int(float(row[column])) if row.get(column) else None
+
+
+def _interval(row: dict[str, str], column: str) -> Interval | None:
+    low, high = (_number(row, f"{column}_{end}".lstrip("_")) for end in ("low", "high"))
+    return None if low is None or high is None else (low, high)
+
+
 def read_history(directory: Path) -> dict[str, Columns]:
-    """Per method, in the order of the file: the columns step, time, part and lu_percent."""
+    """Per method, in the order of the file: the columns step, time, part, points and lu_percent."""
     return _histories(read_rows(directory / "history.csv"))
 
 
@@ -125,7 +200,7 @@ def read_histories(directory: Path, pattern: str) -> dict[str, Columns]:
 
 
 def _histories(rows: list[dict[str, str]]) -> dict[str, Columns]:
-    names = ("step", "time", "part", "lu_percent")
+    names = ("step", "time", "part", "points", "lu_percent")
     return {
         method: {
             name: np.array([float(row[name]) for row in rows if row["method"] == method])

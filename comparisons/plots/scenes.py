@@ -13,6 +13,7 @@ from matplotlib import pyplot as plt
 
 from history import draw_worst
 from results import Simulation, read_history, read_simulations, unique
+from settings import legend_above
 from style import save, use_style
 
 
@@ -34,14 +35,13 @@ def _cell(method: str, runs: list[Simulation]) -> str:
 
 
 def draw(directory: Path, scenes: list[str]) -> None:
-    size = (9, 2.4 * len(scenes))
+    size = (9, 2.4 * len(scenes) + 1)
     figure, rows = plt.subplots(len(scenes), 1, figsize=size, squeeze=False)
     for axes, scene in zip(rows[:, 0], scenes):
         draw_worst(axes, read_history(directory / scene))
         axes.set_title(scene)
-        if axes is not rows[0, 0]:
-            axes.get_legend().remove()
     rows[-1, 0].set_xlabel("time simulated [s]")
+    legend_above(figure, rows[0, 0].get_legend_handles_labels()[0], inches=3)
     save(figure, directory / "scenes.png")
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from style import PART_COLOURS
+from style import multiplier_colour
 
 SETTING = re.compile(r"rrcb-sampled\[mesh=(\d+),k=([\d.]+),fraction=([\d.]+)\]")
 MARKERS = "osD^vP"
@@ -37,7 +37,7 @@ def draw_lines(
             if k == multiplier:
                 by_mesh.setdefault(mesh, []).append(value(row))
         meshes = sorted(by_mesh)
-        colour = PART_COLOURS[number]
+        colour = multiplier_colour(multiplier)
         axes.plot(
             meshes,
             [sum(by_mesh[mesh]) / len(by_mesh[mesh]) for mesh in meshes],
@@ -56,6 +56,15 @@ def draw_lines(
         )
     axes.set_xticks(sorted(values_of(methods, 1)))
     axes.grid(True)
+
+
+def handles_of(panels: Iterable[Axes]) -> list:
+    """One for each label in any of the panels."""
+    found: dict[str, object] = {}
+    for axes in panels:
+        for handle, label in zip(*axes.get_legend_handles_labels()):
+            found.setdefault(label, handle)
+    return [found[label] for label in sorted(found)]
 
 
 def legend_above(figure: Figure, handles: list, inches: float = 1.45) -> None:

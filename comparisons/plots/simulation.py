@@ -2,48 +2,60 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from matplotlib import pyplot as plt
 
+from intervals import with_interval
 from results import read_simulations
-from style import method_style, save
+from settings import legend_above
+from style import CALL_COLOUR, IDEAL_COLOUR, UNBALANCE_COLOUR, save
 
 
 def draw_simulation(directory: Path, picture: Path) -> bool:
-    """A bar per method: steps of the simulation, balancing, and the rest."""
+    """A bar per method: the critical path, which stands for a core for every rank, and its parts."""
     runs = read_simulations(directory)
     if not runs:
         return False
-    methods = [run.method for run in runs]
-    figure, axes = plt.subplots(figsize=(8, 0.5 * len(runs) + 1.3))
+    ideals = [run.step_work / run.ranks for run in runs]
+    paths = [run.step_path + run.step_network for run in runs]
+    figure, axes = plt.subplots(figsize=(11, 0.42 * len(runs) + 1.6))
+    rows = [run.method for run in runs]
     left = [0.0] * len(runs)
     for name, seconds, colour, hatch in (
-        ("steps of the simulation", [run.step for run in runs], "#9DC3E0", ""),
-        ("balancing", [run.balance for run in runs], "#D55E00", "///"),
-        ("rest", [max(run.wall - run.step - run.balance, 0) for run in runs], "#DDDDDD", ""),
+        ("steps, all work / ranks", ideals, IDEAL_COLOUR, ""),
+        (
+            "steps beyond it: unbalance, noise, messages",
+            [max(path - ideal, 0) for path, ideal in zip(paths, ideals)],
+            UNBALANCE_COLOUR,
+            "",
+        ),
+        (
+            "balancing",
+            [run.balance_path + run.balance_network for run in runs],
+            CALL_COLOUR,
+            "///",
+        ),
     ):
         axes.barh(
-            methods, seconds, left=left, color=colour, hatch=hatch, edgecolor="white", label=name
+            rows, seconds, left=left, color=colour, hatch=hatch, edgecolor="white", label=name
         )
         left = [start + length for start, length in zip(left, seconds)]
     for row, (run, end) in enumerate(zip(runs, left)):
-        text = (
-            f" {run.wall:.3g} s, balancing {run.balance:.2g} s,"
-            f" mean imbalance {run.mean_imbalance:.3f}"
-        )
+        path = with_interval(run.critical_path, run.critical_path_interval, 2)
+        text = f" {path} s, mean imbalance {run.mean_imbalance:.4f}; wall {run.wall:.2f} s"
         axes.text(end, row, text, va="center", fontsize=8)
-    for tick, method in zip(axes.get_yticklabels(), methods):
-        tick.set_color(method_style(method).colour)
     axes.invert_yaxis()
-    axes.set_xlim(0, 1.75 * max(left))
-    axes.set_xlabel("wall time [s]")
+    axes.set_xlim(0, 1.7 * max(left))
+    axes.set_xlabel("critical path [s]: what the run would take with a core for every rank")
     first = runs[0]
+    cores = os.cpu_count() or 1
+    shared = f" that share {cores} cores" if cores < first.ranks else ""
     axes.set_title(
         f"The whole simulation: {first.points:,} points, {first.steps:,} steps,"
-        f" {first.ranks} ranks",
-        pad=24,
+        f" {first.ranks} ranks{shared}"
     )
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3)
+    legend_above(figure, axes.get_legend_handles_labels()[0], inches=3.4)
     save(figure, picture)
     return True

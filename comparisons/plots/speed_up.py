@@ -11,7 +11,7 @@ from statistics import median, mode
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
-from order_statistics import Spread, spread_of
+from intervals import Spread, interval95, spread_of
 from results import Simulation, read_simulations
 from settings import SETTING, draw_lines, legend_above, setting_of, values_of
 from style import method_style, save
@@ -72,7 +72,13 @@ def middle_run(same: list[Simulation]) -> Simulation:
         for field in fields(Simulation)
         if all(isinstance(getattr(run, field.name), float) for run in same)
     }
-    return replace(same[0], **numbers)
+    return replace(
+        same[0],
+        **numbers,
+        wall_interval=interval95([run.wall for run in same]),
+        imbalance_interval=interval95([run.mean_imbalance for run in same]),
+        critical_path_interval=interval95([run.critical_path for run in same]),
+    )
 
 
 def _repeats(runs: list[Simulation]) -> dict[tuple[str, int], list[Simulation]]:

@@ -13,16 +13,27 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib.axes import Axes  # noqa: E402
+from matplotlib.axis import Axis  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 from matplotlib.text import Annotation  # noqa: E402
+from matplotlib.ticker import (  # noqa: E402
+    FixedLocator,
+    FuncFormatter,
+    LogLocator,
+    MaxNLocator,
+    NullFormatter,
+)
 from matplotlib.transforms import Bbox  # noqa: E402
 
-# K. L. Kelly: Twenty-two colors of maximum contrast (1965), without white and black.
+# Three palettes that share no colour: of parts, of the paper's multiplier k, and of methods; any two
+# differ by 14 units or more of CIELAB.
 PART_COLOURS = (
-    "#0067A5 #F3C300 #BE0032 #8DB600 #875692 #F38400 #A1CAF1 #882D17 #008856 #E68FAC "
-    "#604E97 #DCD300 #654522 #F99379 #2B3D26 #C2B280 #B3446C #F6A600 #848482 #E25822"
+    "#B197FF #E5D870 #FF7D70 #7DA43C #3CE5FF #FF7DBE #E5A449 #8A97BE #63F2B1 #CB8A97 "
+    "#F2D8BE #49B163 #FFCBFF #7DA48A #BEE5A4 #B1A463 #3CA4FF #FFA4FF #70D8BE #3CA4BE"
 ).split()
-
+MULTIPLIER_COLOURS = "#A8DDD8 #5FB3AE #2A7F80 #0B4A50".split()  # of k = 1, 1.5, 2 and 2.5
+POINT_COLOUR = "#666666"
+IDEAL_COLOUR, UNBALANCE_COLOUR, CALL_COLOUR = "#DDDDDD", "#AAAAAA", "#444444"  # of time spent
 
 MAX_POINTS = 60_000
 
@@ -30,27 +41,42 @@ MAX_POINTS = 60_000
 @dataclass(frozen=True)
 class MethodStyle:
     colour: str
-    line: str
+    line: str | tuple
     marker: str
 
 
-# M. Okabe and K. Ito: Color universal design (2008); the line style and the marker tell the
-# methods apart without the colour.
+# After M. Okabe and K. Ito: Color universal design (2008); the line style and the marker tell the
+# methods apart without the colour. Settings of one method are shades of its colour.
 _METHODS = {
     "none": MethodStyle("#888888", (0, (1, 1)), "x"),
     "zoltan-rcb": MethodStyle("#000000", "--", "s"),
     "zoltan-rib": MethodStyle("#CC79A7", (0, (5, 1, 1, 1)), "P"),
     "zoltan-hsfc": MethodStyle("#E69F00", (0, (3, 1, 1, 1, 1, 1)), "X"),
-    "zoltan2-mj": MethodStyle("#B8A900", (0, (6, 2)), "p"),
+    "zoltan2-mj": MethodStyle("#A89800", (0, (6, 2)), "p"),
     "root-rcb": MethodStyle("#009E73", "-.", "D"),
     "rrcb-sampled": MethodStyle("#D55E00", ":", "^"),
+    "rrcb-sampled[mesh=2,k=1.5,fraction=0.25]": MethodStyle("#F2A57C", ":", "<"),
+    "rrcb-sampled[mesh=4,k=2,fraction=0.125]": MethodStyle("#E58243", ":", ">"),
+    "rrcb-sampled[mesh=6,k=2,fraction=0.125]": MethodStyle("#A84600", ":", "^"),
+    "rrcb-sampled[mesh=8,k=2,fraction=0.125]": MethodStyle("#6E2C00", ":", "v"),
+    "rrcb[tol=1.1]": MethodStyle("#86C1E8", (0, (1, 2)), "o"),
+    "rrcb[tol=1.05]": MethodStyle("#409CD8", (0, (2, 1)), "o"),
     "rrcb": MethodStyle("#0072B2", "-", "o"),
-    "rrcb-exact": MethodStyle("#56B4E9", (0, (4, 1)), "v"),
+    "rrcb[tol=1.001]": MethodStyle("#00508A", (0, (6, 1)), "o"),
+    "rrcb-exact": MethodStyle("#0A2A66", (0, (4, 1)), "*"),
+    "rrcb-arrays": MethodStyle("#7B2D8E", "-", "h"),
 }
+_OTHER = MethodStyle("#7A5C4A", "-", "8")
 
 
 def method_style(method: str) -> MethodStyle:
-    return _METHODS.get(method.split("[")[0], MethodStyle("#444444", "-", "h"))
+    """Of the setting, of its method where the setting has none."""
+    return _METHODS.get(method) or _METHODS.get(method.split("[")[0]) or _OTHER
+
+
+def multiplier_colour(k: float) -> str:
+    """The darker, the larger k is, from 1 to 2.5 in steps of a half."""
+    return MULTIPLIER_COLOURS[int(np.clip(round(2 * k) - 2, 0, len(MULTIPLIER_COLOURS) - 1))]
 
 
 def part_colours(parts: np.ndarray) -> np.ndarray:
@@ -76,8 +102,36 @@ def use_style() -> None:
 
 
 def save(figure: Figure, path: Path) -> None:
+    """Writes the picture; its logarithmic axes get plain numbers, two of them at least."""
+    for axes in figure.axes:
+        for axis in (axes.xaxis, axes.yaxis):
+            if axis.get_scale() == "log" and not isinstance(axis.get_major_locator(), FixedLocator):
+                _label_plainly(axis)
     figure.savefig(path)
     plt.close(figure)
+
+
+def plain_number(value: float) -> str:
+    """Without powers of ten: 0.001, 1,000,000, 10 M."""
+    for least, unit, letter in ((1e12, 1e12, "T"), (1e9, 1e9, "G"), (1e7, 1e6, "M")):
+        if value >= least:
+            return f"{value / unit:g} {letter}"
+    return f"{value:,.0f}" if value >= 1 and value == round(value) else f"{value:.12f}".rstrip("0")
+
+
+def _label_plainly(axis: Axis) -> None:
+    low, high = sorted(axis.get_view_interval())
+    if not 1e-7 < low < high < 1e13:
+        return
+    locators = [axis.get_major_locator()]
+    locators += [LogLocator(subs=subs, numticks=12) for subs in ((1, 2, 5), (1, 1.5, 2, 3, 4, 6))]
+    locators.append(MaxNLocator(4))
+    for locator in locators:
+        if sum(low <= tick <= high for tick in locator.tick_values(low, high)) >= 2:
+            axis.set_major_locator(locator)
+            break
+    axis.set_major_formatter(FuncFormatter(lambda value, _: plain_number(value)))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def show_lengths(axes: Axes, x_label: bool = True, y_label: bool = True) -> None:
@@ -100,18 +154,33 @@ def length_ratio(clouds: Iterable[dict[str, np.ndarray]]) -> float:
     return float(np.clip(height / max(width, 1e-300), 0.2, 1.2))
 
 
-def draw_cloud(axes: Axes, points: dict[str, np.ndarray], colours: np.ndarray | str) -> int:
+def draw_cloud(
+    axes: Axes, points: dict[str, np.ndarray], colours: np.ndarray | str, largest: float = 20
+) -> int:
     """Draws at most MAX_POINTS of the points, evenly chosen; returns how many.
 
-    The markers are so large that all together cover about the area of the axes.
+    The markers are so large that all together cover about the area of the axes, or the largest.
     """
     chosen = slice(None, None, len(points["x"]) // MAX_POINTS + 1)
     x, y = points["x"][chosen], points["y"][chosen]
     size = axes.get_position(original=True).size * axes.figure.get_size_inches() * 72
     if not isinstance(colours, str):
         colours = colours[chosen]
-    axes.scatter(x, y, c=colours, s=np.clip(size.prod() / len(x), 0.5, 20), linewidths=0)
+    axes.scatter(x, y, c=colours, s=np.clip(size.prod() / len(x), 0.5, largest), linewidths=0)
     return len(x)
+
+
+def label_right(axes: Axes, labels: list[tuple[float, str, str]]) -> None:
+    """Writes height, text and colour beside the right end, each clear of the one below."""
+    axes.figure.canvas.draw()
+    line = 13 / 72 * axes.figure.dpi / axes.get_window_extent().height
+    free = -np.inf
+    for value, text, colour in sorted(labels):
+        place = axes.transAxes.inverted().transform(axes.transData.transform((1, value)))[1]
+        free = max(place, free + line)
+        axes.text(
+            1.01, free, text, color=colour, va="center", fontsize=9, transform=axes.transAxes
+        )
 
 
 def place_labels(

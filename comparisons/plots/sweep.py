@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from choice import COSTS, cases, pareto_front
-from cost import FLOOR
+from cost import percent_above, shade_one_point
 from results import Measurement, read_table, unique
 from settings import SETTING, draw_lines, legend_above, setting_of, values_of
 from style import method_style, save
@@ -56,20 +56,18 @@ def _draw_costs(
     for axes, (name, settings) in zip(grid.flat, panels.items()):
         _draw_case(axes, [row for row in settings if cost(row) > 0], cost)
         axes.set_title(name, fontsize=9)
+    for axes, rows_of in zip(grid.flat, panels.values()):
+        shade_one_point(axes, rows_of)
     for axes in grid[-1]:
         axes.set_xlabel(label)
     for axes in grid[:, 0]:
-        axes.set_ylabel("imbalance − 1 (≥ $10^{-6}$)")
+        axes.set_ylabel("heaviest part\nabove the mean [%]")
     methods = unique([row.method.split("[")[0] for rows in panels.values() for row in rows])
     handles = [_mark(method) for method in methods]
-    handles.append(Line2D([], [], color="#444444", linewidth=1, label="Pareto front"))
+    handles.append(Line2D([], [], color="#444444", linewidth=1, label="Pareto front (large marks)"))
     legend_above(figure, handles)
     save(figure, picture)
     return True
-
-
-def _excess(row: Measurement) -> float:
-    return max(row.imbalance - 1, FLOOR)
 
 
 def _mark(method: str) -> Line2D:
@@ -83,17 +81,17 @@ def _draw_case(
     front = pareto_front(rows, cost)
     axes.step(
         [cost(row) for row in front],
-        [_excess(row) for row in front],
+        [percent_above(row) for row in front],
         where="post",
         color="#444444",
         linewidth=1,
         zorder=1,
     )
     for row in rows:
-        style = method_style(row.method)
+        style = method_style(row.method.split("[")[0])
         axes.plot(
             cost(row),
-            _excess(row),
+            percent_above(row),
             color=style.colour,
             marker=style.marker,
             markersize=6 if row in front else 4,
@@ -119,11 +117,10 @@ def draw_study(directory: Path, picture: Path) -> bool:
         draw_lines(grid[1, column], chosen, lambda r: r.method, lambda r: r.time_ms)
         grid[0, column].set_title(f"{100 * fraction:g} % of the points")
         grid[1, column].set_xlabel("support mesh, cells per axis")
-    grid[0, 0].set_ylabel("worst |Lu| [%]")
+    grid[0, 0].set_ylabel("largest |Lu| [%]")
     grid[1, 0].set_ylabel("time of a call [ms]")
     for axes in grid.flat:
         axes.set_yscale("log")
-        axes.yaxis.set_major_formatter("{x:g}")
     legend_above(figure, grid[0, 0].get_legend_handles_labels()[0])
     save(figure, picture)
     return True

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import contextlib
+import dataclasses
 import io
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -15,14 +17,19 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "pl
 import cost  # noqa: E402
 import draw  # noqa: E402
 import history  # noqa: E402
+import numpy as np  # noqa: E402
+import parts  # noqa: E402
 import results  # noqa: E402
 import speed_up  # noqa: E402
+from matplotlib.figure import Figure  # noqa: E402
+from matplotlib.text import Text  # noqa: E402
 
 TABLE = """\
 method,ranks,parts,points,dim,workload,layout,lists,repeats,time_ms_median,time_ms_min,time_ms_max,\
 imbalance,lu_max_percent,messages,bytes,root_bytes_in,collectives,communicators,moved_fraction,time_vs_zoltan_rcb,error
 zoltan-rcb,2,2,4,2,slope-start,scene,PARTS,1,2.0,1.5,3.0,1.0,0,1,1,1,1,0,0,1,
 "rrcb-sampled[mesh=4,k=2]",2,2,4,2,slope-start,scene,PARTS,1,1.0,0.5,1.5,1.5,50,1,1,1,1,0,0,0.5,
+rrcb-exact,2,2,4,2,slope-start,scene,PARTS,1,1.0,0.5,1.5,1.0,0,1,1,1,1,0,0,0.5,
 zoltan-hsfc,2,2,4,2,slope-start,scene,PARTS,1,,,,,,,,,,,,,failed
 """
 FILES = {
@@ -136,10 +143,35 @@ class DrawTest(unittest.TestCase):
 
     def test_draws_every_picture_of_a_complete_comparison(self) -> None:
         self.write(*FILES)
-        self.assertEqual(self.draw(), 0)
+        save = Figure.savefig
+
+        def check_and_save(figure: Figure, path: Path) -> None:
+            save(figure, path)
+            self.check_texts(figure, path.name)
+            self.check_axes(figure, path.name)
+
+        with unittest.mock.patch.object(Figure, "savefig", check_and_save):
+            self.assertEqual(self.draw(), 0)
         self.assertEqual(self.pictures(), sorted(draw.PICTURES))
         for name in self.pictures():
             self.assertEqual((self.directory / name).read_bytes()[:4], b"\x89PNG")
+
+    def check_texts(self, figure: Figure, name: str) -> None:
+        """None is lower than 10 pixels in a picture of 1280."""
+        pixels = 1280 / 72 / figure.get_figwidth()
+        for text in figure.findobj(Text):
+            if text.get_visible() and text.get_text().strip():
+                size = text.get_fontsize() * (0.7 if "^" in text.get_text() else 1)
+                self.assertGreaterEqual(size * pixels, 10, f"{name}: {text.get_text()}")
+
+    def check_axes(self, figure: Figure, name: str) -> None:
+        """Logarithmic ones have two numbers at least."""
+        for axes in figure.axes:
+            for axis in (axes.xaxis, axes.yaxis):
+                low, high = sorted(axis.get_view_interval())
+                ticks = [low <= tick <= high for tick in axis.get_majorticklocs()]
+                if axis.get_scale() == "log" and axes.get_visible():
+                    self.assertGreaterEqual(sum(ticks), 2, name)
 
     def test_reckons_speed_ups_over_the_serial_run(self) -> None:
         self.write("sweep_simulation.csv")
@@ -167,18 +199,37 @@ class DrawTest(unittest.TestCase):
         (self.directory / "parts.png").write_text("of an earlier run")
         (self.directory / "holiday.png").write_text("not ours")
         self.assertEqual(self.draw(), 0)
-        self.assertEqual(self.pictures(), ["holiday.png", "time_against_imbalance.png"])
+        self.assertEqual(self.pictures(), ["holiday.png", "price.png", "time_against_imbalance.png"])
 
     def test_reads_methods_that_succeeded_only(self) -> None:
         self.write("table.csv")
         methods = [row.method for row in results.read_table(self.directory)]
-        self.assertEqual(methods, ["zoltan-rcb", "rrcb-sampled[mesh=4,k=2]"])
+        self.assertEqual(methods, ["zoltan-rcb", "rrcb-sampled[mesh=4,k=2]", "rrcb-exact"])
 
-    def test_draws_a_perfect_balance_at_the_floor(self) -> None:
+    def test_draws_a_perfect_balance_where_one_point_is(self) -> None:
         self.write("table.csv")
-        perfect, other = results.read_table(self.directory)
-        self.assertEqual(cost._excess(perfect), cost.FLOOR)
-        self.assertAlmostEqual(cost._excess(other), 0.5)
+        perfect, other, _ = results.read_table(self.directory)
+        self.assertEqual(cost.percent_above(perfect), 50)  # one of two points
+        row = dataclasses.replace(other, points=2000)
+        self.assertAlmostEqual(cost.percent_above(row), 50)
+        self.assertAlmostEqual(cost.percent_above(dataclasses.replace(row, imbalance=1)), 0.1)
+
+    def test_draws_the_history_down_to_one_point(self) -> None:
+        self.write("history.csv")
+        self.assertEqual(history._one_point(results.read_history(self.directory)["rrcb"]), 50)
+
+    def test_knows_the_loads_of_parts_where_every_point_is_in_the_file(self) -> None:
+        self.write("table.csv")
+        _, row, _ = results.read_table(self.directory)
+        points = {"part": np.array([0, 0, 0, 1])}
+        self.assertEqual(parts.part_loads(points, row).tolist(), [3, 1])
+        self.assertIsNone(parts.part_loads(points, dataclasses.replace(row, points=5)))
+        self.assertIsNone(parts.part_loads(points, dataclasses.replace(row, imbalance=1.4)))
+
+    def test_draws_methods_that_make_the_same_parts_once(self) -> None:
+        same, other = ({"part": np.array(part)} for part in ([0, 1], [1, 0]))
+        groups = parts._same_parts({("a", "x"): same, ("b", "x"): other, ("c", "x"): same})
+        self.assertEqual(groups, {"a": ["a", "c"], "b": ["b"]})
 
     def test_arranges_the_history_by_part_and_step(self) -> None:
         self.write("history.csv")

@@ -15,7 +15,7 @@ import claims  # noqa: E402
 import cycle  # noqa: E402
 import paper_methods  # noqa: E402
 import speed_up  # noqa: E402
-from order_statistics import Spread  # noqa: E402
+from intervals import Spread  # noqa: E402
 
 
 def mass_below(x: float, cut: float, mesh: int, multiplier: float) -> float:
@@ -76,13 +76,13 @@ class CycleTest(unittest.TestCase):
 
 RUN = (
     "repeat,method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,worst_imbalance,"
-    "path_points,step_path_s,step_network_s,balance_path_s,balance_network_s,error\n"
+    "path_points,step_work_s,step_path_s,step_network_s,balance_path_s,balance_network_s,error\n"
 )
 
 
 def runs(method: str, ranks: int, paths: list[float], imbalance: float = 1.0) -> str:
     return "".join(
-        f'{n},"{method}",{ranks},100,10,1,{path},0,0,{imbalance},{imbalance},300,{path},0,0,0,\n'
+        f'{n},"{method}",{ranks},100,10,1,{path},0,0,{imbalance},{imbalance},300,0,{path},0,0,0,\n'
         for n, path in enumerate(paths, 1)
     )
 
@@ -129,15 +129,15 @@ class ClaimsTest(unittest.TestCase):
 
     def test_sources_tell_what_the_random_points_add(self) -> None:
         header = "workload,layout,dim,points,ranks,domain,mesh,k,fraction,seed,imbalance,error\n"
-        rows = "slope,sorted,2,9,4,boxes,4,1.5,0,0,1.04,\n" + "".join(
-            f"slope,sorted,2,9,4,sampled,4,1.5,{fraction},{seed},{imbalance},\n"
+        rows = "slope,sorted,2,1000,4,boxes,4,1.5,0,0,1.04,\n" + "".join(
+            f"slope,sorted,2,1000,4,sampled,4,1.5,{fraction},{seed},{imbalance},\n"
             for fraction, imbalance in ((1, 1.041), (0.125, 1.2))
             for seed in range(1, 11)
         )
         (self.directory / "error_sources.csv").write_text(header + rows)
         table = claims.claim_table(self.directory)
         self.assertEqual([row[2] for row in table], ["refuted", "confirmed"])
-        self.assertIn("4.10 [4.10, 4.10] %", table[0][1])
+        self.assertIn("4.10 % of unbalance", table[0][1])
 
     def test_comparison_needs_intervals_apart(self) -> None:
         low, high = Spread(1, (0.9, 1.1), 6), Spread(2, (1.9, 2.1), 6)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import dataclasses
 import html.parser
 import io
 import sys
@@ -17,7 +18,9 @@ import choice  # noqa: E402
 import report  # noqa: E402
 from document import Document, write_html  # noqa: E402
 from results import Measurement  # noqa: E402
-from sentences import sentences  # noqa: E402
+from results import Simulation  # noqa: E402
+from sentences import sentences, simulation_sentence  # noqa: E402
+from tables import method_table, simulation_table  # noqa: E402
 
 HEADER = (
     "method,ranks,parts,points,dim,workload,layout,lists,repeats,time_ms_median,time_ms_min,"
@@ -26,8 +29,18 @@ HEADER = (
 )
 
 
-def measured(method: str, time: float, imbalance: float, traffic: int = 100, workload: str = "fog"):
-    """A row of 1000 points on 4 ranks: exact is an imbalance of 1.004 at most."""
+def measured(
+    method: str,
+    time: float,
+    imbalance: float,
+    traffic: int = 100,
+    workload: str = "fog",
+    spread: float | None = None,
+):
+    """A row of 1000 points on 4 ranks: exact is an imbalance of 1.004 at most.
+
+    Intervals of the time and its share of Zoltan's 8 ms reach `spread` times it to both sides."""
+    around = None if spread is None else (time * (1 - spread), time * (1 + spread))
     return Measurement(
         method=method,
         workload=workload,
@@ -46,6 +59,35 @@ def measured(method: str, time: float, imbalance: float, traffic: int = 100, wor
         collectives=1,
         communicators=0,
         moved_fraction=0,
+        time_interval=around,
+        share=time / 8,
+        share_interval=around and (around[0] / 8, around[1] / 8),
+    )
+
+
+def simulated(method: str, path: float, spread: float, speed_up: float) -> Simulation:
+    return Simulation(
+        method=method,
+        ranks=4,
+        points=1000,
+        steps=10,
+        wall=9,
+        balance=0,
+        step=0,
+        mean_imbalance=1.25,
+        worst_imbalance=1.5,
+        every=5,
+        path_points=2500,
+        step_path=path,
+        step_network=0,
+        balance_path=0,
+        balance_network=0,
+        path_s=path,
+        critical_path_interval=(path - spread, path + spread),
+        speed_up=speed_up,
+        speed_up_interval=(speed_up - spread, speed_up + spread),
+        rebalances=2,
+        moved_fraction=0.125,
     )
 
 
@@ -87,17 +129,70 @@ class ChoiceTest(unittest.TestCase):
         self.assertEqual(names, ["rrcb[tol=1.05]", "rrcb-exact", "zoltan-rcb"])
 
 
+class NoiseTest(unittest.TestCase):
+    def test_names_no_fastest_setting_within_the_noise(self) -> None:
+        rows = [measured("a", 2.0, 1.0, spread=0.1), measured("b", 2.3, 1.0, spread=0.1)]
+        self.assertEqual(choice.choices(rows)[0].remark, " (not told apart from b)")
+        rows = [measured("a", 2.0, 1.0, spread=0.05), measured("b", 2.3, 1.0, spread=0.05)]
+        self.assertEqual(choice.choices(rows)[0].remark, "")
+
+    def test_tells_no_method_apart_whose_ratio_may_be_one(self) -> None:
+        rows = [
+            measured("zoltan-rcb", 8, 1.0, spread=0.0),
+            measured("close", 7.6, 1.0, spread=0.1),
+            measured("fast", 4, 1.0, spread=0.1),
+        ]
+        cells = {row[0]: row[4] for row in method_table(rows)[1]}
+        self.assertEqual(cells["zoltan-rcb"], "1.00")
+        self.assertEqual(cells["close"], "1.05 [0.96, 1.17], not told apart")
+        self.assertEqual(cells["fast"], "2.00 [1.82, 2.22]")
+
+    def test_says_so_in_sentences(self) -> None:
+        rows = [measured("zoltan-rcb", 8, 1.0), measured("rrcb-exact", 7.6, 1.0, spread=0.1)]
+        self.assertIn("times the time (not told apart)", sentences(rows)[1])
+
+    def test_shows_the_sign_of_the_largest_unbalance_where_it_is_known(self) -> None:
+        row = measured("a", 1, 1.2)
+        self.assertEqual(method_table([row])[1][0][2], "±20.000")
+        known = dataclasses.replace(row, worst_lu=-20.0)
+        self.assertEqual(method_table([known])[1][0][2], "-20.000")
+
+    def test_leads_a_simulation_with_its_critical_path(self) -> None:
+        runs = [simulated("none", 2.0, 0.0, 1.0), simulated("rrcb", 1.6, 0.1, 1.25)]
+        header, (none, rrcb) = simulation_table(runs, "none")
+        self.assertEqual(header[2], "critical path s")
+        self.assertEqual(none[2:4], ["2.000", "1.00"])
+        self.assertEqual(rrcb[2:4], ["1.600 [1.500, 1.700]", "1.25 [1.15, 1.35]"])
+        self.assertEqual(rrcb[5:7], ["2", "12.5"])
+
+    def test_names_no_shortest_simulation_within_the_noise(self) -> None:
+        apart = [simulated("rrcb", 1.6, 0.1, 1.25), simulated("zoltan-rcb", 1.9, 0.1, 1.05)]
+        self.assertIn("under rrcb, the least of 2 methods", simulation_sentence(apart))
+        close = [simulated("rrcb", 1.6, 0.2, 1.25), simulated("zoltan-rcb", 1.9, 0.2, 1.05)]
+        self.assertIn("not told apart from zoltan-rcb", simulation_sentence(close))
+
+
 class SentencesTest(unittest.TestCase):
     def test_compute_their_numbers(self) -> None:
-        exactness, zoltan, paper = sentences(ROWS)
-        self.assertIn("2 times the time", exactness)
+        exactness, zoltan, fewest, paper = sentences(ROWS)
+        self.assertIn("2.00 times the time", exactness)
         self.assertIn("2 times its bytes", exactness)
-        self.assertIn("4 times the time", zoltan)
+        self.assertIn("4.00 times the time", zoltan)
         self.assertIn("20 times its bytes", zoltan)
-        self.assertIn("0.5 times its time and left 1.04000", paper)
+        self.assertIn("rrcb-exact moved the fewest bytes.", fewest)
+        self.assertIn("0.50 times the time and left 1.04000", paper)
 
-    def test_are_three_without_anything_to_compare(self) -> None:
-        self.assertEqual(len(sentences([])), 3)
+    def test_name_the_method_that_moves_the_fewest_bytes(self) -> None:
+        fewest = sentences(ROWS + [measured("zoltan-hsfc", 9, 1.0, 50)])[2]
+        self.assertIn("zoltan-hsfc moved the fewest bytes, 0.25 times those of that RRCB", fewest)
+
+    def test_name_the_best_measured_setting_of_the_paper(self) -> None:
+        worse = measured("rrcb-sampled[mesh=2,k=1.5,fraction=0.25]", 1, 1.3)
+        paper = sentences([*ROWS, worse])[3]
+        self.assertIn("Of the 2 measured settings of the paper's RRCB, rrcb-sampled was", paper)
+
+    def test_are_none_without_measurements(self) -> None:
+        self.assertEqual(sentences([]), [])
 
 
 class Tags(html.parser.HTMLParser):
@@ -115,8 +210,9 @@ class ReportTest(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.directory = Path(temporary.name)
 
-    def write(self, arguments: str) -> str:
-        (self.directory / "run.txt").write_text(f"rrcb 1\narguments: {arguments}\nranks: 4\n")
+    def write(self, arguments: str, record: str = "") -> str:
+        text = f"rrcb 1\narguments: {arguments}\nranks: 4\n{record}"
+        (self.directory / "run.txt").write_text(text)
         sys.argv = ["report.py", str(self.directory)]
         output = io.StringIO()
         with contextlib.redirect_stdout(output):
@@ -157,11 +253,30 @@ class ReportTest(unittest.TestCase):
         self.assertRegex(output, r"all of these +1\.01 +none")
         self.assertRegex(output, r"mist 2-D sorted +(rrcb 1\.00\s–×  ){2}none +none +none")
         written = (self.directory / "choices.csv").read_text().splitlines()
-        self.assertIn("fog 2-D sorted,1.05,rrcb,1.0,,1.04", written)
-        self.assertIn("fog 2-D sorted,exact,,,,", written)
+        self.assertIn("fog 2-D sorted,1.05,rrcb,1.0,,1.04,", written)
+        self.assertIn("fog 2-D sorted,exact,,,,,", written)
         fronts = (self.directory / "fronts.csv").read_text().splitlines()
         self.assertEqual(fronts[1:3], ["fog 2-D sorted,time_ms,rrcb,1.0,1.04",
                                        "fog 2-D sorted,bytes,rrcb,1,1.04"])
+
+    def test_of_a_sweep_without_clouds_speaks_of_its_snapshots(self) -> None:
+        row = "rrcb-exact,4,4,1000,2,slope-start,simulation,PARTS,1,1,1,1,1,0,1,1,1,1,0,0,,\n"
+        (self.directory / "sweep.csv").write_text(HEADER + row)
+        output = self.write("--sweep --only=snapshots")
+        self.assertIn("Exact balance took 1.00 times the time", output)
+        self.assertNotIn("No method balanced", output)
+
+    def test_begins_with_a_busy_machine_and_with_shared_cores(self) -> None:
+        row = "rrcb,999,999,9990,2,fog,sorted,PARTS,1,1,1,1,1,0,1,1,1,1,0,0,,\n"
+        (self.directory / "table.csv").write_text(HEADER + row)
+        (self.directory / "noise.csv").write_text("workload,what,ratio,low,high\nfog,rcb,1.02,0.9,1.1\n")
+        record = "processor time used by other processes: 23 %\nbusy: yes\n"
+        output = self.write("--cloud=fog", record)
+        busy, shared = output.strip().splitlines()[:2]
+        self.assertIn("The machine was busy: other processes used 23 %", busy)
+        self.assertIn("999 ranks share", shared)
+        markdown = (self.directory / "report.md").read_text()
+        self.assertIn("| fog | rcb | 1.020 [0.900, 1.100] | no |", markdown)
 
 
 if __name__ == "__main__":

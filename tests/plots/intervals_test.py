@@ -10,7 +10,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "plots"))
 
-from order_statistics import interval95, spread_of  # noqa: E402
+from intervals import interval95, spread_of  # noqa: E402
 
 
 class IntervalTest(unittest.TestCase):

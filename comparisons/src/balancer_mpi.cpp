@@ -81,8 +81,8 @@ std::vector<double> interleaved(mpm::Positions positions) {
 }
 
 std::optional<mpm::Balancer> make_balancer(const Method& method) {
-    if (method.options) return rrcb_balancer(*method.options);
-    if (method.lb_method != "RCB") return std::nullopt;
+    if (method.lb_method == on_arrays) return rrcb_balancer(*method.options);
+    if (method.lb_method != "RCB" && method.lb_method != "RRCB") return std::nullopt;
     auto zoltan = std::make_shared<ZoltanBalancer>(zoltan_parameters(method, Lists::parts));
     return [zoltan](mpm::Positions positions, MPI_Comm comm) {
         mpm::Decomposition decomposition = zoltan->decompose(positions, comm);

@@ -1,6 +1,7 @@
 #include "zoltan_partitioner_mpi.hpp"
 
 #include "failure.hpp"
+#include "text.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -97,6 +98,10 @@ void ZoltanPartitioner::free_lists() {
         Zoltan_LB_Free_Part(&lists->global_ids, &lists->local_ids, &lists->ranks, &lists->parts);
         lists->count = -1;
     }
+}
+
+void ZoltanPartitioner::use_seed(std::uint64_t seed) {
+    Zoltan_Set_Param(zoltan_, "RRCB_SEED", write_number(seed).c_str());
 }
 
 rrcb::Part ZoltanPartitioner::part_of(const rrcb::Vector& position) const {

@@ -34,7 +34,8 @@ class ZoltanPartitioner : public Partitioner {
 
     int partition() override;  ///< Zoltan_LB_Partition
     std::vector<rrcb::Part> parts() const override;
-    void free_lists() override;  ///< Zoltan_LB_Free_Part
+    void free_lists() override;                  ///< Zoltan_LB_Free_Part
+    void use_seed(std::uint64_t seed) override;  ///< RRCB_SEED
 
     /// Part of a position by the kept cuts, -1 if Zoltan cannot tell. Not collective.
     rrcb::Part part_of(const rrcb::Vector& position) const;

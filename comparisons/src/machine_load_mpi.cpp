@@ -69,8 +69,11 @@ MachineUse MachineWatch::use() const {
 void write_use(std::ostream& out, const MachineUse& use) {
     out << "load average at the start: " << (use.load_average ? fixed(*use.load_average, 2) : "")
         << "\nprocessor time used by other processes: "
-        << (use.share_of_others ? percent(*use.share_of_others) : "")
-        << "\nbusy: " << (use.is_busy() ? "yes" : "no") << '\n';
+        << (use.share_of_others ? percent(*use.share_of_others) : "") << "\nbusy: "
+        << (!use.share_of_others ? ""
+            : use.is_busy()      ? "yes"
+                                 : "no")
+        << '\n';
     if (use.num_cores > 0 && use.num_cores < use.num_ranks) {
         out << "ranks per core: " << use.num_ranks << " ranks share " << use.num_cores
             << " cores\n";

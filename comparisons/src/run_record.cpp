@@ -49,10 +49,10 @@ std::string run_record(const Arguments& arguments, const std::string& command, M
 }
 
 std::string definitions() {
-    return "imbalance: heaviest part / mean part, of 10 seeds the median. Lu: (ideal - actual) /\n"
-           "ideal of a part. time: slowest rank, median of the repeats, first call left out; 95 "
-           "%:\n"
-           "where the true median lies, of 6 repeats or more.\n"
+    return "imbalance: heaviest part / mean part, the median where 10 seeds were tried.\n"
+           "Lu: (ideal - actual) / ideal of a part.\n"
+           "time: slowest rank, median of the repeats, first call left out.\n"
+           "95 %: where the true median lies; of 6 repeats or more.\n"
            "times as fast: zoltan-rcb's time / this method's.\n"
            "messages, bytes: of one call over all ranks; a message counts once, at its sender;\n"
            "a collective counts 1 a rank, with the bytes the rank hands in and gets out.\n"

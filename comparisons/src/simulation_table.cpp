@@ -21,26 +21,32 @@ constexpr const char* run_columns =
 constexpr std::size_t num_run_columns = 15;
 constexpr std::size_t num_summary_columns = 15;
 
+std::string number_or_nothing(const std::optional<double>& number) {
+    return number ? write_number(*number) : "";
+}
+
 void write_cost(std::ostream& out, const PathCost& cost) {
-    out << cost.work_s << ',' << cost.path_s << ',' << cost.network_s << ',';
+    for (const double seconds : {cost.work_s, cost.path_s, cost.network_s}) {
+        out << write_number(seconds) << ',';
+    }
 }
 
 /// The fields of run_columns.
 void write_run(std::ostream& out, const SimulationRun& run) {
-    out << run.wall_s << ',' << run.balance_s << ',' << run.step_s << ','
-        << write_number(run.mean_imbalance) << ',' << write_number(run.worst_imbalance) << ','
-        << (run.front_m ? write_number(*run.front_m) : "") << ',' << run.moved_m << ','
-        << run.mass_kg << ',' << write_number(run.path_points) << ',';
+    for (const double number :
+         {run.wall_s, run.balance_s, run.step_s, run.mean_imbalance, run.worst_imbalance}) {
+        out << write_number(number) << ',';
+    }
+    out << number_or_nothing(run.front_m) << ',';
+    for (const double number : {run.moved_m, run.mass_kg, run.path_points}) {
+        out << write_number(number) << ',';
+    }
     write_cost(out, run.step_cost);
     write_cost(out, run.balance_cost);
 }
 
 void write_spread(std::ostream& out, const Spread& spread) {
     out << write_number(spread.median) << ',' << interval_fields(spread.interval95) << ',';
-}
-
-std::string number_or_nothing(const std::optional<double>& number) {
-    return number ? write_number(*number) : "";
 }
 
 void write_summary(std::ostream& out, const SimulationPlan& plan, int num_ranks,
@@ -78,7 +84,7 @@ std::vector<std::string> printed_row(const SimulationSummary& summary,
     return {run.method,
             fixed(run.wall_s, 2),
             fixed(first.middle.wall_s / run.wall_s, 2),
-            fixed(summary.critical_path_s.median, 2),
+            fixed(summary.critical_path_s.median, 3),
             speed_up ? fixed(speed_up->median, 2) : "-",
             percent(summary.gain_kept),
             fixed(run.mean_imbalance, 4),

@@ -40,13 +40,16 @@ void write_result(std::ostream& out, const Measurement& measurement,
     const auto [min, max] = std::ranges::minmax(measurement.times_ms);
     const double middle = median(measurement.times_ms);
     // To all digits: whether a part holds one point too many shows in the last ones.
-    out << middle << ',' << min << ',' << max << ',' << write_number(median(measurement.imbalances))
-        << ',' << write_number(std::abs(measurement.worst_unbalance_percent)) << ','
-        << measurement.traffic.messages << ',' << measurement.traffic.bytes << ','
+    for (const double number : {middle, min, max, median(measurement.imbalances),
+                                std::abs(measurement.worst_unbalance_percent)}) {
+        out << write_number(number) << ',';
+    }
+    out << measurement.traffic.messages << ',' << measurement.traffic.bytes << ','
         << measurement.traffic.root_bytes_in << ',' << measurement.traffic.collectives << ','
-        << measurement.traffic.communicators << ',' << measurement.moved_fraction << ',';
+        << measurement.traffic.communicators << ',' << write_number(measurement.moved_fraction)
+        << ',';
     const double reference = median(reference_ms);
-    if (reference > 0) out << middle / reference;
+    if (reference > 0) out << write_number(middle / reference);
     write_intervals(out, measurement, reference_ms);
     out << ",\n";
 }

@@ -58,11 +58,18 @@ TEST(MachineLoad, warns_of_a_busy_machine) {
               "trusted\n");
 }
 
+TEST(MachineLoad, does_not_warn_of_a_tenth) {
+    EXPECT_EQ(lines({0.1, 0.5, 2, 2}),
+              "load average at the start: 0.50\n"
+              "processor time used by other processes: 10 %\n"
+              "busy: no\n");
+}
+
 TEST(MachineLoad, leaves_blank_what_is_unknown) {
     EXPECT_EQ(lines({std::nullopt, std::nullopt, 4, 4}),
               "load average at the start: \n"
               "processor time used by other processes: \n"
-              "busy: no\n");
+              "busy: \n");
 }
 
 }  // namespace

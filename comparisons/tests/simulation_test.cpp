@@ -235,6 +235,48 @@ TEST(Simulation, methods_without_boxes_are_left_out) {
     EXPECT_FALSE(make_balancer(read_method("zoltan-hsfc")));
 }
 
+SceneRuns quick_scene(const std::string& methods, int repeats) {
+    Arguments arguments;
+    arguments.quick = true;
+    arguments.steps = 4;
+    arguments.every = 2;
+    arguments.repeats = repeats;
+    arguments.methods = read_methods(methods);
+    const ResultsFolder folder(
+        testing::TempDir() + "rrcb_scene_rounds.np" + std::to_string(num_ranks()), MPI_COMM_WORLD);
+    Progress progress(false);
+    return run_scene(arguments, folder, progress, MPI_COMM_WORLD);
+}
+
+TEST(Simulation, rounds_take_another_seed_each_and_keep_the_first_history) {
+    const SceneRuns scene = quick_scene("zoltan-rcb,zoltan-rib,rrcb-sampled[mesh=2]", 7);
+    ASSERT_EQ(scene.methods.size(), 3U);
+    EXPECT_EQ(scene.methods[0].method, "none");
+    EXPECT_EQ(scene.methods[2].method, "rrcb-sampled[mesh=2]");
+    for (const SimulationRounds& rounds : scene.methods) {
+        ASSERT_EQ(rounds.runs.size(), 6U) << rounds.method;
+        for (std::size_t round = 0; round < 6; ++round) {
+            const SimulationRun& run = rounds.runs[round];
+            EXPECT_EQ(run.error, "") << rounds.method;
+            EXPECT_EQ(run.history.size(), round == 0 ? 4U : 0U) << rounds.method;
+            EXPECT_EQ(run.seed.value_or(0), rounds.method.starts_with("rrcb") ? round + 1 : 0);
+        }
+    }
+    const auto seed_six = make_balancer(read_method("rrcb-sampled[mesh=2,seed=6]"));
+    const SimulationPlan plan{
+        .scene = choose_scene("slope", true, MPI_COMM_WORLD), .num_steps = 4, .every = 2};
+    TimedSimulation alone(
+        plan, seed_six, [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
+    alone.advance(4);
+    EXPECT_EQ(scene.methods[2].runs[5].mean_imbalance, alone.result().mean_imbalance);
+    EXPECT_EQ(scene.snapshots.size(), 3U);
+    EXPECT_EQ(scene.noise.size(), 2U);
+}
+
+TEST(Simulation, a_scene_is_run_as_often_as_asked_for) {
+    EXPECT_EQ(quick_scene("rrcb", 2).methods[1].runs.size(), 2U);
+}
+
 TEST(Simulation, a_balancer_that_fails_leaves_its_reason) {
     const mpm::Balancer broken = [](mpm::Positions, MPI_Comm) -> mpm::Decomposition {
         throw std::runtime_error("no balance today");

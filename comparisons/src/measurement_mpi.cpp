@@ -27,6 +27,7 @@ struct Judgement {
 /// A method under measurement; without a partitioner once it has failed.
 struct Candidate {
     std::unique_ptr<Partitioner> partitioner;
+    std::string call;                  ///< what it calls, for what is told of a failure
     std::vector<std::uint64_t> seeds;  ///< to be used in turn; none where there is no choice
     Measurement measurement;
     std::vector<Judgement> judgements;  ///< one per seed
@@ -46,6 +47,8 @@ Candidate make_candidate(const Workload& workload, const Method& method, Lists l
     Candidate candidate;
     candidate.seeds = seeds_of(method);
     candidate.measurement.method = method.label;
+    const bool has_own_call = method.lb_method == on_arrays || method.lb_method == multijagged;
+    candidate.call = has_own_call ? method.lb_method : "Zoltan_LB_Partition";
     try {
         candidate.partitioner = make_partitioner(method, workload, lists, comm);
     } catch (const Failure& failure) {
@@ -63,7 +66,8 @@ void choose_seed(const Candidate& candidate, int turn) {
 void note_code(Candidate& candidate, int code, MPI_Comm comm) {
     const bool failed = code != ZOLTAN_OK && code != ZOLTAN_WARN;
     candidate.measurement.error = first_message(
-        failed ? "Zoltan_LB_Partition returned " + std::to_string(code) : std::string(), comm);
+        failed ? candidate.call + " failed with code " + std::to_string(code) : std::string(),
+        comm);
     if (!candidate.measurement.error.empty()) candidate.partitioner.reset();
 }
 

@@ -114,9 +114,9 @@ TEST_F(MeasurementTest, coordinates_that_are_not_finite_fail_on_every_rank) {
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     if (rank == num_ranks_ - 1) workload_.coordinates[3] = std::numeric_limits<double>::quiet_NaN();
-    for (const Measurement& result : run(read_methods("rrcb,rrcb-arrays"), Lists::parts)) {
-        EXPECT_EQ(result.error, "Zoltan_LB_Partition returned -1") << result.method;
-    }
+    const std::vector<Measurement> results = run(read_methods("rrcb,rrcb-arrays"), Lists::parts);
+    EXPECT_EQ(results[0].error, "Zoltan_LB_Partition failed with code -1");
+    EXPECT_EQ(results[1].error, "rrcb::balance failed with code -1");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "zoltan_partitioner_mpi.hpp"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
 namespace comparisons {
@@ -18,8 +19,13 @@ mpm::Box box_along(const rrcb::Box& box, int dimension) {
     return result;
 }
 
-/// Zoltan's handle and the points its callbacks see, kept from one balance to the next because
-/// the look-ups of the simulation need the handle's cuts.
+rrcb::Points points_of(mpm::Positions positions) {
+    const std::array<std::span<const double>, 3> columns{positions.x, positions.y, positions.z};
+    return rrcb::column_points(std::span(columns).first(positions.z.empty() ? 2 : 3));
+}
+
+/// Zoltan's handle, kept from one balance to the next because the look-ups of the simulation need
+/// its cuts; its callbacks read the simulation's own columns.
 class ZoltanBalancer {
   public:
     explicit ZoltanBalancer(ZoltanParameters parameters) : parameters_(std::move(parameters)) {
@@ -28,13 +34,16 @@ class ZoltanBalancer {
     }
 
     mpm::Decomposition decompose(mpm::Positions positions, MPI_Comm comm) {
-        store(positions);
-        if (!partitioner_) partitioner_.emplace(parameters_, points_, comm);
-        partitioner_->number_points();
+        const rrcb::Points points = points_of(positions);
+        if (partitioner_) {
+            partitioner_->use_points(points);
+        } else {
+            partitioner_.emplace(parameters_, points, comm);
+        }
         const int code = partitioner_->partition();
         fail_together(code < 0 ? "Zoltan_LB_Partition returned " + std::to_string(code) : "", comm);
         mpm::Decomposition decomposition;
-        decomposition.boxes = boxes(comm);
+        decomposition.boxes = boxes(points.dimension, comm);
         decomposition.local_owners = partitioner_->parts();
         partitioner_->free_lists();
         return decomposition;
@@ -47,23 +56,17 @@ class ZoltanBalancer {
     }
 
   private:
-    void store(mpm::Positions positions) {
-        points_.dimension = positions.z.empty() ? 2 : 3;
-        points_.coordinates = interleaved(positions);
-    }
-
-    std::vector<mpm::Box> boxes(MPI_Comm comm) const {
+    std::vector<mpm::Box> boxes(int dimension, MPI_Comm comm) const {
         int num_parts = 0;
         MPI_Comm_size(comm, &num_parts);
         std::vector<mpm::Box> boxes;
         for (int part = 0; part < num_parts; ++part) {
-            boxes.push_back(box_along(partitioner_->box_of(part), points_.dimension));
+            boxes.push_back(box_along(partitioner_->box_of(part), dimension));
         }
         return boxes;
     }
 
     ZoltanParameters parameters_;
-    Workload points_;
     std::optional<ZoltanPartitioner> partitioner_;
 };
 
@@ -81,8 +84,8 @@ std::vector<double> interleaved(mpm::Positions positions) {
 }
 
 std::optional<mpm::Balancer> make_balancer(const Method& method) {
-    if (method.options) return rrcb_balancer(*method.options);
-    if (method.lb_method != "RCB") return std::nullopt;
+    if (method.lb_method == on_arrays) return rrcb_balancer(*method.options);
+    if (method.lb_method != "RCB" && method.lb_method != "RRCB") return std::nullopt;
     auto zoltan = std::make_shared<ZoltanBalancer>(zoltan_parameters(method, Lists::parts));
     return [zoltan](mpm::Positions positions, MPI_Comm comm) {
         mpm::Decomposition decomposition = zoltan->decompose(positions, comm);

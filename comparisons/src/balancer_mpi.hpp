@@ -14,7 +14,8 @@ std::vector<double> interleaved(mpm::Positions positions);
 
 /// A method as the simulation takes it; none when its parts are no boxes (RIB, HSFC).
 ///
-/// Zoltan's RCB runs with KEEP_CUTS=1 for its look-ups and REMAP=0, as part p goes to rank p.
+/// Through Zoltan's callbacks, lists and look-ups, but for rrcb-arrays; with KEEP_CUTS=1 for the
+/// look-ups and REMAP=0, as part p goes to rank p.
 std::optional<mpm::Balancer> make_balancer(const Method& method);
 
 }  // namespace comparisons

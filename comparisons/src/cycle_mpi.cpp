@@ -37,12 +37,12 @@ std::vector<SeededMethod> seeded_settings(bool quick) {
     const std::uint64_t num_seeds = quick ? 2 : 10;
     std::vector<SeededMethod> settings;
     for (const Method& method : cycle_settings(quick)) {
-        if (!is_random(method)) {
+        if (!varies_with_seed(method)) {
             settings.push_back({method, ""});
             continue;
         }
         for (std::uint64_t seed = 1; seed <= num_seeds; ++seed) {
-            settings.push_back({with_seed(method, seed), std::to_string(seed)});
+            settings.push_back({with_next_seed(method, seed - 1), std::to_string(seed)});
         }
     }
     return settings;

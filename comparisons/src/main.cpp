@@ -1,5 +1,6 @@
 #include "comparison_mpi.hpp"
 #include "failure.hpp"
+#include "machine_load_mpi.hpp"
 #include "replay_mpi.hpp"
 #include "run_record.hpp"
 #include "scene_mpi.hpp"
@@ -50,43 +51,72 @@ Workload make_workload(const Arguments& arguments, MPI_Comm comm) {
                           arguments.layout, comm);
 }
 
+/// How a run ended.
+struct Outcome {
+    bool succeeded = true;
+    std::vector<Noise> noise;
+};
+
 std::vector<Workload> make_workloads(const Arguments& arguments, const ResultsFolder& folder,
-                                     Progress& progress, bool& failed, MPI_Comm comm) {
+                                     Progress& progress, Outcome& outcome, MPI_Comm comm) {
     if (!arguments.cloud.empty() || !arguments.file.empty() || !arguments.replay.empty()) {
         return {make_workload(arguments, comm)};
     }
     SceneRuns scene = run_scene(arguments, folder, progress, comm);
-    failed = std::ranges::any_of(scene.runs, [](const auto& run) { return !run.error.empty(); });
+    outcome.succeeded = std::ranges::all_of(
+        scene.methods, [](const auto& rounds) { return rounds.runs.back().error.empty(); });
+    outcome.noise = std::move(scene.noise);
     return std::move(scene.snapshots);
 }
 
-/// Every method on the points asked for; true when none failed.
-bool compare_all(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
-                 MPI_Comm comm) {
-    bool failed = false;
+/// Every method on the points asked for.
+Outcome compare_all(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
+                    MPI_Comm comm) {
+    Outcome outcome;
     std::vector<Comparison> comparisons;
-    for (const Workload& workload : make_workloads(arguments, folder, progress, failed, comm)) {
+    for (const Workload& workload : make_workloads(arguments, folder, progress, outcome, comm)) {
         comparisons.push_back(compare_methods(workload, arguments, folder, progress, comm));
+        const std::optional<Noise> noise = noise_of(comparisons.back());
+        if (noise) outcome.noise.push_back(*noise);
     }
     folder.write("table.csv", [&](std::ostream& out) { write_table(out, comparisons); });
     folder.write("calls.csv", [&](std::ostream& out) { write_calls(out, comparisons); });
-    return !failed && !has_failures(comparisons);
+    folder.write("noise.csv", [&](std::ostream& out) { write_noise(out, outcome.noise); });
+    outcome.succeeded = outcome.succeeded && !has_failures(comparisons);
+    return outcome;
+}
+
+/// What ends the output, on rank 0.
+void summarize(const Arguments& arguments, const MachineUse& use, const Outcome& outcome) {
+    std::cout << '\n';
+    print_warning(std::cout, use);
+    print_noise(std::cout, outcome.noise);
+    std::cout << definitions() << "Written to " << arguments.out << '\n';
 }
 
 int compare(const Arguments& arguments, const std::string& command, MPI_Comm comm) {
     check_surroundings(arguments, comm);
+    const MachineWatch watch(comm);
     const ResultsFolder folder(arguments.out, comm);
     Progress progress(arguments.progress && rank_of(comm) == 0);
     const std::string record = run_record(arguments, command, comm);
     folder.write("run.txt", [&](std::ostream& out) { out << record; });
     if (rank_of(comm) == 0) std::cout << record;
 
-    const bool succeeded = arguments.sweep ? run_sweep(arguments, folder, progress, comm)
-                                           : compare_all(arguments, folder, progress, comm);
-    if (rank_of(comm) == 0) {
-        std::cout << '\n' << definitions() << "Written to " << arguments.out << '\n';
+    Outcome outcome;
+    if (arguments.sweep) {
+        outcome.succeeded = run_sweep(arguments, folder, progress, comm);
+    } else {
+        outcome = compare_all(arguments, folder, progress, comm);
     }
-    return succeeded ? 0 : 1;
+    const MachineUse use = watch.use();
+    folder.write("run.txt", [&](std::ostream& out) {
+        out << record;
+        write_use(out, use);
+        print_noise(out, outcome.noise);
+    });
+    if (rank_of(comm) == 0) summarize(arguments, use, outcome);
+    return outcome.succeeded ? 0 : 1;
 }
 
 int run(int argc, char** argv, MPI_Comm comm) {

@@ -2,28 +2,53 @@
 
 #include "failure_mpi.hpp"
 #include "partitioner_mpi.hpp"
+#include "statistics.hpp"
 
 #include <rrcb/quality.hpp>
 
 #include <zoltan.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <numeric>
 
 namespace comparisons {
 
 namespace {
 
+/// How well one call divides the points.
+struct Judgement {
+    double imbalance = 1;
+    double worst_unbalance_percent = 0;
+    double moved_fraction = 0;
+};
+
 /// A method under measurement; without a partitioner once it has failed.
 struct Candidate {
     std::unique_ptr<Partitioner> partitioner;
+    std::string call;                  ///< what it calls, for what is told of a failure
+    std::vector<std::uint64_t> seeds;  ///< to be used in turn; none where there is no choice
     Measurement measurement;
+    std::vector<Judgement> judgements;  ///< one per seed
+
+    int num_judged() const { return std::max(1, static_cast<int>(seeds.size())); }
 };
+
+std::vector<std::uint64_t> seeds_of(const Method& method) {
+    if (!varies_with_seed(method)) return {};
+    std::vector<std::uint64_t> seeds(num_judged_seeds);
+    std::iota(seeds.begin(), seeds.end(), method.options->seed);
+    return seeds;
+}
 
 Candidate make_candidate(const Workload& workload, const Method& method, Lists lists,
                          MPI_Comm comm) {
     Candidate candidate;
+    candidate.seeds = seeds_of(method);
     candidate.measurement.method = method.label;
+    const bool has_own_call = method.lb_method == on_arrays || method.lb_method == multijagged;
+    candidate.call = has_own_call ? method.lb_method : "Zoltan_LB_Partition";
     try {
         candidate.partitioner = make_partitioner(method, workload, lists, comm);
     } catch (const Failure& failure) {
@@ -32,10 +57,17 @@ Candidate make_candidate(const Workload& workload, const Method& method, Lists l
     return candidate;
 }
 
+void choose_seed(const Candidate& candidate, int turn) {
+    if (candidate.seeds.empty()) return;
+    candidate.partitioner->use_seed(
+        candidate.seeds[static_cast<std::size_t>(turn) % candidate.seeds.size()]);
+}
+
 void note_code(Candidate& candidate, int code, MPI_Comm comm) {
     const bool failed = code != ZOLTAN_OK && code != ZOLTAN_WARN;
     candidate.measurement.error = first_message(
-        failed ? "Zoltan_LB_Partition returned " + std::to_string(code) : std::string(), comm);
+        failed ? candidate.call + " failed with code " + std::to_string(code) : std::string(),
+        comm);
     if (!candidate.measurement.error.empty()) candidate.partitioner.reset();
 }
 
@@ -70,24 +102,77 @@ std::map<std::string, CallCount> over_all_ranks(std::map<std::string, CallCount>
     return all;
 }
 
+Judgement judge(const Workload& workload, const std::vector<rrcb::Part>& parts, MPI_Comm comm) {
+    int num_parts = 0;
+    MPI_Comm_size(comm, &num_parts);
+    const std::vector<double> weights =
+        rrcb::part_weights(workload.points(), parts, num_parts, comm);
+    return {rrcb::imbalance(weights), largest_by_size(rrcb::load_unbalance_percent(weights)),
+            rrcb::moved_fraction(workload.points(), parts, num_parts, comm)};
+}
+
+/// One call that is not timed; that of the first seed is counted.
 void count_and_judge(Candidate& candidate, const Workload& workload, MPI_Comm comm) {
     start_counting_traffic();
     const int code = candidate.partitioner->partition();
     const Traffic traffic = stop_counting_traffic();
+    const bool is_first = candidate.judgements.empty();
     Measurement& result = candidate.measurement;
-    result.calls = over_all_ranks(counted_calls(), comm);
-    result.traffic = over_all_ranks(traffic, comm);
+    if (is_first) {
+        result.calls = over_all_ranks(counted_calls(), comm);
+        result.traffic = over_all_ranks(traffic, comm);
+    }
     note_code(candidate, code, comm);
     if (!candidate.partitioner) return;
+    std::vector<rrcb::Part> parts = candidate.partitioner->parts();
+    candidate.judgements.push_back(judge(workload, parts, comm));
+    if (is_first) result.parts = std::move(parts);
+}
 
-    int num_parts = 0;
-    MPI_Comm_size(comm, &num_parts);
-    result.parts = candidate.partitioner->parts();
-    const std::vector<double> weights =
-        rrcb::part_weights(workload.points(), result.parts, num_parts, comm);
-    result.imbalance = rrcb::imbalance(weights);
-    result.worst_unbalance_percent = rrcb::worst_load_unbalance_percent(weights);
-    result.moved_fraction = rrcb::moved_fraction(workload.points(), result.parts, num_parts, comm);
+/// What the calls of all seeds come to.
+Measurement concluded(Candidate&& candidate) {
+    Measurement result = std::move(candidate.measurement);
+    std::vector<Judgement>& judgements = candidate.judgements;
+    if (!result.error.empty() || judgements.empty()) return result;
+    std::vector<double> moved;
+    for (const Judgement& judgement : judgements) {
+        result.imbalances.push_back(judgement.imbalance);
+        moved.push_back(judgement.moved_fraction);
+    }
+    result.moved_fraction = median(std::move(moved));
+    std::ranges::sort(judgements, {},
+                      [](const Judgement& j) { return std::abs(j.worst_unbalance_percent); });
+    result.worst_unbalance_percent =
+        judgements[(judgements.size() - 1) / 2].worst_unbalance_percent;
+    return result;
+}
+
+/// A first call that is not timed, then the repeats.
+void time_in_turns(std::span<Candidate> candidates, int repeats, Progress& progress,
+                   MPI_Comm comm) {
+    for (int call = 0; call < repeats + 1; ++call) {
+        for (Candidate& candidate : candidates) {
+            progress.advance();
+            if (!candidate.partitioner) continue;
+            choose_seed(candidate, std::max(0, call - 1));
+            const double elapsed = timed_call(candidate, comm);
+            if (call > 0) candidate.measurement.times_ms.push_back(elapsed);
+            if (candidate.partitioner) candidate.partitioner->free_lists();
+        }
+    }
+}
+
+void judge_all(std::span<Candidate> candidates, const Workload& workload, Progress& progress,
+               MPI_Comm comm) {
+    for (Candidate& candidate : candidates) {
+        for (int call = 0; call < candidate.num_judged(); ++call) {
+            progress.advance();
+            if (!candidate.partitioner) continue;
+            choose_seed(candidate, call);
+            count_and_judge(candidate, workload, comm);
+            if (candidate.partitioner) candidate.partitioner->free_lists();
+        }
+    }
 }
 
 }  // namespace
@@ -95,36 +180,28 @@ void count_and_judge(Candidate& candidate, const Workload& workload, MPI_Comm co
 std::vector<Measurement> measure(const Workload& workload, std::span<const Method> methods,
                                  const MeasurementPlan& plan, Progress& progress, MPI_Comm comm) {
     std::vector<Candidate> candidates;
+    int num_calls = 0;
     for (const Method& method : methods) {
         candidates.push_back(make_candidate(workload, method, plan.lists, comm));
+        num_calls += plan.repeats + 1 + candidates.back().num_judged();
     }
-    progress.start(workload.name + ": methods",
-                   static_cast<int>(methods.size()) * (plan.repeats + 2));
-    for (int call = 0; call < plan.repeats + 2; ++call) {
-        for (Candidate& candidate : candidates) {
-            progress.advance();
-            if (!candidate.partitioner) continue;
-            if (call > plan.repeats) {
-                count_and_judge(candidate, workload, comm);
-            } else {
-                const double elapsed = timed_call(candidate, comm);
-                if (call > 0) candidate.measurement.times_ms.push_back(elapsed);
-            }
-            if (candidate.partitioner) candidate.partitioner->free_lists();
-        }
-    }
+    progress.start(workload.name + ": methods", num_calls);
+    time_in_turns(candidates, plan.repeats, progress, comm);
+    judge_all(candidates, workload, progress, comm);
     std::vector<Measurement> measurements;
     for (Candidate& candidate : candidates) {
-        measurements.push_back(std::move(candidate.measurement));
+        measurements.push_back(concluded(std::move(candidate)));
     }
     return measurements;
 }
 
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    std::ranges::sort(values);
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+double largest_by_size(std::span<const double> values) {
+    double largest = 0;
+    for (const double value : values) {
+        const double size = std::abs(value);
+        if (size > std::abs(largest) || (size == std::abs(largest) && value < 0)) largest = value;
+    }
+    return largest;
 }
 
 }  // namespace comparisons

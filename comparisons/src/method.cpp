@@ -93,6 +93,11 @@ const std::vector<Entry>& entries() {
          {"mesh", "cut", "k", "fraction", "seed"}},
         {"rrcb", "RRCB", DomainKind::analytic, Refine::automatic, {"mesh", "cut", "refine", "tol"}},
         {"rrcb-exact", "RRCB", DomainKind::analytic, Refine::exact, {"mesh"}},
+        {"rrcb-arrays",
+         on_arrays,
+         DomainKind::analytic,
+         Refine::automatic,
+         {"mesh", "cut", "refine", "tol"}},
     };
     return table;
 }
@@ -139,6 +144,26 @@ void apply(Method& method, const Entry& entry, std::string_view assignment) {
         throw Failure("--methods: " + method.label + ": " + std::string(name) + " must be " +
                       std::string(key.range) + ", not '" + std::string(value) + "'");
     }
+    if (name == "seed") method.seed_given = true;
+}
+
+void add_options(ZoltanParameters& parameters, const Options& options) {
+    const char* const domains[] = {"ANALYTIC", "SAMPLED", "POINTS"};
+    parameters.emplace_back("RRCB_DOMAIN", domains[static_cast<int>(options.domain)]);
+    if (options.support_mesh > 0) {
+        parameters.emplace_back("RRCB_SUPPORT_MESH", write_number(options.support_mesh));
+    }
+    parameters.emplace_back("RRCB_CUT_RULE",
+                            options.cut_rule == CutRule::midpoint ? "MIDPOINT" : "WEIGHTED");
+    const char* const refinements[] = {"AUTO", "NONE", "TOLERANCE", "EXACT"};
+    parameters.emplace_back("RRCB_REFINE", refinements[static_cast<int>(options.refine)]);
+    if (options.imbalance_tolerance != Options{}.imbalance_tolerance) {
+        parameters.emplace_back("IMBALANCE_TOL", write_number(options.imbalance_tolerance));
+    }
+    if (options.domain != DomainKind::sampled) return;
+    parameters.emplace_back("RRCB_SIGMA_MULTIPLIER", write_number(options.sigma_multiplier));
+    parameters.emplace_back("RRCB_SAMPLE_FRACTION", write_number(options.sample_fraction));
+    parameters.emplace_back("RRCB_SEED", write_number(options.seed));
 }
 
 }  // namespace
@@ -180,6 +205,35 @@ std::vector<Method> read_methods(std::string_view text) {
     return methods;
 }
 
+std::vector<Method> default_methods() {
+    std::vector<Method> methods;
+    for (const Entry& entry : entries()) {
+        const std::string name(entry.name);
+        if (name == "rrcb-sampled") {
+            for (const char* setting : {"mesh=2,k=1.5,fraction=0.25", "mesh=4,k=2,fraction=0.125",
+                                        "mesh=6,k=2,fraction=0.125", "mesh=8,k=2,fraction=0.125"}) {
+                methods.push_back(read_method(name + '[' + setting + ']'));
+            }
+        } else if (name == "rrcb") {
+            for (const char* setting : {"[tol=1.1]", "[tol=1.05]", "", "[tol=1.001]"}) {
+                methods.push_back(read_method(name + setting));
+            }
+        } else {
+            methods.push_back(read_method(name));
+        }
+    }
+    return methods;
+}
+
+bool varies_with_seed(const Method& method) {
+    return method.options && method.options->domain == DomainKind::sampled && !method.seed_given;
+}
+
+Method with_next_seed(Method method, std::uint64_t offset) {
+    if (varies_with_seed(method)) method.options->seed += offset;
+    return method;
+}
+
 const char* lists_name(Lists lists) {
     return lists == Lists::parts ? "PARTS" : lists == Lists::exports ? "EXPORT" : "ALL";
 }
@@ -191,24 +245,8 @@ ZoltanParameters zoltan_parameters(const Method& method, Lists lists) {
     }
     ZoltanParameters parameters = {
         {"DEBUG_LEVEL", "0"}, {"LB_METHOD", method.lb_method}, {"RETURN_LISTS", lists_name(lists)}};
-    if (!method.options) return parameters;
-    const Options& options = *method.options;
-    const char* const domains[] = {"ANALYTIC", "SAMPLED", "POINTS"};
-    parameters.emplace_back("RRCB_DOMAIN", domains[static_cast<int>(options.domain)]);
-    if (options.support_mesh > 0) {
-        parameters.emplace_back("RRCB_SUPPORT_MESH", write_number(options.support_mesh));
-    }
-    parameters.emplace_back("RRCB_CUT_RULE",
-                            options.cut_rule == CutRule::midpoint ? "MIDPOINT" : "WEIGHTED");
-    const char* const refinements[] = {"AUTO", "NONE", "TOLERANCE", "EXACT"};
-    parameters.emplace_back("RRCB_REFINE", refinements[static_cast<int>(options.refine)]);
-    if (options.imbalance_tolerance != Options{}.imbalance_tolerance) {
-        parameters.emplace_back("IMBALANCE_TOL", write_number(options.imbalance_tolerance));
-    }
-    if (options.domain != DomainKind::sampled) return parameters;
-    parameters.emplace_back("RRCB_SIGMA_MULTIPLIER", write_number(options.sigma_multiplier));
-    parameters.emplace_back("RRCB_SAMPLE_FRACTION", write_number(options.sample_fraction));
-    parameters.emplace_back("RRCB_SEED", write_number(options.seed));
+    if (method.lb_method == on_arrays) parameters = {{"function", on_arrays}};
+    if (method.options) add_options(parameters, *method.options);
     return parameters;
 }
 

@@ -2,6 +2,7 @@
 
 #include <rrcb/options.hpp>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,12 +16,16 @@ struct Method {
     std::string label;                     ///< as the user wrote it, brackets and all
     std::string lb_method;                 ///< Zoltan's LB_METHOD
     std::optional<rrcb::Options> options;  ///< of our own methods; none for Zoltan's
+    bool seed_given = false;               ///< the user chose the seed of its points
 };
 
 /// `lb_method` of Zoltan2's multijagged, which is none of Zoltan's, and the imbalance asked of it:
 /// that of rrcb.
 inline constexpr const char* multijagged = "multijagged";
 inline constexpr double multijagged_tolerance = 1.01;
+
+/// `lb_method` of rrcb::balance on the driver's own arrays: no callbacks, no lists of Zoltan's.
+inline constexpr const char* on_arrays = "rrcb::balance";
 
 /// Which lists are asked of Zoltan_LB_Partition (RETURN_LISTS).
 enum class Lists { parts, exports, all };
@@ -37,13 +42,25 @@ std::vector<Method> read_methods(std::string_view text);
 /// Names of all methods, as in "a, b, c".
 std::string method_names();
 
+/// What is compared unless the user says otherwise: every method, of the paper's the four settings
+/// it names best, of rrcb several tolerances.
+std::vector<Method> default_methods();
+
+/// Whether its points are pseudo-random and their seed is left open, so that it is to be judged
+/// over several.
+bool varies_with_seed(const Method& method);
+
+/// The method with a seed that many further; unchanged where it does not vary.
+Method with_next_seed(Method method, std::uint64_t offset);
+
 /// Value of RETURN_LISTS.
 const char* lists_name(Lists lists);
 
 /// Parameters of Zoltan: name and value.
 using ZoltanParameters = std::vector<std::pair<std::string, std::string>>;
 
-/// What makes Zoltan_LB_Partition this method. Zoltan's own defaults but for DEBUG_LEVEL 0.
+/// What makes Zoltan_LB_Partition this method, or tells what it is where that is not called.
+/// Zoltan's own defaults but for DEBUG_LEVEL 0.
 ZoltanParameters zoltan_parameters(const Method& method, Lists lists);
 
 }  // namespace comparisons

@@ -159,7 +159,7 @@ bool Study::run_round(const std::vector<Method>& settings, int repeat) {
     }
     for (const Method& method : settings) {
         if (!is_missing(repeat, method.label, sweep_.num_ranks)) continue;
-        const Method seeded = with_seed(method, static_cast<std::uint64_t>(repeat));
+        const Method seeded = with_next_seed(method, static_cast<unsigned>(repeat) - 1);
         const SimulationRun run = simulate(method.label, make_balancer(seeded), sweep_.comm);
         succeeded = add(repeat, run, sweep_.num_ranks) && succeeded;
     }

@@ -2,6 +2,7 @@
 
 #include <rrcb/points.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace comparisons {
@@ -23,6 +24,10 @@ class Partitioner {
 
     /// Frees the result; nothing when there is none. Not collective.
     virtual void free_lists() = 0;
+
+    /// Seed of the next partitions' pseudo-random points; nothing to methods without any.
+    /// Not collective, but the same on every rank.
+    virtual void use_seed(std::uint64_t) {}
 };
 
 }  // namespace comparisons

@@ -2,6 +2,11 @@
 
 #include "zoltan_partitioner_mpi.hpp"
 
+#include <rrcb/balance.hpp>
+#include <rrcb/error.hpp>
+
+#include <optional>
+
 #ifdef RRCB_HAS_ZOLTAN2
 #include "multijagged_mpi.hpp"
 
@@ -10,9 +15,35 @@
 
 namespace comparisons {
 
-#ifdef RRCB_HAS_ZOLTAN2
 namespace {
 
+/// rrcb::balance as a program calls it that has its points in arrays.
+class ArraysPartitioner : public Partitioner {
+  public:
+    ArraysPartitioner(const rrcb::Options& options, const Workload& workload, MPI_Comm comm)
+        : options_(options), workload_(workload), comm_(comm) {}
+
+    int partition() override {
+        try {
+            balance_ = rrcb::balance(workload_.points(), options_, comm_);
+        } catch (const rrcb::Error&) {
+            return ZOLTAN_FATAL;
+        }
+        return ZOLTAN_OK;
+    }
+
+    std::vector<rrcb::Part> parts() const override { return balance_->parts; }
+
+    void free_lists() override { balance_.reset(); }
+
+  private:
+    rrcb::Options options_;
+    const Workload& workload_;
+    MPI_Comm comm_;
+    std::optional<rrcb::Balance> balance_;
+};
+
+#ifdef RRCB_HAS_ZOLTAN2
 class MultijaggedPartitioner : public Partitioner {
   public:
     MultijaggedPartitioner(const Workload& workload, MPI_Comm comm)
@@ -36,12 +67,15 @@ class MultijaggedPartitioner : public Partitioner {
   private:
     Multijagged multijagged_;
 };
+#endif
 
 }  // namespace
-#endif
 
 std::unique_ptr<Partitioner> make_partitioner(const Method& method, const Workload& workload,
                                               Lists lists, MPI_Comm comm) {
+    if (method.lb_method == on_arrays) {
+        return std::make_unique<ArraysPartitioner>(*method.options, workload, comm);
+    }
 #ifdef RRCB_HAS_ZOLTAN2
     if (method.lb_method == multijagged) {
         return std::make_unique<MultijaggedPartitioner>(workload, comm);

@@ -1,6 +1,7 @@
 #include "run_record.hpp"
 
 #include "git_hash.hpp"
+#include "measurement_mpi.hpp"
 #include "text.hpp"
 
 #include <rrcb/version.hpp>
@@ -39,14 +40,19 @@ std::string run_record(const Arguments& arguments, const std::string& command, M
         for (const auto& [name, value] : zoltan_parameters(method, arguments.lists)) {
             text << ' ' << name << '=' << value;
         }
+        if (varies_with_seed(method)) {
+            text << " and the next " << num_judged_seeds - 1 << " seeds";
+        }
         text << '\n';
     }
     return text.str();
 }
 
 std::string definitions() {
-    return "imbalance: heaviest part / mean part. Lu: (ideal - actual) / ideal of a part.\n"
+    return "imbalance: heaviest part / mean part, the median where 10 seeds were tried.\n"
+           "Lu: (ideal - actual) / ideal of a part.\n"
            "time: slowest rank, median of the repeats, first call left out.\n"
+           "95 %: where the true median lies; of 6 repeats or more.\n"
            "times as fast: zoltan-rcb's time / this method's.\n"
            "messages, bytes: of one call over all ranks; a message counts once, at its sender;\n"
            "a collective counts 1 a rank, with the bytes the rank hands in and gets out.\n"

@@ -5,6 +5,7 @@
 #include "scene_choice_mpi.hpp"
 #include "simulation_table.hpp"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -12,17 +13,19 @@ namespace comparisons {
 
 namespace {
 
-/// A simulation to run: a label and the balancer, none for the run without.
+/// Rounds of simulations at most: the fewest whose smallest and largest value make an interval.
+constexpr int max_rounds = 6;
+
+/// What is simulated in every round; without a method nothing is rebalanced.
 struct Contender {
     std::string label;
-    std::optional<mpm::Balancer> balancer;
+    std::optional<Method> method;
 };
 
 std::vector<Contender> contenders(std::span<const Method> methods) {
     std::vector<Contender> all = {{"none", std::nullopt}};
     for (const Method& method : methods) {
-        std::optional<mpm::Balancer> balancer = make_balancer(method);
-        if (balancer) all.push_back({method.label, std::move(balancer)});
+        if (make_balancer(method)) all.push_back({method.label, method});
     }
     return all;
 }
@@ -60,20 +63,92 @@ void take_snapshots(std::vector<Workload>& snapshots, const SimulationPlan& plan
 void run_in_turns(std::span<const std::unique_ptr<TimedSimulation>> simulations, int num_steps) {
     constexpr int turn = 50;
     for (int done = 0; done < num_steps; done += turn) {
-        for (const auto& simulation : simulations) simulation->advance(turn);
+        for (const auto& simulation : simulations) {
+            if (simulation) simulation->advance(turn);
+        }
     }
 }
 
-void print_and_write(const SimulationPlan& plan, std::span<const SimulationRun> runs,
+/// The simulations of all contenders, round by round; those of one round at a time are kept.
+class SceneRounds {
+  public:
+    SceneRounds(const SimulationPlan& plan, std::vector<Contender> all, Progress& progress,
+                MPI_Comm comm)
+        : plan_(plan), all_(std::move(all)), progress_(progress), comm_(comm) {
+        for (const Contender& contender : all_) rounds_.push_back({contender.label, {}});
+    }
+
+    /// One simulation of each contender that has not failed yet. Collective.
+    void run(int round);
+
+    std::vector<SimulationRounds> rounds() && { return std::move(rounds_); }
+    std::vector<Workload> snapshots() && { return std::move(snapshots_); }
+
+  private:
+    bool has_failed(std::size_t contender) const {
+        const std::vector<SimulationRun>& runs = rounds_[contender].runs;
+        return !runs.empty() && !runs.back().error.empty();
+    }
+    std::unique_ptr<TimedSimulation> start(std::size_t contender, int round);
+    void take_result(std::size_t contender, int round, SimulationRun run);
+
+    const SimulationPlan& plan_;
+    std::vector<Contender> all_;
+    Progress& progress_;
+    MPI_Comm comm_;
+    std::vector<SimulationRounds> rounds_;
+    std::vector<Workload> snapshots_;
+};
+
+void SceneRounds::run(int round) {
+    std::vector<std::unique_ptr<TimedSimulation>> simulations;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+        simulations.push_back(has_failed(i) ? nullptr : start(i, round));
+    }
+    run_in_turns(simulations, plan_.num_steps);
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+        if (simulations[i]) take_result(i, round, simulations[i]->result());
+    }
+}
+
+std::unique_ptr<TimedSimulation> SceneRounds::start(std::size_t contender, int round) {
+    const bool shows_the_scene = contender == 0 && round == 0;
+    const auto observe = [this, shows_the_scene](int steps_done,
+                                                 const mpm::Simulation& simulation) {
+        if (steps_done > 0) progress_.advance();
+        if (shows_the_scene) take_snapshots(snapshots_, plan_, steps_done, simulation);
+    };
+    const std::optional<Method>& method = all_[contender].method;
+    std::optional<mpm::Balancer> balancer;
+    if (method) balancer = make_balancer(with_next_seed(*method, static_cast<unsigned>(round)));
+    return std::make_unique<TimedSimulation>(plan_, std::move(balancer), observe, comm_);
+}
+
+void SceneRounds::take_result(std::size_t contender, int round, SimulationRun run) {
+    const std::optional<Method>& method = all_[contender].method;
+    run.method = all_[contender].label;
+    if (method && varies_with_seed(*method)) {
+        run.seed = method->options->seed + static_cast<unsigned>(round);
+    }
+    if (round > 0) run.history.clear();
+    rounds_[contender].runs.push_back(std::move(run));
+}
+
+void print_and_write(const SimulationPlan& plan, const SceneRuns& scene,
                      const ResultsFolder& folder, MPI_Comm comm) {
     int rank = 0;
     int size = 0;
     MPI_Comm_rank(comm, &rank);
     MPI_Comm_size(comm, &size);
-    if (rank == 0) print_simulations(std::cout, plan, size, runs);
+    const std::vector<SimulationSummary> summaries = summarize_all(scene.methods);
+    std::vector<SimulationRun> first_round;
+    for (const SimulationRounds& rounds : scene.methods) first_round.push_back(rounds.runs.front());
+    if (rank == 0) print_simulations(std::cout, plan, size, summaries);
     folder.write("simulation.csv",
-                 [&](std::ostream& out) { write_simulations(out, plan, size, runs); });
-    folder.write("history.csv", [&](std::ostream& out) { write_history(out, runs); });
+                 [&](std::ostream& out) { write_simulations(out, plan, size, summaries); });
+    folder.write("simulation_runs.csv",
+                 [&](std::ostream& out) { write_rounds(out, plan, size, scene.methods); });
+    folder.write("history.csv", [&](std::ostream& out) { write_history(out, first_round); });
 }
 
 }  // namespace
@@ -111,29 +186,20 @@ std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& prog
 
 SceneRuns run_scene(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
                     MPI_Comm comm) {
-    const std::vector<Contender> all = contenders(arguments.methods);
+    std::vector<Contender> all = contenders(arguments.methods);
     const SimulationPlan plan = plan_scene(arguments, all.size(), comm);
+    all.push_back(Contender(all.front()));
+    const int num_rounds = std::min(arguments.repeats, max_rounds);
+    progress.start("simulations", num_rounds * static_cast<int>(all.size()) * plan.num_steps);
+    SceneRounds rounds(plan, std::move(all), progress, comm);
+    for (int round = 0; round < num_rounds; ++round) rounds.run(round);
     SceneRuns scene;
-    progress.start("simulations", static_cast<int>(all.size()) * plan.num_steps);
-    const auto observe = [&](int steps_done, const mpm::Simulation&) {
-        if (steps_done > 0) progress.advance();
-    };
-    const auto observe_slabs = [&](int steps_done, const mpm::Simulation& simulation) {
-        observe(steps_done, simulation);
-        take_snapshots(scene.snapshots, plan, steps_done, simulation);
-    };
-    std::vector<std::unique_ptr<TimedSimulation>> simulations;
-    for (const Contender& contender : all) {
-        const Observer observer = contender.balancer ? Observer(observe) : Observer(observe_slabs);
-        simulations.push_back(
-            std::make_unique<TimedSimulation>(plan, contender.balancer, observer, comm));
-    }
-    run_in_turns(simulations, plan.num_steps);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        scene.runs.push_back(simulations[i]->result());
-        scene.runs.back().method = all[i].label;
-    }
-    print_and_write(plan, scene.runs, folder, comm);
+    scene.snapshots = std::move(rounds).snapshots();
+    scene.methods = std::move(rounds).rounds();
+    const SimulationRounds again = std::move(scene.methods.back());
+    scene.methods.pop_back();
+    scene.noise = noise_of(plan.scene.name, scene.methods.front(), again);
+    print_and_write(plan, scene, folder, comm);
     return scene;
 }
 

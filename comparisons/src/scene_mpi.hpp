@@ -2,7 +2,7 @@
 
 #include "arguments.hpp"
 #include "results_folder_mpi.hpp"
-#include "simulation_mpi.hpp"
+#include "simulation_rounds.hpp"
 #include "workload.hpp"
 
 #include <mpi.h>
@@ -15,7 +15,8 @@ namespace comparisons {
 
 /// A scene, run whole under every method.
 struct SceneRuns {
-    std::vector<SimulationRun> runs;  ///< the first without rebalancing
+    std::vector<SimulationRounds> methods;  ///< the first without rebalancing
+    std::vector<Noise> noise;               ///< of that one, run twice in every round
     /// Points at the start, middle and end of the run without rebalancing, as they lie on its
     /// ranks: a distribution that favours no method.
     std::vector<Workload> snapshots;
@@ -35,8 +36,10 @@ std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& prog
 /// Names of the snapshots of a scene, in their order.
 std::vector<std::string> snapshot_names(const mpm::Scene& scene);
 
-/// Runs the scene under every method that cuts along the axes, prints and writes their times and
-/// loads. Collective over `comm`.
+/// Runs the scene under every method that cuts along the axes, several rounds of all of them,
+/// prints and writes their times and loads. Collective over `comm`.
+///
+/// Methods that vary with the seed take another one each round.
 SceneRuns run_scene(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
                     MPI_Comm comm);
 

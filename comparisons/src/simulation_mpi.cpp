@@ -1,7 +1,5 @@
 #include "simulation_mpi.hpp"
 
-#include <rrcb/quality.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,7 +25,7 @@ LoadRecord record_load(const mpm::Simulation& simulation, MPI_Comm comm) {
     int size = 0;
     MPI_Comm_size(comm, &size);
     LoadRecord record{simulation.step_count(), simulation.time(),
-                      std::vector<double>(static_cast<std::size_t>(size))};
+                      std::vector<double>(static_cast<std::size_t>(size)), 0};
     const auto count = static_cast<double>(simulation.positions().x.size());
     MPI_Allgather(&count, 1, MPI_DOUBLE, record.points.data(), 1, MPI_DOUBLE, comm);
     return record;
@@ -69,17 +67,15 @@ void note_state(SimulationRun& run, const mpm::Simulation& simulation, MPI_Comm 
     run.wall_s = run.balance_s + run.step_s;
 }
 
-void note_imbalance(SimulationRun& run) {
-    double sum = 0;
-    for (const LoadRecord& record : run.history) {
-        const double imbalance = rrcb::imbalance(record.points);
-        sum += imbalance;
-        run.worst_imbalance = std::max(run.worst_imbalance, imbalance);
-    }
-    run.mean_imbalance = sum / static_cast<double>(run.history.size());
+}  // namespace
+
+double steps_path_s(const SimulationRun& run) {
+    return run.step_cost.path_s + run.step_cost.network_s;
 }
 
-}  // namespace
+double critical_path_s(const SimulationRun& run) {
+    return steps_path_s(run) + run.balance_cost.path_s + run.balance_cost.network_s;
+}
 
 TimedSimulation::TimedSimulation(const SimulationPlan& plan, std::optional<mpm::Balancer> balancer,
                                  Observer observe, MPI_Comm comm)
@@ -99,30 +95,43 @@ void TimedSimulation::advance(int num_steps) {
 }
 
 void TimedSimulation::advance_one() {
-    if (balancer_ && steps_done_ % plan_.every == 0) {
-        run_.balance_s += timed([&] { simulation_->rebalance(*balancer_); }, balances_, comm_);
-    }
+    if (balancer_ && steps_done_ % plan_.every == 0) rebalance();
     if (steps_done_ % plan_.record_every == 0) {
         run_.history.push_back(record_load(*simulation_, comm_));
+        run_.history.back().moved_fraction = moved_lately_;
     }
     loads_.push_back(static_cast<double>(simulation_->positions().x.size()));
     run_.step_s += timed([&] { simulation_->step(); }, steps_, comm_);
     observe_(++steps_done_, *simulation_);
 }
 
-double TimedSimulation::path_points() const {
+void TimedSimulation::rebalance() {
+    mpm::RebalanceReport report;
+    run_.balance_s += timed([&] { report = simulation_->rebalance(*balancer_); }, balances_, comm_);
+    const auto num_points = static_cast<double>(std::max<std::int64_t>(1, run_.num_points));
+    moved_lately_ = static_cast<double>(report.moved_points) / num_points;
+    run_.moved_fraction += (moved_lately_ - run_.moved_fraction) / ++run_.rebalances;
+}
+
+/// No point is lost or added, so the mean load is the same in every step.
+void TimedSimulation::note_loads(SimulationRun& run) const {
+    int num_parts = 0;
+    MPI_Comm_size(comm_, &num_parts);
     std::vector<double> most = loads_;
     MPI_Allreduce(MPI_IN_PLACE, most.data(), static_cast<int>(most.size()), MPI_DOUBLE, MPI_MAX,
                   comm_);
-    return std::accumulate(most.begin(), most.end(), 0.0);
+    run.path_points = std::accumulate(most.begin(), most.end(), 0.0);
+    if (run.path_points == 0) return;
+    const double mean = static_cast<double>(run.num_points) / num_parts;
+    run.mean_imbalance = run.path_points / static_cast<double>(most.size()) / mean;
+    run.worst_imbalance = *std::ranges::max_element(most) / mean;
 }
 
 SimulationRun TimedSimulation::result() const {
     SimulationRun run = run_;
     unless_failed(run, [&] {
         note_state(run, *simulation_, comm_);
-        note_imbalance(run);
-        run.path_points = path_points();
+        note_loads(run);
         run.step_cost = steps_.cost(comm_);
         run.balance_cost = balances_.cost(comm_);
     });

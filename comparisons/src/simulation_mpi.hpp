@@ -27,18 +27,22 @@ struct LoadRecord {
     std::int64_t step = 0;
     double time = 0;             ///< s
     std::vector<double> points;  ///< per part
+    double moved_fraction = 0;   ///< of the points, by the latest rebalance; 0 before the first
 };
 
 /// What a whole simulation under one method cost; the same on every rank.
 struct SimulationRun {
     std::string method;
-    std::string error;  ///< empty unless the simulation failed
+    std::string error;                  ///< empty unless the simulation failed
+    std::optional<std::uint64_t> seed;  ///< of the method's points, where it varies with it
     std::int64_t num_points = 0;
-    double wall_s = 0;     ///< balance_s + step_s; records are not timed
-    double balance_s = 0;  ///< rebalances with the migration of the points, slowest rank
-    double step_s = 0;     ///< steps, slowest rank
-    double mean_imbalance = 1;
-    double worst_imbalance = 1;
+    double wall_s = 0;           ///< balance_s + step_s; records are not timed
+    double balance_s = 0;        ///< rebalances with the migration of the points, slowest rank
+    double step_s = 0;           ///< steps, slowest rank
+    double mean_imbalance = 1;   ///< over all steps, each after the rebalance it begins with
+    double worst_imbalance = 1;  ///< of the same
+    int rebalances = 0;
+    double moved_fraction = 0;      ///< of the points that change owner, mean over the rebalances
     std::optional<double> front_m;  ///< largest x of a point that has moved a metre, at the end
     double moved_m = 0;             ///< the farthest that a point is from its start, at the end
     double mass_kg = 0;             ///< at the end; in 2-D per metre of depth
@@ -47,6 +51,13 @@ struct SimulationRun {
     PathCost balance_cost;
     std::vector<LoadRecord> history;
 };
+
+/// Seconds of the run with a core for every rank: the slowest rank of each step and rebalance, and
+/// the network.
+double critical_path_s(const SimulationRun& run);
+
+/// The same of the steps alone.
+double steps_path_s(const SimulationRun& run);
 
 /// Called before the first step and after every step.
 using Observer = std::function<void(int steps_done, const mpm::Simulation&)>;
@@ -69,7 +80,8 @@ class TimedSimulation {
 
   private:
     void advance_one();
-    double path_points() const;
+    void rebalance();
+    void note_loads(SimulationRun& run) const;
 
     const SimulationPlan& plan_;
     std::optional<mpm::Balancer> balancer_;
@@ -80,6 +92,7 @@ class TimedSimulation {
     PhaseLog steps_;
     PhaseLog balances_;
     std::vector<double> loads_;  ///< points on this rank in each step
+    double moved_lately_ = 0;    ///< share of the points that the latest rebalance moved
     int steps_done_ = 0;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simulation_mpi.hpp"
+#include "simulation_rounds.hpp"
 
 #include <cstdint>
 #include <ostream>
@@ -16,19 +16,23 @@ std::string simulation_key(const SimulationPlan& plan, int num_ranks, std::int64
 /// Names of the columns of simulation.csv.
 std::string simulation_header();
 
-/// The row of one simulation, in the columns of simulation_header.
+/// The row of a simulation run once, in the columns of simulation_header.
 void write_simulation(std::ostream& out, const SimulationPlan& plan, int num_ranks,
                       const SimulationRun& run);
 
-/// simulation.csv: one row per simulation, columns as README.md describes them.
+/// simulation.csv: one row per method, columns as README.md describes them.
 void write_simulations(std::ostream& out, const SimulationPlan& plan, int num_ranks,
-                       std::span<const SimulationRun> runs);
+                       std::span<const SimulationSummary> summaries);
+
+/// simulation_runs.csv: one row per method and round.
+void write_rounds(std::ostream& out, const SimulationPlan& plan, int num_ranks,
+                  std::span<const SimulationRounds> methods);
 
 /// history.csv: the load of every part at the recorded steps.
 void write_history(std::ostream& out, std::span<const SimulationRun> runs);
 
-/// The simulations for people; the first run is what the others are compared with.
+/// The simulations for people; the first is what the others are compared with.
 void print_simulations(std::ostream& out, const SimulationPlan& plan, int num_ranks,
-                       std::span<const SimulationRun> runs);
+                       std::span<const SimulationSummary> summaries);
 
 }  // namespace comparisons

@@ -48,6 +48,7 @@ std::vector<Method> cost_settings() {
         settings.push_back(std::move(method));
     }
     add_rrcb(settings);
+    settings.push_back(read_method("rrcb-arrays"));
     return settings;
 }
 
@@ -97,15 +98,6 @@ std::vector<Method> cycle_settings(bool quick) {
         settings.push_back(std::move(method));
     }
     return settings;
-}
-
-bool is_random(const Method& method) {
-    return method.options && method.options->domain == rrcb::DomainKind::sampled;
-}
-
-Method with_seed(Method method, std::uint64_t seed) {
-    if (is_random(method)) method.options->seed = seed;
-    return method;
 }
 
 }  // namespace comparisons

@@ -33,10 +33,4 @@ std::vector<Method> repeated_settings(bool quick);
 /// alike (k = sqrt(3)), smaller and larger, the winning settings, and methods to judge them by.
 std::vector<Method> cycle_settings(bool quick);
 
-/// Whether the method draws pseudo-random points.
-bool is_random(const Method& method);
-
-/// The same method with another seed, where it has one.
-Method with_seed(Method method, std::uint64_t seed);
-
 }  // namespace comparisons

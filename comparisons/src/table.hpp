@@ -1,7 +1,9 @@
 #pragma once
 
 #include "measurement_mpi.hpp"
+#include "noise.hpp"
 
+#include <optional>
 #include <ostream>
 #include <span>
 #include <string>
@@ -18,10 +20,14 @@ struct Comparison {
     int num_ranks = 1;
     MeasurementPlan plan;
     std::vector<Measurement> measurements;
+    std::vector<double> second_times_ms = {};  ///< of zoltan-rcb, measured once more in every turn
 };
 
 /// True when some method of some comparison failed.
 bool has_failures(std::span<const Comparison> comparisons);
+
+/// zoltan-rcb beside itself; none where it was not measured twice.
+std::optional<Noise> noise_of(const Comparison& comparison);
 
 /// The fields a row of table.csv starts with, `method` to `repeats`: what was measured.
 std::string row_key(const Comparison& comparison, const std::string& method);

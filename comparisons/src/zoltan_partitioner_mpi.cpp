@@ -1,6 +1,7 @@
 #include "zoltan_partitioner_mpi.hpp"
 
 #include "failure.hpp"
+#include "text.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -12,17 +13,16 @@ namespace {
 
 int num_objects(void* data, int* code) {
     *code = ZOLTAN_OK;
-    return static_cast<int>(static_cast<const NumberedPoints*>(data)->workload.points().count);
+    return static_cast<int>(static_cast<const NumberedPoints*>(data)->points.count);
 }
 
 void object_list(void* data, int, int, ZOLTAN_ID_PTR global_ids, ZOLTAN_ID_PTR local_ids,
                  int weight_dimension, float* weights, int* code) {
-    const auto& [workload, first_id] = *static_cast<const NumberedPoints*>(data);
-    const rrcb::LocalIndex count = workload.points().count;
-    std::iota(global_ids, global_ids + count, first_id);
-    std::iota(local_ids, local_ids + count, ZOLTAN_ID_TYPE{0});
+    const auto& [points, first_id] = *static_cast<const NumberedPoints*>(data);
+    std::iota(global_ids, global_ids + points.count, first_id);
+    std::iota(local_ids, local_ids + points.count, ZOLTAN_ID_TYPE{0});
     if (weight_dimension > 0) {
-        std::ranges::transform(workload.weights, weights,
+        std::ranges::transform(points.weights, weights,
                                [](double weight) { return static_cast<float>(weight); });
     }
     *code = ZOLTAN_OK;
@@ -30,15 +30,18 @@ void object_list(void* data, int, int, ZOLTAN_ID_PTR global_ids, ZOLTAN_ID_PTR l
 
 int dimension(void* data, int* code) {
     *code = ZOLTAN_OK;
-    return static_cast<const NumberedPoints*>(data)->workload.dimension;
+    return static_cast<const NumberedPoints*>(data)->points.dimension;
 }
 
 void coordinates(void* data, int, int, int count, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local_ids,
                  int num_axes, double* result, int* code) {
-    const double* from = static_cast<const NumberedPoints*>(data)->workload.coordinates.data();
+    const rrcb::Points& points = static_cast<const NumberedPoints*>(data)->points;
     const auto axes = static_cast<std::size_t>(num_axes);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-        std::copy_n(from + local_ids[i] * axes, axes, result + i * axes);
+    for (std::size_t a = 0; a < axes; ++a) {
+        const double* from = points.axes[a].data();
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+            result[i * axes + a] = from[local_ids[i] * points.stride];
+        }
     }
     *code = ZOLTAN_OK;
 }
@@ -47,19 +50,27 @@ void coordinates(void* data, int, int, int count, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR l
 
 ZoltanPartitioner::ZoltanPartitioner(const ZoltanParameters& parameters, const Workload& workload,
                                      MPI_Comm comm)
-    : comm_(comm), points_{workload, 0}, zoltan_(Zoltan_Create(comm)) {
+    : ZoltanPartitioner(parameters, workload.points(), workload.weighted, comm) {}
+
+ZoltanPartitioner::ZoltanPartitioner(const ZoltanParameters& parameters, const rrcb::Points& points,
+                                     MPI_Comm comm)
+    : ZoltanPartitioner(parameters, points, false, comm) {}
+
+ZoltanPartitioner::ZoltanPartitioner(const ZoltanParameters& parameters, const rrcb::Points& points,
+                                     bool are_weighted, MPI_Comm comm)
+    : comm_(comm), zoltan_(Zoltan_Create(comm)) {
     if (zoltan_ == nullptr) throw Failure("Zoltan_Create failed: not enough memory");
     for (const auto& [name, value] : parameters) {
         if (Zoltan_Set_Param(zoltan_, name.c_str(), value.c_str()) == ZOLTAN_OK) continue;
         Zoltan_Destroy(&zoltan_);
         throw Failure("Zoltan refuses the parameter " + name + "=" + value);
     }
-    if (workload.weighted) Zoltan_Set_Param(zoltan_, "OBJ_WEIGHT_DIM", "1");
+    if (are_weighted) Zoltan_Set_Param(zoltan_, "OBJ_WEIGHT_DIM", "1");
     Zoltan_Set_Num_Obj_Fn(zoltan_, num_objects, &points_);
     Zoltan_Set_Obj_List_Fn(zoltan_, object_list, &points_);
     Zoltan_Set_Num_Geom_Fn(zoltan_, dimension, &points_);
     Zoltan_Set_Geom_Multi_Fn(zoltan_, coordinates, &points_);
-    number_points();
+    use_points(points);
 }
 
 ZoltanPartitioner::~ZoltanPartitioner() {
@@ -67,11 +78,11 @@ ZoltanPartitioner::~ZoltanPartitioner() {
     Zoltan_Destroy(&zoltan_);
 }
 
-void ZoltanPartitioner::number_points() {
-    const auto count = static_cast<ZOLTAN_ID_TYPE>(points_.workload.points().count);
+void ZoltanPartitioner::use_points(const rrcb::Points& points) {
+    const auto count = static_cast<ZOLTAN_ID_TYPE>(points.count);
     ZOLTAN_ID_TYPE end = count;
     MPI_Scan(MPI_IN_PLACE, &end, 1, ZOLTAN_ID_MPI_TYPE, MPI_SUM, comm_);
-    points_.first_id = end - count;
+    points_ = {points, end - count};
 }
 
 int ZoltanPartitioner::partition() {
@@ -87,7 +98,7 @@ int ZoltanPartitioner::partition() {
 std::vector<rrcb::Part> ZoltanPartitioner::parts() const {
     int rank = 0;
     MPI_Comm_rank(comm_, &rank);
-    std::vector<rrcb::Part> parts(points_.workload.points().count, rank);
+    std::vector<rrcb::Part> parts(points_.points.count, rank);
     for (int i = 0; i < exports_.count; ++i) parts[exports_.local_ids[i]] = exports_.parts[i];
     return parts;
 }
@@ -97,6 +108,10 @@ void ZoltanPartitioner::free_lists() {
         Zoltan_LB_Free_Part(&lists->global_ids, &lists->local_ids, &lists->ranks, &lists->parts);
         lists->count = -1;
     }
+}
+
+void ZoltanPartitioner::use_seed(std::uint64_t seed) {
+    Zoltan_Set_Param(zoltan_, "RRCB_SEED", write_number(seed).c_str());
 }
 
 rrcb::Part ZoltanPartitioner::part_of(const rrcb::Vector& position) const {

@@ -48,6 +48,13 @@ TEST(Arguments, take_a_scene_by_its_name_or_file) {
     EXPECT_EQ(read({"--scene=my/own.xml"}).scene, "my/own.xml");
 }
 
+TEST(Arguments, compare_settings_unless_methods_are_named) {
+    EXPECT_EQ(read({"--cloud=slope"}).methods.size(), default_methods().size());
+    EXPECT_EQ(read({"--quick"}).methods.size(), default_methods().size());
+    EXPECT_EQ(read({"--sweep", "--quick"}).methods.size(), read_methods(method_names()).size());
+    EXPECT_EQ(read({"--methods=rrcb-arrays[tol=1.1]"}).methods.size(), 1U);
+}
+
 TEST(Arguments, narrow_a_sweep) {
     const Arguments arguments =
         read({"--sweep", "--only=clouds, sources", "--cloud=slope", "--dim=2", "--layout=sorted"});

@@ -49,6 +49,49 @@ TEST(Method, leaves_zoltan_at_its_defaults) {
     EXPECT_EQ(zoltan_parameters(read_method("zoltan-hsfc"), Lists::all), expected);
 }
 
+TEST(Method, on_arrays_is_told_without_what_zoltan_takes) {
+    const ZoltanParameters expected = {{"function", "rrcb::balance"},
+                                       {"RRCB_DOMAIN", "ANALYTIC"},
+                                       {"RRCB_SUPPORT_MESH", "3"},
+                                       {"RRCB_CUT_RULE", "WEIGHTED"},
+                                       {"RRCB_REFINE", "AUTO"}};
+    EXPECT_EQ(zoltan_parameters(read_method("rrcb-arrays[mesh=3]"), Lists::all), expected);
+}
+
+TEST(Method, compares_every_method_in_its_best_settings_by_default) {
+    std::vector<std::string> labels;
+    for (const Method& method : default_methods()) {
+        if (method.label != "zoltan2-mj") labels.push_back(method.label);
+    }
+    const std::vector<std::string> expected = {"zoltan-rcb",
+                                               "zoltan-rib",
+                                               "zoltan-hsfc",
+                                               "root-rcb",
+                                               "rrcb-sampled[mesh=2,k=1.5,fraction=0.25]",
+                                               "rrcb-sampled[mesh=4,k=2,fraction=0.125]",
+                                               "rrcb-sampled[mesh=6,k=2,fraction=0.125]",
+                                               "rrcb-sampled[mesh=8,k=2,fraction=0.125]",
+                                               "rrcb[tol=1.1]",
+                                               "rrcb[tol=1.05]",
+                                               "rrcb",
+                                               "rrcb[tol=1.001]",
+                                               "rrcb-exact",
+                                               "rrcb-arrays"};
+    EXPECT_EQ(labels, expected);
+}
+
+TEST(Method, varies_with_the_seed_unless_it_is_given) {
+    const Method open = read_method("rrcb-sampled[mesh=2]");
+    EXPECT_TRUE(varies_with_seed(open));
+    EXPECT_EQ(with_next_seed(open, 3).options->seed, open.options->seed + 3);
+    for (const char* name : {"rrcb-sampled[seed=1]", "rrcb", "root-rcb", "rrcb-arrays"}) {
+        const Method fixed = read_method(name);
+        EXPECT_FALSE(varies_with_seed(fixed)) << name;
+        EXPECT_EQ(with_next_seed(fixed, 3).options->seed, fixed.options->seed) << name;
+    }
+    EXPECT_FALSE(varies_with_seed(read_method("zoltan-rcb")));
+}
+
 TEST(Method, names_what_is_unknown) {
     EXPECT_EQ(error_of("zoltan-rcb,magic"),
               "--methods: unknown method 'magic'; choose from: " + method_names());

@@ -4,12 +4,15 @@
 #include "scene_mpi.hpp"
 #include "simulation_mpi.hpp"
 
+#include <rrcb/error.hpp>
 #include <rrcb/quality.hpp>
 
 #include <gtest/gtest.h>
 #include <mpm/slope.hpp>
 #include <zoltan.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace comparisons {
@@ -39,7 +42,8 @@ void expect_points_kept(const mpm::Scene& scene) {
     EXPECT_EQ(slabs.balance_s, 0);
     EXPECT_FALSE(slabs.front_m);
     EXPECT_GT(slabs.moved_m, 0);
-    for (const char* name : {"zoltan-rcb", "root-rcb", "rrcb-sampled", "rrcb", "rrcb-exact"}) {
+    for (const char* name :
+         {"zoltan-rcb", "root-rcb", "rrcb-sampled", "rrcb", "rrcb-exact", "rrcb-arrays"}) {
         const SimulationRun result = run(make_balancer(read_method(name)), scene);
         ASSERT_EQ(result.error, "") << name;
         EXPECT_NEAR(result.moved_m, slabs.moved_m, 1e-9 * slabs.moved_m) << name;
@@ -118,9 +122,159 @@ TEST(Simulation, exact_methods_share_the_points_out_to_one_a_level) {
     }
 }
 
+/// Slabs that grow wider from one rebalance to the next; notes the share of the points that change
+/// hands by looking at each.
+mpm::Balancer widening_slabs(std::vector<double>& moved) {
+    return [&moved](mpm::Positions positions, MPI_Comm comm) {
+        const double width = 20 * std::exp2(static_cast<double>(moved.size()));
+        mpm::Decomposition slabs = mpm::slabs({{0, 0, 0}, {width, 1, 0}}, num_ranks());
+        std::vector<int> owners(positions.size());
+        slabs.owners(positions, owners);
+        int rank = 0;
+        MPI_Comm_rank(comm, &rank);
+        double counts[] = {static_cast<double>(owners.size() - std::ranges::count(owners, rank)),
+                           static_cast<double>(owners.size())};
+        MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPI_DOUBLE, MPI_SUM, comm);
+        moved.push_back(counts[0] / counts[1]);
+        return slabs;
+    };
+}
+
+SimulationRun run_widening(int record_every, std::vector<double>& moved) {
+    const SimulationPlan plan{
+        .scene = mpm::slope_scene(22), .num_steps = 15, .every = 5, .record_every = record_every};
+    TimedSimulation simulation(
+        plan, widening_slabs(moved), [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
+    simulation.advance(15);
+    SimulationRun result = simulation.result();
+    EXPECT_EQ(result.error, "");
+    return result;
+}
+
+double mean_of_records(const SimulationRun& run) {
+    double sum = 0;
+    for (const LoadRecord& record : run.history) sum += rrcb::imbalance(record.points);
+    return sum / static_cast<double>(run.history.size());
+}
+
+TEST(Simulation, imbalance_is_that_of_every_step_whatever_is_recorded) {
+    std::vector<double> moved;
+    const SimulationRun all = run_widening(1, moved);
+    ASSERT_EQ(all.history.size(), 15U);
+    double worst = 0;
+    for (const LoadRecord& record : all.history) {
+        worst = std::max(worst, rrcb::imbalance(record.points));
+    }
+    EXPECT_NEAR(all.mean_imbalance, mean_of_records(all), 1e-12);
+    EXPECT_NEAR(all.worst_imbalance, worst, 1e-12);
+
+    moved.clear();
+    const SimulationRun aliased = run_widening(2, moved);
+    EXPECT_EQ(aliased.mean_imbalance, all.mean_imbalance);
+    EXPECT_EQ(aliased.worst_imbalance, all.worst_imbalance);
+    if (num_ranks() > 1) {
+        EXPECT_GT(std::abs(mean_of_records(aliased) - all.mean_imbalance), 1e-3);
+    }
+}
+
+TEST(Simulation, tells_what_the_rebalances_moved) {
+    std::vector<double> moved;
+    const SimulationRun result = run_widening(2, moved);
+    ASSERT_EQ(moved.size(), 3U);
+    EXPECT_EQ(result.rebalances, 3);
+    EXPECT_NEAR(result.moved_fraction, (moved[0] + moved[1] + moved[2]) / 3, 1e-12);
+    for (const LoadRecord& record : result.history) {
+        EXPECT_EQ(record.moved_fraction, moved[static_cast<std::size_t>(record.step / 5)]);
+    }
+    if (num_ranks() > 1) {
+        EXPECT_GT(moved[1], 0.01);
+    }
+    const SimulationRun slabs = run(std::nullopt);
+    EXPECT_EQ(slabs.rebalances, 0);
+    EXPECT_EQ(slabs.moved_fraction, 0);
+    EXPECT_EQ(slabs.history.front().moved_fraction, 0);
+}
+
+mpm::Decomposition decomposed(const char* method, mpm::Positions positions) {
+    return make_balancer(read_method(method)).value()(positions, MPI_COMM_WORLD);
+}
+
+TEST(Simulation, a_method_divides_the_same_through_zoltan_and_on_arrays) {
+    const mpm::Simulation scene(mpm::slope_scene(22), MPI_COMM_WORLD);
+    const mpm::Decomposition through_zoltan = decomposed("rrcb", scene.positions());
+    const mpm::Decomposition on_arrays = decomposed("rrcb-arrays", scene.positions());
+    EXPECT_EQ(through_zoltan.local_owners, on_arrays.local_owners);
+    ASSERT_EQ(through_zoltan.boxes.size(), on_arrays.boxes.size());
+    for (std::size_t p = 0; p < on_arrays.boxes.size(); ++p) {
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            EXPECT_EQ(through_zoltan.boxes[p].lower[axis], on_arrays.boxes[p].lower[axis]) << p;
+            EXPECT_EQ(through_zoltan.boxes[p].upper[axis], on_arrays.boxes[p].upper[axis]) << p;
+        }
+    }
+    std::vector<int> owners(scene.positions().size());
+    through_zoltan.owners(scene.positions(), owners);
+    EXPECT_EQ(owners, on_arrays.local_owners);
+}
+
+TEST(Simulation, methods_go_through_zoltan_unless_they_are_on_arrays) {
+    const std::vector<double> x = {std::nan(""), 1};
+    const std::vector<double> y = {1, 2};
+    for (const char* name : {"root-rcb", "rrcb-sampled", "rrcb", "rrcb-exact"}) {
+        try {
+            decomposed(name, {x, y, {}});
+            ADD_FAILURE() << name;
+        } catch (const Failure& failure) {
+            EXPECT_STREQ(failure.what(), "Zoltan_LB_Partition returned -1") << name;
+        }
+    }
+    EXPECT_THROW(decomposed("rrcb-arrays", {x, y, {}}), rrcb::Error);
+}
+
 TEST(Simulation, methods_without_boxes_are_left_out) {
     EXPECT_FALSE(make_balancer(read_method("zoltan-rib")));
     EXPECT_FALSE(make_balancer(read_method("zoltan-hsfc")));
+}
+
+SceneRuns quick_scene(const std::string& methods, int repeats) {
+    Arguments arguments;
+    arguments.quick = true;
+    arguments.steps = 4;
+    arguments.every = 2;
+    arguments.repeats = repeats;
+    arguments.methods = read_methods(methods);
+    const ResultsFolder folder(
+        testing::TempDir() + "rrcb_scene_rounds.np" + std::to_string(num_ranks()), MPI_COMM_WORLD);
+    Progress progress(false);
+    return run_scene(arguments, folder, progress, MPI_COMM_WORLD);
+}
+
+TEST(Simulation, rounds_take_another_seed_each_and_keep_the_first_history) {
+    const SceneRuns scene = quick_scene("zoltan-rcb,zoltan-rib,rrcb-sampled[mesh=2]", 7);
+    ASSERT_EQ(scene.methods.size(), 3U);
+    EXPECT_EQ(scene.methods[0].method, "none");
+    EXPECT_EQ(scene.methods[2].method, "rrcb-sampled[mesh=2]");
+    for (const SimulationRounds& rounds : scene.methods) {
+        ASSERT_EQ(rounds.runs.size(), 6U) << rounds.method;
+        for (std::size_t round = 0; round < 6; ++round) {
+            const SimulationRun& run = rounds.runs[round];
+            EXPECT_EQ(run.error, "") << rounds.method;
+            EXPECT_EQ(run.history.size(), round == 0 ? 4U : 0U) << rounds.method;
+            EXPECT_EQ(run.seed.value_or(0), rounds.method.starts_with("rrcb") ? round + 1 : 0);
+        }
+    }
+    const auto seed_six = make_balancer(read_method("rrcb-sampled[mesh=2,seed=6]"));
+    const SimulationPlan plan{
+        .scene = choose_scene("slope", true, MPI_COMM_WORLD), .num_steps = 4, .every = 2};
+    TimedSimulation alone(
+        plan, seed_six, [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
+    alone.advance(4);
+    EXPECT_EQ(scene.methods[2].runs[5].mean_imbalance, alone.result().mean_imbalance);
+    EXPECT_EQ(scene.snapshots.size(), 3U);
+    EXPECT_EQ(scene.noise.size(), 2U);
+}
+
+TEST(Simulation, a_scene_is_run_as_often_as_asked_for) {
+    EXPECT_EQ(quick_scene("rrcb", 2).methods[1].runs.size(), 2U);
 }
 
 TEST(Simulation, a_balancer_that_fails_leaves_its_reason) {

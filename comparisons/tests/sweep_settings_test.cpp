@@ -80,12 +80,5 @@ TEST(SweepSettings, call_each_setting_of_the_cycle_once) {
     EXPECT_EQ(cycle_settings(false).size(), 5U * 2U + 3U + 4U);
 }
 
-TEST(SweepSettings, seeds_reach_the_methods_that_draw_points) {
-    EXPECT_EQ(with_seed(read_method("rrcb-sampled"), 7).options->seed, 7U);
-    EXPECT_FALSE(is_random(read_method("rrcb")));
-    EXPECT_FALSE(is_random(read_method("zoltan-rcb")));
-    EXPECT_EQ(with_seed(read_method("zoltan-rcb"), 7).label, "zoltan-rcb");
-}
-
 }  // namespace
 }  // namespace comparisons

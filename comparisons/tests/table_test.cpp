@@ -11,8 +11,8 @@ Measurement measured(const std::string& method, std::vector<double> times) {
     Measurement measurement;
     measurement.method = method;
     measurement.times_ms = std::move(times);
-    measurement.imbalance = 1.25;
-    measurement.worst_unbalance_percent = 25;
+    measurement.imbalances = {1.25};
+    measurement.worst_unbalance_percent = -25;
     measurement.moved_fraction = 0.5;
     measurement.traffic = {3, 400, 50, 6, 7};
     return measurement;
@@ -34,14 +34,20 @@ Comparison comparison() {
 TEST(Table, writes_the_columns_of_the_contract) {
     std::ostringstream out;
     write_table(out, std::vector{comparison()});
-    EXPECT_EQ(out.str(),
-              "method,ranks,parts,points,dim,workload,layout,lists,repeats,time_ms_median,"
-              "time_ms_min,time_ms_max,imbalance,lu_max_percent,messages,bytes,root_bytes_in,"
-              "collectives,communicators,moved_fraction,time_vs_zoltan_rcb,error\n"
-              "zoltan-rcb,4,4,1000,2,slope,sorted,ALL,3,8,4,9,1.25,25,3,400,50,6,7,0.5,1,\n"
-              "rrcb,4,4,1000,2,slope,sorted,ALL,3,2,1,6,1.25,25,3,400,50,6,7,0.5,0.25,\n"
-              "\"rrcb-sampled[mesh=4,k=2]\",4,4,1000,2,slope,sorted,ALL,3,,,,,,,,,,,,,"
-              "\"it said \"\"no\"\"\"\n");
+    EXPECT_EQ(
+        out.str(),
+        "method,ranks,parts,points,dim,workload,layout,lists,repeats,time_ms_median,"
+        "time_ms_min,time_ms_max,imbalance,lu_max_percent,messages,bytes,root_bytes_in,"
+        "collectives,communicators,moved_fraction,time_vs_zoltan_rcb,time_ms_low,time_ms_high,"
+        "time_vs_zoltan_rcb_low,time_vs_zoltan_rcb_high,imbalance_low,imbalance_high,seeds,"
+        "lu_worst_percent,error\n"
+        "zoltan-rcb,4,4,1000,2,slope,sorted,ALL,3,8,4,9,1.25,25,3,400,50,6,7,0.5,1,"
+        ",,,,1.25,1.25,1,-25,\n"
+        "rrcb,4,4,1000,2,slope,sorted,ALL,3,2,1,6,1.25,25,3,400,50,6,7,0.5,0.25,"
+        ",,,,1.25,1.25,1,-25,\n"
+        "\"rrcb-sampled[mesh=4,k=2]\",4,4,1000,2,slope,sorted,ALL,3,,,,,,,,,,,,,"
+        ",,,,,,,,"
+        "\"it said \"\"no\"\"\"\n");
 }
 
 TEST(Table, knows_of_failed_methods) {
@@ -51,10 +57,44 @@ TEST(Table, knows_of_failed_methods) {
     EXPECT_FALSE(has_failures(std::vector{sound}));
 }
 
-TEST(Table, takes_the_middle_of_the_times) {
-    EXPECT_EQ(median({5, 1, 3}), 3);
-    EXPECT_EQ(median({8, 1, 2, 4}), 3);
-    EXPECT_EQ(median({}), 0);
+std::string rows_of(const Comparison& comparison) {
+    std::ostringstream out;
+    write_rows(out, comparison);
+    return out.str();
+}
+
+TEST(Table, tells_intervals_of_six_repeats_and_ten_seeds) {
+    Comparison six = comparison();
+    six.measurements = {measured("zoltan-rcb", {4, 5, 4, 8, 2, 4}),
+                        measured("rrcb-sampled", {6, 5, 2, 4, 3, 1})};
+    // Of ten sorted values the second to the ninth hold the median.
+    six.measurements[1].imbalances = {1.9, 1.1, 1.8, 1.2, 1.7, 1.3, 1.6, 1.4, 1.5, 1};
+    const std::string rows = rows_of(six);
+    // Ratios in turn: 1.5, 1, 0.5, 0.5, 1.5, 0.25; that of the medians is 3.5 / 4.
+    EXPECT_NE(rows.find(",3.5,1,6,1.45,25,3,400,50,6,7,0.5,0.875,1,6,0.25,1.5,1.1,1.8,10,-25,\n"),
+              std::string::npos)
+        << rows;
+    EXPECT_NE(rows.find(",0.5,1,2,8,1,1,1.25,1.25,1,-25,\n"), std::string::npos) << rows;
+}
+
+TEST(Table, leaves_out_ratios_where_zoltan_s_rcb_is_not_there) {
+    Comparison alone = comparison();
+    alone.measurements.erase(alone.measurements.begin());
+    EXPECT_NE(rows_of(alone).find(",0.5,,,,,,1.25,1.25,1,-25,\n"), std::string::npos);
+}
+
+TEST(Table, writes_imbalances_to_all_digits) {
+    Comparison exact = comparison();
+    exact.measurements[1].imbalances = {1.0003765};
+    EXPECT_NE(rows_of(exact).find(",1.0003765,"), std::string::npos);
+}
+
+TEST(Table, tells_how_far_zoltan_s_rcb_is_from_itself) {
+    Comparison twice = comparison();
+    EXPECT_FALSE(noise_of(twice));
+    twice.second_times_ms = {6, 9, 4};
+    EXPECT_EQ(noise_of(twice)->workload, "slope");
+    EXPECT_EQ(noise_of(twice)->ratio.median, 1);
 }
 
 }  // namespace

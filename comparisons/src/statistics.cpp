@@ -1,0 +1,63 @@
+#include "statistics.hpp"
+
+#include "text.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace comparisons {
+
+namespace {
+
+/// How many values may be left out at each end.
+std::optional<std::size_t> left_out_at_each_end(std::size_t num_values) {
+    constexpr long double most_at_one_end = 0.05L / 2;
+    // Of 0 values below the median first; long double, as it is 2^-n.
+    long double probability = std::ldexp(1.0L, -static_cast<int>(num_values));
+    long double sum = probability;
+    std::optional<std::size_t> left_out;
+    for (std::size_t below = 0; sum <= most_at_one_end; ++below) {
+        left_out = below;
+        probability *= static_cast<long double>(num_values - below);
+        probability /= static_cast<long double>(below + 1);
+        sum += probability;
+    }
+    return left_out;
+}
+
+}  // namespace
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    std::ranges::sort(values);
+    const std::size_t middle = values.size() / 2;
+    return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+std::optional<Interval> interval95(std::vector<double> values) {
+    const std::optional<std::size_t> left_out = left_out_at_each_end(values.size());
+    if (!left_out) return std::nullopt;
+    std::ranges::sort(values);
+    return Interval{values[*left_out], values[values.size() - 1 - *left_out]};
+}
+
+std::string interval_fields(const std::optional<Interval>& interval) {
+    return interval ? write_number(interval->low) + ',' + write_number(interval->high) : ",";
+}
+
+Spread spread_of(const std::vector<double>& values) {
+    return {median(values), interval95(values)};
+}
+
+std::vector<double> paired_ratios(std::span<const double> values,
+                                  std::span<const double> reference) {
+    if (values.size() != reference.size() ||
+        std::ranges::any_of(reference, [](double r) { return !(r > 0); })) {
+        return {};
+    }
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < values.size(); ++i) ratios.push_back(values[i] / reference[i]);
+    return ratios;
+}
+
+}  // namespace comparisons

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace comparisons {
+
+/// From the lower to the upper end.
+struct Interval {
+    double low = 0;
+    double high = 0;
+};
+
+/// A median and where the true one lies; no interval where the values are too few for one.
+struct Spread {
+    double median = 0;
+    std::optional<Interval> interval95;
+};
+
+/// Middle of the values, the mean of the two middle ones when their number is even; 0 of none.
+double median(std::vector<double> values);
+
+/// Holds the median of what the values are drawn from with at least 95 %, whatever its
+/// distribution: two order statistics, equally far from both ends.
+///
+/// The narrowest such pair, by the binomial distribution. None of fewer than 6 values, where even
+/// the smallest and the largest hold it with less. At most 16,000 values.
+std::optional<Interval> interval95(std::vector<double> values);
+
+/// "low,high" as fields of a CSV file, empty ones when there is no interval.
+std::string interval_fields(const std::optional<Interval>& interval);
+
+/// Median and interval of the values.
+Spread spread_of(const std::vector<double>& values);
+
+/// values[i] / reference[i], measured in the same turn. Empty when their numbers differ or a
+/// reference is not above 0.
+std::vector<double> paired_ratios(std::span<const double> values,
+                                  std::span<const double> reference);
+
+}  // namespace comparisons

@@ -1,0 +1,69 @@
+#include "statistics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace comparisons {
+namespace {
+
+/// n, n - 1, ..., 1: the k-th smallest is k.
+std::vector<double> descending(std::size_t n) {
+    std::vector<double> values(n);
+    std::iota(values.rbegin(), values.rend(), 1.0);
+    return values;
+}
+
+TEST(Statistics, takes_the_middle) {
+    EXPECT_EQ(median({5, 1, 3}), 3);
+    EXPECT_EQ(median({8, 1, 2, 4}), 3);
+    EXPECT_EQ(median({}), 0);
+}
+
+TEST(Statistics, fewer_than_six_values_have_no_interval) {
+    // Smallest and largest of 5 miss the median with 2 / 2^5 = 6.25 %.
+    for (std::size_t n = 0; n < 6; ++n) EXPECT_FALSE(interval95(descending(n))) << n;
+}
+
+TEST(Statistics, leaves_out_as_many_values_as_the_binomial_sums_allow) {
+    // Chance to miss the median when j values are left out at each end: 2 (C(n,0) + ... + C(n,j)) /
+    // 2^n, for j and j + 1.
+    const struct {
+        std::size_t n;
+        double low;
+    } cases[] = {
+        {6, 1},   // 2 * 1 / 64 = 3.1 %; 2 * 7 / 64 = 21.9 %
+        {7, 1},   // 2 * 1 / 128 = 1.6 %; 2 * 8 / 128 = 12.5 %
+        {8, 1},   // 2 * 1 / 256 = 0.8 %; 2 * 9 / 256 = 7.0 %
+        {9, 2},   // 2 * 10 / 512 = 3.9 %; 2 * 46 / 512 = 18.0 %
+        {10, 2},  // 2 * 11 / 1024 = 2.1 %; 2 * 56 / 1024 = 10.9 %
+        {12, 3},  // 2 * 79 / 4096 = 3.9 %; 2 * 299 / 4096 = 14.6 %
+        {20, 6},  // 2 * 21700 / 1048576 = 4.1 %; 2 * 60460 / 1048576 = 11.5 %
+        {1000, 469},
+    };
+    for (const auto& [n, low] : cases) {
+        const std::optional<Interval> interval = interval95(descending(n));
+        ASSERT_TRUE(interval) << n;
+        EXPECT_EQ(interval->low, low) << n;
+        EXPECT_EQ(interval->high, static_cast<double>(n) + 1 - low) << n;
+    }
+}
+
+TEST(Statistics, the_median_lies_in_its_interval) {
+    const Spread spread = spread_of({3, 1, 4, 1, 5, 9, 2, 6});
+    EXPECT_EQ(spread.median, 3.5);
+    ASSERT_TRUE(spread.interval95);
+    EXPECT_EQ(spread.interval95->low, 1);
+    EXPECT_EQ(spread.interval95->high, 9);
+}
+
+TEST(Statistics, divides_what_was_measured_in_the_same_turn) {
+    const std::vector<double> times = {2, 9};
+    const std::vector<double> reference = {4, 3};
+    EXPECT_EQ(paired_ratios(times, reference), (std::vector<double>{0.5, 3}));
+    EXPECT_TRUE(paired_ratios(times, std::vector<double>{4}).empty());
+    EXPECT_TRUE(paired_ratios(times, std::vector<double>{4, 0}).empty());
+}
+
+}  // namespace
+}  // namespace comparisons

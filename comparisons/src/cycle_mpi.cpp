@@ -2,6 +2,7 @@
 
 #include "balancer_mpi.hpp"
 #include "layout_mpi.hpp"
+#include "rrcb_balancer_mpi.hpp"
 #include "scene_choice_mpi.hpp"
 #include "sweep_settings.hpp"
 #include "text.hpp"
@@ -54,13 +55,19 @@ std::string cycle_key(const Sweep& sweep, rrcb::GlobalCount num_points, const Se
            std::to_string(num_points) + ',' + setting.seed + ',' + std::to_string(call);
 }
 
+/// Of our own methods the C++ interface: the plug-in remembers where it sent the points, and leaves
+/// alone what is still there.
+mpm::Balancer memoryless(const Method& method) {
+    return method.options ? rrcb_balancer(*method.options) : *make_balancer(method);
+}
+
 /// The rows of one setting; one that tells why where it failed.
 std::string cycle_rows(const Sweep& sweep, const Workload& start, rrcb::GlobalCount num_points,
                        const SeededMethod& setting, int num_calls) {
     std::string rows;
     try {
         const std::vector<StillCall> calls =
-            balance_still_points(start, *make_balancer(setting.method), num_calls, sweep.comm);
+            balance_still_points(start, memoryless(setting.method), num_calls, sweep.comm);
         for (int call = 1; call <= num_calls; ++call) {
             const StillCall& result = calls[static_cast<std::size_t>(call) - 1];
             rows += cycle_key(sweep, num_points, setting, call) + ',' +

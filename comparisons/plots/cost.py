@@ -33,7 +33,8 @@ def draw_cost(directory: Path, picture: Path) -> bool:
     _set_limits(axes[0, 0], table)
     axes[0, 0].set_ylabel("heaviest part above the mean [%]")
     methods = unique([row.method for row in table])
-    legend_above(figure, [_key(method) for method in methods if _has_own_style(method, methods)], 3.6)
+    keys = [_key(method) for method in methods if _has_own_style(method, methods)]
+    legend_above(figure, keys, inches=3.6)
     for workload, panel in panels.items():
         rows = [row for row in table if row.workload == workload]
         _label(panel, [row for row in rows if not _has_own_style(row.method, methods)])

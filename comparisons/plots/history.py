@@ -72,7 +72,7 @@ def draw_worst(axes: Axes, histories: dict[str, Columns]) -> None:
         axes.plot(times[windows], worst, color=style.colour, linestyle=style.line, label=method)
     axes.set_yscale("log")
     axes.set_ylabel("largest |Lu| [%]")
-    axes.set_title("Largest |Lu| of the parts, Lu = (ideal − actual) / ideal; worst step of each window")
+    axes.set_title("Largest |Lu| of the parts, Lu = (ideal − actual) / ideal; worst of each window")
     axes.grid(True, axis="y")
 
 

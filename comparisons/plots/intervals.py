@@ -11,7 +11,7 @@ NOT_TOLD_APART = "not told apart"
 
 
 def with_interval(value: float, interval: Interval | None, digits: int) -> str:
-    """As in 17.5 [17.1, 18.0]; the value alone where no interval was measured or it is one number."""
+    """As in 17.5 [17.1, 18.0]; the value alone where there is no interval or it is one number."""
     if interval is None or interval[0] == interval[1]:
         return f"{value:.{digits}f}"
     low, high = interval

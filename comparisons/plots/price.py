@@ -141,7 +141,7 @@ def _draw_runs(axes: Axes, prices: list[Price]) -> list:
     at = [_place(price) for price in totals]
     colour = method_style("rrcb").colour
     handles = axes.plot(at, [100 * p.value for p in totals], "o-", color=colour, linewidth=2.2,
-                        label="sum of both")  # fmt: skip
+                        label="sum of both (right)")  # fmt: skip
     low, high = ([100 * getattr(p, end) for p in totals] for end in ("low", "high"))
     axes.fill_between(at, low, high, color=colour, alpha=0.22, linewidth=0)
     for panel, shade, line, label in (
@@ -202,6 +202,7 @@ def _show_tolerances(axes: Axes) -> None:
     axes.set_xticks([], minor=True)
     left, right = axes.get_xlim()
     axes.set_xlim(max(left, right, 0.15), EXACT_AT / 1.6)
-    axes.set_ylim(axes.get_ylim()[0] / 1.25, axes.get_ylim()[1])  # room for the numbers
+    low, high = axes.get_ylim()
+    axes.set_ylim(low / 1.25, 1.25 * high)  # room for numbers and names
     axes.set_xlabel("imbalance asked for (of the paper's methods: left)")
     axes.grid(True, axis="y")

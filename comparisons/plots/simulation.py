@@ -14,7 +14,7 @@ from style import CALL_COLOUR, IDEAL_COLOUR, UNBALANCE_COLOUR, save
 
 
 def draw_simulation(directory: Path, picture: Path) -> bool:
-    """A bar per method: the critical path, which stands for a core for every rank, and its parts."""
+    """A bar per method: the critical path, as a core for every rank would give, in parts."""
     runs = read_simulations(directory)
     if not runs:
         return False

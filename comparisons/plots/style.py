@@ -25,8 +25,8 @@ from matplotlib.ticker import (  # noqa: E402
 )
 from matplotlib.transforms import Bbox  # noqa: E402
 
-# Three palettes that share no colour: of parts, of the paper's multiplier k, and of methods; any two
-# differ by 14 units or more of CIELAB.
+# Three palettes that share no colour: of parts, of the paper's multiplier k, and of methods; any
+# two differ by 14 units of CIELAB or more.
 PART_COLOURS = (
     "#B197FF #E5D870 #FF7D70 #7DA43C #3CE5FF #FF7DBE #E5A449 #8A97BE #63F2B1 #CB8A97 "
     "#F2D8BE #49B163 #FFCBFF #7DA48A #BEE5A4 #B1A463 #3CA4FF #FFA4FF #70D8BE #3CA4BE"

@@ -17,7 +17,7 @@ def method_table(rows: list[Measurement]) -> Table:
         [
             row.method,
             with_interval(row.imbalance, row.imbalance_interval, 5),
-            f"±{row.lu_percent:.3f}" if row.worst_lu is None else f"{row.worst_lu:+.3f}",
+            _signed(row),
             with_interval(row.time_ms, row.time_interval, 2),
             _times_as_fast(row, reference),
             f"{row.bytes:,}",
@@ -28,6 +28,14 @@ def method_table(rows: list[Measurement]) -> Table:
         for row in rows
     ]
     return header, table
+
+
+def _signed(row: Measurement) -> str:
+    """Largest |Lu| with its sign, where that was measured."""
+    if row.worst_lu is None:
+        return f"±{row.lu_percent:.3f}"
+    text = f"{row.worst_lu:+.3f}"
+    return "0.000" if float(text) == 0 else text
 
 
 def _times_as_fast(row: Measurement, reference: Measurement | None) -> str:

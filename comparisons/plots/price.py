@@ -27,13 +27,18 @@ from prices import (
     read_prices,
     read_runs,
 )
-from results import unique
 from settings import legend_above
-from style import CALL_COLOUR, UNBALANCE_COLOUR, label_right, method_style, save
+from style import (
+    CALL_COLOUR,
+    UNBALANCE_COLOUR,
+    distinct_styles,
+    label_right,
+    method_style,
+    save,
+)
 
 EXACT_AT = 2e-4  # where exact stands on an axis of what is above the mean
 TICKS = {"1.1": 0.1, "1.05": 0.05, "1.01": 0.01, "1.001": 0.001, EXACT: EXACT_AT}
-MESH_LINES = (":", "--", "-.", (0, (5, 1, 1, 1)), (0, (1, 3)))
 
 
 def draw_price(directory: Path, picture: Path) -> bool:
@@ -90,20 +95,16 @@ def _draw_calls(axes: Axes, calls: list[Price]) -> list:
 
 def _draw_families(axes: Axes, ours: list[Price]) -> list:
     """A line with its band for each mesh; the automatic one is thick."""
-    meshes = 0
     handles = []
-    for name in unique([family(price.method) for price in ours]):
+    for name, style in distinct_styles([family(price.method) for price in ours]).items():
         line = [price for price in ours if family(price.method) == name]
-        style = method_style(name)
         at = [_place(price) for price in line]
         is_plain = name == "rrcb"
-        shape = style.line if "[" not in name else MESH_LINES[meshes % len(MESH_LINES)]
-        meshes += "[" in name
         handles += axes.plot(
-            at, [100 * p.value for p in line], color=style.colour, linestyle=shape,
-            marker=style.marker, markersize=6 if "[" not in name else 3,
+            at, [100 * p.value for p in line], color=style.colour, linestyle=style.line,
+            marker=style.marker, markersize=6 - 2 * ("[" in name),
             linewidth=2.2 if is_plain else 1, label=name + " to the tolerance asked for" * is_plain,
-        )
+        )  # fmt: skip
         low, high = ([100 * getattr(p, end) for p in line] for end in ("low", "high"))
         if len(line) > 1:
             axes.fill_between(
@@ -125,11 +126,10 @@ def _draw_papers(axes: Axes, prices: list[Price]) -> list:
         axes.errorbar(
             [_place(price)], [100 * price.value], yerr=np.maximum(whiskers, 0), color=style.colour,
             marker=style.marker, markersize=7, elinewidth=0.9, linestyle="",
-        )
+        )  # fmt: skip
         name = price.method if style != method_style("rrcb-sampled") else "rrcb-sampled"
         handles[name] = Line2D(
-            [], [], color=style.colour, marker=style.marker, linestyle="",
-            label=name,
+            [], [], color=style.colour, marker=style.marker, linestyle="", label=name
         )
     return list(handles.values())
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from math import floor, log10
 from statistics import geometric_mean
 
 from results import Interval
@@ -16,6 +17,17 @@ def with_interval(value: float, interval: Interval | None, digits: int) -> str:
         return f"{value:.{digits}f}"
     low, high = interval
     return f"{value:.{digits}f} [{low:.{digits}f}, {high:.{digits}f}]"
+
+
+def in_digits(value: float, significant: int) -> str:
+    """Rounded, without powers of ten."""
+    return f"{float(f'{value:.{significant}g}'):g}"
+
+
+def decimals(values: Iterable[float], significant: int) -> int:
+    """Behind the point, for the least of these positive values to keep so many digits."""
+    least = min((value for value in values if value > 0), default=1.0)
+    return max(0, significant - 1 - floor(log10(least)))
 
 
 def are_apart(first: Interval | None, second: Interval | None) -> bool:

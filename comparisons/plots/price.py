@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from choice import cases
-from intervals import NOT_TOLD_APART
+from intervals import NOT_TOLD_APART, in_digits
 from prices import (
     ACROSS,
     CALL,
@@ -164,7 +164,7 @@ def _draw_runs(axes: Axes, prices: list[Price]) -> list:
 
 def _write_percent(axes: Axes, x: float, percent: float, offset: float) -> None:
     axes.annotate(
-        f"{percent:.2g} %", (x, percent), (0, offset), textcoords="offset points", ha="center",
+        f"{in_digits(percent, 2)} %", (x, percent), (0, offset), textcoords="offset points", ha="center",
         va="bottom" if offset > 0 else "top", fontsize=9, color="#222222",
         bbox={"boxstyle": "square,pad=0.05", "fc": "white", "ec": "none", "alpha": 0.7},
     )  # fmt: skip

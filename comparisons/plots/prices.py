@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from statistics import geometric_mean, median, mode
 
-from choice import cases, find_method
+from choice import cases, find_method, is_within
+from intervals import in_digits
 from results import Interval, Measurement, Simulation, read_simulations, read_table, unique
 
 EXACT = "exact"
@@ -94,7 +95,7 @@ def call_prices(rows: list[Measurement]) -> list[Price]:
             Price(
                 CALL,
                 method,
-                _tolerance(method, [row.imbalance for _, row in found]),
+                _tolerance(method, [row for _, row in found]),
                 geometric_mean([value for value, _ in shares]),
                 min(interval[0] for _, interval in shares),
                 max(interval[1] for _, interval in shares),
@@ -115,10 +116,12 @@ def _share(row: Measurement, measured: list[Measurement]) -> tuple[float, Interv
     return share, row.share_interval or (share, share)
 
 
-def _tolerance(method: str, imbalances: list[float]) -> str:
-    if is_of_the_paper(method):
-        return f"{geometric_mean(imbalances):.6f}"
-    return tolerance_asked(method) or ""
+def _tolerance(method: str, rows: list[Measurement]) -> str:
+    if not is_of_the_paper(method):
+        return tolerance_asked(method) or ""
+    if all(is_within(row, EXACT) for row in rows):
+        return EXACT
+    return f"{geometric_mean([row.imbalance for row in rows]):.6f}"
 
 
 def _comparable(runs: list[Simulation]) -> tuple[list[Simulation], float]:
@@ -154,6 +157,7 @@ def simulation_prices(runs: list[Simulation]) -> list[Price]:
 def optimum(prices: list[Price]) -> tuple[Price, list[Price]] | None:
     """RRCB's tolerance of the shortest simulation, and those not told apart from it."""
     totals = [p for p in prices if p.panel == SIMULATION and tolerance_asked(p.method)]
+    totals = [p for p in totals if family(p.method) == "rrcb"]
     if len(totals) < 2:
         return None
     best = min(totals, key=lambda p: p.value)
@@ -183,7 +187,7 @@ def exchange_rate(runs: list[Simulation]) -> str:
 
 
 def _microseconds(seconds: float) -> str:
-    return f"{float(f'{1e6 * seconds:.2g}'):g} µs"
+    return f"{in_digits(1e6 * seconds, 2)} µs"
 
 
 def write_prices(directory: Path) -> None:

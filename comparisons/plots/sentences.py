@@ -9,7 +9,9 @@ from choice import cases, fastest, find_method, is_within
 from intervals import (
     NOT_TOLD_APART,
     are_apart,
+    decimals,
     differs_from_one,
+    in_digits,
     inverse,
     mean_interval,
     quotient,
@@ -46,7 +48,8 @@ def simulation_sentence(runs: list[Simulation]) -> str:
         if run is not best
         and not are_apart(run.critical_path_interval, best.critical_path_interval)
     ]
-    seconds = with_interval(best.critical_path, best.critical_path_interval, 3)
+    digits = decimals([best.critical_path], 4)
+    seconds = with_interval(best.critical_path, best.critical_path_interval, digits)
     text = f"With a core for every rank the simulation would take {seconds} s under {best.method}"
     if same:
         return f"{text}, {NOT_TOLD_APART} from {_list(same)}."
@@ -186,7 +189,7 @@ def _ratio(pairs: Pairs, value: Callable[[Measurement], float]) -> float:
 
 
 def _times(ratio: float) -> str:
-    return f"{ratio:.3g} times"
+    return f"{in_digits(ratio, 3)} times"
 
 
 def _mean(values: list[float], digits: int = 2) -> str:

@@ -167,6 +167,11 @@ class NoiseTest(unittest.TestCase):
         self.assertEqual(rrcb[2:4], ["1.600 [1.500, 1.700]", "1.25 [1.15, 1.35]"])
         self.assertEqual(rrcb[5:7], ["2", "12.5"])
 
+    def test_keeps_four_digits_of_short_simulations(self) -> None:
+        run = dataclasses.replace(simulated("rrcb", 0.0123456, 0.0, 1.0), wall=0.5)
+        (row,) = simulation_table([run], "none")[1]
+        self.assertEqual((row[2], row[-1]), ("0.01235", "0.50000"))
+
     def test_names_no_shortest_simulation_within_the_noise(self) -> None:
         apart = [simulated("rrcb", 1.6, 0.1, 1.25), simulated("zoltan-rcb", 1.9, 0.1, 1.05)]
         self.assertIn("under rrcb, the least of 2 methods", simulation_sentence(apart))

@@ -111,7 +111,9 @@ def write_choices(directory: Path, rows: list[Measurement]) -> None:
         return
     with (directory / "choices.csv").open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow("case,tolerance,setting,time_ms,times_as_fast,imbalance,not_told_apart_from".split(","))
+        writer.writerow(
+            "case,tolerance,setting,time_ms,times_as_fast,imbalance,not_told_apart_from".split(",")
+        )
         for c in choices(rows):
             numbers = [c.time_ms, c.times_as_fast, c.imbalance]
             writer.writerow([c.case, c.tolerance, c.setting, *numbers, ";".join(c.rivals)])

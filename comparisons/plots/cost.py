@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 
 from results import Measurement, read_table, unique
 from settings import legend_above
-from style import method_style, place_labels, save
+from style import MethodStyle, distinct_styles, save
 
 
 def draw_cost(directory: Path, picture: Path) -> bool:
@@ -27,16 +27,16 @@ def draw_cost(directory: Path, picture: Path) -> bool:
         sharex=True,
         sharey=True,
     )
-    panels = dict(zip(workloads, axes[0]))
-    for workload, panel in panels.items():
-        _draw_workload(panel, [row for row in table if row.workload == workload])
+    styles = distinct_styles([row.method for row in table])
+    for workload, panel in zip(workloads, axes[0]):
+        _draw_workload(panel, [row for row in table if row.workload == workload], styles)
     _set_limits(axes[0, 0], table)
     axes[0, 0].set_ylabel("heaviest part above the mean [%]")
-    methods = unique([row.method for row in table])
-    legend_above(figure, [_key(method) for method in methods if _has_own_style(method, methods)], 3.6)
-    for workload, panel in panels.items():
-        rows = [row for row in table if row.workload == workload]
-        _label(panel, [row for row in rows if not _has_own_style(row.method, methods)])
+    keys = [
+        Line2D([], [], color=style.colour, marker=style.marker, linestyle="", label=method)
+        for method, style in styles.items()
+    ]
+    legend_above(figure, keys, inches=3.6)
     save(figure, picture)
     return True
 
@@ -58,9 +58,11 @@ def shade_one_point(axes: Axes, rows: list[Measurement]) -> None:
         )  # fmt: skip
 
 
-def _draw_workload(axes: Axes, rows: list[Measurement]) -> None:
+def _draw_workload(
+    axes: Axes, rows: list[Measurement], styles: dict[str, MethodStyle]
+) -> None:
     for row in rows:
-        style = method_style(row.method)
+        style = styles[row.method]
         low, high = row.time_interval or (row.time_ms_min, row.time_ms_max)
         axes.errorbar(
             [row.time_ms],
@@ -87,18 +89,3 @@ def _set_limits(axes: Axes, table: list[Measurement]) -> None:
     axes.set_ylim(lowest / 2, max(map(percent_above, table)) * 2)
     for panel in axes.figure.axes:
         shade_one_point(panel, table)
-
-
-def _has_own_style(method: str, methods: list[str]) -> bool:
-    return [method_style(other) for other in methods].count(method_style(method)) == 1
-
-
-def _key(method: str) -> Line2D:
-    style = method_style(method)
-    return Line2D([], [], color=style.colour, marker=style.marker, linestyle="", label=method)
-
-
-def _label(axes: Axes, rows: list[Measurement]) -> None:
-    """Settings that share a style are told apart by their names."""
-    marks = [(row.time_ms_min, row.time_ms, row.time_ms_max, percent_above(row)) for row in rows]
-    place_labels(axes, marks, [row.method.replace("[", "\n[") for row in rows])

@@ -102,7 +102,7 @@ def _html_image(png: bytes, caption: str) -> str:
     width = int.from_bytes(png[16:20], "big") * 4 // 5
     data = base64.b64encode(png).decode("ascii")
     return (
-        f'<img alt="{html.escape(caption)}" style="max-width: {width}px; min-width:'
+        f'<img alt="{html.escape(_alternative(caption))}" style="max-width: {width}px; min-width:'
         f' min({width}px, 44rem)" src="data:image/png;base64,{data}">'
     )
 
@@ -132,7 +132,8 @@ def _cell(tag: str, text: str, left: bool) -> str:
 def _is_number(text: str) -> bool:
     """Also with an interval behind it."""
     number = r"[-+±\d.,e]*\d( ?(ms|s|%|×|MiB))?"
-    return re.fullmatch(rf"[-–]|{number}( \[{number}, {number}\])?(, not told apart)?", text) is not None
+    pattern = rf"[-–]|{number}( \[{number}, {number}\])?(, not told apart)?"
+    return re.fullmatch(pattern, text) is not None
 
 
 def _tag(name: str, text: str) -> str:
@@ -144,14 +145,23 @@ def _markdown_block(block: tuple) -> str:
     if kind == "conclusion":
         return "\n".join(f"> {text}\n>" for text in content[0]).removesuffix("\n>")
     if kind == "picture":
-        return f"![{content[1]}]({content[0]})\n\n*{content[1]}*"
+        return f"![{_alternative(content[1])}]({content[0]})\n\n*{content[1]}*"
     if kind == "table":
         caption, header, rows = content
         lines = [header, ["---"] * len(header), *rows]
-        return f"**{caption}**\n\n" + "\n".join("| " + " | ".join(line) + " |" for line in lines)
+        return f"**{caption}**\n\n" + "\n".join(map(_markdown_line, lines))
     if kind == "listing":
         return f"{content[0]}:\n\n```\n{content[1].rstrip()}\n```"
     return f"## {content[0]}" if kind == "heading" else content[0]
+
+
+def _markdown_line(cells: list[str]) -> str:
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
+
+
+def _alternative(caption: str) -> str:
+    """The first sentence, for who does not see the picture."""
+    return caption.split(". ")[0].rstrip(".")
 
 
 def _columns(rows: list[list[str]]) -> str:

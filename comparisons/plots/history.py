@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 
 from results import Columns, read_history
 from settings import legend_above
-from style import PART_COLOURS, method_style, save
+from style import PART_COLOURS, distinct_styles, save
 
 MOST_WINDOWS = 150  # lines that swing at every rebalance would run into one another
 
@@ -63,8 +63,8 @@ def _windows(steps: int) -> np.ndarray:
 
 def draw_worst(axes: Axes, histories: dict[str, Columns]) -> None:
     """The worst part of every method, the worst step of each window."""
-    for method, history in histories.items():
-        style = method_style(method)
+    for method, style in distinct_styles(list(histories)).items():
+        history = histories[method]
         times, unbalance = _per_part(history)
         worst = np.maximum(np.nanmax(np.abs(unbalance), axis=0), _one_point(history))
         windows = _windows(len(times))
@@ -72,7 +72,7 @@ def draw_worst(axes: Axes, histories: dict[str, Columns]) -> None:
         axes.plot(times[windows], worst, color=style.colour, linestyle=style.line, label=method)
     axes.set_yscale("log")
     axes.set_ylabel("largest |Lu| [%]")
-    axes.set_title("Largest |Lu| of the parts, Lu = (ideal − actual) / ideal; worst step of each window")
+    axes.set_title("Largest |Lu| of the parts, Lu = (ideal − actual) / ideal; worst of each window")
     axes.grid(True, axis="y")
 
 

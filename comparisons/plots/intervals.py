@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from math import comb
+from math import comb, floor, log10
 from statistics import geometric_mean, median
 
 from results import Interval
@@ -14,11 +14,22 @@ CONFIDENCE = 0.95
 
 
 def with_interval(value: float, interval: Interval | None, digits: int) -> str:
-    """As in 17.5 [17.1, 18.0]; the value alone where no interval was measured or it is one number."""
+    """As in 17.5 [17.1, 18.0]; the value alone where there is no interval or it is one number."""
     if interval is None or interval[0] == interval[1]:
         return f"{value:.{digits}f}"
     low, high = interval
     return f"{value:.{digits}f} [{low:.{digits}f}, {high:.{digits}f}]"
+
+
+def in_digits(value: float, significant: int) -> str:
+    """Rounded, without powers of ten."""
+    return f"{float(f'{value:.{significant}g}'):g}"
+
+
+def decimals(values: Iterable[float], significant: int) -> int:
+    """Behind the point, for the least of these positive values to keep so many digits."""
+    least = min((value for value in values if value > 0), default=1.0)
+    return max(0, significant - 1 - floor(log10(least)))
 
 
 def are_apart(first: Interval | None, second: Interval | None) -> bool:

@@ -17,23 +17,27 @@ def read_record(folder: Path) -> dict[str, str]:
     return dict(line.split(": ", 1) for line in lines if ": " in line)
 
 
-def warnings(record: dict[str, str], ranks: int) -> list[str]:
-    """What a reader must know of the machine before any time."""
-    texts = []
-    if record.get("busy") == "yes":
-        share = record.get("processor time used by other processes", "part")
-        texts.append(
-            f"The machine was busy: other processes used {share} of its processor time during this"
-            " run, so times are not to be relied on."
-        )
+def busy_warning(record: dict[str, str]) -> list[str]:
+    """What a reader must know before anything else; empty where the machine was not busy."""
+    if record.get("busy") != "yes":
+        return []
+    share = record.get("processor time used by other processes", "part")
+    return [
+        f"The machine was busy: other processes used {share} of its processor time during this run,"
+        " so times are not to be relied on."
+    ]
+
+
+def shared_cores(ranks: int) -> list[str]:
+    """What wall times mean where ranks have no core each; empty where they have."""
     cores = os.cpu_count() or 1
-    if ranks > cores:
-        texts.append(
-            f"{ranks} ranks share {cores} {'cores' if cores > 1 else 'core'}: wall times show neither"
-            " balance nor scaling; the critical path, reckoned from the processor time of each rank"
-            " outside MPI, stands for a core for every rank."
-        )
-    return texts
+    if ranks <= cores:
+        return []
+    return [
+        f"{ranks} ranks share {cores} {'cores' if cores > 1 else 'core'}: wall times show neither"
+        " balance nor scaling; the critical path, reckoned from the processor time of each rank"
+        " outside MPI, stands for a core for every rank."
+    ]
 
 
 def add_machine(document: Document, folder: Path, arguments: str) -> None:

@@ -85,7 +85,7 @@ def _draw_boxes(axes: Axes, points: Columns, boxes: Columns | None) -> None:
 
 
 def part_loads(points: Columns, row: Measurement) -> np.ndarray | None:
-    """Points of each part; None where the file has not all of them, or they are not of one weight."""
+    """Points of each part; None where the file has not all of them, or their weights differ."""
     loads = np.bincount(points["part"].astype(int), minlength=row.ranks)
     is_all = len(points["part"]) == row.points
     return loads if is_all and abs(loads.max() / loads.mean() - row.imbalance) < 1e-6 else None

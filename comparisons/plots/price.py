@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from choice import cases
-from intervals import NOT_TOLD_APART
+from intervals import NOT_TOLD_APART, in_digits
 from prices import (
     ACROSS,
     CALL,
@@ -27,13 +27,18 @@ from prices import (
     read_prices,
     read_runs,
 )
-from results import unique
 from settings import legend_above
-from style import CALL_COLOUR, UNBALANCE_COLOUR, label_right, method_style, save
+from style import (
+    CALL_COLOUR,
+    UNBALANCE_COLOUR,
+    distinct_styles,
+    label_right,
+    method_style,
+    save,
+)
 
 EXACT_AT = 2e-4  # where exact stands on an axis of what is above the mean
 TICKS = {"1.1": 0.1, "1.05": 0.05, "1.01": 0.01, "1.001": 0.001, EXACT: EXACT_AT}
-MESH_LINES = (":", "--", "-.", (0, (5, 1, 1, 1)), (0, (1, 3)))
 
 
 def draw_price(directory: Path, picture: Path) -> bool:
@@ -90,20 +95,16 @@ def _draw_calls(axes: Axes, calls: list[Price]) -> list:
 
 def _draw_families(axes: Axes, ours: list[Price]) -> list:
     """A line with its band for each mesh; the automatic one is thick."""
-    meshes = 0
     handles = []
-    for name in unique([family(price.method) for price in ours]):
+    for name, style in distinct_styles([family(price.method) for price in ours]).items():
         line = [price for price in ours if family(price.method) == name]
-        style = method_style(name)
         at = [_place(price) for price in line]
         is_plain = name == "rrcb"
-        shape = style.line if "[" not in name else MESH_LINES[meshes % len(MESH_LINES)]
-        meshes += "[" in name
         handles += axes.plot(
-            at, [100 * p.value for p in line], color=style.colour, linestyle=shape,
-            marker=style.marker, markersize=6 if "[" not in name else 3,
+            at, [100 * p.value for p in line], color=style.colour, linestyle=style.line,
+            marker=style.marker, markersize=6 - 2 * ("[" in name),
             linewidth=2.2 if is_plain else 1, label=name + " to the tolerance asked for" * is_plain,
-        )
+        )  # fmt: skip
         low, high = ([100 * getattr(p, end) for p in line] for end in ("low", "high"))
         if len(line) > 1:
             axes.fill_between(
@@ -125,11 +126,10 @@ def _draw_papers(axes: Axes, prices: list[Price]) -> list:
         axes.errorbar(
             [_place(price)], [100 * price.value], yerr=np.maximum(whiskers, 0), color=style.colour,
             marker=style.marker, markersize=7, elinewidth=0.9, linestyle="",
-        )
+        )  # fmt: skip
         name = price.method if style != method_style("rrcb-sampled") else "rrcb-sampled"
         handles[name] = Line2D(
-            [], [], color=style.colour, marker=style.marker, linestyle="",
-            label=name,
+            [], [], color=style.colour, marker=style.marker, linestyle="", label=name
         )
     return list(handles.values())
 
@@ -141,7 +141,7 @@ def _draw_runs(axes: Axes, prices: list[Price]) -> list:
     at = [_place(price) for price in totals]
     colour = method_style("rrcb").colour
     handles = axes.plot(at, [100 * p.value for p in totals], "o-", color=colour, linewidth=2.2,
-                        label="sum of both")  # fmt: skip
+                        label="sum of both (right)")  # fmt: skip
     low, high = ([100 * getattr(p, end) for p in totals] for end in ("low", "high"))
     axes.fill_between(at, low, high, color=colour, alpha=0.22, linewidth=0)
     for panel, shade, line, label in (
@@ -164,7 +164,7 @@ def _draw_runs(axes: Axes, prices: list[Price]) -> list:
 
 def _write_percent(axes: Axes, x: float, percent: float, offset: float) -> None:
     axes.annotate(
-        f"{percent:.2g} %", (x, percent), (0, offset), textcoords="offset points", ha="center",
+        f"{in_digits(percent, 2)} %", (x, percent), (0, offset), textcoords="offset points", ha="center",
         va="bottom" if offset > 0 else "top", fontsize=9, color="#222222",
         bbox={"boxstyle": "square,pad=0.05", "fc": "white", "ec": "none", "alpha": 0.7},
     )  # fmt: skip
@@ -202,6 +202,7 @@ def _show_tolerances(axes: Axes) -> None:
     axes.set_xticks([], minor=True)
     left, right = axes.get_xlim()
     axes.set_xlim(max(left, right, 0.15), EXACT_AT / 1.6)
-    axes.set_ylim(axes.get_ylim()[0] / 1.25, axes.get_ylim()[1])  # room for the numbers
+    low, high = axes.get_ylim()
+    axes.set_ylim(low / 1.25, 1.25 * high)  # room for numbers and names
     axes.set_xlabel("imbalance asked for (of the paper's methods: left)")
     axes.grid(True, axis="y")

@@ -12,11 +12,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from statistics import geometric_mean, median, mode
 
-from choice import cases, find_method
+from choice import cases, find_method, is_within
+from intervals import in_digits
 from results import Interval, Measurement, Simulation, read_simulations, read_table, unique
 
 EXACT = "exact"
-ACROSS = ("zoltan-rcb", "zoltan-hsfc", "zoltan-rib", "zoltan2-mj")
+ACROSS = ("none", "zoltan-rcb", "zoltan-hsfc", "zoltan-rib", "zoltan2-mj")  # take no tolerance
 CALL, STEPS, CALLS, SIMULATION = "call", "steps", "calls", "simulation"
 
 
@@ -24,8 +25,8 @@ CALL, STEPS, CALLS, SIMULATION = "call", "steps", "calls", "simulation"
 class Price:
     """A row of price.csv.
 
-    The value of a call is its share of Zoltan RCB's time; those of the simulation are seconds beyond
-    an ideally balanced one without calls, over the seconds of that. The tolerance is the one asked
+    The value of a call is its share of Zoltan RCB's time; of the simulation it is seconds beyond an
+    ideally balanced one without calls, over the seconds of that. The tolerance is the one asked
     for; of the paper's methods, which take none, the imbalance they left; of others there is none.
     """
 
@@ -87,20 +88,24 @@ def call_prices(rows: list[Measurement]) -> list[Price]:
             for measured in by_case
             if (row := find_method(measured, method)) and (share := _share(row, measured))
         ]
-        if not found or not (tolerance_asked(method) or is_of_the_paper(method) or method in ACROSS):
+        if not found or not _has_place(method):
             continue
         shares = [share for share, _ in found]
         prices.append(
             Price(
                 CALL,
                 method,
-                _tolerance(method, [row.imbalance for _, row in found]),
+                _tolerance(method, [row for _, row in found]),
                 geometric_mean([value for value, _ in shares]),
                 min(interval[0] for _, interval in shares),
                 max(interval[1] for _, interval in shares),
             )
         )
     return prices
+
+
+def _has_place(method: str) -> bool:
+    return bool(tolerance_asked(method)) or is_of_the_paper(method) or method in ACROSS
 
 
 def _share(row: Measurement, measured: list[Measurement]) -> tuple[float, Interval] | None:
@@ -111,16 +116,18 @@ def _share(row: Measurement, measured: list[Measurement]) -> tuple[float, Interv
     return share, row.share_interval or (share, share)
 
 
-def _tolerance(method: str, imbalances: list[float]) -> str:
-    if is_of_the_paper(method):
-        return f"{geometric_mean(imbalances):.6f}"
-    return tolerance_asked(method) or ""
+def _tolerance(method: str, rows: list[Measurement]) -> str:
+    if not is_of_the_paper(method):
+        return tolerance_asked(method) or ""
+    if all(is_within(row, EXACT) for row in rows):
+        return EXACT
+    return f"{geometric_mean([row.imbalance for row in rows]):.6f}"
 
 
-def _balanced(runs: list[Simulation]) -> tuple[list[Simulation], float]:
-    """The rebalanced runs on as many ranks as most have, and the seconds of their steps if ideal."""
+def _comparable(runs: list[Simulation]) -> tuple[list[Simulation], float]:
+    """The runs on as many ranks as most have, and the seconds of their steps if ideal."""
     ranks = mode([run.ranks for run in runs]) if runs else 0
-    runs = [run for run in runs if run.ranks == ranks and run.method not in ("serial", "none")]
+    runs = [run for run in runs if run.ranks == ranks and run.method != "serial"]
     return runs, median([run.step_work for run in runs]) / ranks if runs else 0.0
 
 
@@ -128,7 +135,7 @@ def simulation_prices(runs: list[Simulation]) -> list[Price]:
     """What unbalance costs is reckoned from the points of the fullest rank in each step, which no
     noise disturbs; what else the critical path holds is the same under every method.
     """
-    runs, ideal = _balanced(runs)
+    runs, ideal = _comparable(runs)
     if ideal <= 0:
         return []
     prices = []
@@ -149,9 +156,8 @@ def simulation_prices(runs: list[Simulation]) -> list[Price]:
 
 def optimum(prices: list[Price]) -> tuple[Price, list[Price]] | None:
     """RRCB's tolerance of the shortest simulation, and those not told apart from it."""
-    totals = [
-        p for p in prices if p.panel == SIMULATION and p.method.split("[")[0] in ("rrcb", "rrcb-exact")
-    ]
+    totals = [p for p in prices if p.panel == SIMULATION and tolerance_asked(p.method)]
+    totals = [p for p in totals if family(p.method) == "rrcb"]
     if len(totals) < 2:
         return None
     best = min(totals, key=lambda p: p.value)
@@ -160,27 +166,28 @@ def optimum(prices: list[Price]) -> tuple[Price, list[Price]] | None:
 
 def exchange_rate(runs: list[Simulation]) -> str:
     """What a per cent of unbalance costs beside a more exact call, in words; else empty."""
-    runs, ideal = _balanced(runs)
+    runs, ideal = _comparable(runs)
     calls = {
-        tolerance_asked(run.method): (run.balance_path + run.balance_network) / rebalances
+        tolerance: (run.balance_path + run.balance_network)
+        / (run.rebalances or -(-run.steps // run.every))
         for run in runs
-        if family(run.method) == "rrcb" and (rebalances := run.rebalances or -(-run.steps // run.every))
+        if family(run.method) == "rrcb" and (tolerance := tolerance_asked(run.method))
     }
-    calls.pop(None, None)
     if EXACT not in calls or len(calls) < 2 or ideal <= 0:
         return ""
     loosest = max((tolerance for tolerance in calls if tolerance != EXACT), key=float)
     a_step = 0.01 * ideal / runs[0].steps
     more = calls[EXACT] - calls[loosest]
     return (
-        f"1 % of unbalance costs {_microseconds(a_step)} a step, {_microseconds(a_step * runs[0].every)}"
-        f" until the next call ({runs[0].every} steps); an exact call costs {_microseconds(abs(more))}"
-        f" {'more' if more >= 0 else 'less'} than one to {loosest}."
+        f"1 % of unbalance costs {_microseconds(a_step)} a step,"
+        f" {_microseconds(a_step * runs[0].every)} until the next call ({runs[0].every} steps);"
+        f" an exact call costs {_microseconds(abs(more))} {'more' if more >= 0 else 'less'}"
+        f" than one to {loosest}."
     )
 
 
 def _microseconds(seconds: float) -> str:
-    return f"{float(f'{1e6 * seconds:.2g}'):g} µs"
+    return f"{in_digits(1e6 * seconds, 2)} µs"
 
 
 def write_prices(directory: Path) -> None:

@@ -14,7 +14,7 @@ from choice import EVERYWHERE, cases, choices, write_choices, write_fronts
 from claims import HEADER, claim_table, set_up_table
 from cycle import cycle_table, read_cycle
 from document import Document, write_html, write_markdown
-from machine import add_machine, read_record, warnings
+from machine import add_machine, busy_warning, read_record, shared_cores
 from prices import exchange_rate
 from results import Measurement, Simulation, read_noise, read_simulations, read_table
 from sentences import sentences, simulation_sentence
@@ -35,12 +35,13 @@ from sweep import read_clouds, read_snapshots
 from tables import choice_matrix, choice_table, method_table, noise_table, simulation_table
 
 PRICE = {
-    "price.png": "The price of accuracy. Left, the time of a call as a share of Zoltan's RCB over the"
-    " imbalance asked for; the paper's methods, which take no tolerance, stand at the imbalance they"
-    " left. Over several workloads: geometric means, and bands from the least to the most end of the"
-    " intervals of 95 %. Right, the simulation on the critical path: seconds that its calls and the"
-    " unbalance of its steps cost, over those of ideally balanced steps. What noise of the processors"
-    " and messages of the steps add is the same under all and left out. price.csv has the numbers.",
+    "price.png": "The price of accuracy. Left, the time of a call as a share of Zoltan's RCB over"
+    " the imbalance asked for; the paper's methods, which take no tolerance, stand at what they left."
+    " Over several workloads: geometric means, and bands from the least to the most end of the 95 %"
+    " intervals. Right, the simulation on the critical path: seconds that its calls and the"
+    " unbalance of its steps cost, over those of ideally balanced steps. What noise of the"
+    " processors and messages of the steps add is the same under all and left out. price.csv has"
+    " the numbers.",
 }
 COST = {
     "time_against_imbalance.png": "What accuracy costs: the time of a call against the imbalance "
@@ -48,8 +49,8 @@ COST = {
     "the mean is the least that can be told."
 }
 PICTURES = {
-    "parts.png": "The points, coloured by part, with the boxes of the parts; in each part its number"
-    " and, where every point is drawn, its points and their Lu. All scales are equal.",
+    "parts.png": "The points, coloured by part, with the boxes of the parts; in each part its"
+    " number and, where every point is drawn, its points and their Lu. All scales are equal.",
     "support_mesh.png": "A support mesh with the centroids and standard deviations of its cells.",
     "statistical_domain.png": "The real points and the statistical domain that stands for them,"
     " on equal scales.",
@@ -150,9 +151,11 @@ def _begin(
     document: Document, directory: Path, rows: list[Measurement], runs: list[Simulation]
 ) -> None:
     """The price at a glance, and what must be known of the machine."""
+    if busy := busy_warning(read_record(directory)):
+        document.conclude(busy)
     _add_pictures(document, directory, PRICE)
     ranks = max([row.ranks for row in rows] + [run.ranks for run in runs], default=1)
-    texts = warnings(read_record(directory), ranks) + sentences(rows)
+    texts = shared_cores(ranks) + sentences(rows)
     texts += [text for text in (simulation_sentence(runs), exchange_rate(runs)) if text]
     document.conclude(texts or ["Nothing was measured."])
 
@@ -294,9 +297,9 @@ def _add_simulations(document: Document, runs: list[Simulation], reference: str)
     document.table(caption, *simulation_table(runs, reference))
     shared = f" {first.ranks} ranks share {os.cpu_count()} cores here, so it hides unbalance."
     document.paragraph(
-        "critical path: what the run would take with a core for every rank, the processor time of the"
-        " slowest rank of each step and rebalance outside MPI and its messages on a network of 1.5 µs"
-        " and 12 GB/s. gain kept: of what ideal balance without cost would gain. moved: weight that"
+        "critical path: what the run would take with a core for every rank, the processor time of"
+        " the slowest rank of each step and rebalance outside MPI and its messages on a network of"
+        " 1.5 µs and 12 GB/s. gain kept: of what ideal balance without cost would gain. moved: weight that"
         " changed rank, of all weight, in a rebalance. wall: by the clock."
         + shared * (first.ranks > (os.cpu_count() or 1))
     )
@@ -304,12 +307,13 @@ def _add_simulations(document: Document, runs: list[Simulation], reference: str)
 
 def _define(document: Document) -> None:
     document.paragraph(
-        "imbalance: heaviest part / mean part. Lu: (ideal − actual) / ideal of a part, below 0 where it is too heavy. time: slowest"
-        " rank, median of the repeats. times as fast: Zoltan RCB's time / this method's. bytes and"
+        "imbalance: heaviest part / mean part. Lu: (ideal − actual) / ideal of a part, below 0 where"
+        " it is too heavy. time: slowest rank, median of the repeats. times as fast: Zoltan RCB's"
+        " time / this method's. bytes and"
         " messages: of one call over all ranks. into root: bytes that rank 0 receives."
         " moved: weight that changes rank. exact: no part holds more than one point above the mean."
-        " In brackets: intervals of 95 %; where they overlap, or that of a ratio holds 1, two methods"
-        " are not told apart."
+        " In brackets: intervals of 95 %; where they overlap, or that of a ratio holds 1, two"
+        " methods are not told apart."
     )
 
 

@@ -9,7 +9,9 @@ from choice import cases, fastest, find_method, is_within
 from intervals import (
     NOT_TOLD_APART,
     are_apart,
+    decimals,
     differs_from_one,
+    in_digits,
     inverse,
     mean_interval,
     quotient,
@@ -43,12 +45,12 @@ def simulation_sentence(runs: list[Simulation]) -> str:
     same = [
         run.method
         for run in runs
-        if run is not best and not are_apart(run.critical_path_interval, best.critical_path_interval)
+        if run is not best
+        and not are_apart(run.critical_path_interval, best.critical_path_interval)
     ]
-    text = (
-        f"With a core for every rank the simulation would take"
-        f" {with_interval(best.critical_path, best.critical_path_interval, 3)} s under {best.method}"
-    )
+    digits = decimals([best.critical_path], 4)
+    seconds = with_interval(best.critical_path, best.critical_path_interval, digits)
+    text = f"With a core for every rank the simulation would take {seconds} s under {best.method}"
     if same:
         return f"{text}, {NOT_TOLD_APART} from {_list(same)}."
     return f"{text}, the least of {len(runs)} methods."
@@ -102,11 +104,11 @@ def _beside_the_paper(by_case: list[Case]) -> str:
     )
     if not pairs:
         return "The paper's RRCB was not measured beside a setting of RRCB at least as balanced."
-    number = "the one measured setting" if len(settings) == 1 else f"the {len(settings)} measured settings"
+    number = f"{len(settings)} measured setting" + "s" * (len(settings) > 1)
     return (
-        f"Of {number} of the paper's RRCB, {best} was the most accurate and left an imbalance of"
-        f" {_mean([paper.imbalance for paper, _ in pairs], 5)}; RRCB at least as balanced took"
-        f" {_time_ratio(pairs)} and left"
+        f"Of the {number} of the paper's RRCB, {best} was the most accurate and left an imbalance"
+        f" of {_mean([paper.imbalance for paper, _ in pairs], 5)}; RRCB at least as balanced took"
+        f" {_time_ratio(pairs, 'its time')} and left"
         f" {_mean([ours.imbalance for _, ours in pairs], 5)}{_of(pairs, by_case)}."
     )
 
@@ -163,10 +165,10 @@ def _bytes(row: Measurement) -> float:
     return row.bytes
 
 
-def _time_ratio(pairs: Pairs) -> str:
-    """The second's time over the first's: the words that follow take it."""
+def _time_ratio(pairs: Pairs, what: str = "the time") -> str:
+    """The second's time over the first's."""
     interval = mean_interval(_quotient_of_times(first, second) for first, second in pairs)
-    text = f"{with_interval(_ratio(pairs, _time), interval, 2)} times the time"
+    text = f"{with_interval(_ratio(pairs, _time), interval, 2)} times {what}"
     if not differs_from_one(interval):
         text += f" ({NOT_TOLD_APART})"
     return text
@@ -187,7 +189,7 @@ def _ratio(pairs: Pairs, value: Callable[[Measurement], float]) -> float:
 
 
 def _times(ratio: float) -> str:
-    return f"{ratio:.3g} times"
+    return f"{in_digits(ratio, 3)} times"
 
 
 def _mean(values: list[float], digits: int = 2) -> str:

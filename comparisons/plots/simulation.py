@@ -7,14 +7,14 @@ from pathlib import Path
 
 from matplotlib import pyplot as plt
 
-from intervals import with_interval
+from intervals import decimals, with_interval
 from results import read_simulations
 from settings import legend_above
 from style import CALL_COLOUR, IDEAL_COLOUR, UNBALANCE_COLOUR, save
 
 
 def draw_simulation(directory: Path, picture: Path) -> bool:
-    """A bar per method: the critical path, which stands for a core for every rank, and its parts."""
+    """A bar per method: the critical path, as a core for every rank would give, in parts."""
     runs = read_simulations(directory)
     if not runs:
         return False
@@ -42,9 +42,10 @@ def draw_simulation(directory: Path, picture: Path) -> bool:
             rows, seconds, left=left, color=colour, hatch=hatch, edgecolor="white", label=name
         )
         left = [start + length for start, length in zip(left, seconds)]
+    digits = decimals(left, 3)
     for row, (run, end) in enumerate(zip(runs, left)):
-        path = with_interval(run.critical_path, run.critical_path_interval, 2)
-        text = f" {path} s, mean imbalance {run.mean_imbalance:.4f}; wall {run.wall:.2f} s"
+        path = with_interval(run.critical_path, run.critical_path_interval, digits)
+        text = f" {path} s, mean imbalance {run.mean_imbalance:.4f}; wall {run.wall:.{digits}f} s"
         axes.text(end, row, text, va="center", fontsize=8)
     axes.invert_yaxis()
     axes.set_xlim(0, 1.7 * max(left))

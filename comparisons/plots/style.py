@@ -1,9 +1,9 @@
-"""One look for all pictures: colours, lines, axes, and labels that keep clear of each other."""
+"""One look for all pictures: colours, lines, axes, and labels."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import matplotlib
@@ -15,7 +15,6 @@ import numpy as np  # noqa: E402
 from matplotlib.axes import Axes  # noqa: E402
 from matplotlib.axis import Axis  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
-from matplotlib.text import Annotation  # noqa: E402
 from matplotlib.ticker import (  # noqa: E402
     FixedLocator,
     FuncFormatter,
@@ -23,10 +22,9 @@ from matplotlib.ticker import (  # noqa: E402
     MaxNLocator,
     NullFormatter,
 )
-from matplotlib.transforms import Bbox  # noqa: E402
 
-# Three palettes that share no colour: of parts, of the paper's multiplier k, and of methods; any two
-# differ by 14 units or more of CIELAB.
+# Three palettes that share no colour: of parts, of the paper's multiplier k, and of methods; any
+# two differ by 14 units of CIELAB or more.
 PART_COLOURS = (
     "#B197FF #E5D870 #FF7D70 #7DA43C #3CE5FF #FF7DBE #E5A449 #8A97BE #63F2B1 #CB8A97 "
     "#F2D8BE #49B163 #FFCBFF #7DA48A #BEE5A4 #B1A463 #3CA4FF #FFA4FF #70D8BE #3CA4BE"
@@ -67,11 +65,31 @@ _METHODS = {
     "rrcb-arrays": MethodStyle("#7B2D8E", "-", "h"),
 }
 _OTHER = MethodStyle("#7A5C4A", "-", "8")
+_LINES = ("--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 3)))
+_MARKERS_AND_LINES = [
+    (marker, _LINES[(i + turn) % len(_LINES)])
+    for turn in range(len(_LINES))
+    for i, marker in enumerate("sD^v<>pPXh*d8H")
+]
 
 
 def method_style(method: str) -> MethodStyle:
     """Of the setting, of its method where the setting has none."""
     return _METHODS.get(method) or _METHODS.get(method.split("[")[0]) or _OTHER
+
+
+def distinct_styles(methods: list[str]) -> dict[str, MethodStyle]:
+    """Of each method; settings that share one get other markers and lines, of which there are 84."""
+    styles: dict[str, MethodStyle] = {}
+    for method in sorted(methods, key=lambda name: name not in _METHODS):
+        if method in styles:
+            continue
+        style = method_style(method)
+        if style in styles.values():
+            others = (replace(style, marker=m, line=n) for m, n in _MARKERS_AND_LINES)
+            style = next((other for other in others if other not in styles.values()), style)
+        styles[method] = style
+    return {method: styles[method] for method in methods}
 
 
 def multiplier_colour(k: float) -> str:
@@ -181,73 +199,3 @@ def label_right(axes: Axes, labels: list[tuple[float, str, str]]) -> None:
         axes.text(
             1.01, free, text, color=colour, va="center", fontsize=9, transform=axes.transAxes
         )
-
-
-def place_labels(
-    axes: Axes, marks: list[tuple[float, float, float, float]], texts: list[str]
-) -> None:
-    """Writes each text beside its mark (x from, x, x to, y) where it covers nothing else.
-
-    The view limits must be final; the first of the places that covers least is taken.
-    """
-    axes.figure.canvas.draw()
-    renderer = axes.figure.canvas.get_renderer()
-    frame = axes.get_window_extent(renderer)
-    taken = [box for mark in marks for box in _mark_boxes(axes, mark)]
-    for (_, x, _, y), text in zip(marks, texts):
-        notes = [_annotate(axes, x, y, text, place) for place in _PLACES]
-        boxes = [note.get_window_extent(renderer).expanded(1.02, 1.05) for note in notes]
-        costs = [
-            sum(box.overlaps(other) for other in taken) + 2 * (not _inside(box, frame))
-            for box in boxes
-        ]
-        best = costs.index(min(costs))
-        taken.append(boxes[best])
-        for note in notes[:best] + notes[best + 1 :]:
-            note.remove()
-
-
-# Offset in points, horizontal and vertical alignment; above and below first, since bars run across.
-_PLACES = [
-    ((0, 6), "center", "bottom"),
-    ((0, -6), "center", "top"),
-    ((6, 5), "left", "bottom"),
-    ((-6, 5), "right", "bottom"),
-    ((6, -5), "left", "top"),
-    ((-6, -5), "right", "top"),
-    ((0, 18), "center", "bottom"),
-    ((0, -18), "center", "top"),
-    ((0, 30), "center", "bottom"),
-    ((0, -30), "center", "top"),
-]
-
-_Place = tuple[tuple[float, float], str, str]
-
-
-def _annotate(axes: Axes, x: float, y: float, text: str, place: _Place) -> Annotation:
-    offset, horizontal, vertical = place
-    return axes.annotate(
-        text,
-        (x, y),
-        xytext=offset,
-        textcoords="offset points",
-        ha=horizontal,
-        va=vertical,
-        fontsize=8,
-        color="#222222",
-    )
-
-
-def _mark_boxes(axes: Axes, mark: tuple[float, float, float, float]) -> list[Bbox]:
-    """On the screen: the marker, and the bar through it."""
-    left, x, right, y = mark
-    ends = axes.transData.transform([(left, y), (x, y), (right, y)])
-    (x0, _), (x1, middle), (x2, _) = ends
-    return [
-        Bbox.from_extents(x1 - 6, middle - 6, x1 + 6, middle + 6),
-        Bbox.from_extents(x0, middle - 2, x2, middle + 2),
-    ]
-
-
-def _inside(box: Bbox, frame: Bbox) -> bool:
-    return frame.x0 <= box.x0 and box.x1 <= frame.x1 and frame.y0 <= box.y0 and box.y1 <= frame.y1

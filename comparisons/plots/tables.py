@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from choice import TOLERANCES, Choice, find_method
-from intervals import NOT_TOLD_APART, differs_from_one, inverse, with_interval
+from intervals import NOT_TOLD_APART, decimals, differs_from_one, inverse, with_interval
 from results import Interval, Measurement, Repeat, Simulation
 
 Table = tuple[list[str], list[list[str]]]
@@ -17,7 +17,7 @@ def method_table(rows: list[Measurement]) -> Table:
         [
             row.method,
             with_interval(row.imbalance, row.imbalance_interval, 5),
-            f"±{row.lu_percent:.3f}" if row.worst_lu is None else f"{row.worst_lu:+.3f}",
+            _signed(row),
             with_interval(row.time_ms, row.time_interval, 2),
             _times_as_fast(row, reference),
             f"{row.bytes:,}",
@@ -28,6 +28,14 @@ def method_table(rows: list[Measurement]) -> Table:
         for row in rows
     ]
     return header, table
+
+
+def _signed(row: Measurement) -> str:
+    """Largest |Lu| with its sign, where that was measured."""
+    if row.worst_lu is None:
+        return f"±{row.lu_percent:.3f}"
+    text = f"{row.worst_lu:+.3f}"
+    return "0.000" if float(text) == 0 else text
 
 
 def _times_as_fast(row: Measurement, reference: Measurement | None) -> str:
@@ -73,19 +81,20 @@ def _number(value: float | None, digits: int, interval: Interval | None = None) 
 
 def simulation_table(runs: list[Simulation], reference: str) -> Table:
     base = next((run for run in runs if run.method == reference), None)
+    digits = decimals([run.critical_path for run in runs], 4)
     header = ["method", "ranks", "critical path s", f"times as fast as {reference}", "gain kept %"]
     header += ["rebalances", "moved %", "mean imbalance", "wall s"]
     table = [
         [
             run.method,
             str(run.ranks),
-            with_interval(run.critical_path, run.critical_path_interval, 3),
+            with_interval(run.critical_path, run.critical_path_interval, digits),
             _speed_up(run, base),
             _percent(run.gain_kept),
             "–" if run.rebalances is None else str(run.rebalances),
             _percent(run.moved_fraction),
             with_interval(run.mean_imbalance, run.imbalance_interval, 4),
-            with_interval(run.wall, run.wall_interval, 3),
+            with_interval(run.wall, run.wall_interval, digits),
         ]
         for run in runs
     ]

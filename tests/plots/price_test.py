@@ -74,6 +74,10 @@ class PriceTest(unittest.TestCase):
         found = self.prices(TABLE)["call", "rrcb-sampled[mesh=4]"]
         self.assertEqual(found.tolerance, "1.100000")  # of 1.21 and 1
 
+    def test_is_exact_where_no_part_has_more_than_one_point_above_the_mean(self) -> None:
+        table = TABLE + row("root-rcb", "fog", "2", "1.004", "0.25,,")  # 4 ranks / 1000 points
+        self.assertEqual(self.prices(table)["call", "root-rcb"].tolerance, "exact")
+
     def test_needs_no_intervals(self) -> None:
         found = self.prices(TABLE.replace("0.25,0.2,0.3", "0.25,,").replace("1,0.9,1.2", "1,,"))
         self.check(found["call", "rrcb[tol=1.1]"], 0.5, 0.25, 1)
@@ -83,12 +87,17 @@ class PriceTest(unittest.TestCase):
         self.check(found["steps", "rrcb[tol=1.1]"], 0.08, 0.08, 0.08)
         self.check(found["calls", "rrcb[tol=1.1]"], 0.2, 0.2, 0.2)
         self.check(found["simulation", "rrcb[tol=1.1]"], 0.28, 0.18, 0.48)
-        self.assertNotIn(("simulation", "none"), found)
+        self.check(found["simulation", "none"], 0.6, 0.5, 0.7)
 
     def test_optimum_names_what_is_not_told_apart_from_it(self) -> None:
         best, others = prices.optimum(list(self.prices(TABLE, RUNS).values()))
         self.assertEqual(best.method, "rrcb[tol=1.1]")
         self.assertEqual([other.method for other in others], ["rrcb-exact"])
+
+    def test_optimum_is_of_rrcb_behind_callbacks(self) -> None:
+        arrays = RUNS + RUNS.splitlines()[2].replace("rrcb[tol=1.1]", "rrcb-arrays") + "\n"
+        best, others = prices.optimum(list(self.prices(TABLE, arrays).values()))
+        self.assertNotIn("rrcb-arrays", [best.method, *(other.method for other in others)])
 
     def test_exchange_rate_of_unbalance_and_calls(self) -> None:
         self.prices(TABLE, RUNS)

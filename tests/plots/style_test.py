@@ -39,6 +39,13 @@ class StyleTest(unittest.TestCase):
         self.assertEqual(style.method_style("rrcb[mesh=8]"), style.method_style("rrcb"))
         self.assertNotEqual(style.method_style("rrcb[tol=1.1]"), style.method_style("rrcb"))
 
+    def test_settings_that_share_a_style_are_told_apart(self) -> None:
+        methods = ["rrcb", *(f"rrcb[mesh={mesh}]" for mesh in range(2, 40))]
+        styles = style.distinct_styles(methods)
+        self.assertEqual(styles["rrcb"], style.method_style("rrcb"))
+        self.assertEqual(len(set(styles.values())), len(methods))
+        self.assertEqual({found.colour for found in styles.values()}, {styles["rrcb"].colour})
+
     def test_k_is_the_darker_the_larger(self) -> None:
         found = [style.multiplier_colour(k) for k in (1, 1.5, 2, 2.5)]
         self.assertEqual(found, style.MULTIPLIER_COLOURS)

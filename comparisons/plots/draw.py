@@ -9,14 +9,16 @@ import sys
 from pathlib import Path
 
 from cost import draw_cost
+from cycle import draw_cycle
 from domains import draw_domains, draw_support_mesh
 from history import draw_history
+from paper_figures import draw_figure_2, draw_figure_6, draw_study_history
 from parts import draw_parts
 from price import draw_price
 from prices import write_prices
 from simulation import draw_simulation
 from sources import draw_sources
-from speed_up import draw_ranks, draw_speed_up, draw_study_history, write_speed_ups
+from speed_up import draw_ranks, draw_speed_up, write_speed_ups
 from style import use_style
 from sweep import draw_study, draw_sweep_bytes, draw_sweep_time
 
@@ -31,9 +33,12 @@ PICTURES = {
     "sweep_time.png": draw_sweep_time,
     "sweep_bytes.png": draw_sweep_bytes,
     "error_sources.png": draw_sources,
+    "cycle.png": draw_cycle,
     "study.png": draw_study,
+    "figure_2.png": draw_figure_2,
     "speed_up.png": draw_speed_up,
     "ranks.png": draw_ranks,
+    "figure_6.png": draw_figure_6,
     "study_history.png": draw_study_history,
 }
 

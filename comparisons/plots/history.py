@@ -29,7 +29,7 @@ def draw_history(directory: Path, picture: Path) -> bool:
     top.set_xlabel("time simulated [s]")
     for number, (method, history) in enumerate(histories.items()):
         axes = figure.add_subplot(grid[1 + number // 2, number % 2], sharex=top)
-        _draw_parts(axes, method, history)
+        draw_parts_of(axes, method, history)
         if number >= len(histories) - 2:
             axes.set_xlabel("time simulated [s]")
     parts = max(int(history["part"].max()) for history in histories.values()) + 1
@@ -76,7 +76,8 @@ def draw_worst(axes: Axes, histories: dict[str, Columns]) -> None:
     axes.grid(True, axis="y")
 
 
-def _draw_parts(axes: Axes, method: str, history: Columns) -> None:
+def draw_parts_of(axes: Axes, method: str, history: Columns) -> None:
+    """Lu of every part, from least to most of each window."""
     times, unbalance = _per_part(history)
     axes.axhline(0, color="#999999", linewidth=0.6)
     windows = _windows(len(times))

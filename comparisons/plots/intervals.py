@@ -1,14 +1,16 @@
-"""Intervals of 95 %: how they are written, and what they tell apart."""
+"""Intervals of 95 %: how they are found, how they are written, and what they tell apart."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from math import floor, log10
-from statistics import geometric_mean
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from math import comb, floor, log10
+from statistics import geometric_mean, median
 
 from results import Interval
 
 NOT_TOLD_APART = "not told apart"
+CONFIDENCE = 0.95
 
 
 def with_interval(value: float, interval: Interval | None, digits: int) -> str:
@@ -59,3 +61,42 @@ def mean_interval(intervals: Iterable[Interval | None]) -> Interval | None:
         return None
     low, high = zip(*known)
     return geometric_mean(low), geometric_mean(high)
+
+
+@dataclass(frozen=True)
+class Spread:
+    """A median and where the true one lies; no interval where the values are too few for one."""
+
+    median: float
+    interval: Interval | None
+    count: int
+
+    @property
+    def low(self) -> float:
+        return self.interval[0] if self.interval else self.median
+
+    @property
+    def high(self) -> float:
+        return self.interval[1] if self.interval else self.median
+
+    def text(self, digits: int) -> str:
+        return with_interval(self.median, self.interval, digits)
+
+
+def interval95(values: Sequence[float]) -> Interval | None:
+    """Two order statistics, equally far from both ends, that hold the median of what the values
+    are drawn from with at least 95 %: the narrowest such pair, by the binomial distribution. None
+    of fewer than 6 values, where even the least and the most hold it with less."""
+    count = len(values)
+    left_out = -1
+    outside = 0.0  # probability that at most `left_out` of the values are below the median
+    while (outside := outside + comb(count, left_out + 1) / 2**count) <= (1 - CONFIDENCE) / 2:
+        left_out += 1
+    if left_out < 0:
+        return None
+    ordered = sorted(values)
+    return ordered[left_out], ordered[count - 1 - left_out]
+
+
+def spread_of(values: Sequence[float]) -> Spread:
+    return Spread(median(values), interval95(values), len(values))

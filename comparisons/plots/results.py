@@ -190,7 +190,12 @@ def read_history(directory: Path) -> dict[str, Columns]:
 
 def read_study_history(directory: Path, ranks: int) -> dict[str, Columns]:
     """The same of the paper's settings on so many ranks, which have a file each."""
-    files = sorted((directory / "data").glob(f"history_rrcb-sampled_*_{ranks}.csv"))
+    return read_histories(directory, f"history_rrcb-sampled_*_{ranks}.csv")
+
+
+def read_histories(directory: Path, pattern: str) -> dict[str, Columns]:
+    """The same of all files of that pattern in data."""
+    files = sorted((directory / "data").glob(pattern))
     return _histories([row for file in files for row in read_rows(file)])
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -56,6 +56,15 @@ def draw_lines(
         )
     axes.set_xticks(sorted(values_of(methods, 1)))
     axes.grid(True)
+
+
+def handles_of(panels: Iterable[Axes]) -> list:
+    """One for each label in any of the panels."""
+    found: dict[str, object] = {}
+    for axes in panels:
+        for handle, label in zip(*axes.get_legend_handles_labels()):
+            found.setdefault(label, handle)
+    return [found[label] for label in sorted(found)]
 
 
 def legend_above(figure: Figure, handles: list, inches: float = 1.45) -> None:

@@ -10,6 +10,7 @@ from statistics import geometric_mean
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
+from intervals import Spread, spread_of
 from results import read_rows, unique
 from settings import legend_above
 from style import MULTIPLIER_COLOURS, method_style, save
@@ -132,14 +133,19 @@ def _draw_case(axes: Axes, rows: list[Source]) -> None:
         if not by_mesh:
             continue
         meshes = list(by_mesh)
-        middle = [geometric_mean(values) for values in by_mesh.values()]
+        spreads = [spread_of(values) for values in by_mesh.values()]
         axes.plot(
-            meshes, middle, color=stage.colour, linestyle=stage.line, marker=".", label=stage.label
+            meshes,
+            [spread.median for spread in spreads],
+            color=stage.colour,
+            linestyle=stage.line,
+            marker=".",
+            label=stage.label,
         )
         axes.fill_between(
             meshes,
-            [min(values) for values in by_mesh.values()],
-            [max(values) for values in by_mesh.values()],
+            [spread.low for spread in spreads],
+            [spread.high for spread in spreads],
             color=stage.colour,
             alpha=0.15,
             linewidth=0,
@@ -156,17 +162,39 @@ def _by_mesh(rows: list[Source]) -> dict[int, list[float]]:
 
 
 def source_table(rows: list[Source]) -> tuple[list[str], list[list[str]]]:
-    """Geometric mean over the clouds of the imbalance beyond 1 in percent, per mesh and stage."""
+    """Imbalance beyond 1 in percent, per mesh and stage: geometric mean over the clouds of the
+    medians over the seeds, with that of the ends of their intervals."""
     meshes = sorted({row.mesh for row in rows if row.mesh > 0})
     header = ["what is bisected", *(f"mesh {mesh}" for mesh in meshes)]
-    exact = [row.excess for row in rows if row.domain == "points"]
-    table = [["all points (one point at least)", *([_percent(exact)] * len(meshes))]]
+    exact = mean_excess([row for row in rows if row.domain == "points"])
+    table = [["all points (one point at least)", *([_text(exact)] * len(meshes))]]
     for stage in STAGES:
-        by_mesh = _by_mesh([row for row in rows if stage.takes(row)])
-        if by_mesh:
-            table.append([stage.label, *(_percent(by_mesh[mesh]) for mesh in meshes)])
+        chosen = [row for row in rows if stage.takes(row)]
+        if chosen:
+            table.append(
+                [
+                    stage.label,
+                    *(_text(mean_excess([r for r in chosen if r.mesh == mesh])) for mesh in meshes),
+                ]
+            )
     return header, table
 
 
-def _percent(excesses: list[float]) -> str:
-    return f"{100 * geometric_mean(excesses):.3g}"
+def mean_excess(rows: list[Source]) -> Spread:
+    """In percent, over the clouds of these rows."""
+    by_case = [
+        spread_of([row.excess for row in rows if row.case == case])
+        for case in unique([row.case for row in rows])
+    ]
+    middle = 100 * geometric_mean([spread.median for spread in by_case])
+    if not all(spread.interval for spread in by_case):
+        return Spread(middle, None, len(by_case))
+    ends = ([spread.low for spread in by_case], [spread.high for spread in by_case])
+    low, high = (100 * geometric_mean(values) for values in ends)
+    return Spread(middle, (low, high), len(by_case))
+
+
+def _text(excess: Spread) -> str:
+    if excess.interval is None:
+        return f"{excess.median:.3g}"
+    return f"{excess.median:.3g} [{excess.low:.3g}, {excess.high:.3g}]"

@@ -1,23 +1,30 @@
-"""Speed-up of the simulation over the serial one: figure 5, table 1 and figure 6 of the paper."""
+"""Speed-up of the simulation over the serial one: figure 5 and table 1 of the paper."""
 
 from __future__ import annotations
 
 import csv
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from statistics import mode
+from statistics import median, mode
 
-import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
-from results import Simulation, read_simulations, read_study_history
+from intervals import Spread, interval95, spread_of
+from results import Simulation, read_simulations
 from settings import SETTING, draw_lines, legend_above, setting_of, values_of
-from style import method_style, multiplier_colour, save
+from style import method_style, save
 
 SIMULATIONS = "sweep_simulation.csv"
+EVERY_STEP = "paper_simulation.csv"  # rebalanced at every step
 STANDARD = "rrcb-sampled[mesh=4,k=1.5,fraction=1]"  # the paper's RRCB
+WINNERS = (  # the settings with which it was faster than RCB in the paper
+    "rrcb-sampled[mesh=2,k=1.5,fraction=0.25]",
+    "rrcb-sampled[mesh=4,k=2,fraction=0.125]",
+    "rrcb-sampled[mesh=6,k=2,fraction=0.125]",
+    "rrcb-sampled[mesh=8,k=2,fraction=0.125]",
+)
 OTHERS = ("none", "zoltan-rcb", "root-rcb", "rrcb", "rrcb-exact")
 KINDS = {
     "critical_path": "critical path: a core for every rank",
@@ -28,62 +35,109 @@ KINDS = {
 
 @dataclass(frozen=True)
 class SpeedUp:
-    """How many times as fast as the serial simulation, each way of looking at it."""
+    """How many times as fast as the serial simulation, each way of looking at it: medians."""
 
-    run: Simulation
+    run: Simulation  # of medians over the repeats
     critical_path: float
     every_step: float  # the critical path, were every step followed by a rebalance
     points: float
     wall: float
+    spreads: dict[str, Spread]  # of these, by name, and of the mean imbalance
 
 
-def read_speed_ups(directory: Path) -> list[SpeedUp]:
-    runs = read_simulations(directory, SIMULATIONS)
-    serial = next((run for run in reversed(runs) if run.method == "serial"), None)
-    if serial is None:
+def read_speed_ups(directory: Path, name: str = SIMULATIONS) -> list[SpeedUp]:
+    """One per method and number of ranks, over the median of the serial runs."""
+    runs = read_simulations(directory, name)
+    last = next((run for run in reversed(runs) if run.method == "serial"), None)
+    if last is None:
         return []
+    repeats = _repeats([run for run in runs if _size_of(run) == _size_of(last)])
+    serial = middle_run(repeats["serial", 1])
+    return [_speed_up(same, serial) for same in repeats.values()]
+
+
+def middle_runs(runs: list[Simulation]) -> list[Simulation]:
+    """Medians over the repeats of each simulation."""
+    sizes = dict.fromkeys(_size_of(run) for run in runs)
     return [
-        _speed_up(run, serial) for run in runs if _size_of(run) == _size_of(serial)
+        middle_run(same)
+        for size in sizes
+        for same in _repeats([run for run in runs if _size_of(run) == size]).values()
     ]
+
+
+def middle_run(same: list[Simulation]) -> Simulation:
+    numbers = {
+        field.name: median(getattr(run, field.name) for run in same)
+        for field in fields(Simulation)
+        if all(isinstance(getattr(run, field.name), float) for run in same)
+    }
+    return replace(
+        same[0],
+        **numbers,
+        wall_interval=interval95([run.wall for run in same]),
+        imbalance_interval=interval95([run.mean_imbalance for run in same]),
+        critical_path_interval=interval95([run.critical_path for run in same]),
+    )
+
+
+def _repeats(runs: list[Simulation]) -> dict[tuple[str, int], list[Simulation]]:
+    repeats: dict[tuple[str, int], list[Simulation]] = {}
+    for run in runs:
+        repeats.setdefault((run.method, run.ranks), []).append(run)
+    return repeats
 
 
 def _size_of(run: Simulation) -> tuple[int, int, int]:
     return run.points, run.steps, run.every
 
 
-def _speed_up(run: Simulation, serial: Simulation) -> SpeedUp:
+def _speed_up(same: list[Simulation], serial: Simulation) -> SpeedUp:
+    kinds = [_kinds(run, serial) for run in same]
+    spreads = {kind: spread_of([of_run[kind] for of_run in kinds]) for kind in kinds[0]}
+    medians = {kind: spread.median for kind, spread in spreads.items()}
+    spreads["mean_imbalance"] = spread_of([run.mean_imbalance for run in same])
+    return SpeedUp(middle_run(same), **medians, spreads=spreads)
+
+
+def _kinds(run: Simulation, serial: Simulation) -> dict[str, float]:
     step = run.step_path + run.step_network
     balance = run.balance_path + run.balance_network
     rebalances = -(-run.steps // run.every)
-    return SpeedUp(
-        run,
-        serial.step_path / (step + balance),
-        serial.step_path / (step + balance / rebalances * run.steps),
-        run.points * run.steps / run.path_points,
-        serial.wall / run.wall,
-    )
+    return {
+        "critical_path": serial.step_path / (step + balance),
+        "every_step": serial.step_path / (step + balance / rebalances * run.steps),
+        "points": run.points * run.steps / run.path_points,
+        "wall": serial.wall / run.wall,
+    }
 
 
 def write_speed_ups(directory: Path) -> None:
-    """speed_up.csv: a row per simulation; nothing without simulations."""
+    """speed_up.csv: a row per method and number of ranks; nothing without simulations."""
     speed_ups = read_speed_ups(directory)
     if not speed_ups:
         return
+    kinds = ("critical_path", "every_step", "points", "wall", "mean_imbalance")
+    names = [f"speed_up_{kind}" for kind in ("critical_path", "critical_path_every_step")]
+    names += ["speed_up_points", "speed_up_wall", "mean_imbalance"]
     with (directory / "speed_up.csv").open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(
-            "method,mesh,k,fraction,ranks,cores,points,steps,every,speed_up_critical_path,"
-            "speed_up_critical_path_every_step,speed_up_points,speed_up_wall,mean_imbalance,"
-            "worst_imbalance".split(",")
+            "method,mesh,k,fraction,ranks,cores,points,steps,every,repeats".split(",")
+            + [f"{name}{end}" for name in names for end in ("", "_low", "_high")]
+            + ["worst_imbalance"]
         )
         for s in speed_ups:
             match = SETTING.fullmatch(s.run.method)
-            writer.writerow(
-                [s.run.method, *(match.groups() if match else ("", "", ""))]
-                + [s.run.ranks, os.cpu_count(), s.run.points, s.run.steps, s.run.every]
-                + [f"{value:.4g}" for value in (s.critical_path, s.every_step, s.points, s.wall)]
-                + [f"{s.run.mean_imbalance:.6g}", f"{s.run.worst_imbalance:.6g}"]
-            )
+            row = [s.run.method, *(match.groups() if match else ("", "", "")), s.run.ranks]
+            row += [os.cpu_count(), s.run.points, s.run.steps, s.run.every]
+            row.append(s.spreads["critical_path"].count)
+            for kind in kinds:
+                spread, digits = s.spreads[kind], 6 if kind == "mean_imbalance" else 4
+                ends = spread.interval or ("", "")
+                row += [number if number == "" else f"{number:.{digits}g}" for number in
+                        (spread.median, *ends)]
+            writer.writerow([*row, f"{s.run.worst_imbalance:.6g}"])
 
 
 def draw_speed_up(directory: Path, picture: Path) -> bool:
@@ -107,6 +161,7 @@ def draw_speed_up(directory: Path, picture: Path) -> bool:
         for axes, fraction in zip(axes_row, fractions):
             chosen = [s for s in rows if setting_of(s.run.method)[2] == fraction]
             draw_lines(axes, chosen, lambda s: s.run.method, lambda s: getattr(s, kind))
+            _draw_intervals(axes, chosen, kind)
             _draw_others(axes, others, kind)
         axes_row[0].set_ylabel("speed-up over serial")
         axes_row[0].set_title(_title(kind, rows[0].run), loc="left", fontsize=9)
@@ -125,12 +180,27 @@ def _title(kind: str, run: Simulation) -> str:
     return text
 
 
+def _draw_intervals(axes: Axes, chosen: list[SpeedUp], kind: str) -> None:
+    """Of the settings that were run more than once."""
+    for s in chosen:
+        spread = s.spreads[kind]
+        if spread.interval:
+            mesh = setting_of(s.run.method)[0]
+            axes.plot([mesh, mesh], spread.interval, color="#222222", linewidth=2.5, alpha=0.6)
+
+
 def _draw_others(axes: Axes, others: list[SpeedUp], kind: str) -> None:
     for s in others:
         style = method_style(s.run.method)
         axes.axhline(
-            getattr(s, kind), color=style.colour, linestyle=style.line, linewidth=1,
+            getattr(s, kind),
+            color=style.colour,
+            linestyle=style.line,
+            linewidth=1,
             label=s.run.method,
+        )
+        axes.axhspan(
+            s.spreads[kind].low, s.spreads[kind].high, color=style.colour, alpha=0.12, linewidth=0
         )
 
 
@@ -155,6 +225,9 @@ def draw_ranks(directory: Path, picture: Path) -> bool:
                 markersize=4,
                 label=method,
             )
+            spreads = [s.spreads[kind] for s in speed_ups]
+            lows, highs = [s.low for s in spreads], [s.high for s in spreads]
+            axes.fill_between(ranks, lows, highs, color=style.colour, alpha=0.2, linewidth=0)
         if kind != "wall" or most <= (os.cpu_count() or 1):
             axes.plot([1, most], [1, most], color="#BBBBBB", linewidth=0.8, label="ideal")
         axes.set_title(kind.replace("_", " ") + f" ({os.cpu_count()} cores)" * (kind == "wall"))
@@ -182,51 +255,6 @@ def rank_table(speed_ups: list[SpeedUp], kind: str) -> tuple[list[str], list[lis
     numbers = sorted({s.run.ranks for rows in table.values() for s in rows})
     lines = []
     for method, rows in table.items():
-        by_ranks = {s.run.ranks: f"{getattr(s, kind):.2f}" for s in rows}
+        by_ranks = {s.run.ranks: s.spreads[kind].text(2) for s in rows}
         lines.append([method, "1.00", *(by_ranks.get(number, "–") for number in numbers)])
     return ["method", "1 rank", *(f"{number} ranks" for number in numbers)], lines
-
-
-def draw_study_history(directory: Path, picture: Path) -> bool:
-    """Figure 6: worst |Lu| over the steps, a panel per mesh and fraction, a line per k."""
-    runs = [s.run for s in read_speed_ups(directory) if SETTING.fullmatch(s.run.method)]
-    if not runs:
-        return False
-    histories = read_study_history(directory, mode([run.ranks for run in runs]))
-    if not histories:
-        return False
-    methods = sorted(histories, key=setting_of)
-    meshes = sorted(values_of(methods, 1))
-    fractions = values_of(methods, 3)
-    figure, grid = plt.subplots(
-        len(meshes),
-        len(fractions),
-        figsize=(2.8 * len(fractions) + 0.6, 1.7 * len(meshes) + 0.9),
-        squeeze=False,
-        sharex=True,
-        sharey=True,
-    )
-    for method in methods:
-        mesh, k, fraction = setting_of(method)
-        axes = grid[meshes.index(mesh), fractions.index(fraction)]
-        colour = multiplier_colour(k)
-        axes.plot(*_worst_over_time(histories[method]), color=colour, linewidth=0.9, label=f"k = {k:g}")
-    for axes, fraction in zip(grid[0], fractions):
-        axes.set_title(f"{100 * fraction:g} % of the points")
-    for axes, mesh in zip(grid[:, 0], meshes):
-        axes.set_ylabel(f"mesh {mesh:g}\nlargest |Lu| [%]")
-    for axes in grid.flat:
-        axes.set_yscale("log")
-        axes.grid(True, axis="y")
-    for axes in grid[-1]:
-        axes.set_xlabel("time simulated [s]")
-    legend_above(figure, grid[0, 0].get_legend_handles_labels()[0])
-    save(figure, picture)
-    return True
-
-
-def _worst_over_time(history: dict[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    times, where = np.unique(history["time"], return_inverse=True)
-    worst = np.zeros(len(times))
-    np.maximum.at(worst, where, np.abs(history["lu_percent"]))
-    return times, worst

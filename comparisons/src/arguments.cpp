@@ -46,7 +46,9 @@ const std::map<std::string, std::string>& documentation() {
         {"every", "steps between rebalances; 5"},
         {"repeats", "timed calls of each method; 7"},
         {"seed", "seed of the cloud; 1"},
-        {"only", "parts of the sweep, by commas: clouds, sources, snapshots, ranks, simulations"},
+        {"only",
+         "parts of the sweep, by commas: clouds, sources, snapshots, cycle, ranks, simulations, "
+         "paper"},
         {"out", "folder of the results; comparisons/out"},
     };
     return texts;
@@ -158,8 +160,9 @@ void choose_sweep(const Texts& texts, Arguments& arguments) {
     for (const std::string_view part : split(texts["only"], ',')) {
         chosen.emplace_back(trim(part));
         if (std::ranges::find(arguments.only, chosen.back()) == arguments.only.end()) {
-            throw Failure("--only: unknown part '" + chosen.back() +
-                          "'; choose from: clouds, sources, snapshots, ranks, simulations");
+            throw Failure(
+                "--only: unknown part '" + chosen.back() +
+                "'; choose from: clouds, sources, snapshots, cycle, ranks, simulations, paper");
         }
     }
     arguments.only = chosen;

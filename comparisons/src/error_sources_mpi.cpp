@@ -149,6 +149,7 @@ std::vector<SourceSetting> source_settings(bool quick) {
         quick ? std::vector<double>{1} : std::vector<double>{4, 1, 0.5, 0.25, 0.125};
     const std::vector<int> meshes = quick ? std::vector{4} : std::vector{2, 4, 6, 8, 10, 16, 32};
     constexpr double of_the_paper = 1.5;
+    constexpr std::uint64_t num_seeds = 10;
     std::vector<SourceSetting> settings = {{}};
     for (const int mesh : meshes) {
         settings.push_back({Source::cells, mesh});
@@ -158,7 +159,7 @@ std::vector<SourceSetting> source_settings(bool quick) {
         settings.push_back({Source::in_cells, mesh, std::sqrt(3.0)});
         settings.push_back({Source::in_all, mesh, std::sqrt(3.0)});
         for (const double fraction : fractions) {
-            for (const std::uint64_t seed : {1, 2, 3}) {
+            for (std::uint64_t seed = 1; seed <= num_seeds; ++seed) {
                 settings.push_back({Source::sampled, mesh, of_the_paper, fraction, seed});
             }
         }

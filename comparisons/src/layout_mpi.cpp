@@ -73,35 +73,6 @@ Lengths with_starts(std::vector<int> counts) {
     return {std::move(counts), std::move(starts)};
 }
 
-/// Sends row i of `rows` (of `width` doubles) to ranks[i]; rows come in the order of the senders.
-std::vector<double> exchange(const std::vector<double>& rows, int width,
-                             const std::vector<int>& ranks, MPI_Comm comm) {
-    int size = 0;
-    MPI_Comm_size(comm, &size);
-    std::vector<int> counts(static_cast<std::size_t>(size));
-    for (const int rank : ranks) ++counts[static_cast<std::size_t>(rank)];
-    const Lengths out = with_starts(counts);
-    MPI_Alltoall(out.counts.data(), 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
-    const Lengths in = with_starts(counts);
-
-    const auto row_length = static_cast<std::size_t>(width);
-    std::vector<double> packed(rows.size());
-    std::vector<int> next = out.starts;
-    for (std::size_t i = 0; i < ranks.size(); ++i) {
-        const auto slot = static_cast<std::size_t>(next[static_cast<std::size_t>(ranks[i])]++);
-        std::copy_n(&rows[i * row_length], row_length, &packed[slot * row_length]);
-    }
-    std::vector<double> received(static_cast<std::size_t>(in.starts.back() + in.counts.back()) *
-                                 row_length);
-    MPI_Datatype row = MPI_DATATYPE_NULL;
-    MPI_Type_contiguous(width, MPI_DOUBLE, &row);
-    MPI_Type_commit(&row);
-    MPI_Alltoallv(packed.data(), out.counts.data(), out.starts.data(), row, received.data(),
-                  in.counts.data(), in.starts.data(), row, comm);
-    MPI_Type_free(&row);
-    return received;
-}
-
 void reorder(Workload& workload, const std::vector<std::size_t>& places) {
     std::vector<std::size_t> order(places.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -136,6 +107,34 @@ void distribute(Workload& workload, Layout layout, std::uint64_t seed, MPI_Comm 
     workload.coordinates = exchange(workload.coordinates, workload.dimension, ranks, comm);
     if (workload.weighted) workload.weights = exchange(workload.weights, 1, ranks, comm);
     if (layout == Layout::sorted) reorder(workload, curve_places(workload, comm));
+}
+
+std::vector<double> exchange(const std::vector<double>& rows, int width,
+                             const std::vector<int>& ranks, MPI_Comm comm) {
+    int size = 0;
+    MPI_Comm_size(comm, &size);
+    std::vector<int> counts(static_cast<std::size_t>(size));
+    for (const int rank : ranks) ++counts[static_cast<std::size_t>(rank)];
+    const Lengths out = with_starts(counts);
+    MPI_Alltoall(out.counts.data(), 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+    const Lengths in = with_starts(counts);
+
+    const auto row_length = static_cast<std::size_t>(width);
+    std::vector<double> packed(rows.size());
+    std::vector<int> next = out.starts;
+    for (std::size_t i = 0; i < ranks.size(); ++i) {
+        const auto slot = static_cast<std::size_t>(next[static_cast<std::size_t>(ranks[i])]++);
+        std::copy_n(&rows[i * row_length], row_length, &packed[slot * row_length]);
+    }
+    std::vector<double> received(static_cast<std::size_t>(in.starts.back() + in.counts.back()) *
+                                 row_length);
+    MPI_Datatype row = MPI_DATATYPE_NULL;
+    MPI_Type_contiguous(width, MPI_DOUBLE, &row);
+    MPI_Type_commit(&row);
+    MPI_Alltoallv(packed.data(), out.counts.data(), out.starts.data(), row, received.data(),
+                  in.counts.data(), in.starts.data(), row, comm);
+    MPI_Type_free(&row);
+    return received;
 }
 
 }  // namespace comparisons

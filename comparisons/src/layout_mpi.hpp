@@ -5,6 +5,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <vector>
 
 namespace comparisons {
 
@@ -24,5 +25,10 @@ rrcb::Box global_box(const Workload& workload, MPI_Comm comm);
 /// Collective over `comm`. Depends on the points and the number of ranks alone when each rank
 /// holds a piece of one global order, ranks in order.
 void distribute(Workload& workload, Layout layout, std::uint64_t seed, MPI_Comm comm);
+
+/// Sends row i of `rows` (of `width` doubles) to ranks[i]; rows come in the order of the senders.
+/// Collective over `comm`.
+std::vector<double> exchange(const std::vector<double>& rows, int width,
+                             const std::vector<int>& ranks, MPI_Comm comm);
 
 }  // namespace comparisons

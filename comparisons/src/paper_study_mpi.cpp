@@ -1,11 +1,15 @@
 #include "paper_study_mpi.hpp"
 
 #include "balancer_mpi.hpp"
+#include "cycle_mpi.hpp"
+#include "plot_data_mpi.hpp"
 #include "scene_mpi.hpp"
 #include "simulation_table.hpp"
 #include "sweep_settings.hpp"
 #include "table.hpp"
 #include "text.hpp"
+
+#include <rrcb/balance.hpp>
 
 #include <mpm/slope.hpp>
 
@@ -17,12 +21,19 @@ namespace comparisons {
 
 namespace {
 
+/// The settings of the study, and the paper's rule of a cut taken literally.
+std::vector<Method> snapshot_settings(bool quick) {
+    std::vector<Method> settings = study_settings(quick);
+    settings.push_back(read_method("root-rcb[cut=midpoint]"));
+    return settings;
+}
+
 /// Whether every setting has its row for every snapshot, told without running the slope.
 bool has_snapshots(const Sweep& sweep, const SimulationPlan& plan, const SavedRows& rows) {
     Comparison expected{"", "simulation", 2, 0, sweep.num_ranks, {}, {}};
     expected.num_points = mpm::Simulation(plan.scene, sweep.comm).num_points();
     expected.plan = {sweep.arguments.lists, sweep.arguments.repeats};
-    const std::vector<Method> settings = study_settings(sweep.arguments.quick);
+    const std::vector<Method> settings = snapshot_settings(sweep.arguments.quick);
     return std::ranges::all_of(snapshot_names(plan.scene), [&](const std::string& name) {
         expected.workload = name;
         return std::ranges::all_of(settings, [&](const Method& method) {
@@ -53,29 +64,44 @@ SimulationPlan study_plan(const Sweep& sweep) {
     return plan;
 }
 
+/// The same rebalanced at every step, as the paper does. Every step is recorded: at every other one
+/// only half of a load that alternates would show.
+SimulationPlan paper_plan(const Sweep& sweep) {
+    SimulationPlan plan = study_plan(sweep);
+    plan.every = 1;
+    plan.record_every = 1;
+    return plan;
+}
+
 /// Simulations that have no row yet.
 class Study {
   public:
-    explicit Study(const Sweep& sweep)
+    /// Rows go to `file`, loads to data/<histories>_<method>_<ranks>.csv.
+    Study(const Sweep& sweep, SimulationPlan plan, const std::string& file, std::string histories)
         : sweep_(sweep),
-          plan_(study_plan(sweep)),
+          plan_(std::move(plan)),
+          histories_(std::move(histories)),
           num_points_(mpm::Simulation(plan_.scene, sweep.comm).num_points()),
-          rows_(sweep.folder, "sweep_simulation.csv", simulation_header(), 5) {}
+          rows_(sweep.folder, file, "repeat," + simulation_header(), 6) {}
 
-    /// Beside the serial simulation and the one without rebalancing; true when none failed.
-    bool run(const std::vector<Method>& settings);
+    /// `num_repeats` rounds of the serial simulation, the one without rebalancing and the
+    /// settings; a method that draws points takes another seed in each. True when none failed.
+    bool run(const std::vector<Method>& settings, int num_repeats);
 
   private:
-    bool is_missing(const std::string& label, int num_ranks) const {
-        return !rows_.has(simulation_key(plan_, num_ranks, num_points_, label));
+    bool is_missing(int repeat, const std::string& label, int num_ranks) const {
+        return !rows_.has(std::to_string(repeat) + ',' +
+                          simulation_key(plan_, num_ranks, num_points_, label));
     }
+    bool run_round(const std::vector<Method>& settings, int repeat);
     SimulationRun simulate(const std::string& label, const std::optional<mpm::Balancer>& balancer,
                            MPI_Comm comm);
     SimulationRun simulate_serially();
-    bool add(const SimulationRun& run, int num_ranks);
+    bool add(int repeat, const SimulationRun& run, int num_ranks);
 
     const Sweep& sweep_;
     SimulationPlan plan_;
+    std::string histories_;
     std::int64_t num_points_;
     SavedRows rows_;
     std::size_t num_settings_ = 0;
@@ -109,31 +135,67 @@ SimulationRun Study::simulate_serially() {
     return run;
 }
 
-bool Study::add(const SimulationRun& run, int num_ranks) {
+/// The history is that of the first repeat.
+bool Study::add(int repeat, const SimulationRun& run, int num_ranks) {
     const std::string method =
         sweep_.folder.from_root([&](std::ostream& out) { out << run.method; });
-    sweep_.folder.write(
-        "data/history_" + file_name_part(method) + "_" + std::to_string(num_ranks) + ".csv",
-        [&](std::ostream& out) { write_history(out, std::span(&run, 1)); });
-    return !rows_.add([&](std::ostream& out) { write_simulation(out, plan_, num_ranks, run); });
+    if (repeat == 1) {
+        sweep_.folder.write("data/" + histories_ + '_' + file_name_part(method) + '_' +
+                                std::to_string(num_ranks) + ".csv",
+                            [&](std::ostream& out) { write_history(out, std::span(&run, 1)); });
+    }
+    return !rows_.add([&](std::ostream& out) {
+        out << repeat << ',';
+        write_simulation(out, plan_, num_ranks, run);
+    });
 }
 
-bool Study::run(const std::vector<Method>& settings) {
-    num_settings_ = settings.size() + 2;
-    sweep_.say("simulations of " + std::to_string(plan_.num_steps) + " steps, " +
-               std::to_string(sweep_.num_ranks) + " ranks: up to " + std::to_string(num_settings_));
+bool Study::run_round(const std::vector<Method>& settings, int repeat) {
     bool succeeded = true;
-    if (is_missing("serial", 1)) succeeded = add(simulate_serially(), 1);
-    if (is_missing("none", sweep_.num_ranks)) {
+    if (is_missing(repeat, "serial", 1)) succeeded = add(repeat, simulate_serially(), 1);
+    if (is_missing(repeat, "none", sweep_.num_ranks)) {
         const SimulationRun run = simulate("none", std::nullopt, sweep_.comm);
-        succeeded = add(run, sweep_.num_ranks) && succeeded;
+        succeeded = add(repeat, run, sweep_.num_ranks) && succeeded;
     }
     for (const Method& method : settings) {
-        if (!is_missing(method.label, sweep_.num_ranks)) continue;
-        const SimulationRun run = simulate(method.label, make_balancer(method), sweep_.comm);
-        succeeded = add(run, sweep_.num_ranks) && succeeded;
+        if (!is_missing(repeat, method.label, sweep_.num_ranks)) continue;
+        const Method seeded = with_next_seed(method, static_cast<unsigned>(repeat) - 1);
+        const SimulationRun run = simulate(method.label, make_balancer(seeded), sweep_.comm);
+        succeeded = add(repeat, run, sweep_.num_ranks) && succeeded;
     }
     return succeeded;
+}
+
+bool Study::run(const std::vector<Method>& settings, int num_repeats) {
+    num_settings_ = (settings.size() + 2) * static_cast<std::size_t>(num_repeats);
+    num_started_ = 0;
+    sweep_.say("simulations of " + std::to_string(plan_.num_steps) + " steps, rebalanced every " +
+               std::to_string(plan_.every) + ", " + std::to_string(sweep_.num_ranks) +
+               " ranks: up to " + std::to_string(num_settings_));
+    const double start = MPI_Wtime();
+    bool succeeded = true;
+    for (int repeat = 1; repeat <= num_repeats; ++repeat) {
+        succeeded = run_round(settings, repeat) && succeeded;
+    }
+    sweep_.say("they took " + fixed((MPI_Wtime() - start) / 60, 1) + " minutes");
+    return succeeded;
+}
+
+/// Figure 2 of the paper: the statistical domain of the slope's start in six boxes.
+void write_six_boxes(const Sweep& sweep) {
+    Workload start = start_of_slope(sweep);
+    start.name = "six-boxes";
+    const Method method = read_method("rrcb-sampled");
+    Measurement measurement;
+    measurement.method = method.label;
+    measurement.parts = rrcb::balance(start.points(), *method.options, sweep.comm).parts;
+    write_plot_data(sweep.folder, start, std::span(&method, 1), std::span(&measurement, 1),
+                    sweep.comm);
+}
+
+/// The fewest whose least and most are a 95 % interval of the median.
+int num_repeats(const Sweep& sweep) {
+    return sweep.arguments.quick ? 2 : 6;
 }
 
 }  // namespace
@@ -146,18 +208,31 @@ bool study_snapshots(const Sweep& sweep, SavedRows& rows) {
     if (has_snapshots(sweep, plan, rows)) return true;
     bool succeeded = true;
     for (const Workload& workload : scene_snapshots(plan, sweep.progress, sweep.comm)) {
-        succeeded = measure_missing(sweep, workload, study_settings(sweep.arguments.quick), rows) &&
-                    succeeded;
+        succeeded =
+            measure_missing(sweep, workload, snapshot_settings(sweep.arguments.quick), rows) &&
+            succeeded;
     }
     return succeeded;
 }
 
 bool study_simulations(const Sweep& sweep) {
-    return Study(sweep).run(study_settings(sweep.arguments.quick));
+    Study study(sweep, study_plan(sweep), "sweep_simulation.csv", "history");
+    const bool succeeded = study.run(repeated_settings(sweep.arguments.quick), num_repeats(sweep));
+    return study.run(study_settings(sweep.arguments.quick), 1) && succeeded;
 }
 
 bool study_ranks(const Sweep& sweep) {
-    return Study(sweep).run(standard_settings());
+    constexpr int ranks_of_figure_2 = 6;
+    if (sweep.num_ranks == ranks_of_figure_2) write_six_boxes(sweep);
+    return Study(sweep, study_plan(sweep), "sweep_simulation.csv", "history")
+        .run(standard_settings(), num_repeats(sweep));
+}
+
+bool study_paper(const Sweep& sweep) {
+    std::vector<Method> settings = read_methods("zoltan-rcb,root-rcb,rrcb");
+    for (Method& method : winning_settings()) settings.push_back(std::move(method));
+    return Study(sweep, paper_plan(sweep), "paper_simulation.csv", "paper_history")
+        .run(settings, 1);
 }
 
 }  // namespace comparisons

@@ -1,5 +1,6 @@
 #include "sweep_mpi.hpp"
 
+#include "cycle_mpi.hpp"
 #include "error_sources_mpi.hpp"
 #include "paper_study_mpi.hpp"
 #include "sweep_part_mpi.hpp"
@@ -21,8 +22,10 @@ bool run_sweep(const Arguments& arguments, const ResultsFolder& folder, Progress
     }
     if (sweep.includes("sources")) find_error_sources(sweep);
     if (sweep.includes("snapshots")) succeeded = study_snapshots(sweep, rows) && succeeded;
+    if (sweep.includes("cycle")) succeeded = study_cycle(sweep) && succeeded;
     if (sweep.includes("ranks")) succeeded = study_ranks(sweep) && succeeded;
     if (sweep.includes("simulations")) succeeded = study_simulations(sweep) && succeeded;
+    if (sweep.includes("paper")) succeeded = study_paper(sweep) && succeeded;
     return succeeded;
 }
 

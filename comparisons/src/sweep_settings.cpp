@@ -1,5 +1,6 @@
 #include "sweep_settings.hpp"
 
+#include <algorithm>
 #include <string>
 
 namespace comparisons {
@@ -66,6 +67,36 @@ std::vector<Method> study_settings(bool quick) {
     std::vector<Method> settings = standard_settings();
     settings.pop_back();
     for (Method& method : paper_settings(quick)) settings.push_back(std::move(method));
+    return settings;
+}
+
+std::vector<Method> winning_settings() {
+    std::vector<Method> settings = sampled({"2"}, {"1.5"}, {"0.25"});
+    for (Method& method : sampled({"4", "6", "8"}, {"2"}, {"0.125"})) {
+        settings.push_back(std::move(method));
+    }
+    return settings;
+}
+
+std::vector<Method> repeated_settings(bool quick) {
+    if (quick) return read_methods("rrcb,rrcb-sampled[mesh=2,k=1.5,fraction=1]");
+    std::vector<Method> settings = standard_settings();
+    for (Method& method : winning_settings()) settings.push_back(std::move(method));
+    return settings;
+}
+
+std::vector<Method> cycle_settings(bool quick) {
+    if (quick) return read_methods("rrcb,rrcb-sampled[mesh=4,k=1.5,fraction=1]");
+    std::vector<Method> settings =
+        sampled({"4"}, {"1", "1.5", "1.7320508", "2", "2.5"}, {"1", "0.125"});
+    for (Method& method : winning_settings()) {
+        // One of them is there already.
+        if (std::ranges::find(settings, method.label, &Method::label) == settings.end())
+            settings.push_back(std::move(method));
+    }
+    for (Method& method : read_methods("rrcb[refine=none],rrcb,rrcb-exact,zoltan-rcb")) {
+        settings.push_back(std::move(method));
+    }
     return settings;
 }
 

@@ -23,4 +23,14 @@ std::vector<Method> standard_settings();
 /// The settings of the paper beside the methods they are judged by.
 std::vector<Method> study_settings(bool quick);
 
+/// The settings with which the paper's RRCB was faster than its RCB.
+std::vector<Method> winning_settings();
+
+/// What is simulated more than once: the standard settings and the winning ones.
+std::vector<Method> repeated_settings(bool quick);
+
+/// What is called again and again on points that stand still: `rrcb-sampled` with box and cell
+/// alike (k = sqrt(3)), smaller and larger, the winning settings, and methods to judge them by.
+std::vector<Method> cycle_settings(bool quick);
+
 }  // namespace comparisons

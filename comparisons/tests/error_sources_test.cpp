@@ -70,8 +70,8 @@ TEST(ErrorSource, box_reaches_k_sigma_beyond_the_mean_whatever_the_cell) {
 
 TEST(ErrorSource, settings_differ_and_go_from_the_points_to_the_samples) {
     const std::vector<SourceSetting> settings = source_settings(false);
-    // All points; on each of 7 meshes the cells, 5 boxes, 2 cut off, and 5 fractions with 3 seeds.
-    EXPECT_EQ(settings.size(), 1U + 7U * (1U + 5U + 2U + 15U));
+    // All points; on each of 7 meshes the cells, 5 boxes, 2 cut off, and 5 fractions with 10 seeds.
+    EXPECT_EQ(settings.size(), 1U + 7U * (1U + 5U + 2U + 50U));
     EXPECT_EQ(settings.front().source, Source::points);
     EXPECT_EQ(settings.back().source, Source::sampled);
 }

@@ -63,5 +63,22 @@ TEST(SweepSettings, quick_ones_are_among_the_paper_s) {
     }
 }
 
+TEST(SweepSettings, winning_ones_are_the_paper_s_four) {
+    const std::set<std::string> names = labels(winning_settings());
+    EXPECT_EQ(names, (std::set<std::string>{"rrcb-sampled[mesh=2,k=1.5,fraction=0.25]",
+                                            "rrcb-sampled[mesh=4,k=2,fraction=0.125]",
+                                            "rrcb-sampled[mesh=6,k=2,fraction=0.125]",
+                                            "rrcb-sampled[mesh=8,k=2,fraction=0.125]"}));
+    const std::set<std::string> all = labels(study_settings(false));
+    for (const std::string& name : labels(repeated_settings(false))) {
+        EXPECT_TRUE(all.contains(name)) << name;
+    }
+}
+
+TEST(SweepSettings, call_each_setting_of_the_cycle_once) {
+    EXPECT_EQ(labels(cycle_settings(false)).size(), cycle_settings(false).size());
+    EXPECT_EQ(cycle_settings(false).size(), 5U * 2U + 3U + 4U);
+}
+
 }  // namespace
 }  // namespace comparisons

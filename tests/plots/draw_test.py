@@ -87,12 +87,36 @@ method,step,time,part,points,lu_percent,imbalance
 method,step,time,part,points,lu_percent,imbalance
 "rrcb-sampled[mesh=2,k=1.5,fraction=0.5]",0,0.0,0,4,-90,1.9
 """,
+    "paper_simulation.csv": """\
+repeat,method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,worst_imbalance,front_x_m,mass_kg,path_points,step_work_s,step_path_s,step_network_s,balance_work_s,balance_path_s,balance_network_s,error
+1,serial,1,4,10,1,3.0,0.0,3.0,1.0,1.0,60,1,40,2.4,2.4,0,0,0,0,
+1,root-rcb,2,4,10,1,1.5,0.1,1.4,1.0,1.1,60,1,20,2.4,1.2,0.1,0.1,0.05,0.01,
+""",
+    "data/paper_history_root-rcb_2.csv": """\
+method,step,time,part,points,lu_percent,imbalance
+root-rcb,0,0.0,0,3,-50,1.5
+root-rcb,0,0.0,1,1,50,1.5
+""",
     "error_sources.csv": """\
 workload,layout,dim,points,ranks,domain,mesh,k,fraction,seed,imbalance,lu_max_percent,error
 uniform,sorted,2,4,2,points,0,0,0,0,1,0,
 uniform,sorted,2,4,2,cells,2,0,0,0,1.5,50,
 uniform,sorted,2,4,2,sampled,2,1.5,1,1,2,100,
 """,
+    "cycle.csv": """\
+method,ranks,points,seed,call,imbalance,moved_fraction,error
+"rrcb-sampled[mesh=4,k=1.5,fraction=1]",4,9,1,1,1.5,0.5,
+"rrcb-sampled[mesh=4,k=1.5,fraction=1]",4,9,1,2,1.2,0.1,
+rrcb,4,9,,1,1.1,0.5,
+rrcb,4,9,,2,1.1,0,
+""",
+    "data/points_six-boxes_rrcb-sampled.csv": "x,y,part\n0,0,0\n1,1,1\n2,0,1\n",
+    "data/boxes_six-boxes_rrcb-sampled.csv": """\
+part,lower_x,lower_y,upper_x,upper_y
+0,0,0,0.5,1
+1,0.5,0,2,1
+""",
+    "data/statistical_six-boxes.csv": "x,y\n0.2,0\n1.7,0.4\n",
 }
 
 

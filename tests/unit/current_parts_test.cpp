@@ -90,7 +90,7 @@ template <class AxisOf>
 void divide(Positions positions, Descent at, int dimension, AxisOf&& axis_of,
             std::mt19937_64& engine, Cuts& cuts, Distribution& held) {
     if (at.is_part()) {
-        held[static_cast<std::size_t>(at.first)] = positions;
+        held[static_cast<std::size_t>(at.first_part)] = positions;
         return;
     }
     const int axis = axis_of(box_of(positions));

@@ -7,12 +7,12 @@
 #include "gather/decision_mpi.hpp"
 #include "gather/keeping.hpp"
 #include "gather/merge_tree_mpi.hpp"
-#include "options/stage_scope.hpp"
 #include "options/validation.hpp"
 #include "refinement/part_sums_mpi.hpp"
 #include "refinement/refinement_mpi.hpp"
 
 #include <rrcb/balance.hpp>
+#include <rrcb/stages.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +24,23 @@
 namespace rrcb {
 
 namespace {
+
+/// One stage, from here to the end of the scope; nothing at all without an observer.
+class StageScope {
+  public:
+    StageScope(StageObserver* observer, Stage stage) : observer_(observer), stage_(stage) {
+        if (observer_ != nullptr) observer_->begin(stage_);
+    }
+    ~StageScope() {
+        if (observer_ != nullptr) observer_->end(stage_);
+    }
+    StageScope(const StageScope&) = delete;
+    StageScope& operator=(const StageScope&) = delete;
+
+  private:
+    StageObserver* observer_;
+    Stage stage_;
+};
 
 /// The options with nothing left to default but the sizes of equal parts.
 Options complete(Options options, int num_ranks) {

@@ -1,6 +1,6 @@
 #include "refinement/sample.hpp"
 
-#include "mix.hpp"
+#include "refinement/mix.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "zoltan/call/rest.hpp"
 
-#include "mix.hpp"
+#include "refinement/mix.hpp"
 
 #include <algorithm>
 #include <bit>

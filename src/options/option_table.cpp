@@ -144,7 +144,7 @@ std::string requirement(const Option& option, int dimension) {
                                         : "finite and above " + least;
             if (kind.zero == nullptr) return "at least " + least;
             return (is_bounded(kind) ? least + " ... " + most : std::string("positive")) +
-                   kind.unit + ", or 0 for " + kind.zero;
+                   kind.unit + ", or 0 for " + (is_bounded(kind) ? "the default" : kind.zero);
         } else {
             return legal_values(option);
         }

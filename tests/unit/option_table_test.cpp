@@ -107,8 +107,7 @@ TEST(Check, refuses_what_lies_beyond_the_range_of_an_option_and_tells_the_range)
         };
         EXPECT_EQ(mesh(0) + mesh(1) + mesh(most), "");
         const std::string refusal = "support_mesh must be 1 ... " + std::to_string(most) +
-                                    " cells per axis, or 0 for as many as suit the points of the "
-                                    "rank";
+                                    " cells per axis, or 0 for the default";
         EXPECT_EQ(mesh(most + 1), refusal);
         EXPECT_EQ(mesh(-1), refusal);
     }

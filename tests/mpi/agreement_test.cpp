@@ -127,6 +127,7 @@ TEST_F(Agreement, on_options_out_of_range) {
     with([](Options& o) { o.support_mesh = 5000; }, "support_mesh must be 1 ... 4096");
     with([](Options& o) { o.sample_fraction = 0; }, "sample_fraction must be in (0, 1]");
     with([](Options& o) { o.sigma_multiplier = nan; }, "sigma_multiplier");
+    with([](Options& o) { o.domain = static_cast<DomainKind>(7); }, "domain must be a value");
     with([](Options& o) { o.sigma_multiplier = 0; }, "sigma_multiplier must be finite and above 0");
     with([](Options& o) { o.num_parts = 2, o.part_sizes = {1}; }, "part_sizes must hold one");
     with([](Options& o) { o.num_parts = 2, o.part_sizes = {0, 0}; }, "part_sizes must have a");

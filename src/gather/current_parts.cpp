@@ -1,7 +1,7 @@
 #include "gather/current_parts.hpp"
 
-#include "cuts/tree.hpp"
 #include "cuts/position_order.hpp"
+#include "cuts/tree.hpp"
 
 #include <rrcb/quality.hpp>
 

@@ -94,7 +94,7 @@ struct Work {
     BinnedPoints binned;
     Contribution mine;
     Decision decision;
-    std::optional<RefinementRoom> room;
+    std::optional<RefinementBuffers> room;
     std::vector<double> part_weights;  ///< room to count parts that are not refined
     std::vector<double> sums;
     Balance result;
@@ -174,7 +174,7 @@ void refine_together(Work& work, Member& me) {
     const double weight =
         report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
     Estimate estimate{std::move(result.cuts), std::move(work.decision.bisection.brackets), weight,
-                      work.decision.verdict.grain, work.decision.verdict.current_imbalance};
+                      work.decision.verdict.common_weight, work.decision.verdict.current_imbalance};
     Measured measured = refine(estimate, options, work.binned, *work.room, result.parts, me);
     report_measured(measured.imbalance, std::move(measured.part_weights), options, report);
     report.rounds = measured.rounds;

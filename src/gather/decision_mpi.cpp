@@ -29,7 +29,7 @@ double least_imbalance(double heaviest, double weight, std::span<const double> p
     return std::max(1.0, heaviest / weight * (sizes / *std::ranges::max_element(part_sizes)));
 }
 
-double grain_of(const Summary& summary) {
+double common_weight_of(const Summary& summary) {
     if (summary.weight == 0) return 1;
     return summary.lightest == summary.heaviest ? summary.heaviest : 0;
 }
@@ -37,7 +37,7 @@ double grain_of(const Summary& summary) {
 Verdict verdict_of(const Summary& summary, const Bisection& bisection,
                    std::span<const double> part_sizes) {
     Verdict verdict;
-    verdict.grain = grain_of(summary);
+    verdict.common_weight = common_weight_of(summary);
     verdict.num_points = summary.num_points;
     verdict.num_records = summary.num_cells;
     verdict.total_weight = summary.weight;

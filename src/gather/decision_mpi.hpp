@@ -18,8 +18,8 @@ inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 /// What the root tells first: whether there are cuts, and what it saw.
 struct Verdict {
     std::int32_t failing_rank = no_rank;
-    std::int32_t stays = 0;  ///< 1: the current parts stay
-    double grain = 0;        ///< weight of each point where all weigh the same, else 0
+    std::int32_t stays = 0;    ///< 1: the current parts stay
+    double common_weight = 0;  ///< weight of each point where all weigh the same, else 0
     std::int64_t num_points = 0;
     std::int64_t num_records = 0;
     double total_weight = 0;

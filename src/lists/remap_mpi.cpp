@@ -87,7 +87,7 @@ std::vector<Overlap> overlaps_by_part(std::span<const Part> parts, std::span<con
 /// A fixed number of overlaps from each rank, so that one gather carries all. Unused entries count
 /// 0; the first holds the number of points, and 1 as its part where the rank has failed.
 /// Collective.
-void gather_overlaps(std::vector<Overlap> mine, std::size_t num_points, RemapRoom& room,
+void gather_overlaps(std::vector<Overlap> mine, std::size_t num_points, RemapBuffers& room,
                      const Member& me) {
     keep_largest(room.mine.size() - 1, mine);
     std::ranges::fill(room.mine, Overlap{});
@@ -101,7 +101,7 @@ void gather_overlaps(std::vector<Overlap> mine, std::size_t num_points, RemapRoo
 
 /// All overlaps with earlier parts, summed over the ranks; behind them the number of points, and of
 /// ranks that have failed. Collective: one reduction.
-void sum_up(std::span<const Part> parts, std::span<const Part> previous, RemapRoom& room,
+void sum_up(std::span<const Part> parts, std::span<const Part> previous, RemapBuffers& room,
             const Member& me) {
     const std::size_t num_parts = room.numbers.size();
     std::ranges::fill(room.sums, 0);
@@ -119,7 +119,7 @@ void sum_up(std::span<const Part> parts, std::span<const Part> previous, RemapRo
                "MPI_Reduce");
 }
 
-std::vector<Overlap> overlaps_of(const RemapRoom& room) {
+std::vector<Overlap> overlaps_of(const RemapBuffers& room) {
     const std::size_t num_parts = room.numbers.size();
     std::vector<Overlap> overlaps;
     for (std::size_t k = 0; k < num_parts * num_parts; ++k)
@@ -130,7 +130,7 @@ std::vector<Overlap> overlaps_of(const RemapRoom& room) {
 }
 
 /// The lowest rank that failed, as far as the root was told.
-int lowest_failing_rank(const RemapRoom& room) {
+int lowest_failing_rank(const RemapBuffers& room) {
     if (room.holds_sums()) return room.sums.back() > 0 ? some_failed : none_failed;
     for (std::size_t i = 0; i < room.all.size(); i += room.mine.size())
         if (room.all[i].part != 0) return static_cast<int>(i / room.mine.size());
@@ -138,7 +138,7 @@ int lowest_failing_rank(const RemapRoom& room) {
 }
 
 /// Takes the number of points out of what the root was told.
-GlobalCount extract_num_points(RemapRoom& room) {
+GlobalCount extract_num_points(RemapBuffers& room) {
     if (room.holds_sums()) return room.sums.end()[-2];
     GlobalCount num_points = 0;
     for (std::size_t i = 0; i < room.all.size(); i += room.mine.size())
@@ -179,7 +179,7 @@ GlobalCount kept(std::span<const Overlap> overlaps, std::span<const Part> number
 }
 
 /// The root's decision.
-Remap decide_numbers(RemapRoom& room, const Owners& owners) {
+Remap decide_numbers(RemapBuffers& room, const Owners& owners) {
     Remap remap;
     remap.num_points = extract_num_points(room);
     const std::vector<Overlap> sums =
@@ -198,7 +198,7 @@ Remap decide_numbers(RemapRoom& room, const Owners& owners) {
 
 /// The decision of the root, or the lowest rank that failed, on its way to all ranks.
 /// Collective over `comm`: one broadcast.
-int share(int failing_rank, Remap& remap, RemapRoom& room, MPI_Comm comm) {
+int share(int failing_rank, Remap& remap, RemapBuffers& room, MPI_Comm comm) {
     const std::size_t num_parts = room.numbers.size();
     std::ranges::copy(remap.numbers, room.decision.begin());
     const std::span tail = std::span(room.decision).last<4>();
@@ -247,7 +247,7 @@ std::uint64_t hash_of(std::span<const RankRange> ranks_of_parts) {
 Remap remap_alone(std::span<const Part> parts, const PreviousParts& previous,
                   std::span<const RankRange> ranks_of_parts, MPI_Comm user) {
     Member me{mpi::duplicate_of(user)};
-    std::optional<RemapRoom> room;
+    std::optional<RemapBuffers> room;
     me.locally([&] {
         check_arguments(parts, previous, ranks_of_parts.size());
         room.emplace(static_cast<int>(ranks_of_parts.size()), mpi::size_of(me.comm),
@@ -259,7 +259,7 @@ Remap remap_alone(std::span<const Part> parts, const PreviousParts& previous,
 
 }  // namespace
 
-RemapRoom::RemapRoom(int num_parts, int num_ranks, bool is_root, Origins origins) {
+RemapBuffers::RemapBuffers(int num_parts, int num_ranks, bool is_root, Origins origins) {
     const auto parts_per_rank = static_cast<std::size_t>((num_parts - 1) / num_ranks + 1);
     numbers.resize(static_cast<std::size_t>(num_parts));
     decision.resize(numbers.size() + 4);
@@ -273,7 +273,7 @@ RemapRoom::RemapRoom(int num_parts, int num_ranks, bool is_root, Origins origins
 }
 
 Remap remap(std::span<const Part> parts, const PreviousParts& previous,
-            std::span<const RankRange> ranks_of_parts, RemapRoom& room, Member& me) {
+            std::span<const RankRange> ranks_of_parts, RemapBuffers& room, Member& me) {
     const Owners owners{ranks_of_parts, !previous};
     const int rank = mpi::rank_of(me.comm);
     if (room.holds_sums()) {

@@ -25,9 +25,9 @@ enum class Origins {
 
 /// What the messages of a renumbering need. Made, and agreed on, before the first of them: a rank
 /// that runs out of memory later can still take part until all have been told.
-struct RemapRoom {
+struct RemapBuffers {
     /// Not collective. Throws Error or std::bad_alloc.
-    RemapRoom(int num_parts, int num_ranks, bool is_root, Origins origins = Origins::ranks);
+    RemapBuffers(int num_parts, int num_ranks, bool is_root, Origins origins = Origins::ranks);
 
     bool holds_sums() const { return !sums.empty(); }
 
@@ -46,6 +46,6 @@ using PreviousParts = std::optional<std::span<const Part>>;
 /// be there on some ranks only, unless it holds sums. What went wrong on a rank before is told to
 /// all as well.
 Remap remap(std::span<const Part> parts, const PreviousParts& previous,
-            std::span<const RankRange> ranks_of_parts, RemapRoom& room, Member& me);
+            std::span<const RankRange> ranks_of_parts, RemapBuffers& room, Member& me);
 
 }  // namespace rrcb

@@ -35,12 +35,13 @@ CutSearch start_search(const Node& node, const Refinement& context) {
 /// weigh the same: where 16.16 points are allowed it can have no more than 16.
 double attainable_tolerance(std::span<const double> sizes, const Refinement& context) {
     const double tolerance = context.options.imbalance_tolerance;
-    const double grain = context.estimate.grain;
-    if (grain == 0) return tolerance;
+    const double common_weight = context.estimate.common_weight;
+    if (common_weight == 0) return tolerance;
     double smallest = infinity;
     for (const double size : sizes)
         if (size > 0) smallest = std::min(smallest, size * context.weight_per_size);
-    return std::max(1.0, std::floor(tolerance * smallest / grain) * grain / smallest);
+    return std::max(1.0,
+                    std::floor(tolerance * smallest / common_weight) * common_weight / smallest);
 }
 
 /// Target of a node's cut, by what the node was counted to weigh. A part may end up too heavy by
@@ -49,7 +50,7 @@ CutTarget target_of(const Node& node, double weight, const Refinement& context) 
     const auto sizes = context.sizes_of(node.at);
     CutTarget target;
     target.target = share_below(sizes) * weight;
-    target.slack = context.estimate.grain / 2;
+    target.slack = context.estimate.common_weight / 2;
     if (context.exactly || !(weight > 0)) return target;
     const double ideal = context.weight_per_size * std::accumulate(sizes.begin(), sizes.end(), 0.0);
     const int levels = std::bit_width(static_cast<unsigned>(node.at.num_parts - 1));
@@ -78,7 +79,7 @@ bool is_over(const CutSearch& search) {
 
 /// This rank's histogram or sample for search number `k`.
 void count_search(std::size_t k, Refinement& context) {
-    RefinementRoom& room = context.room;
+    RefinementBuffers& room = context.room;
     Histograms& histograms = room.histograms;
     const CutSearch& search = room.searches[k];
     if (is_sampling(search)) room.samples.push_back(histograms.size());
@@ -94,7 +95,7 @@ void count_search(std::size_t k, Refinement& context) {
 
 /// The root's decision on search number `k`, by its joined histogram.
 void decide_search(std::size_t k, std::span<const double> histogram, Refinement& context) {
-    RefinementRoom& room = context.room;
+    RefinementBuffers& room = context.room;
     CutSearch& search = room.searches[k];
     const HistogramLayout& layout = room.histograms.layout();
     if (search.stage == CutSearch::sampling) {
@@ -112,7 +113,7 @@ void decide_search(std::size_t k, std::span<const double> histogram, Refinement&
 }
 
 void count_and_decide(Refinement& context) {
-    RefinementRoom& room = context.room;
+    RefinementBuffers& room = context.room;
     Histograms& histograms = room.histograms;
     histograms.clear();
     room.samples.clear();
@@ -131,7 +132,7 @@ void count_and_decide(Refinement& context) {
 }
 
 void gather_and_decide(Refinement& context) {
-    RefinementRoom& room = context.room;
+    RefinementBuffers& room = context.room;
     Candidates& candidates = room.candidates;
     if (std::ranges::none_of(room.before, is_gathering)) return;
     candidates.clear();
@@ -158,7 +159,7 @@ void gather_and_decide(Refinement& context) {
 /// send them.
 void conclude(Refinement& context) {
     constexpr GlobalCount most_gathered_at_once = 64 * most_gathered;
-    RefinementRoom& room = context.room;
+    RefinementBuffers& room = context.room;
     GlobalCount num_points = 0;
     for (std::size_t k = 0; k < room.searches.size(); ++k) {
         CutSearch& search = room.searches[k];
@@ -178,7 +179,7 @@ void conclude(Refinement& context) {
 /// Brings what this rank knows of the searches up to what the root decided. Collective where it
 /// has found splitters.
 void follow(Refinement& context) {
-    RefinementRoom& room = context.room;
+    RefinementBuffers& room = context.room;
     Histograms& histograms = room.histograms;
     histograms.broadcast_samples(room.samples, root, context.me.comm);
     context.me.locally([&] {
@@ -202,7 +203,7 @@ bool needs_search(const Node& node, const Refinement& context) {
 }
 
 void start_level(Refinement& context) {
-    RefinementRoom& room = context.room;
+    RefinementBuffers& room = context.room;
     room.searched.clear();
     room.searches.clear();
     room.targets.clear();
@@ -218,7 +219,7 @@ void start_level(Refinement& context) {
 
 /// Searches all cuts of a level at once.
 void search_level(Refinement& context) {
-    RefinementRoom& room = context.room;
+    RefinementBuffers& room = context.room;
     // In each round every search that is not over narrows what its cut may lie in, or ends.
     while (!std::ranges::all_of(room.searches, is_over)) {
         room.before = room.searches;

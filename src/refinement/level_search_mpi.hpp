@@ -9,7 +9,7 @@ struct Refinement {
     Estimate& estimate;
     const Options& options;
     const BinnedPoints& binned;
-    RefinementRoom& room;
+    RefinementBuffers& room;
     Member& me;
     bool is_root;
     double weight_per_size;  ///< of a part

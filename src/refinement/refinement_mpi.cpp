@@ -22,7 +22,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Where in its lot each rank begins, for the cuts that divide one. Collective where there are any.
 void place_in_lots(Refinement& context) {
-    RefinementRoom& room = context.room;
+    RefinementBuffers& room = context.room;
     room.lots.clear();
     for (std::size_t k = 0; k < room.searches.size(); ++k) {
         const CutSearch& search = room.searches[k];
@@ -50,7 +50,7 @@ void set_aside(const Node& node, const Refinement& context, Cut& cut) {
 
 /// Goes on with the nodes below, by the cuts that the level found.
 void descend(Refinement& context) {
-    RefinementRoom& room = context.room;
+    RefinementBuffers& room = context.room;
     room.children.clear();
     auto search = room.searches.begin();
     auto lots = room.lots.begin();
@@ -79,7 +79,7 @@ void descend(Refinement& context) {
 
 /// Adds up what the parts weigh on all ranks, on every rank. Collective; throws where one failed.
 void measure(Refinement& context) {
-    RefinementRoom& room = context.room;
+    RefinementBuffers& room = context.room;
     context.measured.imbalance =
         add_up_parts(room.part_weights, room.sums, context.options.part_sizes, context.me);
 }
@@ -100,7 +100,7 @@ bool accept_estimate(Refinement& context, std::span<Part> parts) {
 
 /// Finds the cuts of one level after the other, and the parts at the end.
 void search_all_levels(Refinement& context, std::span<Part> parts) {
-    RefinementRoom& room = context.room;
+    RefinementBuffers& room = context.room;
     std::vector<Node>& nodes = room.nodes;
     nodes.push_back({root_of(context.estimate.cuts), {}, context.estimate.total_weight});
     context.me.locally([&] {
@@ -159,7 +159,7 @@ void search_exactly(Refinement& context, std::span<Part> parts) {
 }  // namespace
 
 Measured refine(Estimate& estimate, const Options& options, const BinnedPoints& binned,
-                RefinementRoom& room, std::span<Part> parts, Member& me) {
+                RefinementBuffers& room, std::span<Part> parts, Member& me) {
     const auto& sizes = options.part_sizes;
     const double weight_per_size =
         estimate.total_weight / std::accumulate(sizes.begin(), sizes.end(), 0.0);

@@ -2,7 +2,7 @@
 
 #include "collective/member.hpp"
 #include "gather/decision_mpi.hpp"
-#include "refinement/refinement_room.hpp"
+#include "refinement/refinement_buffers.hpp"
 
 #include <rrcb/bisection.hpp>
 
@@ -15,7 +15,7 @@ struct Estimate {
     Cuts cuts;
     std::vector<Bracket> brackets;  ///< one per cut
     double total_weight = 0;        ///< over all ranks
-    double grain = 0;               ///< weight of each point where all weigh the same, else 0
+    double common_weight = 0;       ///< weight of each point where all weigh the same, else 0
     double current_imbalance = not_known;  ///< of the parts that may stay instead
 };
 
@@ -36,6 +36,6 @@ struct Measured {
 /// anywhere the cuts stay. A rank that fails on its own takes part with nothing until the root,
 /// told of it by the next histograms or candidates, ends all searches; then all throw its error.
 Measured refine(Estimate& estimate, const Options& options, const BinnedPoints& binned,
-                RefinementRoom& room, std::span<Part> parts, Member& me);
+                RefinementBuffers& room, std::span<Part> parts, Member& me);
 
 }  // namespace rrcb

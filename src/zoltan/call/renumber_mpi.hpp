@@ -26,7 +26,7 @@ class Renumbering {
 
   private:
     Remap unchanged_;
-    std::optional<RemapRoom> room_;  ///< where numbers may change
+    std::optional<RemapBuffers> room_;  ///< where numbers may change
 };
 
 }  // namespace rrcb::zoltan

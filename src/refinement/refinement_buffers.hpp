@@ -19,9 +19,9 @@ struct Node {
 
 /// What the messages of a refinement need, and what tells their lengths. Made before the first of
 /// them: a rank that runs out of memory later can still take part until all have been told.
-struct RefinementRoom {
+struct RefinementBuffers {
     /// By complete options. Not collective. Throws Error or std::bad_alloc.
-    RefinementRoom(const Options& options, int dimension, bool is_root);
+    RefinementBuffers(const Options& options, int dimension, bool is_root);
 
     std::vector<double> part_weights;  ///< of this rank's points; at the end 1 where it failed
     std::vector<double> sums;          ///< of all ranks; at the end the imbalance

@@ -1,8 +1,8 @@
-#include "refinement/refinement_room.hpp"
+#include "refinement/refinement_buffers.hpp"
 
 namespace rrcb {
 
-RefinementRoom::RefinementRoom(const Options& options, int dimension, bool is_root)
+RefinementBuffers::RefinementBuffers(const Options& options, int dimension, bool is_root)
     : part_weights(options.part_sizes.size() + 1),
       sums(options.part_sizes.size() + 2),
       histograms(HistogramLayout{}, options.part_sizes.size() / 2, is_root),

@@ -1,73 +1,29 @@
 #include "method.hpp"
 
 #include "failure.hpp"
+#include "options/option_table.hpp"
 #include "text.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace comparisons {
 
 namespace {
 
-using rrcb::CutRule;
 using rrcb::DomainKind;
 using rrcb::Options;
 using rrcb::Refine;
 
+/// A parameter in brackets, and the option it is.
 struct Key {
     std::string_view name;
-    std::string_view range;
-    bool (*read)(Options&, std::string_view);
+    std::string_view option;
 };
 
-template <typename Number, typename InRange>
-bool store(std::string_view text, Number& field, InRange in_range) {
-    const std::optional<Number> number = read_number<Number>(text);
-    if (!number || !in_range(*number)) return false;
-    field = *number;
-    return true;
-}
-
-bool read_cut(Options& options, std::string_view text) {
-    if (text != "weighted" && text != "midpoint") return false;
-    options.cut_rule = text == "weighted" ? CutRule::weighted_fraction : CutRule::midpoint;
-    return true;
-}
-
-bool read_refine(Options& options, std::string_view text) {
-    if (text != "none" && text != "tolerance" && text != "exact") return false;
-    options.refine = text == "none"    ? Refine::none
-                     : text == "exact" ? Refine::exact
-                                       : Refine::tolerance;
-    return true;
-}
-
-constexpr Key keys[] = {
-    {"mesh", "an integer, 1 ... 1024",
-     [](Options& o, std::string_view text) {
-         return store(text, o.support_mesh, [](int n) { return n >= 1 && n <= 1024; });
-     }},
-    {"cut", "weighted or midpoint", read_cut},
-    {"refine", "none, tolerance or exact", read_refine},
-    {"tol", "a number, 1 or more",
-     [](Options& o, std::string_view text) {
-         return store(text, o.imbalance_tolerance,
-                      [](double t) { return std::isfinite(t) && t >= 1; });
-     }},
-    {"k", "a number above 0",
-     [](Options& o, std::string_view text) {
-         return store(text, o.sigma_multiplier, [](double k) { return std::isfinite(k) && k > 0; });
-     }},
-    {"fraction", "a number above 0, at most 1",
-     [](Options& o, std::string_view text) {
-         return store(text, o.sample_fraction, [](double f) { return f > 0 && f <= 1; });
-     }},
-    {"seed", "an integer, 0 or more",
-     [](Options& o, std::string_view text) {
-         return store(text, o.seed, [](std::uint64_t) { return true; });
-     }},
-};
+constexpr Key keys[] = {{"mesh", "support_mesh"},  {"cut", "cut_rule"},
+                        {"refine", "refine"},      {"tol", "imbalance_tolerance"},
+                        {"k", "sigma_multiplier"}, {"fraction", "sample_fraction"},
+                        {"seed", "seed"}};
 
 struct Entry {
     std::string_view name;
@@ -140,30 +96,29 @@ void apply(Method& method, const Entry& entry, std::string_view assignment) {
     const Key& key = *std::ranges::find(keys, name, &Key::name);
     const std::string_view value =
         equals == assignment.npos ? "" : trim(assignment.substr(equals + 1));
-    if (!key.read(*method.options, value)) {
+    const rrcb::Option& option = *rrcb::find_option(key.option);
+    if (!rrcb::read_option(option, value, *method.options)) {
         throw Failure("--methods: " + method.label + ": " + std::string(name) + " must be " +
-                      std::string(key.range) + ", not '" + std::string(value) + "'");
+                      rrcb::legal_values(option) + ", not '" + std::string(value) + "'");
     }
     if (name == "seed") method.seed_given = true;
 }
 
+/// Words always, numbers where they are not the default; of the random points with them alone.
 void add_options(ZoltanParameters& parameters, const Options& options) {
-    const char* const domains[] = {"ANALYTIC", "SAMPLED", "POINTS"};
-    parameters.emplace_back("RRCB_DOMAIN", domains[static_cast<int>(options.domain)]);
-    if (options.support_mesh > 0) {
-        parameters.emplace_back("RRCB_SUPPORT_MESH", write_number(options.support_mesh));
-    }
-    parameters.emplace_back("RRCB_CUT_RULE",
-                            options.cut_rule == CutRule::midpoint ? "MIDPOINT" : "WEIGHTED");
-    const char* const refinements[] = {"AUTO", "NONE", "TOLERANCE", "EXACT"};
-    parameters.emplace_back("RRCB_REFINE", refinements[static_cast<int>(options.refine)]);
-    if (options.imbalance_tolerance != Options{}.imbalance_tolerance) {
-        parameters.emplace_back("IMBALANCE_TOL", write_number(options.imbalance_tolerance));
-    }
+    const auto add = [&](std::string_view name, bool always) {
+        const rrcb::Option& option = *rrcb::find_option(name);
+        const std::string value = rrcb::write_option(option, options);
+        if (always || value != rrcb::write_option(option, Options{}))
+            parameters.emplace_back(option.parameter, value);
+    };
+    add("domain", true);
+    add("support_mesh", false);
+    add("cut_rule", true);
+    add("refine", true);
+    add("imbalance_tolerance", false);
     if (options.domain != DomainKind::sampled) return;
-    parameters.emplace_back("RRCB_SIGMA_MULTIPLIER", write_number(options.sigma_multiplier));
-    parameters.emplace_back("RRCB_SAMPLE_FRACTION", write_number(options.sample_fraction));
-    parameters.emplace_back("RRCB_SEED", write_number(options.seed));
+    for (const char* name : {"sigma_multiplier", "sample_fraction", "seed"}) add(name, true);
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TEST(Method, names_what_is_unknown) {
 
 TEST(Method, names_values_out_of_range) {
     EXPECT_EQ(error_of("rrcb[mesh=0]"),
-              "--methods: rrcb[mesh=0]: mesh must be an integer, 1 ... 1024, not '0'");
+              "--methods: rrcb[mesh=0]: mesh must be a whole number from 1 to 4096, not '0'");
     EXPECT_EQ(
         error_of("rrcb-sampled[fraction=1.5]"),
         "--methods: rrcb-sampled[fraction=1.5]: fraction must be a number above 0, at most 1, "
@@ -111,9 +111,9 @@ TEST(Method, names_values_out_of_range) {
     EXPECT_EQ(error_of("rrcb-sampled[k=nan]"),
               "--methods: rrcb-sampled[k=nan]: k must be a number above 0, not 'nan'");
     EXPECT_EQ(error_of("rrcb-sampled[seed]"),
-              "--methods: rrcb-sampled[seed]: seed must be an integer, 0 or more, not ''");
+              "--methods: rrcb-sampled[seed]: seed must be a whole number, 0 or more, not ''");
     EXPECT_EQ(error_of("rrcb[cut=half]"),
-              "--methods: rrcb[cut=half]: cut must be weighted or midpoint, not 'half'");
+              "--methods: rrcb[cut=half]: cut must be WEIGHTED or MIDPOINT, not 'half'");
 }
 
 TEST(Method, names_malformed_lists) {

@@ -50,27 +50,19 @@ void coordinates(void* data, int, int, int count, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR l
 
 ZoltanPartitioner::ZoltanPartitioner(const ZoltanParameters& parameters, const Workload& workload,
                                      MPI_Comm comm)
-    : ZoltanPartitioner(parameters, workload.points(), workload.weighted, comm) {}
-
-ZoltanPartitioner::ZoltanPartitioner(const ZoltanParameters& parameters, const rrcb::Points& points,
-                                     MPI_Comm comm)
-    : ZoltanPartitioner(parameters, points, false, comm) {}
-
-ZoltanPartitioner::ZoltanPartitioner(const ZoltanParameters& parameters, const rrcb::Points& points,
-                                     bool are_weighted, MPI_Comm comm)
-    : comm_(comm), zoltan_(Zoltan_Create(comm)) {
+    : comm_(comm), points_{workload.points(), 0}, zoltan_(Zoltan_Create(comm)) {
     if (zoltan_ == nullptr) throw Failure("Zoltan_Create failed: not enough memory");
     for (const auto& [name, value] : parameters) {
         if (Zoltan_Set_Param(zoltan_, name.c_str(), value.c_str()) == ZOLTAN_OK) continue;
         Zoltan_Destroy(&zoltan_);
         throw Failure("Zoltan refuses the parameter " + name + "=" + value);
     }
-    if (are_weighted) Zoltan_Set_Param(zoltan_, "OBJ_WEIGHT_DIM", "1");
+    if (workload.weighted) Zoltan_Set_Param(zoltan_, "OBJ_WEIGHT_DIM", "1");
     Zoltan_Set_Num_Obj_Fn(zoltan_, num_objects, &points_);
     Zoltan_Set_Obj_List_Fn(zoltan_, object_list, &points_);
     Zoltan_Set_Num_Geom_Fn(zoltan_, dimension, &points_);
     Zoltan_Set_Geom_Multi_Fn(zoltan_, coordinates, &points_);
-    use_points(points);
+    number_points();
 }
 
 ZoltanPartitioner::~ZoltanPartitioner() {
@@ -78,11 +70,11 @@ ZoltanPartitioner::~ZoltanPartitioner() {
     Zoltan_Destroy(&zoltan_);
 }
 
-void ZoltanPartitioner::use_points(const rrcb::Points& points) {
-    const auto count = static_cast<ZOLTAN_ID_TYPE>(points.count);
+void ZoltanPartitioner::number_points() {
+    const auto count = static_cast<ZOLTAN_ID_TYPE>(points_.points.count);
     ZOLTAN_ID_TYPE end = count;
     MPI_Scan(MPI_IN_PLACE, &end, 1, ZOLTAN_ID_MPI_TYPE, MPI_SUM, comm_);
-    points_ = {points, end - count};
+    points_.first_id = end - count;
 }
 
 int ZoltanPartitioner::partition() {
@@ -112,14 +104,6 @@ void ZoltanPartitioner::free_lists() {
 
 void ZoltanPartitioner::use_seed(std::uint64_t seed) {
     Zoltan_Set_Param(zoltan_, "RRCB_SEED", write_number(seed).c_str());
-}
-
-rrcb::Part ZoltanPartitioner::part_of(const rrcb::Vector& position) const {
-    rrcb::Vector x = position;
-    int rank = -1;
-    int part = -1;
-    Zoltan_LB_Point_PP_Assign(zoltan_, x.data(), &rank, &part);
-    return part;
 }
 
 rrcb::Box ZoltanPartitioner::box_of(rrcb::Part part) const {

@@ -21,36 +21,24 @@ struct NumberedPoints {
 
 /// Zoltan_LB_Partition on points; every method goes through the same callbacks and lists.
 ///
-/// Makes one part per rank. The arrays of the points must live as long as it, or until others are
-/// given.
+/// Makes one part per rank. The arrays of the points must live as long as it.
 class ZoltanPartitioner : public Partitioner {
   public:
     /// Collective over `comm`. Throws Failure when Zoltan refuses a parameter.
     ZoltanPartitioner(const ZoltanParameters& parameters, const Workload& workload, MPI_Comm comm);
     ~ZoltanPartitioner() override;
 
-    /// The same for points whose weights are all 1.
-    ZoltanPartitioner(const ZoltanParameters& parameters, const rrcb::Points& points,
-                      MPI_Comm comm);
-
-    /// Takes other points, of the same dimension and weights, and numbers them through. Collective.
-    void use_points(const rrcb::Points& points);
-
     int partition() override;  ///< Zoltan_LB_Partition
     std::vector<rrcb::Part> parts() const override;
     void free_lists() override;                  ///< Zoltan_LB_Free_Part
     void use_seed(std::uint64_t seed) override;  ///< RRCB_SEED
-
-    /// Part of a position by the kept cuts, -1 if Zoltan cannot tell. Not collective.
-    rrcb::Part part_of(const rrcb::Vector& position) const;
 
     /// Box of a part by the kept cuts; open sides are +-infinity. Throws Failure without KEEP_CUTS.
     /// Not collective.
     rrcb::Box box_of(rrcb::Part part) const;
 
   private:
-    ZoltanPartitioner(const ZoltanParameters& parameters, const rrcb::Points& points,
-                      bool are_weighted, MPI_Comm comm);
+    void number_points();
 
     struct ObjectLists {
         int count = -1;

@@ -74,8 +74,9 @@ class ZoltanRcb {
         objects_.first_id = end - static_cast<ZOLTAN_ID_TYPE>(positions.size());
         mpm::Decomposition decomposition;
         decomposition.local_owners = partition(comm);
-        for (int part = 0; part < mpm::size_of(comm); ++part)
-            decomposition.boxes.push_back(box_of(part));
+        const int num_parts = mpm::size_of(comm);
+        for (int part = 0; part < num_parts; ++part)
+            decomposition.boxes.push_back(box_of(part, num_parts));
         return decomposition;
     }
 
@@ -96,7 +97,8 @@ class ZoltanRcb {
                                        &num_imports, &import_gids, &import_lids, &import_ranks,
                                        &import_parts, &num_exports, &export_gids, &export_lids,
                                        &export_ranks, &export_parts);
-        std::vector<int> owners(objects_.positions.size(), 0);
+        // An object that no list names stays where it is.
+        std::vector<int> owners(objects_.positions.size(), mpm::rank_of(comm));
         for (int i = 0; code >= 0 && i < num_exports; ++i) owners[export_lids[i]] = export_parts[i];
         Zoltan_LB_Free_Part(&import_gids, &import_lids, &import_ranks, &import_parts);
         Zoltan_LB_Free_Part(&export_gids, &export_lids, &export_ranks, &export_parts);
@@ -107,16 +109,20 @@ class ZoltanRcb {
         return owners;
     }
 
-    mpm::Box box_of(int part) const {
+    mpm::Box box_of(int part, int num_parts) const {
         constexpr double open = std::numeric_limits<double>::max();
         constexpr double infinity = std::numeric_limits<double>::infinity();
         mpm::Box box{{-open, -open, -open}, {open, open, open}};
         int num_axes = 0;
+        // Of a single part Zoltan says that its box is the origin.
         const int code =
-            Zoltan_RCB_Box(zoltan_.get(), part, &num_axes, &box.lower[0], &box.lower[1],
-                           &box.lower[2], &box.upper[0], &box.upper[1], &box.upper[2]);
+            num_parts == 1
+                ? ZOLTAN_OK
+                : Zoltan_RCB_Box(zoltan_.get(), part, &num_axes, &box.lower[0], &box.lower[1],
+                                 &box.lower[2], &box.upper[0], &box.upper[1], &box.upper[2]);
         if (code != ZOLTAN_OK)
-            throw std::runtime_error("Zoltan_RCB_Box failed: only LB_METHOD=RCB makes boxes");
+            throw std::runtime_error(
+                "Zoltan_RCB_Box failed: only LB_METHOD=RCB and RRCB make boxes");
         std::ranges::replace(box.lower, -open, -infinity);
         std::ranges::replace(box.upper, open, infinity);
         return box;
@@ -138,8 +144,6 @@ mpm::Balancer zoltan_balancer(ZoltanParameters parameters) {
                       {{"KEEP_CUTS", "1"}, {"RETURN_LISTS", "PARTS"}, {"REMAP", "0"}});
     auto zoltan = std::make_shared<std::unique_ptr<ZoltanRcb>>();
     return [zoltan, parameters](mpm::Positions positions, MPI_Comm comm) {
-        // Of a single part Zoltan says that its box is the origin.
-        if (mpm::size_of(comm) == 1) return mpm::slabs({}, 1);
         if (!*zoltan) *zoltan = std::make_unique<ZoltanRcb>(parameters, comm);
         mpm::Decomposition decomposition = (*zoltan)->decompose(positions, comm);
         decomposition.owners = [zoltan](mpm::Positions at, std::span<int> owners) {

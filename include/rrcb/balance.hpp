@@ -52,9 +52,12 @@ struct Balance {
 /// - the imbalance exceeds 1 by a tenth of what the tolerance allows at most, or
 /// - new cuts, counted, neither reach a tolerance that is missed, nor halve the excess and gain a
 ///   twentieth of what the tolerance allows; where it is missed before and after a refinement, the
-///   twentieth is enough.
-/// So each move is a gain, and repeated calls come to rest while the points do. Part r goes to rank
-/// r where it lay there, as after the last call; to another where ranks were renumbered.
+///   twentieth is enough. Where it is met already, new cuts are counted as estimated.
+/// So each move is a gain, and repeated calls come to rest while the points do, as long as the axes
+/// of the cuts stay. These may turn with the distribution where axes are grouped, and in parts of a
+/// few dozen points: then what the ranks hold is no such bisection, and points may go to and fro.
+/// Part r goes to rank r where it lay there, as after the last call; to another where ranks were
+/// renumbered and none is empty.
 ///
 /// Throws Error on every rank alike: for NaN or infinite coordinates, negative, NaN or infinite
 /// weights, arrays of inconsistent length, options out of range or different between ranks, ranks

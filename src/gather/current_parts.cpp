@@ -114,8 +114,10 @@ class Reader {
         return cut.divides == 0 || may_divide();
     }
 
+    /// Points in one place lie in the order of their ranks, so parts in another order divide none.
     bool may_divide() const {
-        return options_.coincident == Coincident::divide && options_.refine != Refine::none;
+        return by_number_ && options_.coincident == Coincident::divide &&
+               options_.refine != Refine::none;
     }
 
     /// Gives the points of a rank their part; returns false where the part must stay empty.

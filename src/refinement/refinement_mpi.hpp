@@ -1,12 +1,13 @@
 #pragma once
 
 #include "collective/member.hpp"
-#include "gather/decision_mpi.hpp"
 #include "refinement/refinement_buffers.hpp"
 
 #include <rrcb/bisection.hpp>
 
+#include <limits>
 #include <span>
+#include <vector>
 
 namespace rrcb {
 
@@ -16,7 +17,8 @@ struct Estimate {
     std::vector<Bracket> brackets;  ///< one per cut
     double total_weight = 0;        ///< over all ranks
     double common_weight = 0;       ///< weight of each point where all weigh the same, else 0
-    double current_imbalance = not_known;  ///< of the parts that may stay instead
+    /// Of the parts that may stay instead; NaN where there are none.
+    double current_imbalance = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// How good the parts really are, and what it took to know; the same on every rank.

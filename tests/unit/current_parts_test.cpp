@@ -297,6 +297,8 @@ TEST(CurrentParts, in_one_place_are_read_only_where_a_search_may_divide_them) {
     ASSERT_TRUE(divided);
     EXPECT_EQ(divided->cuts.tree[0].divides, 1);
     EXPECT_EQ(divided->cuts.tree[0].at, (Vector{1, 1, -infinity}));
+    // The points of lower ranks would not be the ones below.
+    EXPECT_FALSE(read({held[1], held[0]}, across({0}, 2), options));
     options.refine = Refine::none;
     EXPECT_FALSE(read(held, across({0}, 2), options));
 }

@@ -3,8 +3,6 @@
 #include "rrcb_balancer_mpi.hpp"
 #include "zoltan_balancer_mpi.hpp"
 
-#include <algorithm>
-
 namespace comparisons {
 
 std::vector<double> interleaved(mpm::Positions positions) {

@@ -63,29 +63,29 @@ void normalize(std::vector<double>& sizes, int num_parts) {
 ///
 /// The tree is that of every other call. Points have nothing to gain from a stop on the way, so
 /// they go straight to the root, as in the paper, once it has told all ranks that all ask for this.
-void gather(Contribution& mine, const Options& options, int dimension, Member& me) {
+void gather(Contribution& mine, const Options& options, int dimension, Participant& self) {
     const StageScope stage(options.observer, Stage::gather);
-    merge_up(mine, dimension, MergeTree{mpi::size_of(me.comm)}, most_cells(options), me);
+    merge_up(mine, dimension, MergeTree{mpi::size_of(self.comm)}, most_cells(options), self);
     if (!traits_of(options.domain).sends_points) return;
-    confirm(mine.summary, me);
-    gather_points(mine.points, me);
+    confirm(mine.summary, self);
+    gather_points(mine.points, self);
 }
 
 /// The decision of the root, on every rank; throws what went wrong on one of them on all.
 /// Collective.
 void decide_together(const Contribution& all, const Options& options, const Cuts* previous,
-                     Decision& decision, Member& me) {
-    if (mpi::rank_of(me.comm) == root) {
+                     Decision& decision, Participant& self) {
+    if (mpi::rank_of(self.comm) == root) {
         decision.verdict.failing_rank = all.summary.failing_rank;
-        me.locally([&] {
+        self.attempt([&] {
             if (all.summary.failing_rank != no_rank) return;
             const StageScope stage(options.observer, Stage::bisection);
             decide(all, options, previous, decision);
         });
-        if (me.failure.failed) decision.verdict.failing_rank = root;
+        if (self.failure.failed) decision.verdict.failing_rank = root;
     }
     const StageScope stage(options.observer, Stage::broadcast);
-    broadcast(decision, me);
+    broadcast(decision, self);
 }
 
 /// What a call works with on one rank.
@@ -94,7 +94,7 @@ struct Work {
     BinnedPoints binned;
     Contribution mine;
     Decision decision;
-    std::optional<RefinementBuffers> room;
+    std::optional<RefinementBuffers> buffers;
     std::vector<double> part_weights;  ///< room to count parts that are not refined
     std::vector<double> sums;
     Balance result;
@@ -106,9 +106,9 @@ bool is_known(const Verdict& verdict) {
 
 /// Everything before the first message. Not collective.
 void prepare(const Points& points, const Options& given, const Cuts* previous, bool may_stay,
-             Work& work, const Member& me) {
+             Work& work, const Participant& self) {
     const StageScope stage(given.observer, Stage::moments);
-    const int num_ranks = mpi::size_of(me.comm);
+    const int num_ranks = mpi::size_of(self.comm);
     Options& options = work.options = complete(given, num_ranks);
     const Box box = check_points(points);
     check_options(options, points.dimension);
@@ -122,7 +122,7 @@ void prepare(const Points& points, const Options& given, const Cuts* previous, b
     make_room(work.decision, options, points.dimension, reads_current);
     work.result.parts.resize(points.count);
     if (is_refined(options)) {
-        work.room.emplace(options, points.dimension, mpi::rank_of(me.comm) == root);
+        work.buffers.emplace(options, points.dimension, mpi::rank_of(self.comm) == root);
     } else if (reads_current) {
         work.part_weights.resize(options.part_sizes.size() + 1);
         work.sums.resize(options.part_sizes.size() + 2);
@@ -144,12 +144,12 @@ void report_measured(double imbalance, std::vector<double>&& part_weights, const
 
 /// Assigns the points by the cuts as they are, and counts the parts where the ranks hold others
 /// that may be as good. Collective.
-void assign_together(const Points& points, Work& work, Member& me) {
+void assign_together(const Points& points, Work& work, Participant& self) {
     const StageScope stage(work.options.observer, Stage::assignment);
     Balance& result = work.result;
     const bool counts = is_known(work.decision.verdict);
     if (counts && result.report.all_weights_zero) work.binned.points.weights = {};
-    me.locally([&] {
+    self.attempt([&] {
         if (traits_of(work.options.domain).sends_points) {
             assign(result.cuts, points, result.parts);
         } else {
@@ -157,15 +157,15 @@ void assign_together(const Points& points, Work& work, Member& me) {
             if (counts) std::ranges::copy(weights, work.part_weights.begin());
         }
     });
-    if (!counts) return agree(me);
+    if (!counts) return agree(self);
     const auto& sizes = work.options.part_sizes;
-    const double imbalance = add_up_parts(work.part_weights, work.sums, sizes, me);
+    const double imbalance = add_up_parts(work.part_weights, work.sums, sizes, self);
     work.sums.resize(sizes.size());
     report_measured(imbalance, std::move(work.sums), work.options, result.report);
 }
 
 /// Moves the cuts by what the ranks count, and assigns the points by them. Collective.
-void refine_together(Work& work, Member& me) {
+void refine_together(Work& work, Participant& self) {
     const Options& options = work.options;
     const StageScope stage(options.observer, Stage::refinement);
     Balance& result = work.result;
@@ -175,7 +175,7 @@ void refine_together(Work& work, Member& me) {
         report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
     Estimate estimate{std::move(result.cuts), std::move(work.decision.bisection.brackets), weight,
                       work.decision.verdict.common_weight, work.decision.verdict.current_imbalance};
-    Measured measured = refine(estimate, options, work.binned, *work.room, result.parts, me);
+    Measured measured = refine(estimate, options, work.binned, *work.buffers, result.parts, self);
     report_measured(measured.imbalance, std::move(measured.part_weights), options, report);
     report.rounds = measured.rounds;
     report.coincident_cuts = measured.coincident_cuts;
@@ -183,10 +183,10 @@ void refine_together(Work& work, Member& me) {
 }
 
 /// Leaves the points in the parts that they lie in. Not collective.
-void stay(Work& work, const Member& me) {
+void stay(Work& work, const Participant& self) {
     CurrentParts& current = work.decision.current;
     Balance& result = work.result;
-    const auto rank = static_cast<std::size_t>(mpi::rank_of(me.comm));
+    const auto rank = static_cast<std::size_t>(mpi::rank_of(self.comm));
     std::ranges::fill(result.parts, current.parts[rank]);
     result.cuts = std::move(current.cuts);
     result.report.kept = true;
@@ -197,49 +197,49 @@ void stay(Work& work, const Member& me) {
 }
 
 /// Makes the parts, or leaves them as they are. Collective.
-void divide_together(const Points& points, Work& work, Member& me) {
+void divide_together(const Points& points, Work& work, Participant& self) {
     const Report& report = work.result.report;
     const Verdict& verdict = work.decision.verdict;
     if (verdict.stays) {
         const StageScope stage(work.options.observer, Stage::assignment);
-        stay(work, me);
-        return agree(me);
+        stay(work, self);
+        return agree(self);
     }
     if (is_refined(work.options) && report.num_points > 0) {
-        refine_together(work, me);
+        refine_together(work, self);
     } else {
-        assign_together(points, work, me);
+        assign_together(points, work, self);
     }
     if (!is_known(verdict)) return;
     if (is_worth_moving(verdict.current_imbalance, report.measured_imbalance, work.options)) return;
     const StageScope stage(work.options.observer, Stage::broadcast);
-    broadcast_current(work.decision, me);
-    stay(work, me);
+    broadcast_current(work.decision, self);
+    stay(work, self);
 }
 
 }  // namespace
 
 Balance balance(const Points& points, const Options& given, const Cuts* previous, bool may_stay,
-                Member& me) {
+                Participant& self) {
     Work work;
     work.options.observer = given.observer;
-    me.locally([&] { prepare(points, given, previous, may_stay, work, me); });
-    gather(work.mine, work.options, points.dimension, me);
-    decide_together(work.mine, work.options, previous, work.decision, me);
+    self.attempt([&] { prepare(points, given, previous, may_stay, work, self); });
+    gather(work.mine, work.options, points.dimension, self);
+    decide_together(work.mine, work.options, previous, work.decision, self);
     work.result.report = report_of(work.decision.verdict, work.options.num_parts);
     work.result.cuts = std::move(work.decision.bisection.cuts);
-    divide_together(points, work, me);
+    divide_together(points, work, self);
     return std::move(work.result);
 }
 
 Balance balance(const Points& points, const Options& options, MPI_Comm comm) {
-    Member me{mpi::duplicate_of(comm)};
-    return balance(points, options, nullptr, true, me);
+    Participant self{mpi::duplicate_of(comm)};
+    return balance(points, options, nullptr, true, self);
 }
 
 Balance balance(const Points& points, const Options& options, MPI_Comm comm, const Cuts& previous) {
-    Member me{mpi::duplicate_of(comm)};
-    return balance(points, options, &previous, true, me);
+    Participant self{mpi::duplicate_of(comm)};
+    return balance(points, options, &previous, true, self);
 }
 
 }  // namespace rrcb

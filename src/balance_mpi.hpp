@@ -1,6 +1,6 @@
 #pragma once
 
-#include "collective/member.hpp"
+#include "collective/participant.hpp"
 
 #include <rrcb/balance.hpp>
 
@@ -11,6 +11,6 @@ namespace rrcb {
 /// counts there. The points stay where they are good enough (Report::kept) only if all ranks allow
 /// it: if `may_stay`, which may differ between them.
 Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_stay,
-                Member& me);
+                Participant& self);
 
 }  // namespace rrcb

@@ -11,7 +11,7 @@ namespace rrcb {
 
 /// Consecutive ranks that hold a part.
 struct RankRange {
-    int first = 0;
+    int first_rank = 0;
     int count = 1;
 };
 

@@ -89,14 +89,14 @@ Reach reach_of(const CellMoments& cell, std::size_t axis, const Box& box) {
     const double mean = cell.moments.mean[axis];
     const double half_width = std::sqrt(3.0) / 2 * cell.moments.deviation[axis];
     const Reach to_box = reach_to(box, axis, mean);
-    Reach room = shorter_of(reach_to(cell.box, axis, mean), to_box);
-    if (!(opposite(half_width, room.shorter()) <= room.longer())) room = to_box;
-    const double shorter = room.shorter();
+    Reach reach = shorter_of(reach_to(cell.box, axis, mean), to_box);
+    if (!(opposite(half_width, reach.shorter()) <= reach.longer())) reach = to_box;
+    const double shorter = reach.shorter();
     if (half_width <= std::min(bearable * shorter, to_box.shorter()))
         return {half_width, half_width};
     if (shorter == 0) return {};
-    const double longer = std::min(opposite(half_width, shorter), room.longer());
-    return room.below < room.above ? Reach{shorter, longer} : Reach{longer, shorter};
+    const double longer = std::min(opposite(half_width, shorter), reach.longer());
+    return reach.below < reach.above ? Reach{shorter, longer} : Reach{longer, shorter};
 }
 
 /// Gives the patches from `first` on, all of one cell, their extent along an axis. Where it reaches

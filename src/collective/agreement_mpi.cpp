@@ -23,12 +23,12 @@ template <class MakeText>
 }
 
 /// Names the lowest rank with another value than the root. Collective.
-[[noreturn]] void refuse(const Shared& argument, const Member& me) {
-    const int num_ranks = mpi::size_of(me.comm);
+[[noreturn]] void refuse(const Shared& argument, const Participant& self) {
+    const int num_ranks = mpi::size_of(self.comm);
     std::uint64_t of_root = argument.value;
-    mpi::check(MPI_Bcast(&of_root, 1, MPI_UINT64_T, root, me.comm), "MPI_Bcast");
-    int differing = argument.value != of_root ? mpi::rank_of(me.comm) : num_ranks;
-    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &differing, 1, MPI_INT, MPI_MIN, me.comm),
+    mpi::check(MPI_Bcast(&of_root, 1, MPI_UINT64_T, root, self.comm), "MPI_Bcast");
+    int differing = argument.value != of_root ? mpi::rank_of(self.comm) : num_ranks;
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &differing, 1, MPI_INT, MPI_MIN, self.comm),
                "MPI_Allreduce");
     throw_alike(ErrorCode::invalid_argument, [&] {
         return std::string(argument.name) + " differs between rank " + std::to_string(root) +
@@ -38,36 +38,37 @@ template <class MakeText>
 
 }  // namespace
 
-void agree(const Member& me) {
-    agree(me, {});
+void agree(const Participant& self) {
+    agree(self, {});
 }
 
-void agree(const Member& me, std::initializer_list<Shared> arguments) {
-    const int num_ranks = mpi::size_of(me.comm);
+void agree(const Participant& self, std::initializer_list<Shared> arguments) {
+    const int num_ranks = mpi::size_of(self.comm);
     // A maximum travels as the minimum of the complement.
     std::array<std::uint64_t, 1 + 2 * most_shared> smallest;
-    smallest[0] = static_cast<std::uint64_t>(me.failure.failed ? mpi::rank_of(me.comm) : num_ranks);
+    smallest[0] =
+        static_cast<std::uint64_t>(self.failure.failed ? mpi::rank_of(self.comm) : num_ranks);
     std::size_t length = 1;
     for (const Shared& argument : arguments) {
         smallest[length++] = argument.value;
         smallest[length++] = ~argument.value;
     }
     mpi::check(MPI_Allreduce(MPI_IN_PLACE, smallest.data(), static_cast<int>(length), MPI_UINT64_T,
-                             MPI_MIN, me.comm),
+                             MPI_MIN, self.comm),
                "MPI_Allreduce");
     const int failing_rank = static_cast<int>(smallest[0]);
-    if (failing_rank < num_ranks) fail_together(failing_rank, me);
+    if (failing_rank < num_ranks) fail_together(failing_rank, self);
     std::size_t at = 1;
     for (const Shared& argument : arguments) {
         const std::uint64_t least = smallest[at++];
         const std::uint64_t most = ~smallest[at++];
-        if (least != most) refuse(argument, me);
+        if (least != most) refuse(argument, self);
     }
 }
 
-void fail_together(int failing_rank, const Member& me) {
-    Failure theirs = me.failure;
-    mpi::check(MPI_Bcast(&theirs, sizeof theirs, MPI_BYTE, failing_rank, me.comm), "MPI_Bcast");
+void fail_together(int failing_rank, const Participant& self) {
+    Failure theirs = self.failure;
+    mpi::check(MPI_Bcast(&theirs, sizeof theirs, MPI_BYTE, failing_rank, self.comm), "MPI_Bcast");
     throw_alike(theirs.code,
                 [&] { return "rank " + std::to_string(failing_rank) + ": " + theirs.text.data(); });
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "collective/member.hpp"
+#include "collective/participant.hpp"
 
 #include <mpi.h>
 
@@ -15,7 +15,7 @@ inline constexpr int root = 0;
 /// Throws the same Error on every rank when one of them failed on its own since they agreed last.
 ///
 /// Collective: one reduction.
-void agree(const Member& me);
+void agree(const Participant& self);
 
 /// An argument that is to be the same on every rank.
 struct Shared {
@@ -27,9 +27,9 @@ struct Shared {
 /// same ones, at most three.
 ///
 /// Collective: one reduction. What follows may be shaped by these arguments.
-void agree(const Member& me, std::initializer_list<Shared> arguments);
+void agree(const Participant& self, std::initializer_list<Shared> arguments);
 
 /// Throws the failure of the failing rank on every rank. Collective.
-[[noreturn]] void fail_together(int failing_rank, const Member& me);
+[[noreturn]] void fail_together(int failing_rank, const Participant& self);
 
 }  // namespace rrcb

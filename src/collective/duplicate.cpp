@@ -64,17 +64,17 @@ Duplicate& duplicate_with(MPI_Comm user) {
     refuse_two_groups(user);
     MPI_Comm comm = MPI_COMM_NULL;
     std::unique_ptr<Duplicate> duplicate;
-    Member me{user};
-    me.always([&] { check(MPI_Comm_dup(user, &comm), "MPI_Comm_dup"); });
-    me.locally([&] {
+    Participant self{user};
+    self.always([&] { check(MPI_Comm_dup(user, &comm), "MPI_Comm_dup"); });
+    self.attempt([&] {
         duplicate = std::make_unique<Duplicate>();
         duplicate->comm = comm;
         keep(duplicate, user);
     });
     try {
-        agree(me);
+        agree(self);
     } catch (...) {
-        if (!me.failure.failed) {
+        if (!self.failure.failed) {
             MPI_Comm_delete_attr(user, key());
         } else if (comm != MPI_COMM_NULL) {
             MPI_Comm_free(&comm);

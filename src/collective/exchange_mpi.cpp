@@ -30,20 +30,20 @@ std::vector<std::size_t> Exchange::make_outbox(std::span<const int> destinations
     return first;
 }
 
-std::size_t Exchange::announce(Member& me) {
-    if (me.failure.failed) std::ranges::fill(counts_, 0);
+std::size_t Exchange::announce(Participant& self) {
+    if (self.failure.failed) std::ranges::fill(counts_, 0);
     std::int64_t count = 0;
-    mpi::check(MPI_Reduce_scatter_block(counts_.data(), &count, 1, MPI_INT64_T, MPI_SUM, me.comm),
+    mpi::check(MPI_Reduce_scatter_block(counts_.data(), &count, 1, MPI_INT64_T, MPI_SUM, self.comm),
                "MPI_Reduce_scatter_block");
     const auto num_records = static_cast<std::size_t>(count);
-    me.locally([&] {
+    self.attempt([&] {
         inbox_.resize(record_bytes_ * num_records);
         arrived_.reserve(std::min(num_records, counts_.size() + num_records / most_records()));
     });
     return num_records;
 }
 
-void Exchange::send_all(Member& me) {
+void Exchange::send_all(Participant& self) {
     const std::byte* next = outbox_.data();
     for (std::size_t destination = 0; destination < counts_.size(); ++destination) {
         auto left = static_cast<std::size_t>(counts_[destination]);
@@ -51,11 +51,11 @@ void Exchange::send_all(Member& me) {
             const std::size_t count = std::min(left, most_records());
             const std::size_t bytes = count * record_bytes_;
             MPI_Request& request = requests_.emplace_back(MPI_REQUEST_NULL);
-            me.always([&] {
-                mpi::check(
-                    MPI_Isend(next, static_cast<int>(bytes), MPI_BYTE,
-                              static_cast<int>(destination), mpi::exchange_tag, me.comm, &request),
-                    "MPI_Isend");
+            self.always([&] {
+                mpi::check(MPI_Isend(next, static_cast<int>(bytes), MPI_BYTE,
+                                     static_cast<int>(destination), mpi::exchange_tag, self.comm,
+                                     &request),
+                           "MPI_Isend");
             });
             next += bytes;
             left -= count;
@@ -63,15 +63,15 @@ void Exchange::send_all(Member& me) {
     }
 }
 
-void Exchange::receive_all(Member& me) {
+void Exchange::receive_all(Participant& self) {
     std::size_t first = 0;
     while (first < inbox_.size()) {
         const std::size_t most = std::min(inbox_.size() - first, most_records() * record_bytes_);
         MPI_Status status{};
         int bytes = 0;
-        me.always([&] {
+        self.always([&] {
             mpi::check(MPI_Recv(&inbox_[first], static_cast<int>(most), MPI_BYTE, MPI_ANY_SOURCE,
-                                mpi::exchange_tag, me.comm, &status),
+                                mpi::exchange_tag, self.comm, &status),
                        "MPI_Recv");
         });
         if (MPI_Get_count(&status, MPI_BYTE, &bytes) != MPI_SUCCESS || bytes <= 0) return;
@@ -81,15 +81,15 @@ void Exchange::receive_all(Member& me) {
     }
 }
 
-void Exchange::run(Member& me) {
-    send_all(me);
-    receive_all(me);
-    me.always([&] {
+void Exchange::run(Participant& self) {
+    send_all(self);
+    receive_all(self);
+    self.always([&] {
         mpi::check(
             MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE),
             "MPI_Waitall");
     });
-    if (me.failure.failed) throw Error(me.failure.code, me.failure.text.data());
+    if (self.failure.failed) throw Error(self.failure.code, self.failure.text.data());
     std::ranges::sort(arrived_, [](const Message& a, const Message& b) {
         return std::pair(a.source, a.first) < std::pair(b.source, b.first);
     });

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "collective/member.hpp"
+#include "collective/participant.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -29,13 +29,13 @@ class Exchange {
     ///
     /// Collective: one reduction, which no rank leaves before all have entered it; see mpi::Tag.
     /// A rank that failed before sends nothing.
-    std::size_t announce(Member& me);
+    std::size_t announce(Participant& self);
 
     /// Sends and receives, after the ranks agreed that all have room.
     ///
     /// Collective: one message for each pair of ranks with records, more beyond
     /// mpi::longest_message. Throws Error where one fails, of which no other rank hears.
-    void run(Member& me);
+    void run(Participant& self);
 
     /// Calls read(source, place) for what came: by rank, in the order written there.
     template <class Read>
@@ -55,8 +55,8 @@ class Exchange {
 
     std::vector<std::size_t> make_outbox(std::span<const int> destinations);
     std::size_t most_records() const;
-    void send_all(Member& me);
-    void receive_all(Member& me);
+    void send_all(Participant& self);
+    void receive_all(Participant& self);
 
     std::size_t record_bytes_;
     std::span<std::int64_t> counts_;  ///< records for each rank

@@ -10,13 +10,14 @@ namespace rrcb {
 
 namespace {
 
-constexpr Part look_up = -1;
+constexpr Part undecided = -1;
 
 /// How to tell the part of a cell's points: by the side of a plane they lie on.
 struct Rule {
     double plane = 0;
     std::int32_t axis = 0;
-    std::array<Part, 3> parts{look_up, look_up, look_up};  ///< below the plane, on it, above it
+    /// Below the plane, on it, above it.
+    std::array<Part, 3> parts{undecided, undecided, undecided};
 };
 
 /// The node where the cuts first part a box, or the part that holds all of it.
@@ -40,15 +41,15 @@ Rule rule_of(const Cuts& cuts, const Box& box) {
     const Descent lower = first_crossing(cuts, below, at.lower());
     const Descent upper = first_crossing(cuts, above, at.upper());
     Rule rule{cut.at[axis], cut.axis, {}};
-    rule.parts[0] = lower.is_part() ? lower.first_part : look_up;
-    rule.parts[2] = upper.is_part() ? upper.first_part : look_up;
-    rule.parts[1] = is_plane(cut, cuts.dimension) ? rule.parts[2] : look_up;
+    rule.parts[0] = lower.is_part() ? lower.first_part : undecided;
+    rule.parts[2] = upper.is_part() ? upper.first_part : undecided;
+    rule.parts[1] = is_plane(cut, cuts.dimension) ? rule.parts[2] : undecided;
     return rule;
 }
 
 /// What the cuts make of the cells.
 struct CellRules {
-    std::vector<Part> parts;  ///< of all points of a cell; look_up where they differ
+    std::vector<Part> parts;  ///< of all points of a cell; undecided where they differ
     std::vector<Rule> rules;  ///< where they differ
 
     CellRules(const Cuts& cuts, const BinnedPoints& binned)
@@ -57,7 +58,7 @@ struct CellRules {
             if (binned.counts[cell] == 0) continue;
             const Rule rule = rules[cell] = rule_of(cuts, enclosing_box(binned.mesh, cell));
             const bool same = rule.parts[0] == rule.parts[1] && rule.parts[1] == rule.parts[2];
-            parts[cell] = same ? rule.parts[0] : look_up;
+            parts[cell] = same ? rule.parts[0] : undecided;
         }
     }
 };
@@ -68,7 +69,7 @@ std::vector<double> weights_of_whole_cells(const CellRules& cells, const BinnedP
     const bool weighted = !binned.points.weights.empty();
     std::vector<double> weights(static_cast<std::size_t>(num_parts));
     for (LocalIndex cell = 0; cell < cells.parts.size(); ++cell) {
-        if (cells.parts[cell] == look_up) continue;
+        if (cells.parts[cell] == undecided) continue;
         weights[static_cast<std::size_t>(cells.parts[cell])] +=
             weighted ? binned.weights[cell] / binned.weight_scale
                      : static_cast<double>(binned.counts[cell]);
@@ -84,7 +85,7 @@ std::size_t apply_cells(const BinnedPoints& binned, const CellRules& cells, Loca
         const Part part = cells.parts[binned.cells[i]];
         parts[i - first] = part;
         left[num_left] = i;
-        num_left += part == look_up;
+        num_left += part == undecided;
     }
     return num_left;
 }
@@ -94,7 +95,7 @@ Part part_by_rule(const Cuts& cuts, const Rule& rule, const Points& points, Loca
     const double value = points.coordinate(i, rule.axis);
     const int side = static_cast<int>(value >= rule.plane) + static_cast<int>(value > rule.plane);
     const Part part = rule.parts[static_cast<std::size_t>(side)];
-    return part == look_up ? part_of(cuts, points.position(i)) : part;
+    return part == undecided ? part_of(cuts, points.position(i)) : part;
 }
 
 }  // namespace

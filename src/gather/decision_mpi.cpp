@@ -148,15 +148,15 @@ void unpack(Decision& decision) {
 /// of the decision as fits behind it.
 using Head = std::array<std::byte, 2048>;
 
-void broadcast_head(Head& head, Verdict& verdict, const Member& me) {
+void broadcast_head(Head& head, Verdict& verdict, const Participant& self) {
     std::memcpy(head.data(), &verdict, sizeof verdict);
-    mpi::broadcast(head, root, me.comm);
+    mpi::broadcast(head, root, self.comm);
     std::memcpy(&verdict, head.data(), sizeof verdict);
-    if (verdict.failing_rank != no_rank) fail_together(verdict.failing_rank, me);
+    if (verdict.failing_rank != no_rank) fail_together(verdict.failing_rank, self);
 }
 
 /// Reads the current parts from the places of all ranks, where these are one part each.
-void look_at_current(const Contribution& all, const Options& options, Decision& decision) {
+void weigh_current(const Contribution& all, const Options& options, Decision& decision) {
     const Cuts& estimate = decision.bisection.cuts;
     const std::vector<Place> places = read_places(all.places, estimate.dimension);
     if (places.empty() || places.size() != decision.current.parts.size()) return;
@@ -218,44 +218,44 @@ void decide(const Contribution& all, const Options& options, const Cuts* previou
                          : bisect(build_domain(all, options, dimension), options, with_brackets);
     bisection.brackets.resize(with_brackets ? bisection.cuts.tree.size() : 0);
     decision.verdict = verdict_of(all.summary, bisection, options.part_sizes);
-    look_at_current(all, options, decision);
+    weigh_current(all, options, decision);
 }
 
-void confirm(const Summary& all, Member& me) {
+void confirm(const Summary& all, Participant& self) {
     Verdict verdict;
-    if (mpi::rank_of(me.comm) == root) {
+    if (mpi::rank_of(self.comm) == root) {
         verdict.failing_rank = all.failing_rank;
-        me.locally([&] {
+        self.attempt([&] {
             if (all.failing_rank == no_rank) check_together(all);
         });
-        if (me.failure.failed) verdict.failing_rank = root;
+        if (self.failure.failed) verdict.failing_rank = root;
     }
     Head head{};
-    broadcast_head(head, verdict, me);
+    broadcast_head(head, verdict, self);
 }
 
-void broadcast(Decision& decision, const Member& me) {
+void broadcast(Decision& decision, const Participant& self) {
     Head head{};
-    const std::span<std::byte> room = std::span(head).subspan(sizeof(Verdict));
+    const std::span<std::byte> space = std::span(head).subspan(sizeof(Verdict));
     const auto in_head = [&] {
         const std::span<std::byte> message = message_of(decision);
-        return message.first(std::min(message.size(), room.size()));
+        return message.first(std::min(message.size(), space.size()));
     };
-    if (mpi::rank_of(me.comm) == root && decision.verdict.failing_rank == no_rank) {
+    if (mpi::rank_of(self.comm) == root && decision.verdict.failing_rank == no_rank) {
         pack(decision);
-        std::ranges::copy(in_head(), room.begin());
+        std::ranges::copy(in_head(), space.begin());
     }
-    broadcast_head(head, decision.verdict, me);
+    broadcast_head(head, decision.verdict, self);
     // Now all know how long the message is.
-    std::ranges::copy(room.first(in_head().size()), in_head().begin());
-    mpi::broadcast(message_of(decision).subspan(in_head().size()), root, me.comm);
+    std::ranges::copy(space.first(in_head().size()), in_head().begin());
+    mpi::broadcast(message_of(decision).subspan(in_head().size()), root, self.comm);
     unpack(decision);
 }
 
-void broadcast_current(Decision& decision, const Member& me) {
+void broadcast_current(Decision& decision, const Participant& self) {
     decision.verdict.stays = 1;
-    if (mpi::rank_of(me.comm) == root) pack(decision);
-    mpi::broadcast(message_of(decision), root, me.comm);
+    if (mpi::rank_of(self.comm) == root) pack(decision);
+    mpi::broadcast(message_of(decision), root, self.comm);
     unpack(decision);
 }
 

@@ -56,15 +56,15 @@ void decide(const Contribution& all, const Options& options, const Cuts* previou
 /// Tells all ranks that they fit together, before what only some of them may be waiting for; or
 /// throws everywhere why they don't. Collective: the first message of broadcast(), which ranks that
 /// asked for something else are in.
-void confirm(const Summary& all, Member& me);
+void confirm(const Summary& all, Participant& self);
 
 /// Gives everybody the root's decision, or throws everywhere why there is none. Collective.
 ///
 /// One message for a few dozen cuts, two for more: the first must be as long on a rank that does
 /// not know how many are coming.
-void broadcast(Decision& decision, const Member& me);
+void broadcast(Decision& decision, const Participant& self);
 
 /// Gives everybody the current parts, which the root has read, after all: they stay. Collective.
-void broadcast_current(Decision& decision, const Member& me);
+void broadcast_current(Decision& decision, const Participant& self);
 
 }  // namespace rrcb

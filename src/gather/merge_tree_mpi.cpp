@@ -13,84 +13,86 @@ namespace {
 
 constexpr std::size_t piece = 8192;  // doubles in a message
 
-void send(std::span<const std::byte> bytes, int to, mpi::Tag tag, Member& me) {
-    me.always([&] {
+void send(std::span<const std::byte> bytes, int to, mpi::Tag tag, Participant& self) {
+    self.always([&] {
         mpi::check(
-            MPI_Send(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, to, tag, me.comm),
+            MPI_Send(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, to, tag, self.comm),
             "MPI_Send");
     });
 }
 
-void receive(std::span<std::byte> bytes, int from, mpi::Tag tag, Member& me) {
-    me.always([&] {
+void receive(std::span<std::byte> bytes, int from, mpi::Tag tag, Participant& self) {
+    self.always([&] {
         mpi::check(MPI_Recv(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, from, tag,
-                            me.comm, MPI_STATUS_IGNORE),
+                            self.comm, MPI_STATUS_IGNORE),
                    "MPI_Recv");
     });
 }
 
-void send_records(std::span<const double> records, int to, mpi::Tag tag, Member& me) {
+void send_records(std::span<const double> records, int to, mpi::Tag tag, Participant& self) {
     for (std::size_t at = 0; at < records.size(); at += piece)
-        send(std::as_bytes(records.subspan(at, std::min(piece, records.size() - at))), to, tag, me);
+        send(std::as_bytes(records.subspan(at, std::min(piece, records.size() - at))), to, tag,
+             self);
 }
 
 /// Receives `count` doubles behind those that are there. Without memory for them they are still
 /// received, for their sender's sake.
 void receive_records(std::vector<double>& records, std::size_t count, int from, mpi::Tag tag,
-                     Member& me) {
+                     Participant& self) {
     const std::size_t start = records.size();
-    me.locally([&] { records.resize(start + count); });
+    self.attempt([&] { records.resize(start + count); });
     const bool has_room = records.size() == start + count;
     std::array<double, piece> dropped;
     for (std::size_t at = 0; at < count; at += piece) {
         double* to = has_room ? records.data() + start + at : dropped.data();
-        receive(std::as_writable_bytes(std::span(to, std::min(piece, count - at))), from, tag, me);
+        receive(std::as_writable_bytes(std::span(to, std::min(piece, count - at))), from, tag,
+                self);
     }
 }
 
-void send_up(Contribution& mine, int to, Member& me) {
+void send_up(Contribution& mine, int to, Participant& self) {
     if (!mine.summary.is_usable()) mine.records.clear();
     mine.summary.num_place_doubles =
         mine.summary.is_usable() ? static_cast<std::int64_t>(mine.places.size()) : 0;
     mine.summary.num_doubles = static_cast<std::int64_t>(mine.records.size());
-    send(std::as_bytes(std::span(&mine.summary, 1)), to, mpi::contribution_tag, me);
-    send_records(mine.records, to, mpi::contribution_tag, me);
+    send(std::as_bytes(std::span(&mine.summary, 1)), to, mpi::contribution_tag, self);
+    send_records(mine.records, to, mpi::contribution_tag, self);
 }
 
 }  // namespace
 
 void merge_up(Contribution& mine, int dimension, const MergeTree& tree, std::size_t most,
-              Member& me) {
-    const int rank = mpi::rank_of(me.comm);
+              Participant& self) {
+    const int rank = mpi::rank_of(self.comm);
     mine.summary.first_rank = rank;
     tree.for_each_child(rank, [&](int child) {
         Summary theirs;
-        receive(std::as_writable_bytes(std::span(&theirs, 1)), child, mpi::contribution_tag, me);
+        receive(std::as_writable_bytes(std::span(&theirs, 1)), child, mpi::contribution_tag, self);
         receive_records(mine.records, static_cast<std::size_t>(theirs.num_doubles), child,
-                        mpi::contribution_tag, me);
-        me.locally([&] { absorb(mine, theirs, dimension, most); });
+                        mpi::contribution_tag, self);
+        self.attempt([&] { absorb(mine, theirs, dimension, most); });
     });
     // In one message with the cells.
     if (rank != 0)
-        me.locally([&] {
+        self.attempt([&] {
             mine.records.insert(mine.records.end(), mine.places.begin(), mine.places.end());
         });
-    if (me.failure.failed) mine.summary.failing_rank = rank;
-    if (rank != 0) send_up(mine, tree.parent(rank), me);
+    if (self.failure.failed) mine.summary.failing_rank = rank;
+    if (rank != 0) send_up(mine, tree.parent(rank), self);
 }
 
-void gather_points(std::vector<double>& records, Member& me) {
+void gather_points(std::vector<double>& records, Participant& self) {
     std::uint64_t count = records.size();
     const auto length = std::span(&count, 1);
-    if (mpi::rank_of(me.comm) != root) {
-        send(std::as_bytes(length), root, mpi::points_tag, me);
-        send_records(records, root, mpi::points_tag, me);
+    if (mpi::rank_of(self.comm) != root) {
+        send(std::as_bytes(length), root, mpi::points_tag, self);
+        send_records(records, root, mpi::points_tag, self);
         return;
     }
-    const int num_ranks = mpi::size_of(me.comm);
+    const int num_ranks = mpi::size_of(self.comm);
     for (int rank = root + 1; rank < num_ranks; ++rank) {
-        receive(std::as_writable_bytes(length), rank, mpi::points_tag, me);
-        receive_records(records, static_cast<std::size_t>(count), rank, mpi::points_tag, me);
+        receive(std::as_writable_bytes(length), rank, mpi::points_tag, self);
+        receive_records(records, static_cast<std::size_t>(count), rank, mpi::points_tag, self);
     }
 }
 

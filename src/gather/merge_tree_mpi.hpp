@@ -1,6 +1,6 @@
 #pragma once
 
-#include "collective/member.hpp"
+#include "collective/participant.hpp"
 #include "gather/contribution.hpp"
 
 #include <algorithm>
@@ -40,12 +40,12 @@ struct MergeTree {
 /// A rank that failed, before or here, sends its number in place of records. What fails only when
 /// it has sent stays with it for the next agreement.
 void merge_up(Contribution& mine, int dimension, const MergeTree& tree, std::size_t most,
-              Member& me);
+              Participant& self);
 
 /// Puts the points of all ranks behind those of the root, by rank. Collective over `comm`, after
 /// the ranks agreed that the root wants them: each sends it how many doubles it has, and those.
 ///
 /// What fails stays with its rank for the next agreement.
-void gather_points(std::vector<double>& records, Member& me);
+void gather_points(std::vector<double>& records, Participant& self);
 
 }  // namespace rrcb

@@ -25,8 +25,8 @@ struct Notice {
 /// Among the ranks of the part: this one when it can stay, else spread by the sender's number.
 int destination_of(Part part, int num_parts, int rank, int num_ranks) {
     const RankRange ranks = ranks_of_part(part, num_parts, num_ranks);
-    if (rank >= ranks.first && rank < ranks.first + ranks.count) return rank;
-    return ranks.first + rank % ranks.count;
+    if (rank >= ranks.first_rank && rank < ranks.first_rank + ranks.count) return rank;
+    return ranks.first_rank + rank % ranks.count;
 }
 
 /// First rank of a part with ranks to share out: those left over go to the parts before the last.
@@ -98,18 +98,18 @@ Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm user) {
     mpi::Duplicate& kept = mpi::duplicate_with(user);
     const MPI_Comm comm = kept.comm;
     std::vector<std::int64_t>& counts = kept.per_rank;
-    Member me{comm};
+    Participant self{comm};
     Plan result;
     Exchange exchange(sizeof(Notice), counts);
-    me.locally([&] {
+    self.attempt([&] {
         check_parts(parts, num_parts);
         list_exports(parts, num_parts, comm, result);
         post(result, exchange);
     });
-    const std::size_t num_imports = exchange.announce(me);
-    me.locally([&] { make_room(num_imports, result); });
-    agree(me, {{"num_parts", static_cast<std::uint64_t>(num_parts)}});
-    exchange.run(me);
+    const std::size_t num_imports = exchange.announce(self);
+    self.attempt([&] { make_room(num_imports, result); });
+    agree(self, {{"num_parts", static_cast<std::uint64_t>(num_parts)}});
+    exchange.run(self);
     list_imports(exchange, result);
     return result;
 }

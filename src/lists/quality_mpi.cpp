@@ -37,8 +37,8 @@ std::vector<double> weights_here(const Points& points, std::span<const Part> par
 }
 
 /// Tells all ranks that none has failed and all divide into as many parts. Collective.
-void agree_on_parts(int num_parts, const Member& me) {
-    agree(me, {{"num_parts", static_cast<std::uint64_t>(num_parts)}});
+void agree_on_parts(int num_parts, const Participant& self) {
+    agree(self, {{"num_parts", static_cast<std::uint64_t>(num_parts)}});
 }
 
 /// Collective over `comm`: one reduction.
@@ -52,31 +52,31 @@ void sum_over_ranks(std::span<double> sums, MPI_Comm comm) {
 
 std::vector<double> part_weights(const Points& points, std::span<const Part> parts, int num_parts,
                                  MPI_Comm user) {
-    Member me{mpi::duplicate_of(user)};
+    Participant self{mpi::duplicate_of(user)};
     std::vector<double> weights;
-    me.locally([&] { weights = weights_here(points, parts, num_parts); });
-    agree_on_parts(num_parts, me);
-    sum_over_ranks(weights, me.comm);
+    self.attempt([&] { weights = weights_here(points, parts, num_parts); });
+    agree_on_parts(num_parts, self);
+    sum_over_ranks(weights, self.comm);
     return weights;
 }
 
 double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
                       MPI_Comm user) {
-    Member me{mpi::duplicate_of(user)};
+    Participant self{mpi::duplicate_of(user)};
     std::array<double, 2> sums{};  // weight that moves, all weight
-    me.locally([&] {
+    self.attempt([&] {
         check_arguments(points, parts, num_parts);
-        const int rank = mpi::rank_of(me.comm);
-        const int num_ranks = mpi::size_of(me.comm);
+        const int rank = mpi::rank_of(self.comm);
+        const int num_ranks = mpi::size_of(self.comm);
         for (LocalIndex i = 0; i < points.count; ++i) {
             const RankRange ranks = ranks_of_part(parts[i], num_parts, num_ranks);
-            const bool stays = rank >= ranks.first && rank < ranks.first + ranks.count;
+            const bool stays = rank >= ranks.first_rank && rank < ranks.first_rank + ranks.count;
             if (!stays) sums[0] += points.weight(i);
             sums[1] += points.weight(i);
         }
     });
-    agree_on_parts(num_parts, me);
-    sum_over_ranks(sums, me.comm);
+    agree_on_parts(num_parts, self);
+    sum_over_ranks(sums, self.comm);
     return sums[1] == 0 ? 0 : sums[0] / sums[1];
 }
 

@@ -14,14 +14,14 @@ class Placement {
   public:
     explicit Placement(std::span<const RankRange> ranks_of_parts)
         : ranks_of_numbers_(ranks_of_parts),
-          vacancies_(static_cast<std::size_t>(ranks_of_parts.back().first) + 1, 0),
+          vacancies_(static_cast<std::size_t>(ranks_of_parts.back().first_rank) + 1, 0),
           ranks_(ranks_of_parts.size(), nowhere) {
         for (const RankRange& owner : ranks_of_numbers_)
-            ++vacancies_[static_cast<std::size_t>(owner.first)];
+            ++vacancies_[static_cast<std::size_t>(owner.first_rank)];
     }
 
     int owner_of(Part number) const {
-        return ranks_of_numbers_[static_cast<std::size_t>(number)].first;
+        return ranks_of_numbers_[static_cast<std::size_t>(number)].first_rank;
     }
     int rank_of(Part part) const { return ranks_[static_cast<std::size_t>(part)]; }
     int num_parts() const { return static_cast<int>(ranks_of_numbers_.size()); }

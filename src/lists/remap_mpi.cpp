@@ -39,8 +39,10 @@ struct Owners {
         if (!by_rank && origin < num_parts()) return {origin, origin + 1};
         if (!by_rank) return {0, 0};
         // Not equal_range, whose answer clang 14 cannot read with GCC's library.
-        const auto first = std::ranges::lower_bound(ranks_of_parts, origin, {}, &RankRange::first);
-        const auto last = std::ranges::upper_bound(ranks_of_parts, origin, {}, &RankRange::first);
+        const auto first =
+            std::ranges::lower_bound(ranks_of_parts, origin, {}, &RankRange::first_rank);
+        const auto last =
+            std::ranges::upper_bound(ranks_of_parts, origin, {}, &RankRange::first_rank);
         return {static_cast<Part>(first - ranks_of_parts.begin()),
                 static_cast<Part>(last - ranks_of_parts.begin())};
     }
@@ -87,62 +89,63 @@ std::vector<Overlap> overlaps_by_part(std::span<const Part> parts, std::span<con
 /// A fixed number of overlaps from each rank, so that one gather carries all. Unused entries count
 /// 0; the first holds the number of points, and 1 as its part where the rank has failed.
 /// Collective.
-void gather_overlaps(std::vector<Overlap> mine, std::size_t num_points, RemapBuffers& room,
-                     const Member& me) {
-    keep_largest(room.mine.size() - 1, mine);
-    std::ranges::fill(room.mine, Overlap{});
-    room.mine[0] = {0, me.failure.failed ? 1 : 0, static_cast<GlobalCount>(num_points)};
-    std::ranges::copy(mine, room.mine.begin() + 1);
-    const int bytes = static_cast<int>(room.mine.size() * sizeof(Overlap));
-    mpi::check(MPI_Gather(room.mine.data(), bytes, MPI_BYTE, room.all.data(), bytes, MPI_BYTE, root,
-                          me.comm),
+void gather_overlaps(std::vector<Overlap> mine, std::size_t num_points, RemapBuffers& buffers,
+                     const Participant& self) {
+    keep_largest(buffers.mine.size() - 1, mine);
+    std::ranges::fill(buffers.mine, Overlap{});
+    buffers.mine[0] = {0, self.failure.failed ? 1 : 0, static_cast<GlobalCount>(num_points)};
+    std::ranges::copy(mine, buffers.mine.begin() + 1);
+    const int bytes = static_cast<int>(buffers.mine.size() * sizeof(Overlap));
+    mpi::check(MPI_Gather(buffers.mine.data(), bytes, MPI_BYTE, buffers.all.data(), bytes, MPI_BYTE,
+                          root, self.comm),
                "MPI_Gather");
 }
 
 /// All overlaps with earlier parts, summed over the ranks; behind them the number of points, and of
 /// ranks that have failed. Collective: one reduction.
-void sum_up(std::span<const Part> parts, std::span<const Part> previous, RemapBuffers& room,
-            const Member& me) {
-    const std::size_t num_parts = room.numbers.size();
-    std::ranges::fill(room.sums, 0);
-    for (std::size_t i = 0; i < parts.size() && !me.failure.failed; ++i) {
+void sum_up(std::span<const Part> parts, std::span<const Part> previous, RemapBuffers& buffers,
+            const Participant& self) {
+    const std::size_t num_parts = buffers.numbers.size();
+    std::ranges::fill(buffers.sums, 0);
+    for (std::size_t i = 0; i < parts.size() && !self.failure.failed; ++i) {
         const auto origin = static_cast<std::size_t>(previous[i]);
         if (previous[i] >= 0 && origin < num_parts)
-            ++room.sums[origin * num_parts + static_cast<std::size_t>(parts[i])];
+            ++buffers.sums[origin * num_parts + static_cast<std::size_t>(parts[i])];
     }
-    const std::span tail = std::span(room.sums).last<2>();
+    const std::span tail = std::span(buffers.sums).last<2>();
     tail[0] = static_cast<GlobalCount>(parts.size());
-    tail[1] = me.failure.failed ? 1 : 0;
-    const bool is_root = mpi::rank_of(me.comm) == root;
-    mpi::check(MPI_Reduce(is_root ? MPI_IN_PLACE : room.sums.data(), room.sums.data(),
-                          static_cast<int>(room.sums.size()), MPI_INT64_T, MPI_SUM, root, me.comm),
-               "MPI_Reduce");
+    tail[1] = self.failure.failed ? 1 : 0;
+    const bool is_root = mpi::rank_of(self.comm) == root;
+    mpi::check(
+        MPI_Reduce(is_root ? MPI_IN_PLACE : buffers.sums.data(), buffers.sums.data(),
+                   static_cast<int>(buffers.sums.size()), MPI_INT64_T, MPI_SUM, root, self.comm),
+        "MPI_Reduce");
 }
 
-std::vector<Overlap> overlaps_of(const RemapBuffers& room) {
-    const std::size_t num_parts = room.numbers.size();
+std::vector<Overlap> overlaps_of(const RemapBuffers& buffers) {
+    const std::size_t num_parts = buffers.numbers.size();
     std::vector<Overlap> overlaps;
     for (std::size_t k = 0; k < num_parts * num_parts; ++k)
-        if (room.sums[k] > 0)
-            overlaps.push_back(
-                {static_cast<Part>(k / num_parts), static_cast<Part>(k % num_parts), room.sums[k]});
+        if (buffers.sums[k] > 0)
+            overlaps.push_back({static_cast<Part>(k / num_parts), static_cast<Part>(k % num_parts),
+                                buffers.sums[k]});
     return overlaps;
 }
 
 /// The lowest rank that failed, as far as the root was told.
-int lowest_failing_rank(const RemapBuffers& room) {
-    if (room.holds_sums()) return room.sums.back() > 0 ? some_failed : none_failed;
-    for (std::size_t i = 0; i < room.all.size(); i += room.mine.size())
-        if (room.all[i].part != 0) return static_cast<int>(i / room.mine.size());
+int lowest_failing_rank(const RemapBuffers& buffers) {
+    if (buffers.holds_sums()) return buffers.sums.back() > 0 ? some_failed : none_failed;
+    for (std::size_t i = 0; i < buffers.all.size(); i += buffers.mine.size())
+        if (buffers.all[i].part != 0) return static_cast<int>(i / buffers.mine.size());
     return none_failed;
 }
 
 /// Takes the number of points out of what the root was told.
-GlobalCount extract_num_points(RemapBuffers& room) {
-    if (room.holds_sums()) return room.sums.end()[-2];
+GlobalCount extract_num_points(RemapBuffers& buffers) {
+    if (buffers.holds_sums()) return buffers.sums.end()[-2];
     GlobalCount num_points = 0;
-    for (std::size_t i = 0; i < room.all.size(); i += room.mine.size())
-        num_points += std::exchange(room.all[i].count, 0);
+    for (std::size_t i = 0; i < buffers.all.size(); i += buffers.mine.size())
+        num_points += std::exchange(buffers.all[i].count, 0);
     return num_points;
 }
 
@@ -179,12 +182,12 @@ GlobalCount kept(std::span<const Overlap> overlaps, std::span<const Part> number
 }
 
 /// The root's decision.
-Remap decide_numbers(RemapBuffers& room, const Owners& owners) {
+Remap decide_numbers(RemapBuffers& buffers, const Owners& owners) {
     Remap remap;
-    remap.num_points = extract_num_points(room);
+    remap.num_points = extract_num_points(buffers);
     const std::vector<Overlap> sums =
-        room.holds_sums() ? overlaps_of(room) : std::vector<Overlap>();
-    const std::span<const Overlap> overlaps = room.holds_sums() ? sums : room.all;
+        buffers.holds_sums() ? overlaps_of(buffers) : std::vector<Overlap>();
+    const std::span<const Overlap> overlaps = buffers.holds_sums() ? sums : buffers.all;
     std::vector<Part> unchanged(static_cast<std::size_t>(owners.num_parts()));
     std::iota(unchanged.begin(), unchanged.end(), 0);
     remap.numbers = good_numbers(overlaps, owners);
@@ -198,18 +201,18 @@ Remap decide_numbers(RemapBuffers& room, const Owners& owners) {
 
 /// The decision of the root, or the lowest rank that failed, on its way to all ranks.
 /// Collective over `comm`: one broadcast.
-int share(int failing_rank, Remap& remap, RemapBuffers& room, MPI_Comm comm) {
-    const std::size_t num_parts = room.numbers.size();
-    std::ranges::copy(remap.numbers, room.decision.begin());
-    const std::span tail = std::span(room.decision).last<4>();
+int share(int failing_rank, Remap& remap, RemapBuffers& buffers, MPI_Comm comm) {
+    const std::size_t num_parts = buffers.numbers.size();
+    std::ranges::copy(remap.numbers, buffers.decision.begin());
+    const std::span tail = std::span(buffers.decision).last<4>();
     tail[0] = failing_rank;
     tail[1] = remap.num_points;
     tail[2] = remap.kept_before;
     tail[3] = remap.kept_after;
-    mpi::broadcast(std::as_writable_bytes(std::span(room.decision)), root, comm);
+    mpi::broadcast(std::as_writable_bytes(std::span(buffers.decision)), root, comm);
     for (std::size_t p = 0; p < num_parts; ++p)
-        room.numbers[p] = static_cast<Part>(room.decision[p]);
-    remap.numbers = std::move(room.numbers);
+        buffers.numbers[p] = static_cast<Part>(buffers.decision[p]);
+    remap.numbers = std::move(buffers.numbers);
     remap.num_points = tail[1];
     remap.kept_before = tail[2];
     remap.kept_after = tail[3];
@@ -236,7 +239,7 @@ void check_arguments(std::span<const Part> parts, const PreviousParts& previous,
 std::uint64_t hash_of(std::span<const RankRange> ranks_of_parts) {
     std::uint64_t hash = ranks_of_parts.size();
     for (const RankRange& ranks : ranks_of_parts) {
-        for (const int number : {ranks.first, ranks.count})
+        for (const int number : {ranks.first_rank, ranks.count})
             hash = (hash ^ static_cast<std::uint64_t>(number)) * 0x9e3779b97f4a7c15u;
         hash ^= hash >> 32;
     }
@@ -246,15 +249,16 @@ std::uint64_t hash_of(std::span<const RankRange> ranks_of_parts) {
 /// The public functions: with a look at the arguments, and room of their own. Collective.
 Remap remap_alone(std::span<const Part> parts, const PreviousParts& previous,
                   std::span<const RankRange> ranks_of_parts, MPI_Comm user) {
-    Member me{mpi::duplicate_of(user)};
-    std::optional<RemapBuffers> room;
-    me.locally([&] {
+    Participant self{mpi::duplicate_of(user)};
+    std::optional<RemapBuffers> buffers;
+    self.attempt([&] {
         check_arguments(parts, previous, ranks_of_parts.size());
-        room.emplace(static_cast<int>(ranks_of_parts.size()), mpi::size_of(me.comm),
-                     mpi::rank_of(me.comm) == root, previous ? Origins::parts : Origins::ranks);
+        buffers.emplace(static_cast<int>(ranks_of_parts.size()), mpi::size_of(self.comm),
+                        mpi::rank_of(self.comm) == root,
+                        previous ? Origins::parts : Origins::ranks);
     });
-    agree(me, {{"ranks_of_parts", hash_of(ranks_of_parts)}, {"previous", previous ? 1u : 0u}});
-    return remap(parts, previous, ranks_of_parts, *room, me);
+    agree(self, {{"ranks_of_parts", hash_of(ranks_of_parts)}, {"previous", previous ? 1u : 0u}});
+    return remap(parts, previous, ranks_of_parts, *buffers, self);
 }
 
 }  // namespace
@@ -273,31 +277,31 @@ RemapBuffers::RemapBuffers(int num_parts, int num_ranks, bool is_root, Origins o
 }
 
 Remap remap(std::span<const Part> parts, const PreviousParts& previous,
-            std::span<const RankRange> ranks_of_parts, RemapBuffers& room, Member& me) {
+            std::span<const RankRange> ranks_of_parts, RemapBuffers& buffers, Participant& self) {
     const Owners owners{ranks_of_parts, !previous};
-    const int rank = mpi::rank_of(me.comm);
-    if (room.holds_sums()) {
-        sum_up(parts, *previous, room, me);
+    const int rank = mpi::rank_of(self.comm);
+    if (buffers.holds_sums()) {
+        sum_up(parts, *previous, buffers, self);
     } else {
         std::vector<Overlap> overlaps;
-        me.locally([&] {
+        self.attempt([&] {
             overlaps = previous ? overlaps_by_part(parts, *previous, owners.num_parts())
                                 : overlaps_by_rank(parts, owners.num_parts(), rank);
         });
-        gather_overlaps(std::move(overlaps), parts.size(), room, me);
+        gather_overlaps(std::move(overlaps), parts.size(), buffers, self);
     }
     Remap result;
     int failing_rank = none_failed;
     if (rank == root) {
-        failing_rank = lowest_failing_rank(room);
-        me.locally([&] {
-            if (failing_rank == none_failed) result = decide_numbers(room, owners);
+        failing_rank = lowest_failing_rank(buffers);
+        self.attempt([&] {
+            if (failing_rank == none_failed) result = decide_numbers(buffers, owners);
         });
-        if (me.failure.failed) failing_rank = root;
+        if (self.failure.failed) failing_rank = root;
     }
-    failing_rank = share(failing_rank, result, room, me.comm);
-    if (failing_rank == some_failed) agree(me);
-    if (failing_rank != none_failed) fail_together(failing_rank, me);
+    failing_rank = share(failing_rank, result, buffers, self.comm);
+    if (failing_rank == some_failed) agree(self);
+    if (failing_rank != none_failed) fail_together(failing_rank, self);
     return result;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "collective/member.hpp"
+#include "collective/participant.hpp"
 
 #include <rrcb/remap.hpp>
 
@@ -46,6 +46,6 @@ using PreviousParts = std::optional<std::span<const Part>>;
 /// be there on some ranks only, unless it holds sums. What went wrong on a rank before is told to
 /// all as well.
 Remap remap(std::span<const Part> parts, const PreviousParts& previous,
-            std::span<const RankRange> ranks_of_parts, RemapBuffers& room, Member& me);
+            std::span<const RankRange> ranks_of_parts, RemapBuffers& buffers, Participant& self);
 
 }  // namespace rrcb

@@ -83,7 +83,7 @@ const Word& word_of(const Choice& choice, const Options& options) {
 
 /// Limits of a range in words, such as ", 1 or more" or " from 1 to 4096".
 template <class Number>
-std::string limits_of(const Range<Number>& range) {
+std::string bounds_of(const Range<Number>& range) {
     const std::string least = text_of(range.least);
     if (range.above_least)
         return " above " + least + (is_bounded(range) ? ", at most " + text_of(range.most) : "");
@@ -93,13 +93,13 @@ std::string limits_of(const Range<Number>& range) {
 
 template <class Number>
 std::string values_in_table(const Range<Number>& range, const Options& first) {
-    std::string limits = limits_of(range);
-    limits.erase(0, limits.find_first_not_of(", "));
-    if (limits.starts_with("from ")) limits.erase(0, 5);
-    if (range.most_in_3d != range.most) limits += " (" + text_of(range.most_in_3d) + " in 3-D)";
+    std::string bounds = bounds_of(range);
+    bounds.erase(0, bounds.find_first_not_of(", "));
+    if (bounds.starts_with("from ")) bounds.erase(0, 5);
+    if (range.most_in_3d != range.most) bounds += " (" + text_of(range.most_in_3d) + " in 3-D)";
     const bool is_automatic = range.zero != nullptr && first.*range.field == 0;
     return (is_automatic ? '`' + std::string(automatic) + '`' : text_of(first.*range.field)) +
-           ", " + limits;
+           ", " + bounds;
 }
 
 std::string values_in_table(const Choice& choice, const Options& first) {
@@ -157,7 +157,7 @@ std::string legal_values(const Option& option) {
             return listed(kind);
         } else if constexpr (is_range<Kind>) {
             const bool is_real = std::is_same_v<Kind, Range<double>>;
-            return (is_real ? "a number" : "a whole number") + limits_of(kind);
+            return (is_real ? "a number" : "a whole number") + bounds_of(kind);
         } else {
             return "a list";
         }

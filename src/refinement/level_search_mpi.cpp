@@ -86,11 +86,11 @@ void count_search(std::size_t k, Refinement& context) {
     const std::span<double> histogram = histograms.add();
     if (is_sampling(search)) {
         const std::span<double> sample = clear_to_sample(context.binned.dimension(), histogram);
-        room.local[k].add_candidates(mpi::rank_of(context.me.comm), sample);
+        room.local[k].add_candidates(mpi::rank_of(context.self.comm), sample);
     } else {
-        context.me.locally([&] { room.local[k].count(search, histograms.layout(), histogram); });
+        context.self.attempt([&] { room.local[k].count(search, histograms.layout(), histogram); });
     }
-    if (context.me.failure.failed) mark_failed(histogram);
+    if (context.self.failure.failed) mark_failed(histogram);
 }
 
 /// The root's decision on search number `k`, by its joined histogram.
@@ -120,12 +120,12 @@ void count_and_decide(Refinement& context) {
     for (std::size_t k = 0; k < room.searches.size(); ++k)
         if (is_counting(room.searches[k])) count_search(k, context);
     if (histograms.size() == 0) return;
-    histograms.join(root, context.me.comm);
+    histograms.join(root, context.self.comm);
     if (!context.is_root) return;
     context.told_of_failure |= histograms.any_failed();
     if (context.told_of_failure) return;
     std::size_t next = 0;
-    context.me.locally([&] {
+    context.self.attempt([&] {
         for (std::size_t k = 0; k < room.searches.size(); ++k)
             if (is_counting(room.before[k])) decide_search(k, histograms.joined(next++), context);
     });
@@ -136,16 +136,16 @@ void gather_and_decide(Refinement& context) {
     Candidates& candidates = room.candidates;
     if (std::ranges::none_of(room.before, is_gathering)) return;
     candidates.clear();
-    context.me.locally([&] {
+    context.self.attempt([&] {
         for (std::size_t k = 0; k < room.before.size(); ++k)
             if (is_gathering(room.before[k])) candidates.add(k, room.local[k]);
     });
-    if (context.me.failure.failed) candidates.lose();
-    candidates.gather(root, context.me.comm);
+    if (context.self.failure.failed) candidates.lose();
+    candidates.gather(root, context.self.comm);
     if (!context.is_root) return;
     context.told_of_failure |= candidates.any_failed();
     if (context.told_of_failure) return;
-    context.me.locally([&] {
+    context.self.attempt([&] {
         const auto lists = candidates.lists(room.before.size());
         for (std::size_t k = 0; k < room.before.size(); ++k)
             if (is_gathering(room.before[k]))
@@ -171,8 +171,9 @@ void conclude(Refinement& context) {
             search.stage = CutSearch::sampling;
         }
     }
-    context.me.locally([&] { room.candidates.expect(num_points, mpi::size_of(context.me.comm)); });
-    if (!context.me.failure.failed && !context.told_of_failure) return;
+    context.self.attempt(
+        [&] { room.candidates.expect(num_points, mpi::size_of(context.self.comm)); });
+    if (!context.self.failure.failed && !context.told_of_failure) return;
     for (CutSearch& search : room.searches) search.stage = CutSearch::abandoned;
 }
 
@@ -181,8 +182,8 @@ void conclude(Refinement& context) {
 void follow(Refinement& context) {
     RefinementBuffers& room = context.room;
     Histograms& histograms = room.histograms;
-    histograms.broadcast_samples(room.samples, root, context.me.comm);
-    context.me.locally([&] {
+    histograms.broadcast_samples(room.samples, root, context.self.comm);
+    context.self.attempt([&] {
         std::size_t next = 0;
         for (std::size_t k = 0; k < room.local.size(); ++k) {
             const CutSearch& search = room.searches[k];
@@ -226,7 +227,7 @@ void search_level(Refinement& context) {
         count_and_decide(context);
         gather_and_decide(context);
         if (context.is_root) conclude(context);
-        mpi::broadcast(std::as_writable_bytes(std::span(room.searches)), root, context.me.comm);
+        mpi::broadcast(std::as_writable_bytes(std::span(room.searches)), root, context.self.comm);
         context.abandoned = room.searches[0].stage == CutSearch::abandoned;
         if (context.abandoned) return;
         follow(context);

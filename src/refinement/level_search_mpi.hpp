@@ -10,7 +10,7 @@ struct Refinement {
     const Options& options;
     const BinnedPoints& binned;
     RefinementBuffers& room;
-    Member& me;
+    Participant& self;
     bool is_root;
     double weight_per_size;  ///< of a part
     bool exactly = false;    ///< without slack

@@ -8,15 +8,15 @@
 namespace rrcb {
 
 double add_up_parts(std::span<double> here, std::span<double> sums,
-                    std::span<const double> part_sizes, const Member& me) {
+                    std::span<const double> part_sizes, const Participant& self) {
     const std::size_t num_parts = part_sizes.size();
-    here.back() = me.failure.failed ? 1 : 0;
+    here.back() = self.failure.failed ? 1 : 0;
     mpi::check(MPI_Reduce(here.data(), sums.data(), mpi::to_int(std::ssize(here)), MPI_DOUBLE,
-                          MPI_SUM, root, me.comm),
+                          MPI_SUM, root, self.comm),
                "MPI_Reduce");
-    if (mpi::rank_of(me.comm) == root) sums.back() = imbalance(sums.first(num_parts), part_sizes);
-    mpi::broadcast(std::as_writable_bytes(sums), root, me.comm);
-    if (sums[num_parts] > 0) agree(me);
+    if (mpi::rank_of(self.comm) == root) sums.back() = imbalance(sums.first(num_parts), part_sizes);
+    mpi::broadcast(std::as_writable_bytes(sums), root, self.comm);
+    if (sums[num_parts] > 0) agree(self);
     return sums.back();
 }
 

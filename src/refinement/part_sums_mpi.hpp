@@ -1,6 +1,6 @@
 #pragma once
 
-#include "collective/member.hpp"
+#include "collective/participant.hpp"
 
 #include <span>
 
@@ -12,6 +12,6 @@ namespace rrcb {
 /// failed. `here` holds the weights of this rank's points and one more entry, `sums` gets those of
 /// all and has two more.
 double add_up_parts(std::span<double> here, std::span<double> sums,
-                    std::span<const double> part_sizes, const Member& me);
+                    std::span<const double> part_sizes, const Participant& self);
 
 }  // namespace rrcb

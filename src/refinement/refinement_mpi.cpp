@@ -31,9 +31,9 @@ void place_in_lots(Refinement& context) {
         room.lots.push_back(rounded_to(search.quantum, weight));
     }
     if (room.lots.empty()) return;
-    const bool is_first = mpi::rank_of(context.me.comm) == 0;
+    const bool is_first = mpi::rank_of(context.self.comm) == 0;
     mpi::check(MPI_Exscan(MPI_IN_PLACE, room.lots.data(), mpi::to_int(std::ssize(room.lots)),
-                          MPI_DOUBLE, MPI_SUM, context.me.comm),
+                          MPI_DOUBLE, MPI_SUM, context.self.comm),
                "MPI_Exscan");
     // Where there are no ranks before it MPI leaves what was there.
     if (is_first) std::ranges::fill(room.lots, 0.0);
@@ -70,7 +70,7 @@ void descend(Refinement& context) {
             below = share_below(context.sizes_of(node.at)) > 0 ? node.weight : 0;
         }
         std::pair<std::vector<Fragment>, std::vector<Fragment>> halves;
-        context.me.locally([&] { halves = split(node.fragments, cut, lot, context.points); });
+        context.self.attempt([&] { halves = split(node.fragments, cut, lot, context.points); });
         room.children.push_back({node.at.lower(), std::move(halves.first), below});
         room.children.push_back({node.at.upper(), std::move(halves.second), node.weight - below});
     }
@@ -81,13 +81,13 @@ void descend(Refinement& context) {
 void measure(Refinement& context) {
     RefinementBuffers& room = context.room;
     context.measured.imbalance =
-        add_up_parts(room.part_weights, room.sums, context.options.part_sizes, context.me);
+        add_up_parts(room.part_weights, room.sums, context.options.part_sizes, context.self);
 }
 
 /// True when there is nothing to search: the estimated cuts are good enough as they are, and
 /// `parts` is complete, or the current parts are.
 bool accept_estimate(Refinement& context, std::span<Part> parts) {
-    context.me.locally([&] {
+    context.self.attempt([&] {
         std::ranges::copy(assign(context.estimate.cuts, context.binned, parts),
                           context.room.part_weights.begin());
     });
@@ -103,7 +103,7 @@ void search_all_levels(Refinement& context, std::span<Part> parts) {
     RefinementBuffers& room = context.room;
     std::vector<Node>& nodes = room.nodes;
     nodes.push_back({root_of(context.estimate.cuts), {}, context.estimate.total_weight});
-    context.me.locally([&] {
+    context.self.attempt([&] {
         context.points = sort_by_cell(context.binned);
         nodes[0].fragments = cell_fragments(context.points);
     });
@@ -117,7 +117,7 @@ void search_all_levels(Refinement& context, std::span<Part> parts) {
         });
         start_level(context);
         search_level(context);
-        if (context.abandoned) agree(context.me);
+        if (context.abandoned) agree(context.self);
         place_in_lots(context);
         descend(context);
     }
@@ -142,7 +142,7 @@ struct Outcome {
 /// Searches once more, without slack, and keeps the better of the two outcomes.
 void search_exactly(Refinement& context, std::span<Part> parts) {
     Outcome before;
-    context.me.locally([&] {
+    context.self.attempt([&] {
         before = {context.estimate.cuts.tree,
                   {parts.begin(), parts.end()},
                   context.room.sums,
@@ -159,11 +159,11 @@ void search_exactly(Refinement& context, std::span<Part> parts) {
 }  // namespace
 
 Measured refine(Estimate& estimate, const Options& options, const BinnedPoints& binned,
-                RefinementBuffers& room, std::span<Part> parts, Member& me) {
+                RefinementBuffers& room, std::span<Part> parts, Participant& self) {
     const auto& sizes = options.part_sizes;
     const double weight_per_size =
         estimate.total_weight / std::accumulate(sizes.begin(), sizes.end(), 0.0);
-    Refinement context{estimate,       options, binned, room, me, mpi::rank_of(me.comm) == root,
+    Refinement context{estimate,       options, binned, room, self, mpi::rank_of(self.comm) == root,
                        weight_per_size};
     context.exactly = options.refine == Refine::exact;
     if (context.exactly || !accept_estimate(context, parts)) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "collective/member.hpp"
+#include "collective/participant.hpp"
 #include "refinement/refinement_buffers.hpp"
 
 #include <rrcb/bisection.hpp>
@@ -38,6 +38,6 @@ struct Measured {
 /// anywhere the cuts stay. A rank that fails on its own takes part with nothing until the root,
 /// told of it by the next histograms or candidates, ends all searches; then all throw its error.
 Measured refine(Estimate& estimate, const Options& options, const BinnedPoints& binned,
-                RefinementBuffers& room, std::span<Part> parts, Member& me);
+                RefinementBuffers& room, std::span<Part> parts, Participant& self);
 
 }  // namespace rrcb

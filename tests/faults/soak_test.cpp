@@ -144,8 +144,8 @@ bool plans(const Round& round, MPI_Comm comm) {
     Plan expected;
     round.for_each([&](int source, const Holding& held, std::size_t i) {
         const RankRange ranks = ranks_of_part(held.parts[i], round.num_parts(), num_ranks());
-        const bool stays = source >= ranks.first && source < ranks.first + ranks.count;
-        const int destination = stays ? source : ranks.first + source % ranks.count;
+        const bool stays = source >= ranks.first_rank && source < ranks.first_rank + ranks.count;
+        const int destination = stays ? source : ranks.first_rank + source % ranks.count;
         if (stays) return;
         if (source == rank()) {
             expected.export_indices.push_back(i);
@@ -169,7 +169,7 @@ GlobalCount kept_under(const std::vector<Part>& numbers, const Round& round, boo
     GlobalCount kept = 0;
     round.for_each([&](int source, const Holding& held, std::size_t i) {
         const Part number = numbers[static_cast<std::size_t>(held.parts[i])];
-        const int home = ranks_of_part(number, round.num_parts(), num_ranks()).first;
+        const int home = ranks_of_part(number, round.num_parts(), num_ranks()).first_rank;
         kept += in_part ? number == held.previous[i] : home == source;
     });
     return kept;
@@ -178,7 +178,7 @@ GlobalCount kept_under(const std::vector<Part>& numbers, const Round& round, boo
 bool renumbers(const Round& round, MPI_Comm comm) {
     std::vector<RankRange> ranks;
     for (Part part = 0; part < round.num_parts(); ++part)
-        ranks.push_back({ranks_of_part(part, round.num_parts(), num_ranks()).first, 1});
+        ranks.push_back({ranks_of_part(part, round.num_parts(), num_ranks()).first_rank, 1});
     const bool in_part = round.drawn() % 2 == 0;
     const Holding& mine = round.mine();
     const Remap result =
@@ -199,7 +199,8 @@ bool measures(const Round& round, MPI_Comm comm) {
     round.for_each([&](int source, const Holding& held, std::size_t i) {
         expected[static_cast<std::size_t>(held.parts[i])] += held.weights[i];
         const RankRange ranks = ranks_of_part(held.parts[i], round.num_parts(), num_ranks());
-        if (source < ranks.first || source >= ranks.first + ranks.count) moves += held.weights[i];
+        if (source < ranks.first_rank || source >= ranks.first_rank + ranks.count)
+            moves += held.weights[i];
         all += held.weights[i];
     });
     if (round.drawn() % 2 == 0)

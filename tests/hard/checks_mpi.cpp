@@ -58,7 +58,7 @@ std::vector<Part> join_parts(const Share& share, std::span<const Part> parts, in
 Share migrated(const Cloud& cloud, std::span<const Part> parts, int num_parts) {
     std::vector<int> owners;
     for (const Part part : parts)
-        owners.push_back(ranks_of_part(part, num_parts, test::num_ranks()).first);
+        owners.push_back(ranks_of_part(part, num_parts, test::num_ranks()).first_rank);
     return share_of(cloud, owners, test::rank());
 }
 

@@ -49,7 +49,7 @@ void expect_lists_conserve_points(const Balance& result) {
             journey(lists.import_indices[k], lists.import_ranks[k], rank(), lists.import_parts[k]));
     expect_same_in_all(leaving, arriving);
     const auto stays = [&](Part part) {
-        return ranks_of_part(part, result.cuts.num_parts, num_ranks()).first == rank();
+        return ranks_of_part(part, result.cuts.num_parts, num_ranks()).first_rank == rank();
     };
     EXPECT_EQ(lists.export_indices.size() +
                   static_cast<std::size_t>(std::ranges::count_if(result.parts, stays)),

@@ -21,19 +21,19 @@ TEST(RanksOfPart, remainder_goes_to_the_last_ranks) {
     // 7 parts on 3 ranks: 2, 2, 3.
     const std::vector<int> expected{0, 0, 1, 1, 2, 2, 2};
     for (Part part = 0; part < 7; ++part) {
-        EXPECT_EQ(ranks_of_part(part, 7, 3).first, expected[static_cast<std::size_t>(part)]);
+        EXPECT_EQ(ranks_of_part(part, 7, 3).first_rank, expected[static_cast<std::size_t>(part)]);
         EXPECT_EQ(ranks_of_part(part, 7, 3).count, 1);
     }
 }
 
 TEST(RanksOfPart, fewer_parts_than_ranks_spread_over_consecutive_ranks) {
     // 3 parts on 7 ranks: ranks 0-1, 2-4, 5-6; on 4 ranks: 0, 1-2, 3.
-    EXPECT_EQ(ranks_of_part(0, 3, 7).first, 0);
+    EXPECT_EQ(ranks_of_part(0, 3, 7).first_rank, 0);
     EXPECT_EQ(ranks_of_part(0, 3, 7).count, 2);
-    EXPECT_EQ(ranks_of_part(1, 3, 7).first, 2);
-    EXPECT_EQ(ranks_of_part(2, 3, 7).first, 5);
+    EXPECT_EQ(ranks_of_part(1, 3, 7).first_rank, 2);
+    EXPECT_EQ(ranks_of_part(2, 3, 7).first_rank, 5);
     EXPECT_EQ(ranks_of_part(2, 3, 7).count, 2);
-    EXPECT_EQ(ranks_of_part(1, 3, 4).first, 1);
+    EXPECT_EQ(ranks_of_part(1, 3, 4).first_rank, 1);
     EXPECT_EQ(ranks_of_part(1, 3, 4).count, 2);
 }
 

@@ -165,7 +165,7 @@ TEST(Remap, refuses_arguments_that_differ_between_ranks) {
         expect_difference("ranks_of_parts", [&] { remap(parts, parts, ranks, MPI_COMM_WORLD); });
     }
     std::vector<RankRange> elsewhere = ranks_of(2);
-    if (test::is_last_rank()) elsewhere[1].first = 0;
+    if (test::is_last_rank()) elsewhere[1].first_rank = 0;
     expect_difference("ranks_of_parts", [&] { remap(parts, elsewhere, MPI_COMM_WORLD); });
     expect_difference("previous", [&] {
         if (test::is_last_rank()) {

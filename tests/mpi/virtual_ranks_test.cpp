@@ -87,12 +87,12 @@ TEST_P(ManyRanks, send_the_root_a_bounded_number_of_cells_and_are_balanced_all_t
     decide(all, ranks.options, nullptr, decision);
     const Points points = ranks.points();
     const BinnedPoints binned = bin_by_options(points, bounding_box(points), ranks.options);
-    RefinementBuffers room(ranks.options, 2, true);
+    RefinementBuffers buffers(ranks.options, 2, true);
     std::vector<Part> parts(points.count);
     Estimate estimate{decision.bisection.cuts, decision.bisection.brackets,
                       static_cast<double>(points.count), decision.verdict.common_weight};
-    Member me{MPI_COMM_SELF};
-    const Measured measured = refine(estimate, ranks.options, binned, room, parts, me);
+    Participant self{MPI_COMM_SELF};
+    const Measured measured = refine(estimate, ranks.options, binned, buffers, parts, self);
 
     std::vector<double> weights(ranks.options.part_sizes.size());
     for (const Part part : parts) weights[static_cast<std::size_t>(part)] += 1;

@@ -196,12 +196,12 @@ std::string fault_of_exports(const Answer& answer, const std::vector<Transfer>& 
         for (int index = 0; index < static_cast<int>(held.size()); ++index) {
             const Part part = answer.parts[held[static_cast<std::size_t>(index)]];
             const RankRange home = ranks_of_part(part, answer.options.num_parts, num_ranks());
-            if (from >= home.first && from < home.first + home.count) continue;
+            if (from >= home.first_rank && from < home.first_rank + home.count) continue;
             const std::string who =
                 "point " + std::to_string(index) + " of rank " + std::to_string(from);
             if (next == exports.end() || (*next)[0] != from || (*next)[1] != index)
                 return who + " does not leave";
-            if ((*next)[2] < home.first || (*next)[2] >= home.first + home.count)
+            if ((*next)[2] < home.first_rank || (*next)[2] >= home.first_rank + home.count)
                 return who + " leaves for the wrong rank";
             if ((*next++)[3] != part) return who + " leaves for the wrong part";
         }
@@ -226,7 +226,7 @@ Cloud migrated(const Answer& answer) {
     Cloud cloud = answer.cloud;
     for (LocalIndex i = 0; i < cloud.size(); ++i)
         cloud.owners[i] =
-            ranks_of_part(answer.parts[i], answer.options.num_parts, num_ranks()).first;
+            ranks_of_part(answer.parts[i], answer.options.num_parts, num_ranks()).first_rank;
     return cloud;
 }
 

@@ -233,7 +233,7 @@ std::string fault_of_exports(const Caller& caller, const std::vector<Part>& part
             const Part part = parts[held[k]];
             const RankRange ranks = ranks_of_part(part, caller.options.num_parts, num_ranks());
             const auto is_home = [&](int rank) {
-                return rank >= ranks.first && rank < ranks.first + ranks.count;
+                return rank >= ranks.first_rank && rank < ranks.first_rank + ranks.count;
             };
             const auto found = by_object.find({home, static_cast<int>(k)});
             if (found == by_object.end() && !is_home(home)) return "an object does not leave";

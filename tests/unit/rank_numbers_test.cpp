@@ -17,7 +17,8 @@ GlobalCount kept(std::span<const Overlap> overlaps, std::span<const Part> number
     GlobalCount sum = 0;
     for (const Overlap& overlap : overlaps) {
         const Part number = numbers[static_cast<std::size_t>(overlap.part)];
-        if (homes[static_cast<std::size_t>(number)].first == overlap.origin) sum += overlap.count;
+        if (homes[static_cast<std::size_t>(number)].first_rank == overlap.origin)
+            sum += overlap.count;
     }
     return sum;
 }
@@ -73,7 +74,7 @@ TEST(RankNumbers, keep_at_least_half_of_the_best_and_mostly_all_but_little) {
         std::vector<Gain> gains;
         for (const Overlap& overlap : overlaps)
             for (Part number = 0; number < num_parts; ++number)
-                if (homes[static_cast<std::size_t>(number)].first == overlap.origin)
+                if (homes[static_cast<std::size_t>(number)].first_rank == overlap.origin)
                     gains.push_back({overlap.part, number, overlap.count});
         const auto numbers = numbers_by_rank(overlaps, homes);
         ASSERT_TRUE(is_permutation(numbers));
@@ -93,7 +94,7 @@ TEST(RankNumbers, of_many_parts_bring_every_point_home) {
     const auto homes = homes_of({num_parts / 3, num_parts / 3, num_parts / 3});
     std::vector<Overlap> overlaps;
     for (Part part = 0; part < num_parts; ++part)
-        overlaps.push_back({(homes[static_cast<std::size_t>(part)].first + 1) % 3, part, 2});
+        overlaps.push_back({(homes[static_cast<std::size_t>(part)].first_rank + 1) % 3, part, 2});
     const auto numbers = numbers_by_rank(overlaps, homes);
     EXPECT_TRUE(is_permutation(numbers));
     EXPECT_EQ(kept(overlaps, numbers, homes), 2 * num_parts);

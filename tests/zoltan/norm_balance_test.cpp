@@ -53,8 +53,8 @@ Balance run(const Cloud& part, int norm, Options options) {
     const Points points = interleaved_points(part.coordinates, 2);
     options.refine = Refine::none;
     Balance result = balance(points, options, MPI_COMM_WORLD);
-    Member me{MPI_COMM_WORLD};
-    balance_norm(points, {norm, part.weights, num_weights}, options, result, me);
+    Participant self{MPI_COMM_WORLD};
+    balance_norm(points, {norm, part.weights, num_weights}, options, result, self);
     return result;
 }
 
@@ -140,9 +140,9 @@ TEST(NormBalance, leaves_parts_of_size_zero_empty) {
     Options estimate = options;
     estimate.refine = Refine::none;
     Balance result = balance(points, estimate, MPI_COMM_WORLD);
-    Member me{MPI_COMM_WORLD};
+    Participant self{MPI_COMM_WORLD};
     std::array<std::vector<double>, 3> further{options.part_sizes};
-    balance_norm(points, {2, part.weights, num_weights, false, further}, options, result, me);
+    balance_norm(points, {2, part.weights, num_weights, false, further}, options, result, self);
     for (const Part p : result.parts) EXPECT_EQ(p % 2, 1);
     EXPECT_LT(result.report.measured_imbalance, 1.5);
 }
@@ -161,11 +161,12 @@ TEST(NormBalance, throws_together_what_one_rank_failed_of) {
     const Points points = interleaved_points(part.coordinates, 2);
     Options options = into(4);
     Balance result = balance(points, options, MPI_COMM_WORLD);
-    Member me{MPI_COMM_WORLD};
-    me.locally([] {
+    Participant self{MPI_COMM_WORLD};
+    self.attempt([] {
         if (rank() == num_ranks() - 1) throw std::bad_alloc();
     });
-    EXPECT_THROW(balance_norm(points, {2, part.weights, num_weights}, options, result, me), Error);
+    EXPECT_THROW(balance_norm(points, {2, part.weights, num_weights}, options, result, self),
+                 Error);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ using Ranges = std::vector<std::pair<int, int>>;
 
 Ranges ranges_of(const PartMap& map) {
     Ranges ranges;
-    for (const RankRange& range : map.ranks) ranges.emplace_back(range.first, range.count);
+    for (const RankRange& range : map.ranks) ranges.emplace_back(range.first_rank, range.count);
     return ranges;
 }
 

@@ -76,15 +76,15 @@ bool is_fortran_used() noexcept {
 }
 
 void copy_for_fortran(Zoltan_Struct* zz, const List& imports, const List& exports,
-                      const CallerLists& to, Member& me) {
+                      const CallerLists& to, Participant& self) {
     FortranList import_copy(zz, to.imports);
     FortranList export_copy(zz, to.exports);
-    me.locally([&] {
+    self.attempt([&] {
         import_copy.copy(imports);
         export_copy.copy(exports);
     });
     // A rank without memory leaves all of them without lists: these are freed as the error passes.
-    agree(me);
+    agree(self);
     import_copy.stay();
     export_copy.stay();
 }

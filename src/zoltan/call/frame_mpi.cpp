@@ -30,7 +30,7 @@ struct Bounds {
 };
 
 /// Collective.
-Bounds bounds_of(const Points& points, const Member& me) {
+Bounds bounds_of(const Points& points, const Participant& self) {
     Bounds bounds;
     bounds.dimension = points.dimension;
     bounds.minus_dimension = -points.dimension;
@@ -40,12 +40,12 @@ Bounds bounds_of(const Points& points, const Member& me) {
         bounds.minus_lower[a] = -box.lower[a];
         bounds.upper[a] = box.upper[a];
     }
-    if (me.failure.failed || bounds.unusable != 0) {
+    if (self.failure.failed || bounds.unusable != 0) {
         bounds.unusable = 1;
         bounds.minus_lower = bounds.upper = Vector{};
     }
     static_assert(sizeof(Bounds) == 9 * sizeof(double));
-    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &bounds, 9, MPI_DOUBLE, MPI_MAX, me.comm),
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &bounds, 9, MPI_DOUBLE, MPI_MAX, self.comm),
                "MPI_Allreduce");
     return bounds;
 }
@@ -140,16 +140,16 @@ Frame frame_of(const Eigen::Matrix3d& axes, const Unit& unit, int dimension) {
 
 /// Axes of the moments of all ranks; the root merges these in the order of the ranks, so that the
 /// bits do not depend on how MPI would add them. Collective.
-Frame principal_frame(const Points& points, const Unit& unit, Member& me) {
+Frame principal_frame(const Points& points, const Unit& unit, Participant& self) {
     std::vector<Spread> spreads;
-    const bool is_root = mpi::rank_of(me.comm) == root;
-    me.locally([&] {
-        if (is_root) spreads.resize(static_cast<std::size_t>(mpi::size_of(me.comm)));
+    const bool is_root = mpi::rank_of(self.comm) == root;
+    self.attempt([&] {
+        if (is_root) spreads.resize(static_cast<std::size_t>(mpi::size_of(self.comm)));
     });
-    agree(me);
+    agree(self);
     const Spread mine = spread_of(points, unit);
     mpi::check(MPI_Gather(&mine, sizeof(Spread), MPI_BYTE, spreads.data(), sizeof(Spread), MPI_BYTE,
-                          root, me.comm),
+                          root, self.comm),
                "MPI_Gather");
     Frame frame;
     if (is_root) {
@@ -159,7 +159,7 @@ Frame principal_frame(const Points& points, const Unit& unit, Member& me) {
             points.dimension == 2 ? principal_axes<2>(all.moments) : principal_axes<3>(all.moments);
         frame = frame_of(axes, unit, points.dimension);
     }
-    mpi::check(MPI_Bcast(&frame, sizeof(Frame), MPI_BYTE, root, me.comm), "MPI_Bcast");
+    mpi::check(MPI_Bcast(&frame, sizeof(Frame), MPI_BYTE, root, self.comm), "MPI_Bcast");
     return frame;
 }
 
@@ -215,19 +215,19 @@ bool is_as_flat(const Frame& frame, const Points& points, double ratio, MPI_Comm
 
 }  // namespace
 
-Frame choose_frame(const Points& points, double ratio, const Frame* previous, Member& me) {
-    const Bounds bounds = bounds_of(points, me);
+Frame choose_frame(const Points& points, double ratio, const Frame* previous, Participant& self) {
+    const Bounds bounds = bounds_of(points, self);
     if (!bounds.can_be_flat()) return {};
     const Unit unit = unit_of(bounds);
     if (!(unit.length > 0)) return {};
     if (previous != nullptr) {
         Frame frame = *previous;
-        mpi::check(MPI_Bcast(&frame, sizeof(Frame), MPI_BYTE, root, me.comm), "MPI_Bcast");
+        mpi::check(MPI_Bcast(&frame, sizeof(Frame), MPI_BYTE, root, self.comm), "MPI_Bcast");
         const bool fits = frame.turns() && frame.dimension == points.dimension;
-        if (fits && is_as_flat(frame, points, ratio, me.comm)) return frame;
+        if (fits && is_as_flat(frame, points, ratio, self.comm)) return frame;
     }
-    const Frame all = principal_frame(points, unit, me);
-    return drop_thin_axes(all, extents_along(all, points, me.comm), ratio);
+    const Frame all = principal_frame(points, unit, self);
+    return drop_thin_axes(all, extents_along(all, points, self.comm), ratio);
 }
 
 }  // namespace rrcb::zoltan

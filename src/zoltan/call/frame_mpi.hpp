@@ -1,6 +1,6 @@
 #pragma once
 
-#include "collective/member.hpp"
+#include "collective/participant.hpp"
 #include "zoltan/handle/frame.hpp"
 
 namespace rrcb::zoltan {
@@ -11,6 +11,6 @@ namespace rrcb::zoltan {
 /// `previous` (null, or not, on all ranks alike) is kept while the points are as flat in it.
 /// Collective; same bits on every rank. Points that the balancer refuses are not turned. Throws
 /// Error on all ranks alike when one of them failed on its own.
-Frame choose_frame(const Points& points, double ratio, const Frame* previous, Member& me);
+Frame choose_frame(const Points& points, double ratio, const Frame* previous, Participant& self);
 
 }  // namespace rrcb::zoltan

@@ -39,39 +39,39 @@ void ask_for_sizes(const State& state, int weight, int first_here, int first_par
 /// As Zoltan merges them: the largest that any rank asks for, 1 where none does. In pieces, for
 /// which every rank has the memory.
 void merge_part_sizes(int num_parts, const State& state, int weight, const Layout& layout,
-                      std::vector<double>& merged, Member& me) {
-    me.locally([&] { merged.resize(static_cast<std::size_t>(num_parts)); });
+                      std::vector<double>& merged, Participant& self) {
+    self.attempt([&] { merged.resize(static_cast<std::size_t>(num_parts)); });
     const int first_here = first_part_of(layout.map, state.communicator->rank());
     std::array<double, 4096> piece;
     for (int first_part = 0; first_part < num_parts; first_part += static_cast<int>(piece.size())) {
         const int count = std::min(num_parts - first_part, static_cast<int>(piece.size()));
         const std::span<double> sizes = std::span(piece).first(static_cast<std::size_t>(count));
         ask_for_sizes(state, weight, first_here, first_part, sizes);
-        mpi::check(MPI_Allreduce(MPI_IN_PLACE, sizes.data(), count, MPI_DOUBLE, MPI_MAX, me.comm),
+        mpi::check(MPI_Allreduce(MPI_IN_PLACE, sizes.data(), count, MPI_DOUBLE, MPI_MAX, self.comm),
                    "MPI_Allreduce");
         std::ranges::replace_if(
             sizes, [](double size) { return size < 0; }, 1.0);
-        if (!me.failure.failed) std::ranges::copy(sizes, merged.begin() + first_part);
+        if (!self.failure.failed) std::ranges::copy(sizes, merged.begin() + first_part);
     }
 }
 
 }  // namespace
 
-Layout make_layout(const Outcome& outcome, const State& state, Member& me) {
+Layout make_layout(const Outcome& outcome, const State& state, Participant& self) {
     const std::span<int> local_parts = state.communicator->per_rank();
     const int num_parts = count_parts(outcome, state, local_parts);
     Layout layout;
-    me.locally([&] {
+    self.attempt([&] {
         layout.map = outcome.any_local_parts ? local_part_map(local_parts, num_parts)
                                              : even_part_map(num_parts, state.communicator->size());
     });
     if (!outcome.any_part_sizes) return layout;
-    merge_part_sizes(num_parts, state, 0, layout, layout.part_sizes, me);
+    merge_part_sizes(num_parts, state, 0, layout, layout.part_sizes, self);
     if (!has_several_weights(state.parameters)) return layout;
     const int num_weights = std::min(state.parameters.weight_dimension, most_weights);
     for (int weight = 1; weight < num_weights; ++weight)
         merge_part_sizes(num_parts, state, weight, layout,
-                         layout.further_sizes[static_cast<std::size_t>(weight - 1)], me);
+                         layout.further_sizes[static_cast<std::size_t>(weight - 1)], self);
     return layout;
 }
 

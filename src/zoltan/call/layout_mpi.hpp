@@ -1,6 +1,6 @@
 #pragma once
 
-#include "collective/member.hpp"
+#include "collective/participant.hpp"
 #include "zoltan/call/vote_mpi.hpp"
 #include "zoltan/handle/part_map.hpp"
 #include "zoltan/handle/state.hpp"
@@ -22,7 +22,7 @@ struct Layout {
 /// The layout that the ranks ask for together.
 ///
 /// Collective only where NUM_LOCAL_PARTS or part sizes are set somewhere. Throws ZoltanError on all
-/// ranks alike for numbers of parts that do not add up; other errors are held back in `me`.
-Layout make_layout(const Outcome& outcome, const State& state, Member& me);
+/// ranks alike for numbers of parts that do not add up; other errors are held back in `self`.
+Layout make_layout(const Outcome& outcome, const State& state, Participant& self);
 
 }  // namespace rrcb::zoltan

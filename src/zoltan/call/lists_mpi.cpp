@@ -61,19 +61,19 @@ List make_list(std::size_t count, const Record& record) {
 }  // namespace
 
 List invert(const List& exports, const Parameters& parameters, std::span<std::int64_t> per_rank,
-            Member& me) {
+            Participant& self) {
     const Record record{IdWidths(parameters)};
     Exchange exchange(record.bytes(), per_rank);
-    me.locally([&] {
+    self.attempt([&] {
         const std::span ranks(exports.ranks.get(), static_cast<std::size_t>(exports.count));
         exchange.fill(ranks,
                       [&](std::size_t i, std::byte* place) { record.write(exports, i, place); });
     });
-    const std::size_t count = exchange.announce(me);
+    const std::size_t count = exchange.announce(self);
     List imports;
-    me.locally([&] { imports = make_list(count, record); });
-    agree(me);
-    exchange.run(me);
+    self.attempt([&] { imports = make_list(count, record); });
+    agree(self);
+    exchange.run(self);
     exchange.for_each([&, i = std::size_t{0}](int source, const std::byte* place) mutable {
         imports.ranks[i] = source;
         record.read(place, i++, imports);

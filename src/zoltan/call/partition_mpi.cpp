@@ -75,13 +75,13 @@ LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Obj
 }
 
 /// Drops or completes the lists as RETURN_LISTS asks.
-void select_lists(const Parameters& parameters, std::span<std::int64_t> per_rank, Member& me,
+void select_lists(const Parameters& parameters, std::span<std::int64_t> per_rank, Participant& self,
                   Partition& result) {
     constexpr int not_asked = -1;
     const ReturnLists asked = parameters.return_lists;
     if (!result.changes) return;
     if (asked == ReturnLists::all || asked == ReturnLists::imports) {
-        result.imports = invert(result.exports, parameters, per_rank, me);
+        result.imports = invert(result.exports, parameters, per_rank, self);
     } else {
         result.imports.count = not_asked;
     }
@@ -118,15 +118,15 @@ struct Flattened {
 };
 
 /// Collective where REDUCE_DIMENSIONS is set.
-Flattened flatten(const Call& call, const Objects& objects, Member& me) {
+Flattened flatten(const Call& call, const Objects& objects, Participant& self) {
     const Parameters& parameters = call.state.parameters;
     Flattened flat{{}, objects.points};
     if (parameters.reduce_dimensions == 0) return flat;
     const Frame* previous = call.previous ? &call.previous->frame() : nullptr;
-    flat.frame = choose_frame(objects.points, degenerate_ratio(parameters), previous, me);
+    flat.frame = choose_frame(objects.points, degenerate_ratio(parameters), previous, self);
     if (!flat.frame.turns()) return flat;
     flat.points = interleaved_points({}, flat.frame.num_axes);
-    me.locally(
+    self.attempt(
         [&] { flat.points = place(flat.frame, objects.points, call.state.workspace.reduced); });
     return flat;
 }
@@ -143,7 +143,7 @@ struct Preparation {
 };
 
 Preparation prepare(const Call& call, const Layout& layout, const Objects& objects,
-                    const Flattened& flat, Member& me) {
+                    const Flattened& flat, Participant& self) {
     const Parameters& parameters = call.state.parameters;
     const int dimension = flat.points.dimension;
     const bool fits = call.previous && call.previous->cuts().dimension == dimension &&
@@ -153,7 +153,7 @@ Preparation prepare(const Call& call, const Layout& layout, const Objects& objec
     if (fits && call.may_start_there && starts_from_previous(parameters))
         made.previous = &call.previous->cuts();
     const bool locks = fits && call.previous->answers_look_ups();
-    me.locally([&] {
+    self.attempt([&] {
         made.options =
             make_options(parameters, layout, dimension, locks ? &call.previous->cuts() : nullptr);
         made.per_rank.resize(static_cast<std::size_t>(call.state.communicator->size()));
@@ -201,9 +201,9 @@ void keep(Preparation&& prepared, Balance&& balanced, const Frame& frame, PartMa
 
 /// Puts the lists where the caller wants them, where Zoltan's Fortran interface is used on any
 /// rank. Collective there.
-void serve_fortran(const Call& call, const Outcome& outcome, Partition& result, Member& me) {
+void serve_fortran(const Call& call, const Outcome& outcome, Partition& result, Participant& self) {
     if (!outcome.any_fortran) return;
-    copy_for_fortran(call.zz, result.imports, result.exports, call.to, me);
+    copy_for_fortran(call.zz, result.imports, result.exports, call.to, self);
     result.with_caller = true;
 }
 
@@ -213,8 +213,8 @@ int stay(const Call& call, const Outcome& outcome, Objects&& objects, Partition&
     State& state = call.state;
     if (state.parameters.return_lists == ReturnLists::parts)
         result.exports = list_in_place(std::move(objects), state.communicator->rank());
-    Member me{state.communicator->get()};
-    serve_fortran(call, outcome, result, me);
+    Participant self{state.communicator->get()};
+    serve_fortran(call, outcome, result, self);
     state.kept->answer_look_ups(keeps_cuts(state.parameters));
     print_notices(state.rest->report, state.kept->map().num_parts(), Remap{}, state, call.function);
     return ZOLTAN_OK;
@@ -223,11 +223,11 @@ int stay(const Call& call, const Outcome& outcome, Objects&& objects, Partition&
 /// By the norm of the weights that is asked for; after the sum of the weights, where the balancer
 /// has looked at all that may be wrong. Collective.
 Balance divide(const Call& call, const Layout& layout, const Preparation& prepared,
-               const Objects& objects, const Points& points, Member& me) {
+               const Objects& objects, const Points& points, Participant& self) {
     const Parameters& parameters = call.state.parameters;
     const bool may_stay = !has_several_weights(parameters) &&
                           are_in_own_part(objects, layout.map, call.state.communicator->rank());
-    Balance balanced = balance(points, prepared.options, prepared.previous, may_stay, me);
+    Balance balanced = balance(points, prepared.options, prepared.previous, may_stay, self);
     if (!has_several_weights(parameters) || balanced.report.num_points == 0) return balanced;
     const auto stride = static_cast<std::size_t>(parameters.weight_dimension);
     const Criteria criteria{parameters.multicriteria_norm,
@@ -236,25 +236,25 @@ Balance divide(const Call& call, const Layout& layout, const Preparation& prepar
                             parameters.weights_comparable != 0,
                             layout.further_sizes,
                             std::max(1.0, parameters.max_aspect_ratio)};
-    balance_norm(points, criteria, prepared.options, balanced, me);
+    balance_norm(points, criteria, prepared.options, balanced, self);
     return balanced;
 }
 
 int balance_objects(const Call& call, const Outcome& outcome, Objects&& objects,
                     Partition& result) {
     const Parameters& parameters = call.state.parameters;
-    Member me{call.state.communicator->get()};
-    Layout layout = make_layout(outcome, call.state, me);
-    combine_weights(parameters, call.state.workspace, me.comm, objects);
-    const Flattened flat = flatten(call, objects, me);
-    Preparation prepared = prepare(call, layout, objects, flat, me);
-    Balance balanced = divide(call, layout, prepared, objects, flat.points, me);
+    Participant self{call.state.communicator->get()};
+    Layout layout = make_layout(outcome, call.state, self);
+    combine_weights(parameters, call.state.workspace, self.comm, objects);
+    const Flattened flat = flatten(call, objects, self);
+    Preparation prepared = prepare(call, layout, objects, flat, self);
+    Balance balanced = divide(call, layout, prepared, objects, flat.points, self);
     if (prepared.average)
-        prepared.average->run(flat.points, balanced.parts, me.comm, balanced.cuts);
-    Remap remap = prepared.renumbering->run(layout, objects, balanced.parts, me);
+        prepared.average->run(flat.points, balanced.parts, self.comm, balanced.cuts);
+    Remap remap = prepared.renumbering->run(layout, objects, balanced.parts, self);
     list_exports(call, layout, std::move(objects), balanced, prepared.rest, result);
-    select_lists(parameters, prepared.per_rank, me, result);
-    serve_fortran(call, outcome, result, me);
+    select_lists(parameters, prepared.per_rank, self, result);
+    serve_fortran(call, outcome, result, self);
     print_notices(balanced.report, layout.map.num_parts(), remap, call.state, call.function);
     keep(std::move(prepared), std::move(balanced), flat.frame, std::move(layout.map),
          std::move(remap.numbers), call.state);

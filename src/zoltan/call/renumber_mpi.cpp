@@ -40,11 +40,11 @@ Renumbering::Renumbering(const Parameters& parameters, const Layout& layout, con
 }
 
 Remap Renumbering::run(const Layout& layout, const Objects& objects, std::span<Part> parts,
-                       Member& me) {
+                       Participant& self) {
     if (!room_) return std::move(unchanged_);
     PreviousParts previous;
     if (by_part(layout, objects)) previous.emplace(objects.initial_parts.get(), parts.size());
-    Remap result = remap(parts, previous, layout.map.ranks, *room_, me);
+    Remap result = remap(parts, previous, layout.map.ranks, *room_, self);
     if (result.identity) return result;
     for (Part& part : parts) part = result.numbers[static_cast<std::size_t>(part)];
     return result;

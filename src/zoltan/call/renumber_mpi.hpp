@@ -22,7 +22,8 @@ class Renumbering {
 
     /// Writes the new numbers to `parts`. Collective where it looks; throws Error on all ranks
     /// alike.
-    Remap run(const Layout& layout, const Objects& objects, std::span<Part> parts, Member& me);
+    Remap run(const Layout& layout, const Objects& objects, std::span<Part> parts,
+              Participant& self);
 
   private:
     Remap unchanged_;

@@ -49,7 +49,7 @@ bool is_at_rest(const Rest& rest, const KeptPartition& kept, const Parameters& p
     if (rest.dimension != objects.points.dimension) return false;
     const auto is_here = [&](Part part) {
         const RankRange& range = map.ranks[static_cast<std::size_t>(part)];
-        return range.first == rank && range.count == 1;
+        return range.first_rank == rank && range.count == 1;
     };
     const bool with_positions = Rest::needs_positions(rest.report);
     const int* named = objects.initial_parts.get();

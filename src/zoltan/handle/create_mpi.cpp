@@ -24,14 +24,15 @@ struct Ballot {
     int does_not_ask = 0;
 };
 
-Ballot vote_on_environment(bool asks, const Member& me) {
-    const int num_ranks = mpi::size_of(me.comm);
-    Ballot ballot{me.failure.failed ? num_ranks - mpi::rank_of(me.comm) : 0,
+Ballot vote_on_environment(bool asks, const Participant& self) {
+    const int num_ranks = mpi::size_of(self.comm);
+    Ballot ballot{self.failure.failed ? num_ranks - mpi::rank_of(self.comm) : 0,
                   real_zoltan()->serves_rrcb ? 0 : 1, asks ? 1 : 0, asks ? 0 : 1};
     static_assert(sizeof ballot == 4 * sizeof(int));
-    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &ballot, 4, MPI_INT, MPI_MAX, me.comm), "MPI_Allreduce");
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &ballot, 4, MPI_INT, MPI_MAX, self.comm),
+               "MPI_Allreduce");
     if (ballot.failing_rank_from_last > 0)
-        fail_together(num_ranks - ballot.failing_rank_from_last, me);
+        fail_together(num_ranks - ballot.failing_rank_from_last, self);
     return ballot;
 }
 
@@ -56,9 +57,9 @@ struct Draft {
 };
 
 /// All ranks duplicate, whatever fails on one of them.
-void make(Draft& draft, const Zoltan_Struct* zz, MPI_Comm user, Member& me) {
-    me.always([&] { mpi::check(MPI_Comm_dup(user, &draft.duplicate), "MPI_Comm_dup"); });
-    me.locally([&] {
+void make(Draft& draft, const Zoltan_Struct* zz, MPI_Comm user, Participant& self) {
+    self.always([&] { mpi::check(MPI_Comm_dup(user, &draft.duplicate), "MPI_Comm_dup"); });
+    self.attempt([&] {
         State& state = draft.state;
         state.communicator = std::make_unique<Communicator>(draft.duplicate);
         draft.duplicate = MPI_COMM_NULL;
@@ -81,10 +82,10 @@ void discard(Draft& draft, const Zoltan_Struct* zz) {
 
 void create_state(const Zoltan_Struct* zz, MPI_Comm user) {
     Draft draft;
-    Member me{user};
-    make(draft, zz, user, me);
+    Participant self{user};
+    make(draft, zz, user, self);
     try {
-        const Ballot ballot = vote_on_environment(draft.asks_for_replacement, me);
+        const Ballot ballot = vote_on_environment(draft.asks_for_replacement, self);
         if (ballot.leaves_all_to_zoltan != 0) return discard(draft, zz);
         State& state = *find_state(zz);
         if (ballot.asks_for_replacement != 0) replace_rcb(state);
@@ -107,9 +108,9 @@ void copy_state(const Zoltan_Struct* to, const Zoltan_Struct* from) {
         remove_state(to);
         create_state(to, source->communicator->get());
     }
-    Member me{source->communicator->get()};
-    me.locally([&] { copy_contents(*find_state(to), *source); });
-    agree(me);
+    Participant self{source->communicator->get()};
+    self.attempt([&] { copy_contents(*find_state(to), *source); });
+    agree(self);
 }
 
 }  // namespace rrcb::zoltan

@@ -78,10 +78,10 @@ Box unshifted(const Frame& frame, const Box& region) {
     return shifted;
 }
 
-Points place(const Frame& frame, const Points& points, Scratch<double>& room) {
+Points place(const Frame& frame, const Points& points, Scratch<double>& scratch) {
     const auto num_axes = static_cast<std::size_t>(frame.num_axes);
     const std::size_t size = points.count * num_axes;
-    double* coordinates = room.get(size);
+    double* coordinates = scratch.get(size);
     for (LocalIndex i = 0; i < points.count; ++i) {
         const Vector placed = place(frame, points.position(i).data());
         std::copy_n(placed.data(), num_axes, coordinates + i * num_axes);

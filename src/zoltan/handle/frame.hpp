@@ -40,9 +40,9 @@ Box place(const Frame& frame, const Box& box);
 /// the coordinates.
 Box unshifted(const Frame& frame, const Box& region);
 
-/// The points in the frame, with their weights; their coordinates lie in `room`. Throws
+/// The points in the frame, with their weights; their coordinates lie in `scratch`. Throws
 /// std::bad_alloc.
-Points place(const Frame& frame, const Points& points, Scratch<double>& room);
+Points place(const Frame& frame, const Points& points, Scratch<double>& scratch);
 
 /// Whether look-ups can use the frame; for one that comes from outside.
 bool is_sound(const Frame& frame);

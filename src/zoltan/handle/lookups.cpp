@@ -18,7 +18,7 @@ int write_ranks(const PartMap& map, const Part* parts, int num_parts, int* ranks
         const RankRange& range = map.ranks[static_cast<std::size_t>(parts[i])];
         // The ranks of parts ascend as well: only the last one can come twice.
         const int next = count == 0 ? 0 : ranks[count - 1] + 1;
-        for (int r = std::max(range.first, next); r < range.first + range.count; ++r) {
+        for (int r = std::max(range.first_rank, next); r < range.first_rank + range.count; ++r) {
             ranks[count++] = r;
         }
     }
@@ -38,7 +38,7 @@ const KeptPartition& kept_by(const State& state) {
 Place place_of(const State& state, const double* coordinates) {
     const KeptPartition& kept = kept_by(state);
     const Part part = kept.part_of(coordinates);
-    return {kept.map().ranks[static_cast<std::size_t>(part)].first, part};
+    return {kept.map().ranks[static_cast<std::size_t>(part)].first_rank, part};
 }
 
 void find_touched(const State& state, const Box& box, const Touched& touched) {

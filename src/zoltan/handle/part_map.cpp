@@ -66,7 +66,7 @@ PartMap local_part_map(std::span<const int> local_parts, int num_parts) {
 
 int first_part_of(const PartMap& map, int rank) {
     const auto holds = [rank](const RankRange& range) {
-        return rank >= range.first && rank < range.first + range.count;
+        return rank >= range.first_rank && rank < range.first_rank + range.count;
     };
     const auto found = std::ranges::find_if(map.ranks, holds);
     return found == map.ranks.end() ? -1 : static_cast<int>(found - map.ranks.begin());

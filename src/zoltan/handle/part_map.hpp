@@ -15,12 +15,12 @@ struct PartMap {
 
     int num_parts() const { return static_cast<int>(ranks.size()); }
 
-    /// Where object number `index` of rank `me` goes: it stays when its part is there already.
-    int destination(Part part, LocalIndex index, int me) const {
+    /// Where object number `index` of rank `rank` goes: it stays when its part is there already.
+    int destination(Part part, LocalIndex index, int rank) const {
         const RankRange& range = ranks[static_cast<std::size_t>(part)];
-        if (range.count == 1) return range.first;
-        if (me >= range.first && me < range.first + range.count) return me;
-        return range.first + static_cast<int>(index % static_cast<LocalIndex>(range.count));
+        if (range.count == 1) return range.first_rank;
+        if (rank >= range.first_rank && rank < range.first_rank + range.count) return rank;
+        return range.first_rank + static_cast<int>(index % static_cast<LocalIndex>(range.count));
     }
 };
 

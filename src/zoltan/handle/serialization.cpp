@@ -129,7 +129,7 @@ bool is_consistent(const Cuts& cuts, const PartMap& map, const std::vector<Part>
                std::ranges::none_of(cut.at, [](double x) { return std::isnan(x); });
     };
     const auto valid_range = [](const RankRange& range) {
-        return range.first >= 0 && range.count >= 1;
+        return range.first_rank >= 0 && range.count >= 1;
     };
     return cuts.dimension >= 1 && cuts.dimension <= max_dimension &&
            cuts.tree.size() + 1 == numbers.size() && numbers.size() == map.ranks.size() &&

@@ -11,7 +11,7 @@ namespace rrcb::zoltan {
 namespace {
 
 /// Bits of a sum.
-constexpr int room = 61;
+constexpr int sum_bits = 61;
 
 std::size_t num_weights(const Criteria& criteria) {
     return std::min(criteria.stride, static_cast<std::size_t>(most_weights));
@@ -56,13 +56,14 @@ Units choose_units(const Criteria& criteria, GlobalCount num_objects, MPI_Comm c
     for (std::size_t k = 0; k < most_weights; ++k) {
         if (heaviest[k] == 0) continue;
         const int bits = std::ilogb(heaviest[k]) + 1 + bits_of(num_objects);
-        units.per_weight[k] = std::ldexp(1.0, room - bits);
+        units.per_weight[k] = std::ldexp(1.0, sum_bits - bits);
     }
     units.heaviest[most_weights] = 1;
     // Many light objects beside a heavy one: by their sum the units may be finer.
     const Load sum = sum_of(criteria, units.per_weight, comm);
     for (std::size_t k = 0; k < most_weights; ++k) {
-        units.per_weight[k] = std::ldexp(units.per_weight[k], room - bits_of(sum[k] + num_objects));
+        units.per_weight[k] =
+            std::ldexp(units.per_weight[k], sum_bits - bits_of(sum[k] + num_objects));
         units.heaviest[k] = heaviest[k] * units.per_weight[k];
     }
     return units;

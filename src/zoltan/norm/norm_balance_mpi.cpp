@@ -307,13 +307,13 @@ class NormBisection {
 }  // namespace
 
 void balance_norm(const Points& points, const Criteria& criteria, const Options& options,
-                  Balance& result, Member& me) {
-    const Units units = choose_units(criteria, result.report.num_points, me.comm);
-    const Box box = box_of_all(points, me.comm);
+                  Balance& result, Participant& self) {
+    const Units units = choose_units(criteria, result.report.num_points, self.comm);
+    const Box box = box_of_all(points, self.comm);
     std::optional<NormBisection> bisection;
-    me.locally([&] { bisection.emplace(points, criteria, options, units, box); });
-    agree(me);
-    bisection->run(result, me.comm);
+    self.attempt([&] { bisection.emplace(points, criteria, options, units, box); });
+    agree(self);
+    bisection->run(result, self.comm);
 }
 
 }  // namespace rrcb::zoltan

@@ -8,7 +8,6 @@
 #include "gather/keeping.hpp"
 #include "gather/merge_tree_mpi.hpp"
 #include "options/validation.hpp"
-#include "refinement/part_sums_mpi.hpp"
 #include "refinement/refinement_mpi.hpp"
 
 #include <rrcb/balance.hpp>
@@ -94,9 +93,8 @@ struct Work {
     BinnedPoints binned;
     Contribution mine;
     Decision decision;
-    std::optional<RefinementBuffers> buffers;
-    std::vector<double> part_weights;  ///< room to count parts that are not refined
-    std::vector<double> sums;
+    PartSums sums;  ///< where parts are counted
+    std::optional<Refinement> refinement;
     Balance result;
 };
 
@@ -121,12 +119,10 @@ void prepare(const Points& points, const Options& given, const Cuts* previous, b
     const bool reads_current = !previous && reads_current_parts(options, num_ranks);
     make_room(work.decision, options, points.dimension, reads_current);
     work.result.parts.resize(points.count);
-    if (is_refined(options)) {
-        work.buffers.emplace(options, points.dimension, mpi::rank_of(self.comm) == root);
-    } else if (reads_current) {
-        work.part_weights.resize(options.part_sizes.size() + 1);
-        work.sums.resize(options.part_sizes.size() + 2);
-    }
+    if (is_refined(options) || reads_current) work.sums = PartSums(options.part_sizes.size());
+    if (is_refined(options))
+        work.refinement.emplace(options, points.dimension, mpi::rank_of(self.comm) == root,
+                                work.sums);
     work.binned = bin_by_options(points, box, options);
     if (!previous) add_records(points, work.binned, options, work.mine);
     if (reads_current && may_stay)
@@ -154,14 +150,12 @@ void assign_together(const Points& points, Work& work, Participant& self) {
             assign(result.cuts, points, result.parts);
         } else {
             const auto weights = assign(result.cuts, work.binned, result.parts);
-            if (counts) std::ranges::copy(weights, work.part_weights.begin());
+            if (counts) std::ranges::copy(weights, work.sums.here().begin());
         }
     });
     if (!counts) return agree(self);
-    const auto& sizes = work.options.part_sizes;
-    const double imbalance = add_up_parts(work.part_weights, work.sums, sizes, self);
-    work.sums.resize(sizes.size());
-    report_measured(imbalance, std::move(work.sums), work.options, result.report);
+    const double imbalance = work.sums.add_up(work.options.part_sizes, self);
+    report_measured(imbalance, work.sums.take(), work.options, result.report);
 }
 
 /// Moves the cuts by what the ranks count, and assigns the points by them. Collective.
@@ -175,11 +169,11 @@ void refine_together(Work& work, Participant& self) {
         report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
     Estimate estimate{std::move(result.cuts), std::move(work.decision.bisection.brackets), weight,
                       work.decision.verdict.common_weight, work.decision.verdict.current_imbalance};
-    Measured measured = refine(estimate, options, work.binned, *work.buffers, result.parts, self);
-    report_measured(measured.imbalance, std::move(measured.part_weights), options, report);
-    report.rounds = measured.rounds;
-    report.coincident_cuts = measured.coincident_cuts;
-    result.cuts = std::move(estimate.cuts);
+    Refined refined = work.refinement->refine(std::move(estimate), work.binned, result.parts, self);
+    report_measured(refined.imbalance, work.sums.take(), options, report);
+    report.rounds = refined.rounds;
+    report.coincident_cuts = refined.coincident_cuts;
+    result.cuts = std::move(refined.cuts);
 }
 
 /// Leaves the points in the parts that they lie in. Not collective.

@@ -1,42 +1,73 @@
 #pragma once
 
-#include "refinement/refinement_mpi.hpp"
+#include "collective/participant.hpp"
+#include "refinement/candidates_mpi.hpp"
+#include "refinement/histogram_mpi.hpp"
+#include "refinement/target_rule.hpp"
+
+#include <span>
+#include <vector>
 
 namespace rrcb {
 
-/// What the functions of the refinement share.
-struct Refinement {
-    Estimate& estimate;
-    const Options& options;
-    const BinnedPoints& binned;
-    RefinementBuffers& room;
-    Participant& self;
-    bool is_root;
-    double weight_per_size;  ///< of a part
-    bool exactly = false;    ///< without slack
-    SortedPoints points{};   ///< where cuts are searched
-    Measured measured{};
-    bool told_of_failure = false;  ///< of another rank; at the root only
-    bool abandoned = false;        ///< the root told all to stop
-
-    std::span<const double> sizes_of(const Descent& at) const {
-        return std::span(options.part_sizes)
-            .subspan(static_cast<std::size_t>(at.first_part),
-                     static_cast<std::size_t>(at.num_parts));
-    }
-    std::size_t num_parts() const { return options.part_sizes.size(); }
+/// A node of the tree: what of it lies here, and what it weighs over all ranks.
+struct Node {
+    Descent at;
+    std::vector<Fragment> fragments;
+    double weight = 0;
 };
 
-/// True when counting finds the cut of a node: when it divides weight among parts on both sides.
-bool needs_search(const Node& node, const Refinement& context);
-
-/// Begins a search for every node of the current level that needs one. Not collective.
-void start_level(Refinement& context);
-
-/// Searches all cuts of the level at once, in at most 16 rounds, see decide_by_bins.
+/// The searches for all cuts of one level at once, in step on all ranks.
 ///
-/// Collective. Each round takes a reduction and a broadcast, and where searches end in gathering
-/// their candidates a gather: 65,536 points at most, of all searches together.
-void search_level(Refinement& context);
+/// What its messages need, and what tells their lengths, is made before the first of them: a rank
+/// that runs out of memory later can still take part until all have been told.
+class LevelSearch {
+  public:
+    /// For `most` searches at once. Not collective. Throws Error or std::bad_alloc.
+    LevelSearch(std::size_t most, int dimension, bool is_root);
+
+    void clear();
+
+    /// Adds the search for the cut of a node, from `start` on; `node` and `points` are borrowed and
+    /// must not change before clear(). The same on every rank, in the same order. Not collective.
+    void add(const Node& node, const CutSearch& start, const SortedPoints& points);
+
+    /// Ends all searches, in at most 16 rounds, see decide_by_bins; returns how many it took.
+    ///
+    /// Collective. Each round takes a reduction and a broadcast, and where searches end in
+    /// gathering their candidates a gather: 65,536 points at most, of all searches together. A rank
+    /// that fails on its own, before or here, takes part with nothing until the root, told of it by
+    /// the next histograms or candidates, ends all searches; then all throw its error.
+    int run(const TargetRule& rule, Participant& self);
+
+    std::size_t size() const { return searches_.size(); }
+    const Node& node(std::size_t k) const { return *nodes_[k]; }
+
+    /// Search number k in the order added.
+    const CutSearch& search(std::size_t k) const { return searches_[k]; }
+
+  private:
+    void count(std::size_t k, Participant& self);
+    void decide_counted(std::size_t k, std::span<const double> histogram, const TargetRule& rule);
+    void count_and_decide(const TargetRule& rule, Participant& self);
+    void gather_and_decide(Participant& self);
+    void conclude(Participant& self);
+    void follow(Participant& self);
+
+    int dimension_;
+    bool is_root_;
+    bool told_of_failure_ = false;  ///< of another rank; at the root only
+
+    // One entry per search; capacity for any.
+    std::vector<const Node*> nodes_;
+    std::vector<CutSearch> searches_;
+    std::vector<CutSearch> before_;   ///< the searches before the root decided
+    std::vector<CutTarget> targets_;  ///< at the root only
+    std::vector<LocalSearch> local_;
+
+    std::vector<std::size_t> samples_;  ///< histograms of this round that hold one
+    Histograms histograms_;
+    Candidates candidates_;
+};
 
 }  // namespace rrcb

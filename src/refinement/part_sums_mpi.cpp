@@ -7,17 +7,22 @@
 
 namespace rrcb {
 
-double add_up_parts(std::span<double> here, std::span<double> sums,
-                    std::span<const double> part_sizes, const Participant& self) {
+double PartSums::add_up(std::span<const double> part_sizes, const Participant& self) {
     const std::size_t num_parts = part_sizes.size();
-    here.back() = self.failure.failed ? 1 : 0;
-    mpi::check(MPI_Reduce(here.data(), sums.data(), mpi::to_int(std::ssize(here)), MPI_DOUBLE,
+    here_.back() = self.failure.failed ? 1 : 0;
+    mpi::check(MPI_Reduce(here_.data(), sums_.data(), mpi::to_int(std::ssize(here_)), MPI_DOUBLE,
                           MPI_SUM, root, self.comm),
                "MPI_Reduce");
-    if (mpi::rank_of(self.comm) == root) sums.back() = imbalance(sums.first(num_parts), part_sizes);
-    mpi::broadcast(std::as_writable_bytes(sums), root, self.comm);
-    if (sums[num_parts] > 0) agree(self);
-    return sums.back();
+    if (mpi::rank_of(self.comm) == root)
+        sums_.back() = imbalance(std::span(sums_).first(num_parts), part_sizes);
+    mpi::broadcast(std::as_writable_bytes(std::span(sums_)), root, self.comm);
+    if (sums_[num_parts] > 0) agree(self);
+    return sums_.back();
+}
+
+std::vector<double> PartSums::take() {
+    sums_.resize(sums_.size() - 2);
+    return std::move(sums_);
 }
 
 }  // namespace rrcb

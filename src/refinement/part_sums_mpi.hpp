@@ -3,15 +3,38 @@
 #include "collective/participant.hpp"
 
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace rrcb {
 
-/// Adds up what the parts weigh on all ranks, on every rank; returns their imbalance.
-///
-/// Collective: a reduction and a broadcast, which tell of failures as well; throws where a rank has
-/// failed. `here` holds the weights of this rank's points and one more entry, `sums` gets those of
-/// all and has two more.
-double add_up_parts(std::span<double> here, std::span<double> sums,
-                    std::span<const double> part_sizes, const Participant& self);
+/// Weights of the parts: those of this rank's points, and their sums over all ranks.
+class PartSums {
+  public:
+    PartSums() = default;
+
+    /// Makes what the messages of add_up() need. Not collective. Throws std::bad_alloc.
+    explicit PartSums(std::size_t num_parts) : here_(num_parts + 1), sums_(num_parts + 2) {}
+
+    /// Weights of this rank's points, one entry per part, to be written before each add_up().
+    std::span<double> here() { return std::span(here_).first(here_.size() - 1); }
+
+    /// Adds them up on every rank; returns the imbalance of the sums.
+    ///
+    /// Collective: a reduction and a broadcast, which tell of failures as well; throws where a rank
+    /// has failed. `part_sizes` has one entry per part.
+    double add_up(std::span<const double> part_sizes, const Participant& self);
+
+    /// The sums, one entry per part. What takes them leaves none.
+    std::vector<double> take();
+
+    /// A copy of the sums, to be put back by restore(). Throws std::bad_alloc.
+    std::vector<double> saved() const { return sums_; }
+    void restore(std::vector<double>&& saved) { sums_ = std::move(saved); }
+
+  private:
+    std::vector<double> here_;  ///< behind the weights 1 where this rank failed
+    std::vector<double> sums_;  ///< behind the weights how many ranks failed, and the imbalance
+};
 
 }  // namespace rrcb

@@ -1,13 +1,7 @@
 #include "refinement/refinement_mpi.hpp"
 
-#include "bisection/bisection.hpp"
-#include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/binned_assignment.hpp"
-#include "refinement/level_search_mpi.hpp"
-#include "refinement/part_sums_mpi.hpp"
-
-#include <rrcb/quality.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -20,160 +14,186 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Where in its lot each rank begins, for the cuts that divide one. Collective where there are any.
-void place_in_lots(Refinement& context) {
-    RefinementBuffers& room = context.room;
-    room.lots.clear();
-    for (std::size_t k = 0; k < room.searches.size(); ++k) {
-        const CutSearch& search = room.searches[k];
-        if (!(search.lot_below > 0)) continue;
-        const double weight = weight_at(search.cut, room.searched[k]->fragments, context.points);
-        room.lots.push_back(rounded_to(search.quantum, weight));
-    }
-    if (room.lots.empty()) return;
-    const bool is_first = mpi::rank_of(context.self.comm) == 0;
-    mpi::check(MPI_Exscan(MPI_IN_PLACE, room.lots.data(), mpi::to_int(std::ssize(room.lots)),
-                          MPI_DOUBLE, MPI_SUM, context.self.comm),
-               "MPI_Exscan");
-    // Where there are no ranks before it MPI leaves what was there.
-    if (is_first) std::ranges::fill(room.lots, 0.0);
-}
-
 /// Keeps all points off a side whose parts have no size; another cut without a search stays.
-void set_aside(const Node& node, const Refinement& context, Cut& cut) {
-    const double share = share_below(context.sizes_of(node.at));
+void set_aside(double share, Cut& cut) {
     if (share > 0 && share < 1) return;
     cut.divides = 0;
     cut.at.fill(-infinity);
     if (share > 0) cut.at[static_cast<std::size_t>(cut.axis)] = infinity;
 }
 
-/// Goes on with the nodes below, by the cuts that the level found.
-void descend(Refinement& context) {
-    RefinementBuffers& room = context.room;
-    room.children.clear();
-    auto search = room.searches.begin();
-    auto lots = room.lots.begin();
-    for (Node& node : room.nodes) {
-        Cut& cut = context.estimate.cuts.tree[node.at.node];
-        double below = 0;
-        Lot lot;
-        if (needs_search(node, context)) {
-            cut = search->cut;
-            below = search->below;
-            lot.below = search->lot_below;
-            if (lot.below > 0) lot.before = *lots++;
-            cut.divides = lot.below > 0 ? 1 : 0;
-            context.measured.coincident_cuts += search++->coincident;
-        } else {
-            set_aside(node, context, cut);
-            below = share_below(context.sizes_of(node.at)) > 0 ? node.weight : 0;
-        }
-        std::pair<std::vector<Fragment>, std::vector<Fragment>> halves;
-        context.self.attempt([&] { halves = split(node.fragments, cut, lot, context.points); });
-        room.children.push_back({node.at.lower(), std::move(halves.first), below});
-        room.children.push_back({node.at.upper(), std::move(halves.second), node.weight - below});
-    }
-    std::swap(room.nodes, room.children);
+}  // namespace
+
+// A node that is searched has two parts or more.
+Refinement::Refinement(const Options& options, int dimension, bool is_root, PartSums& sums)
+    : options_(options), sums_(sums), level_(options.part_sizes.size() / 2, dimension, is_root) {
+    const std::size_t num_parts = options.part_sizes.size();
+    nodes_.reserve(num_parts);
+    children_.reserve(num_parts);
+    lots_.reserve(num_parts / 2);
 }
 
-/// Adds up what the parts weigh on all ranks, on every rank. Collective; throws where one failed.
-void measure(Refinement& context) {
-    RefinementBuffers& room = context.room;
-    context.measured.imbalance =
-        add_up_parts(room.part_weights, room.sums, context.options.part_sizes, context.self);
+Refined Refinement::refine(Estimate&& estimate, const BinnedPoints& binned, std::span<Part> parts,
+                           Participant& self) {
+    const auto& sizes = options_.part_sizes;
+    estimate_ = std::move(estimate);
+    rule_ = {sizes, options_.imbalance_tolerance, estimate_.common_weight,
+             estimate_.total_weight / std::accumulate(sizes.begin(), sizes.end(), 0.0),
+             options_.refine == Refine::exact};
+    if (rule_.is_exact || !accept_estimate(binned, parts, self)) {
+        search_all_levels(binned, parts, self);
+        const bool missed = refined_.imbalance > options_.imbalance_tolerance;
+        if (missed && !rule_.is_exact) search_exactly(binned, parts, self);
+    }
+    refined_.cuts = std::move(estimate_.cuts);
+    return std::move(refined_);
 }
 
 /// True when there is nothing to search: the estimated cuts are good enough as they are, and
-/// `parts` is complete, or the current parts are.
-bool accept_estimate(Refinement& context, std::span<Part> parts) {
-    context.self.attempt([&] {
-        std::ranges::copy(assign(context.estimate.cuts, context.binned, parts),
-                          context.room.part_weights.begin());
-    });
-    measure(context);
-    ++context.measured.rounds;
-    const double tolerance = context.options.imbalance_tolerance;
-    return context.measured.imbalance <= tolerance ||
-           context.estimate.current_imbalance <= tolerance;
+/// `parts` is complete, or the current parts are. Collective.
+bool Refinement::accept_estimate(const BinnedPoints& binned, std::span<Part> parts,
+                                 Participant& self) {
+    self.attempt(
+        [&] { std::ranges::copy(assign(estimate_.cuts, binned, parts), sums_.here().begin()); });
+    measure(self);
+    ++refined_.rounds;
+    const double tolerance = options_.imbalance_tolerance;
+    return refined_.imbalance <= tolerance || estimate_.current_imbalance <= tolerance;
 }
 
-/// Finds the cuts of one level after the other, and the parts at the end.
-void search_all_levels(Refinement& context, std::span<Part> parts) {
-    RefinementBuffers& room = context.room;
-    std::vector<Node>& nodes = room.nodes;
-    nodes.push_back({root_of(context.estimate.cuts), {}, context.estimate.total_weight});
-    context.self.attempt([&] {
-        context.points = sort_by_cell(context.binned);
-        nodes[0].fragments = cell_fragments(context.points);
+/// Adds up what the parts weigh on all ranks, on every rank. Collective; throws where one failed.
+void Refinement::measure(const Participant& self) {
+    refined_.imbalance = sums_.add_up(options_.part_sizes, self);
+}
+
+/// Finds the cuts of one level after the other, and the parts at the end. Collective.
+void Refinement::search_all_levels(const BinnedPoints& binned, std::span<Part> parts,
+                                   Participant& self) {
+    nodes_.push_back({root_of(estimate_.cuts), {}, estimate_.total_weight});
+    self.attempt([&] {
+        points_ = sort_by_cell(binned);
+        nodes_[0].fragments = cell_fragments(points_);
     });
     // All nodes are of one level; together with the parts written they hold every point once.
-    while (!nodes.empty()) {
-        std::erase_if(nodes, [&](const Node& node) {
-            if (!node.at.is_part()) return false;
-            room.part_weights[static_cast<std::size_t>(node.at.first_part)] =
-                write_part(node.fragments, node.at.first_part, context.points, parts);
-            return true;
-        });
-        start_level(context);
-        search_level(context);
-        if (context.abandoned) agree(context.self);
-        place_in_lots(context);
-        descend(context);
+    while (!nodes_.empty()) {
+        write_parts(parts);
+        start_level();
+        refined_.rounds += level_.run(rule_, self);
+        place_in_lots(self);
+        descend(self);
     }
-    measure(context);
+    measure(self);
 }
 
-/// What a search ended with.
-struct Outcome {
-    std::vector<Cut> tree;
-    std::vector<Part> parts;
-    std::vector<double> sums;
-    int coincident_cuts = 0;
-
-    void swap_with(Refinement& context, std::span<Part> current) {
-        std::swap(tree, context.estimate.cuts.tree);
-        std::ranges::swap_ranges(parts, current);
-        std::swap(sums, context.room.sums);
-        std::swap(coincident_cuts, context.measured.coincident_cuts);
-    }
-};
-
-/// Searches once more, without slack, and keeps the better of the two outcomes.
-void search_exactly(Refinement& context, std::span<Part> parts) {
-    Outcome before;
-    context.self.attempt([&] {
-        before = {context.estimate.cuts.tree,
-                  {parts.begin(), parts.end()},
-                  context.room.sums,
-                  std::exchange(context.measured.coincident_cuts, 0)};
+/// Writes the parts that the level holds, and takes them out of it.
+void Refinement::write_parts(std::span<Part> parts) {
+    std::erase_if(nodes_, [&](const Node& node) {
+        if (!node.at.is_part()) return false;
+        const Part part = node.at.first_part;
+        sums_.here()[static_cast<std::size_t>(part)] =
+            write_part(node.fragments, part, points_, parts);
+        return true;
     });
-    const double imbalance_before = context.measured.imbalance;
-    context.exactly = true;
-    search_all_levels(context, parts);
-    if (context.measured.imbalance < imbalance_before) return;
-    before.swap_with(context, parts);
-    context.measured.imbalance = imbalance_before;
 }
 
-}  // namespace
+/// True when counting finds the cut of a node: when it divides weight among parts on both sides.
+bool Refinement::needs_search(const Node& node) const {
+    const double share = rule_.share_below(node.at);
+    return share > 0 && share < 1 && node.weight > 0;
+}
 
-Measured refine(Estimate& estimate, const Options& options, const BinnedPoints& binned,
-                RefinementBuffers& room, std::span<Part> parts, Participant& self) {
-    const auto& sizes = options.part_sizes;
-    const double weight_per_size =
-        estimate.total_weight / std::accumulate(sizes.begin(), sizes.end(), 0.0);
-    Refinement context{estimate,       options, binned, room, self, mpi::rank_of(self.comm) == root,
-                       weight_per_size};
-    context.exactly = options.refine == Refine::exact;
-    if (context.exactly || !accept_estimate(context, parts)) {
-        search_all_levels(context, parts);
-        const bool missed = context.measured.imbalance > options.imbalance_tolerance;
-        if (missed && !context.exactly) search_exactly(context, parts);
+void Refinement::start_level() {
+    level_.clear();
+    for (const Node& node : nodes_)
+        if (needs_search(node)) level_.add(node, first_search(node), points_);
+}
+
+/// The search for the cut of a node, before anything is counted.
+CutSearch Refinement::first_search(const Node& node) const {
+    CutSearch search;
+    search.cut.axis = estimate_.cuts.tree[node.at.node].axis;
+    search.num_axes = options_.plain_cuts ? 1 : estimate_.cuts.dimension;
+    search.divides = options_.coincident == Coincident::divide && !options_.plain_cuts ? 1 : 0;
+    search.cut.at.fill(-infinity);
+    search.lower = estimate_.brackets[node.at.node].lower;
+    search.upper = estimate_.brackets[node.at.node].upper;
+    search.quantum = quantum_for(node.weight);
+    return search;
+}
+
+/// Finds where in its lot each rank begins, for the cuts that divide one. Collective where there
+/// are any.
+void Refinement::place_in_lots(const Participant& self) {
+    lots_.clear();
+    for (std::size_t k = 0; k < level_.size(); ++k) {
+        const CutSearch& search = level_.search(k);
+        if (!(search.lot_below > 0)) continue;
+        const double weight = weight_at(search.cut, level_.node(k).fragments, points_);
+        lots_.push_back(rounded_to(search.quantum, weight));
     }
-    room.sums.resize(context.num_parts());
-    context.measured.part_weights = std::move(room.sums);
-    return std::move(context.measured);
+    if (lots_.empty()) return;
+    const bool is_first = mpi::rank_of(self.comm) == 0;
+    mpi::check(MPI_Exscan(MPI_IN_PLACE, lots_.data(), mpi::to_int(std::ssize(lots_)), MPI_DOUBLE,
+                          MPI_SUM, self.comm),
+               "MPI_Exscan");
+    // Where there are no ranks before it MPI leaves what was there.
+    if (is_first) std::ranges::fill(lots_, 0.0);
+}
+
+/// Goes on with the nodes below, by the cuts that the level found.
+void Refinement::descend(Participant& self) {
+    children_.clear();
+    std::size_t next = 0;
+    auto before = lots_.begin();
+    for (Node& node : nodes_) {
+        Cut& cut = estimate_.cuts.tree[node.at.node];
+        double below = 0;
+        Lot lot;
+        if (needs_search(node)) {
+            const CutSearch& search = level_.search(next++);
+            cut = search.cut;
+            below = search.below;
+            lot.below = search.lot_below;
+            if (lot.below > 0) lot.before = *before++;
+            cut.divides = lot.below > 0 ? 1 : 0;
+            refined_.coincident_cuts += search.coincident;
+        } else {
+            const double share = rule_.share_below(node.at);
+            set_aside(share, cut);
+            below = share > 0 ? node.weight : 0;
+        }
+        std::pair<std::vector<Fragment>, std::vector<Fragment>> halves;
+        self.attempt([&] { halves = split(node.fragments, cut, lot, points_); });
+        children_.push_back({node.at.lower(), std::move(halves.first), below});
+        children_.push_back({node.at.upper(), std::move(halves.second), node.weight - below});
+    }
+    std::swap(nodes_, children_);
+}
+
+/// Searches once more, without slack, and keeps the better of the two outcomes. Collective.
+void Refinement::search_exactly(const BinnedPoints& binned, std::span<Part> parts,
+                                Participant& self) {
+    struct {
+        std::vector<Cut> tree;
+        std::vector<Part> parts;
+        std::vector<double> sums;
+        int coincident_cuts = 0;
+    } before;
+    self.attempt([&] {
+        before = {estimate_.cuts.tree,
+                  {parts.begin(), parts.end()},
+                  sums_.saved(),
+                  std::exchange(refined_.coincident_cuts, 0)};
+    });
+    const double imbalance_before = refined_.imbalance;
+    rule_.is_exact = true;
+    search_all_levels(binned, parts, self);
+    if (refined_.imbalance < imbalance_before) return;
+    refined_.imbalance = imbalance_before;
+    refined_.coincident_cuts = before.coincident_cuts;
+    estimate_.cuts.tree = std::move(before.tree);
+    sums_.restore(std::move(before.sums));
+    std::ranges::copy(before.parts, parts.begin());
 }
 
 }  // namespace rrcb

@@ -1,9 +1,12 @@
 #pragma once
 
+#include "cells/sorted_points.hpp"
 #include "collective/participant.hpp"
-#include "refinement/refinement_buffers.hpp"
+#include "refinement/level_search_mpi.hpp"
+#include "refinement/part_sums_mpi.hpp"
 
 #include <rrcb/bisection.hpp>
+#include <rrcb/options.hpp>
 
 #include <limits>
 #include <span>
@@ -21,23 +24,57 @@ struct Estimate {
     double current_imbalance = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// How good the parts really are, and what it took to know; the same on every rank.
-struct Measured {
+/// The refined cuts, how good the parts really are, and what it took to know; the same on every
+/// rank. The weights of the parts are in the PartSums.
+struct Refined {
+    Cuts cuts;
     double imbalance = 1;
-    std::vector<double> part_weights{};
     int rounds = 0;           ///< of counting and deciding
     int coincident_cuts = 0;  ///< that keep points together which the target divides
 };
 
-/// Moves the cuts of `estimate` until the parts of the real points are as even as asked.
+/// Moves estimated cuts until the parts of the real points are as even as asked.
 ///
-/// Collective. `options` are complete, `room` is made by them. Writes the part of each point into
-/// `parts`; where the estimate is not good enough, and the current parts neither, it works on a
-/// sorted copy of the points. Where a tolerance is missed because slack was spent on upper levels
-/// that lower ones need, it searches once more, exactly, and keeps the better cuts. Without weight
-/// anywhere the cuts stay. A rank that fails on its own takes part with nothing until the root,
-/// told of it by the next histograms or candidates, ends all searches; then all throw its error.
-Measured refine(Estimate& estimate, const Options& options, const BinnedPoints& binned,
-                RefinementBuffers& room, std::span<Part> parts, Participant& self);
+/// The cuts of a level are searched all at once, one level after the other from the root of the
+/// tree. What the messages need is made before the first of them, see LevelSearch.
+class Refinement {
+  public:
+    /// By complete options. `options` and `sums` are borrowed. Not collective. Throws Error or
+    /// std::bad_alloc.
+    Refinement(const Options& options, int dimension, bool is_root, PartSums& sums);
+
+    /// Refines the cuts of `estimate`, once.
+    ///
+    /// Collective. Writes the part of each point into `parts`; where the estimate is not good
+    /// enough, and the current parts neither, it works on a sorted copy of the points. Where a
+    /// tolerance is missed because slack was spent on upper levels that lower ones need, it
+    /// searches once more, exactly, and keeps the better cuts. Without weight anywhere the cuts
+    /// stay. What fails on one rank, before or here, is thrown on all, see LevelSearch::run.
+    Refined refine(Estimate&& estimate, const BinnedPoints& binned, std::span<Part> parts,
+                   Participant& self);
+
+  private:
+    bool accept_estimate(const BinnedPoints& binned, std::span<Part> parts, Participant& self);
+    void search_all_levels(const BinnedPoints& binned, std::span<Part> parts, Participant& self);
+    void search_exactly(const BinnedPoints& binned, std::span<Part> parts, Participant& self);
+    void measure(const Participant& self);
+    bool needs_search(const Node& node) const;
+    void write_parts(std::span<Part> parts);
+    void start_level();
+    CutSearch first_search(const Node& node) const;
+    void place_in_lots(const Participant& self);
+    void descend(Participant& self);
+
+    const Options& options_;
+    PartSums& sums_;
+    Estimate estimate_;
+    TargetRule rule_;
+    SortedPoints points_;         ///< where cuts are searched
+    std::vector<Node> nodes_;     ///< of the current level; capacity for any
+    std::vector<Node> children_;  ///< of the next one
+    LevelSearch level_;
+    std::vector<double> lots_;  ///< for each cut that divides a lot, what of it is on lower ranks
+    Refined refined_;
+};
 
 }  // namespace rrcb

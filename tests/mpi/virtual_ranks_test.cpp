@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace rrcb {
 namespace {
@@ -87,18 +88,19 @@ TEST_P(ManyRanks, send_the_root_a_bounded_number_of_cells_and_are_balanced_all_t
     decide(all, ranks.options, nullptr, decision);
     const Points points = ranks.points();
     const BinnedPoints binned = bin_by_options(points, bounding_box(points), ranks.options);
-    RefinementBuffers buffers(ranks.options, 2, true);
+    PartSums sums(ranks.options.part_sizes.size());
+    Refinement refinement(ranks.options, 2, true, sums);
     std::vector<Part> parts(points.count);
     Estimate estimate{decision.bisection.cuts, decision.bisection.brackets,
                       static_cast<double>(points.count), decision.verdict.common_weight};
     Participant self{MPI_COMM_SELF};
-    const Measured measured = refine(estimate, ranks.options, binned, buffers, parts, self);
+    const Refined refined = refinement.refine(std::move(estimate), binned, parts, self);
 
     std::vector<double> weights(ranks.options.part_sizes.size());
     for (const Part part : parts) weights[static_cast<std::size_t>(part)] += 1;
     EXPECT_LE(imbalance(weights, ranks.options.part_sizes), 1.01);
-    EXPECT_EQ(imbalance(weights, ranks.options.part_sizes), measured.imbalance);
-    RecordProperty("rounds", measured.rounds);
+    EXPECT_EQ(imbalance(weights, ranks.options.part_sizes), refined.imbalance);
+    RecordProperty("rounds", refined.rounds);
     RecordProperty("cells", static_cast<int>(all.summary.num_cells));
     RecordProperty("root_kilobytes", static_cast<int>(ranks.root_in * sizeof(double) / 1000));
     RecordProperty("longest_message_kilobytes",

@@ -24,6 +24,7 @@ const std::vector<Account> accounts{
     {"granular_column", 0.2, 1, 0.01},
     {"vertical_cut", 0.5, 1, 0.01},
     {"infinite_slope", 2, 3, 0.01},
+    {"dam_break", 0.1, 1.6, 0.01},
     {"elastic_structure", 0.5, 1, 0.001},
     {"axial_bar", 1, 5, 0.001},
     {"two_disks", 0.05, 0.2, 0.001},

@@ -143,6 +143,13 @@ TEST(Balancers, do_not_show_in_sand_that_parts_or_bodies_that_meet) {
     expect_serial_whatever_the_balancer(shipped("granular_column", 0.2));
 }
 
+TEST(Balancers, do_not_show_in_water_that_strikes_a_wall) {
+    Scene scene = shipped("dam_break", 0.1);
+    scene.bodies.front().contains = box_region({{3.95, 0}, {5.95, 1}});
+    scene.bodies.front().velocity = velocity_field({.constant = {6, 0}});
+    expect_serial_whatever_the_balancer(scene);
+}
+
 TEST(Balancers, do_not_show_on_an_inclined_plane_where_velocities_are_mapped_twice) {
     Scene scene = shipped("incline_block", 0.25);
     scene.bodies.front().velocity = velocity_field({.constant = {4, -2}});

@@ -1,5 +1,6 @@
 #include "method.hpp"
 
+#include "bisection/domain_kinds.hpp"
 #include "failure.hpp"
 #include "options/option_table.hpp"
 #include "text.hpp"
@@ -117,7 +118,7 @@ void add_options(ZoltanParameters& parameters, const Options& options) {
     add("cut_rule", true);
     add("refine", true);
     add("imbalance_tolerance", false);
-    if (options.domain != DomainKind::sampled) return;
+    if (!rrcb::traits_of(options.domain).is_random) return;
     for (const char* name : {"sigma_multiplier", "sample_fraction", "seed"}) add(name, true);
 }
 
@@ -135,7 +136,7 @@ Method read_method(std::string_view text) {
     const Entry& entry = find_entry(text.substr(0, bracket));
     Method method{std::string(text), std::string(entry.lb_method), std::nullopt};
     if (entry.domain) {
-        method.options = *entry.domain == DomainKind::sampled ? paper_options() : Options{};
+        method.options = rrcb::traits_of(*entry.domain).is_random ? paper_options() : Options{};
         method.options->domain = *entry.domain;
         method.options->refine = entry.refine;
     }
@@ -181,7 +182,8 @@ std::vector<Method> default_methods() {
 }
 
 bool varies_with_seed(const Method& method) {
-    return method.options && method.options->domain == DomainKind::sampled && !method.seed_given;
+    return method.options && rrcb::traits_of(method.options->domain).is_random &&
+           !method.seed_given;
 }
 
 Method with_next_seed(Method method, std::uint64_t offset) {

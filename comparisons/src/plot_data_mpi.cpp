@@ -1,5 +1,6 @@
 #include "plot_data_mpi.hpp"
 
+#include "bisection/domain_kinds.hpp"
 #include "layout_mpi.hpp"
 #include "text.hpp"
 #include "zoltan_partitioner_mpi.hpp"
@@ -218,7 +219,7 @@ bool can_be_drawn(const Workload& workload, MPI_Comm comm) {
 /// The first sampled method of the comparison, or the one of the paper.
 rrcb::Options sampled_options(std::span<const Method> methods) {
     for (const Method& method : methods) {
-        if (method.options && method.options->domain == rrcb::DomainKind::sampled) {
+        if (method.options && rrcb::traits_of(method.options->domain).is_random) {
             return *method.options;
         }
     }

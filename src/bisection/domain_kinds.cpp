@@ -21,9 +21,27 @@ StatisticalDomain build_sampled(std::span<const CellMoments> cells, int dimensio
 // Extents of an analytic domain are estimates. The sampled domain stands for the paper's method,
 // which refines nothing.
 constexpr DomainTraits domain_kinds[] = {
-    {DomainKind::analytic, false, Refine::tolerance, 0.9, build_analytic},
-    {DomainKind::sampled, false, Refine::none, 1, build_sampled},
-    {DomainKind::points, true, Refine::tolerance, 1, nullptr},
+    {.kind = DomainKind::analytic,
+     .sends_points = false,
+     .builds_on_last = true,
+     .is_random = false,
+     .automatic_refine = Refine::tolerance,
+     .share_of_longest = 0.9,
+     .build = build_analytic},
+    {.kind = DomainKind::sampled,
+     .sends_points = false,
+     .builds_on_last = false,
+     .is_random = true,
+     .automatic_refine = Refine::none,
+     .share_of_longest = 1,
+     .build = build_sampled},
+    {.kind = DomainKind::points,
+     .sends_points = true,
+     .builds_on_last = false,
+     .is_random = false,
+     .automatic_refine = Refine::tolerance,
+     .share_of_longest = 1,
+     .build = nullptr},
 };
 
 }  // namespace

@@ -10,6 +10,9 @@ struct DomainTraits {
     DomainKind kind;
     bool sends_points;        ///< the root gets the points themselves, not moments of cells;
                               ///< then there is nothing left to refine
+    bool builds_on_last;      ///< a call may keep the parts points lie in, or refine the cuts
+                              ///< before; others begin anew
+    bool is_random;           ///< the seed decides, too
     Refine automatic_refine;  ///< what Refine::automatic stands for
     double share_of_longest;  ///< axes of at least this share of the longest extent count as equal
     /// Makes it of the cells of all ranks and the box of their points; null where points are sent.

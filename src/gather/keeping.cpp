@@ -1,12 +1,14 @@
 #include "gather/keeping.hpp"
 
+#include "bisection/domain_kinds.hpp"
+
 #include <algorithm>
 
 namespace rrcb {
 
 bool reads_current_parts(const Options& options, int num_ranks) {
     constexpr int most_ranks = 4096;
-    return options.domain == DomainKind::analytic &&
+    return traits_of(options.domain).builds_on_last &&
            options.cut_rule == CutRule::weighted_fraction && options.refine != Refine::exact &&
            num_ranks > 1 && num_ranks <= most_ranks && options.num_parts == num_ranks;
 }

@@ -1,5 +1,6 @@
 #include "zoltan/call/rcb_options.hpp"
 
+#include "bisection/domain_kinds.hpp"
 #include "zoltan/norm/multicriteria.hpp"
 
 #include <array>
@@ -56,7 +57,8 @@ bool has_several_weights(const Parameters& parameters) {
 
 bool starts_from_previous(const Parameters& parameters) {
     const Options& options = parameters.options;
-    const bool refines = options.refine != Refine::none && options.domain == DomainKind::analytic &&
+    const bool refines = options.refine != Refine::none &&
+                         traits_of(options.domain).builds_on_last &&
                          options.cut_rule == CutRule::weighted_fraction;
     return reuses_cuts(parameters) && refines && !has_several_weights(parameters);
 }

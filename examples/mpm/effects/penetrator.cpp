@@ -1,7 +1,7 @@
 #include "effects/effect.hpp"
 #include "effects/penetrator/fluid_loads.hpp"
 #include "effects/penetrator/rigid_contact.hpp"
-#include "effects/penetrator/soil_strength.hpp"
+#include "effects/penetrator/skin_friction.hpp"
 #include "parallel/communicator_mpi.hpp"
 
 #include <memory>
@@ -78,26 +78,6 @@ Penetrator<D> read_body(const Values& values) {
 }
 
 template <int D>
-Rubbing<D> read_rubbing(const EffectBuilder<D>& builder) {
-    const Values& values = builder.values;
-    Rubbing<D> rubbing{.friction = values.number("friction")};
-    if (values.has("adhesion") && values.has("adhesion_factor"))
-        throw std::invalid_argument(
-            "effects / penetrator: give 'adhesion' or 'adhesion_factor', not both");
-    if (values.has("adhesion"))
-        rubbing.limit = [most = values.number("adhesion")](const Particles&, const PointBlock<D>&,
-                                                           std::size_t) { return most; };
-    if (values.has("adhesion_factor"))
-        rubbing.limit = [factor = values.number("adhesion_factor"),
-                         strength =
-                             SoilStrength<D>(builder, "effects / penetrator: 'adhesion_factor'")](
-                            const Particles& particles, const PointBlock<D>& block, std::size_t p) {
-            return factor * strength.at(particles, block, p);
-        };
-    return rubbing;
-}
-
-template <int D>
 Motion<D> read_motion(const EffectBuilder<D>& builder, const Penetrator<D>& body) {
     const Values& values = builder.values;
     if (values.has("weight_share") && values.has("fluid_density"))
@@ -133,9 +113,9 @@ template <int D>
 void build(const EffectBuilder<D>& builder) {
     Stages<D>& stages = builder.stages;
     const auto contact = std::make_shared<RigidContact<D>>(
-        RigidContact<D>{.body = read_body<D>(builder.values), .rubbing = read_rubbing<D>(builder)});
+        RigidContact<D>{.body = read_body<D>(builder.values), .skin = skin_friction<D>(builder)});
     const auto motion = std::make_shared<Motion<D>>(read_motion<D>(builder, contact->body));
-    if (contact->rubbing.limit)
+    if (contact->skin.limit)
         contact->bands.emplace(contact->body, builder.scene.grid.spacing,
                                contact->body.share_in(builder.scene.grid));
     add_contact<D>(builder, contact);
@@ -153,10 +133,8 @@ std::vector<Rule> rules() {
                             positive("mass", "kg"),
                             number("velocity", "m/s", 0.0),
                             optional(number("weight_share", "")),
-                            not_negative("friction", "", 0.0),
-                            optional(not_negative("adhesion", "Pa")),
-                            optional(not_negative("adhesion_factor", "")),
                             not_negative("added_mass", "kg", 0.0)};
+    for (Rule& rule : skin_friction_rules()) rules.push_back(std::move(rule));
     for (Rule& rule : fluid_rules()) rules.push_back(std::move(rule));
     return rules;
 }

@@ -86,10 +86,10 @@ class Pusher {
     }
 
     double friction_on(std::size_t p, double height, double normal_force) const {
-        const Rubbing<D>& rubbing = contact_.rubbing;
-        if (!contact_.bands) return rubbing.friction * normal_force;
-        contact_.bands->add(height, normal_force, rubbing.limit(particles_, block_, p));
-        return contact_.bands->most_at(height, rubbing.friction) * normal_force;
+        const SkinFriction<D>& skin = contact_.skin;
+        if (!contact_.bands) return skin.coefficient * normal_force;
+        contact_.bands->add(height, normal_force, skin.limit(particles_, block_, p));
+        return contact_.bands->most_at(height, skin.coefficient) * normal_force;
     }
 
     RigidContact<D>& contact_;

@@ -2,26 +2,18 @@
 
 #include "effects/effect.hpp"
 #include "effects/penetrator/friction_bands.hpp"
+#include "effects/penetrator/skin_friction.hpp"
 
-#include <functional>
 #include <memory>
 #include <optional>
 
 namespace mpm {
 
-/// Friction of points along a rigid body.
-template <int D>
-struct Rubbing {
-    double friction = 0;  ///< Coulomb's coefficient
-    /// The most shear stress, Pa, of a point of a block; none: no limit.
-    std::function<double(const Particles&, const PointBlock<D>&, std::size_t)> limit = {};
-};
-
 /// A rigid body among points, and the force between them.
 template <int D>
 struct RigidContact {
     Penetrator<D> body;
-    Rubbing<D> rubbing;
+    SkinFriction<D> skin;
     std::optional<FrictionBands<D>> bands = {};  ///< where friction has a limit
     double force = 0;       ///< along y on the points of this rank in this step, N
     double next_force = 0;  ///< the same in the next step

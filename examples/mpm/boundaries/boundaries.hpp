@@ -4,21 +4,21 @@
 
 namespace mpm {
 
-/// Adds the kernels that hold the nodes on the sides of the domain, `walls` before they move and
-/// `friction` after; none where all sides are open.
+/// Adds the kernels that hold the nodes on the sides of the domain: `walls` before they move,
+/// `friction` after. Open sides need none.
 ///
-/// Where shape functions reach beyond a roller or fixed wall, the sums of nodes there go to their
+/// Shape functions may reach beyond a roller or fixed wall. The sums of nodes there go to their
 /// mirror images inside, with the signs that leave the wall at rest.
 template <int D>
 void add_walls(const Scene& scene, Stages<D>& stages);
 
 /// Adds the kernels that hold the nodes with mass on the planes and behind them, after they have
-/// moved; what walls hold stays held.
+/// moved. A direction that a wall holds stays held.
 template <int D>
 void add_planes(const Scene& scene, Stages<D>& stages);
 
-/// Adds the kernels that move nodes beyond walls as their mirror images, after all that changes
-/// those.
+/// Adds the kernels that move the nodes beyond walls as the mirror images of those inside. They
+/// come after all kernels that change nodes inside.
 template <int D>
 void add_images(const Scene& scene, Stages<D>& stages);
 

@@ -7,7 +7,7 @@ namespace mpm {
 
 namespace {
 
-/// A plane with what a step needs of it.
+/// A plane as a step needs it.
 template <int D>
 struct Ground {
     Wall wall;
@@ -34,8 +34,8 @@ bool is_behind(const Ground<D>& ground, const Vector& at, double tolerance) {
     return height <= tolerance;
 }
 
-/// The plane's normal for a node on walls, in the directions they leave free; none when they hold
-/// the node.
+/// Part of the plane's normal in the directions that the walls of a node leave free; none where
+/// they hold the node.
 template <int D>
 std::optional<Components<D>> free_normal(const Ground<D>& ground, const Walls& walls,
                                          const GridShape& shape, const std::array<int, D>& node) {
@@ -56,7 +56,7 @@ std::optional<Components<D>> free_normal(const Ground<D>& ground, const Walls& w
     return normal;
 }
 
-/// Velocity that a plane leaves.
+/// Velocity of a node after a plane has acted on it.
 template <int D>
 Components<D> left(const Wall& wall, const Components<D>& normal, Components<D> velocity) {
     if (wall.kind == Wall::fixed) return {};

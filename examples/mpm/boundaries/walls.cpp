@@ -48,8 +48,8 @@ bool has(const Walls& walls, Wall::Kind kind) {
     return false;
 }
 
-/// Calls visit(node beyond a roller or fixed wall, its mirror image, wall, axis) where a patch has
-/// them; a patch that reaches beyond a wall has the layer of images, too.
+/// Calls visit(node beyond a roller or fixed wall, its mirror image, wall, axis) for the nodes of a
+/// patch. A patch that reaches beyond a wall has the layer of images, too.
 template <int D, typename Visit>
 void visit_images(const GridPatch<D>& patch, const Walls& walls, Visit visit) {
     visit_sides(patch, walls,
@@ -62,7 +62,7 @@ void visit_images(const GridPatch<D>& patch, const Walls& walls, Visit visit) {
                 });
 }
 
-/// Sign of a component in the image.
+/// Sign that a component of a vector has in the mirror image.
 double parity(const Wall& wall, std::size_t axis, std::size_t component) {
     return wall.kind == Wall::fixed || component == axis ? -1 : 1;
 }
@@ -74,7 +74,7 @@ Surface<D> surface_of(const Wall& wall, std::size_t axis, double inward) {
     return surface;
 }
 
-/// Holds the velocities that strain after they were mapped back to the nodes.
+/// Holds the strain velocities once they are mapped back to the nodes.
 template <int D>
 void hold_strain(const Walls& walls, GridPatch<D>& patch) {
     visit_sides(
@@ -122,7 +122,7 @@ void fold_fields(const Walls& walls, const std::vector<int>& components, GridPat
         });
 }
 
-/// Moves the nodes beyond a wall as the images of those inside.
+/// Moves the nodes beyond a wall as the mirror images of those inside.
 template <int D>
 void mirror(const Walls& walls, GridPatch<D>& patch) {
     visit_images(patch, walls,

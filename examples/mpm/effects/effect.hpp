@@ -9,7 +9,7 @@
 
 namespace mpm {
 
-/// Means of an effect to put itself into the step.
+/// Scene, points and stages, handed to an effect that is built.
 template <int D>
 struct EffectBuilder {
     const Scene& scene;
@@ -31,7 +31,7 @@ std::span<const EffectKind> effect_kinds();
 
 /// Checked parameters of each effect of a scene, by the number of its kind.
 ///
-/// Throws std::invalid_argument for one that is not known, named twice, or has wrong parameters.
+/// Throws std::invalid_argument for an unknown effect, one named twice, and wrong parameters.
 std::vector<std::optional<Values>> effect_values(const Scene& scene);
 
 }  // namespace mpm

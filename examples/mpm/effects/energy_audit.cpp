@@ -10,9 +10,9 @@ namespace {
 template <int D>
 struct Ledger {
     std::vector<Components<D>> start;    ///< velocity the step begins with
-    std::vector<Components<D>> jump;     ///< of it from the velocity that strained last
-    std::vector<Components<D>> impulse;  ///< beside that of stress and of full weight
-    std::vector<NodeSums<D>> before;     ///< such a kernel
+    std::vector<Components<D>> jump;     ///< from the strain velocity of the last step to it
+    std::vector<Components<D>> impulse;  ///< of all forces but stress and full weight
+    std::vector<NodeSums<D>> before;     ///< a kernel of forces
     double lost_on_nodes = 0;            ///< J
     double gained_by_nodes = 0;          ///< kinetic energy over all steps, J
     double kinetic_at_start = 0;         ///< of the points, J
@@ -30,7 +30,10 @@ double kinetic_energy(const Particles& particles, const MotionColumns& motion) {
     return energy;
 }
 
-/// Opens the account of a step: weight short of its full strength, as while it grows, does no work.
+/// Opens the account of a step with the impulse that full weight would give.
+///
+/// Potential energy is that of full weight. So the part that is still missing while weight grows
+/// counts as a force that takes energy.
 template <int D>
 void open_step(Ledger<D>& ledger, const GridPatch<D>& patch, const Components<D>& gravity,
                double time_step) {
@@ -42,14 +45,16 @@ void open_step(Ledger<D>& ledger, const GridPatch<D>& patch, const Components<D>
 
 /// Notes the velocities before the step.
 ///
-/// Nothing does work on a held node, which has no velocity; the points keep what they handed it.
+/// A held node has no velocity, so no force does work on it. The points keep the momentum that they
+/// handed it.
 template <int D>
 void note_start(Ledger<D>& ledger, const GridPatch<D>& patch) {
     ledger.start.assign(patch.sums.size(), Components<D>{});
     ledger.jump.assign(patch.sums.size(), Components<D>{});
     for (std::size_t n = 0; n < patch.sums.size(); ++n) {
         if (!(patch.sums[n].mass > 0)) continue;
-        // What the last step left: all 0 where nothing was; what sticks to a wall has changed.
+        // The last step leaves a node without points at 0. One that sticks to a wall is told from
+        // it by its change of velocity.
         const NodeMotion<D>& last = patch.motion[n];
         const bool was_there =
             last.velocity != Components<D>{} || last.velocity_change != Components<D>{};
@@ -63,8 +68,8 @@ void note_start(Ledger<D>& ledger, const GridPatch<D>& patch) {
 /// Adds the losses of the step.
 ///
 /// An impulse does the work impulse * mean of the velocities before and after. The points see the
-/// work of stress with the velocities that strain them: before, those of the last step's end, and
-/// after, others where a node has next to no mass. The rest is lost.
+/// work of stress with their strain velocities. Those differ: before, they are of the last step's
+/// end; after, they are bounded where a node has next to no mass. The difference is lost.
 template <int D>
 void close_step(Ledger<D>& ledger, const GridPatch<D>& patch) {
     for (std::size_t n = 0; n < patch.sums.size(); ++n) {
@@ -112,7 +117,7 @@ NodeKernel<D> noted_motion(NodeKernel<D> kernel, const std::shared_ptr<Ledger<D>
 
 /// Kernel of half the work of the present stress over the step.
 ///
-/// Before and after the materials, both halves are the work of the mean stress.
+/// It runs before and after the materials: both halves together are the work of the mean stress.
 template <int D>
 PointKernel<D> work_kernel(const StressColumns<D>& stress, Column volume, Column work) {
     return [=](Particles& particles, const PointBlock<D>& block) {
@@ -147,7 +152,7 @@ void build(const EffectBuilder<D>& builder) {
     stages.constraints.push_back({"energy_audit", [ledger](GridPatch<D>& patch, const StepTime&) {
                                       note_start(*ledger, patch);
                                   }});
-    // Last of what changes the velocities that strain the points.
+    // After all kernels that change the strain velocities.
     auto& last = remaps_velocities(builder.scene) ? stages.remapped_velocities : stages.moved;
     last.push_back({"energy_audit", [ledger](GridPatch<D>& patch, const StepTime&) {
                         close_step(*ledger, patch);
@@ -157,7 +162,7 @@ void build(const EffectBuilder<D>& builder) {
                                                motion.volume, *stages.internal_work);
     stages.before_materials.push_back({"energy_audit", work});
     stages.after_materials.push_back({"energy_audit", work});
-    // What the nodes gained and the points did not went in the transfer between them.
+    // The transfer between nodes and points takes the energy that only the nodes gained.
     stages.dissipated.push_back([ledger, motion](const Particles& particles) {
         if (!ledger->has_begun) return 0.0;
         return ledger->lost_on_nodes + ledger->gained_by_nodes -

@@ -24,8 +24,8 @@ void build(const EffectBuilder<D>& builder) {
 
 }  // namespace
 
-/// A share of each unbalanced force acts against the motion until a time (Cundall 1987): nothing is
-/// held back where forces balance, so that a start at rest under weight is found soon.
+/// A share of each unbalanced force acts against the motion until a time (Cundall 1987). Where
+/// forces balance it holds nothing back, so points soon rest under their weight.
 EffectKind local_damping_effect() {
     return {"local_damping",
             {within("fraction", "", 0, 0.99), not_negative("until", "s")},

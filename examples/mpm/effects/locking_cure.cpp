@@ -6,7 +6,7 @@ namespace mpm {
 
 namespace {
 
-/// Whether node number `n` of a cell is on its upper side: +1, else -1.
+/// Side of a cell along an axis that its node number `n` is on: +1 the upper, -1 the lower.
 double side(std::size_t n, std::size_t axis) {
     return (n >> axis & 1) != 0 ? 1 : -1;
 }
@@ -34,7 +34,7 @@ double divergence_at_centre(const GridPatch<D>& patch, const CellRun<D>& run) {
     return sum / (num_edges * patch.shape.spacing);
 }
 
-/// Gives all points of a cell the volume change of its centre; shear stays each point's own.
+/// Gives all points of a cell the volume change of its centre. Each point keeps its own shear.
 template <int D>
 GradientKernel<D> average_kernel(Column volume) {
     return [volume](Particles& particles, const GridPatch<D>& patch,

@@ -17,13 +17,13 @@ constexpr std::size_t vertical = 1;
 /// Motion of the body: its inertia and loads, and its energy.
 template <int D>
 struct Motion {
-    Gravity<D> gravity;                   ///< the share that weight has of it
+    Gravity<D> gravity;                   ///< times `weight_share`
     double inertia = 0;                   ///< mass and added mass, kg
     std::vector<BodyLoad<D>> loads = {};  ///< beside weight and soil
     double force = 0;                     ///< of the soil on it in the last step, N
     double kinetic_at_start = 0;          ///< J
     double potential = 0;                 ///< of weight and buoyancy, 0 at the start, J
-    bool is_counting_rank = false;        ///< one rank tells what the body has lost
+    bool is_counting_rank = false;        ///< whether this rank tells the body's loss, as one does
 };
 
 template <int D>
@@ -31,7 +31,7 @@ double kinetic_energy(const Motion<D>& motion, const Penetrator<D>& body) {
     return 0.5 * motion.inertia * body.velocity * body.velocity;
 }
 
-/// Force on the soil in this step, with the sums of the contact settled. Collective: one reduction.
+/// Force on the soil in this step. Settles the sums of the contact. Collective: one reduction.
 template <int D>
 double sum_of_ranks(RigidContact<D>& contact, MPI_Comm comm) {
     std::vector<double> sums{contact.force};

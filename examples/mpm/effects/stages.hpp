@@ -9,8 +9,8 @@
 
 namespace mpm {
 
-/// A column of the points that is summed on the nodes into a field of the patch, one double more
-/// in the message per shared node.
+/// A column of the points, summed on the nodes into a field of the patch. It adds one double to the
+/// message per shared node.
 struct NodeField {
     std::string name;
     Column column;
@@ -48,15 +48,15 @@ struct Stages {
     std::vector<Named<NodeKernel<D>>> forces;             ///< on the sums over all ranks
     std::vector<Named<NodeKernel<D>>> constraints;        ///< after all forces
     std::vector<Named<NodeKernel<D>>> moved;              ///< after the nodes have moved
-    /// Stages of the velocity remap (velocity_remap.hpp), if there is one: on this rank's momenta,
-    /// and then on NodeMotion::strain_velocity, which walls and contacts must hold again.
+    /// Stages of the velocity remap (velocity_remap.hpp), empty without one. The first acts on this
+    /// rank's momenta, the second on NodeMotion::strain_velocity: walls must hold it again.
     std::vector<Named<ScatterKernel<D>>> velocity_scatters;
     std::vector<Named<NodeKernel<D>>> remapped_velocities;
     std::vector<Named<GradientKernel<D>>> gradients;      ///< after points have moved
     std::vector<Named<PointKernel<D>>> before_materials;  ///< stresses are the old ones
     std::vector<Named<PointKernel<D>>> after_materials;   ///< stresses are the new ones
     std::vector<Named<StepKernel>> ends;                  ///< after all points have moved
-    /// Energies this rank has seen lost since the start, J, for whoever asks between steps.
+    /// Energies that were lost on this rank since the start, J. Valid between steps.
     std::vector<std::function<double(const Particles&)>> dissipated;
     std::vector<std::function<RigidEnergy()>> rigid_energies = {};  ///< added to the points'
     std::vector<Report> reports = {};                               ///< for the history

@@ -17,13 +17,13 @@ struct Drag {
     Column mark;                           ///< 1 for a point in a cell with a node of the surface
 };
 
-/// Slows one node down on the area that faces its velocity; it never turns the node.
+/// Slows one node down by the area that faces its velocity, to rest at most.
 template <int D>
 void slow_down(double factor, const Components<D>& area, double time_step, NodeSums<D>& node) {
     double facing = 0;
     for (std::size_t a = 0; a < D; ++a) facing += node.momentum[a] / node.mass * area[a];
     if (!(facing > 0)) return;
-    // factor * (area facing the motion) * speed, the force by the velocity.
+    // The force by the velocity: factor * (area that faces the motion) * speed.
     const double rate = std::min(factor * facing, node.mass / time_step);
     for (std::size_t a = 0; a < D; ++a) node.force[a] -= rate * node.momentum[a] / node.mass;
 }
@@ -34,7 +34,8 @@ NodeKernel<D> force_kernel(const Drag& drag) {
         for (std::size_t n = 0; n < patch.sums.size(); ++n) {
             NodeSums<D>& node = patch.sums[n];
             if (!(node.mass > 0) || !(patch.fields[drag.mark_field][n] > 0)) continue;
-            // The volume integral of a shape function's gradient is its outward surface integral.
+            // The volume integral of a shape function's gradient is the integral of the function
+            // times the outward normal over the surface.
             Components<D> area;
             for (std::size_t a = 0; a < D; ++a) area[a] = patch.fields[drag.area_field + a][n];
             slow_down<D>(drag.factor, area, step.time_step, node);
@@ -83,8 +84,8 @@ void build(const EffectBuilder<D>& builder) {
 /// Quadratic drag of still water, density * coefficient * area * speed^2 / 2, on the surface that
 /// faces the motion.
 ///
-/// It acts on the nodes of points that were, in the step before, in a cell with a node less than
-/// three quarters full.
+/// It acts on the nodes of surface points. Those were, in the step before, in a cell with a node
+/// less than three quarters full.
 EffectKind water_drag_effect() {
     return {"water_drag",
             {not_negative("water_density", "kg/m^3"), not_negative("drag_coefficient", "")},

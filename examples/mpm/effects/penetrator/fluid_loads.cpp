@@ -18,7 +18,7 @@ BodyLoad<D> buoyancy(double density_in_domain, double level, const Gravity<D>& g
             true};
 }
 
-/// Implicit in the speed, so that it never turns the body.
+/// Drag, implicit in the speed, so that it never turns the body back.
 template <int D>
 BodyLoad<D> drag(double factor, double level) {
     return {[=](const Penetrator<D>& body, const StepTime& step) {

@@ -12,7 +12,7 @@ namespace mpm {
 template <int D>
 struct BodyLoad {
     std::function<double(const Penetrator<D>&, const StepTime&)> force;
-    bool does_return_work = false;  ///< to the body when it moves back
+    bool does_return_work = false;  ///< whether the body gets its work back when it moves back
 };
 
 /// Forces of still fluid on a penetrator, as far as the parameters ask for them.

@@ -9,14 +9,13 @@ namespace mpm {
 
 /// Bounds of the friction along a penetrator where shear stress has a limit.
 ///
-/// The points that touch a surface are too few, and stretched too far, to tell its area, so the
-/// body tells it. Bands of a height divide its surface. Friction by normal force is at most the
-/// mean limit
-/// * area of the band / mean normal force on it, with means over the last steps.
+/// The points that touch a surface are too few, and stretched too far, to tell its area. The body
+/// tells it: bands of equal height divide its surface. The ratio of friction to normal force is at
+/// most (mean limit * area of the band) / mean normal force on it. Means are over the last steps.
 template <int D>
 class FrictionBands {
   public:
-    /// `share` of the body lies in the domain; the bands are about as high as `height`.
+    /// `share`: part of the body in the domain. `height`: of a band, about, m.
     FrictionBands(const Penetrator<D>& body, double height, double share)
         : length_(body.length), areas_(static_cast<std::size_t>(std::ceil(body.length / height))) {
         for (std::size_t k = 0; k < areas_.size(); ++k)
@@ -25,21 +24,22 @@ class FrictionBands {
         means_ = sums_;
     }
 
-    /// Adds the normal force on a point, N, at a height above the tip, with its most shear stress.
+    /// Adds the normal force on a point, N, at a height above the tip, m, with its limit of shear
+    /// stress, Pa.
     void add(double height, double normal_force, double limit) {
         const std::size_t k = band_at(height);
         sums_[2 * k] += normal_force;
         sums_[2 * k + 1] += normal_force * limit;
     }
 
-    /// The most that friction can be by the normal force at a height, of at most `friction`.
+    /// Largest ratio of friction to normal force at a height above the tip, at most `friction`.
     double most_at(double height, double friction) const {
         const std::size_t k = band_at(height);
         const double normal = means_[2 * k], allowed = areas_[k] * means_[2 * k + 1];
         return allowed < friction * normal * normal ? allowed / (normal * normal) : friction;
     }
 
-    /// Sums of this rank in the step; the caller adds them up over the ranks.
+    /// Sums of this rank in the step. The caller adds them up over the ranks.
     std::span<const double> sums() const { return sums_; }
 
     /// Takes the sums over all ranks into the means and begins a step.

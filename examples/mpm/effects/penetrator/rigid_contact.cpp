@@ -4,7 +4,7 @@ namespace mpm {
 
 namespace {
 
-/// The share of an overlap that a step takes back.
+/// Share of an overlap that a step takes back.
 constexpr double recovery = 0.5;
 
 template <int D>
@@ -14,7 +14,7 @@ struct ContactColumns {
     double largest = 0;  ///< half the width of a point, m
 };
 
-/// The velocity of a point against the body's, split.
+/// Velocity of a point relative to the body: into its surface and along it, m/s.
 template <int D>
 struct Slip {
     double inward = 0;
@@ -76,7 +76,8 @@ class Pusher {
     }
 
   private:
-    /// A gap may close within the step; an overlap is taken back over some.
+    /// Distance that a point moves out in a step. A gap, below 0, may close within it; an overlap
+    /// takes some steps.
     static double recovered(double overlap) { return overlap < 0 ? overlap : recovery * overlap; }
 
     Vector position(std::size_t p) const {

@@ -22,9 +22,9 @@ struct RigidContact {
 /// Adds the kernels that push the points out of the body.
 ///
 /// They add columns of the force on each point, sum them on the nodes, and leave the force on the
-/// body in `contact`. A point is as wide as its volume tells. In a step it loses its velocity into
-/// the body and takes its overlap back; nothing holds it at the body. Coulomb bounds the friction
-/// and, where shear stress has a limit, so does its band.
+/// body in `contact`. The volume of a point tells its width. In a step a point loses its velocity
+/// into the body and part of its overlap. Nothing holds it at the body. Coulomb's law bounds the
+/// friction, and so does the limit of shear stress, by bands, where there is one.
 template <int D>
 void add_contact(const EffectBuilder<D>& builder, const std::shared_ptr<RigidContact<D>>& contact);
 

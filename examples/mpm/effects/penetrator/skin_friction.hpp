@@ -11,14 +11,14 @@ namespace mpm {
 template <int D>
 struct SkinFriction {
     double coefficient = 0;  ///< Coulomb's
-    /// The most shear stress, Pa, of a point of a block; none: no limit.
+    /// Largest shear stress on a point of a block, Pa; none: no limit.
     std::function<double(const Particles&, const PointBlock<D>&, std::size_t)> limit = {};
 };
 
 /// Friction as the parameters ask for it.
 ///
-/// Throws std::invalid_argument for two limits, and where a share of the undrained strength is
-/// asked for of a material without one.
+/// Throws std::invalid_argument for two limits, and for a share of the undrained strength where a
+/// material has none.
 template <int D>
 SkinFriction<D> skin_friction(const EffectBuilder<D>& builder);
 

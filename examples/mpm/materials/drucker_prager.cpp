@@ -56,7 +56,8 @@ PointKernel<D> dilating_kernel(const DruckerPrager& cone, const Elastic& elastic
 
 /// Kernel that bounds the volume of points parted by tension.
 ///
-/// Their volume is their stiffness when they meet again, so it must not grow without end.
+/// The force of a point is its stress times its volume. Points that meet again would be too stiff,
+/// had their volume grown without end.
 template <int D>
 PointKernel<D> limit_kernel(double largest_by_mass, Column mass, Column volume) {
     return [=](Particles& particles, const PointBlock<D>& block) {

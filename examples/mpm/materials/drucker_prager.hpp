@@ -26,9 +26,9 @@ struct DruckerPrager {
 
 /// The cone that fails in plane strain exactly where Mohr-Coulomb with the same dilation does.
 ///
-/// With psi = 0 friction is sin(phi), cohesion c cos(phi), both divided by
-/// sqrt(1 - q^2 / 3) + q sin(phi) / 3 otherwise, where q = sin(psi) / sqrt(1 + sin(psi)^2 / 3) is
-/// the dilation: what follows from no plastic strain out of the plane. With psi = phi it is Drucker
+/// Without dilation, psi = 0, friction is sin(phi) and cohesion c cos(phi). With it both are
+/// divided by sqrt(1 - q^2 / 3) + q sin(phi) / 3, where q = sin(psi) / sqrt(1 + sin(psi)^2 / 3) is
+/// the dilation. That follows from no plastic strain out of the plane. With psi = phi it is Drucker
 /// and Prager's own match (1952), 3 tan(phi) / sqrt(9 + 12 tan(phi)^2).
 DruckerPrager matched_cone(const MohrCoulomb& strength);
 
@@ -37,26 +37,25 @@ DruckerPrager matched_cone(const MohrCoulomb& strength);
 /// with psi.
 DruckerPrager inner_cone(const MohrCoulomb& strength);
 
-/// The admissible stress a trial stress returns to where dilation is 0.
+/// Admissible stress that a trial stress returns to where dilation is 0.
 ///
-/// Without dilation the shear return keeps the mean stress, so beyond the tension limit it ends
-/// outside still, and both branches meet: the mean is cut to the limit, then the deviator to the
-/// cone.
+/// The shear return then keeps the mean stress. Beyond the tension limit it would end outside, so
+/// both returns follow each other: the mean is cut to the limit, then the deviator to the cone.
 template <int D>
 inline Stress<D> returned(const DruckerPrager& cone, const Stress<D>& trial) {
     const double old_mean = mean(trial);
     const Stress<D> shear = deviator(trial, old_mean);
-    // Never 0, and written so that a loop over points has no branch.
+    // The least number keeps tau above 0 without a branch, which would keep loops from vectors.
     const double tau = std::sqrt(second_invariant(shear)) + std::numeric_limits<double>::min();
     const double new_mean = old_mean < cone.tension ? old_mean : cone.tension;
     const double strength = cone.cohesion - cone.friction * new_mean;
     return composed(new_mean, (strength < tau ? strength : tau) / tau, shear);
 }
 
-/// The admissible stress where there is dilation: along the flow to the cone, as far as the tension
-/// limit.
+/// Admissible stress that a trial stress returns to where there is dilation: along the flow to the
+/// cone, or to the tension limit.
 ///
-/// Between both the bisector of their edge decides (FLAC's theory manual, Drucker-Prager model).
+/// The bisector of their edge decides between both (FLAC's theory manual, Drucker-Prager model).
 template <int D>
 inline Stress<D> returned(const DruckerPrager& cone, double bulk, double shear,
                           const Stress<D>& trial) {

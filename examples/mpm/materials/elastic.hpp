@@ -21,7 +21,7 @@ struct Elastic {
 
 /// Rules of density, youngs_modulus and poissons_ratio.
 std::vector<Rule> elastic_rules();
-/// The rules of elasticity and more of a model's own.
+/// Rules of elasticity, and more that a model adds.
 std::vector<Rule> elastic_rules(std::vector<Rule> more);
 Elastic elastic_of(const Values& values);
 double elastic_wave_speed(const Values& values);
@@ -50,7 +50,8 @@ inline Stress<2> rotated(const Stress<2>& stress, const DisplacementGradient<2>&
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-/// Rotation (1 - W/2)^-1 (1 + W/2) for the skew W of half a step's rotation vector (Cayley).
+/// Cayley's rotation (1 - W/2)^-1 (1 + W/2), where W/2 is the skew matrix of the vector x, y, z,
+/// half the rotation vector of the step.
 inline Matrix turn(double x, double y, double z) {
     const double square = x * x + y * y + z * z, scale = 2 / (1 + square);
     Matrix r;

@@ -25,7 +25,7 @@ MaterialModel<D> build(const Values& values, Particles& particles) {
 
 }  // namespace
 
-/// An elastic fluid: viscosity is taken in implicitly, so it does not limit the time step.
+/// An elastic fluid. Its viscosity is implicit, so it does not limit the time step.
 MaterialKind herschel_bulkley_material() {
     return {"herschel_bulkley",
             elastic_rules({not_negative("yield_stress", "Pa"),

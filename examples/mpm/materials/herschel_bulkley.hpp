@@ -15,14 +15,15 @@ struct HerschelBulkley {
     double exponent = 1;
 };
 
-/// Rate of viscous shear, 1/s, that uses up an excess of elastic trial stress over the yield stress
-/// within a step.
+/// Rate of viscous shear over a step, 1/s, of a trial stress by `excess` above the yield stress,
+/// Pa.
 ///
 /// It solves stiffness * rate + consistency * rate^exponent = excess, where stiffness is shear
 /// modulus * time step.
 ///
-/// Newton's method from above on a convex function, in the rate, or in the viscous stress where the
-/// exponent is below 1; it comes down without overshooting.
+/// Newton's method starts above the solution. The unknown is the rate, or the viscous stress where
+/// the exponent is below 1: so the function is convex, and the iterates descend without
+/// overshooting.
 inline double viscous_rate(const HerschelBulkley& fluid, double stiffness, double excess) {
     constexpr int most_iterations = 60;
     if (!(excess > 0)) return 0;

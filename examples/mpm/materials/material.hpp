@@ -30,14 +30,13 @@ struct MaterialKind {
 /// Models there are; see materials.inc.
 std::span<const MaterialKind> material_kinds();
 
-/// Model of a material; throws std::invalid_argument that lists the models where it is none of
-/// them.
+/// Model of a material. Throws std::invalid_argument that lists the models for an unknown one.
 const MaterialKind& find_material_kind(const Material& material);
 
-/// Checked parameters of a material; throws std::invalid_argument.
+/// Checked parameters of a material. Throws std::invalid_argument for wrong ones.
 Values values_of(const Material& material, int dimension);
 
-/// Number of the scene's material a body is made of; throws std::invalid_argument.
+/// Number of a body's material in the scene. Throws std::invalid_argument where it has no such one.
 std::size_t material_of(const Scene& scene, const Body& body);
 
 template <int D>

@@ -6,7 +6,7 @@
 
 namespace mpm {
 
-/// Deformation gradient; in plane strain its third row and column are those of 1.
+/// Deformation gradient. In plane strain its third row and column are those of the unit matrix.
 template <int D>
 using Deformation = std::array<std::array<double, D>, D>;
 

@@ -16,7 +16,7 @@ Eigen::Matrix3d matrix_of(const Stress<3>& s) {
     return matrix;
 }
 
-/// Descending, as the solver's are ascending.
+/// Principal values in descending order, which are the solver's from the last to the first.
 Principal principal_of(const Solver& solver) {
     const Eigen::Vector3d& values = solver.eigenvalues();
     return {values[2], values[1], values[0]};
@@ -55,7 +55,7 @@ Stress<2> returned_to_tresca<2>(double strength, const Stress<2>& trial) {
     const double first = returned[plane.along_z == 0 ? 1 : 0];
     const double last = returned[plane.along_z == 2 ? 1 : 2];
     const double mid = 0.5 * (first + last);
-    // Of Mohr's circle, whose points keep their directions.
+    // Mohr's circle shrinks about its centre: the principal axes stay.
     const double scale = plane.radius > 0 ? 0.5 * (first - last) / plane.radius : 0;
     const double half_difference = 0.5 * (trial.xx - trial.yy) * scale;
     return {mid + half_difference, mid - half_difference, returned[plane.along_z],

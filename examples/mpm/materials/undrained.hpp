@@ -11,7 +11,7 @@
 
 namespace mpm {
 
-/// Undrained shear strength of a clay; what is left at its default is not asked for.
+/// Undrained shear strength of a clay. The defaults stand for a constant strength.
 struct UndrainedStrength {
     double at_surface = 0;        ///< Pa
     double gradient = 0;          ///< Pa per metre below the surface
@@ -68,8 +68,8 @@ double shear_rate(const PointBlock<D>& block, std::size_t k) {
     return 2 * std::sqrt(square);
 }
 
-/// Return of a trial stress to sqrt(J2) <= strength: von Mises, and in plane strain,
-/// once clay flows, Tresca (tresca.hpp) as well.
+/// Return of a trial stress to von Mises' sqrt(J2) <= strength. Where clay flows in plane strain,
+/// it ends on Tresca's hexagon (tresca.hpp) as well.
 template <int D>
 inline Stress<D> returned(double strength, const Stress<D>& trial) {
     const double pressure = mean(trial);

@@ -41,7 +41,8 @@ struct Tresca {
     }
 };
 
-/// One kernel for each choice of softening and rate, so that neither costs where it is not asked.
+/// Kernel of the return, one for each choice of softening and rate: neither costs a clay without
+/// it.
 template <int D, class Criterion, bool softens, bool has_rate>
 PointKernel<D> return_kernel(const UndrainedStrength& clay, double shear_modulus,
                              const Columns<D>& columns) {

@@ -30,10 +30,10 @@ double kinetic_energy(const Particles& particles, const MotionColumns& motion) {
     return energy;
 }
 
-/// Opens the account of a step with the impulse that full weight would give.
+/// Opens the account of a step with the impulse of full weight, taken away.
 ///
-/// Potential energy is that of full weight. So the part that is still missing while weight grows
-/// counts as a force that takes energy.
+/// Potential energy is that of full weight. So what a ramp still withholds of it counts as a force
+/// that takes energy.
 template <int D>
 void open_step(Ledger<D>& ledger, const GridPatch<D>& patch, const Components<D>& gravity,
                double time_step) {

@@ -13,7 +13,7 @@ using Components = std::array<double, D>;
 
 /// Sums of the points on a node.
 ///
-/// Neighbours sum them over ranks in one message: five doubles a node in two dimensions, seven in
+/// A message sums them over neighbouring ranks: five doubles a node in two dimensions, seven in
 /// three.
 template <int D>
 struct NodeSums {
@@ -62,8 +62,8 @@ inline int cell_of(const GridShape& shape, double coordinate, std::size_t axis) 
 template <int D>
 NodeRange<D> intersection(const NodeRange<D>& a, const NodeRange<D>& b);
 
-/// Nodes of all cells a closed box touches, and `margin` more on each side; none when the box lies
-/// outside the grid.
+/// Nodes of all cells that a closed box touches, and `margin` more on each side. None where the box
+/// lies outside the grid.
 template <int D>
 NodeRange<D> nodes_of(const GridShape& shape, const Box& box, int margin = 0);
 
@@ -75,8 +75,8 @@ struct GridPatch {
     NodeRange<D> nodes;
     std::vector<NodeSums<D>> sums;
     std::vector<NodeMotion<D>> motion;
-    std::vector<std::vector<double>> fields;  ///< more sums of the points, of the effects
-    /// Whether this rank stands for a node where ranks add up; empty unless an effect asks.
+    std::vector<std::vector<double>> fields;  ///< more sums of the points, for effects
+    /// Whether this rank counts a node in sums over the ranks. Empty unless an effect asks.
     std::vector<char> is_counted;
 
     /// Number within the patch of a node of the whole grid.
@@ -120,15 +120,15 @@ void visit_nodes(const NodeRange<D>& range, Visit visit) {
     });
 }
 
-/// Makes the patch hold other nodes; their values are undefined.
+/// Makes the patch hold other nodes. Their values are undefined.
 template <int D>
 void resize(GridPatch<D>& patch, const NodeRange<D>& nodes);
 
 /// Moves the nodes by the sums of a step.
 ///
-/// A node that only the rim of a point's cell touches has next to no mass but a finite force. Its
-/// acceleration does no harm where the same small shape function weights it, but does in the
-/// velocity gradient; there its mass counts as at least `least_mass`. Momentum stays exact.
+/// A node at the rim of a point's reach has next to no mass but a finite force. Its large
+/// acceleration does no harm where the same small shape function weights it. In the velocity
+/// gradient it does: there its mass counts as at least `least_mass`. Momentum stays exact.
 template <int D>
 void move_nodes(GridPatch<D>& patch, double time_step, double least_mass);
 

@@ -9,7 +9,7 @@ namespace mpm {
 /// Two neighbours of a column; any 64-bit processor takes them at once.
 using Pair [[gnu::vector_size(16)]] = double;
 
-/// Result of a comparison of pairs: all bits where it holds.
+/// Result of a comparison of pairs: all bits set where it holds, else none.
 using PairMask [[gnu::vector_size(16)]] = std::int64_t;
 
 [[gnu::always_inline]] inline Pair load_pair(const double* from) {

@@ -23,7 +23,7 @@ struct Stress<3> {
     double xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;
 };
 
-/// Displacement of a step differentiated: entry [i][j] is component i along axis j.
+/// Gradient of the displacement over a step: entry [i][j] is component i along axis j.
 template <int D>
 using DisplacementGradient = std::array<std::array<double, D>, D>;
 

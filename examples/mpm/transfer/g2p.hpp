@@ -41,8 +41,11 @@ template <int D, std::size_t N>
     return factors;
 }
 
-/// Derivative of a nodal value along an axis, per cell. Two nodes differ by the same anywhere on
-/// a line, so that with them the axis itself comes first: its differences belong to the cell.
+/// Derivative of a nodal value along an axis, per cell.
+///
+/// Linear functions have one difference along each edge, the same for all points of a cell. So with
+/// two nodes the axis itself is summed first, and compilers take that sum out of the loop over
+/// points.
 template <int D, std::size_t N, std::size_t axis>
 [[gnu::always_inline]] inline double slope_at(const std::array<double, power(N, D)>& values,
                                               const std::array<Weights<N>, D>& weights) {
@@ -60,9 +63,11 @@ template <int D, std::size_t N, std::size_t axis>
     }
 }
 
-/// Velocity gradient of the affine field along an axis: for B-splines from the first moment of the
-/// velocities, 4 / h^2 sum of weight * velocity * lever; for linear functions the gradient itself,
-/// where a node with next to no mass must not weigh as much as any: that of `strain`.
+/// Velocity gradient of the affine field along an axis.
+///
+/// For B-splines it is the first moment of the velocities, 4 / h^2 sum of weight * velocity *
+/// lever. For linear functions it is the gradient. There a node with next to no mass would weigh as
+/// much as any other, so it is the gradient of `strain`.
 template <int D, std::size_t N, std::size_t axis>
 [[gnu::always_inline]] inline double affine_at(const std::array<double, power(N, D)>& values,
                                                const std::array<double, power(N, D)>& strain,
@@ -111,8 +116,8 @@ struct PointWriter {
     double* volume;
 };
 
-/// Velocity of a point after a step by FLIP: its own with the change of the grid, but for a share
-/// 1 - flip_fraction that of the grid (Scene::flip_fraction).
+/// Velocity of a point after a step by FLIP: its own with the change of the grid's, and a share
+/// 1 - flip_fraction of the grid's in its place (Scene::flip_fraction).
 [[gnu::always_inline]] inline double flip_velocity(double flip_fraction, double velocity,
                                                    double change, double of_grid) {
     return flip_fraction * (velocity + change) + (1 - flip_fraction) * of_grid;

@@ -16,21 +16,21 @@ struct StepTime {
     double time_step;
 };
 
-/// Changes the nodes of a patch. Shared nodes hold the same bits on all ranks, and must after it.
+/// Changes the nodes of a patch. Shared nodes hold the same bits on all ranks before and after it.
 template <int D>
 using NodeKernel = std::function<void(GridPatch<D>&, const StepTime&)>;
 
-/// Adds to the sums of a patch what points hand to their nodes beside p2g.
+/// Adds more contributions of the points to the sums of a patch, after those of p2g.
 template <int D>
 using ScatterKernel =
     std::function<void(const Particles&, std::span<const CellRun<D>>, GridPatch<D>&)>;
 
-/// Reads nodes, given the runs of a block: for the velocity gradients of its points, or columns.
+/// Changes the velocity gradients or columns of a block of points by the nodes of its runs.
 template <int D>
 using GradientKernel = std::function<void(Particles&, const GridPatch<D>&,
                                           std::span<const CellRun<D>>, const PointBlock<D>&)>;
 
-/// Advances a block of points; called for all points of a step, never for one.
+/// Advances a block of points. Never called for a single point.
 template <int D>
 using PointKernel = std::function<void(Particles&, const PointBlock<D>&)>;
 

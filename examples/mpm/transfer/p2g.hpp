@@ -10,7 +10,7 @@
 
 namespace mpm {
 
-/// Calls visit(std::integral_constant<std::size_t, i>) for i below N, with no loop left over.
+/// Calls visit(std::integral_constant<std::size_t, i>) for each i below N, without a loop.
 template <std::size_t N, typename Visit>
 [[gnu::always_inline]] inline void unrolled(Visit&& visit) {
     [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
@@ -59,7 +59,7 @@ std::array<std::size_t, power(N, D)> node_offsets(const GridPatch<D>& patch) {
     return offsets;
 }
 
-/// The place along an axis of a node that is number `n` of its run.
+/// Place along an axis of node number `n` of a run.
 template <std::size_t N>
 constexpr std::size_t digit(std::size_t n, std::size_t axis) {
     return n / power(N, axis) % N;
@@ -122,7 +122,8 @@ struct PointReader {
     StressPointers<D> stress;
 };
 
-/// Momentum at a node: of the point, or with its affine velocity field (Jiang et al. 2015).
+/// Momentum that a point hands to a node: its own, or that of its affine velocity field there
+/// (Jiang et al. 2015).
 template <int D, std::size_t N, std::size_t n, bool is_affine>
 [[gnu::always_inline]] inline Components<D> momentum_at(const PointReader<D, is_affine>& from,
                                                         const Contribution<D>& point, std::size_t p,

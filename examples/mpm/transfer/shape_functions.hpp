@@ -29,16 +29,16 @@ struct LinearShape {
 
     /// Weights at `u` cells from the lowest node.
     ///
-    /// On a face both are above 0 still: the slopes there need a velocity of both nodes, and a node
-    /// without mass has none.
+    /// On a face both stay above 0. The slopes need the velocities of both nodes there, and a node
+    /// without mass has no velocity.
     Weights<2> at(double u, std::size_t) const {
         const double above = u > least ? u : least;
         const double inside = above < most ? above : most;
         return {{1 - inside, inside}, {-1, 1}};
     }
 
-    /// Members, since compilers make branches of constants, which keep loops over points from
-    /// vectors.
+    /// Bounds of the upper weight. As constants compilers would make branches of them, which keep
+    /// loops over points from vectors.
     double least = 1e-12, most = 1 - 1e-12;
 };
 

@@ -33,7 +33,7 @@ class TransfersOf final : public Transfers<D> {
                 if (p == begin || starts_run(first, p - begin))
                     runs.push_back(run_from(patch, first, p, p - begin));
         }
-        // A run ends where the next begins; blocks cut them, so none spans two blocks.
+        // A run ends where the next begins. Blocks cut runs, so none spans two blocks.
         for (std::size_t r = 0; r + 1 < runs.size(); ++r) runs[r].end = runs[r + 1].begin;
         if (!runs.empty()) runs.back().end = particles.size();
     }

@@ -12,7 +12,7 @@
 
 namespace mpm {
 
-/// Points of a block; columns between kernels stay in cache.
+/// Points of a block: so few that their columns stay in cache from one kernel to the next.
 inline constexpr std::size_t block_size = 512;
 
 /// Consecutive points of one block that share their nodes.
@@ -26,7 +26,7 @@ struct CellRun {
 /// Calls visit(number of a node in the patch) for each node of a run, along x first.
 template <int D, typename Visit>
 void visit_run_nodes(const GridPatch<D>& patch, const CellRun<D>& run, Visit visit) {
-    // Shapes of a margin have a node more along each axis.
+    // A shape function with a margin has one node more along each axis.
     const auto width = static_cast<std::size_t>(2 + patch.margin);
     const auto row = static_cast<std::size_t>(patch.nodes.count[0]);
     const std::size_t layer = D == 3 ? row * static_cast<std::size_t>(patch.nodes.count[1]) : 0;
@@ -39,7 +39,7 @@ void visit_run_nodes(const GridPatch<D>& patch, const CellRun<D>& run, Visit vis
 template <int D>
 using VelocityGradients = std::array<std::array<std::array<double, block_size>, D>, D>;
 
-/// Points on their way through the point kernels: a block, or the part of it in one material.
+/// Points of one call of the point kernels: a block, or its part of one material.
 template <int D>
 struct PointBlock {
     std::size_t begin, end;
@@ -49,7 +49,7 @@ struct PointBlock {
     VelocityGradients<D>* gradients;
 
     std::size_t size() const { return end - begin; }
-    /// One entry of the gradients, from the first point on.
+    /// Entry i, j of the gradients of the points, from the first one on.
     double* gradient(std::size_t i, std::size_t j) const {
         return (*gradients)[i][j].data() + (begin - block_begin);
     }
@@ -92,10 +92,10 @@ class Transfers {
   public:
     virtual ~Transfers() = default;
 
-    /// Layers of nodes the points touch beyond their cells.
+    /// Layers of nodes beyond their cells that points touch.
     virtual int margin() const = 0;
 
-    /// Groups the points by their nodes; runs are long when the points are sorted.
+    /// Groups the points by their nodes. Runs are long where the points are sorted.
     virtual void find_runs(const Particles& particles, const GridPatch<D>& patch,
                            std::vector<CellRun<D>>& runs) const = 0;
 

@@ -7,8 +7,8 @@
 
 namespace mpm {
 
-/// Map of the velocities of points back to the nodes, by which the modified update stress last of
-/// Sulsky, Zhou and Schreyer (1995) strains the points.
+/// Map of the velocities of points back to the nodes: the modified update stress last of Sulsky,
+/// Zhou and Schreyer (1995) strains the points by these.
 ///
 /// The velocities are those at the end of the step. So a node with next to no mass moves as the
 /// points around it, however large its acceleration.
@@ -17,8 +17,8 @@ class VelocityRemap {
   public:
     virtual ~VelocityRemap() = default;
 
-    /// Overwrites the momenta of a patch with those of this rank's points at the end of the step,
-    /// which the points have not taken yet; with the shape functions of its start.
+    /// Overwrites the momenta of a patch with those that this rank's points will have at the end of
+    /// the step, by the shape functions of its start.
     virtual void scatter(const Particles& particles, std::span<const CellRun<D>> runs,
                          GridPatch<D>& patch) const = 0;
 };

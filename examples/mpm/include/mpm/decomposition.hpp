@@ -18,12 +18,12 @@ struct Decomposition {
     /// One box per rank, the same on every rank.
     std::vector<Box> boxes;
 
-    /// Owner rank of each position, whose closed box holds it. Not collective. Asked for points
-    /// that have left their box, and for all points after a rebalance without `local_owners`.
+    /// Owner rank of each position, whose closed box holds it. Not collective. The simulation asks
+    /// for points that have left their box, and for all after a rebalance without `local_owners`.
     std::function<void(Positions, std::span<int>)> owners;
 
-    /// Optional: owners of the very positions the balancer was called with, in their order. For
-    /// balancers that divide ties on a cut between both sides, which no look-up can repeat.
+    /// Optional: owners of the positions that the balancer was called with, in their order. Some
+    /// balancers divide ties on a cut between both sides, which no look-up can repeat.
     std::vector<int> local_owners;
 };
 

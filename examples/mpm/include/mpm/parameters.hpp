@@ -24,8 +24,8 @@ struct Rule {
     std::string name;
     Kind kind = Kind::number;
     std::string unit = "";
-    std::optional<Value> fallback = {};  ///< where the scene says nothing
-    bool may_be_absent = false;          ///< asks for something more when it is there
+    std::optional<Value> fallback = {};  ///< value where the scene gives none
+    bool may_be_absent = false;          ///< its presence asks for something more
     double least = -std::numeric_limits<double>::infinity();
     double most = std::numeric_limits<double>::infinity();
     bool is_whole = false;
@@ -47,7 +47,7 @@ Rule whole(std::string name, std::string unit, double least, double most,
            std::optional<double> fallback = {});
 /// Numbers along the axes, as many as the scene has dimensions.
 Rule vector(std::string name, std::string unit, std::optional<std::vector<double>> fallback = {});
-/// One of some words; the first where the scene says nothing.
+/// One of some words. The first is the fallback.
 Rule choice(std::string name, std::vector<std::string> choices);
 /// Rule for a parameter that may be left out altogether.
 Rule optional(Rule rule);
@@ -55,7 +55,8 @@ Rule optional(Rule rule);
 /// Parameters that keep the rules, with the fallbacks filled in.
 class Values {
   public:
-    /// Throws std::invalid_argument that starts with `place`, names the key and what is allowed.
+    /// Throws std::invalid_argument whose text starts with `place`, names the key and tells what is
+    /// allowed.
     Values(const Parameters& given, std::span<const Rule> rules, const std::string& place,
            int dimension);
 

@@ -16,15 +16,15 @@ using Column = std::size_t;
 
 /// Material points of one rank: named columns of doubles, all of the same length.
 ///
-/// Each user of a property adds its column; all columns travel together. The order of the points is
-/// no property: it changes whenever points are sorted or migrate.
+/// Each user of a property adds its column. All columns travel together. The order of the points
+/// changes whenever points are sorted or migrate.
 class Particles {
   public:
-    /// Adds a column, or finds the one of this name; new points start with `initial`.
+    /// Adds a column, or finds the one of this name. New points start with `initial`.
     Column add_column(std::string_view name, double initial = 0);
     /// Whether there is a column of this name.
     bool has_column(std::string_view name) const;
-    /// Finds a column; throws std::out_of_range when nobody has added it.
+    /// Number of a column. Throws std::out_of_range where nobody has added it.
     Column find_column(std::string_view name) const;
     const std::vector<std::string>& column_names() const { return names_; }
 
@@ -44,7 +44,7 @@ class Particles {
     void append(std::span<const double> rows);
     /// Copies one point into a row of one value per column.
     void copy_row(std::size_t point, std::span<double> row) const;
-    /// Removes points given in ascending order; the last points take their places.
+    /// Removes points given in ascending order. The last points take their places.
     void remove(std::span<const std::size_t> points);
     /// Puts the point order[i] in place i.
     void reorder(std::span<const std::size_t> order);

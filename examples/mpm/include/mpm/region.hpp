@@ -6,7 +6,7 @@
 
 namespace mpm {
 
-/// A box. Regions are closed: the rim, and what lies outside it by round-off, is inside.
+/// A box. Regions are closed: positions on the rim, or outside it by round-off, are inside.
 Region box_region(const Box& box);
 /// A ball; in two dimensions a disc.
 Region ball_region(const Vector& centre, double radius);
@@ -19,9 +19,8 @@ Region both_of(Region a, Region b);    ///< in a or in b
 Region without(Region a, Region b);    ///< in a but not in b
 Region common_to(Region a, Region b);  ///< in a and in b
 
-/// Velocity constant + rate * (turn about the z axis through centre) + amplitude * sin(wave_number
-/// . x
-/// + phase) at the start.
+/// Velocity at the start: a constant, plus the rotation rate times a turn about the z axis through
+/// a centre, plus amplitude * sin(wave number . x + phase).
 struct VelocityForm {
     Vector constant{};          ///< m/s
     double rotation_rate = 0;   ///< rad/s, anticlockwise

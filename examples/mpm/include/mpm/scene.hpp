@@ -70,7 +70,7 @@ struct Plane {
     std::string name;
     Vector point{};   ///< on the plane, m
     Vector normal{};  ///< out of the ground, of any length
-    Wall wall;        ///< what it does to the nodes on it and behind it; not open
+    Wall wall;        ///< its hold on the nodes on it and behind it; not open
 };
 
 /// An effect by name, with its parameters; see effect.hpp.
@@ -92,7 +92,7 @@ enum class Transfer {
 
 enum class TimeIntegration {
     update_stress_last,  ///< nodes strain the points with the velocities the step ends with
-    modified             ///< with those that the points have then, mapped to the nodes once more
+    modified             ///< with those of the points at its end, mapped to the nodes once more
 };
 
 /// A scene in SI units.
@@ -111,14 +111,15 @@ struct Scene {
 
     ShapeFunction shape_function = ShapeFunction::linear;
     Transfer transfer = Transfer::flip;
-    /// Share of the velocity that the points carry (FLIP); they read the rest back from the grid
-    /// (PIC), which filters what the grid cannot see. One per cent of PIC calms cell-crossing
-    /// noise within 0.2 s at the slope's step and leaves waves longer than a few cells alone.
+    /// Share of the velocity that the points carry (FLIP). They read the rest back from the grid
+    /// (PIC), which filters out all that the grid cannot represent. One per cent of PIC calms
+    /// cell-crossing noise within 0.2 s at the slope's step. It leaves waves longer than a few
+    /// cells alone.
     double flip_fraction = 0.99;
     TimeIntegration time_integration = TimeIntegration::update_stress_last;
     double courant_number = 0.5;  ///< time step * (wave speed + point speed) / grid spacing
-    /// Share of a full node's mass below which a node's acceleration strains points less, see
-    /// move_nodes; 0: the least at which the time step is stable, and at least 0.01.
+    /// Share of a full node's mass below which a node's acceleration strains points less
+    /// (move_nodes). 0: the least at which the time step is stable, and at least 0.01.
     double least_node_mass = 0;
     double end_time = 0;  ///< s
 };
@@ -128,10 +129,10 @@ inline bool remaps_velocities(const Scene& scene) {
     return scene.time_integration == TimeIntegration::modified;
 }
 
-/// Checks a scene; throws std::invalid_argument that names its fault.
+/// Checks a scene. Throws std::invalid_argument that names its fault.
 void validate(const Scene& scene);
 
-/// The named parameters of a scene's effect, or none when the scene does not name it.
+/// Parameters of a scene's effect; null where the scene does not name it.
 Parameters* find_effect(Scene& scene, const std::string& name);
 
 }  // namespace mpm

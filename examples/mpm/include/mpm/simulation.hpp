@@ -19,8 +19,8 @@ struct RebalanceReport {
     std::int64_t moved_points = 0;  ///< over all ranks
 };
 
-/// Sums over all points; the energies over rigid bodies as well. In two dimensions all but
-/// `num_points` are per metre of depth.
+/// Sums over all points, energies over rigid bodies as well. In two dimensions all but `num_points`
+/// are per metre of depth.
 struct Totals {
     std::int64_t num_points = 0;
     double mass = 0;              ///< kg
@@ -61,21 +61,21 @@ class Simulation {
     std::int64_t num_points() const;  ///< over all ranks
     double max_speed() const;         ///< over all points, m/s
 
-    const Particles& particles()
-        const;                    ///< of this rank; columns by name, as "x", "displacement_x"
+    /// Points of this rank, columns by name, as "x", "displacement_x".
+    const Particles& particles() const;
     Positions positions() const;  ///< of this rank's points
     const Decomposition& decomposition() const;
 
-    /// Names of the kernels of a step in their order, the communication among them.
+    /// Names of the kernels of a step in their order, communication included.
     std::vector<std::string> kernels() const;
     /// Doubles in a message per shared node.
     std::size_t doubles_per_ghost_node() const;
-    /// Numbers of effects by name, as the place of a rigid body; the same on all ranks.
+    /// Numbers that effects report, by name, as the place of a rigid body. The same on all ranks.
     std::vector<std::pair<std::string, double>> reports() const;
     /// Sums over the points of all ranks. Collective.
     Totals totals() const;
 
-    /// A simulation of either dimension; private to the library.
+    /// A simulation of either dimension. Private to the library.
     class Model;
 
   private:

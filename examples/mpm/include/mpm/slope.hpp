@@ -11,9 +11,9 @@ inline constexpr int paper_slope_cells = 116;
 ///
 /// Crest at y = 20 m from x = 0 to 30, a 45 degree face to the toe at (50, 0), ground to x = 110,
 /// base at y = -15; rollers at the sides, fixed base, gravity applied at once as in the paper.
-/// Each cell holds 5 x 4 points. With 116 cells across there are 54,464 points, of all whole
-/// numbers of cells and nearly square lattices the nearest to the paper's 54,440, and
-/// cells of 0.948 m. Of the exact area 99.95 % is filled.
+/// Each cell holds 5 x 4 points. With 116 cells across, of 0.948 m, there are 54,464 points. No
+/// other whole number of cells with a nearly square lattice comes nearer to the paper's 54,440.
+/// They fill 99.95 % of the exact area.
 Scene slope_scene(int cells_across = paper_slope_cells);
 
 }  // namespace mpm

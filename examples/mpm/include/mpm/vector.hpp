@@ -9,7 +9,7 @@ namespace mpm {
 /// Position, velocity or force; in two dimensions the third component is 0.
 using Vector = std::array<double, 3>;
 
-/// Closed axis-aligned box in metres; open sides are +-infinity, lower above upper is empty.
+/// Closed axis-aligned box in metres. Open sides are +-infinity. Lower above upper is empty.
 struct Box {
     Vector lower{};
     Vector upper{};
@@ -20,8 +20,8 @@ inline bool contains(const Box& box, const Vector& at) {
            at[1] <= box.upper[1] && at[2] >= box.lower[2] && at[2] <= box.upper[2];
 }
 
-/// Borrowed positions of material points in metres; all columns have the same length, but for
-/// `z`, which is empty in two dimensions.
+/// Borrowed positions of material points in metres, columns of the same length. In two dimensions
+/// `z` is empty.
 struct Positions {
     std::span<const double> x;
     std::span<const double> y;

@@ -19,7 +19,7 @@ std::array<int, 3> num_points_along(const Scene& scene, const Body& body) {
     return count;
 }
 
-/// Distance of the points; in two dimensions a metre along z.
+/// Distance of neighbouring points along the axes, m; in two dimensions 1 along z.
 Vector lattice_spacing(const Scene& scene, const Body& body) {
     Vector step{1, 1, 1};
     for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
@@ -41,12 +41,12 @@ void visit_body(const Scene& scene, const Body& body, Visit visit) {
             }
 }
 
-/// Positions apart by this tell the gradient of the velocity at the start, m.
+/// Distance of the positions whose velocities tell the gradient at the start, m.
 double difference_step(const Scene& scene) {
     return 0.25 * scene.grid.spacing;
 }
 
-/// Two positions around a point, apart along an axis.
+/// Positions below and above a point along an axis.
 std::pair<Vector, Vector> around(const Scene& scene, const Vector& at, std::size_t axis) {
     std::pair<Vector, Vector> below_and_above{at, at};
     below_and_above.first[axis] -= 0.5 * difference_step(scene);
@@ -64,7 +64,8 @@ void require_finite(const Body& body, const Vector& at) {
     }
 }
 
-/// Checks what place_points will ask of a body's velocity, on all ranks alike.
+/// Checks the velocities of a body that place_points will ask for. All ranks check all points, so
+/// that they fail together.
 void check_velocity(const Scene& scene, const Body& body, const Vector& at) {
     if (!body.velocity) return;
     require_finite(body, at);
@@ -113,7 +114,7 @@ class RowWriter {
   private:
     std::size_t num_axes() const { return static_cast<std::size_t>(scene_.dimension); }
 
-    /// The gradient of the velocity at the start, from differences over a quarter of a cell.
+    /// Writes the gradient of the velocity at the start, by differences.
     void write_affine(const Body& body, const Vector& at) {
         if (affine_.empty() || !body.velocity) return;
         const double step = difference_step(scene_);

@@ -14,11 +14,11 @@ struct Extent {
     Box box;  ///< empty without points
 };
 
-/// Extent of a scene; throws std::invalid_argument that names a point whose velocity is not finite.
+/// Extent of a scene. Throws std::invalid_argument that names a point whose velocity is not finite.
 Extent extent_of(const Scene& scene);
 
-/// Appends the scene's points that `rank` owns; columns other than those of
-/// motion and `material` start with their initial values.
+/// Appends the scene's points that `rank` owns. Columns other than those of motion and `material`
+/// start with their initial values.
 void place_points(const Scene& scene, const Decomposition& decomposition, int rank,
                   const MotionColumns& motion, Particles& particles);
 

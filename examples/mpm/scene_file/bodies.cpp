@@ -59,7 +59,7 @@ Region read_region(List shapes, int dimension) {
     for (const std::string& name : names) {
         List list = shapes.take_list(name);
         std::vector<Vector> corners;
-        // Corners are rows in the plane, in three dimensions too; the rest are plain parameters.
+        // Corners are rows of x and y, in three dimensions too. All else is plain parameters.
         if (list.has("corners")) corners = list.take_rows("corners", 2);
         const std::string shape = word_of(list, "shape");
         const Values values = list.values(shape_rules(shape), dimension);

@@ -9,7 +9,7 @@ namespace mpm {
 /// Body of a list.
 Body read_body(List list, const std::string& name, int dimension);
 
-/// A list of whole numbers along the axes, each at least 1; 1 beyond the dimension.
+/// Whole numbers of a list along the axes, each at least 1; 1 beyond the dimension.
 std::array<int, 3> whole_numbers(const List& list, const std::string& name,
                                  const std::vector<double>& numbers);
 

@@ -26,7 +26,7 @@ struct Calculator {
                                 "sin, cos, exp, ln, sqrt, abs, min(a, b)");
 }
 
-/// muParser would take a lone = as an assignment to a coordinate.
+/// Throws for a lone =, which muParser would take as an assignment to a coordinate.
 void refuse_assignments(const std::string& text, int dimension) {
     for (std::size_t i = 0; i < text.size(); ++i) {
         if (text[i] != '=') continue;

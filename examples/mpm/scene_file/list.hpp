@@ -17,17 +17,17 @@ class List {
 
     const std::string& place() const { return place_; }
 
-    /// Names of the lists in this one, in the order of the file; throws where anything else is
-    /// there.
+    /// Names of the lists in this one, in the order of the file. Throws where it holds anything
+    /// else.
     std::vector<std::string> sublist_names() const;
     bool has(const std::string& name) const { return list_.isParameter(name); }
-    /// Throws for a list that nobody has taken, with the possible lists.
+    /// Throws for a list that nobody has taken. The text names the possible ones.
     void refuse_other_lists(const std::string& possible) const;
-    /// Takes out the list of this name, empty where there is none; throws where it is no list.
+    /// Takes out the list of this name, empty where there is none. Throws where it is no list.
     List take_list(const std::string& name);
     /// Takes out rows of as many numbers as there are dimensions.
     std::vector<Vector> take_rows(const std::string& name, int dimension);
-    /// Takes out as many texts as there are dimensions; numbers count as texts, too.
+    /// Takes out as many texts as there are dimensions. Numbers count as texts, too.
     std::vector<std::string> take_texts(const std::string& name, int dimension);
     /// Entries not taken, which must be numbers, words and rows of numbers.
     Parameters parameters() const;

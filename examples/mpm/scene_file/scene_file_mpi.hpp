@@ -21,9 +21,10 @@ struct SceneFile {
 
 enum class SceneFormat { yaml, xml };
 
-/// Scene of a text; `name` is that of the file, for errors and the scene's name. Not collective.
+/// Scene of a text. `name` is that of the file, for errors and as the scene's name. Not collective.
 ///
-/// Throws std::invalid_argument that names the file, the place and key, and what is allowed.
+/// Throws std::invalid_argument that names the file, the place and the key, and tells what is
+/// allowed.
 SceneFile parse_scene(const std::string& text, SceneFormat format, const std::string& name);
 
 /// Scene of a file, XML where its name ends in .xml and YAML otherwise.
@@ -31,7 +32,7 @@ SceneFile parse_scene(const std::string& text, SceneFormat format, const std::st
 /// Collective over `comm`: rank 0 reads, and an error is thrown on all ranks.
 SceneFile read_scene(const std::string& path, MPI_Comm comm);
 
-/// Gives a scene's domain cells of another size, m; the domain may grow by part of a cell at its
+/// Gives a scene's domain cells of another size, m. The domain may grow by part of a cell at its
 /// upper sides.
 void resize_cells(Scene& scene, double cell_size);
 

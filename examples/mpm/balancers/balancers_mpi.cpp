@@ -27,7 +27,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 3> without_b
                                 "; choose from: " + balancer_names());
 }
 
-/// Options of the paper's two methods, and of ours.
+/// Options of the paper's two methods, and of the library's own.
 rrcb::Options options_of(const std::string& name) {
     rrcb::Options options;
     if (name == "rrcb-exact") options.refine = rrcb::Refine::exact;

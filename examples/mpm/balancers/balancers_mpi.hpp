@@ -12,6 +12,5 @@ std::string balancer_names();
 ///
 /// The simulation asks for one box a rank: it lays a rank's grid over its box, and a point stays
 /// with its rank until it leaves the box. Throws std::invalid_argument for a method whose parts are
-/// no boxes, and for a name that is not known. Zoltan_Initialize must have been called. Not
-/// collective.
+/// no boxes, and for an unknown name. Zoltan_Initialize must have been called. Not collective.
 std::optional<mpm::Balancer> make_balancer(const std::string& name);

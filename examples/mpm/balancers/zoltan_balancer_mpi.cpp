@@ -102,7 +102,7 @@ class ZoltanRcb {
         for (int i = 0; code >= 0 && i < num_exports; ++i) owners[export_lids[i]] = export_parts[i];
         Zoltan_LB_Free_Part(&import_gids, &import_lids, &import_ranks, &import_parts);
         Zoltan_LB_Free_Part(&export_gids, &export_lids, &export_ranks, &export_parts);
-        // Negative codes are errors; one rank's is thrown on all.
+        // Negative codes are errors. All ranks throw the one of any.
         MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MIN, comm);
         if (code < 0)
             throw std::runtime_error("Zoltan_LB_Partition returned " + std::to_string(code));
@@ -114,7 +114,7 @@ class ZoltanRcb {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         mpm::Box box{{-open, -open, -open}, {open, open, open}};
         int num_axes = 0;
-        // Of a single part Zoltan says that its box is the origin.
+        // Zoltan tells the origin as the box of a single part.
         const int code =
             num_parts == 1
                 ? ZOLTAN_OK
@@ -139,7 +139,7 @@ class ZoltanRcb {
 }  // namespace
 
 mpm::Balancer zoltan_balancer(ZoltanParameters parameters) {
-    // Boxes and look-ups are asked of the cuts, by parts that are ranks; the last setting counts.
+    // Boxes and look-ups need kept cuts, and parts that are ranks. The last setting counts.
     parameters.insert(parameters.end(),
                       {{"KEEP_CUTS", "1"}, {"RETURN_LISTS", "PARTS"}, {"REMAP", "0"}});
     auto zoltan = std::make_shared<std::unique_ptr<ZoltanRcb>>();

@@ -15,7 +15,7 @@ struct Extremes {
     double front_x, top_y, num_points;
 };
 
-/// The largest over the points of all ranks, and of the numbers of points.
+/// Extremes over the points of all ranks, and the largest number of points of a rank. Collective.
 Extremes extremes_of(const Simulation& simulation, double cell_size, double lower_x,
                      MPI_Comm comm) {
     const Particles& particles = simulation.particles();

@@ -13,7 +13,7 @@ namespace mpm {
 
 namespace {
 
-/// The name of a column without the axis, when it is the first of a vector.
+/// Name of a vector whose first column this is, without the axis.
 std::string vector_name(const std::string& column) {
     constexpr std::string_view ending = "_x";
     if (!column.ends_with(ending)) return "";
@@ -24,7 +24,7 @@ bool is_vector(const Particles& particles, const std::string& name) {
     return !name.empty() && particles.has_column(name + "_x") && particles.has_column(name + "_y");
 }
 
-/// Columns as rows of three, those that are not there 0.
+/// Columns x, y and z of a vector as rows of three; 0 for a missing one.
 std::vector<double> triples(const Particles& particles, const std::string& prefix) {
     std::vector<double> rows(3 * particles.size());
     for (std::size_t a = 0; a < 3; ++a) {

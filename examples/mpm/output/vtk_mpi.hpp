@@ -8,10 +8,10 @@
 
 namespace mpm {
 
-/// Pictures of a simulation that ParaView opens: points.pvd, the material points with all their
-/// columns and the rank that has them, and boxes.pvd, the boxes of the ranks.
+/// Series of files that ParaView opens: points.pvd has the material points with all their columns
+/// and their rank, boxes.pvd the boxes of the ranks.
 ///
-/// Every rank writes its points (VTP) and rank 0 the rest (PVTP, VTU, PVD).
+/// Every rank writes its points (VTP), rank 0 all else (PVTP, VTU, PVD).
 class VtkSeries {
   public:
     VtkSeries(std::string folder, const Scene& scene, MPI_Comm comm);

@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view digits =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/// Four digits of up to three bytes.
+/// Appends the four digits of up to three bytes.
 void append_group(const std::byte* bytes, std::size_t count, std::string& text) {
     std::uint32_t group = 0;
     for (std::size_t i = 0; i < 3; ++i)

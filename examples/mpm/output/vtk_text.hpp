@@ -9,7 +9,7 @@
 
 namespace mpm {
 
-/// Bytes as VTK's XML wants them: their length as 64 bits, then they, in base 64.
+/// Bytes in the form of VTK's XML: in base 64, after their length in 64 bits.
 std::string base64(std::span<const std::byte> bytes);
 
 /// Writes one array of numbers of a VTK file.
@@ -21,7 +21,7 @@ void write_array(std::ofstream& file, std::string_view type, std::string_view na
          << base64(std::as_bytes(values)) << "\n</DataArray>\n";
 }
 
-/// The start of a VTK file of a type, up to what it holds.
+/// Writes the start of a VTK file of a type, up to its contents.
 void write_head(std::ofstream& file, std::string_view type);
 
 }  // namespace mpm

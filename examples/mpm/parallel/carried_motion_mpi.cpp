@@ -6,7 +6,7 @@ namespace mpm {
 
 namespace {
 
-/// The doubles to or from each rank, one rank after the other.
+/// Doubles to or from all ranks, one rank after the other.
 struct Message {
     std::vector<double> values;
     std::vector<int> counts, offsets;
@@ -15,7 +15,7 @@ struct Message {
 template <int D>
 constexpr std::size_t width = sizeof(NodeMotion<D>) / sizeof(double);
 
-/// Room for the nodes that a range shares with those of each rank.
+/// Message with room for the nodes that a range shares with that of each rank.
 template <int D>
 Message room(const NodeRange<D>& mine, std::span<const NodeRange<D>> others) {
     Message message;
@@ -32,7 +32,7 @@ Message room(const NodeRange<D>& mine, std::span<const NodeRange<D>> others) {
     return message;
 }
 
-/// Calls visit(motion of a node of the patch, its place in a message) for all that are in it.
+/// Calls visit(motion of a node of the patch, its place in the message) for each shared node.
 template <int D, typename Patch, typename Visit>
 void visit_motion(Patch& patch, std::span<const NodeRange<D>> others, Visit visit) {
     std::size_t at = 0;

@@ -114,7 +114,7 @@ void GhostNodes<D>::add_up(Slice slice) {
     exchange(slice);
     pack(slice, shared_, own_);
     for (const std::size_t n : shared_) slice.clear(n);
-    // From 0 on and in the order of the ranks, this one in its place: the same bits on all.
+    // All ranks add from 0 on in the order of the ranks, so they get the same bits.
     std::size_t neighbour = 0;
     for (; neighbour < ranks_.size() && ranks_[neighbour] < rank_; ++neighbour)
         unpack(incoming_[neighbour], nodes_[neighbour], slice);

@@ -10,7 +10,7 @@
 
 namespace mpm {
 
-/// The nodes a rank's patch shares with those of other ranks, and their summation.
+/// Nodes that a rank's patch shares with those of other ranks, and their sums.
 template <int D>
 class GhostNodes {
   public:
@@ -26,14 +26,15 @@ class GhostNodes {
     /// Sums the momenta alone. Collective over the neighbours.
     void sum_momentum(GridPatch<D>& patch);
 
-    /// Marks the nodes this rank stands for; the lowest rank that has a node stands for it.
+    /// Marks the nodes that this rank counts in sums over the ranks. The lowest rank of a node
+    /// does.
     void mark_counted(GridPatch<D>& patch) const;
 
     /// Ranks that share a node with this one, ascending.
     const std::vector<int>& neighbours() const { return ranks_; }
 
   private:
-    /// Sums a slice: the part of each node that takes part.
+    /// Sums a slice: some of the numbers of each node.
     template <typename Slice>
     void add_up(Slice slice);
     template <typename Slice>
@@ -46,8 +47,8 @@ class GhostNodes {
     std::vector<std::vector<double>> outgoing_;    ///< one message per neighbour
     std::vector<std::vector<double>> incoming_;
     std::vector<MPI_Request> requests_;
-    std::vector<std::size_t> shared_;  ///< nodes of the patch with any neighbour
-    std::vector<double> own_;          ///< this rank's contribution to them
+    std::vector<std::size_t> shared_;  ///< nodes of the patch that any neighbour has
+    std::vector<double> own_;          ///< this rank's contributions to the shared nodes
 };
 
 }  // namespace mpm

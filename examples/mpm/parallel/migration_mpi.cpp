@@ -10,7 +10,7 @@ namespace {
 
 constexpr int migration_tag = 2;
 
-/// The rows that go to one rank.
+/// Rows of the points that go to one rank.
 struct Message {
     int rank;
     std::vector<double> rows;

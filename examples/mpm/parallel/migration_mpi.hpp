@@ -9,7 +9,7 @@
 
 namespace mpm {
 
-/// Distance that points must travel; the largest over all ranks decides.
+/// Distance that points must travel. The largest over all ranks decides.
 enum class Reach { nowhere, neighbours, anywhere };
 
 /// Points that leave a rank: local indices, ascending, and the rank each goes to.
@@ -21,8 +21,8 @@ struct Leavers {
 /// Sends the leavers with all their columns, one message per receiver, and appends the points
 /// that arrive, in ascending order of the sender.
 ///
-/// Collective; `reach` is the same on all ranks. Within `neighbours` (ascending, mutual) each pair
-/// exchanges a message; elsewhere ranks first exchange who sends to whom. Returns the number of
+/// Collective. `reach` is the same on all ranks. Within `neighbours` (ascending, mutual) each pair
+/// exchanges a message. Beyond, ranks first exchange who sends to whom. Returns the number of
 /// points that arrived.
 std::size_t migrate(Particles& particles, const Leavers& leavers, Reach reach,
                     std::span<const int> neighbours, MPI_Comm comm);

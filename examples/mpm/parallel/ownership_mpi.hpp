@@ -30,8 +30,8 @@ class Ownership {
     /// Finds the points that a new decomposition gives to other ranks. Not collective.
     void find_reassigned(const Decomposition& next, Positions positions);
 
-    /// Largest reach and speed over the ranks. Collective; throws std::runtime_error on all ranks
-    /// when one has found a fault since the last agreement.
+    /// Largest reach and speed over the ranks. Collective. Throws std::runtime_error on all ranks
+    /// where one has found a fault since the last agreement.
     Agreement agree(double speed);
 
     const Leavers& leavers() const { return leavers_; }

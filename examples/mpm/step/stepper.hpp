@@ -14,7 +14,7 @@
 
 namespace mpm {
 
-/// A simulation of either dimension; every call is one of a step, never of a point.
+/// A simulation of either dimension. Its virtual calls are per step, never per point.
 class Simulation::Model {
   public:
     virtual ~Model() = default;
@@ -33,7 +33,7 @@ class Simulation::Model {
     double time = 0, time_step = 0, max_speed = 0;
 };
 
-/// A scene of D dimensions in time; `step` is the list of its stages.
+/// A scene of D dimensions in time. `step` is the list of its stages.
 template <int D>
 class Stepper final : public Simulation::Model {
   public:
@@ -66,7 +66,7 @@ class Stepper final : public Simulation::Model {
     MotionColumns motion_ = add_motion_columns(particles, D);
     std::unique_ptr<Transfers<D>> transfers_;
     std::vector<MaterialModel<D>> materials_;
-    std::optional<Column> material_column_;  ///< where there is more than one
+    std::optional<Column> material_column_;  ///< where the scene has several materials
     Stages<D> stages_;
     std::unique_ptr<VelocityRemap<D>> velocity_remap_;  ///< where the scene asks for it
     double wave_speed_ = 0, least_mass_ = 0;

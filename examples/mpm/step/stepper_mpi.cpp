@@ -14,7 +14,7 @@ namespace {
 
 /// Steps between sorts, within which points cross few cells.
 constexpr int sort_interval = 50;
-/// Arrivals are appended; when this share of the points is out of order it is sorted at once.
+/// Share of the points, appended as they arrive, above which they are sorted at once.
 constexpr double tolerated_disorder = 0.1;
 
 MPI_Comm duplicate(MPI_Comm comm) {
@@ -33,11 +33,11 @@ double max_wave_speed(const Scene& scene) {
     return largest;
 }
 
-/// Scene::least_node_mass, or what keeps layers of points stable.
+/// Scene::least_node_mass, or the least share that keeps layers of points stable.
 ///
-/// A node that only the rim of a layer touches is as stiff as a full one but light: in units of
-/// the cell, its frequency squared is 1 / (layers * share of mass) wave speeds; beside its
-/// neighbours and at a corner it must stay near 1 per time step.
+/// A node that only the rim of a layer touches is as stiff as a full one, but light. In units of
+/// cell and wave speed, its frequency squared is 1 / (layers * share of mass). The frequency must
+/// stay near 1 per time step beside heavier neighbours and at a corner.
 double least_mass_share(const Scene& scene, const Body& body) {
     constexpr double least = 0.01;
     if (scene.least_node_mass > 0) return scene.least_node_mass;
@@ -58,7 +58,7 @@ double least_mass(const Scene& scene) {
     return largest;
 }
 
-/// Stages of a scene: its walls and planes enter them before its effects, and images last.
+/// Stages of a scene. Walls and planes enter them before effects, mirror images in walls last.
 template <int D>
 Stages<D> build_stages(const Scene& scene, Particles& particles) {
     Stages<D> stages;
@@ -179,7 +179,7 @@ void Stepper<D>::apply_materials(const PointBlock<D>& block) {
     }
     const std::span<const double> material = particles[*material_column_];
     PointBlock<D> part = block;
-    // A part is all of the block up to the next change of material.
+    // A part of the block ends at the next change of material.
     for (part.begin = block.begin; part.begin < block.end; part.begin = part.end) {
         const double number = material[part.begin];
         part.end = part.begin + 1;
@@ -216,7 +216,8 @@ void Stepper<D>::set_time_step(double fastest) {
     time_step = scene_.courant_number * scene_.grid.spacing / (wave_speed_ + max_speed);
 }
 
-/// Counts the arrivals, and sorts when enough points are out of order to slow the transfers down.
+/// Counts the arrivals. Sorts once so many points are out of order that they slow the transfers
+/// down.
 template <int D>
 void Stepper<D>::take_in(std::size_t num_arrived) {
     num_out_of_order_ += num_arrived;

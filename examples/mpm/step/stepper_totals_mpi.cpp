@@ -6,7 +6,7 @@ namespace mpm {
 
 namespace {
 
-/// Sums of one rank, all doubles so that one reduction adds them.
+/// Sums of one rank, all of them doubles: one reduction adds them.
 struct Sums {
     double mass = 0, kinetic_energy = 0, strain_energy = 0, dissipated_energy = 0, num_sent = 0;
     Vector moment{}, momentum{};
@@ -49,7 +49,7 @@ double Stepper<D>::strain_energy(std::size_t point) const {
     return materials_[material].strain_energy(particles, point);
 }
 
-/// Starts the points; the energy they hold from the start is no loss.
+/// Starts the points. The energy that they hold from the start is no loss.
 template <int D>
 void Stepper<D>::start_points() {
     for (const auto& start : stages_.starts) start(particles);

@@ -10,7 +10,8 @@
 
 namespace {
 
-/// Number of an option, or `none` where it is not given; throws std::invalid_argument.
+/// Number of an option, or `none` where it is not given. Throws std::invalid_argument for no
+/// number.
 template <typename Number>
 Number number(const std::string& option, const std::string& text, Number none, Number least) {
     if (text.empty()) return none;
@@ -23,7 +24,7 @@ Number number(const std::string& option, const std::string& text, Number none, N
     return value;
 }
 
-/// Numbers as text, because Teuchos tells of one it cannot read on rank 0 only.
+/// Numbers of options as texts: Teuchos would report a wrong one on rank 0 alone.
 struct Texts {
     std::string every, vtk_every, end_time, cell_size;
 };

@@ -17,6 +17,5 @@ struct Arguments {
 
 /// Arguments of a command line, or none where it only asks for help.
 ///
-/// Not collective; all ranks must be given the same. Throws std::invalid_argument that names the
-/// option.
+/// Not collective; all ranks pass the same. Throws std::invalid_argument that names the option.
 std::optional<Arguments> read_arguments(int argc, char** argv);

@@ -37,7 +37,7 @@ void list_kernels(const mpm::Simulation& simulation) {
                 simulation.doubles_per_ghost_node());
 }
 
-/// Files of the output plan, in a folder that rank 0 makes.
+/// Files that the output plan asks for, in a folder that rank 0 makes.
 class Recorder {
   public:
     Recorder(const std::string& folder, const mpm::SceneFile& file, MPI_Comm comm)

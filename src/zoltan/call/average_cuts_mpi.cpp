@@ -20,14 +20,15 @@ void widen(Box& box, const Vector& lower, const Vector& upper) {
     }
 }
 
-/// Above `lower`, not above `upper`, which is greater.
+/// Number halfway between two, greater than `lower` and at most `upper`, which is greater.
 double between(double lower, double upper) {
     // Not lower + (upper - lower) / 2, which overflows.
     const double middle = lower / 2 + upper / 2;
     return middle > lower ? middle : upper;
 }
 
-/// The box of the points of a node, by those of its parts; tells it for both sides of each cut.
+/// Box of the points of a node, joined from those of its parts. Calls tell(node, box below, box
+/// above) for each cut.
 template <class Tell>
 Box join_boxes(const Cuts& cuts, Descent at, std::span<const Box> of_parts, Tell&& tell) {
     if (at.is_part()) return of_parts[static_cast<std::size_t>(at.first_part)];
@@ -61,7 +62,7 @@ void CutAverage::run(const Points& points, std::span<const Part> parts, MPI_Comm
         const double upper = -gaps_[node].minus_upper;
         if (!std::isfinite(lower) || !std::isfinite(upper) || !(lower < upper)) continue;
         Cut& cut = cuts.tree[node];
-        // What lies on the plane lies above it, whatever its other coordinates.
+        // Points on the plane lie above the cut, whatever their other coordinates.
         cut.at.fill(-infinity);
         cut.at[static_cast<std::size_t>(cut.axis)] = between(lower, upper);
     }

@@ -14,10 +14,10 @@ namespace {
 
 std::atomic<bool> registered = false;
 
-/// What Zoltan_Special_Malloc calls an array, as it numbers them.
+/// Kinds of arrays, as Zoltan_Special_Malloc numbers them.
 enum class Kind : int { integers, global_ids, local_ids };
 
-/// The arrays of one list in the caller's variables; freed unless they are to stay.
+/// Arrays of one list in the caller's variables. The destructor frees them unless they are to stay.
 class FortranList {
   public:
     FortranList(Zoltan_Struct* zz, const CallerList& to) : zz_(zz), to_(to) {}
@@ -83,7 +83,7 @@ void copy_for_fortran(Zoltan_Struct* zz, const List& imports, const List& export
         import_copy.copy(imports);
         export_copy.copy(exports);
     });
-    // A rank without memory leaves all of them without lists: these are freed as the error passes.
+    // A rank without memory leaves all ranks without lists. The error frees those made here.
     agree(self);
     import_copy.stay();
     export_copy.stay();

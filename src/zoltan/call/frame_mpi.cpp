@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// What the ranks hold together, in a form of which the largest counts.
+/// Bounds of the coordinates of all ranks, in a form that a maximum reduces.
 struct Bounds {
     double dimension = 0;
     double minus_dimension = -max_dimension;
@@ -50,7 +50,7 @@ Bounds bounds_of(const Points& points, const Participant& self) {
     return bounds;
 }
 
-/// Count, mean and second central moments in units in which every coordinate is in [-1, 1].
+/// Count, mean and second central moments, in units that bring every coordinate into [-1, 1].
 struct Spread {
     double count = 0;
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -101,7 +101,7 @@ Spread spread_of(const Points& points, const Unit& unit) {
     return spread;
 }
 
-/// Columns are the principal axes; the largest entry of each is positive.
+/// Matrix whose columns are the principal axes. The largest entry of each is positive.
 template <int dimension>
 Eigen::Matrix3d principal_axes(const Eigen::Matrix3d& moments) {
     const Eigen::Matrix<double, dimension, dimension> used =
@@ -117,7 +117,8 @@ Eigen::Matrix3d principal_axes(const Eigen::Matrix3d& moments) {
     return axes;
 }
 
-/// A frame of all axes, in no order. Zoltan takes axes this near to the coordinate axes for these.
+/// Frame of all axes, in no order. Where all are near to coordinate axes, as Zoltan takes it, it
+/// picks these.
 Frame frame_of(const Eigen::Matrix3d& axes, const Unit& unit, int dimension) {
     constexpr double near_one = 0.9999;
     Frame frame{dimension, dimension, {-1, -1, -1}, unit.centre, {}};
@@ -138,8 +139,9 @@ Frame frame_of(const Eigen::Matrix3d& axes, const Unit& unit, int dimension) {
     return frame;
 }
 
-/// Axes of the moments of all ranks; the root merges these in the order of the ranks, so that the
-/// bits do not depend on how MPI would add them. Collective.
+/// Principal frame of the points of all ranks. Collective.
+///
+/// The root merges the moments in the order of the ranks: the bits do not depend on MPI's order.
 Frame principal_frame(const Points& points, const Unit& unit, Participant& self) {
     std::vector<Spread> spreads;
     const bool is_root = mpi::rank_of(self.comm) == root;
@@ -186,7 +188,7 @@ bool is_long(const Vector& extents, std::size_t axis, double ratio) {
     return extents[axis] >= std::ranges::max(extents) / ratio;
 }
 
-/// The frame with its longest axes first and the thin ones left out; none where all are long.
+/// Frame with its longest axes first and the thin ones left out. Without axes where all are long.
 Frame drop_thin_axes(const Frame& frame, const Vector& extents, double ratio) {
     if (!std::isfinite(std::ranges::max(extents))) return {};
     std::array<std::size_t, max_dimension> order{0, 1, 2};

@@ -5,12 +5,12 @@
 
 namespace rrcb::zoltan {
 
-/// The frame for the points of all ranks: by their principal axes where the extent along one is
-/// below the longest divided by `ratio` (> 1), as Zoltan decides it; weights do not count.
+/// Frame for the points of all ranks.
 ///
-/// `previous` (null, or not, on all ranks alike) is kept while the points are as flat in it.
-/// Collective; same bits on every rank. Points that the balancer refuses are not turned. Throws
-/// Error on all ranks alike when one of them failed on its own.
+/// It has their principal axes where the extent along one is below the longest divided by `ratio`
+/// (> 1), as in Zoltan. Weights do not count. `previous` (null on all ranks or on none) is kept
+/// while the points are as flat in it. Points that the balancer refuses are not turned. Collective;
+/// same bits on every rank. Throws Error on all ranks alike where one of them has failed.
 Frame choose_frame(const Points& points, double ratio, const Frame* previous, Participant& self);
 
 }  // namespace rrcb::zoltan

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double not_set = -1;
 
-/// How many parts there are; fills `local_parts` where any rank sets NUM_LOCAL_PARTS.
+/// Number of parts. Fills `local_parts` where any rank sets NUM_LOCAL_PARTS.
 int count_parts(const Outcome& outcome, const State& state, std::span<int> local_parts) {
     const Communicator& comm = *state.communicator;
     if (!outcome.any_local_parts)
@@ -24,7 +24,7 @@ int count_parts(const Outcome& outcome, const State& state, std::span<int> local
     return num_parts_of(local_parts, outcome.num_global_parts);
 }
 
-/// What this rank asks for of the parts from `first_part` on.
+/// Sizes that this rank asks for, of the parts from `first_part` on.
 void ask_for_sizes(const State& state, int weight, int first_here, int first_part,
                    std::span<double> sizes) {
     std::ranges::fill(sizes, not_set);
@@ -36,8 +36,9 @@ void ask_for_sizes(const State& state, int weight, int first_here, int first_par
     }
 }
 
-/// As Zoltan merges them: the largest that any rank asks for, 1 where none does. In pieces, for
-/// which every rank has the memory.
+/// Sizes of the parts, merged as in Zoltan: the largest that any rank asks for, 1 where none does.
+///
+/// They are merged in pieces, for which every rank has the memory.
 void merge_part_sizes(int num_parts, const State& state, int weight, const Layout& layout,
                       std::vector<double>& merged, Participant& self) {
     self.attempt([&] { merged.resize(static_cast<std::size_t>(num_parts)); });

@@ -15,14 +15,14 @@ namespace rrcb::zoltan {
 struct Layout {
     PartMap map;
     std::vector<double> part_sizes;  ///< relative; empty: equal
-    /// Those of an object's further weights, where each is balanced by itself.
+    /// Sizes for an object's further weights, where each is balanced by itself.
     std::array<std::vector<double>, most_weights - 1> further_sizes{};
 };
 
 /// The layout that the ranks ask for together.
 ///
 /// Collective only where NUM_LOCAL_PARTS or part sizes are set somewhere. Throws ZoltanError on all
-/// ranks alike for numbers of parts that do not add up; other errors are held back in `self`.
+/// ranks alike for numbers of parts that do not add up. `self` holds other errors back.
 Layout make_layout(const Outcome& outcome, const State& state, Participant& self);
 
 }  // namespace rrcb::zoltan

@@ -7,7 +7,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Where every object goes.
+/// Writes rank and part that every object goes to.
 void write_targets(std::span<const Part> new_parts, const PartMap& map, int my_rank, List& list) {
     int* ranks = list.ranks.get();
     std::ranges::copy(new_parts, list.parts.get());
@@ -20,8 +20,8 @@ void write_targets(std::span<const Part> new_parts, const PartMap& map, int my_r
     }
 }
 
-/// Tells whether an object changes its rank or part. Without a callback that names parts, Zoltan
-/// takes an object to be in the part of its rank's number.
+/// Test whether an object changes its rank or part. Without a callback that names parts, an object
+/// is in the part of its rank's number, as in Zoltan.
 class Moves {
   public:
     Moves(const List& list, const int* initial_parts, int my_rank)
@@ -49,7 +49,7 @@ void move_entry(T* array, std::size_t width, std::size_t from, std::size_t to) {
     }
 }
 
-/// Keeps the entries of objects that move, in their order. In place, so that it cannot fail.
+/// Keeps the entries of objects that move, in their order. It works in place, so it cannot fail.
 void keep_moving(const Moves& moves, const IdWidths& widths, List& list) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(list.count); ++i) {

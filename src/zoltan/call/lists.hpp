@@ -8,8 +8,8 @@
 
 namespace rrcb::zoltan {
 
-/// One of Zoltan's two lists. Arrays of an empty list are null; a count of -1 says that the list
-/// was not asked for.
+/// One of Zoltan's two lists. Arrays of an empty list are null. A count of -1 stands for a list
+/// that was not asked for.
 struct List {
     int count = 0;
     ZoltanArray<IdWord> global_ids;
@@ -33,18 +33,18 @@ struct CallerLists {
     CallerList exports;
 };
 
-/// What leaves this rank.
+/// Objects that leave this rank.
 struct Exports {
     List list;
     bool moves = false;  ///< the rank or part of some object of this rank changes
 };
 
-/// Objects of this rank whose rank or part changes, or all of them where RETURN_LISTS asks for
-/// parts. Takes the arrays out of `objects`, and so cannot fail. Not collective.
+/// Objects of this rank whose rank or part changes; all of them where RETURN_LISTS asks for parts.
+/// It takes the arrays out of `objects`, so it cannot fail. Not collective.
 Exports make_exports(Objects&& objects, const Parameters& parameters,
                      std::span<const Part> new_parts, const PartMap& map, int my_rank);
 
-/// All objects of this rank with the parts they are in. Takes the arrays, and so cannot fail.
+/// All objects of this rank with the parts they are in. It takes the arrays, so it cannot fail.
 List list_in_place(Objects&& objects, int my_rank);
 
 }  // namespace rrcb::zoltan

@@ -31,7 +31,7 @@ struct Record {
     }
 
   private:
-    // Word by word: widths are small, and known only at run time.
+    // Copied word by word: widths are small, and known at run time only.
     template <typename T>
     static std::byte* put(const T* array, std::size_t width, std::size_t i, std::byte* place) {
         for (std::size_t word = 0; word < width; ++word, place += sizeof(T))

@@ -29,15 +29,16 @@ double imbalance_of(const Report& report) {
                                                  : report.measured_imbalance;
 }
 
-/// Whether RCB_OUTPUT_LEVEL or FINAL_OUTPUT is above 0, or DEBUG_LEVEL at 10, from which Zoltan
-/// tells of REMAP.
+/// Whether RCB_OUTPUT_LEVEL or FINAL_OUTPUT is above 0, or DEBUG_LEVEL at least 10, as Zoltan then
+/// reports on REMAP.
 bool asks_for_report_line(const Parameters& parameters) {
     constexpr int debug_all = 10;
     return parameters.output_level > 0 || parameters.final_output > 0 ||
            parameters.debug_level >= debug_all;
 }
 
-/// The line of RCB_OUTPUT_LEVEL: size, imbalance, rounds and what the new part numbers saved.
+/// Line of RCB_OUTPUT_LEVEL: size, imbalance, rounds, and objects that new part numbers keep in
+/// place.
 std::string report_line(const Report& report, int num_parts, const Remap& remap) {
     const bool measured = !std::isnan(report.measured_imbalance);
     std::string text =
@@ -50,7 +51,7 @@ std::string report_line(const Report& report, int num_parts, const Remap& remap)
                          percent(remap.kept_before, remap.num_points));
 }
 
-/// What kept the parts from the balance asked for, a sentence each.
+/// Causes that kept the parts from the balance asked for, a sentence each.
 std::vector<std::string> balance_warnings(const Report& report, const Parameters& parameters) {
     std::vector<std::string> texts;
     if (report.least_imbalance > 1 && report.surplus_parts == 0) {
@@ -73,7 +74,7 @@ bool leaves_parts_empty(const Report& report) {
     return report.num_points > 0 && report.surplus_parts > 0;
 }
 
-/// On the one rank that prints.
+/// Prints warnings and line. Called on one rank.
 void print_messages(const Report& report, int num_parts, const Remap& remap,
                     const Parameters& parameters, const char* function) {
     if (asks_for_report_line(parameters))

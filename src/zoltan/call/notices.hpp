@@ -7,9 +7,10 @@
 
 namespace rrcb::zoltan {
 
-/// Prints on rank 0 what is legal but not as good as it was asked for, unless DEBUG_LEVEL is 0, and
-/// the line of RCB_OUTPUT_LEVEL where it is asked for. Not collective; lack of memory is no
-/// failure.
+/// Prints warnings and a report line on rank 0. Not collective; lack of memory is no failure.
+///
+/// Warnings tell where the result is legal but less than asked for; none with DEBUG_LEVEL 0. The
+/// line is that of RCB_OUTPUT_LEVEL, where it is asked for.
 void print_notices(const Report& report, int num_parts, const Remap& remap, const State& state,
                    const char* function) noexcept;
 

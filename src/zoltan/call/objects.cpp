@@ -10,7 +10,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// A registered callback with the data pointer it wants; false when there is none.
+/// A registered callback with its data pointer; false where there is none.
 template <typename Function>
 struct Callback {
     Function* function = nullptr;
@@ -110,7 +110,7 @@ class Collector {
         if (weight_dimension > 1) check_weights(count * stride);
     }
 
-    /// Several weights are summed; one that is at fault would hide in the sum.
+    /// Throws for a wrong weight. Several are summed later, and it would hide in the sum.
     void check_weights(std::size_t size) {
         const auto valid = [](float weight) { return std::isfinite(weight) && weight >= 0; };
         const float* fault = std::find_if_not(weights_, weights_ + size, valid);
@@ -212,7 +212,7 @@ class Collector {
         }
     }
 
-    /// What later steps write to: they run between messages, where no rank may fail alone.
+    /// Makes room for later steps: they run between messages, where no rank may fail alone.
     void make_room(std::size_t count) {
         if (parameters_.weight_dimension > 1) workspace_.weights.get(count);
         if (parameters_.return_lists == ReturnLists::none) return;

@@ -14,8 +14,8 @@
 
 namespace rrcb::zoltan {
 
-/// A word of an id. The Zoltan found at run time decides how many words an entry of NUM_GID_ENTRIES
-/// has, whatever ZOLTAN_ID_TYPE was where the plug-in was compiled.
+/// A word of an id. An entry of NUM_GID_ENTRIES has one or two, as the Zoltan found at run time
+/// decides, whatever ZOLTAN_ID_TYPE was where the plug-in was compiled.
 using IdWord = std::uint32_t;
 
 /// The same memory for Zoltan, whose own word may be wider.
@@ -46,8 +46,8 @@ struct Objects {
     Points points;                   ///< borrowed from the workspace
 };
 
-/// The objects, from the registered callbacks. Not collective. Throws ZoltanError for a missing or
-/// failing callback, a negative count, or a dimension that is not 1, 2 or 3.
+/// Objects by the registered callbacks. Not collective. Throws ZoltanError for a missing or failing
+/// callback, a negative count, and a dimension other than 1, 2 or 3.
 Objects collect_objects(Zoltan_Struct* zz, const Parameters& parameters, Workspace& workspace);
 
 }  // namespace rrcb::zoltan

@@ -50,7 +50,7 @@ void check_parameters(const State& state, bool one_part_per_rank) {
     }
 }
 
-/// Everything one rank does alone, errors and foreign exceptions included.
+/// Result of all that one rank does alone. Errors and foreign exceptions become a status.
 LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Objects& objects) {
     try {
         check_parameters(state, one_part_per_rank);
@@ -108,16 +108,16 @@ struct Call {
     const char* function;
     const CallerLists& to;
     std::optional<KeptPartition> previous;
-    bool may_start_there = false;  ///< its axes are those that this one chooses
+    bool may_start_there = false;  ///< its axes are those that this call chooses
 };
 
-/// The objects where they are cut: in their principal axes where REDUCE_DIMENSIONS finds them flat.
+/// Positions that are cut: in their principal axes where REDUCE_DIMENSIONS finds the objects flat.
 struct Flattened {
     Frame frame;
     Points points;
 };
 
-/// Collective where REDUCE_DIMENSIONS is set.
+/// Positions for the cuts. Collective where REDUCE_DIMENSIONS is set.
 Flattened flatten(const Call& call, const Objects& objects, Participant& self) {
     const Parameters& parameters = call.state.parameters;
     Flattened flat{{}, objects.points};
@@ -131,7 +131,8 @@ Flattened flatten(const Call& call, const Objects& objects, Participant& self) {
     return flat;
 }
 
-/// What a call needs beside its objects; made before the ranks agree for the last time.
+/// Options and memory of a call, made before the ranks agree for the last time: no rank may fail
+/// alone afterwards.
 struct Preparation {
     Options options;
     const Cuts* previous = nullptr;  ///< to start from
@@ -167,8 +168,9 @@ Preparation prepare(const Call& call, const Layout& layout, const Objects& objec
     return made;
 }
 
-/// Lists what leaves, tells whether anything does on any rank, and takes the sums by which the next
-/// call knows its objects again: one reduction for both.
+/// Lists the objects that leave, and tells whether any does on any rank. Sums the checksums by
+/// which the next call knows its objects again. Collective unless RETURN_LISTS is NONE: one
+/// reduction for both.
 void list_exports(const Call& call, const Layout& layout, Objects&& objects,
                   const Balance& balanced, Rest& rest, Partition& result) {
     const Parameters& parameters = call.state.parameters;
@@ -188,7 +190,7 @@ void list_exports(const Call& call, const Layout& layout, Objects&& objects,
     rest.checksums.pop_back();
 }
 
-/// Keeps what the next call may need of this one.
+/// Keeps cuts, parts and checksums for the next call.
 void keep(Preparation&& prepared, Balance&& balanced, const Frame& frame, PartMap&& map,
           std::vector<Part>&& numbers, State& state) {
     prepared.kept->keep(std::move(balanced.cuts), frame, std::move(map), std::move(numbers));
@@ -199,15 +201,15 @@ void keep(Preparation&& prepared, Balance&& balanced, const Frame& frame, PartMa
     state.axes_changed = false;
 }
 
-/// Puts the lists where the caller wants them, where Zoltan's Fortran interface is used on any
-/// rank. Collective there.
+/// Puts the lists into the caller's variables where Zoltan's Fortran interface is used on any rank.
+/// Collective there.
 void serve_fortran(const Call& call, const Outcome& outcome, Partition& result, Participant& self) {
     if (!outcome.any_fortran) return;
     copy_for_fortran(call.zz, result.imports, result.exports, call.to, self);
     result.with_caller = true;
 }
 
-/// The answer where nothing has changed on any rank since the last partition. Collective as
+/// Answers a call where nothing has changed on any rank since the last partition. Collective as
 /// serve_fortran is.
 int stay(const Call& call, const Outcome& outcome, Objects&& objects, Partition& result) {
     State& state = call.state;
@@ -220,8 +222,10 @@ int stay(const Call& call, const Outcome& outcome, Objects&& objects, Partition&
     return ZOLTAN_OK;
 }
 
-/// By the norm of the weights that is asked for; after the sum of the weights, where the balancer
-/// has looked at all that may be wrong. Collective.
+/// Divides the objects, those of several weights by the norm that is asked for. Collective.
+///
+/// They are divided by the sum of their weights first, since the balancer then has checked all
+/// input.
 Balance divide(const Call& call, const Layout& layout, const Preparation& prepared,
                const Objects& objects, const Points& points, Participant& self) {
     const Parameters& parameters = call.state.parameters;

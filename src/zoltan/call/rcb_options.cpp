@@ -9,7 +9,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// RCB_SET_DIRECTIONS 1 ... 6; out of bounds is taken as 1, as Zoltan does.
+/// Axes in the order of RCB_SET_DIRECTIONS, 1 ... 6. Other values count as 1, as in Zoltan.
 std::vector<int> axis_order(int set_directions, int dimension) {
     constexpr std::array<std::array<int, 3>, 6> orders = {
         {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}}};

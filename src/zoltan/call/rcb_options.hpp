@@ -12,34 +12,35 @@
 
 namespace rrcb::zoltan {
 
-/// The balancer's options for one call. `previous` are the cuts of the last call, or null.
+/// Options of the balancer for one call. `previous`: cuts of the last call, or null.
 ///
 /// RCB_LOCK_DIRECTIONS takes their axes; otherwise RCB_SET_DIRECTIONS names the order of axes.
 Options make_options(const Parameters& parameters, const Layout& layout, int dimension,
                      const Cuts* previous);
 
-/// Whether RCB_REUSE holds. Where RRCB replaces RCB it does by default: a distribution in balance
+/// Whether RCB_REUSE holds. By default it does where RRCB replaces RCB: a balanced distribution
 /// then stays as it is.
 bool reuses_cuts(const Parameters& parameters);
 
 /// Whether objects have several weights, of which a norm is balanced (RCB_MULTICRITERIA_NORM). The
-/// balancer then makes no more than an estimate.
+/// balancer then makes an estimate only.
 bool has_several_weights(const Parameters& parameters);
 
-/// Whether the search is to start from the cuts of the last call (RCB_REUSE). It may only where it
+/// Whether the search starts from the cuts of the last call (RCB_REUSE). Only a refinement does: it
 /// goes on from there to the balance asked for.
 bool starts_from_previous(const Parameters& parameters);
 
 /// Whether look-ups may use the cuts.
 bool keeps_cuts(const Parameters& parameters);
 
-/// Whether the parameter decides which axes are cut: older cuts may lie across others.
+/// Whether the parameter decides which axes are cut. After a change older cuts may cross other
+/// axes.
 bool chooses_axes(std::string_view name);
 
-/// DEGENERATE_RATIO, or its default where that makes no sense.
+/// DEGENERATE_RATIO, or its default where it is at most 1.
 double degenerate_ratio(const Parameters& parameters);
 
-/// What is asked for and not kept, one sentence each, in Zoltan's words where it has some.
+/// Warnings of settings that are not kept, a sentence each, in Zoltan's words where it has some.
 std::vector<std::string> parameter_warnings(const Parameters& parameters);
 
 }  // namespace rrcb::zoltan

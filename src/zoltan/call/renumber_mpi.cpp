@@ -11,7 +11,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Where objects are to keep their part, not only their rank.
+/// Whether objects are to keep their part, not only their rank.
 bool by_part(const Layout& layout, const Objects& objects) {
     return !layout.map.one_each && objects.names_parts;
 }
@@ -33,7 +33,7 @@ Renumbering::Renumbering(const Parameters& parameters, const Layout& layout, con
     const int num_parts = layout.map.num_parts();
     unchanged_.numbers.resize(static_cast<std::size_t>(num_parts));
     std::iota(unchanged_.numbers.begin(), unchanged_.numbers.end(), 0);
-    // Alone, a rank keeps its objects under any numbers.
+    // A single rank keeps its objects under any numbers.
     const bool matters = comm.size() > 1 || by_part(layout, objects);
     if (matters && may_change_numbers(parameters, layout))
         room_.emplace(num_parts, comm.size(), comm.rank() == root);

@@ -15,7 +15,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// From the mildest to the gravest, which counts.
+/// Codes from the mildest to the gravest; the gravest of all ranks counts.
 constexpr std::array codes = {ZOLTAN_OK, ZOLTAN_WARN, ZOLTAN_FATAL, ZOLTAN_MEMERR};
 
 int severity(int code) {
@@ -25,7 +25,7 @@ int severity(int code) {
     return severity(ZOLTAN_FATAL);
 }
 
-/// Equal values give equal numbers; the balancer compares the values themselves.
+/// Hash of a value. Equal values give equal hashes; the balancer compares the values themselves.
 int fold(std::uint64_t value) {
     return static_cast<int>(static_cast<std::uint32_t>(value ^ (value >> 32)));
 }
@@ -34,7 +34,7 @@ int fold(double value) {
     return fold(std::bit_cast<std::uint64_t>(value));
 }
 
-/// A parameter on which ranks that differ would exchange messages that do not fit.
+/// A parameter that must be the same on all ranks, or their messages would not fit.
 struct SameOnAllRanks {
     const char* name;
     int (*value)(const Parameters&);
@@ -67,7 +67,8 @@ constexpr std::array same_on_all_ranks = {
                    [](const Parameters& p) { return fold(p.degenerate_ratio); }},
 };
 
-/// Options of the balancer that are parameters, but for the parts, which are agreed on as such.
+/// Whether an option of the balancer is compared as a parameter. The parts are agreed on by
+/// themselves.
 constexpr bool is_compared(const Option& option) {
     return option.parameter[0] != '\0' && std::string_view(option.name) != "num_parts";
 }
@@ -77,7 +78,7 @@ constexpr auto num_compared_options =
 
 constexpr std::size_t num_shared = same_on_all_ranks.size() + num_compared_options;
 
-/// Calls visit(name, value) for what must be the same on every rank.
+/// Calls visit(name, value) for each parameter that must be the same on every rank.
 template <class Visit>
 void for_each_shared(const Parameters& parameters, Visit&& visit) {
     for (const SameOnAllRanks& one : same_on_all_ranks) visit(one.name, one.value(parameters));
@@ -85,7 +86,8 @@ void for_each_shared(const Parameters& parameters, Visit&& visit) {
         if (is_compared(option)) visit(option.parameter, fold(bits_of(option, parameters.options)));
 }
 
-/// Reduced by maximum; a minimum travels as the maximum of the complement.
+/// Numbers of one rank in the vote, reduced by maximum. A minimum travels as the maximum of the
+/// complement.
 struct Ballot {
     int severity = 0;
     int failing_rank_from_last = 0;  ///< ranks - lowest failing rank

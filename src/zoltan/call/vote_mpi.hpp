@@ -10,10 +10,10 @@
 
 namespace rrcb::zoltan {
 
-/// One rank's result of what it does alone; to hold it takes no memory.
+/// Result of all that one rank does alone. It holds its text without asking for memory.
 struct LocalStatus {
     LocalStatus() = default;
-    /// `text` is cut short where it is too long.
+    /// Cuts a text short that is too long.
     LocalStatus(int its_code, std::string_view its_text) : code(its_code) {
         its_text.copy(text.data(), text.size() - 1);
     }
@@ -32,15 +32,15 @@ struct Outcome {
     bool any_part_sizes = false;   ///< Zoltan_LB_Set_Part_Sizes was called somewhere
     bool any_fortran = false;      ///< Zoltan's Fortran interface is used somewhere
     bool all_kept_cuts = false;    ///< of the last call, on every rank
-    bool axes_changed = false;     ///< what chooses axes was changed somewhere since then
-    bool at_rest = false;          ///< nothing has changed since then on any rank
+    bool axes_changed = false;  ///< a parameter that chooses axes was changed somewhere since then
+    bool at_rest = false;       ///< nothing has changed since then on any rank
     DumpWish dump;
     const char* differing = nullptr;  ///< name of a parameter that differs between ranks
 
     bool failed() const { return code != ZOLTAN_OK && code != ZOLTAN_WARN; }
 };
 
-/// The vote of all ranks on what each found alone and on the parameters that must be the same.
+/// Vote of all ranks on the result of each and on the parameters that must be the same.
 ///
 /// Collective over the handle's communicator: one reduction of a few integers.
 Outcome vote(const LocalStatus& local, const State& state);

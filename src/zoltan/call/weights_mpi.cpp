@@ -11,7 +11,7 @@ namespace {
 
 using Sums = std::array<double, most_weights>;
 
-/// What each weight is multiplied by. Collective over `comm`.
+/// Factor of each weight. Collective over `comm`.
 Sums scales(std::span<const float> weights, std::size_t stride, bool comparable, MPI_Comm comm) {
     Sums sums{};
     for (std::size_t i = 0; i < weights.size(); ++i) {

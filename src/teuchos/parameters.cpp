@@ -46,7 +46,7 @@ void add_choice(ParameterList& list, const char* name, const Choice& choice,
 
 constexpr double largest = std::numeric_limits<double>::max();
 
-/// Adds an option, under the name of its parameter, with the default of the library.
+/// Adds an option to a list, under the name of its parameter, with the library's default.
 struct Adder {
     ParameterList& list;
     const Option& option;
@@ -73,7 +73,7 @@ struct Adder {
     void operator()(const Lists&) const {}
 };
 
-/// Takes an option over from a complete list.
+/// Reads an option from a complete list.
 struct Getter {
     const ParameterList& list;
     const Option& option;
@@ -119,7 +119,7 @@ std::string text_of(const ParameterEntry& entry) {
                 "parameter " + name + " must not be " + text_of(given) + ". " + valid.docString());
 }
 
-/// The entry with a whole number turned into the type that is due.
+/// The entry, with a whole number turned into the type of the valid one.
 ParameterEntry promoted(ParameterEntry entry, const ParameterEntry& valid) {
     if (entry.isList() || !entry.isType<int>()) return entry;
     const int number = entry.getValue<int>(nullptr);
@@ -168,7 +168,8 @@ ParameterList completed(const ParameterList& given) {
     return list;
 }
 
-/// As the plug-in reads it; Zoltan knows no number for what it is to choose itself.
+/// Value of an entry as text for the plug-in. 0 stands for a choice of the library's own: Zoltan
+/// knows DEFAULT for that, and no number.
 std::string zoltan_string(const ParameterEntry& entry) {
     const Teuchos::any& value = entry.getAny(false);
     if (entry.isType<std::string>()) return Teuchos::any_cast<std::string>(value);

@@ -31,7 +31,7 @@ void finish(File file, const std::filesystem::path& path) {
     if (std::fputs("end\n", file.get()) < 0 || std::fclose(file.release()) != 0) fail(path);
 }
 
-/// Line breaks would end the entry that the text stands in.
+/// Text without line breaks, which would end the entry it stands in.
 std::string one_line(std::string text) {
     for (char& c : text)
         if (c == '\n' || c == '\r') c = ' ';
@@ -53,7 +53,7 @@ void write_point(std::FILE* file, const DumpedRank& mine, LocalIndex i) {
 
 std::filesystem::path make_dump_folder(const std::filesystem::path& parent) {
     std::filesystem::create_directories(parent);
-    // Only where to look first; a folder that is there is never taken.
+    // Numbers to try first. A folder that exists is never taken.
     thread_local std::map<std::filesystem::path, int> numbers;
     while (true) {
         std::filesystem::path folder = parent / ("call-" + std::to_string(++numbers[parent]));

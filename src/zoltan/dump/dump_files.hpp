@@ -37,7 +37,7 @@ namespace rrcb::zoltan {
 //     0x1.ap+0 0x1p-1 0x1p+0 0
 //     end
 
-/// What holds for all ranks of a dumped call.
+/// Entries of a dumped call that hold for all ranks.
 struct DumpedCall {
     const char* function;
     int code;  ///< as far as it is known when the dump is written
@@ -45,7 +45,7 @@ struct DumpedCall {
     const Parameters& parameters;
 };
 
-/// What one rank got.
+/// Input of one rank.
 struct DumpedRank {
     int rank;
     const Points& points;      ///< without their weights
@@ -56,7 +56,8 @@ struct DumpedRank {
     const char* message;  ///< of an error; empty: none
 };
 
-/// Makes DIR/call-1, DIR/call-2, ...: the first that is not there. Throws when it cannot.
+/// Makes the first folder of DIR/call-1, DIR/call-2, ... that does not exist. Throws where it
+/// cannot.
 std::filesystem::path make_dump_folder(const std::filesystem::path& parent);
 
 /// Writes call.txt. Throws when it cannot.

@@ -13,8 +13,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// A path as it travels; of fixed length, so that no rank can run out of memory before the others
-/// know.
+/// Path in a message, of fixed length: no rank can run out of memory before the others know.
 using PathText = std::array<char, 4096>;
 
 PathText choose_folder(const State& state, const DumpInput& input) {
@@ -37,7 +36,7 @@ void write_mine(const std::filesystem::path& folder, const State& state, const D
                                   state.part_sizes, input.message});
 }
 
-/// Runs a step of which the call must not notice when it fails.
+/// Runs a step whose failure the call must not notice.
 template <typename Step>
 void warn_once_if_failing(const State& state, const char* function, Step step) {
     static std::atomic<bool> warned = false;

@@ -7,13 +7,13 @@ namespace rrcb::zoltan {
 /// Why the inputs of a call are written.
 enum class DumpReason { asked, failure };
 
-/// What the ranks together ask of the dump.
+/// Dump that the ranks ask for together.
 struct DumpWish {
     int rank = -1;        ///< lowest rank with RRCB_DUMP, -1: none
     bool always = false;  ///< RRCB_DUMP_WHEN is ALWAYS on a rank with RRCB_DUMP
 };
 
-/// What a partitioning call has on this rank when its inputs are to be written.
+/// Inputs of a partitioning call on this rank.
 struct DumpInput {
     const char* function;
     const Points& points;
@@ -22,10 +22,11 @@ struct DumpInput {
     const char* message;  ///< of an error; empty: none
 };
 
-/// Writes what the call got, where RRCB_DUMP is set on any rank and RRCB_DUMP_WHEN asks for it now.
+/// Writes the inputs of a call where RRCB_DUMP is set on any rank and RRCB_DUMP_WHEN asks for it
+/// now.
 ///
-/// Collective then, nothing at all otherwise. The lowest rank with a folder chooses it for all.
-/// What cannot be written is warned about once, and never a reason for the call to fail.
+/// Collective then, nothing at all otherwise. The lowest rank with a folder chooses it for all. A
+/// failure to write is warned about once, and never fails the call.
 void dump(DumpReason reason, const DumpWish& wish, const State& state,
           const DumpInput& input) noexcept;
 

@@ -10,7 +10,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Bits of a sum.
+/// Bits that a sum may take.
 constexpr int sum_bits = 61;
 
 std::size_t num_weights(const Criteria& criteria) {
@@ -25,7 +25,7 @@ int bits_of(std::int64_t count) {
     return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(count)));
 }
 
-/// Per weight of all ranks. Collective.
+/// Heaviest object of all ranks by each weight. Collective.
 Factors heaviest_of(const Criteria& criteria, MPI_Comm comm) {
     Factors heaviest{};
     for (std::size_t i = 0; i < criteria.weights.size(); i += criteria.stride)
@@ -37,7 +37,7 @@ Factors heaviest_of(const Criteria& criteria, MPI_Comm comm) {
     return heaviest;
 }
 
-/// Collective.
+/// Sum of the loads of all ranks, in units. Collective.
 Load sum_of(const Criteria& criteria, const Factors& per_weight, MPI_Comm comm) {
     Load sum{};
     for (std::size_t i = 0; i < criteria.weights.size(); i += criteria.stride)
@@ -59,7 +59,8 @@ Units choose_units(const Criteria& criteria, GlobalCount num_objects, MPI_Comm c
         units.per_weight[k] = std::ldexp(1.0, sum_bits - bits);
     }
     units.heaviest[most_weights] = 1;
-    // Many light objects beside a heavy one: by their sum the units may be finer.
+    // The first units fit any sum. Beside a heavy object many are light, and their sum allows finer
+    // units.
     const Load sum = sum_of(criteria, units.per_weight, comm);
     for (std::size_t k = 0; k < most_weights; ++k) {
         units.per_weight[k] =

@@ -10,13 +10,14 @@
 
 namespace rrcb::zoltan {
 
-/// Whole units for weights: as fine as they can be while no sum over all objects overflows.
+/// Units in which weights are whole numbers: the finest in which no sum over all objects overflows.
 struct Units {
     Factors per_weight{};  ///< units in a weight of 1, powers of 2
-    Factors heaviest{};    ///< object, in units; of the number of objects 1
+    Factors heaviest{};    ///< weight of an object, in units; 1 for the number of objects
 };
 
-/// Collective: two reductions. `num_objects` is that of all ranks.
+/// Units for the weights of all ranks. Collective: two reductions. `num_objects` is that of all
+/// ranks.
 Units choose_units(const Criteria& criteria, GlobalCount num_objects, MPI_Comm comm);
 
 /// Loads of the objects. Throws std::bad_alloc.

@@ -25,7 +25,8 @@ Factors scaled(const Factors& factors, const Load& load) {
     return values;
 }
 
-/// Shares of 0 and 1 of one weight beside others that are not: as Zoltan bounds them.
+/// Share of one weight, bounded away from 0 and 1 as in Zoltan: other weights may have shares
+/// between.
 double usable(double share) {
     constexpr double least = 0.001;
     if (share <= 0) return least;

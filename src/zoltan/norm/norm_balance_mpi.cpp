@@ -52,7 +52,7 @@ std::size_t most_nodes(const Options& options) {
     return static_cast<std::size_t>(options.num_parts) / 2 + 1;
 }
 
-/// One call on one rank; after it is made it asks for no more memory.
+/// One call on one rank. Its constructor asks for all memory.
 class NormBisection {
   public:
     NormBisection(const Points& points, const Criteria& criteria, const Options& options,
@@ -109,7 +109,7 @@ class NormBisection {
             if (sizes.empty()) sizes.assign(static_cast<std::size_t>(options_.num_parts), 1.0);
     }
 
-    /// Of each weight, what belongs below.
+    /// Share of each weight that belongs below.
     Shares shares_of(const Descent& at) const {
         const std::size_t num_weights =
             std::min(criteria_.stride, static_cast<std::size_t>(most_weights));
@@ -121,7 +121,7 @@ class NormBisection {
         return shares;
     }
 
-    /// Without objects, or with all of them on one side, there is nothing to search.
+    /// Whether a node is searched: not without objects, nor with all of them on one side.
     static bool is_searched(const Node& node, const Shares& shares) {
         const bool any_below = std::ranges::any_of(shares, [](double share) { return share > 0; });
         const bool any_above = std::ranges::any_of(shares, [](double share) { return share < 1; });
@@ -150,7 +150,7 @@ class NormBisection {
             {NormSearch(axis, num_axes, aim), node.range, objects_.list(node.range, axis)});
     }
 
-    /// The best search of a node, of those across axes that are long enough.
+    /// Chooses the best search of a node, of those across axes that are long enough.
     void choose(Node& node, Balance& result) {
         Cut& cut = result.cuts.tree[node.at.node];
         if (node.num_searches == 0) {
@@ -179,7 +179,7 @@ class NormBisection {
         if (is_coincident(*node.chosen)) ++result.report.coincident_cuts;
     }
 
-    /// What a level may add to the imbalance.
+    /// Imbalance that a level may add.
     double slack() const {
         const int levels = std::bit_width(static_cast<unsigned>(options_.num_parts - 1));
         return (options_.imbalance_tolerance - 1) / levels;
@@ -192,7 +192,8 @@ class NormBisection {
                options_.coincident == Coincident::divide;
     }
 
-    /// Collective where objects in one place are divided: lower ranks' come first.
+    /// Divides the objects of each node. Of those in one place the lower ranks' come first;
+    /// collective where there are any.
     void divide_level(Balance& result, MPI_Comm comm) {
         std::size_t num_lots = 0;
         for (Node& node : nodes_) {
@@ -265,7 +266,7 @@ class NormBisection {
         part_loads_[static_cast<std::size_t>(node.at.first_part)] = node.all;
     }
 
-    /// The worst of the weights counts.
+    /// Measures the imbalance, which is that of the worst weight.
     void measure(const Load& all, Report& report) const {
         report.measured_imbalance = 1;
         report.least_imbalance = 1;

@@ -7,13 +7,13 @@
 
 namespace rrcb::zoltan {
 
-/// Divides the objects so that the norms of the loads of the two sides of every cut are the same,
-/// across the axis that gives the smallest norm, or, of those within the tolerance, the longest.
+/// Divides the objects by cuts with equal norms of the loads on both sides. Of the axes whose norm
+/// is within the tolerance of the smallest, a cut crosses the longest.
 ///
-/// Collective over `self.comm`; same bits on every rank, whatever the order of MPI's sums. `result`
-/// is what the balancer made of the same points and options for the sum of the weights, with weight
-/// in it: its cuts, parts and measures are replaced. Per level of the tree: a few rounds of two
-/// reductions for all cuts of the level together; no object moves. Throws Error on all ranks alike.
+/// `result` is the balancer's for the sum of the weights of the same points, which is not 0. Its
+/// cuts, parts and measures are replaced. Collective over `self.comm`: per level of the tree a few
+/// rounds of two reductions, for all cuts of the level together. No object moves. Same bits on
+/// every rank, whatever the order of MPI's sums. Throws Error on all ranks alike.
 void balance_norm(const Points& points, const Criteria& criteria, const Options& options,
                   Balance& result, Participant& self);
 

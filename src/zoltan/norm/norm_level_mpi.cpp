@@ -12,10 +12,10 @@ namespace {
 constexpr std::size_t least_slots = 8;
 constexpr std::size_t most_slots = 128;
 
-/// Slots of all searches together, unless these are so many that each gets the least.
+/// Slots of all searches together. More where each of many searches gets the least number.
 constexpr std::size_t enough_slots = 8192;
 
-/// Of each search, a power of 2.
+/// Slots of each search, a power of 2.
 std::size_t slots_for(std::size_t num_searches) {
     const std::size_t fair = enough_slots / std::max<std::size_t>(1, num_searches);
     return std::bit_floor(std::clamp(fair, least_slots, most_slots));
@@ -72,7 +72,7 @@ void LevelMessages::count_slots(std::span<LevelSearch> searches, NormObjects& ob
     add_up(slots, comm);
     for (std::size_t k = 0; k < counting_.size(); ++k) {
         LevelSearch& s = searches[counting_[k]];
-        // Before choose(), after which the search has other bins.
+        // Asked before choose(), which changes the bins of the search.
         const Bins bins = s.search.bins(static_cast<int>(most));
         const int slot = s.search.choose(slots.subspan(k * most, most));
         s.length =

@@ -8,21 +8,21 @@
 
 namespace rrcb::zoltan {
 
-/// The search for the cut of one node across one axis, and this rank's objects that are left in it.
+/// Search for the cut of one node across one axis, with this rank's objects that are left in it.
 struct LevelSearch {
     NormSearch search;
     NormObjects::Range range;
     std::size_t length = 0;  ///< of the list of objects left
 };
 
-/// Messages of the searches of one level; all memory is made beforehand, so that no rank can run
-/// out of it between two of them.
+/// Messages of the searches of one level. The constructor asks for all memory: no rank can run out
+/// of it between two messages.
 class LevelMessages {
   public:
-    /// For up to `most_searches` at once. Throws std::bad_alloc.
+    /// Makes room for up to `most_searches` at once. Throws std::bad_alloc.
     explicit LevelMessages(std::size_t most_searches);
 
-    /// Ends all searches; returns the rounds it took. Collective over `comm`.
+    /// Runs all searches to their end. Returns the number of rounds. Collective over `comm`.
     int run(std::span<LevelSearch> searches, NormObjects& objects, MPI_Comm comm);
 
     /// Adds up loads over the ranks, in place. Collective over `comm`.

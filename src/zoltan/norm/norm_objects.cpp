@@ -80,7 +80,7 @@ std::size_t NormObjects::divide(const Range& range, const Cut& cut) {
 
 std::size_t NormObjects::divide(const Range& range, const Cut& cut,
                                 std::span<const std::uint32_t> place, Load before, const Aim& aim) {
-    // Lists keep the order of the node's objects: one walk along both.
+    // Lists keep the order of the node's objects, so one walk along both suffices.
     auto next = place.begin();
     return separate(range, [&](std::uint32_t i) {
         if (next == place.end() || *next != i)

@@ -10,14 +10,14 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A double's bits below its sign: negative numbers descend with them.
+/// Bits of a double below its sign. Negative numbers descend while these bits ascend.
 constexpr std::int64_t magnitude = std::numeric_limits<std::int64_t>::max();
 
 double value_of(std::int64_t key) {
     return std::bit_cast<double>(key < 0 ? key ^ magnitude : key);
 }
 
-/// After so many rounds even in value the bits must do: they end a search whatever the cloud.
+/// Rounds with slots even in value. After these, slots are even in the bits, which end any search.
 constexpr int rounds_by_value = 2;
 
 }  // namespace
@@ -89,7 +89,7 @@ int NormSearch::choose(std::span<const Load> slots) {
     return static_cast<int>(slot);
 }
 
-/// Between the two cuts beside the objects left.
+/// Ends the search with the better of the two cuts beside the objects left.
 void NormSearch::finish(bool one_place) {
     done_ = true;
     below_ = base_;

@@ -10,10 +10,10 @@
 
 namespace rrcb::zoltan {
 
-/// A double as a whole number that is ordered alike; both zeros are one.
+/// Whole number that orders as a double does. Both zeros have one.
 std::int64_t key_of(double value);
 
-/// Smallest and largest key of some coordinates, in a form of which the largest counts.
+/// Smallest and largest key of some coordinates, in a form that a maximum reduces.
 struct KeyRange {
     std::int64_t complement_of_smallest = std::numeric_limits<std::int64_t>::min();
     std::int64_t largest = std::numeric_limits<std::int64_t>::min();
@@ -21,7 +21,8 @@ struct KeyRange {
     void add(std::int64_t key);
 };
 
-/// Divides a range of coordinates into slots that ascend with them; the ends lie in different ones.
+/// Division of a range of coordinates into slots that ascend with them. Its ends lie in different
+/// ones.
 struct Bins {
     bool by_value = false;  ///< even in value, otherwise in the order of the bits
     double half_lower = 0;
@@ -33,14 +34,15 @@ struct Bins {
     int slot_of(double value) const;
 };
 
-/// The search for the cut across one axis where the norms of the two sides meet.
+/// Search for the cut across one axis where the norms of the two sides meet.
 ///
-/// Every rank goes through the same steps, by what all ranks hold together: the range of the
-/// objects left, then their loads in slots of it, of which one is left, until a coordinate is
-/// found; then the same along the other axes among the objects that share it.
+/// All ranks take the same steps, by sums over all of them. A step takes in the range of the
+/// objects left and divides it into slots. It counts the loads of the slots, and leaves the objects
+/// of one. The search ends at a single coordinate. It goes on along the other axes among the
+/// objects that share it.
 class NormSearch {
   public:
-    /// `num_axes`: how many may break ties, its own included. `aim` has objects.
+    /// `num_axes`: number of axes that may break ties, its own included. `aim` has objects.
     NormSearch(int axis, int num_axes, const Aim& aim);
 
     bool is_done() const { return done_; }
@@ -49,17 +51,17 @@ class NormSearch {
     /// The axis along which the objects left are looked at.
     int current_axis() const;
 
-    /// Takes in the range of the objects left, where it is not known. True when slots are to be
+    /// Takes in the range of the objects left, where it is unknown. Returns whether slots are to be
     /// counted next.
     bool narrow(const KeyRange& range);
 
     /// Slots for the next count; `most` is a power of 2, at least 2.
     Bins bins(int most) const;
 
-    /// Takes in the load of each slot; returns the one whose objects are left.
+    /// Takes in the load of each slot. Returns the slot whose objects are left.
     int choose(std::span<const Load> slots);
 
-    /// Of all objects, along the axis of the cut, halved so that it is finite.
+    /// Extent of all objects along the axis of the cut, halved so that it is finite.
     double half_extent() const { return half_extent_; }
 
     // Once done:
@@ -67,8 +69,8 @@ class NormSearch {
     const Load& below() const { return below_; }
     double quality() const { return zoltan::quality(aim_, below_); }
 
-    /// Whether the norms meet among objects that share a place, so that no cut divides them;
-    /// `before` lies below all of them.
+    /// Whether the norms meet among objects that share a place, so that no cut divides them. The
+    /// load `before` lies below all of them.
     bool meets_one_place() const { return one_place_; }
     const Load& before() const { return base_; }
     const Aim& aim() const { return aim_; }
@@ -91,8 +93,7 @@ class NormSearch {
     Load below_{};
 };
 
-/// Whether the next of the objects in one place, in their order, goes below: `below` is what lies
-/// below without it.
+/// Whether the next of the objects in one place goes below. `below` is the load below without it.
 bool goes_below(const Aim& aim, const Load& below, const Load& object);
 
 }  // namespace rrcb::zoltan

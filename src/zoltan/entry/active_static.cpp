@@ -3,7 +3,7 @@
 
 extern "C" {
 
-// Reached from files without the renaming header: their calls go past the plug-in.
+// Files without the renaming header reach this one: their calls go past the plug-in.
 int RRCB_Zoltan_Active(void) {
     return 0;
 }

@@ -16,8 +16,8 @@
 
 namespace rrcb::zoltan {
 
-/// Runs the body of an entry point; no exception leaves it. Forwarded calls go without: what a
-/// program's callbacks throw under Zoltan is the program's to catch.
+/// Runs the body of an entry point; no exception leaves it. Forwarded calls do without: the program
+/// catches what its callbacks throw under Zoltan.
 template <typename Body>
 int guarded(const char* function, const State* state, Body body) noexcept {
     const int rank = state == nullptr ? -1 : state->communicator->rank();
@@ -38,7 +38,7 @@ int guarded(const char* function, const State* state, Body body) noexcept {
     return code;
 }
 
-/// The handle's state when RRCB is its method; null when the real Zoltan is to answer.
+/// State of a handle whose method is RRCB; null where the real Zoltan is to answer.
 inline State* rrcb_state(const Zoltan_Struct* zz) {
     State* state = find_state(zz);
     return state != nullptr && state->parameters.rrcb ? state : nullptr;

@@ -16,7 +16,7 @@ bool has_used_mpi() {
     return MPI_Initialized(&initialized) == MPI_SUCCESS && initialized != 0;
 }
 
-/// By what the launcher says, as MPI has ended.
+/// Whether this is the first process, by the launcher's environment: MPI has ended.
 bool is_first_process() {
     for (const char* name :
          {"PMIX_RANK", "OMPI_COMM_WORLD_RANK", "PMI_RANK", "MV2_COMM_WORLD_RANK", "SLURM_PROCID"}) {
@@ -26,8 +26,8 @@ bool is_first_process() {
     return true;
 }
 
-/// A program that holds Zoltan as a static archive never comes here; nothing else would tell that
-/// it runs without RRCB. Shells and launchers that inherit the environment use no MPI.
+/// Tells that RRCB was asked for, but no handle came through it, as where a program has Zoltan as a
+/// static archive. Shells and launchers inherit the environment, but use no MPI.
 __attribute__((destructor)) void tell_if_asked_for_nothing() {
     if (any_handle_made() || !has_used_mpi() || !is_first_process() || !is_replacement_asked())
         return;

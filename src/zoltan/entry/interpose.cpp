@@ -31,7 +31,7 @@ int reject_value(const State& state, const std::string& name, const std::string&
     return ZOLTAN_WARN;
 }
 
-/// Sets a parameter of the plug-in's or of Zoltan's, whose call is `forward_it`.
+/// Sets a parameter of the plug-in, or one of Zoltan by `forward_it`.
 template <typename Forward>
 int set_parameter(State& state, const std::string& name, const char* raw_value,
                   Forward forward_it) {
@@ -49,14 +49,14 @@ int set_parameter(State& state, const std::string& name, const char* raw_value,
     return code;
 }
 
-/// What the last partition was asked may no longer be what the next one is.
+/// Notes a changed parameter: the next partition may not be asked the same as the last one.
 void note_change(State& state, const std::string& name, int code, const char* raw_value) {
     if (code == ZOLTAN_OK) {
         const auto [entry, is_new] = state.parameters.given.try_emplace(name, raw_value);
         if (!is_new && entry->second == raw_value) return;
         entry->second = raw_value;
     }
-    // These two decide what is handed out, not what is found.
+    // These two decide on what is handed out, not on the parts.
     if (name != "RETURN_LISTS" && name != "KEEP_CUTS") state.rest.reset();
     if (chooses_axes(name)) state.axes_changed = true;
 }
@@ -79,7 +79,7 @@ int set_parameter(Zoltan_Struct* zz, const char* raw_name, const char* raw_value
 
 void hand_out(List&& list, bool with_caller, const CallerList& to) {
     *to.count = list.count;
-    // Empty lists are never there already.
+    // Empty lists are never in the caller's variables already.
     if (with_caller && list.count > 0) return;
     *to.global_ids = as_zoltan_ids(list.global_ids.release());
     *to.local_ids = as_zoltan_ids(list.local_ids.release());
@@ -97,7 +97,7 @@ void hand_out(Partition&& result, const CallerLists& to) {
 RRCB_EXPORT Zoltan_Struct* Zoltan_Create(MPI_Comm user) {
     Zoltan_Struct* zz = forward<&RealZoltan::create>(user);
     if (zz == nullptr || user == MPI_COMM_NULL) return zz;
-    // A handle without a state is Zoltan's alone: it refuses LB_METHOD=RRCB, and so the program
+    // A handle without a state is Zoltan's alone. It refuses LB_METHOD=RRCB, and so the program
     // knows.
     guarded("Zoltan_Create", nullptr, [&] {
         create_state(zz, user);

@@ -11,7 +11,7 @@ using namespace rrcb::zoltan;
 
 namespace {
 
-/// Sets a parameter from how `Parameters::given` names it, with its index in brackets.
+/// Sets a parameter by its name in `Parameters::given`, which has the index in brackets.
 int set_again(Zoltan_Struct* zz, const std::string& name, const std::string& value) {
     const auto bracket = name.find('[');
     if (bracket == name.npos) return Zoltan_Set_Param(zz, name.c_str(), value.c_str());
@@ -20,7 +20,7 @@ int set_again(Zoltan_Struct* zz, const std::string& name, const std::string& val
     return Zoltan_Set_Param_Vec(zz, name.substr(0, bracket).c_str(), value.c_str(), index);
 }
 
-/// Tells a handle all that the other one was told.
+/// Gives a handle all parameters of the one that was packed.
 int unpack(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     const bool replace_rcb = state.parameters.replace_rcb;
     state.parameters = Parameters{};
@@ -43,7 +43,7 @@ int unpack(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     return ZOLTAN_OK;
 }
 
-/// A handle that the program made is replaced no longer, although it was asked for.
+/// Tells that a handle of the program is replaced no longer, although that was asked for.
 void tell_if_left_to_zoltan(const State& state) {
     if (!state.parameters.replace_rcb || state.parameters.debug_level <= 0) return;
     if (state.communicator->rank() != 0) return;
@@ -84,7 +84,7 @@ RRCB_EXPORT int Zoltan_Deserialize(Zoltan_Struct* zz, size_t size, char* buffer)
             return unpack(zz, *state, deserialize({buffer, size}));
         });
     }
-    // What the buffer holds comes from the real Zoltan and replaces every parameter.
+    // The buffer comes from the real Zoltan and replaces every parameter.
     if (state != nullptr) {
         tell_if_left_to_zoltan(*state);
         state->parameters.rrcb = false;

@@ -16,7 +16,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Reduced by maximum.
+/// Numbers of one rank in the vote on a new handle, reduced by maximum.
 struct Ballot {
     int failing_rank_from_last = 0;  ///< ranks - lowest failing rank
     int leaves_all_to_zoltan = 0;
@@ -49,14 +49,14 @@ bool is_congruent(const Communicator& one, const Communicator& other) {
     return result == MPI_CONGRUENT;
 }
 
-/// What belongs to a new handle, made before the ranks agree that all of them have it.
+/// Belongings of a new handle, made before the ranks agree that all of them have it.
 struct Draft {
     MPI_Comm duplicate = MPI_COMM_NULL;  ///< until the state has it
     State state;                         ///< until the table has it
     bool asks_for_replacement = false;
 };
 
-/// All ranks duplicate, whatever fails on one of them.
+/// Makes them. All ranks duplicate the communicator, whatever fails on one of them.
 void make(Draft& draft, const Zoltan_Struct* zz, MPI_Comm user, Participant& self) {
     self.always([&] { mpi::check(MPI_Comm_dup(user, &draft.duplicate), "MPI_Comm_dup"); });
     self.attempt([&] {

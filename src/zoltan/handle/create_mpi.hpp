@@ -5,13 +5,15 @@
 
 namespace rrcb::zoltan {
 
-/// Enters a new handle into the side table, on all ranks or on none. It is none where Zoltan's
-/// functions are from several libraries on some rank. RRCB_REPLACE on one rank holds on all.
+/// Enters a new handle into the side table, on all ranks or on none.
+///
+/// It is on none where Zoltan's functions come from several libraries on any rank. RRCB_REPLACE on
+/// one rank holds on all.
 ///
 /// Collective over `user`: one duplication, one reduction. Throws Error on all ranks alike.
 void create_state(const Zoltan_Struct* zz, MPI_Comm user);
 
-/// Gives one handle what the plug-in knows of the other, if it knows it.
+/// Copies the state of one handle to another, if the plug-in has it.
 ///
 /// Collective over the communicator of `from`, as Zoltan_Copy_To is: one reduction, and a
 /// duplication where `to` has no communicator like it. Throws Error on all ranks alike.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* tolerance_name = "RRCB_IMBALANCE_TOL";
 
-/// True for the first handle that meets this value, of which there may be many.
+/// Whether no handle of this process has met this setting before.
 bool is_first(const std::string& setting) {
     static std::mutex mutex;
     static auto& met = *new std::set<std::string>;
@@ -32,12 +32,13 @@ bool set(Parameters& parameters, const char* name, const char* value) {
     return set_own(parameters, name, value) == Setting::accepted;
 }
 
-/// Under which name the program would have given it.
+/// Name under which a program gives the parameter.
 const char* program_name_of(const char* name) {
     return name == tolerance_name ? "IMBALANCE_TOL" : name;
 }
 
-/// Copies of a handle and calls that are run again need all but where to write dumps.
+/// Whether a parameter belongs to calls. Copies of a handle and replayed calls need all but the
+/// folder of dumps.
 bool belongs_to_calls(std::string_view name) {
     return !name.starts_with("RRCB_DUMP");
 }

@@ -10,13 +10,13 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// One addend of a coordinate; an axis that lies across `x` takes nothing of it, however large.
+/// Addend of a coordinate. An axis across `x` takes nothing of it, however large it is.
 double share_of(const Frame& frame, std::size_t axis, std::size_t from, double x) {
     const double slope = frame.axes[axis][from];
     return slope == 0 ? 0 : slope * (x - frame.origin[from]);
 }
 
-/// What both ends of a box give to a coordinate, the less first.
+/// Addends of both ends of a box, the lesser first.
 std::array<double, 2> shares_of(const Frame& frame, std::size_t axis, std::size_t from,
                                 const Box& box) {
     const double lower = share_of(frame, axis, from, box.lower[from]);
@@ -51,7 +51,9 @@ Box place(const Frame& frame, const Box& box) {
             placed.upper[a] = box.upper[from];
             continue;
         }
-        // In the order of coordinate_along: every step is monotone also when it is rounded.
+        // Added in the order of coordinate_along: every rounded addition is monotone, so the box
+        // holds
+        // the place of each position in it.
         double lower = 0;
         double upper = 0;
         for (std::size_t j = 0; j < static_cast<std::size_t>(frame.dimension); ++j) {

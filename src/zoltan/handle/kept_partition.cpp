@@ -23,7 +23,8 @@ void KeptPartition::keep(Cuts&& cuts, const Frame& frame, PartMap&& map,
     if (cuts_.num_parts > 1) tree_[0].upper = lower_parts(cuts_.num_parts);
 }
 
-/// The nodes of a subtree in preorder, and its first as a child; `parent` as in TreeNode.
+/// Builds the nodes of a subtree in preorder. Returns its first one as a child. `parent` as in
+/// TreeNode.
 std::int32_t KeptPartition::build(Part first_part, int num_parts, int parent) {
     if (num_parts == 1) return ~numbers_[static_cast<std::size_t>(first_part)];
     const auto index = nodes_.size();
@@ -64,7 +65,7 @@ Part KeptPartition::descend(const double* position) const {
     std::int32_t at = root_;
     while (at >= 0) {
         const auto cut = static_cast<std::size_t>(at);
-        // As an index: positions in no order make branches that cannot be predicted.
+        // An index in place of a branch, which unordered positions would make unpredictable.
         at = nodes_[cut].child[is_above(cut, position) ? 1 : 0];
     }
     return ~at;

@@ -10,24 +10,26 @@
 
 namespace rrcb::zoltan {
 
-/// One cut of Zoltan_RCB_Partition_Tree: nodes by number, parts as the negative of theirs.
+/// One cut of Zoltan_RCB_Partition_Tree. Its children are numbers of nodes, or negative ones of
+/// parts.
 struct TreeNode {
     int parent = 0;  ///< number + 1, negative for a node above its parent's cut
     int lower = 0;
     int upper = 0;
 };
 
-/// The last partition as look-ups and the next one need it, laid out for look-ups.
+/// Last partition, for look-ups and for the next one.
 class KeptPartition {
   public:
-    /// Room for the cuts between so many parts.
+    /// Makes room for the cuts between so many parts.
     explicit KeptPartition(std::size_t num_parts);
 
-    /// Keeps the cuts, which cross the axes of `frame`, without asking for memory; `numbers` is the
-    /// new number of each part.
+    /// Keeps the cuts, which cross the axes of `frame`, without asking for memory. `numbers` has
+    /// the new number of each part.
     void keep(Cuts&& cuts, const Frame& frame, PartMap&& map, std::vector<Part>&& numbers) noexcept;
 
-    /// Without KEEP_CUTS, or what implies it, cuts are kept for the next partition only.
+    /// Sets whether look-ups may use the cuts. Without KEEP_CUTS, or a parameter that implies it,
+    /// they are for the next partition only.
     void answer_look_ups(bool answers) { answers_look_ups_ = answers; }
     bool answers_look_ups() const { return answers_look_ups_; }
 
@@ -36,21 +38,21 @@ class KeptPartition {
     const PartMap& map() const { return map_; }
     const std::vector<Part>& numbers() const { return numbers_; }
 
-    /// Of positions in look-ups, before they are placed in the frame.
+    /// Dimension of positions in look-ups, before they are placed in the frame.
     int dimension() const { return frame_.turns() ? frame_.dimension : cuts_.dimension; }
 
     /// Part of a position, one coordinate per dimension.
     Part part_of(const double* coordinates) const;
 
-    /// Writes the parts a closed box touches, ascending; returns how many. `parts` has room for
-    /// all. A box that is turned to the frame may touch more.
+    /// Writes the parts that a closed box touches, ascending. Returns their number. `parts` has
+    /// room for all. A box that is turned to the frame may touch more.
     int parts_touching(const Box& box, Part* parts) const;
 
     /// Region of a part along the axes of the frame, open sides +-infinity.
     Box region_of(Part part) const;
 
-    /// Node 1 ... parts - 1 of the tree; node 0 stands above the root. In the numbers before they
-    /// were changed, as Zoltan has it.
+    /// Node 1 ... parts - 1 of the tree; node 0 stands above the root. Its numbers are those before
+    /// REMAP, as in Zoltan.
     const TreeNode& tree_node(int node) const { return tree_[static_cast<std::size_t>(node)]; }
 
   private:
@@ -70,7 +72,7 @@ class KeptPartition {
     Frame frame_;
     PartMap map_;
     std::vector<Part> numbers_;
-    std::vector<Part> boxes_;  ///< which box has the number
+    std::vector<Part> boxes_;  ///< number of the box that each part has
     std::vector<Node> nodes_;
     std::vector<TreeNode> tree_;
     std::int32_t root_ = 0;

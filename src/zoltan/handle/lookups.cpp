@@ -16,7 +16,7 @@ int write_ranks(const PartMap& map, const Part* parts, int num_parts, int* ranks
     int count = 0;
     for (int i = 0; i < num_parts; ++i) {
         const RankRange& range = map.ranks[static_cast<std::size_t>(parts[i])];
-        // The ranks of parts ascend as well: only the last one can come twice.
+        // The ranks of ascending parts ascend: only the last one can come twice.
         const int next = count == 0 ? 0 : ranks[count - 1] + 1;
         for (int r = std::max(range.first_rank, next); r < range.first_rank + range.count; ++r) {
             ranks[count++] = r;
@@ -43,7 +43,7 @@ Place place_of(const State& state, const double* coordinates) {
 
 void find_touched(const State& state, const Box& box, const Touched& touched) {
     const KeptPartition& kept = kept_by(state);
-    // Stays between calls: programs make tens of thousands of them.
+    // Kept between calls: programs make tens of thousands of them.
     thread_local std::vector<Part> unasked;
     Part* parts = touched.parts;
     if (parts == nullptr) {

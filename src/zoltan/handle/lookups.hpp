@@ -6,18 +6,18 @@
 
 namespace rrcb::zoltan {
 
-/// The last partition, for look-ups. Throws ZoltanError where no cuts were kept. Not collective.
+/// Last partition, for look-ups. Throws ZoltanError where no cuts were kept. Not collective.
 const KeptPartition& kept_by(const State& state);
 
 /// Part and lowest rank of a position; `coordinates` has one entry per dimension. Not collective.
-/// All look-ups throw ZoltanError when no cuts were kept.
+/// All look-ups throw ZoltanError where no cuts were kept.
 struct Place {
     int rank = -1;
     int part = -1;
 };
 Place place_of(const State& state, const double* coordinates);
 
-/// Where a box look-up writes; arrays that are null are not asked for.
+/// Results of a box look-up. Null arrays are not asked for.
 struct Touched {
     int* ranks = nullptr;
     int* num_ranks = nullptr;
@@ -32,10 +32,10 @@ void find_touched(const State& state, const Box& box, const Touched& touched);
 /// ZoltanError for an unknown part.
 Box region_of(const State& state, int part);
 
-/// Throws ZoltanError for an unknown node.
+/// Node of the tree of cuts. Throws ZoltanError for an unknown one.
 TreeNode tree_node_of(const State& state, int node);
 
-/// Throws ZoltanError unless part p is on rank p, which the look-ups without parts ask for.
+/// Throws ZoltanError unless part p is on rank p: look-ups without parts need that.
 void require_one_part_per_rank(const State& state, const char* alternative);
 
 }  // namespace rrcb::zoltan

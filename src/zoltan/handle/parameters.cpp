@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view tolerance_name = "IMBALANCE_TOL";
 
-/// The one value whose case counts.
+/// Name of the one parameter whose value keeps its case.
 constexpr std::string_view dump_folder_name = "RRCB_DUMP";
 
 bool read_folder(std::string& folder, std::string_view text) {
@@ -32,7 +32,7 @@ bool read_dump_when(bool& always, std::string_view text) {
     return true;
 }
 
-/// What only the plug-in has: a name, a reader, and what sets the default.
+/// Parameter that only the plug-in has: name, reader, and setter of the default.
 struct OwnParameter {
     std::string_view name;
     bool (*read)(Parameters&, std::string_view);
@@ -86,7 +86,7 @@ constexpr CommonInteger common_integers[] = {
     {"DEBUG_LEVEL", &Parameters::debug_level, 0},
 };
 
-/// What Zoltan takes for DEFAULT and for illegal values: what a new handle has, but in two cases.
+/// Value that Zoltan takes for DEFAULT and illegal values: that of a new handle, but in two cases.
 int fallback_of(int Parameters::*field) {
     if (field == &Parameters::num_global_parts) return one_per_rank;
     if (field == &Parameters::remap) return 0;
@@ -100,8 +100,9 @@ int integer_or(std::string_view text, int minimum, int fallback) {
     return text == "DEFAULT" || value < minimum ? fallback : value;
 }
 
-/// Zoltan allows one tolerance per weight, as "[k]" behind the name; RRCB balances one weight.
-/// It has accepted the text, of which it reads no more than a number at its start.
+/// Notes a tolerance whose text Zoltan has accepted, of which it reads a number at the start.
+///
+/// Zoltan allows one tolerance per weight, as "[k]" behind the name. RRCB balances one weight.
 void note_tolerance(Options& options, std::string_view text) {
     if (text.starts_with('+')) text.remove_prefix(1);
     double value = 0;

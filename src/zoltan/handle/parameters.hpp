@@ -16,13 +16,13 @@ enum class ReturnLists { none, imports, exports, all, parts, candidates };
 /// NUM_GLOBAL_PARTS where it is set to its default or to no legal number.
 inline constexpr int one_per_rank = 0;
 
-/// Of a parameter whose default depends on others.
+/// Value of a parameter that is not set and whose default depends on others.
 inline constexpr int not_set = std::numeric_limits<int>::min();
 
 /// The options of a new handle: points in one place are divided, as by RCB.
 Options default_options();
 
-/// What the plug-in must know of a handle's parameters; the defaults are Zoltan's.
+/// Parameters of a handle that concern the plug-in. The defaults are Zoltan's.
 struct Parameters {
     bool rrcb = false;         ///< LB_METHOD is RRCB, or RCB where that is replaced
     bool replace_rcb = false;  ///< RRCB answers LB_METHOD=RCB
@@ -61,22 +61,22 @@ enum class Setting {
     unknown     ///< not one of RRCB's own parameters
 };
 
-/// Sets a parameter of RRCB's own (RRCB_...). The name is upper-cased, the value as it was given.
+/// Sets a parameter of RRCB's own (RRCB_...). The name is in upper case, the value as it was given.
 Setting set_own(Parameters& parameters, std::string_view name, const char* value);
 
-/// Sets IMBALANCE_TOL; false for what is no number from 1 on, which leaves it as it was.
+/// Sets IMBALANCE_TOL. Returns false for a value that is no number of at least 1, and leaves it.
 bool set_tolerance(Parameters& parameters, std::string_view value);
 
 /// The names that set_own knows.
 std::vector<const char*> own_parameter_names();
 
-/// Notes a parameter that Zoltan itself has accepted, if it matters here. Upper-cased.
+/// Notes a parameter that Zoltan itself has accepted, if it matters here. Both are in upper case.
 void note_common(Parameters& parameters, std::string_view name, std::string_view value);
 
-/// A name or value as Zoltan compares it: leading blanks dropped, upper-cased.
+/// Name or value in the form in which Zoltan compares it: in upper case, without leading blanks.
 std::string clean(const char* text);
 
-/// Text without the blanks behind it, which belong to no value.
+/// Text without trailing blanks, which belong to no value.
 std::string_view without_trailing_blanks(std::string_view text);
 
 }  // namespace rrcb::zoltan

@@ -8,7 +8,7 @@
 
 namespace rrcb::zoltan {
 
-/// The ranks of each part, as Zoltan lays parts out.
+/// Ranks of each part, as Zoltan lays parts out.
 struct PartMap {
     std::vector<RankRange> ranks;  ///< of each part
     bool one_each = true;          ///< part p is on rank p and on no other
@@ -24,18 +24,19 @@ struct PartMap {
     }
 };
 
-/// Equal numbers of parts on all ranks, or of ranks for all parts.
+/// Map with equal numbers of parts on all ranks, or of ranks for all parts.
 PartMap even_part_map(int num_parts, int num_ranks);
 
-/// The number of parts that NUM_LOCAL_PARTS and NUM_GLOBAL_PARTS ask for. `local_parts` holds one
-/// number per rank, -1 where it is not set; so is `num_global_parts`. Throws ZoltanError when they
+/// Number of parts that NUM_LOCAL_PARTS and NUM_GLOBAL_PARTS ask for. `local_parts` has one number
+/// per rank. It and `num_global_parts` are -1 where they are not set. Throws ZoltanError where they
 /// do not add up.
 int num_parts_of(std::span<const int> local_parts, int num_global_parts);
 
-/// As many parts on a rank as its NUM_LOCAL_PARTS; ranks where it is not set share the rest.
+/// Map with as many parts on a rank as its NUM_LOCAL_PARTS. Ranks that do not set it share the
+/// rest.
 PartMap local_part_map(std::span<const int> local_parts, int num_parts);
 
-/// The lowest part on a rank, -1 where there is none.
+/// Lowest part on a rank, -1 where there is none.
 int first_part_of(const PartMap& map, int rank);
 
 }  // namespace rrcb::zoltan

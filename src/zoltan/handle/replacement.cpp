@@ -23,13 +23,13 @@ bool read_environment() {
     return false;
 }
 
-/// LB_METHOD as Zoltan compares it.
+/// LB_METHOD in the form in which Zoltan compares it.
 std::string method_of(const State& state) {
     const auto given = state.parameters.given.find("LB_METHOD");
     return given == state.parameters.given.end() ? "RCB" : clean(given->second.c_str());
 }
 
-/// Methods whose replacement a user may expect, and why they are left to Zoltan.
+/// Method whose replacement a user may expect, and the reason that Zoltan keeps it.
 struct Left {
     const char* method;
     bool in_hier_only;
@@ -94,7 +94,7 @@ void tell_if_not_replaced(const State* state, const char* function) noexcept try
         if (!told[i].exchange(true)) print_warning(0, function, left.reason);
     }
 } catch (const std::bad_alloc&) {
-    // Only the notice is lost.
+    // A lack of memory loses no more than the notice.
 }
 
 }  // namespace rrcb::zoltan

@@ -21,7 +21,7 @@ class InsideZoltan {
 /// Whether RRCB_REPLACE=RCB is in the environment of this process; another value is warned about.
 bool is_replacement_asked();
 
-/// Parameters of a handle that is just created. Zoltan's own handles get what HIER writes into them
+/// Parameters of a handle that is just created. Zoltan's own handles get those that HIER writes
 /// without Zoltan_Set_Param: the outer OBJ_WEIGHT_DIM and DEBUG_LEVEL, and REMAP=0.
 Parameters initial_parameters();
 

@@ -17,7 +17,7 @@ constexpr std::array<char, 8> signature = {'R', 'R', 'C', 'B', 'h', 'n', 'd', '3
 
 struct Header {
     std::array<char, 8> signature = zoltan::signature;
-    std::uint64_t size = 0;  ///< of what follows
+    std::uint64_t size = 0;  ///< of the bytes that follow
     std::uint64_t checksum = 0;
 };
 
@@ -67,7 +67,7 @@ class Reader {
         std::memcpy(&result, take(sizeof(T)), sizeof(T));
         return result;
     }
-    /// A byte that is neither 0 nor 1 must not become a bool.
+    /// Reads a bool. A byte other than 0 and 1 must not become one.
     bool flag() {
         const auto byte = value<unsigned char>();
         if (byte > 1) refuse("inconsistent");

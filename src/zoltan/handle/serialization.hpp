@@ -10,8 +10,8 @@
 
 namespace rrcb::zoltan {
 
-/// What travels of a handle: all the program told it, and the cuts it keeps. Not its communicator
-/// and not its callbacks, as with Zoltan.
+/// Contents of a serialized handle: all parameters that the program has set, and the kept cuts. As
+/// in Zoltan neither communicator nor callbacks.
 struct Parcel {
     std::map<std::string, std::string> given;  ///< see Parameters::given
     std::vector<PartSize> part_sizes;
@@ -21,11 +21,11 @@ struct Parcel {
 /// The parcel of a handle as bytes, for machines of one kind. Not collective.
 std::vector<char> serialize(const State& state);
 
-/// Whether the bytes begin as `serialize` begins; otherwise they are Zoltan's.
+/// Whether the bytes are those of `serialize`, by their start. Otherwise they are Zoltan's.
 bool is_parcel(std::span<const char> bytes);
 
-/// Reads what `serialize` wrote; more bytes behind it are ignored. Throws ZoltanError for a buffer
-/// that is truncated or changed.
+/// Parcel of the bytes of `serialize`. Ignores further bytes. Throws ZoltanError for a truncated or
+/// changed buffer.
 Parcel deserialize(std::span<const char> bytes);
 
 }  // namespace rrcb::zoltan

@@ -27,7 +27,7 @@ Table& table() {
     return only;
 }
 
-/// What a thread looked up last; without it, point look-ups would wait for the lock.
+/// Handle that a thread looked up last. Without it, point look-ups would wait for the lock.
 struct LastFound {
     const Zoltan_Struct* zz = nullptr;
     State* state = nullptr;
@@ -67,7 +67,7 @@ State& add_state(const Zoltan_Struct* zz, State&& state) {
         place = &all.states[zz];
         ++all.version;
     }
-    // Without the lock: the communicator that was there before is freed with other ranks.
+    // After the lock is released: other ranks take part in freeing the communicator that was there.
     *place = std::move(state);
     return *place;
 }
@@ -88,7 +88,7 @@ void copy_contents(State& to, const State& from) {
 
 void remove_state(const Zoltan_Struct* zz) {
     Table& all = table();
-    // Freed behind the lock, as it is freed together with other ranks.
+    // Freed after the lock is released: other ranks take part in freeing it.
     decltype(all.states)::node_type removed;
     const std::unique_lock lock(all.mutex);
     removed = all.states.extract(zz);

@@ -20,7 +20,7 @@ namespace rrcb::zoltan {
 /// A duplicate of the communicator a handle was created with, for this handle alone.
 class Communicator {
   public:
-    /// Takes over `duplicate`. Throws Error or std::bad_alloc; then it is still the caller's.
+    /// Takes over `duplicate`. Throws Error or std::bad_alloc; then the caller keeps it.
     explicit Communicator(MPI_Comm duplicate);
     ~Communicator();
     Communicator(const Communicator&) = delete;
@@ -30,7 +30,7 @@ class Communicator {
     int rank() const { return rank_; }
     int size() const { return size_; }
 
-    /// A number for each rank, to receive when memory is short.
+    /// Scratch, a number for each rank, to receive into when memory is short.
     std::span<int> per_rank() { return per_rank_; }
 
   private:
@@ -45,28 +45,29 @@ struct PartSize {
     int part = 0;
     bool global = true;  ///< false: the part is counted from the first one on this rank
     float size = 0;
-    int weight = 0;  ///< which of an object's weights it is a share of
+    int weight = 0;  ///< number of the weight that it is a share of
 };
 
-/// The result of the last partition. It stands while the objects are in the parts they were sent to
-/// and weigh what they did: a program that balances while anything changes comes to an end.
+/// Result of the last partition. It stands while the objects are in the parts they were sent to and
+/// keep their weights: a program that balances until nothing changes comes to an end.
 struct Rest {
     Report report;
     int dimension = 0;
     std::vector<std::uint64_t> checksums;  ///< of the objects of each part
 
-    /// The cuts do not tell in which part an object is: some are in one place in several parts.
+    /// Whether checksums need positions. Cuts do not tell the part of objects in one place that are
+    /// in several parts.
     static bool needs_positions(const Report& report) { return report.coincident_cuts > 0; }
 };
 
-/// What the plug-in knows of one Zoltan_Struct beside what Zoltan keeps itself.
+/// State of a Zoltan_Struct that the plug-in keeps.
 struct State {
     std::unique_ptr<Communicator> communicator;
     Parameters parameters;
     std::vector<PartSize> part_sizes;
     std::optional<KeptPartition> kept;  ///< of the last partition
     std::optional<Rest> rest;           ///< of the same; none once a parameter was changed
-    bool axes_changed = false;          ///< what chooses axes was changed since
+    bool axes_changed = false;          ///< a parameter that chooses axes was changed since
     bool deserialized = false;          ///< Zoltan's parameters were set behind the plug-in's back
     bool replacement_asked = false;     ///< by RRCB_REPLACE, on any rank of the communicator
     bool inside_hier = false;           ///< made by Zoltan, for one of HIER's levels
@@ -79,13 +80,13 @@ inline int asked_global_parts(const State& state) {
     return asked == one_per_rank ? state.communicator->size() : asked;
 }
 
-/// The side table, which threads may use at the same time. A handle belongs to one of them.
+/// Side table of handles. Threads may use it at the same time; a handle belongs to one of them.
 State* find_state(const Zoltan_Struct* zz);  ///< null: not in the table
 State& add_state(const Zoltan_Struct* zz, State&& state);
 void remove_state(const Zoltan_Struct* zz);  ///< collective, as it frees the communicator
 bool any_handle_made();                      ///< since the process began
 
-/// Copies all but the communicator. Throws std::bad_alloc; then `to` is as it was.
+/// Copies all but the communicator. Throws std::bad_alloc; then `to` is unchanged.
 void copy_contents(State& to, const State& from);
 
 }  // namespace rrcb::zoltan

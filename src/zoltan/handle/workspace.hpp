@@ -9,7 +9,7 @@ namespace rrcb::zoltan {
 template <typename T>
 class Scratch {
   public:
-    /// Room for `size` entries; what was there is lost where it grows. Throws std::bad_alloc.
+    /// Room for `size` entries. Old entries are lost where it grows. Throws std::bad_alloc.
     T* get(std::size_t size) {
         if (size > capacity_) {
             data_ = std::make_unique_for_overwrite<T[]>(size);

@@ -11,7 +11,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Finds functions behind the plug-in, and notes which are missing and which are of another library
+/// Finds functions behind the plug-in. Notes those that are missing, and those of another library
 /// than the first.
 class Finder {
   public:
@@ -22,10 +22,10 @@ class Finder {
         require(found);
     }
 
-    /// For those that the plug-in calls by name.
+    /// Requires a function that the plug-in calls by name.
     void find(const char* name) { require(Found(name)); }
 
-    /// Null where there is none beside the functions found so far.
+    /// Function in the library of those found so far; null where it has none.
     template <typename Function>
     void find_beside(Function& function, const char* name) const {
         const Found found(name);
@@ -33,7 +33,7 @@ class Finder {
         function = beside ? reinterpret_cast<Function>(found.address) : nullptr;
     }
 
-    /// Null where there is none.
+    /// Function in any library; null where there is none.
     template <typename Function>
     void find_any(Function& function, const char* name) const {
         function = reinterpret_cast<Function>(Found(name).address);
@@ -92,7 +92,7 @@ Finder find_all(RealZoltan& real) {
     return finder;
 }
 
-/// Libraries that cannot be asked are older than ids of another width.
+/// Bytes of an id. Libraries that cannot be asked are older than ids of another width.
 std::size_t ask_id_bytes(const Finder& finder) {
     decltype(&Zoltan_get_global_id_type) ask = nullptr;
     finder.find_beside(ask, "Zoltan_get_global_id_type");

@@ -17,13 +17,13 @@ int Zoltan_get_global_id_type(char** name);
 
 namespace rrcb::zoltan {
 
-/// The real Zoltan behind the plug-in: the functions of functions.inc and what else is needed.
+/// Real Zoltan behind the plug-in: the functions of functions.inc, those of Fortran, and its ids.
 struct RealZoltan {
 #define RRCB_FORWARDED(function, member) decltype(&function) member;
 #define RRCB_OPTIONAL(function, member) decltype(&function) member = nullptr;
 #include "zoltan/real/functions.inc"
 
-    /// What Zoltan's Fortran interface stands on; null where it is not there.
+    /// Functions under Zoltan's Fortran interface; null where there is none.
     int (*special_malloc)(Zoltan_Struct* zz, void** array, int size, int type) = nullptr;
     int (*special_free)(Zoltan_Struct* zz, void** array, int type) = nullptr;
 
@@ -31,7 +31,7 @@ struct RealZoltan {
     bool serves_rrcb = true;             ///< otherwise every call goes to Zoltan
 };
 
-/// The real Zoltan, looked up once. Null, with one message on stderr, where none is behind the
+/// Real Zoltan, looked up once. Null, with one message on stderr, where there is none behind the
 /// plug-in.
 const RealZoltan* real_zoltan() noexcept;
 

@@ -38,7 +38,7 @@ class ZoltanArray {
         return std::exchange(data_, nullptr);
     }
 
-    /// Gives back what is behind the first `size` entries.
+    /// Gives back the memory behind the first `size` entries.
     void shrink(std::size_t size) {
         if (size == 0) {
             *this = ZoltanArray();

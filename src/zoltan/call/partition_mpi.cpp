@@ -101,15 +101,26 @@ int migrate(Zoltan_Struct* zz, const Partition& result) {
         as_zoltan_ids(exports.local_ids.get()), exports.ranks.get(), exports.parts.get());
 }
 
-/// One call of LB_Partition and the cuts of the call before it.
+/// One call of LB_Partition after the vote, and the partition of the call before it.
 struct Call {
     Zoltan_Struct* zz;
     State& state;
     const char* function;
     const CallerLists& to;
-    std::optional<KeptPartition> previous;
-    bool may_start_there = false;  ///< its axes are those that this call chooses
+    const Outcome& outcome;
+    std::optional<KeptPartition> previous = {};
+
+    /// Whether nothing has changed on any rank since the last partition.
+    bool stays() const { return outcome.at_rest && outcome.differing == nullptr; }
 };
+
+/// Takes the last partition out of the state: should this call fail, the next one must not build on
+/// it.
+void take_previous(Call& call) {
+    call.state.rest.reset();
+    call.previous = std::exchange(call.state.kept, std::nullopt);
+    if (!call.outcome.all_kept_cuts) call.previous.reset();
+}
 
 /// Positions that are cut: in their principal axes where REDUCE_DIMENSIONS finds the objects flat.
 struct Flattened {
@@ -151,7 +162,7 @@ Preparation prepare(const Call& call, const Layout& layout, const Objects& objec
                       call.previous->frame() == flat.frame &&
                       call.previous->cuts().num_parts == layout.map.num_parts();
     Preparation made;
-    if (fits && call.may_start_there && starts_from_previous(parameters))
+    if (fits && !call.outcome.axes_changed && starts_from_previous(parameters))
         made.previous = &call.previous->cuts();
     const bool locks = fits && call.previous->answers_look_ups();
     self.attempt([&] {
@@ -203,20 +214,20 @@ void keep(Preparation&& prepared, Balance&& balanced, const Frame& frame, PartMa
 
 /// Puts the lists into the caller's variables where Zoltan's Fortran interface is used on any rank.
 /// Collective there.
-void serve_fortran(const Call& call, const Outcome& outcome, Partition& result, Participant& self) {
-    if (!outcome.any_fortran) return;
+void serve_fortran(const Call& call, Partition& result, Participant& self) {
+    if (!call.outcome.any_fortran) return;
     copy_for_fortran(call.zz, result.imports, result.exports, call.to, self);
     result.with_caller = true;
 }
 
 /// Answers a call where nothing has changed on any rank since the last partition. Collective as
 /// serve_fortran is.
-int stay(const Call& call, const Outcome& outcome, Objects&& objects, Partition& result) {
+int stay(const Call& call, Objects&& objects, Partition& result) {
     State& state = call.state;
     if (state.parameters.return_lists == ReturnLists::parts)
         result.exports = list_in_place(std::move(objects), state.communicator->rank());
     Participant self{state.communicator->get()};
-    serve_fortran(call, outcome, result, self);
+    serve_fortran(call, result, self);
     state.kept->answer_look_ups(keeps_cuts(state.parameters));
     print_notices(state.rest->report, state.kept->map().num_parts(), Remap{}, state, call.function);
     return ZOLTAN_OK;
@@ -244,11 +255,10 @@ Balance divide(const Call& call, const Layout& layout, const Preparation& prepar
     return balanced;
 }
 
-int balance_objects(const Call& call, const Outcome& outcome, Objects&& objects,
-                    Partition& result) {
+int balance_objects(const Call& call, Objects&& objects, Partition& result) {
     const Parameters& parameters = call.state.parameters;
     Participant self{call.state.communicator->get()};
-    Layout layout = make_layout(outcome, call.state, self);
+    Layout layout = make_layout(call.outcome, call.state, self);
     combine_weights(parameters, call.state.workspace, self.comm, objects);
     const Flattened flat = flatten(call, objects, self);
     Preparation prepared = prepare(call, layout, objects, flat, self);
@@ -258,65 +268,73 @@ int balance_objects(const Call& call, const Outcome& outcome, Objects&& objects,
     Remap remap = prepared.renumbering->run(layout, objects, balanced.parts, self);
     list_exports(call, layout, std::move(objects), balanced, prepared.rest, result);
     select_lists(parameters, prepared.per_rank, self, result);
-    serve_fortran(call, outcome, result, self);
+    serve_fortran(call, result, self);
     print_notices(balanced.report, layout.map.num_parts(), remap, call.state, call.function);
     keep(std::move(prepared), std::move(balanced), flat.frame, std::move(layout.map),
          std::move(remap.numbers), call.state);
     return parameters.auto_migrate != 0 && result.changes ? migrate(call.zz, result) : ZOLTAN_OK;
 }
 
+/// Dumps the inputs of a call, with its code and message so far. Collective as dump() is.
+void dump_inputs(DumpReason reason, const Call& call, const Objects& objects,
+                 const LocalStatus& status) {
+    dump(reason, call.outcome.dump, call.state,
+         {call.function, objects.points, objects.initial_parts.get(), status.code,
+          status.text.data()});
+}
+
+/// The end of a call that fails on all ranks alike.
+struct Failure {
+    int code;
+    std::string_view text;
+    int speaker = 0;  ///< rank that prints the text
+};
+
+/// Prints, dumps the inputs and empties the result; returns the code. Collective as dump() is.
+int fail(const Call& call, const Objects& objects, const Failure& failure, Partition& result) {
+    if (call.state.communicator->rank() == failure.speaker)
+        print_error(failure.speaker, call.function, failure.text);
+    dump_inputs(DumpReason::failure, call, objects, {failure.code, failure.text});
+    result = Partition{};
+    return failure.code;
+}
+
+/// Fails for a parameter that differs between ranks.
+int refuse_difference(const Call& call, const Objects& objects, Partition& result) {
+    std::array<char, 128> text{};
+    std::snprintf(text.data(), text.size(),
+                  "parameter %s differs between ranks; set the same value on all of them",
+                  call.outcome.differing);
+    return fail(call, objects, {ZOLTAN_FATAL, text.data()}, result);
+}
+
 }  // namespace
 
 int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_part_per_rank,
               const CallerLists& to, Partition& result) {
-    const int rank = state.communicator->rank();
     Objects objects;
     const LocalStatus local = collect(zz, state, one_part_per_rank, objects);
     const Outcome outcome = vote(local, state);
-    const bool stays = outcome.at_rest && outcome.differing == nullptr;
-    Call call{zz, state, function, to, std::nullopt, !outcome.axes_changed};
-    if (!stays) {
-        // Should this call fail, the next one must not build on what came before it.
-        state.rest.reset();
-        call.previous = std::exchange(state.kept, std::nullopt);
-        if (!outcome.all_kept_cuts) call.previous.reset();
-    }
-    const auto dump_inputs = [&](DumpReason reason, const LocalStatus& status) {
-        dump(reason, outcome.dump, state,
-             {function, objects.points, objects.initial_parts.get(), status.code,
-              status.text.data()});
-    };
-    dump_inputs(DumpReason::asked, local);
+    Call call{zz, state, function, to, outcome};
+    if (!call.stays()) take_previous(call);
+    dump_inputs(DumpReason::asked, call, objects, local);
     if (outcome.failed()) {
-        dump_inputs(DumpReason::failure, local);
-        if (rank == outcome.failing_rank) print_error(rank, function, local.text.data());
+        fail(call, objects, {local.code, local.text.data(), outcome.failing_rank}, result);
         return outcome.code;
     }
-    const auto fail_everywhere = [&](int code, std::string_view text) {
-        if (rank == 0) print_error(rank, function, text);
-        dump_inputs(DumpReason::failure, {code, text});
-        result = Partition{};
-        return code;
-    };
-    if (outcome.differing != nullptr) {
-        std::array<char, 128> text{};
-        std::snprintf(text.data(), text.size(),
-                      "parameter %s differs between ranks; set the same value on all of them",
-                      outcome.differing);
-        return fail_everywhere(ZOLTAN_FATAL, text.data());
-    }
+    if (outcome.differing != nullptr) return refuse_difference(call, objects, result);
     try {
-        const int code = stays ? stay(call, outcome, std::move(objects), result)
-                               : balance_objects(call, outcome, std::move(objects), result);
+        const int code = call.stays() ? stay(call, std::move(objects), result)
+                                      : balance_objects(call, std::move(objects), result);
         return code == ZOLTAN_OK ? outcome.code : code;
     } catch (const ZoltanError& error) {
-        return fail_everywhere(error.code(), error.what());
+        return fail(call, objects, {error.code(), error.what()}, result);
     } catch (const Error& error) {
         result = Partition{};
         // An error of MPI's may be this rank's alone; nothing more can be done together.
         if (error.code() == ErrorCode::mpi) throw;
         const bool memory = error.code() == ErrorCode::out_of_memory;
-        return fail_everywhere(memory ? ZOLTAN_MEMERR : ZOLTAN_FATAL, error.what());
+        return fail(call, objects, {memory ? ZOLTAN_MEMERR : ZOLTAN_FATAL, error.what()}, result);
     }
 }
 

@@ -121,7 +121,7 @@ TEST(DamBreak, runs_and_falls_as_in_experiments) {
     const History history = collapse(dam_break());
     EXPECT_LT(error_of_height(history), 0.03);
     EXPECT_NEAR(speed_of_front(history), measured_speed, 0.06 * measured_speed);
-    // A dam takes its time to go: calculations without one lead by as much.
+    // The dam of the experiment takes its time to go; here it is gone at once.
     for (const auto& [time, length] : measured_fronts)
         EXPECT_NEAR(time_of_front(history, length), time, 0.3) << length;
 }

@@ -75,13 +75,12 @@ void gather(Contribution& mine, const Options& options, int dimension, Participa
 void decide_together(const Contribution& all, const Options& options, const Cuts* previous,
                      Decision& decision, Participant& self) {
     if (mpi::rank_of(self.comm) == root) {
-        decision.verdict.failing_rank = all.summary.failing_rank;
+        self.hear_of(all.summary.failing_rank);
         self.attempt([&] {
-            if (all.summary.failing_rank != no_rank) return;
             const StageScope stage(options.observer, Stage::bisection);
             decide(all, options, previous, decision);
         });
-        if (self.failure.failed) decision.verdict.failing_rank = root;
+        decision.verdict.failing_rank = self.failing_rank();
     }
     const StageScope stage(options.observer, Stage::broadcast);
     broadcast(decision, self);

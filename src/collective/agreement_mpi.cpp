@@ -46,8 +46,7 @@ void agree(const Participant& self, std::initializer_list<Shared> arguments) {
     const int num_ranks = mpi::size_of(self.comm);
     // A maximum travels as the minimum of the complement.
     std::array<std::uint64_t, 1 + 2 * most_shared> smallest;
-    smallest[0] =
-        static_cast<std::uint64_t>(self.failure.failed ? mpi::rank_of(self.comm) : num_ranks);
+    smallest[0] = static_cast<std::uint64_t>(self.failed() ? mpi::rank_of(self.comm) : num_ranks);
     std::size_t length = 1;
     for (const Shared& argument : arguments) {
         smallest[length++] = argument.value;
@@ -67,6 +66,8 @@ void agree(const Participant& self, std::initializer_list<Shared> arguments) {
 }
 
 void fail_together(int failing_rank, const Participant& self) {
+    if (failing_rank == no_rank) return;
+    if (failing_rank == some_rank) return agree(self);
     Failure theirs = self.failure;
     mpi::check(MPI_Bcast(&theirs, sizeof theirs, MPI_BYTE, failing_rank, self.comm), "MPI_Bcast");
     throw_alike(theirs.code,

@@ -29,7 +29,10 @@ struct Shared {
 /// Collective: one reduction. What follows may be shaped by these arguments.
 void agree(const Participant& self, std::initializer_list<Shared> arguments);
 
-/// Throws the failure of the failing rank on every rank. Collective.
-[[noreturn]] void fail_together(int failing_rank, const Participant& self);
+/// Throws on every rank what failed on `failing_rank`; nothing where it is no_rank.
+///
+/// Collective where it throws, after all ranks were told the same number: one broadcast, before it
+/// agree() for some_rank.
+void fail_together(int failing_rank, const Participant& self);
 
 }  // namespace rrcb

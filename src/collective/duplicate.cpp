@@ -65,7 +65,7 @@ Duplicate& duplicate_with(MPI_Comm user) {
     MPI_Comm comm = MPI_COMM_NULL;
     std::unique_ptr<Duplicate> duplicate;
     Participant self{user};
-    self.always([&] { check(MPI_Comm_dup(user, &comm), "MPI_Comm_dup"); });
+    self.check(MPI_Comm_dup(user, &comm), "MPI_Comm_dup");
     self.attempt([&] {
         duplicate = std::make_unique<Duplicate>();
         duplicate->comm = comm;
@@ -74,7 +74,7 @@ Duplicate& duplicate_with(MPI_Comm user) {
     try {
         agree(self);
     } catch (...) {
-        if (!self.failure.failed) {
+        if (!self.failed()) {
             MPI_Comm_delete_attr(user, key());
         } else if (comm != MPI_COMM_NULL) {
             MPI_Comm_free(&comm);

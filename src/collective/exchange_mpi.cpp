@@ -31,7 +31,7 @@ std::vector<std::size_t> Exchange::make_outbox(std::span<const int> destinations
 }
 
 std::size_t Exchange::announce(Participant& self) {
-    if (self.failure.failed) std::ranges::fill(counts_, 0);
+    if (self.failed()) std::ranges::fill(counts_, 0);
     std::int64_t count = 0;
     mpi::check(MPI_Reduce_scatter_block(counts_.data(), &count, 1, MPI_INT64_T, MPI_SUM, self.comm),
                "MPI_Reduce_scatter_block");
@@ -51,12 +51,10 @@ void Exchange::send_all(Participant& self) {
             const std::size_t count = std::min(left, most_records());
             const std::size_t bytes = count * record_bytes_;
             MPI_Request& request = requests_.emplace_back(MPI_REQUEST_NULL);
-            self.always([&] {
-                mpi::check(MPI_Isend(next, static_cast<int>(bytes), MPI_BYTE,
-                                     static_cast<int>(destination), mpi::exchange_tag, self.comm,
-                                     &request),
-                           "MPI_Isend");
-            });
+            self.check(
+                MPI_Isend(next, static_cast<int>(bytes), MPI_BYTE, static_cast<int>(destination),
+                          mpi::exchange_tag, self.comm, &request),
+                "MPI_Isend");
             next += bytes;
             left -= count;
         }
@@ -69,11 +67,9 @@ void Exchange::receive_all(Participant& self) {
         const std::size_t most = std::min(inbox_.size() - first, most_records() * record_bytes_);
         MPI_Status status{};
         int bytes = 0;
-        self.always([&] {
-            mpi::check(MPI_Recv(&inbox_[first], static_cast<int>(most), MPI_BYTE, MPI_ANY_SOURCE,
-                                mpi::exchange_tag, self.comm, &status),
-                       "MPI_Recv");
-        });
+        self.check(MPI_Recv(&inbox_[first], static_cast<int>(most), MPI_BYTE, MPI_ANY_SOURCE,
+                            mpi::exchange_tag, self.comm, &status),
+                   "MPI_Recv");
         if (MPI_Get_count(&status, MPI_BYTE, &bytes) != MPI_SUCCESS || bytes <= 0) return;
         const auto size = static_cast<std::size_t>(bytes);
         arrived_.push_back({status.MPI_SOURCE, first / record_bytes_, size / record_bytes_});
@@ -84,12 +80,10 @@ void Exchange::receive_all(Participant& self) {
 void Exchange::run(Participant& self) {
     send_all(self);
     receive_all(self);
-    self.always([&] {
-        mpi::check(
-            MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE),
-            "MPI_Waitall");
-    });
-    if (self.failure.failed) throw Error(self.failure.code, self.failure.text.data());
+    self.check(
+        MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE),
+        "MPI_Waitall");
+    if (self.failed()) throw Error(self.failure.code, self.failure.text.data());
     std::ranges::sort(arrived_, [](const Message& a, const Message& b) {
         return std::pair(a.source, a.first) < std::pair(b.source, b.first);
     });

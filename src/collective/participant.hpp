@@ -1,64 +1,52 @@
 #pragma once
 
-#include <rrcb/error.hpp>
+#include "collective/communicator.hpp"
+#include "collective/failure.hpp"
 
 #include <mpi.h>
 
-#include <array>
-#include <exception>
-#include <new>
-#include <string_view>
-#include <utility>
-
 namespace rrcb {
 
-/// An error held back until the ranks have agreed on it; it takes no memory to hold it.
-struct Failure {
-    bool failed = false;
-    ErrorCode code = ErrorCode::internal;
-    std::array<char, 512> text{};  ///< cut short where it is longer; ends with a 0
-};
-
-inline Failure failure_of(ErrorCode code, std::string_view text) {
-    Failure failure{true, code};
-    text.copy(failure.text.data(), failure.text.size() - 1);
-    return failure;
-}
-
-/// Runs one local step; what it throws is held back so that the rank can go on to the agreement.
-template <class Step>
-Failure attempt(Step&& step) {
-    try {
-        step();
-        return {};
-    } catch (const Error& error) {
-        return failure_of(error.code(), error.what());
-    } catch (const std::bad_alloc&) {
-        return failure_of(ErrorCode::out_of_memory, "out of memory");
-    } catch (const std::exception& error) {
-        return failure_of(ErrorCode::internal, error.what());
-    } catch (...) {
-        return failure_of(ErrorCode::internal, "unknown exception");
-    }
-}
-
 /// One rank in a collective call: it takes part to the end, whatever goes wrong on it.
+///
+/// A failure takes the same way everywhere, so that no rank leaves a call alone:
+/// 1. Local steps run in attempt(), messages between two ranks in check(). Both hold back what
+///    fails.
+/// 2. From then on the rank skips its local steps and sends nothing in place of data, in as many
+///    messages.
+/// 3. All ranks meet in agree(), which throws the error of the lowest failing rank on all of them.
+///
+/// Where messages to the root travel anyway, the failure rides on them and saves that reduction:
+/// each rank tells its failing_rank(), or that it failed(), with its data. The root hears of it,
+/// decides nothing, and tells failing_rank() where its decision was to be. Then all ranks
+/// fail_together().
 struct Participant {
     MPI_Comm comm;
-    Failure failure{};  ///< the first one here; held back until all have been told
+    Failure failure{};            ///< the first one here
+    int failing_there = no_rank;  ///< a rank of whose failure a message told
 
-    /// Runs a step that touches only what is here, unless an earlier one failed.
+    bool failed() const { return failure.failed; }
+    bool can_go_on() const { return !failed() && failing_there == no_rank; }
+
+    /// Runs a step that touches only what is here, unless a rank is known to have failed.
     template <class Step>
     void attempt(Step&& step) {
-        if (!failure.failed) failure = rrcb::attempt(step);
+        if (can_go_on()) failure = rrcb::attempt(step);
     }
 
-    /// Runs a step that other ranks wait for.
-    template <class Step>
-    void always(Step&& step) {
-        Failure here = rrcb::attempt(step);
-        if (here.failed && !failure.failed) failure = std::move(here);
+    /// Holds back the error of an MPI call, which was due to another rank whatever failed before.
+    void check(int code, const char* call) {
+        if (code == MPI_SUCCESS || failed()) return;
+        failure = rrcb::attempt([&] { mpi::check(code, call); });
     }
+
+    /// Notes the failing rank that a message told, which may be no_rank or some_rank.
+    void hear_of(int rank) {
+        if (failing_there == no_rank) failing_there = rank;
+    }
+
+    /// A rank that is known to have failed, this one first; no_rank where none is.
+    int failing_rank() const { return failed() ? mpi::rank_of(comm) : failing_there; }
 };
 
 }  // namespace rrcb

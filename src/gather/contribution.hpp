@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cells/binned_points.hpp"
+#include "collective/failure.hpp"
 #include "options/request.hpp"
 
 #include <rrcb/points.hpp>
@@ -11,8 +12,6 @@
 #include <vector>
 
 namespace rrcb {
-
-inline constexpr int no_rank = -1;
 
 /// What one rank, or all ranks of a subtree, say in short: whether they can go on, what they ask
 /// for, and their totals.

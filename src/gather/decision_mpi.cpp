@@ -152,7 +152,7 @@ void broadcast_head(Head& head, Verdict& verdict, const Participant& self) {
     std::memcpy(head.data(), &verdict, sizeof verdict);
     mpi::broadcast(head, root, self.comm);
     std::memcpy(&verdict, head.data(), sizeof verdict);
-    if (verdict.failing_rank != no_rank) fail_together(verdict.failing_rank, self);
+    fail_together(verdict.failing_rank, self);
 }
 
 /// Reads the current parts from the places of all ranks, where these are one part each.
@@ -224,11 +224,9 @@ void decide(const Contribution& all, const Options& options, const Cuts* previou
 void confirm(const Summary& all, Participant& self) {
     Verdict verdict;
     if (mpi::rank_of(self.comm) == root) {
-        verdict.failing_rank = all.failing_rank;
-        self.attempt([&] {
-            if (all.failing_rank == no_rank) check_together(all);
-        });
-        if (self.failure.failed) verdict.failing_rank = root;
+        self.hear_of(all.failing_rank);
+        self.attempt([&] { check_together(all); });
+        verdict.failing_rank = self.failing_rank();
     }
     Head head{};
     broadcast_head(head, verdict, self);

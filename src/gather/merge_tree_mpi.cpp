@@ -14,19 +14,14 @@ namespace {
 constexpr std::size_t piece = 8192;  // doubles in a message
 
 void send(std::span<const std::byte> bytes, int to, mpi::Tag tag, Participant& self) {
-    self.always([&] {
-        mpi::check(
-            MPI_Send(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, to, tag, self.comm),
-            "MPI_Send");
-    });
+    self.check(MPI_Send(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, to, tag, self.comm),
+               "MPI_Send");
 }
 
 void receive(std::span<std::byte> bytes, int from, mpi::Tag tag, Participant& self) {
-    self.always([&] {
-        mpi::check(MPI_Recv(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, from, tag,
-                            self.comm, MPI_STATUS_IGNORE),
-                   "MPI_Recv");
-    });
+    self.check(MPI_Recv(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, from, tag,
+                        self.comm, MPI_STATUS_IGNORE),
+               "MPI_Recv");
 }
 
 void send_records(std::span<const double> records, int to, mpi::Tag tag, Participant& self) {
@@ -77,7 +72,7 @@ void merge_up(Contribution& mine, int dimension, const MergeTree& tree, std::siz
         self.attempt([&] {
             mine.records.insert(mine.records.end(), mine.places.begin(), mine.places.end());
         });
-    if (self.failure.failed) mine.summary.failing_rank = rank;
+    if (self.failed()) mine.summary.failing_rank = rank;
     if (rank != 0) send_up(mine, tree.parent(rank), self);
 }
 

@@ -20,8 +20,6 @@ namespace rrcb {
 namespace {
 
 constexpr std::size_t overlaps_per_part = 16;
-constexpr int none_failed = -1;
-constexpr int some_failed = -2;
 
 /// Where points stay.
 struct Owners {
@@ -93,7 +91,7 @@ void gather_overlaps(std::vector<Overlap> mine, std::size_t num_points, RemapBuf
                      const Participant& self) {
     keep_largest(buffers.mine.size() - 1, mine);
     std::ranges::fill(buffers.mine, Overlap{});
-    buffers.mine[0] = {0, self.failure.failed ? 1 : 0, static_cast<GlobalCount>(num_points)};
+    buffers.mine[0] = {0, self.failed() ? 1 : 0, static_cast<GlobalCount>(num_points)};
     std::ranges::copy(mine, buffers.mine.begin() + 1);
     const int bytes = static_cast<int>(buffers.mine.size() * sizeof(Overlap));
     mpi::check(MPI_Gather(buffers.mine.data(), bytes, MPI_BYTE, buffers.all.data(), bytes, MPI_BYTE,
@@ -107,14 +105,14 @@ void sum_up(std::span<const Part> parts, std::span<const Part> previous, RemapBu
             const Participant& self) {
     const std::size_t num_parts = buffers.numbers.size();
     std::ranges::fill(buffers.sums, 0);
-    for (std::size_t i = 0; i < parts.size() && !self.failure.failed; ++i) {
+    for (std::size_t i = 0; i < parts.size() && !self.failed(); ++i) {
         const auto origin = static_cast<std::size_t>(previous[i]);
         if (previous[i] >= 0 && origin < num_parts)
             ++buffers.sums[origin * num_parts + static_cast<std::size_t>(parts[i])];
     }
     const std::span tail = std::span(buffers.sums).last<2>();
     tail[0] = static_cast<GlobalCount>(parts.size());
-    tail[1] = self.failure.failed ? 1 : 0;
+    tail[1] = self.failed() ? 1 : 0;
     const bool is_root = mpi::rank_of(self.comm) == root;
     mpi::check(
         MPI_Reduce(is_root ? MPI_IN_PLACE : buffers.sums.data(), buffers.sums.data(),
@@ -134,10 +132,10 @@ std::vector<Overlap> overlaps_of(const RemapBuffers& buffers) {
 
 /// The lowest rank that failed, as far as the root was told.
 int lowest_failing_rank(const RemapBuffers& buffers) {
-    if (buffers.holds_sums()) return buffers.sums.back() > 0 ? some_failed : none_failed;
+    if (buffers.holds_sums()) return buffers.sums.back() > 0 ? some_rank : no_rank;
     for (std::size_t i = 0; i < buffers.all.size(); i += buffers.mine.size())
         if (buffers.all[i].part != 0) return static_cast<int>(i / buffers.mine.size());
-    return none_failed;
+    return no_rank;
 }
 
 /// Takes the number of points out of what the root was told.
@@ -291,17 +289,11 @@ Remap remap(std::span<const Part> parts, const PreviousParts& previous,
         gather_overlaps(std::move(overlaps), parts.size(), buffers, self);
     }
     Remap result;
-    int failing_rank = none_failed;
     if (rank == root) {
-        failing_rank = lowest_failing_rank(buffers);
-        self.attempt([&] {
-            if (failing_rank == none_failed) result = decide_numbers(buffers, owners);
-        });
-        if (self.failure.failed) failing_rank = root;
+        self.hear_of(lowest_failing_rank(buffers));
+        self.attempt([&] { result = decide_numbers(buffers, owners); });
     }
-    failing_rank = share(failing_rank, result, buffers, self.comm);
-    if (failing_rank == some_failed) agree(self);
-    if (failing_rank != none_failed) fail_together(failing_rank, self);
+    fail_together(share(self.failing_rank(), result, buffers, self.comm), self);
     return result;
 }
 

@@ -9,7 +9,7 @@ namespace rrcb {
 
 namespace {
 
-constexpr int no_candidates_known = -1;
+constexpr int count_where_failed = -1;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ void Candidates::expect(GlobalCount num_points, int num_ranks) {
 }
 
 void Candidates::clear() {
-    lost_ = false;
+    failed_ = false;
     records_.clear();
 }
 
@@ -31,17 +31,17 @@ void Candidates::add(std::size_t list, const LocalSearch& search) {
     search.append_candidates(static_cast<double>(list), records_);
 }
 
-void Candidates::lose() {
+void Candidates::mark_failed() {
     clear();
-    lost_ = true;
+    failed_ = true;
 }
 
 void Candidates::gather(int root, MPI_Comm comm) {
     const auto num_records = static_cast<int>(records_.size() / record_length_);
-    const int told = lost_ ? no_candidates_known : num_records;
+    const int told = failed_ ? count_where_failed : num_records;
     mpi::check(MPI_Gather(&told, 1, MPI_INT, counts_.data(), 1, MPI_INT, root, comm), "MPI_Gather");
-    any_failed_ = std::ranges::count(counts_, no_candidates_known) > 0;
-    std::ranges::replace(counts_, no_candidates_known, 0);
+    any_failed_ = std::ranges::count(counts_, count_where_failed) > 0;
+    std::ranges::replace(counts_, count_where_failed, 0);
     std::exclusive_scan(counts_.begin(), counts_.end(), offsets_.begin(), 0);
     mpi::check(MPI_Gatherv(records_.data(), num_records, record_.get(), all_records_.data(),
                            counts_.data(), offsets_.data(), record_.get(), root, comm),

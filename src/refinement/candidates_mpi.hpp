@@ -24,16 +24,16 @@ class Candidates {
 
     void clear();
 
-    /// What is left to search number `list` here. Throws std::bad_alloc; then lose() is due.
+    /// What is left to search number `list` here. Throws std::bad_alloc; then mark_failed() is due.
     void add(std::size_t list, const LocalSearch& search);
 
-    /// This rank can't list its candidates.
-    void lose();
+    /// Tells that this rank has failed, in place of its candidates.
+    void mark_failed();
 
     /// Gathers the candidates of all ranks at the root. Collective over `comm`.
     void gather(int root, MPI_Comm comm);
 
-    /// True when a rank lost its candidates; at the root only.
+    /// True when a rank has failed that took part in the last gather; at the root only.
     bool any_failed() const { return any_failed_; }
 
     /// The records of each search in the order of the ranks; at the root only.
@@ -42,7 +42,7 @@ class Candidates {
   private:
     std::size_t record_length_;
     mpi::ContiguousType record_;
-    bool lost_ = false;
+    bool failed_ = false;
     std::vector<double> records_;      ///< number of the search, position, weight
     std::vector<double> all_records_;  ///< of all ranks, as is all below; at the root only
     std::vector<int> counts_;

@@ -65,7 +65,7 @@ int LevelSearch::run(const TargetRule& rule, Participant& self) {
         gather_and_decide(self);
         if (is_root_) conclude(self);
         mpi::broadcast(std::as_writable_bytes(std::span(searches_)), root, self.comm);
-        if (searches_[0].stage == CutSearch::abandoned) agree(self);
+        if (searches_[0].stage == CutSearch::abandoned) fail_together(some_rank, self);
         follow(self);
     }
     return rounds;
@@ -79,8 +79,7 @@ void LevelSearch::count_and_decide(const TargetRule& rule, Participant& self) {
     if (histograms_.size() == 0) return;
     histograms_.join(root, self.comm);
     if (!is_root_) return;
-    told_of_failure_ |= histograms_.any_failed();
-    if (told_of_failure_) return;
+    if (histograms_.any_failed()) self.hear_of(some_rank);
     std::size_t next = 0;
     self.attempt([&] {
         for (std::size_t k = 0; k < searches_.size(); ++k)
@@ -99,7 +98,7 @@ void LevelSearch::count(std::size_t k, Participant& self) {
     } else {
         self.attempt([&] { local_[k].count(search, histograms_.layout(), histogram); });
     }
-    if (self.failure.failed) mark_failed(histogram);
+    if (self.failed()) mark_failed(histogram);
 }
 
 /// Decides at the root on search number `k`, by its joined histogram.
@@ -128,11 +127,10 @@ void LevelSearch::gather_and_decide(Participant& self) {
         for (std::size_t k = 0; k < before_.size(); ++k)
             if (is_gathering(before_[k])) candidates_.add(k, local_[k]);
     });
-    if (self.failure.failed) candidates_.lose();
+    if (self.failed()) candidates_.mark_failed();
     candidates_.gather(root, self.comm);
     if (!is_root_) return;
-    told_of_failure_ |= candidates_.any_failed();
-    if (told_of_failure_) return;
+    if (candidates_.any_failed()) self.hear_of(some_rank);
     self.attempt([&] {
         const auto lists = candidates_.lists(before_.size());
         for (std::size_t k = 0; k < before_.size(); ++k)
@@ -157,7 +155,7 @@ void LevelSearch::conclude(Participant& self) {
         }
     }
     self.attempt([&] { candidates_.expect(num_points, mpi::size_of(self.comm)); });
-    if (!self.failure.failed && !told_of_failure_) return;
+    if (self.can_go_on()) return;
     for (CutSearch& search : searches_) search.stage = CutSearch::abandoned;
 }
 

@@ -56,7 +56,6 @@ class LevelSearch {
 
     int dimension_;
     bool is_root_;
-    bool told_of_failure_ = false;  ///< of another rank; at the root only
 
     // One entry per search; capacity for any.
     std::vector<const Node*> nodes_;

@@ -9,14 +9,14 @@ namespace rrcb {
 
 double PartSums::add_up(std::span<const double> part_sizes, const Participant& self) {
     const std::size_t num_parts = part_sizes.size();
-    here_.back() = self.failure.failed ? 1 : 0;
+    here_.back() = self.failed() ? 1 : 0;
     mpi::check(MPI_Reduce(here_.data(), sums_.data(), mpi::to_int(std::ssize(here_)), MPI_DOUBLE,
                           MPI_SUM, root, self.comm),
                "MPI_Reduce");
     if (mpi::rank_of(self.comm) == root)
         sums_.back() = imbalance(std::span(sums_).first(num_parts), part_sizes);
     mpi::broadcast(std::as_writable_bytes(std::span(sums_)), root, self.comm);
-    if (sums_[num_parts] > 0) agree(self);
+    if (sums_[num_parts] > 0) fail_together(some_rank, self);
     return sums_.back();
 }
 

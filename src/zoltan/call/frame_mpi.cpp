@@ -40,7 +40,7 @@ Bounds bounds_of(const Points& points, const Participant& self) {
         bounds.minus_lower[a] = -box.lower[a];
         bounds.upper[a] = box.upper[a];
     }
-    if (self.failure.failed || bounds.unusable != 0) {
+    if (self.failed() || bounds.unusable != 0) {
         bounds.unusable = 1;
         bounds.minus_lower = bounds.upper = Vector{};
     }

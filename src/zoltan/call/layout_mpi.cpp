@@ -52,7 +52,7 @@ void merge_part_sizes(int num_parts, const State& state, int weight, const Layou
                    "MPI_Allreduce");
         std::ranges::replace_if(
             sizes, [](double size) { return size < 0; }, 1.0);
-        if (!self.failure.failed) std::ranges::copy(sizes, merged.begin() + first_part);
+        if (!self.failed()) std::ranges::copy(sizes, merged.begin() + first_part);
     }
 }
 

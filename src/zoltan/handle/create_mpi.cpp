@@ -26,7 +26,7 @@ struct Ballot {
 
 Ballot vote_on_environment(bool asks, const Participant& self) {
     const int num_ranks = mpi::size_of(self.comm);
-    Ballot ballot{self.failure.failed ? num_ranks - mpi::rank_of(self.comm) : 0,
+    Ballot ballot{self.failed() ? num_ranks - mpi::rank_of(self.comm) : 0,
                   real_zoltan()->serves_rrcb ? 0 : 1, asks ? 1 : 0, asks ? 0 : 1};
     static_assert(sizeof ballot == 4 * sizeof(int));
     mpi::check(MPI_Allreduce(MPI_IN_PLACE, &ballot, 4, MPI_INT, MPI_MAX, self.comm),
@@ -58,7 +58,7 @@ struct Draft {
 
 /// Makes them. All ranks duplicate the communicator, whatever fails on one of them.
 void make(Draft& draft, const Zoltan_Struct* zz, MPI_Comm user, Participant& self) {
-    self.always([&] { mpi::check(MPI_Comm_dup(user, &draft.duplicate), "MPI_Comm_dup"); });
+    self.check(MPI_Comm_dup(user, &draft.duplicate), "MPI_Comm_dup");
     self.attempt([&] {
         State& state = draft.state;
         state.communicator = std::make_unique<Communicator>(draft.duplicate);

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <rrcb/error.hpp>
+
+#include <array>
+#include <exception>
+#include <new>
+#include <string_view>
+
+namespace rrcb {
+
+/// In place of the number of a failing rank: none has failed.
+inline constexpr int no_rank = -1;
+
+/// In place of the number of a failing rank: one has, but the message could not say which.
+inline constexpr int some_rank = -2;
+
+/// An error held back until the ranks have agreed on it; it takes no memory to hold it.
+struct Failure {
+    bool failed = false;
+    ErrorCode code = ErrorCode::internal;
+    std::array<char, 512> text{};  ///< cut short where it is longer; ends with a 0
+};
+
+inline Failure failure_of(ErrorCode code, std::string_view text) {
+    Failure failure{true, code};
+    text.copy(failure.text.data(), failure.text.size() - 1);
+    return failure;
+}
+
+/// Runs one local step; returns what it throws.
+template <class Step>
+Failure attempt(Step&& step) {
+    try {
+        step();
+        return {};
+    } catch (const Error& error) {
+        return failure_of(error.code(), error.what());
+    } catch (const std::bad_alloc&) {
+        return failure_of(ErrorCode::out_of_memory, "out of memory");
+    } catch (const std::exception& error) {
+        return failure_of(ErrorCode::internal, error.what());
+    } catch (...) {
+        return failure_of(ErrorCode::internal, "unknown exception");
+    }
+}
+
+}  // namespace rrcb

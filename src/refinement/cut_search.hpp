@@ -89,4 +89,11 @@ void decide_among(CutSearch& search, CutTarget& target, std::span<const double> 
 /// As many candidates of one search as are worth gathering instead of counting once more.
 inline constexpr GlobalCount most_gathered = 1024;
 
+/// As many candidates of all searches as are gathered at once, in a few messages.
+inline constexpr GlobalCount most_gathered_at_once = 64 * most_gathered;
+
+/// Has searches sample their candidates that would have gathered more than that, those behind
+/// first; returns how many candidates the others gather.
+GlobalCount limit_gathering(std::span<CutSearch> searches, std::span<const CutTarget> targets);
+
 }  // namespace rrcb

@@ -143,17 +143,7 @@ void LevelSearch::gather_and_decide(Participant& self) {
 /// more candidates travel at once than a few messages hold, and makes room for them before others
 /// send them.
 void LevelSearch::conclude(Participant& self) {
-    constexpr GlobalCount most_gathered_at_once = 64 * most_gathered;
-    GlobalCount num_points = 0;
-    for (std::size_t k = 0; k < searches_.size(); ++k) {
-        if (!is_gathering(searches_[k])) continue;
-        const GlobalCount more = targets_[k].num_candidates;
-        if (num_points + more <= most_gathered_at_once) {
-            num_points += more;
-        } else {
-            searches_[k].stage = CutSearch::sampling;
-        }
-    }
+    const GlobalCount num_points = limit_gathering(searches_, targets_);
     self.attempt([&] { candidates_.expect(num_points, mpi::size_of(self.comm)); });
     if (self.can_go_on()) return;
     for (CutSearch& search : searches_) search.stage = CutSearch::abandoned;

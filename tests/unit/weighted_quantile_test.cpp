@@ -1,7 +1,10 @@
 #include "bisection/weighted_quantile.hpp"
 
+#include "../support/clouds.hpp"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -52,6 +55,86 @@ TEST(FractionBelow, is_that_of_the_extent_over_the_whole_range_of_a_double) {
     constexpr double largest = std::numeric_limits<double>::max();
     EXPECT_EQ(fraction_below(0, 1, 4), 0.25);
     EXPECT_EQ(fraction_below(-largest, 0, largest), 0.5);
+}
+
+/// Share of a patch below a cut, by its corners and volume: worked out with no word of breakpoints.
+double share_below(const Patch& patch, const Cut& cut, int dimension) {
+    std::vector<std::size_t> axes{static_cast<std::size_t>(cut.axis)};
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+        if (a != axes[0]) axes.push_back(a);
+    for (const std::size_t a : axes) {
+        if (cut.at[a] <= patch.lower[a] && patch.lower[a] < patch.upper[a]) return 0;
+        if (cut.at[a] < patch.lower[a]) return 0;
+        if (cut.at[a] > patch.upper[a]) return 1;
+        if (patch.lower[a] < patch.upper[a])
+            return (cut.at[a] - patch.lower[a]) / (patch.upper[a] - patch.lower[a]);
+    }
+    return 0;  // exactly at the cut: above
+}
+
+std::vector<Patch> random_patches(std::mt19937_64& engine, int dimension) {
+    std::vector<Patch> patches(1 + engine() % 12);
+    for (Patch& patch : patches) {
+        for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
+            // On a coarse lattice, half of them flat, so that they overlap, touch and coincide.
+            patch.lower[a] = static_cast<double>(engine() % 6);
+            patch.upper[a] = patch.lower[a] + static_cast<double>((engine() % 2) * (engine() % 4));
+        }
+        patch.weight = static_cast<double>(engine() % 4);
+    }
+    patches[0].weight = 1;
+    return patches;
+}
+
+TEST(WeightedQuantile, has_the_target_below_it_but_for_patches_in_one_place) {
+    std::mt19937_64 engine(8);
+    int num_exact = 0;
+    for (int round = 0; round < 3000; ++round) {
+        const int dimension = 1 + round % 3;
+        const std::vector<Patch> patches = random_patches(engine, dimension);
+        double total = 0;
+        for (const Patch& patch : patches) total += patch.weight;
+        const double target = total * test::uniform(engine);
+        const int axis = static_cast<int>(engine() % static_cast<unsigned>(dimension));
+        const Cut cut = weighted_quantile(domain_of(patches, dimension), axis, target, false);
+        double below = 0;
+        for (const Patch& patch : patches)
+            below += patch.weight * share_below(patch, cut, dimension);
+        // The heaviest place decides how far the weight may be off: by half of it.
+        double heaviest = 0;
+        for (const Patch& patch : patches) {
+            if (patch.lower != patch.upper) continue;
+            double weight = 0;
+            for (const Patch& other : patches)
+                if (other.lower == patch.lower && other.upper == patch.upper)
+                    weight += other.weight;
+            heaviest = std::max(heaviest, weight);
+        }
+        EXPECT_NEAR(below, target, heaviest / 2 + 1e-9) << "round " << round;
+        num_exact += std::abs(below - target) < 1e-9;
+    }
+    EXPECT_GT(num_exact, 1000) << "most clouds have patches in one place";
+}
+
+TEST(WeightedQuantile, that_is_plain_leaves_a_plane_of_patches_on_one_side) {
+    const StatisticalDomain domain =
+        domain_of({{{1, 0}, {1, 4}, 3}, {{1, 4}, {1, 8}, 3}, {{2, 0}, {3, 8}, 6}}, 2);
+    EXPECT_EQ(weighted_quantile(domain, 0, 2, true).at[0], 1) << "0 is nearer than 6";
+    EXPECT_EQ(weighted_quantile(domain, 0, 5, true).at[0], 1.5) << "in the gap behind the plane";
+}
+
+TEST(WeightedQuantile, keeps_a_jump_below_that_was_passed_by_nothing) {
+    EXPECT_EQ(quantile({{{1}, {1}, 1}, {{1}, {2}, 1}}, 1), std::nextafter(1.0, infinity));
+}
+
+TEST(WeightedQuantile, of_nothing_is_below_all) {
+    EXPECT_LE(quantile({{{1}, {4}, 8}}, 0), 1);
+}
+
+TEST(WeightedQuantile, does_not_overflow) {
+    constexpr double largest = std::numeric_limits<double>::max();
+    EXPECT_EQ(quantile({{{-largest}, {largest}, 8}}, 4), 0);
+    EXPECT_EQ(quantile({{{-largest}, {-largest}, 1}, {{largest}, {largest}, 1}}, 1), 0);
 }
 
 }  // namespace

@@ -1,0 +1,96 @@
+// Targets and slack worked out by hand, and that slack spent on every level keeps the tolerance.
+#include "refinement/target_rule.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+TargetRule rule_of(const std::vector<double>& sizes, double tolerance, double common_weight = 0) {
+    TargetRule rule;
+    rule.part_sizes = sizes;
+    rule.tolerance = tolerance;
+    rule.common_weight = common_weight;
+    rule.weight_per_size = 100;
+    return rule;
+}
+
+TEST(TargetRule, gives_each_side_the_share_of_its_sizes) {
+    const std::vector<double> sizes{1, 2, 3, 0, 2};
+    const TargetRule rule = rule_of(sizes, 1.1);
+    const Descent top{0, 0, 5};  // parts 0 and 1 below
+    EXPECT_EQ(rule.target_of(top, 800).target, 300);
+    EXPECT_EQ(rule.target_of(top, 400).target, 150) << "of what was counted, not of the ideal";
+    EXPECT_EQ(rule.share_below({0, 3, 2}), 0) << "nothing belongs to a part of size 0";
+    EXPECT_EQ(rule.target_of(top, 0).target, 0);
+}
+
+TEST(TargetRule, of_exact_cuts_leaves_half_a_point_of_slack) {
+    const std::vector<double> sizes{1, 1};
+    TargetRule rule = rule_of(sizes, 1.1, 4);
+    rule.is_exact = true;
+    EXPECT_EQ(rule.target_of({0, 0, 2}, 200).slack, 2);
+    rule.common_weight = 0;
+    EXPECT_EQ(rule.target_of({0, 0, 2}, 200).slack, 0);
+}
+
+TEST(TargetRule, spends_all_slack_on_the_last_level_and_a_root_of_it_above) {
+    const std::vector<double> sizes(8, 1.0);
+    const TargetRule rule = rule_of(sizes, 1.331);
+    EXPECT_NEAR(rule.target_of({0, 0, 2}, 200).slack, 33.1, 1e-10);
+    EXPECT_NEAR(rule.target_of({0, 0, 8}, 800).slack, 40, 1e-10);  // 1.331 is 1.1 cubed
+    // Two of three parts are cut once more.
+    EXPECT_NEAR(rule_of(sizes, 1.21).target_of({0, 0, 3}, 300).slack, 10, 1e-10);
+}
+
+TEST(TargetRule, has_no_more_slack_than_the_lighter_side_allows) {
+    const std::vector<double> sizes{1, 3};
+    EXPECT_NEAR(rule_of(sizes, 1.1).target_of({0, 0, 2}, 400).slack, 10, 1e-10);
+    const std::vector<double> other_way_round{3, 1};
+    EXPECT_NEAR(rule_of(other_way_round, 1.1).target_of({0, 0, 2}, 400).slack, 10, 1e-10);
+}
+
+TEST(TargetRule, leaves_a_node_that_is_too_heavy_less_slack_and_in_the_end_none) {
+    const std::vector<double> sizes{1, 1};
+    const TargetRule rule = rule_of(sizes, 1.1);
+    EXPECT_NEAR(rule.target_of({0, 0, 2}, 210).slack, (1.1 / 1.05 - 1) * 105, 1e-10);
+    EXPECT_EQ(rule.target_of({0, 0, 2}, 220 + 1e-9).slack, 0);
+}
+
+TEST(TargetRule, counts_on_whole_points_where_all_weigh_the_same) {
+    // 100 and a tenth are room for 11 points of weight 10, 100 and a twentieth only for 10 of them.
+    const std::vector<double> sizes{1, 1};
+    EXPECT_NEAR(rule_of(sizes, 1.1, 10).target_of({0, 0, 2}, 200).slack, 10, 1e-10);
+    EXPECT_EQ(rule_of(sizes, 1.05, 10).target_of({0, 0, 2}, 200).slack, 5) << "half a point";
+    // The smallest part with a size decides: 25 and a tenth are room for 2 points.
+    const std::vector<double> uneven{1, 0.25, 0, 3};
+    EXPECT_EQ(rule_of(uneven, 1.1, 10).target_of({0, 0, 4}, 425).slack, 5);
+    const std::vector<double> with_none{1, 0.5, 0, 2.5};
+    EXPECT_NEAR(rule_of(with_none, 1.2, 10).target_of({0, 0, 4}, 400).slack,
+                (std::sqrt(1.2) - 1) * 150, 1e-10);
+}
+
+TEST(TargetRule, keeps_every_part_within_the_tolerance_however_the_slack_is_spent) {
+    for (const int num_parts : {2, 3, 5, 8, 13}) {
+        const std::vector<double> sizes(static_cast<std::size_t>(num_parts), 1.0);
+        const TargetRule rule = rule_of(sizes, 1.05);
+        // Each cut errs as far as it may, to either side.
+        const auto heaviest = [&](auto&& again, const Descent& at, double weight) -> double {
+            if (at.is_part()) return weight;
+            const CutTarget target = rule.target_of(at, weight);
+            double most = 0;
+            for (const double below : {target.target - target.slack, target.target + target.slack})
+                most = std::max({most, again(again, at.lower(), below),
+                                 again(again, at.upper(), weight - below)});
+            return most;
+        };
+        EXPECT_LE(heaviest(heaviest, {0, 0, num_parts}, 100.0 * num_parts), 105 + 1e-9)
+            << num_parts;
+    }
+}
+
+}  // namespace
+}  // namespace rrcb

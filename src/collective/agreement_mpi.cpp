@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t most_shared = 3;
 
-/// Throws on all ranks; the text is left out where memory lacks for it.
+/// Throws the same on all ranks; without the text where a rank has no memory for it.
 template <class MakeText>
 [[noreturn]] void throw_alike(ErrorCode code, MakeText&& make_text) {
     try {

@@ -17,22 +17,22 @@ inline constexpr int root = 0;
 /// Collective: one reduction.
 void agree(const Participant& self);
 
-/// An argument that is to be the same on every rank.
+/// Argument that must be the same on every rank.
 struct Shared {
     std::string_view name;
     std::uint64_t value = 0;
 };
 
-/// The same, and throws where one of `arguments` differs between the ranks, all of which name the
-/// same ones, at most three.
+/// Agrees, and throws also where one of `arguments` differs between the ranks.
 ///
-/// Collective: one reduction. What follows may be shaped by these arguments.
+/// Collective: one reduction. All ranks name the same arguments, three at most. The messages that
+/// follow may depend on them.
 void agree(const Participant& self, std::initializer_list<Shared> arguments);
 
 /// Throws on every rank what failed on `failing_rank`; nothing where it is no_rank.
 ///
-/// Collective where it throws, after all ranks were told the same number: one broadcast, before it
-/// agree() for some_rank.
+/// Collective where it throws: one broadcast, and agree() before it for some_rank. All ranks were
+/// told the same number.
 void fail_together(int failing_rank, const Participant& self);
 
 }  // namespace rrcb

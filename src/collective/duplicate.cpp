@@ -28,8 +28,8 @@ int key() {
     return key;
 }
 
-/// Null when there is none. Without a key this rank, and so no rank, has one for any communicator
-/// that they share.
+/// Duplicate kept with `user`, or null. A rank without a key has kept none, so no rank has for a
+/// communicator that they share.
 Duplicate* find(MPI_Comm user) {
     void* attribute = nullptr;
     int found = 0;

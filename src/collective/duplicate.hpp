@@ -7,13 +7,13 @@
 
 namespace rrcb::mpi {
 
-/// What the library keeps with a caller's communicator; freed with it.
+/// Belongings that the library keeps with a caller's communicator; freed with it.
 struct Duplicate {
     MPI_Comm comm = MPI_COMM_NULL;       ///< for the library's messages alone; errors on it return
     std::vector<std::int64_t> per_rank;  ///< a number for each rank, to send when memory is short
 };
 
-/// The duplicate kept with `user`.
+/// Duplicate kept with `user`.
 ///
 /// Collective over `user` when called for the first time with it: one more reduction, so that all
 /// ranks throw the same Error when one of them fails; then nothing is kept. Throws Error on every

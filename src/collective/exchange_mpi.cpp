@@ -19,7 +19,7 @@ std::size_t Exchange::most_records() const {
     return mpi::longest_message / record_bytes_;
 }
 
-/// Gives where the records for each rank begin.
+/// Makes the outbox; returns where in it the records for each rank begin.
 std::vector<std::size_t> Exchange::make_outbox(std::span<const int> destinations) {
     std::vector<std::size_t> first(counts_.size());
     const std::size_t most = counts_.size() + destinations.size() / most_records();
@@ -63,6 +63,7 @@ void Exchange::send_all(Participant& self) {
 
 void Exchange::receive_all(Participant& self) {
     std::size_t first = 0;
+    // All before `first` has come. The inbox has the length announced, so nothing else is awaited.
     while (first < inbox_.size()) {
         const std::size_t most = std::min(inbox_.size() - first, most_records() * record_bytes_);
         MPI_Status status{};

@@ -25,7 +25,8 @@ class Exchange {
             write(k, &outbox_[record_bytes_ * next[static_cast<std::size_t>(destinations[k])]++]);
     }
 
-    /// How many records come to this rank, for which it makes room.
+    /// Announces the records to their ranks; returns how many come to this one, which makes room
+    /// for them.
     ///
     /// Collective: one reduction, which no rank leaves before all have entered it; see mpi::Tag.
     /// A rank that failed before sends nothing.
@@ -37,7 +38,7 @@ class Exchange {
     /// mpi::longest_message. Throws Error where one fails, of which no other rank hears.
     void run(Participant& self);
 
-    /// Calls read(source, place) for what came: by rank, in the order written there.
+    /// Calls read(source, place) for every record that came: by rank, in the order written there.
     template <class Read>
     void for_each(Read&& read) const {
         for (const Message& message : arrived_)
@@ -46,7 +47,7 @@ class Exchange {
     }
 
   private:
-    /// Of one rank, somewhere in the inbox.
+    /// Records of one rank, somewhere in the inbox.
     struct Message {
         int source;
         std::size_t first;

@@ -9,13 +9,13 @@
 
 namespace rrcb {
 
-/// In place of the number of a failing rank: none has failed.
+/// Number in place of a failing rank's where none has failed.
 inline constexpr int no_rank = -1;
 
-/// In place of the number of a failing rank: one has, but the message could not say which.
+/// Number in place of a failing rank's where the message could not say which has failed.
 inline constexpr int some_rank = -2;
 
-/// An error held back until the ranks have agreed on it; it takes no memory to hold it.
+/// Error held back until the ranks have agreed on it. Holding it takes no memory.
 struct Failure {
     bool failed = false;
     ErrorCode code = ErrorCode::internal;

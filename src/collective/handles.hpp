@@ -4,7 +4,7 @@
 
 namespace rrcb::mpi {
 
-/// So many elements of a type, one after the other; freed with it.
+/// Datatype of so many elements, one after the other; freed with the object.
 class ContiguousType {
   public:
     /// Throws Error.
@@ -19,7 +19,7 @@ class ContiguousType {
     MPI_Datatype type_ = MPI_DATATYPE_NULL;
 };
 
-/// A commutative reduction; freed with it.
+/// Commutative reduction; freed with the object.
 class Reduction {
   public:
     /// Throws Error.

@@ -22,19 +22,19 @@ namespace rrcb {
 /// fail_together().
 struct Participant {
     MPI_Comm comm;
-    Failure failure{};            ///< the first one here
-    int failing_there = no_rank;  ///< a rank of whose failure a message told
+    Failure failure{};            ///< first one on this rank
+    int failing_there = no_rank;  ///< rank of whose failure a message told
 
     bool failed() const { return failure.failed; }
     bool can_go_on() const { return !failed() && failing_there == no_rank; }
 
-    /// Runs a step that touches only what is here, unless a rank is known to have failed.
+    /// Runs a step that waits for no other rank, unless a rank is known to have failed.
     template <class Step>
     void attempt(Step&& step) {
         if (can_go_on()) failure = rrcb::attempt(step);
     }
 
-    /// Holds back the error of an MPI call, which was due to another rank whatever failed before.
+    /// Holds back the error of an MPI call, which other ranks waited for whatever failed before.
     void check(int code, const char* call) {
         if (code == MPI_SUCCESS || failed()) return;
         failure = rrcb::attempt([&] { mpi::check(code, call); });
@@ -45,7 +45,7 @@ struct Participant {
         if (failing_there == no_rank) failing_there = rank;
     }
 
-    /// A rank that is known to have failed, this one first; no_rank where none is.
+    /// Rank that is known to have failed, this one first; no_rank where none is.
     int failing_rank() const { return failed() ? mpi::rank_of(comm) : failing_there; }
 };
 

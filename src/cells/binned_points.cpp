@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t block_length = 256;
 
-/// What the points of one cell add up to.
+/// Sums over the points of one cell.
 template <std::size_t Dimension, bool Weighted>
 struct CellSum {
     std::array<double, Dimension> first{};

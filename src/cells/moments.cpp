@@ -28,7 +28,7 @@ struct Sums {
     }
 };
 
-/// What is known of the cells: origins, and sums about them.
+/// Origins of the cells, and the sums about them.
 template <std::size_t Dimension>
 struct Centred {
     std::vector<std::array<double, Dimension>> origins;
@@ -50,16 +50,17 @@ Centred<Dimension> sums_about_first_points(const BinnedPoints& binned) {
     return result;
 }
 
-/// Whether an origin lies too far off the mean: the variance, left of the sum of squares once the
-/// square of that distance is taken off, would lose more than a digit.
+/// True when an origin lies too far off the mean. The variance is the mean of the squares less the
+/// square of that distance; it would lose more than a digit.
 bool is_far_off(double first, double second, double weight) {
     constexpr double most_variances = 16;
     const double rest = first / weight;
     return rest * rest * (most_variances + 1) > second / weight * most_variances;
 }
 
-/// Puts origins that lie too far off at the mean. Only a first point that is an outlier among many
-/// is: of n points of equal weight none lies more than sqrt(n) standard deviations from the mean.
+/// Moves origins that lie too far off to the mean. Only a first point that is an outlier among many
+/// lies there: of n points of equal weight none is more than sqrt(n) standard deviations from the
+/// mean.
 template <std::size_t Dimension>
 bool move_origins(const BinnedPoints& binned, Centred<Dimension>& cells) {
     bool moved = false;
@@ -86,7 +87,7 @@ struct Weighted {
     double operator()(LocalIndex i) const { return weights[i] * scale; }
 };
 
-/// The sums of every cell about its origin as it is now.
+/// Sums every cell up again, about its present origin.
 template <class Layout, class Weight>
 void sum_again(const Layout& x, const BinnedPoints& binned, const Weight& weight,
                Centred<static_cast<std::size_t>(Layout::dimension)>& cells) {
@@ -142,7 +143,8 @@ std::vector<CellMoments> moments_of_cells(const Layout& x, const BinnedPoints& b
     return cells;
 }
 
-/// Between `a` and `b`, rounding or not.
+/// Mean of two groups, from the mean and the share of each; between `a` and `b` whatever the
+/// rounding.
 double joint_mean(double a, double share_a, double b, double share_b) {
     // Of opposite signs the difference may overflow; of one sign it keeps what they share.
     const double mean =

@@ -15,7 +15,7 @@ struct PointLayout {
     }
 };
 
-/// The same with any stride, as of a member of a struct.
+/// Points of any stride, such as members of structs.
 template <int Dimension>
 struct StridedLayout {
     static constexpr int dimension = Dimension;

@@ -15,7 +15,7 @@ typedef double Pair __attribute__((vector_size(2 * sizeof(double))));
 constexpr std::size_t num_pairs = 3;
 constexpr std::size_t num_lanes = 2 * num_pairs;
 
-/// What some of the values span, two by two.
+/// Range of some of the values, two by two.
 struct Span {
     Pair lower = Pair{} + Box{}.lower[0];
     Pair upper = Pair{} + Box{}.upper[0];
@@ -58,7 +58,7 @@ Box box_of_values(std::span<const double> values, std::size_t stride) {
     return box;
 }
 
-/// The same of every stride-th value, on axis 0.
+/// Smallest and largest of every stride-th value, on axis 0.
 Box box_of_strided(const double* values, LocalIndex count, std::size_t stride) {
     Box box;
     double poison = 0;

@@ -8,18 +8,18 @@
 
 namespace rrcb {
 
-/// One sum per bin, over entries that come in any order of the bins; the same bits for the same
-/// entries. `Sum` starts at zero and has +=.
+/// One sum per bin, over entries that come in any order of the bins. The same entries give the same
+/// bits. `Sum` starts at zero and has +=.
 ///
-/// Running sums are emptied now and then, and what they held into the totals more seldom, as one
-/// long running sum would lose a digit for every tenfold of the entries.
+/// One long running sum would lose a digit for every tenfold of the entries. So the running sums
+/// are emptied into others now and then, and these into the totals more seldom.
 template <class Sum>
 class RunningSums {
   public:
     explicit RunningSums(std::size_t num_bins)
         : running_(num_bins), emptied_(num_bins), totals_(num_bins) {}
 
-    /// How many entries to add before the sums are emptied.
+    /// Number of entries to add before the sums are to be emptied.
     LocalIndex interval() const { return std::max<LocalIndex>(128, 8 * running_.size()); }
 
     Sum& operator[](std::size_t bin) { return running_[bin]; }
@@ -30,7 +30,7 @@ class RunningSums {
         if (++num_emptied_ % most_emptied == 0) pour(emptied_, totals_);
     }
 
-    /// Of all entries before the sums were emptied last.
+    /// Sums of all entries that were added before the last empty().
     const std::vector<Sum>& totals() {
         pour(emptied_, totals_);
         return totals_;

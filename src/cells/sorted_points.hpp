@@ -23,7 +23,7 @@ struct SortedPoints {
     Vector position(LocalIndex i) const;
 };
 
-/// Sorts points whose cells are known, in one pass. Not collective.
+/// Copy of binned points, sorted in one pass. Not collective.
 SortedPoints sort_by_cell(const BinnedPoints& binned);
 
 /// Box that holds the points sorted into a cell: the cell with a margin for the round-off of

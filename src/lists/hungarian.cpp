@@ -126,7 +126,7 @@ class Hungarian {
     std::vector<std::size_t> part_of_;  ///< which got this number
 };
 
-/// Largest gain first; parts left over keep their number where it is free.
+/// Numbers by the largest gain first; parts left over keep their number where it is free.
 std::vector<Part> greedy(std::vector<Gain> gains, int num_parts) {
     std::ranges::sort(gains, [](const Gain& a, const Gain& b) {
         const bool a_moves = a.part != a.number;

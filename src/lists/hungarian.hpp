@@ -7,10 +7,10 @@
 
 namespace rrcb {
 
-/// Parts up to which the largest sum is found; beyond it would take too long.
+/// Number of parts up to which the largest sum is found; beyond it would take too long.
 inline constexpr int most_parts_exact = 128;
 
-/// What is gained when a part gets a number; both in 0 ... num_parts - 1.
+/// Gain of giving a part a number; both in 0 ... num_parts - 1.
 struct Gain {
     Part part = 0;
     Part number = 0;

@@ -15,21 +15,23 @@ namespace rrcb {
 
 namespace {
 
-/// What the importing rank is told of one point.
+/// Notice of one point to the rank that imports it.
 struct Notice {
     std::uint64_t index;
     std::int32_t part;
     std::int32_t unused = 0;
 };
 
-/// Among the ranks of the part: this one when it can stay, else spread by the sender's number.
+/// Destination among the ranks of the part: this rank when the point can stay, else one by the
+/// sender's number, which spreads them.
 int destination_of(Part part, int num_parts, int rank, int num_ranks) {
     const RankRange ranks = ranks_of_part(part, num_parts, num_ranks);
     if (rank >= ranks.first_rank && rank < ranks.first_rank + ranks.count) return rank;
     return ranks.first_rank + rank % ranks.count;
 }
 
-/// First rank of a part with ranks to share out: those left over go to the parts before the last.
+/// First rank of a part where ranks outnumber parts. The ranks left over go one each to the parts
+/// before the last.
 int first_rank_of(Part part, int num_parts, int num_ranks) {
     if (part == num_parts) return num_ranks;
     const int left_over = num_ranks % num_parts;
@@ -55,7 +57,7 @@ void list_exports(std::span<const Part> parts, int num_parts, MPI_Comm comm, Pla
     }
 }
 
-/// Hands what leaves to the exchange.
+/// Hands the exports to the exchange.
 void post(const Plan& plan, Exchange& exchange) {
     exchange.fill(plan.export_ranks, [&](std::size_t k, std::byte* place) {
         const Notice notice{plan.export_indices[k], plan.export_parts[k]};

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int nowhere = -1;
 
-/// Which rank gets which part.
+/// Placement of parts on ranks, as far as it has come.
 class Placement {
   public:
     explicit Placement(std::span<const RankRange> ranks_of_parts)
@@ -26,7 +26,7 @@ class Placement {
     int rank_of(Part part) const { return ranks_[static_cast<std::size_t>(part)]; }
     int num_parts() const { return static_cast<int>(ranks_of_numbers_.size()); }
 
-    /// Where the part has no rank yet and the rank has a number left.
+    /// Places a part, unless it has a rank or the rank has no number left.
     void place(Part part, int rank) {
         if (rank_of(part) != nowhere || !has_vacancy(rank)) return;
         ranks_[static_cast<std::size_t>(part)] = rank;

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t overlaps_per_part = 16;
 
-/// Where points stay.
+/// Rule for where points stay.
 struct Owners {
     std::span<const RankRange> ranks_of_parts;
     bool by_rank = true;  ///< origins are ranks, not earlier parts
@@ -46,7 +46,7 @@ struct Owners {
     }
 };
 
-/// Overlaps by count, the largest first, at most `limit` of them.
+/// Sorts overlaps by count, the largest first; leaves `limit` of them at most.
 void keep_largest(std::size_t limit, std::vector<Overlap>& overlaps) {
     std::ranges::sort(overlaps, [](const Overlap& a, const Overlap& b) {
         return std::tie(b.count, a.origin, a.part) < std::tie(a.count, b.origin, b.part);
@@ -84,9 +84,10 @@ std::vector<Overlap> overlaps_by_part(std::span<const Part> parts, std::span<con
     return overlaps;
 }
 
-/// A fixed number of overlaps from each rank, so that one gather carries all. Unused entries count
-/// 0; the first holds the number of points, and 1 as its part where the rank has failed.
-/// Collective.
+/// Gathers a fixed number of overlaps from each rank, so that one gather carries all. Collective.
+///
+/// Unused entries count 0. The first holds the number of points, and 1 as its part where the rank
+/// has failed.
 void gather_overlaps(std::vector<Overlap> mine, std::size_t num_points, RemapBuffers& buffers,
                      const Participant& self) {
     keep_largest(buffers.mine.size() - 1, mine);
@@ -99,8 +100,8 @@ void gather_overlaps(std::vector<Overlap> mine, std::size_t num_points, RemapBuf
                "MPI_Gather");
 }
 
-/// All overlaps with earlier parts, summed over the ranks; behind them the number of points, and of
-/// ranks that have failed. Collective: one reduction.
+/// Sums all overlaps with earlier parts over the ranks, and behind them the points and the ranks
+/// that have failed. Collective: one reduction.
 void sum_up(std::span<const Part> parts, std::span<const Part> previous, RemapBuffers& buffers,
             const Participant& self) {
     const std::size_t num_parts = buffers.numbers.size();
@@ -130,7 +131,7 @@ std::vector<Overlap> overlaps_of(const RemapBuffers& buffers) {
     return overlaps;
 }
 
-/// The lowest rank that failed, as far as the root was told.
+/// Lowest rank that failed, as far as the message to the root tells.
 int lowest_failing_rank(const RemapBuffers& buffers) {
     if (buffers.holds_sums()) return buffers.sums.back() > 0 ? some_rank : no_rank;
     for (std::size_t i = 0; i < buffers.all.size(); i += buffers.mine.size())
@@ -138,7 +139,7 @@ int lowest_failing_rank(const RemapBuffers& buffers) {
     return no_rank;
 }
 
-/// Takes the number of points out of what the root was told.
+/// Takes the number of points out of the message to the root.
 GlobalCount extract_num_points(RemapBuffers& buffers) {
     if (buffers.holds_sums()) return buffers.sums.end()[-2];
     GlobalCount num_points = 0;
@@ -159,8 +160,8 @@ std::vector<Gain> gains_of(std::span<const Overlap> overlaps, const Owners& owne
     return gains;
 }
 
-/// Numbers that keep many points. A rank of many parts has too many gains to list: as many for each
-/// overlap as it has parts.
+/// Numbers that keep many points. A rank of many parts has too many gains to list: for each overlap
+/// as many as it has parts.
 std::vector<Part> good_numbers(std::span<const Overlap> overlaps, const Owners& owners) {
     if (owners.by_rank && owners.num_parts() > most_parts_exact)
         return numbers_by_rank(overlaps, owners.ranks_of_parts);
@@ -179,7 +180,7 @@ GlobalCount kept(std::span<const Overlap> overlaps, std::span<const Part> number
     return sum;
 }
 
-/// The root's decision.
+/// Decision of the root.
 Remap decide_numbers(RemapBuffers& buffers, const Owners& owners) {
     Remap remap;
     remap.num_points = extract_num_points(buffers);
@@ -197,8 +198,8 @@ Remap decide_numbers(RemapBuffers& buffers, const Owners& owners) {
     return remap;
 }
 
-/// The decision of the root, or the lowest rank that failed, on its way to all ranks.
-/// Collective over `comm`: one broadcast.
+/// Shares the decision of the root, or the failing rank; returns the latter. Collective over
+/// `comm`: one broadcast.
 int share(int failing_rank, Remap& remap, RemapBuffers& buffers, MPI_Comm comm) {
     const std::size_t num_parts = buffers.numbers.size();
     std::ranges::copy(remap.numbers, buffers.decision.begin());
@@ -244,7 +245,7 @@ std::uint64_t hash_of(std::span<const RankRange> ranks_of_parts) {
     return hash;
 }
 
-/// The public functions: with a look at the arguments, and room of their own. Collective.
+/// Checks the arguments and makes the buffers for the public functions. Collective.
 Remap remap_alone(std::span<const Part> parts, const PreviousParts& previous,
                   std::span<const RankRange> ranks_of_parts, MPI_Comm user) {
     Participant self{mpi::duplicate_of(user)};

@@ -9,7 +9,7 @@ namespace rrcb {
 
 namespace {
 
-/// What a block of records begins with.
+/// Head of a block of records.
 struct BlockOfCells {
     double num_cells = 0;
     double cells_per_axis = 0;  ///< of the mesh; 0 for a lattice
@@ -52,7 +52,7 @@ Vector take_vector(std::span<const double>& records, int dimension) {
     return x;
 }
 
-/// Number, count, weight, then mean and deviation per axis.
+/// Doubles of one cell: number, count, weight, then mean and deviation per axis.
 void append_cell(const CellMoments& cell, int dimension, std::vector<double>& records) {
     records.push_back(static_cast<double>(cell.cell));
     records.push_back(static_cast<double>(cell.moments.count));

@@ -27,13 +27,13 @@ void append_cells(std::span<const CellMoments> cells, const SupportMesh& mesh,
 /// Appends cells that were merged on the lattice of their exponent.
 void append_cells(const CellSet& merged, int dimension, std::vector<double>& records);
 
-/// What was appended, in its order; a cell of a lattice gets the cube of its mean as its box.
+/// Cells in the order appended. A cell of a lattice gets the cube of its mean as its box.
 CellSet read_cells(std::span<const double> records, int dimension);
 
 /// Appends the points themselves.
 void append_points(const Points& points, std::vector<double>& records);
 
-/// The domain of all points that were appended; where none has weight, each weighs 1.
+/// Domain of all points that were appended. Where none has weight, each weighs 1.
 StatisticalDomain read_points(std::span<const double> records, int dimension);
 
 /// Cube of the lattice of `exponent` that holds a position, in units of its edge.

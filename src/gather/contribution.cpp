@@ -21,7 +21,7 @@ void join(Box& mine, const Box& next) {
     }
 }
 
-/// The first difference met in the order of the ranks.
+/// Keeps the first difference met in the order of the ranks.
 void join_differences(Summary& mine, const Summary& next) {
     if (mine.differing_rank != no_rank) return;
     mine.difference = next.difference;

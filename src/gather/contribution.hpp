@@ -13,8 +13,8 @@
 
 namespace rrcb {
 
-/// What one rank, or all ranks of a subtree, say in short: whether they can go on, what they ask
-/// for, and their totals.
+/// Summary of one rank, or of all ranks of a subtree: whether they can go on, what they ask for,
+/// and their totals.
 struct Summary {
     std::int32_t first_rank = 0;            ///< lowest of the ranks it speaks for
     std::int32_t failing_rank = no_rank;    ///< lowest of those that can't go on
@@ -34,7 +34,7 @@ struct Summary {
     bool is_usable() const { return failing_rank == no_rank && differing_rank == no_rank; }
 };
 
-/// What one rank, or all ranks of a subtree, hand to the root; see cell_records.hpp.
+/// Contribution of one rank, or of all ranks of a subtree, to the root; see cell_records.hpp.
 struct Contribution {
     Summary summary;
     std::vector<double> records;   ///< the moments of their cells
@@ -68,7 +68,7 @@ void join(Summary& mine, const Summary& next);
 /// joins the summaries, and coarsens where there are too many cells. Not collective.
 void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t most);
 
-/// The domain the root bisects, from what everybody contributed.
+/// Domain that the root bisects, from the contributions of all ranks.
 StatisticalDomain build_domain(const Contribution& all, const Options& options, int dimension);
 
 }  // namespace rrcb

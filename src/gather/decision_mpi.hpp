@@ -15,7 +15,7 @@ namespace rrcb {
 
 inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-/// What the root tells first: whether there are cuts, and what it saw.
+/// Verdict of the root, which it tells first: whether there are cuts, and the totals.
 struct Verdict {
     std::int32_t failing_rank = no_rank;
     std::int32_t stays = 0;    ///< 1: the current parts stay
@@ -36,7 +36,7 @@ struct Decision {
     std::vector<std::byte> message;  ///< either of them on its way
 };
 
-/// What the verdict says of a partition that nobody has measured.
+/// Report on a partition that nobody has measured.
 Report report_of(const Verdict& verdict, int num_parts);
 
 /// True when the cuts are to be moved by what the ranks count: the literal midpoint has no weight

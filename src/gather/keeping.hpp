@@ -4,19 +4,19 @@
 
 namespace rrcb {
 
-/// Whether the root is to know where the points of each rank lie, and what they weigh: it can then
-/// tell whether they already are as it would have them. Of complete options.
+/// True when the root is to read where the points of each rank lie and what they weigh. It can then
+/// tell whether they already lie as it would have them. `options` are complete.
 bool reads_current_parts(const Options& options, int num_ranks);
 
-/// True for a distribution so good that nothing better is looked for.
+/// True for the imbalance of a distribution so good that no better one is searched.
 bool stays_at_once(double current, double tolerance);
 
 /// True when parts of the imbalance `offered` are worth moving points that lie in parts of the
 /// imbalance `current`.
 ///
-/// So points at rest come to rest: each move makes the imbalance less, by a tenth of what the
-/// tolerance allows or from above the tolerance to within it, and what is not moved gives the same
-/// estimate again.
+/// So points at rest come to rest. Each move makes the imbalance less: by a tenth of what the
+/// tolerance allows, or from above the tolerance to within it. Points that are not moved give the
+/// same estimate again.
 bool is_worth_moving(double current, double offered, const Options& options);
 
 }  // namespace rrcb

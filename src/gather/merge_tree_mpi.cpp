@@ -30,8 +30,8 @@ void send_records(std::span<const double> records, int to, mpi::Tag tag, Partici
              self);
 }
 
-/// Receives `count` doubles behind those that are there. Without memory for them they are still
-/// received, for their sender's sake.
+/// Appends `count` doubles that it receives. Without memory it still receives them, as their sender
+/// waits for that.
 void receive_records(std::vector<double>& records, std::size_t count, int from, mpi::Tag tag,
                      Participant& self) {
     const std::size_t start = records.size();

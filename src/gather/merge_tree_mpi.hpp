@@ -8,8 +8,8 @@
 
 namespace rrcb {
 
-/// The tree along which contributions travel to rank 0, each rank taking in those of the ranks
-/// that follow it before it hands all on.
+/// Tree along which contributions travel to rank 0. Each rank takes in those of the ranks that
+/// follow it before it hands all on.
 ///
 /// A rank that is a multiple of radix^k takes in, for each smaller power s of the radix, the
 /// subtrees of s ranks each that begin s, 2 s, ... (radix - 1) s after it.
@@ -27,7 +27,7 @@ struct MergeTree {
                 visit(static_cast<int>(child));
     }
 
-    /// The rank that takes in what `rank` (> 0) contributes.
+    /// Rank that takes in the contribution of `rank` (> 0).
     int parent(int rank) const {
         std::int64_t stride = radix;
         while (rank % stride == 0) stride *= radix;
@@ -37,15 +37,15 @@ struct MergeTree {
 
 /// Gives the root what all ranks contributed, merged on the way. Collective over `comm`.
 ///
-/// A rank that failed, before or here, sends its number in place of records. What fails only when
-/// it has sent stays with it for the next agreement.
+/// A rank that failed, before or here, sends its number in place of records. A failure after that
+/// stays with the rank for the next agreement.
 void merge_up(Contribution& mine, int dimension, const MergeTree& tree, std::size_t most,
               Participant& self);
 
 /// Puts the points of all ranks behind those of the root, by rank. Collective over `comm`, after
 /// the ranks agreed that the root wants them: each sends it how many doubles it has, and those.
 ///
-/// What fails stays with its rank for the next agreement.
+/// A failure stays with its rank for the next agreement.
 void gather_points(std::vector<double>& records, Participant& self);
 
 }  // namespace rrcb

@@ -9,7 +9,7 @@ namespace rrcb {
 
 namespace {
 
-/// Consecutive points.
+/// Range of consecutive points.
 Points range_of(const Points& points, LocalIndex first, LocalIndex last) {
     Points range = points;
     range.count = last - first;
@@ -35,7 +35,7 @@ void widen(const Points& points, const Box& box, int axis, Place& place) {
     }
 }
 
-/// Calls `visit` with each of the doubles that tell a place.
+/// Calls `visit` with each of the doubles that make up a place.
 template <class AnyPlace, class Visit>
 void for_each_double(AnyPlace& place, int dimension, Visit&& visit) {
     visit(place.count);

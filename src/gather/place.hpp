@@ -8,7 +8,7 @@
 
 namespace rrcb {
 
-/// Where the points of a rank, or of several, lie, and what they weigh.
+/// Place and weight of the points of a rank, or of several.
 ///
 /// `first[a]` and `last[a]` are the ends of their positions in the order across axis a, see
 /// position_order.hpp: infinite where there are no points.
@@ -27,16 +27,16 @@ struct Place {
     }
 };
 
-/// Of checked points that weigh `weight` and span `box`.
+/// Place of checked points that weigh `weight` and span `box`.
 Place place_of(const Points& points, const Box& box, double weight);
 
 /// Takes in the points of another place.
 void join(Place& place, const Place& other, int dimension);
 
-/// A place as 2 + 2 dimension^2 doubles, behind those that are there.
+/// Appends a place as 2 + 2 dimension^2 doubles.
 void append_place(const Place& place, int dimension, std::vector<double>& doubles);
 
-/// Places as they were appended.
+/// Places in the order appended.
 std::vector<Place> read_places(std::span<const double> doubles, int dimension);
 
 }  // namespace rrcb

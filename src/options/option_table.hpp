@@ -154,13 +154,13 @@ decltype(auto) visit_kind(const Option& option, Visit&& visit) {
 /// True when the value in `options` is legal for points of this dimension; of lists always.
 bool is_legal(const Option& option, const Options& options, int dimension);
 
-/// What a number must be, as an error has it: "at least 1".
+/// Condition on a number, as an error words it: "at least 1".
 std::string requirement(const Option& option, int dimension);
 
-/// What may stand for the option as text: "a number above 0, at most 1", "WEIGHTED or MIDPOINT".
+/// Texts that may stand for the option: "a number above 0, at most 1", "WEIGHTED or MIDPOINT".
 std::string legal_values(const Option& option);
 
-/// What the option sets and what it may be, in a sentence.
+/// Sentence on what the option sets and which values it takes.
 std::string documentation(const Option& option);
 
 /// Reads a value in points of any dimension: a number, a word in any case, AUTO where 0 stands for
@@ -173,7 +173,8 @@ std::string write_option(const Option& option, const Options& options);
 /// Makes the option what it is in `from`.
 void copy_option(const Option& option, const Options& from, Options& to);
 
-/// Its row in a table of parameters, in Markdown: name, values with `first` in front, what it sets.
+/// Row of the option in a table of parameters, in Markdown: name, values with `first` in front,
+/// what it sets.
 std::string table_row(const Option& option, const Options& first);
 
 }  // namespace rrcb

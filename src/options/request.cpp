@@ -40,8 +40,8 @@ std::vector<double> values_of(const Cuts& cuts) {
     return values;
 }
 
-/// How this thread rounds and treats subnormal numbers, found out by computing: ranks with
-/// different numbers get different results from the same operands.
+/// Number for how this thread rounds and treats subnormal numbers, found out by computing. Ranks
+/// with different numbers get different results from the same operands.
 std::uint64_t arithmetic_in_use() {
     // Volatile, so that it is computed when called and not when compiled.
     const volatile double one = 1;

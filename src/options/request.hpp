@@ -11,21 +11,21 @@
 
 namespace rrcb {
 
-/// What a rank asks for, which must be the same on every rank: the bits of each value, or a hash.
-/// The dimension, every option in the order of the table, the cuts of an earlier call, and how this
+/// Request of a rank, which must be the same on every rank: the bits of each value, or a hash. The
+/// dimension, every option in the order of the table, the cuts of an earlier call, and how this
 /// thread does arithmetic.
 using Request = std::array<std::uint64_t, num_options + 3>;
 
 /// The bits of one option, or a hash.
 std::uint64_t bits_of(const Option& option, const Options& options);
 
-/// Of options in which empty `part_sizes` still stand for equal parts.
+/// Request of options in which empty `part_sizes` still stand for equal parts.
 Request request_of(const Options& options, int dimension, const Cuts* previous);
 
 /// Index of the first value in which two ranks differ.
 std::optional<std::size_t> first_difference(const Request& a, const Request& b);
 
-/// What a value of a request is called.
+/// Name of a value of a request.
 std::string_view name_of_request(std::size_t index);
 
 }  // namespace rrcb

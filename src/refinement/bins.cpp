@@ -8,7 +8,7 @@ namespace rrcb {
 
 namespace {
 
-/// How many doubles lie between 0 and `value`, negative below 0; both zeros are one.
+/// Number of doubles between 0 and `value`, negative below 0; both zeros are one.
 std::int64_t rank_of(double value) {
     if (value == 0) return 0;
     const auto bits = std::bit_cast<std::int64_t>(value);

@@ -9,11 +9,11 @@
 
 namespace rrcb {
 
-/// The last points between which searches may still put their cuts, on their way to the root.
+/// Candidates on their way to the root: the last points between which searches may put their cuts.
 ///
 /// Each carries the number of its search, so that a rank that has none sends one number, however
-/// many searches there are. The root makes room for the points when it decides that they are to be
-/// gathered, before anybody else knows.
+/// many searches there are. The root makes room for the points when it decides to gather them,
+/// before any other rank knows.
 class Candidates {
   public:
     /// Not collective. Throws Error or std::bad_alloc.
@@ -24,7 +24,8 @@ class Candidates {
 
     void clear();
 
-    /// What is left to search number `list` here. Throws std::bad_alloc; then mark_failed() is due.
+    /// Adds what is left to search number `list` here. Throws std::bad_alloc; then mark_failed() is
+    /// due.
     void add(std::size_t list, const LocalSearch& search);
 
     /// Tells that this rank has failed, in place of its candidates.

@@ -152,7 +152,7 @@ Division best_division(std::span<const Candidate> sorted, const PositionOrder& b
     return best;
 }
 
-/// A slot of the histogram that the target falls into, with the weight below it.
+/// Slot of the histogram that the target falls into, with the weight below it.
 struct Chosen {
     int slot = 0;
     double below = 0;
@@ -161,6 +161,8 @@ struct Chosen {
 Chosen choose(double base, double target, std::span<const double> weights) {
     Chosen chosen{0, base};
     const int last = static_cast<int>(weights.size()) - 1;
+    // All slots before this one together, with the base, weigh less than the target. So the target
+    // is in it, or round-off left the target behind all of them and the last slot has to do.
     while (chosen.slot < last) {
         const double next = chosen.below + weights[static_cast<std::size_t>(chosen.slot)];
         if (next >= target) break;
@@ -312,6 +314,7 @@ void decide_among(CutSearch& search, CutTarget& target, std::span<const double> 
     }
     const Vector& last_below = candidates[best - 1].position;
     const Vector& first_above = candidates[best].position;
+    // The two differ along an axis that is open, as the division is between positions.
     while (last_below[axis_index(search, search.tied)] ==
            first_above[axis_index(search, search.tied)]) {
         const std::size_t axis = axis_index(search, search.tied++);

@@ -12,7 +12,7 @@
 
 namespace rrcb {
 
-/// What every rank knows of the search for one cut; broadcast by the root after each round.
+/// State of the search for one cut on every rank. The root broadcasts it after each round.
 ///
 /// The cut lies in [lower, upper) of the axis number `tied` of its axes: its own first, then the
 /// others in ascending order. Along the axes before that one it is already fixed in `cut`. From the
@@ -44,7 +44,7 @@ struct CutSearch {
     double lot_below = 0;         ///< weight of them that belongs below, 0 for none, once done
 };
 
-/// What only the root knows of it.
+/// State of a search at the root alone.
 struct CutTarget {
     double target = 0;               ///< weight that belongs below the cut
     double slack = 0;                ///< how far from it the weight below may be
@@ -66,18 +66,18 @@ Bins bins_of(const CutSearch& search, const HistogramLayout& layout);
 std::int32_t slot_between(std::span<const Vector> splitters, const PositionOrder& order,
                           const Vector& position);
 
-/// The splitters that a sample gives, ascending, at most half the slots.
+/// Splitters from a sample, ascending, at most half as many as slots.
 std::vector<Vector> splitters_of(std::vector<Vector> sample, const PositionOrder& order,
                                  const HistogramLayout& layout);
 
-/// Moves the search on by what the ranks counted in its bins; done when the cut is good enough.
+/// Moves the search on by the counts in its bins; done when the cut is good enough.
 ///
 /// A search takes at most 1 + 4 rounds of counting in bins, then two rounds for every factor of
 /// about 16 by which its candidates outnumber most_gathered: 16 up to 10^9 of them.
 void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
                     std::span<const double> histogram);
 
-/// The same by what they counted between the splitters, which resolve all ties.
+/// Moves the search on by the counts between the splitters, which resolve all ties.
 void decide_by_splitters(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
                          std::span<const Vector> splitters, std::span<const double> histogram);
 

@@ -21,8 +21,8 @@ struct Fragment {
 /// A fragment for every cell that holds points.
 std::vector<Fragment> cell_fragments(const SortedPoints& points);
 
-/// What to do with the points exactly at a cut, which no cut tells apart: they form one row over
-/// all ranks, of which the first go below the cut.
+/// Lot of the points exactly at a cut, which no cut tells apart. They form one row over all ranks,
+/// of which the first go below the cut.
 struct Lot {
     double before = 0;  ///< weight of those on lower ranks
     double below = 0;   ///< weight of the row that belongs below; 0: all of it stays above

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t status = HistogramLayout::status;
 constexpr std::size_t num_extents = HistogramLayout::num_extents;
 
-/// 0 where there is no sample.
+/// Dimension of the sample in a histogram; 0 where there is none.
 int dimension_of_sample(std::span<const double> histogram) {
     return static_cast<int>(histogram[status]) / 2;
 }

@@ -7,12 +7,13 @@
 
 namespace rrcb {
 
-/// What the ranks tell of one search in a round: weights and counts in the slots of a bracket or
-/// between splitters, or a sample.
+/// Layout of a histogram, which tells of one search in a round: weights and counts in the slots of
+/// a bracket or between splitters, or a sample.
 ///
-/// num_extents entries of which the largest counts: minus the lower, then the upper ends of the
-/// extent, then the status, which is 1 where a rank has failed, and more by twice the dimension
-/// where the rest is a sample. Behind them 2 * num_slots entries to be summed, or a sample.
+/// It begins with num_extents entries of which the largest counts: minus the lower ends of the
+/// extent, its upper ends, and the status. The status is 1 where a rank has failed, and more by
+/// twice the dimension where the rest is a sample. Behind them are 2 * num_slots entries to be
+/// summed, or a sample.
 struct HistogramLayout {
     int num_bins = 64;
 

@@ -11,8 +11,8 @@
 
 namespace rrcb {
 
-/// Histograms of one round of searches. Memory, type and reduction are made before the first
-/// round, so that no rank can run out of them between two messages.
+/// Histograms of one round of searches. The constructor makes memory, type and reduction, so that
+/// no rank can run out of them between two messages.
 class Histograms {
   public:
     /// Room for `most` at once. Not collective. Throws Error or std::bad_alloc.
@@ -22,12 +22,12 @@ class Histograms {
     std::size_t size() const { return size_; }
     void clear() { size_ = 0; }
 
-    /// One more, with nothing counted in it.
+    /// Adds one, with nothing counted in it.
     std::span<double> add();
 
-    /// Brings the histograms of all ranks, as many on each, together at the root: extents and
-    /// failures by maximum, weights and counts by sum, samples joined. Whatever the order in which
-    /// MPI joins them, the bits are the same, as sums are exact (see CutSearch::quantum).
+    /// Joins the histograms of all ranks, as many on each, at the root: extents and failures by
+    /// maximum, weights and counts by sum, samples as samples. Sums are exact (see
+    /// CutSearch::quantum), so the bits do not depend on the order in which MPI joins them.
     /// Collective over `comm`.
     void join(int root, MPI_Comm comm);
 

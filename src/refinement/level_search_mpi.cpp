@@ -58,7 +58,8 @@ void LevelSearch::add(const Node& node, const CutSearch& start, const SortedPoin
 
 int LevelSearch::run(const TargetRule& rule, Participant& self) {
     int rounds = 0;
-    // In each round every search that is not over narrows what its cut may lie in, or ends.
+    // The searches are the same on all ranks, and so are their number and stages: these alone tell
+    // which messages a round has. In each round every search narrows the range of its cut, or ends.
     for (; !std::ranges::all_of(searches_, is_over); ++rounds) {
         before_ = searches_;
         count_and_decide(rule, self);
@@ -139,9 +140,8 @@ void LevelSearch::gather_and_decide(Participant& self) {
     });
 }
 
-/// Has the last word of the root in a round: ends all searches where a rank can't go on; lets no
-/// more candidates travel at once than a few messages hold, and makes room for them before others
-/// send them.
+/// Ends the round at the root. It makes room for the candidates before others send them, and
+/// abandons all searches where a rank can't go on.
 void LevelSearch::conclude(Participant& self) {
     const GlobalCount num_points = limit_gathering(searches_, targets_);
     self.attempt([&] { candidates_.expect(num_points, mpi::size_of(self.comm)); });
@@ -149,8 +149,7 @@ void LevelSearch::conclude(Participant& self) {
     for (CutSearch& search : searches_) search.stage = CutSearch::abandoned;
 }
 
-/// Brings what this rank knows of the searches up to what the root decided. Collective where it
-/// has found splitters.
+/// Follows the decisions of the root on this rank. Collective where it has found splitters.
 void LevelSearch::follow(Participant& self) {
     histograms_.broadcast_samples(samples_, root, self.comm);
     self.attempt([&] {

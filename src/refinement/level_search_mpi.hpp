@@ -10,17 +10,17 @@
 
 namespace rrcb {
 
-/// A node of the tree: what of it lies here, and what it weighs over all ranks.
+/// Node of the tree: its points on this rank, and its weight over all ranks.
 struct Node {
     Descent at;
     std::vector<Fragment> fragments;
     double weight = 0;
 };
 
-/// The searches for all cuts of one level at once, in step on all ranks.
+/// Searches for all cuts of one level at once, in step on all ranks.
 ///
-/// What its messages need, and what tells their lengths, is made before the first of them: a rank
-/// that runs out of memory later can still take part until all have been told.
+/// The constructor makes all that the messages and their lengths depend on: a rank that runs out of
+/// memory later can still take part until all have been told.
 class LevelSearch {
   public:
     /// For `most` searches at once. Not collective. Throws Error or std::bad_alloc.

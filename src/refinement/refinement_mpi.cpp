@@ -143,6 +143,7 @@ void Refinement::place_in_lots(const Participant& self) {
 /// Goes on with the nodes below, by the cuts that the level found.
 void Refinement::descend(Participant& self) {
     children_.clear();
+    // Searches, and lots of the searches that divide one, stand in the order of their nodes.
     std::size_t next = 0;
     auto before = lots_.begin();
     for (Node& node : nodes_) {

@@ -14,7 +14,7 @@
 
 namespace rrcb {
 
-/// What the refinement starts from; the same on every rank.
+/// Estimate that the refinement starts from; the same on every rank.
 struct Estimate {
     Cuts cuts;
     std::vector<Bracket> brackets;  ///< one per cut
@@ -24,8 +24,8 @@ struct Estimate {
     double current_imbalance = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// The refined cuts, how good the parts really are, and what it took to know; the same on every
-/// rank. The weights of the parts are in the PartSums.
+/// Refined cuts and how even the parts really are; the same on every rank. The weights of the parts
+/// are in the PartSums.
 struct Refined {
     Cuts cuts;
     double imbalance = 1;

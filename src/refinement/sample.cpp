@@ -11,7 +11,8 @@ namespace {
 
 constexpr double empty = -1;
 
-/// By key; where keys are equal by position, so that the order of joining stays free.
+/// Order of records: the greatest key first, equal keys by position, so that the order of joining
+/// stays free.
 bool precedes(std::span<const double> a, std::span<const double> b) {
     return std::ranges::lexicographical_compare(b, a);
 }
@@ -35,16 +36,17 @@ void clear_sample(std::span<double> sample) {
 
 void add_to_sample(double key, const Vector& position, int dimension, std::span<double> sample) {
     const std::size_t length = sample_record(dimension);
-    const std::size_t room = sample.size() / length * length;
+    const std::size_t end = sample.size() / length * length;
     std::array<double, 1 + max_dimension> record{key};
     std::copy_n(position.begin(), dimension, record.begin() + 1);
     const auto incoming = std::span<const double>(record).first(length);
-    std::size_t at = room;
+    std::size_t at = end;
+    // The records from `at` on have lesser keys than the incoming one.
     while (at > 0 && precedes(incoming, sample.subspan(at - length, length))) at -= length;
-    if (at == room) return;
+    if (at == end) return;
     std::copy_backward(sample.begin() + static_cast<std::ptrdiff_t>(at),
-                       sample.begin() + static_cast<std::ptrdiff_t>(room - length),
-                       sample.begin() + static_cast<std::ptrdiff_t>(room));
+                       sample.begin() + static_cast<std::ptrdiff_t>(end - length),
+                       sample.begin() + static_cast<std::ptrdiff_t>(end));
     std::ranges::copy(incoming, sample.begin() + static_cast<std::ptrdiff_t>(at));
 }
 

@@ -10,7 +10,8 @@ namespace rrcb {
 /// The first axis whose extent is at least the share `enough` of the greatest.
 int longest_axis(const Box& box, int dimension, double enough);
 
-/// Which axis each cut crosses: the one it was given, the one of its level, or its longest.
+/// Choice of the axis that each cut crosses: the one it was given, the one of its level, or its
+/// longest.
 ///
 /// The extents of an analytic domain are estimates: axes of nearly the same extent count as equals,
 /// or the cuts of a cube would turn, and half of the points move, whenever these change a little.

@@ -159,7 +159,7 @@ std::size_t divide_by(const Cut& cut, int dimension, std::span<MassPoint> points
     return points.size() - above.size();
 }
 
-/// The cut of a node of points, which it divides in place; returns how many lie below.
+/// Cuts a node of points and divides them in place; returns how many lie below.
 std::size_t cut_points(std::span<MassPoint> points, double below, int depth, const Task& task,
                        Cut& cut) {
     const int dimension = task.result.cuts.dimension;
@@ -178,7 +178,7 @@ std::size_t cut_points(std::span<MassPoint> points, double below, int depth, con
     return select_below(points, dimension, below * weight, task.options.plain_cuts, cut);
 }
 
-/// Where the cut of real points may lie: between the points at the shares about its own.
+/// Bracket in which the cut of real points may lie: between the points at the shares about its own.
 Bracket bracket_between(std::span<MassPoint> points, std::size_t num_below, const Cut& cut,
                         double below, int depth) {
     if (points.empty()) return {};

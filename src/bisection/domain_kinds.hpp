@@ -5,7 +5,7 @@
 
 namespace rrcb {
 
-/// What a kind of statistical domain means for each stage; its name is in the table of options.
+/// Traits of a kind of statistical domain, for each stage; its name is in the table of options.
 struct DomainTraits {
     DomainKind kind;
     bool sends_points;        ///< the root gets the points themselves, not moments of cells;
@@ -15,12 +15,13 @@ struct DomainTraits {
     bool is_random;           ///< the seed decides, too
     Refine automatic_refine;  ///< what Refine::automatic stands for
     double share_of_longest;  ///< axes of at least this share of the longest extent count as equal
-    /// Makes it of the cells of all ranks and the box of their points; null where points are sent.
+    /// Makes the domain from the cells of all ranks and the box of their points; null where points
+    /// are sent.
     StatisticalDomain (*build)(std::span<const CellMoments> cells, int dimension, const Box& box,
                                const Options& options);
 };
 
-/// The row of a kind. Throws Error where there is none.
+/// Traits of a kind. Throws Error where there are none.
 const DomainTraits& traits_of(DomainKind kind);
 
 }  // namespace rrcb

@@ -31,7 +31,8 @@ Place select(std::span<MassPoint> points, const PositionOrder& before, double ta
     std::size_t first = 0;
     std::size_t last = points.size();
     double below = 0;
-    // The point lies in first ... last - 1, all others on their sides of these.
+    // The point lies in first ... last - 1; those before lie before these in the order and weigh
+    // `below`, those behind lie behind these.
     while (last - first > 1) {
         const std::size_t middle = first + (last - first) / 2;
         const auto left = points.subspan(first, last - first);

@@ -15,7 +15,7 @@ double negligible(double weight) {
     return 1e-12 * weight;
 }
 
-/// One axis of a patch, and which patch it is.
+/// Extent of a patch along one axis.
 struct Interval {
     double lower;
     double upper;
@@ -25,7 +25,8 @@ struct Interval {
     bool is_jump() const { return lower == upper; }
 };
 
-/// Where the cumulative weight passes the target: between two neighbouring breakpoints.
+/// Range in which the cumulative weight passes the target, in the end between two neighbouring
+/// breakpoints.
 struct Crossing {
     double left = -infinity;       ///< weight below `left` is less than the target
     double right = infinity;       ///< weight below `right` is not
@@ -76,6 +77,9 @@ Crossing find_crossing(std::vector<Interval> intervals, double target) {
         breakpoints.push_back(interval.lower);
         if (!interval.is_jump()) breakpoints.push_back(interval.upper);
     }
+    // The weight below `left` is less than the target, that below `right` is not. `below` and the
+    // active intervals tell the weight below any value between, where all breakpoints left lie.
+    // Each round takes one of them at least, half of them as a rule.
     while (!breakpoints.empty()) {
         narrow(crossing, pivot_of(breakpoints), target);
         std::erase_if(breakpoints,
@@ -84,7 +88,7 @@ Crossing find_crossing(std::vector<Interval> intervals, double target) {
     return crossing;
 }
 
-/// A value with the jump at the left end of the crossing below it and as little else as can be.
+/// Value with the jump at the left end of the crossing below it, and as little else as possible.
 double after_jump(const Crossing& crossing) {
     const bool spanned = std::any_of(crossing.active.begin(), crossing.active.end(),
                                      [](const Interval& interval) { return !interval.is_jump(); });
@@ -93,7 +97,7 @@ double after_jump(const Crossing& crossing) {
     return std::max(next, crossing.left / 2 + crossing.right / 2);
 }
 
-/// The middle of the gap that begins at `value`, or `value` where weight begins at once.
+/// Middle of the gap that begins at `value`, or `value` where weight begins at once.
 double middle_of_gap(std::span<const Interval> intervals, double value) {
     double next = infinity;
     for (const Interval& interval : intervals) {
@@ -103,7 +107,7 @@ double middle_of_gap(std::span<const Interval> intervals, double value) {
     return next == infinity ? value : value / 2 + next / 2;
 }
 
-/// How many of the patches lie below a cut.
+/// Share of the patches that lies below a cut.
 enum class Below { none, some, all };
 
 std::vector<Interval> intervals_of(const StatisticalDomain& domain,
@@ -144,6 +148,8 @@ Below divide(const StatisticalDomain& domain, std::span<const std::size_t> patch
     const auto axis = static_cast<std::size_t>(axes[0]);
     const std::vector<Interval> intervals = intervals_of(domain, patches, axis);
     const Crossing crossing = find_crossing(intervals, target);
+    // The target lies in the jump at `left`, on the slope from there to `right`, or, by round-off,
+    // behind a jump with nothing on the slope.
     double below = crossing.below;
     double jump = 0;
     double slope = 0;

@@ -41,7 +41,7 @@ class StageScope {
     Stage stage_;
 };
 
-/// The options with nothing left to default but the sizes of equal parts.
+/// Options with nothing left to default but the sizes of equal parts.
 Options complete(Options options, int num_ranks) {
     if (options.num_parts == 0) options.num_parts = num_ranks;
     if (options.refine == Refine::automatic)
@@ -49,16 +49,16 @@ Options complete(Options options, int num_ranks) {
     return options;
 }
 
-/// Checked sizes of a sum in [1, 2), so that weights over sizes stay in range; equal ones where
-/// there are none. By a power of two, so that the ratios keep their bits, but for sizes hundreds of
-/// decades below their sum.
+/// Scales checked sizes to a sum in [1, 2), so that weights over sizes stay in range; makes equal
+/// ones where there are none. A power of two keeps the bits of their ratios, but for sizes hundreds
+/// of decades below their sum.
 void normalize(std::vector<double>& sizes, int num_parts) {
     if (sizes.empty()) sizes.assign(static_cast<std::size_t>(num_parts), 1.0);
     const int exponent = std::ilogb(std::accumulate(sizes.begin(), sizes.end(), 0.0));
     for (double& size : sizes) size = std::ldexp(size, -exponent);
 }
 
-/// What all ranks contributed, at the root. Collective.
+/// Gathers the contributions of all ranks at the root. Collective.
 ///
 /// The tree is that of every other call. Points have nothing to gain from a stop on the way, so
 /// they go straight to the root, as in the paper, once it has told all ranks that all ask for this.
@@ -70,8 +70,7 @@ void gather(Contribution& mine, const Options& options, int dimension, Participa
     gather_points(mine.points, self);
 }
 
-/// The decision of the root, on every rank; throws what went wrong on one of them on all.
-/// Collective.
+/// Brings the decision of the root to every rank, or throws on all what failed on one. Collective.
 void decide_together(const Contribution& all, const Options& options, const Cuts* previous,
                      Decision& decision, Participant& self) {
     if (mpi::rank_of(self.comm) == root) {
@@ -86,7 +85,7 @@ void decide_together(const Contribution& all, const Options& options, const Cuts
     broadcast(decision, self);
 }
 
-/// What a call works with on one rank.
+/// State of a call on one rank.
 struct Work {
     Options options;
     BinnedPoints binned;

@@ -6,10 +6,11 @@
 
 namespace rrcb {
 
-/// As the public functions, over a communicator that is a duplicate already; `previous` may be
-/// null. What went wrong on a rank before is told to all as well; of `options` only the domain
-/// counts there. The points stay where they are good enough (Report::kept) only if all ranks allow
-/// it: if `may_stay`, which may differ between them.
+/// Balances as the public functions do, over a communicator that is a duplicate already.
+///
+/// `previous` may be null. A failure from before the call is thrown on all ranks as well; of the
+/// `options` of that rank only the domain counts. Points that lie well enough stay (Report::kept)
+/// only if all ranks allow it: `may_stay` may differ between them.
 Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_stay,
                 Participant& self);
 

@@ -11,7 +11,8 @@ double share_below(std::span<const double> sizes);
 /// `depth` cuts below the root, has fewer cells left.
 double expected_error(int depth);
 
-/// As the public function, by complete options; on request with the brackets of the cuts.
+/// Bisects as the public function does, by complete options; on request with the brackets of the
+/// cuts.
 Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets);
 
 }  // namespace rrcb

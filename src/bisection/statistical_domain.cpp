@@ -57,7 +57,8 @@ Box around(const Moments& moments, double multiplier) {
     return box;
 }
 
-/// How far weight reaches to both sides of a mean: half of it, which no coordinates overflow.
+/// Distances that weight reaches to both sides of a mean; half of them, which no coordinates
+/// overflow.
 struct Reach {
     double below = 0;
     double above = 0;

@@ -29,7 +29,7 @@ struct BinnedPoints {
 /// Finds the cells of finite points that lie in the box of `mesh`, in one pass. Not collective.
 BinnedPoints bin_by_cell(const Points& points, const SupportMesh& mesh);
 
-/// As the public function, of points whose cells are known.
+/// Moments as the public function has them, of points whose cells are known.
 std::vector<CellMoments> cell_moments(const BinnedPoints& binned);
 
 }  // namespace rrcb

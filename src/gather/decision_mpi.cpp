@@ -22,7 +22,7 @@ namespace rrcb {
 
 namespace {
 
-/// Of a partition with the heaviest point alone in the largest part.
+/// Imbalance of a partition with the heaviest point alone in the largest part.
 double least_imbalance(double heaviest, double weight, std::span<const double> part_sizes) {
     if (!(weight > 0)) return 1;
     const double sizes = std::accumulate(part_sizes.begin(), part_sizes.end(), 0.0);
@@ -144,8 +144,8 @@ void unpack(Decision& decision) {
     });
 }
 
-/// What every rank expects of the root first, whatever it was asked for: the verdict, and as much
-/// of the decision as fits behind it.
+/// First message of the root to every rank, whatever that asks for: the verdict, and as much of the
+/// decision as fits behind it.
 using Head = std::array<std::byte, 2048>;
 
 void broadcast_head(Head& head, Verdict& verdict, const Participant& self) {

@@ -172,7 +172,7 @@ Chosen choose(double base, double target, std::span<const double> weights) {
     return chosen;
 }
 
-/// How far from the target a cut at either edge of a slot would be.
+/// Distances from the target of a cut at either edge of a slot.
 struct EdgeErrors {
     double lower;
     double upper;

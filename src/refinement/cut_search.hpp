@@ -86,14 +86,14 @@ void decide_by_splitters(CutSearch& search, CutTarget& target, const HistogramLa
 void decide_among(CutSearch& search, CutTarget& target, std::span<const double> records,
                   int dimension);
 
-/// As many candidates of one search as are worth gathering instead of counting once more.
+/// Number of candidates of one search up to which gathering is worth more than another count.
 inline constexpr GlobalCount most_gathered = 1024;
 
-/// As many candidates of all searches as are gathered at once, in a few messages.
+/// Number of candidates of all searches up to which they are gathered at once, in a few messages.
 inline constexpr GlobalCount most_gathered_at_once = 64 * most_gathered;
 
-/// Has searches sample their candidates that would have gathered more than that, those behind
-/// first; returns how many candidates the others gather.
+/// Lets searches gather while their candidates are no more than that, and has the others sample
+/// theirs; returns how many candidates are gathered.
 GlobalCount limit_gathering(std::span<CutSearch> searches, std::span<const CutTarget> targets);
 
 }  // namespace rrcb

@@ -23,7 +23,7 @@ struct Node {
 /// memory later can still take part until all have been told.
 class LevelSearch {
   public:
-    /// For `most` searches at once. Not collective. Throws Error or std::bad_alloc.
+    /// Makes buffers for `most` searches at once. Not collective. Throws Error or std::bad_alloc.
     LevelSearch(std::size_t most, int dimension, bool is_root);
 
     void clear();

@@ -136,15 +136,18 @@ TEST(FailingMemory, in_new_part_numbers) {
             return on_rank ? remap(parts, ranks, MPI_COMM_WORLD)
                            : remap(parts, previous, ranks, MPI_COMM_WORLD);
         };
-        const std::vector<Part> expected = call().numbers;
-        std::vector<Part> numbers;
+        const Remap expected = call();
+        Remap result;
         FailingMemory(
             {ok, static_cast<int>(ErrorCode::out_of_memory)},
             [&] {
-                numbers = {};
-                return code_of([&] { numbers = call().numbers; });
+                result = {};
+                return code_of([&] { result = call(); });
             },
-            [&] { EXPECT_EQ(numbers, expected); })
+            [&] {
+                EXPECT_EQ(result.numbers, expected.numbers);
+                EXPECT_EQ(result.kept_after, expected.kept_after) << "a rank was left out";
+            })
             .run();
     }
 }

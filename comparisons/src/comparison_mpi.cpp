@@ -3,10 +3,89 @@
 #include "plot_data_mpi.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <utility>
 
 namespace comparisons {
+
+namespace {
+
+/// Times of zoltan-rcb; none when it was not measured or failed.
+std::vector<double> reference_times(const Comparison& comparison) {
+    for (const Measurement& measurement : comparison.measurements) {
+        if (measurement.method == "zoltan-rcb" && measurement.error.empty()) {
+            return measurement.times_ms;
+        }
+    }
+    return {};
+}
+
+/// A single value is that of all seeds.
+std::optional<Interval> interval_of_seeds(const std::vector<double>& values) {
+    if (values.size() == 1) return Interval{values.front(), values.front()};
+    return interval95(values);
+}
+
+/// Behind the key; `reference_ms` are the times of zoltan-rcb.
+Row table_row(Row key, const Measurement& measurement, const std::vector<double>& reference_ms) {
+    const std::vector<double>& times = measurement.times_ms;
+    const Traffic& traffic = measurement.traffic;
+    const double reference = median(reference_ms);
+    std::optional<double> ratio;
+    if (reference > 0) ratio = median(times) / reference;
+    return key.add("time_ms_median", median(times))
+        .add("time_ms_min", range_of(times).low)
+        .add("time_ms_max", range_of(times).high)
+        .add("imbalance", median(measurement.imbalances))
+        .add("lu_max_percent", std::abs(measurement.worst_unbalance_percent))
+        .add("messages", traffic.messages)
+        .add("bytes", traffic.bytes)
+        .add("root_bytes_in", traffic.root_bytes_in)
+        .add("collectives", traffic.collectives)
+        .add("communicators", traffic.communicators)
+        .add("moved_fraction", measurement.moved_fraction)
+        .add("time_vs_zoltan_rcb", ratio)
+        .add_interval("time_ms_", interval95(times))
+        .add_interval("time_vs_zoltan_rcb_", interval95(paired_ratios(times, reference_ms)))
+        .add_interval("imbalance_", interval_of_seeds(measurement.imbalances))
+        .add("seeds", measurement.imbalances.size())
+        .add("lu_worst_percent", measurement.worst_unbalance_percent)
+        .add_error(measurement.error);
+}
+
+Row calls_row(const Comparison& comparison, const std::string& method, const std::string& function,
+              const CallCount& count) {
+    return Row()
+        .add("method", method)
+        .add("ranks", comparison.num_ranks)
+        .add("workload", comparison.workload)
+        .add("layout", comparison.layout)
+        .add("function", function)
+        .add("calls", count.calls)
+        .add("bytes_in", count.bytes_in)
+        .add("bytes_out", count.bytes_out);
+}
+
+Row printed_row(const Measurement& measurement, double reference_ms) {
+    Row row;
+    row.add("method", measurement.method);
+    if (!measurement.error.empty()) return row.add_error(measurement.error);
+    const double middle = median(measurement.times_ms);
+    const std::optional<Interval> interval = interval95(measurement.times_ms);
+    return row.add("imbalance", fixed(median(measurement.imbalances), 5))
+        .add("Lu of largest size %", fixed(measurement.worst_unbalance_percent, 3))
+        .add("time ms", fixed(middle, 2))
+        .add("95 %", interval ? fixed(interval->low, 2) + " ... " + fixed(interval->high, 2) : "-")
+        .add("times as fast",
+             reference_ms > 0 && middle > 0 ? fixed(reference_ms / middle, 2) : "-")
+        .add("bytes", human_bytes(static_cast<double>(measurement.traffic.bytes)))
+        .add("messages", measurement.traffic.messages)
+        .add("into root", human_bytes(static_cast<double>(measurement.traffic.root_bytes_in)))
+        .add("moved %", fixed(100 * measurement.moved_fraction, 1));
+}
+
+}  // namespace
 
 Comparison describe(const Workload& workload, const MeasurementPlan& plan, MPI_Comm comm) {
     Comparison comparison{workload.name, workload.layout, workload.dimension, 0, 1, plan, {}};
@@ -34,6 +113,82 @@ Comparison compare_methods(const Workload& workload, const Arguments& arguments,
     if (rank == 0) print_table(std::cout, comparison);
     std::cout.flush();
     return comparison;
+}
+
+bool has_failures(std::span<const Comparison> comparisons) {
+    return std::ranges::any_of(comparisons, [](const Comparison& comparison) {
+        return std::ranges::any_of(comparison.measurements,
+                                   [](const Measurement& m) { return !m.error.empty(); });
+    });
+}
+
+std::optional<Noise> noise_of(const Comparison& comparison) {
+    const std::vector<double> ratios =
+        paired_ratios(comparison.second_times_ms, reference_times(comparison));
+    if (ratios.empty()) return std::nullopt;
+    return Noise{comparison.workload, "zoltan-rcb", spread_of(ratios)};
+}
+
+Row table_key(const Comparison& comparison, const std::string& method) {
+    return Row()
+        .add("method", method)
+        .add("ranks", comparison.num_ranks)
+        .add("parts", comparison.num_ranks)
+        .add("points", comparison.num_points)
+        .add("dim", comparison.dimension)
+        .add("workload", comparison.workload)
+        .add("layout", comparison.layout)
+        .add("lists", lists_name(comparison.plan.lists))
+        .add("repeats", comparison.plan.repeats)
+        .end_key();
+}
+
+std::vector<Row> table_rows(const Comparison& comparison) {
+    const std::vector<double> reference_ms = reference_times(comparison);
+    std::vector<Row> rows;
+    for (const Measurement& measurement : comparison.measurements) {
+        rows.push_back(
+            table_row(table_key(comparison, measurement.method), measurement, reference_ms));
+    }
+    return rows;
+}
+
+Row table_columns() {
+    return table_row(table_key({}, {}), {}, {});
+}
+
+std::string table_csv(std::span<const Comparison> comparisons) {
+    std::vector<Row> rows;
+    for (const Comparison& comparison : comparisons) {
+        std::ranges::move(table_rows(comparison), std::back_inserter(rows));
+    }
+    return csv(table_columns(), rows);
+}
+
+std::string calls_csv(std::span<const Comparison> comparisons) {
+    std::vector<Row> rows;
+    for (const Comparison& comparison : comparisons) {
+        for (const Measurement& measurement : comparison.measurements) {
+            for (const auto& [function, count] : measurement.calls) {
+                rows.push_back(calls_row(comparison, measurement.method, function, count));
+            }
+        }
+    }
+    return csv(calls_row({}, {}, {}, {}), rows);
+}
+
+void print_table(std::ostream& out, const Comparison& comparison) {
+    out << '\n'
+        << comparison.workload << ": " << comparison.num_points << " points, "
+        << comparison.dimension << "-D, " << comparison.layout << ", " << comparison.num_ranks
+        << " ranks, lists " << lists_name(comparison.plan.lists) << ", median of "
+        << comparison.plan.repeats << "\n\n";
+    const double reference_ms = median(reference_times(comparison));
+    std::vector<Row> rows;
+    for (const Measurement& measurement : comparison.measurements) {
+        rows.push_back(printed_row(measurement, reference_ms));
+    }
+    print_columns(out, printed_row({}, 0), rows);
 }
 
 }  // namespace comparisons

@@ -1,11 +1,11 @@
 #include "cycle_mpi.hpp"
 
 #include "balancer_mpi.hpp"
+#include "comparison_mpi.hpp"
 #include "layout_mpi.hpp"
 #include "rrcb_balancer_mpi.hpp"
 #include "scene_choice_mpi.hpp"
 #include "sweep_settings.hpp"
-#include "text.hpp"
 
 #include <rrcb/quality.hpp>
 
@@ -49,10 +49,21 @@ std::vector<SeededMethod> seeded_settings(bool quick) {
     return settings;
 }
 
-std::string cycle_key(const Sweep& sweep, rrcb::GlobalCount num_points, const SeededMethod& setting,
-                      int call) {
-    return csv_field(setting.method.label) + ',' + std::to_string(sweep.num_ranks) + ',' +
-           std::to_string(num_points) + ',' + setting.seed + ',' + std::to_string(call);
+Row cycle_key(const Sweep& sweep, rrcb::GlobalCount num_points, const SeededMethod& setting,
+              int call) {
+    return Row()
+        .add("method", setting.method.label)
+        .add("ranks", sweep.num_ranks)
+        .add("points", num_points)
+        .add("seed", setting.seed)
+        .add("call", call)
+        .end_key();
+}
+
+Row cycle_row(Row key, const StillCall& result, const std::string& error) {
+    return key.add("imbalance", result.imbalance)
+        .add("moved_fraction", result.moved_fraction)
+        .add_error(error);
 }
 
 /// Of our own methods the C++ interface: the plug-in remembers where it sent the points, and leaves
@@ -62,20 +73,17 @@ mpm::Balancer memoryless(const Method& method) {
 }
 
 /// The rows of one setting; one that tells why where it failed.
-std::string cycle_rows(const Sweep& sweep, const Workload& start, rrcb::GlobalCount num_points,
-                       const SeededMethod& setting, int num_calls) {
-    std::string rows;
+std::vector<Row> cycle_rows(const Sweep& sweep, const Workload& start, rrcb::GlobalCount num_points,
+                            const SeededMethod& setting, int num_calls) {
+    std::vector<Row> rows;
     try {
-        const std::vector<StillCall> calls =
-            balance_still_points(start, memoryless(setting.method), num_calls, sweep.comm);
-        for (int call = 1; call <= num_calls; ++call) {
-            const StillCall& result = calls[static_cast<std::size_t>(call) - 1];
-            rows += cycle_key(sweep, num_points, setting, call) + ',' +
-                    write_number(result.imbalance) + ',' + write_number(result.moved_fraction) +
-                    ",\n";
+        int number = 0;
+        for (const StillCall& call :
+             balance_still_points(start, memoryless(setting.method), num_calls, sweep.comm)) {
+            rows.push_back(cycle_row(cycle_key(sweep, num_points, setting, ++number), call, ""));
         }
     } catch (const std::runtime_error& error) {
-        rows = cycle_key(sweep, num_points, setting, 1) + ",,," + csv_field(error.what()) + '\n';
+        rows = {cycle_row(cycle_key(sweep, num_points, setting, 1), {}, error.what())};
     }
     return rows;
 }
@@ -111,11 +119,9 @@ std::vector<StillCall> balance_still_points(Workload workload, const mpm::Balanc
 
 bool study_cycle(const Sweep& sweep) {
     const int num_calls = sweep.arguments.quick ? 4 : 20;
-    SavedRows rows(sweep.folder, "cycle.csv",
-                   "method,ranks,points,seed,call,imbalance,moved_fraction,error", 5);
+    SavedRows rows(sweep.folder, "cycle.csv", cycle_row(cycle_key(sweep, 0, {}, 0), {}, ""));
     const Workload start = start_of_slope(sweep);
-    auto num_points = static_cast<rrcb::GlobalCount>(start.points().count);
-    MPI_Allreduce(MPI_IN_PLACE, &num_points, 1, MPI_INT64_T, MPI_SUM, sweep.comm);
+    const rrcb::GlobalCount num_points = describe(start, {}, sweep.comm).num_points;
     std::vector<SeededMethod> settings = seeded_settings(sweep.arguments.quick);
     std::erase_if(settings, [&](const SeededMethod& setting) {
         return rows.has(cycle_key(sweep, num_points, setting, num_calls));
@@ -125,8 +131,7 @@ bool study_cycle(const Sweep& sweep) {
     sweep.progress.start("points that stand still", static_cast<int>(settings.size()));
     bool succeeded = true;
     for (const SeededMethod& setting : settings) {
-        const std::string text = cycle_rows(sweep, start, num_points, setting, num_calls);
-        succeeded = !rows.add([&](std::ostream& out) { out << text; }) && succeeded;
+        succeeded = rows.add(cycle_rows(sweep, start, num_points, setting, num_calls)) && succeeded;
         sweep.progress.advance();
     }
     return succeeded;

@@ -1,6 +1,6 @@
 #include "error_sources_mpi.hpp"
 
-#include "text.hpp"
+#include "gather_mpi.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/bisection.hpp>
@@ -8,33 +8,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace comparisons {
 
 namespace {
 
-/// Moments of the cells of every rank, at rank 0.
-std::vector<rrcb::CellMoments> gather_cells(const rrcb::Points& points, int mesh, MPI_Comm comm) {
-    int rank = 0;
-    int size = 1;
-    MPI_Comm_rank(comm, &rank);
-    MPI_Comm_size(comm, &size);
-    std::vector<rrcb::CellMoments> mine;
-    if (points.count > 0) {
-        mine = rrcb::cell_moments(
-            points, rrcb::make_support_mesh(rrcb::bounding_box(points), points.dimension, mesh));
-    }
-    const int bytes = static_cast<int>(mine.size() * sizeof(rrcb::CellMoments));
-    std::vector<int> counts(static_cast<std::size_t>(size));
-    std::vector<int> starts(counts.size());
-    MPI_Gather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, comm);
-    std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
-    const auto sum = static_cast<std::size_t>(std::accumulate(counts.begin(), counts.end(), 0));
-    std::vector<rrcb::CellMoments> all(rank == 0 ? sum / sizeof(rrcb::CellMoments) : 0);
-    MPI_Gatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(), starts.data(), MPI_BYTE, 0,
-                comm);
-    return all;
+/// Moments of the cells of this rank's support mesh.
+std::vector<rrcb::CellMoments> cells_of(const rrcb::Points& points, int mesh) {
+    if (points.count == 0) return {};
+    return rrcb::cell_moments(
+        points, rrcb::make_support_mesh(rrcb::bounding_box(points), points.dimension, mesh));
 }
 
 /// The box of all cells, which is that of all points: its faces are those of the ranks' meshes.
@@ -85,7 +68,8 @@ rrcb::Cuts cut_cells(const SourceSetting& setting, const rrcb::Points& points, M
     int num_parts = 1;
     MPI_Comm_rank(comm, &rank);
     MPI_Comm_size(comm, &num_parts);
-    const std::vector<rrcb::CellMoments> cells = gather_cells(points, setting.mesh, comm);
+    const std::vector<rrcb::CellMoments> cells =
+        gather_on_root(cells_of(points, setting.mesh), comm);
     rrcb::Cuts cuts{points.dimension, num_parts, {}};
     if (rank == 0) {
         cuts = rrcb::bisect(domain_of(setting, cells, points.dimension), num_parts, {},
@@ -103,13 +87,26 @@ std::string name_of(Source source) {
     return names[static_cast<int>(source)];
 }
 
-std::string source_key(const Workload& workload, rrcb::GlobalCount num_points, int num_ranks,
-                       const SourceSetting& setting) {
-    return workload.name + ',' + workload.layout + ',' + std::to_string(workload.dimension) + ',' +
-           std::to_string(num_points) + ',' + std::to_string(num_ranks) + ',' +
-           name_of(setting.source) + ',' + std::to_string(setting.mesh) + ',' +
-           write_number(setting.k) + ',' + write_number(setting.fraction) + ',' +
-           std::to_string(setting.seed);
+Row source_key(const Workload& workload, rrcb::GlobalCount num_points, int num_ranks,
+               const SourceSetting& setting) {
+    return Row()
+        .add("workload", workload.name)
+        .add("layout", workload.layout)
+        .add("dim", workload.dimension)
+        .add("points", num_points)
+        .add("ranks", num_ranks)
+        .add("domain", name_of(setting.source))
+        .add("mesh", setting.mesh)
+        .add("k", setting.k)
+        .add("fraction", setting.fraction)
+        .add("seed", setting.seed)
+        .end_key();
+}
+
+Row source_row(Row key, std::span<const double> part_weights) {
+    return key.add("imbalance", rrcb::imbalance(part_weights))
+        .add("lu_max_percent", rrcb::worst_load_unbalance_percent(part_weights))
+        .add_error("");
 }
 
 }  // namespace
@@ -170,10 +167,7 @@ std::vector<SourceSetting> source_settings(bool quick) {
 void find_error_sources(const Sweep& sweep) {
     // The sampled domain of a large fraction takes long, and noise hardly depends on the number.
     const rrcb::GlobalCount num_points = std::max<rrcb::GlobalCount>(1, sweep.arguments.points / 4);
-    SavedRows rows(sweep.folder, "error_sources.csv",
-                   "workload,layout,dim,points,ranks,domain,mesh,k,fraction,seed,imbalance,"
-                   "lu_max_percent,error",
-                   10);
+    SavedRows rows(sweep.folder, "error_sources.csv", source_row(source_key({}, 0, 0, {}), {}));
     on_each_cloud(sweep, num_points, [&](const Workload& workload) {
         std::vector<SourceSetting> settings = source_settings(sweep.arguments.quick);
         const auto key = [&](const SourceSetting& setting) {
@@ -182,15 +176,13 @@ void find_error_sources(const Sweep& sweep) {
         std::erase_if(settings, [&](const SourceSetting& s) { return rows.has(key(s)); });
         if (settings.empty()) return true;
         sweep.progress.start(workload.name + ": sources", static_cast<int>(settings.size()));
-        std::string text;
+        std::vector<Row> measured;
         for (const SourceSetting& setting : settings) {
-            const std::vector<double> weights =
-                source_part_weights(setting, workload.points(), sweep.comm);
-            text += key(setting) + ',' + write_number(rrcb::imbalance(weights)) + ',' +
-                    write_number(rrcb::worst_load_unbalance_percent(weights)) + ",\n";
+            measured.push_back(source_row(
+                key(setting), source_part_weights(setting, workload.points(), sweep.comm)));
             sweep.progress.advance();
         }
-        rows.add([&](std::ostream& out) { out << text; });
+        rows.add(measured);
         return true;
     });
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sweep_part_mpi.hpp"
+#include "sweep_mpi.hpp"
 
 #include <rrcb/moments.hpp>
 #include <rrcb/statistical_domain.hpp>

@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <sstream>
 
 namespace {
 
@@ -92,9 +93,9 @@ Outcome compare_all(const Arguments& arguments, const ResultsFolder& folder, Pro
         const std::optional<Noise> noise = noise_of(comparisons.back());
         if (noise) outcome.noise.push_back(*noise);
     }
-    folder.write("table.csv", [&](std::ostream& out) { write_table(out, comparisons); });
-    folder.write("calls.csv", [&](std::ostream& out) { write_calls(out, comparisons); });
-    folder.write("noise.csv", [&](std::ostream& out) { write_noise(out, outcome.noise); });
+    folder.write("table.csv", [&] { return table_csv(comparisons); });
+    folder.write("calls.csv", [&] { return calls_csv(comparisons); });
+    folder.write("noise.csv", [&] { return csv_of(outcome.noise, noise_row); });
     outcome.succeeded = outcome.succeeded && !has_failures(comparisons);
     return outcome;
 }
@@ -113,7 +114,7 @@ int compare(const Arguments& arguments, const std::string& command, MPI_Comm com
     const ResultsFolder folder(arguments.out, comm);
     Progress progress(arguments.progress && rank_of(comm) == 0);
     const std::string record = run_record(arguments, command, comm);
-    folder.write("run.txt", [&](std::ostream& out) { out << record; });
+    folder.write("run.txt", [&] { return record; });
     if (rank_of(comm) == 0) std::cout << record;
 
     Outcome outcome;
@@ -123,11 +124,11 @@ int compare(const Arguments& arguments, const std::string& command, MPI_Comm com
         outcome = compare_all(arguments, folder, progress, comm);
     }
     const MachineUse use = watch.use();
-    folder.write("run.txt", [&](std::ostream& out) {
-        out << record;
-        write_use(out, use);
-        print_noise(out, outcome.noise);
-    });
+    std::ostringstream whole_record;
+    whole_record << record;
+    write_use(whole_record, use);
+    print_noise(whole_record, outcome.noise);
+    folder.write("run.txt", [&] { return whole_record.str(); });
     if (rank_of(comm) == 0) summarize(arguments, use, outcome);
     return outcome.succeeded ? 0 : 1;
 }

@@ -4,12 +4,12 @@
 
 namespace comparisons {
 
-void write_noise(std::ostream& out, std::span<const Noise> noise) {
-    out << "workload,what,ratio,low,high\n";
-    for (const auto& [workload, what, ratio] : noise) {
-        out << csv_field(workload) << ',' << csv_field(what) << ',' << write_number(ratio.median)
-            << ',' << interval_fields(ratio.interval95) << '\n';
-    }
+Row noise_row(const Noise& noise) {
+    return Row()
+        .add("workload", noise.workload)
+        .add("what", noise.what)
+        .add("ratio", noise.ratio.median)
+        .add_interval("", noise.ratio.interval95);
 }
 
 void print_noise(std::ostream& out, std::span<const Noise> noise) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "row.hpp"
 #include "statistics.hpp"
 
 #include <ostream>
@@ -15,8 +16,8 @@ struct Noise {
     Spread ratio;      ///< second / first of each turn
 };
 
-/// noise.csv: a row for each, columns as README.md describes them.
-void write_noise(std::ostream& out, std::span<const Noise> noise);
+/// A row of noise.csv.
+Row noise_row(const Noise& noise);
 
 /// The same for people, a line each.
 void print_noise(std::ostream& out, std::span<const Noise> noise);

@@ -1,13 +1,10 @@
-#include "paper_study_mpi.hpp"
-
 #include "balancer_mpi.hpp"
+#include "comparison_mpi.hpp"
 #include "cycle_mpi.hpp"
 #include "plot_data_mpi.hpp"
 #include "scene_mpi.hpp"
-#include "simulation_table.hpp"
+#include "sweep_mpi.hpp"
 #include "sweep_settings.hpp"
-#include "table.hpp"
-#include "text.hpp"
 
 #include <rrcb/balance.hpp>
 
@@ -37,7 +34,7 @@ bool has_snapshots(const Sweep& sweep, const SimulationPlan& plan, const SavedRo
     return std::ranges::all_of(snapshot_names(plan.scene), [&](const std::string& name) {
         expected.workload = name;
         return std::ranges::all_of(settings, [&](const Method& method) {
-            return rows.has(row_key(expected, method.label));
+            return rows.has(table_key(expected, method.label));
         });
     });
 }
@@ -82,7 +79,8 @@ class Study {
           plan_(std::move(plan)),
           histories_(std::move(histories)),
           num_points_(mpm::Simulation(plan_.scene, sweep.comm).num_points()),
-          rows_(sweep.folder, file, "repeat," + simulation_header(), 6) {}
+          rows_(sweep.folder, file,
+                Row().add("repeat", 0).add(simulation_row(plan_, sweep.num_ranks, {}))) {}
 
     /// `num_repeats` rounds of the serial simulation, the one without rebalancing and the
     /// settings; a method that draws points takes another seed in each. True when none failed.
@@ -90,8 +88,8 @@ class Study {
 
   private:
     bool is_missing(int repeat, const std::string& label, int num_ranks) const {
-        return !rows_.has(std::to_string(repeat) + ',' +
-                          simulation_key(plan_, num_ranks, num_points_, label));
+        return !rows_.has(
+            Row().add("repeat", repeat).add(simulation_key(plan_, num_ranks, num_points_, label)));
     }
     bool run_round(const std::vector<Method>& settings, int repeat);
     SimulationRun simulate(const std::string& label, const std::optional<mpm::Balancer>& balancer,
@@ -137,17 +135,14 @@ SimulationRun Study::simulate_serially() {
 
 /// The history is that of the first repeat.
 bool Study::add(int repeat, const SimulationRun& run, int num_ranks) {
-    const std::string method =
-        sweep_.folder.from_root([&](std::ostream& out) { out << run.method; });
     if (repeat == 1) {
+        const std::string method = sweep_.folder.from_root([&] { return run.method; });
         sweep_.folder.write("data/" + histories_ + '_' + file_name_part(method) + '_' +
                                 std::to_string(num_ranks) + ".csv",
-                            [&](std::ostream& out) { write_history(out, std::span(&run, 1)); });
+                            [&] { return history_csv(std::span(&run, 1)); });
     }
-    return !rows_.add([&](std::ostream& out) {
-        out << repeat << ',';
-        write_simulation(out, plan_, num_ranks, run);
-    });
+    const Row row = simulation_row(plan_, num_ranks, summarize({run.method, {run}}));
+    return rows_.add({Row().add("repeat", repeat).add(row)});
 }
 
 bool Study::run_round(const std::vector<Method>& settings, int repeat) {

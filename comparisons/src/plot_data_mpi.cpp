@@ -1,7 +1,9 @@
 #include "plot_data_mpi.hpp"
 
 #include "bisection/domain_kinds.hpp"
+#include "gather_mpi.hpp"
 #include "layout_mpi.hpp"
+#include "row.hpp"
 #include "text.hpp"
 #include "zoltan_partitioner_mpi.hpp"
 
@@ -9,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 namespace comparisons {
@@ -17,33 +18,8 @@ namespace comparisons {
 namespace {
 
 using rrcb::GlobalCount;
-using Rows = std::vector<double>;
-
 constexpr GlobalCount max_plotted = 60'000;
 constexpr const char axis_names[] = {'x', 'y', 'z'};
-
-/// Rows of all ranks, in the order of the ranks, on rank 0.
-Rows gather(const Rows& mine, MPI_Comm comm) {
-    int size = 0;
-    MPI_Comm_size(comm, &size);
-    const int length = static_cast<int>(mine.size());
-    std::vector<int> lengths(static_cast<std::size_t>(size));
-    MPI_Gather(&length, 1, MPI_INT, lengths.data(), 1, MPI_INT, 0, comm);
-    std::vector<int> starts(lengths.size());
-    std::exclusive_scan(lengths.begin(), lengths.end(), starts.begin(), 0);
-    Rows all(static_cast<std::size_t>(starts.back() + lengths.back()));
-    MPI_Gatherv(mine.data(), length, MPI_DOUBLE, all.data(), lengths.data(), starts.data(),
-                MPI_DOUBLE, 0, comm);
-    return all;
-}
-
-void write_rows(std::ostream& out, const std::string& heading, const Rows& rows) {
-    const auto width = static_cast<std::size_t>(std::ranges::count(heading, ',') + 1);
-    out << heading << '\n';
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        out << rows[i] << (i % width == width - 1 ? '\n' : ',');
-    }
-}
 
 std::string data_file(const std::string& kind, const Workload& workload,
                       const std::string& method = {}) {
@@ -51,21 +27,15 @@ std::string data_file(const std::string& kind, const Workload& workload,
            (method.empty() ? "" : '_' + file_name_part(method)) + ".csv";
 }
 
-/// "prefix_x,prefix_y" of as many axes as there are.
-std::string axis_columns(const std::string& prefix, int dimension) {
-    std::string columns;
-    for (int a = 0; a < dimension; ++a) {
-        columns += (a == 0 ? "" : ",") + prefix + axis_names[a];
-    }
-    return columns;
+/// A column for each axis.
+void add_axes(Row& row, const std::string& prefix, const rrcb::Vector& values, int dimension) {
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+        row.add(prefix + axis_names[a], nine_digits(values[a]));
 }
 
-std::string box_columns(int dimension) {
-    return axis_columns("lower_", dimension) + ',' + axis_columns("upper_", dimension);
-}
-
-void append(Rows& rows, const rrcb::Vector& values, int dimension) {
-    rows.insert(rows.end(), values.begin(), values.begin() + dimension);
+void add_box(Row& row, const rrcb::Box& box, int dimension) {
+    add_axes(row, "lower_", box.lower, dimension);
+    add_axes(row, "upper_", box.upper, dimension);
 }
 
 /// Every how many points one is plotted, and where this rank starts.
@@ -86,18 +56,25 @@ Thinning thin_out(std::size_t count, MPI_Comm comm) {
             static_cast<std::size_t>(stride)};
 }
 
+struct PlottedPoint {
+    rrcb::Vector position{};
+    rrcb::Part part = 0;
+};
+
 void write_points(const ResultsFolder& folder, const Workload& workload,
                   const Measurement& measurement, MPI_Comm comm) {
     const rrcb::Points points = workload.points();
     const Thinning thinning = thin_out(points.count, comm);
-    Rows mine;
-    for (std::size_t i = thinning.first; i < points.count; i += thinning.stride) {
-        append(mine, points.position(i), workload.dimension);
-        mine.push_back(measurement.parts[i]);
-    }
-    const Rows rows = gather(mine, comm);
-    folder.write(data_file("points", workload, measurement.method), [&](std::ostream& out) {
-        write_rows(out, axis_columns("", workload.dimension) + ",part", rows);
+    std::vector<PlottedPoint> mine;
+    for (std::size_t i = thinning.first; i < points.count; i += thinning.stride)
+        mine.push_back({points.position(i), measurement.parts[i]});
+    const std::vector<PlottedPoint> plotted = gather_on_root(mine, comm);
+    folder.write(data_file("points", workload, measurement.method), [&] {
+        return csv_of(plotted, [&](const PlottedPoint& point) {
+            Row row;
+            add_axes(row, "", point.position, workload.dimension);
+            return row.add("part", point.part);
+        });
     });
 }
 
@@ -124,88 +101,74 @@ void write_boxes(const ResultsFolder& folder, const Workload& workload, const Me
     const std::vector<rrcb::Box> boxes = part_boxes(workload, method, comm);
     if (boxes.empty()) return;
     const rrcb::Box cloud = global_box(workload, comm);
-    Rows rows;
-    for (std::size_t p = 0; p < boxes.size(); ++p) {
-        rrcb::Vector lower{};
-        rrcb::Vector upper{};
-        for (std::size_t a = 0; a < lower.size(); ++a) {
-            lower[a] = std::max(boxes[p].lower[a], cloud.lower[a]);
-            upper[a] = std::min(boxes[p].upper[a], cloud.upper[a]);
-        }
-        rows.push_back(static_cast<double>(p));
-        append(rows, lower, workload.dimension);
-        append(rows, upper, workload.dimension);
-    }
-    folder.write(data_file("boxes", workload, method.label), [&](std::ostream& out) {
-        write_rows(out, "part," + box_columns(workload.dimension), rows);
+    folder.write(data_file("boxes", workload, method.label), [&] {
+        rrcb::Part part = 0;
+        return csv_of(boxes, [&](rrcb::Box box) {
+            for (std::size_t a = 0; a < box.lower.size(); ++a) {
+                box.lower[a] = std::max(box.lower[a], cloud.lower[a]);
+                box.upper[a] = std::min(box.upper[a], cloud.upper[a]);
+            }
+            Row row;
+            row.add("part", part++);
+            add_box(row, box, workload.dimension);
+            return row;
+        });
     });
 }
 
-/// Cells of one rank's support mesh, in the columns of data/cells_*.
-Rows cell_rows(const std::vector<rrcb::CellMoments>& cells, int dimension, MPI_Comm comm) {
+struct RankCell {
     int rank = 0;
-    MPI_Comm_rank(comm, &rank);
-    Rows rows;
-    for (const rrcb::CellMoments& cell : cells) {
-        rows.push_back(rank);
-        rows.push_back(static_cast<double>(cell.cell));
-        append(rows, cell.box.lower, dimension);
-        append(rows, cell.box.upper, dimension);
-        append(rows, cell.moments.mean, dimension);
-        append(rows, cell.moments.deviation, dimension);
-        rows.push_back(static_cast<double>(cell.moments.count));
-        rows.push_back(cell.moments.weight);
-    }
-    return rows;
+    rrcb::CellMoments moments;
+};
+
+Row cell_row(const RankCell& of_rank, int dimension) {
+    const rrcb::CellMoments& cell = of_rank.moments;
+    Row row;
+    row.add("rank", of_rank.rank).add("cell", cell.cell);
+    add_box(row, cell.box, dimension);
+    add_axes(row, "mean_", cell.moments.mean, dimension);
+    add_axes(row, "sigma_", cell.moments.deviation, dimension);
+    return row.add("count", cell.moments.count).add("weight", nine_digits(cell.moments.weight));
 }
 
-std::vector<rrcb::CellMoments> cells_from(const Rows& rows, int dimension) {
-    const auto d = static_cast<std::size_t>(dimension);
-    std::vector<rrcb::CellMoments> cells;
-    for (const double* row = rows.data(); row != rows.data() + rows.size(); row += 4 + 4 * d) {
-        rrcb::CellMoments cell;
-        cell.cell = static_cast<rrcb::LocalIndex>(row[1]);
-        std::copy_n(row + 2, d, cell.box.lower.begin());
-        std::copy_n(row + 2 + d, d, cell.box.upper.begin());
-        std::copy_n(row + 2 + 2 * d, d, cell.moments.mean.begin());
-        std::copy_n(row + 2 + 3 * d, d, cell.moments.deviation.begin());
-        cell.moments.count = static_cast<GlobalCount>(row[2 + 4 * d]);
-        cell.moments.weight = row[3 + 4 * d];
-        cells.push_back(cell);
-    }
-    return cells;
-}
-
-void write_sampled(std::ostream& out, const rrcb::StatisticalDomain& domain) {
+std::string statistical_csv(const std::vector<RankCell>& cells, int dimension,
+                            const rrcb::Options& options) {
+    std::vector<rrcb::CellMoments> moments;
+    for (const RankCell& cell : cells) moments.push_back(cell.moments);
+    const rrcb::StatisticalDomain domain = rrcb::sampled_domain(moments, dimension, options);
     const std::size_t stride = std::max<std::size_t>(
         1, (domain.points.size() + max_plotted - 1) / static_cast<std::size_t>(max_plotted));
-    Rows rows;
-    for (std::size_t i = 0; i < domain.points.size(); i += stride) {
-        append(rows, domain.points[i].position, domain.dimension);
-    }
-    write_rows(out, axis_columns("", domain.dimension), rows);
+    std::vector<rrcb::Vector> plotted;
+    for (std::size_t i = 0; i < domain.points.size(); i += stride)
+        plotted.push_back(domain.points[i].position);
+    return csv_of(plotted, [&](const rrcb::Vector& position) {
+        Row row;
+        add_axes(row, "", position, dimension);
+        return row;
+    });
 }
 
 void write_statistics(const ResultsFolder& folder, const Workload& workload,
                       const rrcb::Options& options, MPI_Comm comm) {
     const int dimension = workload.dimension;
     const rrcb::Points points = workload.points();
-    std::vector<rrcb::CellMoments> cells;
+    RankCell of_rank;
+    MPI_Comm_rank(comm, &of_rank.rank);
+    std::vector<RankCell> mine;
     if (points.count > 0) {
-        cells = rrcb::cell_moments(
-            points,
-            rrcb::make_support_mesh(rrcb::bounding_box(points), dimension, options.support_mesh));
+        for (const rrcb::CellMoments& cell :
+             rrcb::cell_moments(points, rrcb::make_support_mesh(rrcb::bounding_box(points),
+                                                                dimension, options.support_mesh))) {
+            of_rank.moments = cell;
+            mine.push_back(of_rank);
+        }
     }
-    const Rows rows = gather(cell_rows(cells, dimension, comm), comm);
-    folder.write(data_file("cells", workload), [&](std::ostream& out) {
-        write_rows(out,
-                   "rank,cell," + box_columns(dimension) + ',' + axis_columns("mean_", dimension) +
-                       ',' + axis_columns("sigma_", dimension) + ",count,weight",
-                   rows);
+    const std::vector<RankCell> cells = gather_on_root(mine, comm);
+    folder.write(data_file("cells", workload), [&] {
+        return csv_of(cells, [&](const RankCell& cell) { return cell_row(cell, dimension); });
     });
-    folder.write(data_file("statistical", workload), [&](std::ostream& out) {
-        write_sampled(out, rrcb::sampled_domain(cells_from(rows, dimension), dimension, options));
-    });
+    folder.write(data_file("statistical", workload),
+                 [&] { return statistical_csv(cells, dimension, options); });
 }
 
 /// Dumps may hold points on a line, and points that are nowhere. Collective over `comm`.

@@ -7,12 +7,6 @@
 
 namespace comparisons {
 
-namespace {
-
-constexpr int number_digits = 9;
-
-}  // namespace
-
 ResultsFolder::ResultsFolder(const std::filesystem::path& path, MPI_Comm comm)
     : path_(path), comm_(comm) {
     on_root(
@@ -27,16 +21,14 @@ ResultsFolder::ResultsFolder(const std::filesystem::path& path, MPI_Comm comm)
         comm);
 }
 
-void ResultsFolder::write(const std::string& name,
-                          const std::function<void(std::ostream&)>& write) const {
+void ResultsFolder::write(const std::string& name, const std::function<std::string()>& text) const {
     on_root(
         [&] {
             // Renamed when it is whole: a run that is stopped leaves the old rows or the new ones.
             const std::filesystem::path file = path_ / name;
             const std::filesystem::path draft = file.string() + ".new";
             std::ofstream out(draft);
-            out.precision(number_digits);
-            write(out);
+            out << text();
             out.close();
             if (!out) throw Failure(file.string() + ": cannot be written; is the disk full?");
             std::filesystem::rename(draft, file);
@@ -44,31 +36,23 @@ void ResultsFolder::write(const std::string& name,
         comm_);
 }
 
-std::string ResultsFolder::from_root(const std::function<void(std::ostream&)>& write) const {
-    std::string text;
-    on_root(
-        [&] {
-            std::ostringstream out;
-            out.precision(number_digits);
-            write(out);
-            text = out.str();
-        },
-        comm_);
-    auto length = static_cast<int>(text.size());
+std::string ResultsFolder::from_root(const std::function<std::string()>& text) const {
+    std::string all;
+    on_root([&] { all = text(); }, comm_);
+    auto length = static_cast<int>(all.size());
     MPI_Bcast(&length, 1, MPI_INT, 0, comm_);
-    text.resize(static_cast<std::size_t>(length));
-    MPI_Bcast(text.data(), length, MPI_CHAR, 0, comm_);
-    return text;
+    all.resize(static_cast<std::size_t>(length));
+    MPI_Bcast(all.data(), length, MPI_CHAR, 0, comm_);
+    return all;
 }
 
-std::vector<std::string> ResultsFolder::read_lines(const std::string& name) const {
-    std::istringstream text(from_root([&](std::ostream& out) {
+std::string ResultsFolder::read(const std::string& name) const {
+    return from_root([&] {
         std::ifstream in(path_ / name);
-        if (in && in.peek() != std::ifstream::traits_type::eof()) out << in.rdbuf();
-    }));
-    std::vector<std::string> lines;
-    for (std::string line; std::getline(text, line);) lines.push_back(line);
-    return lines;
+        std::ostringstream text;
+        if (in && in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
+        return text.str();
+    });
 }
 
 }  // namespace comparisons

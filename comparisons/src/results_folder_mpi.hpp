@@ -4,9 +4,7 @@
 
 #include <filesystem>
 #include <functional>
-#include <ostream>
 #include <string>
-#include <vector>
 
 namespace comparisons {
 
@@ -17,14 +15,14 @@ class ResultsFolder {
     /// Makes the folder and, below it, data for the plots.
     ResultsFolder(const std::filesystem::path& path, MPI_Comm comm);
 
-    /// Writes a file; `write` runs on rank 0 alone.
-    void write(const std::string& name, const std::function<void(std::ostream&)>& write) const;
+    /// Writes a file, which never holds half of it; `text` runs on rank 0 alone.
+    void write(const std::string& name, const std::function<std::string()>& text) const;
 
-    /// What `write` writes on rank 0 alone, on every rank.
-    std::string from_root(const std::function<void(std::ostream&)>& write) const;
+    /// What `text` makes on rank 0 alone, on every rank.
+    std::string from_root(const std::function<std::string()>& text) const;
 
-    /// Lines of a file, on every rank; none when there is no such file.
-    std::vector<std::string> read_lines(const std::string& name) const;
+    /// What a file holds, on every rank; nothing when there is no such file.
+    std::string read(const std::string& name) const;
 
   private:
     std::filesystem::path path_;

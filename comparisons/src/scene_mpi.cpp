@@ -3,7 +3,6 @@
 #include "balancer_mpi.hpp"
 #include "failure.hpp"
 #include "scene_choice_mpi.hpp"
-#include "simulation_table.hpp"
 
 #include <algorithm>
 #include <iostream>
@@ -144,11 +143,10 @@ void print_and_write(const SimulationPlan& plan, const SceneRuns& scene,
     std::vector<SimulationRun> first_round;
     for (const SimulationRounds& rounds : scene.methods) first_round.push_back(rounds.runs.front());
     if (rank == 0) print_simulations(std::cout, plan, size, summaries);
-    folder.write("simulation.csv",
-                 [&](std::ostream& out) { write_simulations(out, plan, size, summaries); });
-    folder.write("simulation_runs.csv",
-                 [&](std::ostream& out) { write_rounds(out, plan, size, scene.methods); });
-    folder.write("history.csv", [&](std::ostream& out) { write_history(out, first_round); });
+    const auto row_of = [&](const SimulationSummary& s) { return simulation_row(plan, size, s); };
+    folder.write("simulation.csv", [&] { return csv_of(summaries, row_of); });
+    folder.write("simulation_runs.csv", [&] { return rounds_csv(plan, size, scene.methods); });
+    folder.write("history.csv", [&] { return history_csv(first_round); });
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 #include "simulation_rounds.hpp"
 
+#include <rrcb/quality.hpp>
+
 #include <algorithm>
+#include <thread>
 
 namespace comparisons {
 
@@ -90,6 +93,78 @@ double shortest_steps(std::span<const SimulationRounds> methods) {
     return shortest;
 }
 
+void add_size(Row& row, const SimulationPlan& plan, int num_ranks, std::int64_t num_points) {
+    row.add("ranks", num_ranks)
+        .add("points", num_points)
+        .add("steps", plan.num_steps)
+        .add("every", plan.every)
+        .end_key();
+}
+
+void add_cost(Row& row, const std::string& phase, const PathCost& cost) {
+    row.add(phase + "_work_s", cost.work_s)
+        .add(phase + "_path_s", cost.path_s)
+        .add(phase + "_network_s", cost.network_s);
+}
+
+/// What a single run and a summary have in common.
+void add_run(Row& row, const SimulationRun& run) {
+    row.add("wall_s", run.wall_s)
+        .add("balance_s", run.balance_s)
+        .add("step_s", run.step_s)
+        .add("mean_imbalance", run.mean_imbalance)
+        .add("worst_imbalance", run.worst_imbalance)
+        .add("front_x_m", run.front_m)
+        .add("moved_m", run.moved_m)
+        .add("mass_kg", run.mass_kg)
+        .add("path_points", run.path_points);
+    add_cost(row, "step", run.step_cost);
+    add_cost(row, "balance", run.balance_cost);
+}
+
+/// `number` counts the rounds from 1 on.
+Row round_row(const SimulationPlan& plan, int num_ranks, const std::string& method, int number,
+              const SimulationRun& run) {
+    Row row;
+    row.add("method", method).add("round", number).add("seed", run.seed);
+    add_size(row, plan, num_ranks, run.num_points);
+    add_run(row, run);
+    return row.add("critical_path_s", critical_path_s(run))
+        .add("rebalances", run.rebalances)
+        .add("moved_fraction", run.moved_fraction)
+        .add_error(run.error);
+}
+
+Row history_row(const std::string& method, const LoadRecord& record, std::size_t part) {
+    return Row()
+        .add("method", method)
+        .add("step", record.step)
+        .add("time", nine_digits(record.time))
+        .add("part", part)
+        .add("points", nine_digits(record.points[part]))
+        .add("lu_percent", nine_digits(rrcb::load_unbalance_percent(record.points)[part]))
+        .add("imbalance", nine_digits(rrcb::imbalance(record.points)))
+        .add("moved_fraction", nine_digits(record.moved_fraction));
+}
+
+Row printed_row(const SimulationSummary& summary, const SimulationSummary& first) {
+    const SimulationRun& run = summary.middle;
+    Row row;
+    row.add("method", run.method);
+    if (!run.error.empty()) return row.add_error(run.error);
+    const std::optional<Spread>& speed_up = summary.speed_up_critical_path;
+    return row.add("wall s", fixed(run.wall_s, 2))
+        .add("times as fast", fixed(first.middle.wall_s / run.wall_s, 2))
+        .add("critical path s", fixed(summary.critical_path_s.median, 3))
+        .add("times as fast", speed_up ? fixed(speed_up->median, 2) : "-")
+        .add("gain kept %", summary.gain_kept ? fixed(100 * *summary.gain_kept, 1) : "-")
+        .add("mean imbalance", fixed(run.mean_imbalance, 4))
+        .add("worst imbalance", fixed(run.worst_imbalance, 4))
+        .add("moved %", fixed(100 * run.moved_fraction, 2))
+        .add("front at x, m", run.front_m ? fixed(*run.front_m, 2) : "-")
+        .add("moved, m", fixed(run.moved_m, 3));
+}
+
 }  // namespace
 
 SimulationSummary summarize(const SimulationRounds& rounds) {
@@ -135,6 +210,69 @@ std::vector<Noise> noise_of(const std::string& scene, const SimulationRounds& no
     add("none", wall_s);
     add("none critical path", critical_path_s);
     return noise;
+}
+
+Row simulation_key(const SimulationPlan& plan, int num_ranks, std::int64_t num_points,
+                   const std::string& method) {
+    Row row;
+    row.add("method", method);
+    add_size(row, plan, num_ranks, num_points);
+    return row;
+}
+
+Row simulation_row(const SimulationPlan& plan, int num_ranks, const SimulationSummary& summary) {
+    const SimulationRun& run = summary.middle;
+    Row row = simulation_key(plan, num_ranks, run.num_points, run.method);
+    add_run(row, run);
+    return row.add("repeats", summary.repeats)
+        .add_interval("wall_s_", summary.wall_s.interval95)
+        .add_spread("critical_path_s", summary.critical_path_s)
+        .add_spread("speed_up_critical_path", summary.speed_up_critical_path)
+        .add("ideal_speed_up", summary.ideal_speed_up)
+        .add("gain_kept", summary.gain_kept)
+        .add("rebalances", run.rebalances)
+        .add("moved_fraction", run.moved_fraction)
+        .add_interval("mean_imbalance_", summary.mean_imbalance.interval95)
+        .add_error(run.error);
+}
+
+std::string rounds_csv(const SimulationPlan& plan, int num_ranks,
+                       std::span<const SimulationRounds> methods) {
+    std::vector<Row> rows;
+    for (const SimulationRounds& rounds : methods) {
+        int number = 0;
+        for (const SimulationRun& run : rounds.runs)
+            rows.push_back(round_row(plan, num_ranks, rounds.method, ++number, run));
+    }
+    return csv(round_row(plan, num_ranks, {}, 0, {}), rows);
+}
+
+std::string history_csv(std::span<const SimulationRun> runs) {
+    std::vector<Row> rows;
+    for (const SimulationRun& run : runs) {
+        for (const LoadRecord& record : run.history) {
+            for (std::size_t part = 0; part < record.points.size(); ++part)
+                rows.push_back(history_row(run.method, record, part));
+        }
+    }
+    return csv(history_row({}, {.points = {1}}, 0), rows);
+}
+
+void print_simulations(std::ostream& out, const SimulationPlan& plan, int num_ranks,
+                       std::span<const SimulationSummary> summaries) {
+    out << "\nWhole simulation: " << summaries.front().middle.num_points << " points, " << num_ranks
+        << " ranks, " << plan.num_steps << " steps, rebalanced every " << plan.every
+        << ", median of " << summaries.front().repeats << "\n\n";
+    std::vector<Row> rows;
+    for (const SimulationSummary& summary : summaries) {
+        rows.push_back(printed_row(summary, summaries.front()));
+    }
+    print_columns(out, printed_row({}, {}), rows);
+    const int num_cores = static_cast<int>(std::thread::hardware_concurrency());
+    if (num_cores > 0 && num_cores < num_ranks) {
+        out << num_ranks << " ranks share " << num_cores
+            << " cores: while one waits another works, so unbalance hardly costs time here.\n";
+    }
 }
 
 }  // namespace comparisons

@@ -4,7 +4,9 @@
 #include "simulation_mpi.hpp"
 #include "statistics.hpp"
 
+#include <cstdint>
 #include <optional>
+#include <ostream>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,5 +45,23 @@ std::vector<SimulationSummary> summarize_all(std::span<const SimulationRounds> m
 /// Nothing where one of them failed.
 std::vector<Noise> noise_of(const std::string& scene, const SimulationRounds& none,
                             const SimulationRounds& again);
+
+/// What of a row of simulation.csv tells what was run.
+Row simulation_key(const SimulationPlan& plan, int num_ranks, std::int64_t num_points,
+                   const std::string& method);
+
+/// A row of simulation.csv, columns as README.md describes them.
+Row simulation_row(const SimulationPlan& plan, int num_ranks, const SimulationSummary& summary);
+
+/// simulation_runs.csv: one row per method and round.
+std::string rounds_csv(const SimulationPlan& plan, int num_ranks,
+                       std::span<const SimulationRounds> methods);
+
+/// history.csv: the load of every part at the recorded steps.
+std::string history_csv(std::span<const SimulationRun> runs);
+
+/// The simulations for people; the first is what the others are compared with.
+void print_simulations(std::ostream& out, const SimulationPlan& plan, int num_ranks,
+                       std::span<const SimulationSummary> summaries);
 
 }  // namespace comparisons

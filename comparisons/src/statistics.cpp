@@ -1,7 +1,5 @@
 #include "statistics.hpp"
 
-#include "text.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -41,8 +39,10 @@ std::optional<Interval> interval95(std::vector<double> values) {
     return Interval{values[*left_out], values[values.size() - 1 - *left_out]};
 }
 
-std::string interval_fields(const std::optional<Interval>& interval) {
-    return interval ? write_number(interval->low) + ',' + write_number(interval->high) : ",";
+Interval range_of(std::span<const double> values) {
+    if (values.empty()) return {};
+    const auto [low, high] = std::ranges::minmax(values);
+    return {low, high};
 }
 
 Spread spread_of(const std::vector<double>& values) {

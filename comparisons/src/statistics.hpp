@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace comparisons {
@@ -29,8 +28,8 @@ double median(std::vector<double> values);
 /// the smallest and the largest hold it with less. At most 16,000 values.
 std::optional<Interval> interval95(std::vector<double> values);
 
-/// "low,high" as fields of a CSV file, empty ones when there is no interval.
-std::string interval_fields(const std::optional<Interval>& interval);
+/// From the smallest to the largest value; 0 of none.
+Interval range_of(std::span<const double> values);
 
 /// Median and interval of the values.
 Spread spread_of(const std::vector<double>& values);

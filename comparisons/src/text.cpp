@@ -1,6 +1,5 @@
 #include "text.hpp"
 
-#include <algorithm>
 #include <cctype>
 #include <cstdio>
 
@@ -27,13 +26,6 @@ std::string_view trim(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-std::string csv_field(const std::string& text) {
-    if (text.find_first_of(",\"\n\r") == text.npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    return quoted + '"';
-}
-
 std::string file_name_part(std::string_view text) {
     std::string name(text);
     for (char& c : name) {
@@ -50,21 +42,10 @@ std::string fixed(double value, int digits) {
     return text;
 }
 
-void print_columns(std::ostream& out, const std::vector<std::vector<std::string>>& rows) {
-    std::vector<std::size_t> widths(rows.front().size());
-    for (const auto& row : rows) {
-        if (row.size() < widths.size()) continue;
-        for (std::size_t c = 0; c < widths.size(); ++c) {
-            widths[c] = std::max(widths[c], row[c].size());
-        }
-    }
-    for (const auto& row : rows) {
-        for (std::size_t c = 0; c < row.size(); ++c) {
-            const std::string padding(widths[c] - std::min(widths[c], row[c].size()), ' ');
-            out << (c == 0 ? row[c] + padding : "  " + padding + row[c]);
-        }
-        out << '\n';
-    }
+std::string nine_digits(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.9g", value);
+    return text;
 }
 
 std::string human_bytes(double bytes) {

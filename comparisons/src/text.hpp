@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <optional>
-#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,18 +31,14 @@ std::vector<std::string_view> split(std::string_view text, char separator);
 /// `text` without blanks and carriage returns at both ends.
 std::string_view trim(std::string_view text);
 
-/// A field of a CSV file, quoted where RFC 4180 asks for it.
-std::string csv_field(const std::string& text);
-
 /// `text` as a part of a file name: letters, digits and . _ - stay, the rest becomes _.
 std::string file_name_part(std::string_view text);
 
 /// `value` with a number of digits behind the point.
 std::string fixed(double value, int digits);
 
-/// Rows of cells in columns: the first to the left, numbers to the right. The first row is the
-/// heading; a shorter row ends with a text of any length.
-void print_columns(std::ostream& out, const std::vector<std::vector<std::string>>& rows);
+/// `value` to nine digits, for pictures.
+std::string nine_digits(double value);
 
 /// 1536 as "1.5 KiB".
 std::string human_bytes(double bytes);

@@ -1,12 +1,7 @@
 #include "simulation_rounds.hpp"
 
-#include "simulation_table.hpp"
-#include "text.hpp"
-
 #include <gtest/gtest.h>
 #include <mpm/slope.hpp>
-
-#include <sstream>
 
 namespace comparisons {
 namespace {
@@ -111,9 +106,7 @@ TEST(SimulationRounds, tell_their_noise_by_pairs) {
     EXPECT_EQ(noise[0].what, "none");
     EXPECT_DOUBLE_EQ(noise[0].ratio.median, 1);
     EXPECT_TRUE(noise_of("slope", rounds.front(), failing()).empty());
-    std::ostringstream out;
-    write_noise(out, noise);
-    EXPECT_EQ(out.str(),
+    EXPECT_EQ(csv_of(noise, noise_row),
               "workload,what,ratio,low,high\n"
               "slope,none,1,,\nslope,none critical path,1,,\n");
 }
@@ -132,27 +125,24 @@ TEST(SimulationTable, rows_have_the_fields_of_their_header) {
     std::vector<SimulationRounds> methods = three_rounds();
     methods.push_back(failing());
     methods[1].runs[0].seed = 7;
-    std::ostringstream rounds;
-    write_rounds(rounds, plan, 4, methods);
-    EXPECT_EQ(numbers_of_fields(rounds.str()), std::vector<std::size_t>(12, 26));
-    EXPECT_NE(rounds.str().find("\nfast,1,7,4,1000,6,1,50,"), std::string::npos);
-    EXPECT_NE(rounds.str().find("\nfast,2,,4,1000,6,1,100,"), std::string::npos);
+    const std::string rounds = rounds_csv(plan, 4, methods);
+    EXPECT_EQ(numbers_of_fields(rounds), std::vector<std::size_t>(12, 26));
+    EXPECT_NE(rounds.find("\nfast,1,7,4,1000,6,1,50,"), std::string::npos);
+    EXPECT_NE(rounds.find("\nfast,2,,4,1000,6,1,100,"), std::string::npos);
 
-    std::ostringstream summaries;
-    write_simulations(summaries, plan, 4, summarize_all(methods));
-    EXPECT_EQ(numbers_of_fields(summaries.str()), std::vector<std::size_t>(5, 36));
-    EXPECT_NE(summaries.str().find(",3,,,12,,,1,,,2,0,0,0.25,1.5,1.5,\n"), std::string::npos)
-        << summaries.str();
+    const std::vector<SimulationSummary> all = summarize_all(methods);
+    const std::string summaries = csv_of(
+        all, [&](const SimulationSummary& summary) { return simulation_row(plan, 4, summary); });
+    EXPECT_EQ(numbers_of_fields(summaries), std::vector<std::size_t>(5, 36));
+    EXPECT_NE(summaries.find(",3,,,12,,,1,,,2,0,0,0.25,1.5,1.5,\n"), std::string::npos)
+        << summaries;
 }
 
 TEST(SimulationTable, a_row_of_a_single_run_is_compared_with_nothing) {
     const SimulationPlan plan{.scene = mpm::slope_scene(22), .num_steps = 6};
-    SimulationRun single = run(4, 1);
-    single.method = "rrcb";
-    std::ostringstream row;
-    write_simulation(row, plan, 4, single);
-    EXPECT_EQ(row.str(),
-              "rrcb,4,1000,6,1,50,0,0,1.5,1,,0,0,0,16,3,1,4,0.75,0.25,1,,,5,,,,,,,,8,0.25,,,\n");
+    const SimulationRun single = run(4, 1);
+    EXPECT_EQ(simulation_row(plan, 4, summarize({"rrcb", {single}})).text(),
+              "rrcb,4,1000,6,1,50,0,0,1.5,1,,0,0,0,16,3,1,4,0.75,0.25,1,,,5,,,,,,,,8,0.25,,,");
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
-#include "table.hpp"
+#include "comparison_mpi.hpp"
 
 #include <gtest/gtest.h>
-
-#include <sstream>
 
 namespace comparisons {
 namespace {
@@ -32,10 +30,8 @@ Comparison comparison() {
 }
 
 TEST(Table, writes_the_columns_of_the_contract) {
-    std::ostringstream out;
-    write_table(out, std::vector{comparison()});
     EXPECT_EQ(
-        out.str(),
+        table_csv(std::vector{comparison()}),
         "method,ranks,parts,points,dim,workload,layout,lists,repeats,time_ms_median,"
         "time_ms_min,time_ms_max,imbalance,lu_max_percent,messages,bytes,root_bytes_in,"
         "collectives,communicators,moved_fraction,time_vs_zoltan_rcb,time_ms_low,time_ms_high,"
@@ -58,9 +54,7 @@ TEST(Table, knows_of_failed_methods) {
 }
 
 std::string rows_of(const Comparison& comparison) {
-    std::ostringstream out;
-    write_rows(out, comparison);
-    return out.str();
+    return table_csv(std::span(&comparison, 1));
 }
 
 TEST(Table, tells_intervals_of_six_repeats_and_ten_seeds) {

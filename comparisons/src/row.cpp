@@ -1,0 +1,137 @@
+#include "row.hpp"
+
+#include <algorithm>
+
+namespace comparisons {
+
+namespace {
+
+/// Quoted where it must be.
+std::string field(const std::string& text) {
+    if (text.find_first_of(",\"\n\r") == text.npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+    quoted += '"';
+    return quoted;
+}
+
+/// The values of every line.
+std::vector<std::vector<std::string>> read_lines(const std::string& text) {
+    std::vector<std::vector<std::string>> lines;
+    bool is_quoted = false;
+    bool starts_line = true;
+    char before = '\0';
+    for (const char c : text) {
+        if (starts_line) lines.push_back({""});
+        starts_line = c == '\n' && !is_quoted;
+        if (c == '"') {
+            // The second of two in a row stands for itself.
+            if (!is_quoted && before == '"') lines.back().back() += c;
+            is_quoted = !is_quoted;
+        } else if (c == ',' && !is_quoted) {
+            lines.back().emplace_back();
+        } else if (!starts_line) {
+            lines.back().back() += c;
+        }
+        before = c;
+    }
+    return lines;
+}
+
+}  // namespace
+
+Row& Row::add(std::string name, std::string value) {
+    columns_.emplace_back(std::move(name), std::move(value));
+    return *this;
+}
+
+Row& Row::add_interval(const std::string& prefix, const std::optional<Interval>& interval) {
+    add(prefix + "low", interval ? std::optional(interval->low) : std::nullopt);
+    return add(prefix + "high", interval ? std::optional(interval->high) : std::nullopt);
+}
+
+Row& Row::add_spread(const std::string& name, const std::optional<Spread>& spread) {
+    add(name, spread ? std::optional(spread->median) : std::nullopt);
+    return add_interval(name + '_', spread ? spread->interval95 : std::nullopt);
+}
+
+Row& Row::add(const Row& more) {
+    if (more.key_size_ > 0) key_size_ = size() + more.key_size_;
+    columns_.insert(columns_.end(), more.columns_.begin(), more.columns_.end());
+    return *this;
+}
+
+Row& Row::end_key() {
+    key_size_ = size();
+    return *this;
+}
+
+Row& Row::add_error(const std::string& error) {
+    for (std::size_t i = key_size_; !error.empty() && i < size(); ++i) columns_[i].second.clear();
+    return add("error", error);
+}
+
+std::string Row::header() const {
+    std::string names;
+    for (const auto& [name, value] : columns_) names.append(names.empty() ? "" : ",").append(name);
+    return names;
+}
+
+std::string Row::values(std::size_t count) const {
+    std::string text;
+    for (std::size_t i = 0; i < count; ++i)
+        text.append(i == 0 ? "" : ",").append(field(columns_[i].second));
+    return text;
+}
+
+std::string Row::key() const {
+    return values(key_size_);
+}
+
+std::string Row::text() const {
+    return values(size());
+}
+
+Row Row::with_values(const std::vector<std::string>& values) const {
+    Row row = *this;
+    for (std::size_t i = 0; i < size(); ++i) row.columns_[i].second = values[i];
+    return row;
+}
+
+std::string csv(const Row& columns, const std::vector<Row>& rows) {
+    std::string text = columns.header() + '\n';
+    for (const Row& row : rows) text += row.text() + '\n';
+    return text;
+}
+
+std::vector<Row> read_csv(const std::string& text, const Row& columns) {
+    std::vector<Row> rows;
+    if (!text.starts_with(columns.header() + '\n')) return rows;
+    const std::vector<std::vector<std::string>> lines = read_lines(text);
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+        if (lines[i].size() == columns.size()) rows.push_back(columns.with_values(lines[i]));
+    }
+    return rows;
+}
+
+void print_columns(std::ostream& out, const Row& columns, const std::vector<Row>& rows) {
+    std::vector<std::string> heading;
+    for (const auto& [name, value] : columns.columns()) heading.push_back(name);
+    std::vector<Row> lines = {columns.with_values(heading)};
+    lines.insert(lines.end(), rows.begin(), rows.end());
+    std::vector<std::size_t> widths(columns.size());
+    for (const Row& line : lines) {
+        for (std::size_t c = 0; line.size() == widths.size() && c < widths.size(); ++c)
+            widths[c] = std::max(widths[c], line.columns()[c].second.size());
+    }
+    for (const Row& line : lines) {
+        for (std::size_t c = 0; c < line.size(); ++c) {
+            const std::string& cell = line.columns()[c].second;
+            const std::string padding(widths[c] - std::min(widths[c], cell.size()), ' ');
+            out << (c == 0 ? cell + padding : "  " + padding + cell);
+        }
+        out << '\n';
+    }
+}
+
+}  // namespace comparisons

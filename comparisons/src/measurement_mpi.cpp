@@ -93,7 +93,7 @@ Traffic over_all_ranks(Traffic traffic, MPI_Comm comm) {
 std::map<std::string, CallCount> over_all_ranks(std::map<std::string, CallCount> mine,
                                                 MPI_Comm comm) {
     std::map<std::string, CallCount> all;
-    for (const char* name : counted_functions) {
+    for (const char* name : counted_functions()) {
         const CallCount& count = mine[name];
         std::int64_t sums[] = {count.calls, count.bytes_in, count.bytes_out};
         MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_INT64_T, MPI_SUM, comm);

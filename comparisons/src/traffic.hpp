@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 
 namespace comparisons {
@@ -34,15 +35,8 @@ struct CallCount {
     std::int64_t bytes_out = 0;  ///< got out; of a message 0, since its sender counts it
 };
 
-/// Names of the functions that are counted.
-inline constexpr const char* counted_functions[] = {
-    "MPI_Send",       "MPI_Ssend",      "MPI_Rsend",          "MPI_Isend",
-    "MPI_Irsend",     "MPI_Sendrecv",   "MPI_Barrier",        "MPI_Bcast",
-    "MPI_Reduce",     "MPI_Allreduce",  "MPI_Reduce_scatter", "MPI_Reduce_scatter_block",
-    "MPI_Scan",       "MPI_Exscan",     "MPI_Gather",         "MPI_Gatherv",
-    "MPI_Allgather",  "MPI_Allgatherv", "MPI_Scatter",        "MPI_Scatterv",
-    "MPI_Alltoall",   "MPI_Alltoallv",  "MPI_Comm_dup",       "MPI_Comm_split",
-    "MPI_Comm_create"};
+/// Names of the functions that are counted. Not collective.
+std::span<const char* const> counted_functions();
 
 /// By the name of the function, what was counted since counting started. Not collective.
 std::map<std::string, CallCount> counted_calls();

@@ -1,0 +1,152 @@
+#include "traffic.hpp"
+
+#include <mpi.h>
+
+#include <ctime>
+#include <numeric>
+
+namespace comparisons {
+
+namespace {
+
+bool counting = false;
+Traffic traffic;
+std::map<std::string, CallCount> calls;
+
+int rank_in(MPI_Comm comm) {
+    int rank = 0;
+    PMPI_Comm_rank(comm, &rank);
+    return rank;
+}
+
+int size_of(MPI_Comm comm) {
+    int size = 0;
+    PMPI_Comm_size(comm, &size);
+    return size;
+}
+
+std::int64_t sum(const int counts[], MPI_Comm comm) {
+    return std::accumulate(counts, counts + size_of(comm), std::int64_t{0});
+}
+
+std::int64_t bytes_of(std::int64_t count, MPI_Datatype type) {
+    int size = 0;
+    PMPI_Type_size(type, &size);
+    return count * size;
+}
+
+int world_rank(int rank, MPI_Comm comm) {
+    MPI_Group group = MPI_GROUP_NULL;
+    MPI_Group world = MPI_GROUP_NULL;
+    int translated = MPI_UNDEFINED;
+    PMPI_Comm_group(comm, &group);
+    PMPI_Comm_group(MPI_COMM_WORLD, &world);
+    PMPI_Group_translate_ranks(group, 1, &rank, world, &translated);
+    PMPI_Group_free(&group);
+    PMPI_Group_free(&world);
+    return translated;
+}
+
+void count_call(const char* function, std::int64_t bytes_in, std::int64_t bytes_out) {
+    CallCount& count = calls[function];
+    ++count.calls;
+    count.bytes_in += bytes_in;
+    count.bytes_out += bytes_out;
+}
+
+void count_message(const char* function, std::int64_t bytes, int to, MPI_Comm comm) {
+    count_call(function, bytes, 0);
+    ++traffic.messages;
+    traffic.bytes += bytes;
+    if (world_rank(to, comm) == 0) traffic.root_bytes_in += bytes;
+}
+
+void count_collective(const char* function, std::int64_t bytes_in, std::int64_t bytes_out) {
+    count_call(function, bytes_in, bytes_out);
+    ++traffic.messages;
+    ++traffic.collectives;
+    traffic.bytes += bytes_in + bytes_out;
+    if (rank_in(MPI_COMM_WORLD) == 0) traffic.root_bytes_in += bytes_out;
+}
+
+void count_communicator(const char* function) {
+    count_call(function, 0, 0);
+    ++traffic.communicators;
+}
+
+/// Adds the processor time of its scope to the time in MPI, while traffic is counted.
+class InMpi {
+  public:
+    InMpi() {
+        if (counting) start_ = processor_seconds();
+    }
+    ~InMpi() {
+        if (counting) traffic.seconds_in_mpi += processor_seconds() - start_;
+    }
+    InMpi(const InMpi&) = delete;
+    InMpi& operator=(const InMpi&) = delete;
+
+  private:
+    double start_ = 0;
+};
+
+}  // namespace
+
+std::span<const char* const> counted_functions() {
+    static constexpr const char* names[] = {
+#define COLLECTIVE(name, ...) "MPI_" #name,
+#define COMMUNICATOR COLLECTIVE
+#define SEND COLLECTIVE
+#include "mpi_functions.inc"
+    };
+    return names;
+}
+
+std::map<std::string, CallCount> counted_calls() {
+    return calls;
+}
+
+void start_counting_traffic() {
+    traffic = {};
+    calls.clear();
+    counting = true;
+}
+
+Traffic stop_counting_traffic() {
+    counting = false;
+    return traffic;
+}
+
+double processor_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+}  // namespace comparisons
+
+using namespace comparisons;
+
+extern "C" {
+
+#define FUNCTION(name, parameters, arguments, count_it) \
+    int MPI_##name parameters {                         \
+        const InMpi in_mpi;                             \
+        if (counting) count_it;                         \
+        return PMPI_##name arguments;                   \
+    }
+#define COLLECTIVE(name, parameters, arguments, root, same, in, out) \
+    FUNCTION(name, parameters, arguments, count_collective(__func__, in, out))
+#define COMMUNICATOR(name, parameters, arguments) \
+    FUNCTION(name, parameters, arguments, count_communicator(__func__))
+#define SEND(name, parameters, arguments) \
+    FUNCTION(name, parameters, arguments, \
+             if (to != MPI_PROC_NULL) count_message(__func__, bytes_of(count, type), to, comm))
+// These carry no traffic of their own, but in them a rank may wait.
+#define RECEIVE(name, parameters, arguments) FUNCTION(name, parameters, arguments, (void)0)
+#define WAIT RECEIVE
+#include "mpi_functions.inc"
+
+FUNCTION(Comm_free, (MPI_Comm * comm), (comm), (void)0)
+
+}  // extern "C"

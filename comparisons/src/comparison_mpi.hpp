@@ -56,7 +56,10 @@ std::string table_csv(std::span<const Comparison> comparisons);
 /// calls.csv: what each method's call moved by MPI function, summed over the ranks.
 std::string calls_csv(std::span<const Comparison> comparisons);
 
-/// The same for people, numbers they compare first.
+/// message_sizes.csv: what the library's messages are made of, for points of `dimension` axes.
+std::string message_sizes_csv(int dimension);
+
+/// table.csv for people, numbers they compare first.
 void print_table(std::ostream& out, const Comparison& comparison);
 
 }  // namespace comparisons

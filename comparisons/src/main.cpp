@@ -95,6 +95,10 @@ Outcome compare_all(const Arguments& arguments, const ResultsFolder& folder, Pro
     }
     folder.write("table.csv", [&] { return table_csv(comparisons); });
     folder.write("calls.csv", [&] { return calls_csv(comparisons); });
+    if (!comparisons.empty()) {
+        folder.write("message_sizes.csv",
+                     [&] { return message_sizes_csv(comparisons.front().dimension); });
+    }
     folder.write("noise.csv", [&] { return csv_of(outcome.noise, noise_row); });
     outcome.succeeded = outcome.succeeded && !has_failures(comparisons);
     return outcome;

@@ -1,4 +1,4 @@
-#include "measurement_mpi.hpp"
+#include "comparison_mpi.hpp"
 #include "workload_mpi.hpp"
 
 #include <rrcb/balance.hpp>
@@ -91,6 +91,22 @@ TEST_F(MeasurementTest, pseudo_random_points_are_judged_over_ten_seeds) {
     std::ranges::sort(sizes);
     EXPECT_EQ(std::abs(open.worst_unbalance_percent), sizes[4]);
     EXPECT_EQ(open.times_ms.size(), 3U);
+}
+
+TEST_F(MeasurementTest, messages_to_the_root_are_made_of_the_sizes_that_are_told) {
+    std::map<std::string, std::int64_t> sizes;
+    const Row columns = Row().add("name", "").add("bytes", 0);
+    for (const Row& row : read_csv(message_sizes_csv(2), columns))
+        sizes[row.columns()[0].second] = read_number<std::int64_t>(row.columns()[1].second).value();
+    // Of every cell of its mesh each rank holds points.
+    const Measurement result = run(read_methods("rrcb[mesh=2,refine=none]"), Lists::parts)[0];
+    const std::int64_t message =
+        sizes["summary"] + sizes["mesh"] + 4 * sizes["cell"] + sizes["place"];
+    const auto sent = result.calls.find("MPI_Send");
+    ASSERT_EQ(sent != result.calls.end(), num_ranks_ > 1);
+    if (num_ranks_ > 1) {
+        EXPECT_EQ(sent->second.bytes_in, (num_ranks_ - 1) * message);
+    }
 }
 
 TEST_F(MeasurementTest, lu_of_largest_size_keeps_its_sign) {

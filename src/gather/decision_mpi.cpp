@@ -144,10 +144,6 @@ void unpack(Decision& decision) {
     });
 }
 
-/// First message of the root to every rank, whatever that asks for: the verdict, and as much of the
-/// decision as fits behind it.
-using Head = std::array<std::byte, 2048>;
-
 void broadcast_head(Head& head, Verdict& verdict, const Participant& self) {
     std::memcpy(head.data(), &verdict, sizeof verdict);
     mpi::broadcast(head, root, self.comm);

@@ -9,6 +9,7 @@
 
 #include <mpi.h>
 
+#include <array>
 #include <limits>
 
 namespace rrcb {
@@ -27,6 +28,10 @@ struct Verdict {
     double least_imbalance = 1;
     double current_imbalance = not_known;  ///< of the parts that the ranks hold, where they do
 };
+
+/// What every rank expects of the root first, whatever it was asked for: the verdict, and as much
+/// of the decision as fits behind it.
+using Head = std::array<std::byte, 2048>;
 
 /// The decision of the root: how it went, and the cuts to assign by or to start from.
 struct Decision {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "layout_mpi.hpp"
 #include "method.hpp"
+#include "workload_mpi.hpp"
 
 #include <rrcb/points.hpp>
 

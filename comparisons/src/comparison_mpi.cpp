@@ -1,5 +1,6 @@
 #include "comparison_mpi.hpp"
 
+#include "failure_mpi.hpp"
 #include "plot_data_mpi.hpp"
 
 #include <algorithm>
@@ -88,10 +89,10 @@ Row printed_row(const Measurement& measurement, double reference_ms) {
 }  // namespace
 
 Comparison describe(const Workload& workload, const MeasurementPlan& plan, MPI_Comm comm) {
-    Comparison comparison{workload.name, workload.layout, workload.dimension, 0, 1, plan, {}};
+    Comparison comparison{
+        workload.name, workload.layout, workload.dimension, 0, size_of(comm), plan, {}};
     const auto count = static_cast<rrcb::GlobalCount>(workload.points().count);
     MPI_Allreduce(&count, &comparison.num_points, 1, MPI_INT64_T, MPI_SUM, comm);
-    MPI_Comm_size(comm, &comparison.num_ranks);
     return comparison;
 }
 
@@ -108,9 +109,7 @@ Comparison compare_methods(const Workload& workload, const Arguments& arguments,
         comparison.measurements.pop_back();
     }
     write_plot_data(folder, workload, arguments.methods, comparison.measurements, comm);
-    int rank = 0;
-    MPI_Comm_rank(comm, &rank);
-    if (rank == 0) print_table(std::cout, comparison);
+    if (rank_of(comm) == 0) print_table(std::cout, comparison);
     std::cout.flush();
     return comparison;
 }

@@ -1,11 +1,12 @@
 #include "cycle_mpi.hpp"
 
-#include "balancer_mpi.hpp"
 #include "comparison_mpi.hpp"
-#include "layout_mpi.hpp"
+#include "failure_mpi.hpp"
+#include "partitioner_mpi.hpp"
 #include "rrcb_balancer_mpi.hpp"
 #include "scene_choice_mpi.hpp"
 #include "sweep_settings.hpp"
+#include "workload_mpi.hpp"
 
 #include <rrcb/quality.hpp>
 
@@ -102,8 +103,7 @@ Workload start_of_slope(const Sweep& sweep) {
 
 std::vector<StillCall> balance_still_points(Workload workload, const mpm::Balancer& balancer,
                                             int num_calls, MPI_Comm comm) {
-    int num_parts = 1;
-    MPI_Comm_size(comm, &num_parts);
+    const int num_parts = size_of(comm);
     std::vector<StillCall> calls;
     for (int call = 0; call < num_calls; ++call) {
         const std::array<std::vector<double>, 3> columns = by_axis(workload);

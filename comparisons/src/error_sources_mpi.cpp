@@ -1,5 +1,6 @@
 #include "error_sources_mpi.hpp"
 
+#include "failure_mpi.hpp"
 #include "gather_mpi.hpp"
 
 #include <rrcb/balance.hpp>
@@ -64,10 +65,8 @@ rrcb::StatisticalDomain domain_of(const SourceSetting& setting,
 
 /// Cuts of the domain of everybody's cells, on every rank.
 rrcb::Cuts cut_cells(const SourceSetting& setting, const rrcb::Points& points, MPI_Comm comm) {
-    int rank = 0;
-    int num_parts = 1;
-    MPI_Comm_rank(comm, &rank);
-    MPI_Comm_size(comm, &num_parts);
+    const int rank = rank_of(comm);
+    const int num_parts = size_of(comm);
     const std::vector<rrcb::CellMoments> cells =
         gather_on_root(cells_of(points, setting.mesh), comm);
     rrcb::Cuts cuts{points.dimension, num_parts, {}};
@@ -127,8 +126,7 @@ rrcb::StatisticalDomain box_domain(std::span<const rrcb::CellMoments> cells, int
 
 std::vector<double> source_part_weights(const SourceSetting& setting, const rrcb::Points& points,
                                         MPI_Comm comm) {
-    int num_parts = 1;
-    MPI_Comm_size(comm, &num_parts);
+    const int num_parts = size_of(comm);
     std::vector<rrcb::Part> parts(points.count);
     if (setting.source == Source::points) {
         rrcb::Options options;

@@ -3,10 +3,8 @@
 namespace comparisons {
 
 std::string first_message(const std::string& mine, MPI_Comm comm) {
-    int rank = 0;
-    int size = 0;
-    MPI_Comm_rank(comm, &rank);
-    MPI_Comm_size(comm, &size);
+    const int rank = rank_of(comm);
+    const int size = size_of(comm);
     int speaker = mine.empty() ? size : rank;
     MPI_Allreduce(MPI_IN_PLACE, &speaker, 1, MPI_INT, MPI_MIN, comm);
     if (speaker == size) return {};

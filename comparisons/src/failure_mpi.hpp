@@ -1,6 +1,7 @@
 #pragma once
 
 #include "failure.hpp"
+#include "parallel/communicator_mpi.hpp"
 
 #include <mpi.h>
 
@@ -9,6 +10,9 @@
 #include <string>
 
 namespace comparisons {
+
+using mpm::rank_of;
+using mpm::size_of;
 
 /// The message of the lowest rank whose own message is not empty, on every rank.
 ///
@@ -21,8 +25,7 @@ void fail_together(const std::string& mine, MPI_Comm comm);
 /// Runs a step that is not collective on rank 0; what it throws becomes a Failure on every rank.
 template <typename Step>
 void on_root(Step&& step, MPI_Comm comm) {
-    int rank = 0;
-    MPI_Comm_rank(comm, &rank);
+    const int rank = rank_of(comm);
     std::string message;
     if (rank == 0) {
         try {

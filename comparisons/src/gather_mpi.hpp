@@ -1,5 +1,7 @@
 #pragma once
 
+#include "failure_mpi.hpp"
+
 #include <mpi.h>
 
 #include <numeric>
@@ -12,10 +14,8 @@ namespace comparisons {
 template <typename Item>
 std::vector<Item> gather_on_root(const std::vector<Item>& mine, MPI_Comm comm) {
     static_assert(std::is_trivially_copyable_v<Item>);
-    int rank = 0;
-    int size = 0;
-    MPI_Comm_rank(comm, &rank);
-    MPI_Comm_size(comm, &size);
+    const int rank = rank_of(comm);
+    const int size = size_of(comm);
     const int bytes = static_cast<int>(mine.size() * sizeof(Item));
     std::vector<int> counts(static_cast<std::size_t>(size));
     MPI_Gather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, comm);

@@ -1,8 +1,8 @@
 #include "comparison_mpi.hpp"
-#include "failure.hpp"
+#include "failure_mpi.hpp"
+#include "git_hash.hpp"
 #include "machine_load_mpi.hpp"
 #include "replay_mpi.hpp"
-#include "run_record.hpp"
 #include "scene_mpi.hpp"
 #include "sweep_mpi.hpp"
 #include "workload_mpi.hpp"
@@ -34,15 +34,57 @@ void keep_freed_memory() {
 #endif
 }
 
-int rank_of(MPI_Comm comm) {
-    int rank = 0;
-    MPI_Comm_rank(comm, &rank);
-    return rank;
+/// Versions of this program, the library, Zoltan and MPI, a line each.
+std::string versions() {
+    char mpi[MPI_MAX_LIBRARY_VERSION_STRING];
+    int length = 0;
+    MPI_Get_library_version(mpi, &length);
+    std::ostringstream text;
+    text << "rrcb " << rrcb::version << " (" << git_hash << ")\n"
+         << "Zoltan " << ZOLTAN_VERSION_NUMBER << '\n'
+         << trim(mpi) << '\n';
+    return text.str();
+}
+
+/// The words a program was started with.
+std::string command_line(int argc, char** argv) {
+    std::string words;
+    for (int i = 1; i < argc; ++i) words += std::string(i == 1 ? "" : " ") + argv[i];
+    return words;
+}
+
+/// What is needed to repeat a run: versions, command, ranks, parameters of every method.
+std::string run_record(const Arguments& arguments, const std::string& command, MPI_Comm comm) {
+    std::ostringstream text;
+    text << versions() << "arguments: " << command << "\nranks: " << size_of(comm)
+         << "\nseed: " << arguments.seed << "\nparameters, all others are Zoltan's defaults:\n";
+    for (const Method& method : arguments.methods) {
+        text << "  " << method.label << ':';
+        for (const auto& [name, value] : zoltan_parameters(method, arguments.lists)) {
+            text << ' ' << name << '=' << value;
+        }
+        if (varies_with_seed(method)) {
+            text << " and the next " << num_judged_seeds - 1 << " seeds";
+        }
+        text << '\n';
+    }
+    return text.str();
+}
+
+/// What the columns of a table mean, in a few lines.
+std::string definitions() {
+    return "imbalance: heaviest part / mean part, the median where 10 seeds were tried.\n"
+           "Lu: (ideal - actual) / ideal of a part.\n"
+           "time: slowest rank, median of the repeats, first call left out.\n"
+           "95 %: where the true median lies; of 6 repeats or more.\n"
+           "times as fast: zoltan-rcb's time / this method's.\n"
+           "messages, bytes: of one call over all ranks; a message counts once, at its sender;\n"
+           "a collective counts 1 a rank, with the bytes the rank hands in and gets out.\n"
+           "into root: bytes that rank 0 receives. moved: weight that changes rank.\n";
 }
 
 void check_surroundings(const Arguments& arguments, MPI_Comm comm) {
-    int size = 0;
-    MPI_Comm_size(comm, &size);
+    const int size = size_of(comm);
     if (arguments.ranks != 0 && arguments.ranks != size) {
         throw Failure("--ranks=" + std::to_string(arguments.ranks) + " but mpirun started " +
                       std::to_string(size) + "; give mpirun the same number with -n");

@@ -27,7 +27,6 @@ struct Judgement {
 /// A method under measurement; without a partitioner once it has failed.
 struct Candidate {
     std::unique_ptr<Partitioner> partitioner;
-    std::string call;                  ///< what it calls, for what is told of a failure
     std::vector<std::uint64_t> seeds;  ///< to be used in turn; none where there is no choice
     Measurement measurement;
     std::vector<Judgement> judgements;  ///< one per seed
@@ -47,8 +46,6 @@ Candidate make_candidate(const Workload& workload, const Method& method, Lists l
     Candidate candidate;
     candidate.seeds = seeds_of(method);
     candidate.measurement.method = method.label;
-    const bool has_own_call = method.lb_method == on_arrays || method.lb_method == multijagged;
-    candidate.call = has_own_call ? method.lb_method : "Zoltan_LB_Partition";
     try {
         candidate.partitioner = make_partitioner(method, workload, lists, comm);
     } catch (const Failure& failure) {
@@ -66,7 +63,8 @@ void choose_seed(const Candidate& candidate, int turn) {
 void note_code(Candidate& candidate, int code, MPI_Comm comm) {
     const bool failed = code != ZOLTAN_OK && code != ZOLTAN_WARN;
     candidate.measurement.error = first_message(
-        failed ? candidate.call + " failed with code " + std::to_string(code) : std::string(),
+        failed ? candidate.partitioner->function() + " failed with code " + std::to_string(code)
+               : std::string(),
         comm);
     if (!candidate.measurement.error.empty()) candidate.partitioner.reset();
 }
@@ -103,8 +101,7 @@ std::map<std::string, CallCount> over_all_ranks(std::map<std::string, CallCount>
 }
 
 Judgement judge(const Workload& workload, const std::vector<rrcb::Part>& parts, MPI_Comm comm) {
-    int num_parts = 0;
-    MPI_Comm_size(comm, &num_parts);
+    const int num_parts = size_of(comm);
     const std::vector<double> weights =
         rrcb::part_weights(workload.points(), parts, num_parts, comm);
     return {rrcb::imbalance(weights), largest_by_size(rrcb::load_unbalance_percent(weights)),

@@ -3,7 +3,7 @@
 #include "method.hpp"
 #include "progress.hpp"
 #include "traffic.hpp"
-#include "workload.hpp"
+#include "workload_mpi.hpp"
 
 #include <mpi.h>
 

@@ -1,6 +1,6 @@
-#include "balancer_mpi.hpp"
 #include "comparison_mpi.hpp"
 #include "cycle_mpi.hpp"
+#include "partitioner_mpi.hpp"
 #include "plot_data_mpi.hpp"
 #include "scene_mpi.hpp"
 #include "sweep_mpi.hpp"

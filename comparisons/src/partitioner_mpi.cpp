@@ -1,10 +1,16 @@
 #include "partitioner_mpi.hpp"
 
-#include "zoltan_partitioner_mpi.hpp"
+#include "failure_mpi.hpp"
+#include "rrcb_balancer_mpi.hpp"
+#include "text.hpp"
+#include "zoltan_balancer_mpi.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
 
+#include <algorithm>
+#include <limits>
+#include <numeric>
 #include <optional>
 
 #ifdef RRCB_HAS_ZOLTAN2
@@ -16,6 +22,41 @@
 namespace comparisons {
 
 namespace {
+
+int num_objects(void* data, int* code) {
+    *code = ZOLTAN_OK;
+    return static_cast<int>(static_cast<const NumberedPoints*>(data)->points.count);
+}
+
+void object_list(void* data, int, int, ZOLTAN_ID_PTR global_ids, ZOLTAN_ID_PTR local_ids,
+                 int weight_dimension, float* weights, int* code) {
+    const auto& [points, first_id] = *static_cast<const NumberedPoints*>(data);
+    std::iota(global_ids, global_ids + points.count, first_id);
+    std::iota(local_ids, local_ids + points.count, ZOLTAN_ID_TYPE{0});
+    if (weight_dimension > 0) {
+        std::ranges::transform(points.weights, weights,
+                               [](double weight) { return static_cast<float>(weight); });
+    }
+    *code = ZOLTAN_OK;
+}
+
+int dimension(void* data, int* code) {
+    *code = ZOLTAN_OK;
+    return static_cast<const NumberedPoints*>(data)->points.dimension;
+}
+
+void coordinates(void* data, int, int, int count, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local_ids,
+                 int num_axes, double* result, int* code) {
+    const rrcb::Points& points = static_cast<const NumberedPoints*>(data)->points;
+    const auto axes = static_cast<std::size_t>(num_axes);
+    for (std::size_t a = 0; a < axes; ++a) {
+        const double* from = points.axes[a].data();
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+            result[i * axes + a] = from[local_ids[i] * points.stride];
+        }
+    }
+    *code = ZOLTAN_OK;
+}
 
 /// rrcb::balance as a program calls it that has its points in arrays.
 class ArraysPartitioner : public Partitioner {
@@ -33,6 +74,7 @@ class ArraysPartitioner : public Partitioner {
     }
 
     std::vector<rrcb::Part> parts() const override { return balance_->parts; }
+    std::string function() const override { return on_arrays; }
 
     void free_lists() override { balance_.reset(); }
 
@@ -61,6 +103,7 @@ class MultijaggedPartitioner : public Partitioner {
     }
 
     std::vector<rrcb::Part> parts() const override { return multijagged_.parts(); }
+    std::string function() const override { return multijagged; }
 
     void free_lists() override {}  // Zoltan2 keeps its solution until the next one
 
@@ -70,6 +113,80 @@ class MultijaggedPartitioner : public Partitioner {
 #endif
 
 }  // namespace
+
+ZoltanPartitioner::ZoltanPartitioner(const ZoltanParameters& parameters, const Workload& workload,
+                                     MPI_Comm comm)
+    : comm_(comm), points_{workload.points(), 0}, zoltan_(Zoltan_Create(comm)) {
+    if (zoltan_ == nullptr) throw Failure("Zoltan_Create failed: not enough memory");
+    for (const auto& [name, value] : parameters) {
+        if (Zoltan_Set_Param(zoltan_, name.c_str(), value.c_str()) == ZOLTAN_OK) continue;
+        Zoltan_Destroy(&zoltan_);
+        throw Failure("Zoltan refuses the parameter " + name + "=" + value);
+    }
+    if (workload.weighted) Zoltan_Set_Param(zoltan_, "OBJ_WEIGHT_DIM", "1");
+    Zoltan_Set_Num_Obj_Fn(zoltan_, num_objects, &points_);
+    Zoltan_Set_Obj_List_Fn(zoltan_, object_list, &points_);
+    Zoltan_Set_Num_Geom_Fn(zoltan_, dimension, &points_);
+    Zoltan_Set_Geom_Multi_Fn(zoltan_, coordinates, &points_);
+    number_points();
+}
+
+ZoltanPartitioner::~ZoltanPartitioner() {
+    ZoltanPartitioner::free_lists();
+    Zoltan_Destroy(&zoltan_);
+}
+
+void ZoltanPartitioner::number_points() {
+    const auto count = static_cast<ZOLTAN_ID_TYPE>(points_.points.count);
+    ZOLTAN_ID_TYPE end = count;
+    MPI_Scan(MPI_IN_PLACE, &end, 1, ZOLTAN_ID_MPI_TYPE, MPI_SUM, comm_);
+    points_.first_id = end - count;
+}
+
+int ZoltanPartitioner::partition() {
+    int changes = 0;
+    int gid_entries = 0;
+    int lid_entries = 0;
+    return Zoltan_LB_Partition(zoltan_, &changes, &gid_entries, &lid_entries, &imports_.count,
+                               &imports_.global_ids, &imports_.local_ids, &imports_.ranks,
+                               &imports_.parts, &exports_.count, &exports_.global_ids,
+                               &exports_.local_ids, &exports_.ranks, &exports_.parts);
+}
+
+std::vector<rrcb::Part> ZoltanPartitioner::parts() const {
+    const int rank = rank_of(comm_);
+    std::vector<rrcb::Part> parts(points_.points.count, rank);
+    for (int i = 0; i < exports_.count; ++i) parts[exports_.local_ids[i]] = exports_.parts[i];
+    return parts;
+}
+
+void ZoltanPartitioner::free_lists() {
+    for (ObjectLists* lists : {&imports_, &exports_}) {
+        Zoltan_LB_Free_Part(&lists->global_ids, &lists->local_ids, &lists->ranks, &lists->parts);
+        lists->count = -1;
+    }
+}
+
+void ZoltanPartitioner::use_seed(std::uint64_t seed) {
+    Zoltan_Set_Param(zoltan_, "RRCB_SEED", write_number(seed).c_str());
+}
+
+rrcb::Box ZoltanPartitioner::box_of(rrcb::Part part) const {
+    constexpr double open = std::numeric_limits<double>::max();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    rrcb::Box box{{-open, -open, -open}, {open, open, open}};
+    const int size = size_of(comm_);
+    // Of a single part Zoltan says that its box is the origin.
+    if (size > 1) {
+        int num_axes = 0;
+        const int code = Zoltan_RCB_Box(zoltan_, part, &num_axes, &box.lower[0], &box.lower[1],
+                                        &box.lower[2], &box.upper[0], &box.upper[1], &box.upper[2]);
+        if (code != ZOLTAN_OK) throw Failure("Zoltan_RCB_Box failed; it needs RCB and KEEP_CUTS=1");
+    }
+    std::ranges::replace(box.lower, -open, -infinity);
+    std::ranges::replace(box.upper, open, infinity);
+    return box;
+}
 
 std::unique_ptr<Partitioner> make_partitioner(const Method& method, const Workload& workload,
                                               Lists lists, MPI_Comm comm) {
@@ -82,6 +199,23 @@ std::unique_ptr<Partitioner> make_partitioner(const Method& method, const Worklo
     }
 #endif
     return std::make_unique<ZoltanPartitioner>(zoltan_parameters(method, lists), workload, comm);
+}
+
+std::vector<double> interleaved(mpm::Positions positions) {
+    const std::size_t dimension = positions.z.empty() ? 2 : 3;
+    std::vector<double> coordinates;
+    coordinates.reserve(dimension * positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const mpm::Vector at = positions[i];
+        coordinates.insert(coordinates.end(), at.begin(), at.begin() + dimension);
+    }
+    return coordinates;
+}
+
+std::optional<mpm::Balancer> make_balancer(const Method& method) {
+    if (method.lb_method == on_arrays) return rrcb_balancer(*method.options);
+    if (method.lb_method != "RCB" && method.lb_method != "RRCB") return std::nullopt;
+    return zoltan_balancer(zoltan_parameters(method, Lists::parts));
 }
 
 }  // namespace comparisons

@@ -1,5 +1,7 @@
 #include "phase_log_mpi.hpp"
 
+#include "failure_mpi.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <numeric>
@@ -39,8 +41,7 @@ PhaseLog::Recording::~Recording() {
 }
 
 PathCost PhaseLog::cost(MPI_Comm comm) const {
-    int num_ranks = 1;
-    MPI_Comm_size(comm, &num_ranks);
+    const int num_ranks = size_of(comm);
     std::vector<double> network_s;
     for (const Traffic& traffic : traffic_) {
         network_s.push_back(network_seconds(traffic, num_ranks, Network{}));

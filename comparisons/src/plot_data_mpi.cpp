@@ -1,11 +1,12 @@
 #include "plot_data_mpi.hpp"
 
 #include "bisection/domain_kinds.hpp"
+#include "failure_mpi.hpp"
 #include "gather_mpi.hpp"
-#include "layout_mpi.hpp"
+#include "partitioner_mpi.hpp"
 #include "row.hpp"
 #include "text.hpp"
-#include "zoltan_partitioner_mpi.hpp"
+#include "workload_mpi.hpp"
 
 #include <rrcb/rrcb.hpp>
 
@@ -80,8 +81,7 @@ void write_points(const ResultsFolder& folder, const Workload& workload,
 
 /// Boxes of the parts of a method that cuts along the axes; none of the others.
 std::vector<rrcb::Box> part_boxes(const Workload& workload, const Method& method, MPI_Comm comm) {
-    int num_parts = 0;
-    MPI_Comm_size(comm, &num_parts);
+    const int num_parts = size_of(comm);
     std::vector<rrcb::Box> boxes;
     if (method.options) {
         const rrcb::Balance balance = rrcb::balance(workload.points(), *method.options, comm);
@@ -152,8 +152,7 @@ void write_statistics(const ResultsFolder& folder, const Workload& workload,
                       const rrcb::Options& options, MPI_Comm comm) {
     const int dimension = workload.dimension;
     const rrcb::Points points = workload.points();
-    RankCell of_rank;
-    MPI_Comm_rank(comm, &of_rank.rank);
+    RankCell of_rank{rank_of(comm), {}};
     std::vector<RankCell> mine;
     if (points.count > 0) {
         for (const rrcb::CellMoments& cell :

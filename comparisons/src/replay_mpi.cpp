@@ -107,10 +107,8 @@ std::string note_of_faults(const Workload& workload, MPI_Comm comm) {
 }  // namespace
 
 Replay read_replay(const std::string& folder, MPI_Comm comm) {
-    int rank = 0;
-    int size = 0;
-    MPI_Comm_rank(comm, &rank);
-    MPI_Comm_size(comm, &size);
+    const int rank = rank_of(comm);
+    const int size = size_of(comm);
     Survey survey;
     on_root([&] { survey = survey_of(folder); }, comm);
     broadcast(survey, comm);

@@ -39,11 +39,7 @@ void ResultsFolder::write(const std::string& name, const std::function<std::stri
 std::string ResultsFolder::from_root(const std::function<std::string()>& text) const {
     std::string all;
     on_root([&] { all = text(); }, comm_);
-    auto length = static_cast<int>(all.size());
-    MPI_Bcast(&length, 1, MPI_INT, 0, comm_);
-    all.resize(static_cast<std::size_t>(length));
-    MPI_Bcast(all.data(), length, MPI_CHAR, 0, comm_);
-    return all;
+    return mpm::broadcast(all, comm_);
 }
 
 std::string ResultsFolder::read(const std::string& name) const {

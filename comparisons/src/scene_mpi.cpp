@@ -1,7 +1,7 @@
 #include "scene_mpi.hpp"
 
-#include "balancer_mpi.hpp"
-#include "failure.hpp"
+#include "failure_mpi.hpp"
+#include "partitioner_mpi.hpp"
 #include "scene_choice_mpi.hpp"
 
 #include <algorithm>
@@ -32,8 +32,7 @@ std::vector<Contender> contenders(std::span<const Method> methods) {
 /// Thinned so that history.csv stays below 5 MB.
 int record_interval(int num_steps, std::size_t num_runs, MPI_Comm comm) {
     constexpr double max_rows = 60'000;
-    int num_parts = 0;
-    MPI_Comm_size(comm, &num_parts);
+    const int num_parts = size_of(comm);
     const double rows = static_cast<double>(num_runs) * num_parts * num_steps;
     return static_cast<int>(rows / max_rows) + 1;
 }
@@ -135,10 +134,8 @@ void SceneRounds::take_result(std::size_t contender, int round, SimulationRun ru
 
 void print_and_write(const SimulationPlan& plan, const SceneRuns& scene,
                      const ResultsFolder& folder, MPI_Comm comm) {
-    int rank = 0;
-    int size = 0;
-    MPI_Comm_rank(comm, &rank);
-    MPI_Comm_size(comm, &size);
+    const int rank = rank_of(comm);
+    const int size = size_of(comm);
     const std::vector<SimulationSummary> summaries = summarize_all(scene.methods);
     std::vector<SimulationRun> first_round;
     for (const SimulationRounds& rounds : scene.methods) first_round.push_back(rounds.runs.front());

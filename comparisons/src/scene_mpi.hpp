@@ -3,7 +3,7 @@
 #include "arguments.hpp"
 #include "results_folder_mpi.hpp"
 #include "simulation_rounds.hpp"
-#include "workload.hpp"
+#include "workload_mpi.hpp"
 
 #include <mpi.h>
 

@@ -1,5 +1,7 @@
 #include "simulation_mpi.hpp"
 
+#include "failure_mpi.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,8 +24,7 @@ double timed(Action&& action, PhaseLog& log, MPI_Comm comm) {
 }
 
 LoadRecord record_load(const mpm::Simulation& simulation, MPI_Comm comm) {
-    int size = 0;
-    MPI_Comm_size(comm, &size);
+    const int size = size_of(comm);
     LoadRecord record{simulation.step_count(), simulation.time(),
                       std::vector<double>(static_cast<std::size_t>(size)), 0};
     const auto count = static_cast<double>(simulation.positions().x.size());
@@ -115,8 +116,7 @@ void TimedSimulation::rebalance() {
 
 /// No point is lost or added, so the mean load is the same in every step.
 void TimedSimulation::note_loads(SimulationRun& run) const {
-    int num_parts = 0;
-    MPI_Comm_size(comm_, &num_parts);
+    const int num_parts = size_of(comm_);
     std::vector<double> most = loads_;
     MPI_Allreduce(MPI_IN_PLACE, most.data(), static_cast<int>(most.size()), MPI_DOUBLE, MPI_MAX,
                   comm_);

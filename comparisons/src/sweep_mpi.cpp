@@ -3,6 +3,7 @@
 #include "comparison_mpi.hpp"
 #include "cycle_mpi.hpp"
 #include "error_sources_mpi.hpp"
+#include "failure_mpi.hpp"
 #include "workload_mpi.hpp"
 
 #include <algorithm>
@@ -75,9 +76,7 @@ bool measure_missing(const Sweep& sweep, const Workload& workload, std::vector<M
 
 bool run_sweep(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
                MPI_Comm comm) {
-    Sweep sweep{arguments, folder, progress, comm};
-    MPI_Comm_rank(comm, &sweep.rank);
-    MPI_Comm_size(comm, &sweep.num_ranks);
+    const Sweep sweep{arguments, folder, progress, comm, rank_of(comm), size_of(comm)};
     SavedRows rows(folder, "sweep.csv", table_columns());
     bool succeeded = true;
     if (sweep.includes("clouds")) {

@@ -4,7 +4,7 @@
 #include "progress.hpp"
 #include "results_folder_mpi.hpp"
 #include "row.hpp"
-#include "workload.hpp"
+#include "workload_mpi.hpp"
 
 #include <mpi.h>
 

@@ -1,15 +1,61 @@
 #pragma once
 
 #include "cloud.hpp"
-#include "layout_mpi.hpp"
-#include "workload.hpp"
+
+#include <rrcb/points.hpp>
 
 #include <mpi.h>
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace comparisons {
+
+/// The points of one rank that every method has to divide.
+struct Workload {
+    std::string name;
+    std::string layout;  ///< how the points lie on the ranks: sorted, scattered or simulation
+    int dimension = 2;
+    std::vector<double> coordinates;  ///< interleaved
+    bool weighted = false;            ///< the same on every rank
+    std::vector<double> weights;      ///< one per point if weighted, else empty
+
+    rrcb::Points points() const {
+        return rrcb::interleaved_points(coordinates, dimension, weights);
+    }
+};
+
+/// How the points lie on the ranks before they are balanced.
+enum class Layout {
+    sorted,    ///< each rank holds a piece of equal count of a Hilbert curve through the points
+    scattered  ///< each point lies on a random rank
+};
+
+const char* layout_name(Layout layout);
+
+/// Box around the points of all ranks. Collective over `comm`.
+rrcb::Box global_box(const Workload& workload, MPI_Comm comm);
+
+/// Sends row i of `rows` (of `width` doubles) to ranks[i]; rows come in the order of the senders.
+/// Collective over `comm`.
+std::vector<double> exchange(const std::vector<double>& rows, int width,
+                             const std::vector<int>& ranks, MPI_Comm comm);
+
+/// Levels of the curve: bits per axis, so that there are 2^16 or 2^18 cells in all.
+constexpr int hilbert_bits(int dimension) {
+    return dimension == 2 ? 8 : 6;
+}
+
+/// Number of cells along the curve.
+constexpr std::size_t hilbert_cells(int dimension) {
+    return std::size_t{1} << (hilbert_bits(dimension) * dimension);
+}
+
+/// Place on the Hilbert curve through `box`, 0 ... hilbert_cells - 1, of a position inside it.
+///
+/// Skilling: Programming the Hilbert curve (2004).
+std::size_t hilbert_cell(const rrcb::Box& box, const rrcb::Vector& position, int dimension);
 
 /// Generates a cloud, every rank its share. Collective over `comm`.
 ///

@@ -1,6 +1,6 @@
-#include "balancer_mpi.hpp"
 #include "cycle_mpi.hpp"
 #include "error_sources_mpi.hpp"
+#include "partitioner_mpi.hpp"
 #include "workload_mpi.hpp"
 
 #include <rrcb/bisection.hpp>

@@ -1,5 +1,3 @@
-#include "machine_load.hpp"
-
 #include "machine_load_mpi.hpp"
 
 #include <gtest/gtest.h>

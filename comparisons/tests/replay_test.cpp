@@ -1,8 +1,8 @@
 #include "../../tests/support/ranks.hpp"
 #include "cloud.hpp"
 #include "failure.hpp"
+#include "partitioner_mpi.hpp"
 #include "replay_mpi.hpp"
-#include "zoltan_partitioner_mpi.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
-#include "balancer_mpi.hpp"
 #include "failure.hpp"
+#include "partitioner_mpi.hpp"
 #include "scene_choice_mpi.hpp"
 #include "scene_mpi.hpp"
 #include "simulation_mpi.hpp"

@@ -1,6 +1,5 @@
 #include "../../tests/support/ranks.hpp"
 #include "failure.hpp"
-#include "hilbert.hpp"
 #include "workload_mpi.hpp"
 
 #include <gtest/gtest.h>

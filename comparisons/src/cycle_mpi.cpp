@@ -5,6 +5,7 @@
 #include "partitioner_mpi.hpp"
 #include "rrcb_balancer_mpi.hpp"
 #include "scene_choice_mpi.hpp"
+#include "scene_mpi.hpp"
 #include "sweep_settings.hpp"
 #include "workload_mpi.hpp"
 
@@ -94,11 +95,7 @@ std::vector<Row> cycle_rows(const Sweep& sweep, const Workload& start, rrcb::Glo
 Workload start_of_slope(const Sweep& sweep) {
     const mpm::Simulation simulation(choose_scene("slope", sweep.arguments.quick, sweep.comm),
                                      sweep.comm);
-    Workload workload;
-    workload.name = "slope-start";
-    workload.layout = "simulation";
-    workload.coordinates = interleaved(simulation.positions());
-    return workload;
+    return snapshot("slope-start", simulation);
 }
 
 std::vector<StillCall> balance_still_points(Workload workload, const mpm::Balancer& balancer,

@@ -70,6 +70,56 @@ SimulationPlan paper_plan(const Sweep& sweep) {
     return plan;
 }
 
+/// One simulation of a study.
+struct Case {
+    int repeat = 1;
+    std::string label;
+    int num_ranks = 1;
+    std::optional<Method> method = {};  ///< none: nothing is rebalanced
+};
+
+/// In every repeat the serial simulation, the one without rebalancing and the settings; a method
+/// that draws points takes another seed in each.
+std::vector<Case> cases_of(const std::vector<Method>& settings, int num_repeats, int num_ranks) {
+    std::vector<Case> cases;
+    for (int repeat = 1; repeat <= num_repeats; ++repeat) {
+        cases.push_back({repeat, "serial", 1});
+        cases.push_back({repeat, "none", num_ranks});
+        for (const Method& method : settings) {
+            cases.push_back({repeat, method.label, num_ranks,
+                             with_next_seed(method, static_cast<unsigned>(repeat) - 1)});
+        }
+    }
+    return cases;
+}
+
+SimulationRun simulate(const Sweep& sweep, const SimulationPlan& plan, const Case& simulated,
+                       MPI_Comm comm) {
+    const Observer observe = [&](int steps_done, const mpm::Simulation&) {
+        if (steps_done > 0) sweep.progress.advance();
+    };
+    std::optional<mpm::Balancer> balancer;
+    if (simulated.method) balancer = make_balancer(*simulated.method);
+    TimedSimulation simulation(plan, std::move(balancer), observe, comm);
+    simulation.advance(plan.num_steps);
+    SimulationRun run = simulation.result();
+    run.method = simulated.label;
+    return run;
+}
+
+/// The serial one on rank 0 alone. The others sleep: ranks that wait in MPI keep a core busy.
+SimulationRun simulate_serially(const Sweep& sweep, const SimulationPlan& plan,
+                                const Case& simulated) {
+    SimulationRun run;
+    if (sweep.rank == 0) run = simulate(sweep, plan, simulated, MPI_COMM_SELF);
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Ibarrier(sweep.comm, &request);
+    for (int done = 0; done == 0; MPI_Test(&request, &done, MPI_STATUS_IGNORE)) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return run;
+}
+
 /// Simulations that have no row yet.
 class Study {
   public:
@@ -82,95 +132,47 @@ class Study {
           rows_(sweep.folder, file,
                 Row().add("repeat", 0).add(simulation_row(plan_, sweep.num_ranks, {}))) {}
 
-    /// `num_repeats` rounds of the serial simulation, the one without rebalancing and the
-    /// settings; a method that draws points takes another seed in each. True when none failed.
+    /// The cases_of the settings. True when none failed.
     bool run(const std::vector<Method>& settings, int num_repeats);
 
   private:
-    bool is_missing(int repeat, const std::string& label, int num_ranks) const {
-        return !rows_.has(
-            Row().add("repeat", repeat).add(simulation_key(plan_, num_ranks, num_points_, label)));
-    }
-    bool run_round(const std::vector<Method>& settings, int repeat);
-    SimulationRun simulate(const std::string& label, const std::optional<mpm::Balancer>& balancer,
-                           MPI_Comm comm);
-    SimulationRun simulate_serially();
-    bool add(int repeat, const SimulationRun& run, int num_ranks);
+    bool run(const Case& simulated);
 
     const Sweep& sweep_;
     SimulationPlan plan_;
     std::string histories_;
     std::int64_t num_points_;
     SavedRows rows_;
-    std::size_t num_settings_ = 0;
-    std::size_t num_started_ = 0;
 };
 
-SimulationRun Study::simulate(const std::string& label,
-                              const std::optional<mpm::Balancer>& balancer, MPI_Comm comm) {
-    sweep_.progress.start(
-        std::to_string(++num_started_) + "/" + std::to_string(num_settings_) + " " + label,
-        plan_.num_steps);
-    const Observer observe = [&](int steps_done, const mpm::Simulation&) {
-        if (steps_done > 0) sweep_.progress.advance();
-    };
-    TimedSimulation simulation(plan_, balancer, observe, comm);
-    simulation.advance(plan_.num_steps);
-    SimulationRun run = simulation.result();
-    run.method = label;
-    return run;
-}
-
-/// On rank 0 alone. The others sleep: ranks that wait in MPI keep a core busy.
-SimulationRun Study::simulate_serially() {
-    SimulationRun run;
-    if (sweep_.rank == 0) run = simulate("serial", std::nullopt, MPI_COMM_SELF);
-    MPI_Request request = MPI_REQUEST_NULL;
-    MPI_Ibarrier(sweep_.comm, &request);
-    for (int done = 0; done == 0; MPI_Test(&request, &done, MPI_STATUS_IGNORE)) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return run;
-}
-
 /// The history is that of the first repeat.
-bool Study::add(int repeat, const SimulationRun& run, int num_ranks) {
+bool Study::run(const Case& simulated) {
+    const auto& [repeat, label, num_ranks, method] = simulated;
+    const SimulationRun run = label == "serial" ? simulate_serially(sweep_, plan_, simulated)
+                                                : simulate(sweep_, plan_, simulated, sweep_.comm);
     if (repeat == 1) {
-        const std::string method = sweep_.folder.from_root([&] { return run.method; });
-        sweep_.folder.write("data/" + histories_ + '_' + file_name_part(method) + '_' +
+        sweep_.folder.write("data/" + histories_ + '_' + file_name_part(label) + '_' +
                                 std::to_string(num_ranks) + ".csv",
                             [&] { return history_csv(std::span(&run, 1)); });
     }
-    const Row row = simulation_row(plan_, num_ranks, summarize({run.method, {run}}));
+    const Row row = simulation_row(plan_, num_ranks, summarize({label, {run}}));
     return rows_.add({Row().add("repeat", repeat).add(row)});
 }
 
-bool Study::run_round(const std::vector<Method>& settings, int repeat) {
-    bool succeeded = true;
-    if (is_missing(repeat, "serial", 1)) succeeded = add(repeat, simulate_serially(), 1);
-    if (is_missing(repeat, "none", sweep_.num_ranks)) {
-        const SimulationRun run = simulate("none", std::nullopt, sweep_.comm);
-        succeeded = add(repeat, run, sweep_.num_ranks) && succeeded;
-    }
-    for (const Method& method : settings) {
-        if (!is_missing(repeat, method.label, sweep_.num_ranks)) continue;
-        const Method seeded = with_next_seed(method, static_cast<unsigned>(repeat) - 1);
-        const SimulationRun run = simulate(method.label, make_balancer(seeded), sweep_.comm);
-        succeeded = add(repeat, run, sweep_.num_ranks) && succeeded;
-    }
-    return succeeded;
-}
-
 bool Study::run(const std::vector<Method>& settings, int num_repeats) {
-    num_settings_ = (settings.size() + 2) * static_cast<std::size_t>(num_repeats);
-    num_started_ = 0;
+    const std::vector<Case> cases = cases_of(settings, num_repeats, sweep_.num_ranks);
+    const std::string number = std::to_string(cases.size());
     sweep_.say("simulations of " + std::to_string(plan_.num_steps) + " steps, rebalanced every " +
                std::to_string(plan_.every) + ", " + std::to_string(sweep_.num_ranks) +
-               " ranks: up to " + std::to_string(num_settings_));
+               " ranks: up to " + number);
     const double start = MPI_Wtime();
     bool succeeded = true;
-    for (int repeat = 1; repeat <= num_repeats; ++repeat) {
-        succeeded = run_round(settings, repeat) && succeeded;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const Row key = simulation_key(plan_, cases[i].num_ranks, num_points_, cases[i].label);
+        if (rows_.has(Row().add("repeat", cases[i].repeat).add(key))) continue;
+        sweep_.progress.start(std::to_string(i + 1) + "/" + number + " " + cases[i].label,
+                              plan_.num_steps);
+        succeeded = run(cases[i]) && succeeded;
     }
     sweep_.say("they took " + fixed((MPI_Wtime() - start) / 60, 1) + " minutes");
     return succeeded;

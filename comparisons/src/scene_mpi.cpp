@@ -37,16 +37,6 @@ int record_interval(int num_steps, std::size_t num_runs, MPI_Comm comm) {
     return static_cast<int>(rows / max_rows) + 1;
 }
 
-Workload snapshot(const std::string& name, const mpm::Simulation& simulation) {
-    Workload workload;
-    workload.name = name;
-    workload.layout = "simulation";
-    const mpm::Positions positions = simulation.positions();
-    workload.dimension = positions.z.empty() ? 2 : 3;
-    workload.coordinates = interleaved(positions);
-    return workload;
-}
-
 void take_snapshots(std::vector<Workload>& snapshots, const SimulationPlan& plan, int steps_done,
                     const mpm::Simulation& simulation) {
     const std::vector<std::string> names = snapshot_names(plan.scene);
@@ -162,6 +152,16 @@ SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_
 
 std::vector<std::string> snapshot_names(const mpm::Scene& scene) {
     return {scene.name + "-start", scene.name + "-middle", scene.name + "-end"};
+}
+
+Workload snapshot(const std::string& name, const mpm::Simulation& simulation) {
+    Workload workload;
+    workload.name = name;
+    workload.layout = "simulation";
+    const mpm::Positions positions = simulation.positions();
+    workload.dimension = positions.z.empty() ? 2 : 3;
+    workload.coordinates = interleaved(positions);
+    return workload;
 }
 
 std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& progress,

@@ -27,6 +27,9 @@ struct SceneRuns {
 /// choose_scene does.
 SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_Comm comm);
 
+/// Where the points lie now, as a workload of that name. Not collective.
+Workload snapshot(const std::string& name, const mpm::Simulation& simulation);
+
 /// The snapshots of SceneRuns, from a run without rebalancing alone. Collective over `comm`.
 ///
 /// Throws Failure when the simulation fails.

@@ -1,4 +1,6 @@
 #include "comparison_mpi.hpp"
+#include "cycle_mpi.hpp"
+#include "partitioner_mpi.hpp"
 #include "workload_mpi.hpp"
 
 #include <rrcb/balance.hpp>
@@ -20,6 +22,7 @@ class MeasurementTest : public testing::Test {
         float version = 0;
         Zoltan_Initialize(0, nullptr, &version);
         MPI_Comm_size(MPI_COMM_WORLD, &num_ranks_);
+        MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
         workload_ = cloud_workload({"uniform", 1200, 2, 3}, Layout::scattered, MPI_COMM_WORLD);
     }
 
@@ -29,6 +32,7 @@ class MeasurementTest : public testing::Test {
     }
 
     int num_ranks_ = 1;
+    int rank_ = 0;
     Workload workload_;
 };
 
@@ -127,12 +131,42 @@ TEST_F(MeasurementTest, a_method_that_fails_leaves_the_others_alone) {
 }
 
 TEST_F(MeasurementTest, coordinates_that_are_not_finite_fail_on_every_rank) {
-    int rank = 0;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    if (rank == num_ranks_ - 1) workload_.coordinates[3] = std::numeric_limits<double>::quiet_NaN();
+    if (rank_ == num_ranks_ - 1)
+        workload_.coordinates[3] = std::numeric_limits<double>::quiet_NaN();
     const std::vector<Measurement> results = run(read_methods("rrcb,rrcb-arrays"), Lists::parts);
     EXPECT_EQ(results[0].error, "Zoltan_LB_Partition failed with code -1");
     EXPECT_EQ(results[1].error, "rrcb::balance failed with code -1");
+}
+
+TEST_F(MeasurementTest, still_points_go_to_the_rank_of_their_part_after_every_call) {
+    std::vector<std::vector<double>> seen;
+    const mpm::Balancer to_the_next = [&](mpm::Positions positions, MPI_Comm) {
+        seen.emplace_back(positions.x.begin(), positions.x.end());
+        mpm::Decomposition decomposition;
+        decomposition.local_owners.assign(positions.size(), (rank_ + 1) % num_ranks_);
+        return decomposition;
+    };
+    const std::vector<StillCall> calls =
+        balance_still_points(workload_, to_the_next, num_ranks_ + 1, MPI_COMM_WORLD);
+    ASSERT_EQ(calls.size(), static_cast<std::size_t>(num_ranks_) + 1);
+    for (const StillCall& call : calls) EXPECT_EQ(call.moved_fraction, num_ranks_ > 1 ? 1 : 0);
+    // Once around: every rank has its own points again.
+    EXPECT_EQ(seen.front(), seen.back());
+    const std::size_t mine = seen[1].size();
+    std::size_t all = 0;
+    MPI_Allreduce(&mine, &all, 1, MPI_UNSIGNED_LONG, MPI_SUM, MPI_COMM_WORLD);
+    EXPECT_EQ(all, 1200U);
+}
+
+TEST_F(MeasurementTest, still_points_stay_where_exact_cuts_put_them) {
+    // 1200 points divide evenly by 1, 2, 3 and 4 ranks, and no two share a coordinate.
+    for (const char* name : {"root-rcb", "rrcb-exact"}) {
+        const std::vector<StillCall> calls =
+            balance_still_points(workload_, *make_balancer(read_method(name)), 3, MPI_COMM_WORLD);
+        for (const StillCall& call : calls) EXPECT_EQ(call.imbalance, 1) << name;
+        EXPECT_EQ(calls[1].moved_fraction, 0) << name;
+        EXPECT_EQ(calls[2].moved_fraction, 0) << name;
+    }
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <ranges>
 #include <sstream>
 
 namespace comparisons {
@@ -46,9 +47,7 @@ const std::map<std::string, std::string>& documentation() {
         {"every", "steps between rebalances; 5"},
         {"repeats", "timed calls of each method; 7"},
         {"seed", "seed of the cloud; 1"},
-        {"only",
-         "parts of the sweep, by commas: clouds, sources, snapshots, cycle, ranks, simulations, "
-         "paper"},
+        {"only", "parts of the sweep, by commas: " + joined(Arguments().only)},
         {"out", "folder of the results; comparisons/out"},
     };
     return texts;
@@ -106,15 +105,12 @@ template <typename Value>
 void read_choice(const Texts& texts, const std::string& name, Value& value,
                  const std::vector<std::pair<std::string, Value>>& choices) {
     if (!texts.given(name)) return;
-    std::string names;
-    for (const auto& [choice, meaning] : choices) {
-        if (texts[name] == choice) {
-            value = meaning;
-            return;
-        }
-        names += (names.empty() ? "" : ", ") + choice;
+    const auto found = std::ranges::find(choices, texts[name], [](auto& c) { return c.first; });
+    if (found == choices.end()) {
+        throw Failure("--" + name + ": unknown value '" + texts[name] +
+                      "'; choose from: " + joined(choices | std::views::keys));
     }
-    throw Failure("--" + name + ": unknown value '" + texts[name] + "'; choose from: " + names);
+    value = found->second;
 }
 
 void check_combination(const Texts& texts) {
@@ -160,9 +156,8 @@ void choose_sweep(const Texts& texts, Arguments& arguments) {
     for (const std::string_view part : split(texts["only"], ',')) {
         chosen.emplace_back(trim(part));
         if (std::ranges::find(arguments.only, chosen.back()) == arguments.only.end()) {
-            throw Failure(
-                "--only: unknown part '" + chosen.back() +
-                "'; choose from: clouds, sources, snapshots, cycle, ranks, simulations, paper");
+            throw Failure("--only: unknown part '" + chosen.back() +
+                          "'; choose from: " + joined(arguments.only));
         }
     }
     arguments.only = chosen;

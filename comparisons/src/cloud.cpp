@@ -2,10 +2,12 @@
 
 #include "counter_random.hpp"
 #include "failure.hpp"
+#include "text.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ranges>
 
 namespace comparisons {
 
@@ -104,12 +106,7 @@ constexpr Generator generators[] = {
 }  // namespace
 
 std::string cloud_names() {
-    std::string names;
-    for (const Generator& generator : generators) {
-        if (!names.empty()) names += ", ";
-        names += generator.name;
-    }
-    return names;
+    return joined(generators | std::views::transform(&Generator::name));
 }
 
 std::vector<double> cloud_points(const Cloud& cloud, GlobalCount first, GlobalCount last) {

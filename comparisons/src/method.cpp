@@ -6,6 +6,7 @@
 #include "text.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 namespace comparisons {
 
@@ -68,15 +69,6 @@ Options paper_options() {
     return options;
 }
 
-std::string joined(const std::vector<std::string_view>& names) {
-    std::string text;
-    for (const std::string_view name : names) {
-        if (!text.empty()) text += ", ";
-        text += name;
-    }
-    return text;
-}
-
 const Entry& find_entry(std::string_view name) {
     const auto found = std::ranges::find(entries(), name, &Entry::name);
     if (found == entries().end()) {
@@ -125,9 +117,7 @@ void add_options(ZoltanParameters& parameters, const Options& options) {
 }  // namespace
 
 std::string method_names() {
-    std::vector<std::string_view> names;
-    for (const Entry& entry : entries()) names.push_back(entry.name);
-    return joined(names);
+    return joined(entries() | std::views::transform(&Entry::name));
 }
 
 Method read_method(std::string_view text) {

@@ -2,12 +2,14 @@
 
 #include "failure.hpp"
 #include "scene_file/scene_file_mpi.hpp"
+#include "text.hpp"
 
 #include <mpm/slope.hpp>
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <ranges>
 #include <stdexcept>
 #include <string_view>
 
@@ -55,11 +57,7 @@ mpm::Scene read_shipped(const SceneRow& row, MPI_Comm comm) {
 }  // namespace
 
 std::string scene_names() {
-    std::string names;
-    for (const SceneRow& row : rows) {
-        names += (names.empty() ? "" : ", ") + std::string(row.name);
-    }
-    return names;
+    return joined(rows | std::views::transform(&SceneRow::name));
 }
 
 void check_scene(const std::string& name_or_file) {

@@ -28,6 +28,14 @@ std::string write_number(Number number) {
 /// Pieces of `text` between separators that stand outside square brackets.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
+/// Names as in "a, b, c".
+template <typename Names>
+std::string joined(const Names& names) {
+    std::string text;
+    for (const auto& name : names) text.append(text.empty() ? "" : ", ").append(name);
+    return text;
+}
+
 /// `text` without blanks and carriage returns at both ends.
 std::string_view trim(std::string_view text);
 

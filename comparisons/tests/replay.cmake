@@ -1,14 +1,15 @@
-# Runs COMMAND, whose only method is dumped to FOLDER by the environment, and then REPLAY of the
+# Runs COMMAND with ARGUMENTS, its only method dumped to FOLDER by the environment, and then on the
 # first dump: both tables must hold the same imbalance and moved fraction.
 cmake_minimum_required(VERSION 3.22)
+separate_arguments(ARGUMENTS)
 file(REMOVE_RECURSE ${FOLDER})
 set(ENV{RRCB_DUMP} ${FOLDER}/dumps)
 set(ENV{RRCB_DUMP_WHEN} ALWAYS)
-execute_process(COMMAND ${COMMAND} --out=${FOLDER}/original COMMAND_ERROR_IS_FATAL ANY
+execute_process(COMMAND ${COMMAND} ${ARGUMENTS} --out=${FOLDER}/original COMMAND_ERROR_IS_FATAL ANY
                 OUTPUT_QUIET)
 unset(ENV{RRCB_DUMP})
 execute_process(
-  COMMAND ${REPLAY} --replay=${FOLDER}/dumps/call-1 --out=${FOLDER}/replay COMMAND_ERROR_IS_FATAL
+  COMMAND ${COMMAND} --replay=${FOLDER}/dumps/call-1 --out=${FOLDER}/replay COMMAND_ERROR_IS_FATAL
           ANY
   OUTPUT_VARIABLE output)
 if(NOT output MATCHES "dump: Zoltan_LB_Partition on [0-9]+ ranks, code 0, parameters: ")

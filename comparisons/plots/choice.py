@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Callable
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from pathlib import Path
-from statistics import geometric_mean
 
-from intervals import NOT_TOLD_APART, are_apart, inverse, mean_interval
-from results import Interval, Measurement
+import pandas as pd
+from intervals import NOT_TOLD_APART, ONE, Value, mean_of, value_of
+from methods import is_ours
+from results import cases, is_within, row_of
 
-TOLERANCES = ("1.10", "1.05", "1.01", "1.001", "exact")
+TOLERANCES = {  # and RRCB's own setting for each
+    "1.10": "rrcb[tol=1.1]",
+    "1.05": "rrcb[tol=1.05]",
+    "1.01": "rrcb",
+    "1.001": "rrcb[tol=1.001]",
+    "exact": "rrcb-exact",
+}
 EVERYWHERE = "all of these"
+COSTS = ("time_ms", "bytes")
 
 
 @dataclass(frozen=True)
@@ -22,147 +28,157 @@ class Choice:
     case: str
     tolerance: str
     setting: str = ""
-    time_ms: float | None = None
-    times_as_fast: float | None = None  # as Zoltan's RCB; over all cases the geometric mean
+    time_ms: Value | None = None
+    times_as_fast: Value | None = None  # as Zoltan's RCB; over all cases the geometric mean
     imbalance: float | None = None
-    time_interval: Interval | None = None
-    speed_interval: Interval | None = None
     rivals: tuple[str, ...] = ()  # settings whose time is not told apart from this one's
 
     @property
     def remark(self) -> str:
         """Empty where the setting is the fastest beyond the noise."""
-        if not self.rivals:
-            return ""
         others = self.rivals[0] if len(self.rivals) == 1 else f"{len(self.rivals)} others"
-        return f" ({NOT_TOLD_APART} from {others})"
+        return f" ({NOT_TOLD_APART} from {others})" if self.rivals else ""
+
+    @property
+    def numbers(self) -> dict:
+        """A row of choices.csv: empty fields where no setting is within the tolerance."""
+        return {
+            "case": self.case, "tolerance": self.tolerance, "setting": self.setting,
+            "time_ms": self.time_ms and self.time_ms.number,
+            "times_as_fast": self.times_as_fast and self.times_as_fast.number,
+            "imbalance": self.imbalance, "not_told_apart_from": ";".join(self.rivals),
+        }  # fmt: skip
 
 
-def cases(rows: list[Measurement]) -> dict[str, list[Measurement]]:
-    """Rows that measure the same points on the same ranks, by a name for them."""
-    sizes = {(row.points, row.ranks) for row in rows if row.layout != "simulation"}
-    result: dict[str, list[Measurement]] = {}
-    for row in rows:
-        name = f"{row.workload} {row.dimension}-D {row.layout}"
-        if len(sizes) > 1:
-            name += f", {row.points:,} points, {row.ranks} ranks"
-        result.setdefault(name, []).append(row)
-    return result
+def fastest(rows: pd.DataFrame, tolerance: str) -> object | None:
+    within = rows[is_within(rows, tolerance)]
+    return next(within.sort_values("time_ms", kind="stable").itertuples(), None)
 
 
-def is_within(row: Measurement, tolerance: str) -> bool:
-    """Exact: no part has more than one point above the mean."""
-    limit = 1 + row.point if tolerance == "exact" else float(tolerance)
-    return row.imbalance <= limit * (1 + 1e-9)
-
-
-def fastest(rows: list[Measurement], tolerance: str) -> Measurement | None:
-    return min(
-        (row for row in rows if is_within(row, tolerance)), key=lambda r: r.time_ms, default=None
-    )
-
-
-def find_method(rows: list[Measurement], method: str) -> Measurement | None:
-    return next((row for row in rows if row.method == method), None)
-
-
-def pareto_front(
-    rows: list[Measurement], cost: Callable[[Measurement], float]
-) -> list[Measurement]:
-    """The rows that no other beats in both cost and imbalance, cheapest first."""
-    front: list[Measurement] = []
-    for row in sorted(rows, key=lambda r: (cost(r), r.imbalance)):
-        if not front or row.imbalance < front[-1].imbalance:
-            front.append(row)
-    return front
-
-
-COSTS: dict[str, Callable[[Measurement], float]] = {
-    "time_ms": lambda row: row.time_ms,
-    "bytes": lambda row: row.bytes,
-}
-
-
-def write_fronts(directory: Path, rows: list[Measurement]) -> None:
-    """fronts.csv: the settings on the front of each case, by time and by bytes."""
-    if not rows:
-        return
-    with (directory / "fronts.csv").open("w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["case", "cost", "setting", "value", "imbalance"])
-        for case, measured in cases(rows).items():
-            for name, cost in COSTS.items():
-                for row in pareto_front(measured, cost):
-                    writer.writerow([case, name, row.method, cost(row), row.imbalance])
-
-
-def choices(rows: list[Measurement]) -> list[Choice]:
+def choices(rows: pd.DataFrame) -> list[Choice]:
     """For every tolerance: the setting to take everywhere, then the fastest one on each case."""
     by_case = cases(rows)
-    everywhere = [_everywhere(by_case, tolerance) for tolerance in TOLERANCES]
-    return everywhere * (len(by_case) > 1) + [
-        _choose(case, rows, tolerance) for case, rows in by_case.items() for tolerance in TOLERANCES
-    ]
+    found = [_choose(EVERYWHERE, rows, t) for t in TOLERANCES] if len(by_case) > 1 else []
+    return found + [_choose(case, of_case, t) for case, of_case in by_case.items() for t in TOLERANCES]
 
 
-def write_choices(directory: Path, rows: list[Measurement]) -> None:
-    """choices.csv: a row per case and tolerance, empty fields where no setting is within it."""
-    if not rows:
-        return
-    with (directory / "choices.csv").open("w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(
-            "case,tolerance,setting,time_ms,times_as_fast,imbalance,not_told_apart_from".split(",")
-        )
-        for c in choices(rows):
-            numbers = [c.time_ms, c.times_as_fast, c.imbalance]
-            writer.writerow([c.case, c.tolerance, c.setting, *numbers, ";".join(c.rivals)])
-
-
-def _choose(case: str, rows: list[Measurement], tolerance: str) -> Choice:
-    within = [row for row in rows if is_within(row, tolerance) and row.time_ms > 0]
-    candidates = [_candidate(case, tolerance, [row], [rows]) for row in within]
-    return _fastest_of(candidates, Choice(case, tolerance))
-
-
-def _fastest_of(candidates: list[Choice], none: Choice) -> Choice:
-    best = min(candidates, key=lambda c: c.time_ms, default=none)
-    rivals = [
-        c.setting
-        for c in candidates
-        if c is not best and not are_apart(c.time_interval, best.time_interval)
-    ]
-    return replace(best, rivals=tuple(rivals))
-
-
-def _speed(row: Measurement, rows: list[Measurement]) -> float | None:
-    reference = find_method(rows, "zoltan-rcb")
-    return reference.time_ms / row.time_ms if reference and row.time_ms > 0 else None
-
-
-def _everywhere(by_case: dict[str, list[Measurement]], tolerance: str) -> Choice:
-    """Within the tolerance on every case, and there the fastest in the geometric mean."""
-    settings = {row.method for rows in by_case.values() for row in rows}
+def _choose(case: str, rows: pd.DataFrame, tolerance: str) -> Choice:
+    """Within the tolerance on every case of the rows, and the fastest in the geometric mean."""
+    number = rows["case"].nunique()
+    reference = rows[rows["method"] == "zoltan-rcb"].set_index("case")["time_ms"]
     candidates = []
-    for setting in sorted(settings):
-        found = [find_method(rows, setting) for rows in by_case.values()]
-        if all(row and is_within(row, tolerance) and row.time_ms > 0 for row in found):
-            candidates.append(_candidate(EVERYWHERE, tolerance, found, list(by_case.values())))
-    return _fastest_of(candidates, Choice(EVERYWHERE, tolerance))
+    for setting, found in rows.groupby("method", sort=number > 1):
+        is_usable = is_within(found, tolerance) & (found["time_ms"] > 0)
+        if len(found) == number and is_usable.all():
+            speeds = []
+            for row in found.itertuples():
+                paired = ONE / value_of(row, "time_vs_zoltan_rcb")
+                speed = reference.get(row.case, 0) / row.time_ms
+                speeds.append(Value(speed, paired.low, paired.high))
+            times = mean_of(value_of(row, "time_ms") for row in found.itertuples())
+            speed = mean_of(speeds) if all(s.number for s in speeds) else None
+            imbalance = found["imbalance"].max()
+            candidates.append(Choice(case, tolerance, setting, times, speed, imbalance))
+    best = min(candidates, key=lambda c: c.time_ms.number, default=Choice(case, tolerance))
+    rivals = [c for c in candidates if c is not best and not c.time_ms.is_apart(best.time_ms)]
+    return replace(best, rivals=tuple(c.setting for c in rivals))
 
 
-def _candidate(
-    case: str, tolerance: str, found: list[Measurement], by_case: list[list[Measurement]]
-) -> Choice:
-    """One setting on one case or more: geometric means, and the worst imbalance."""
-    speeds = [_speed(row, rows) for row, rows in zip(found, by_case)]
-    return Choice(
-        case,
-        tolerance,
-        found[0].method,
-        geometric_mean([row.time_ms for row in found]),
-        geometric_mean(speeds) if all(speeds) else None,
-        max(row.imbalance for row in found),
-        mean_interval(row.time_interval for row in found),
-        inverse(mean_interval(row.share_interval for row in found)),
+def pareto_front(rows: pd.DataFrame, cost: str) -> pd.DataFrame:
+    """The rows that no other beats in both cost and imbalance, cheapest first."""
+    rows = rows.sort_values([cost, "imbalance"], kind="stable")
+    return rows[rows["imbalance"] < rows["imbalance"].cummin().shift(fill_value=float("inf"))]
+
+
+def fronts(rows: pd.DataFrame) -> Iterator[dict]:
+    """The rows of fronts.csv: the settings on the front of each case, by time and by bytes."""
+    for case, measured in cases(rows).items():
+        for cost in COSTS:
+            for row in pareto_front(measured, cost).itertuples():
+                yield {"case": case, "cost": cost, "setting": row.method,
+                       "value": getattr(row, cost), "imbalance": row.imbalance}  # fmt: skip
+
+
+# --- whether RRCB's own choice of mesh and refinement is near the best setting tried ---
+
+LIMIT = 1.2  # times the best setting's time
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """The automatic mesh beside the fastest setting of RRCB that reaches the same tolerance."""
+
+    case: str
+    tolerance: str
+    automatic: object
+    best: object
+
+    @property
+    def ratio(self) -> float:
+        return self.automatic.time_ms / self.best.time_ms
+
+    @property
+    def ratio_of_least(self) -> float:
+        """Of the least times, which a busy machine disturbs less."""
+        return self.automatic.time_ms_min / self.best.time_ms_min
+
+    @property
+    def reached(self) -> bool:
+        return is_within(self.automatic, self.tolerance)
+
+    @property
+    def passed(self) -> str:
+        return yes(self.reached and self.ratio <= LIMIT)
+
+    @property
+    def numbers(self) -> dict:
+        """A row of automatic.csv."""
+        own, best = self.automatic, self.best
+        return {
+            "case": self.case, "tolerance": self.tolerance, "automatic": own.method,
+            "time_ms": own.time_ms, "imbalance": own.imbalance, "reached": yes(self.reached),
+            "best": best.method, "best_time_ms": best.time_ms, "best_imbalance": best.imbalance,
+            "time_ratio": f"{self.ratio:.3f}", "least_time_ratio": f"{self.ratio_of_least:.3f}",
+            "within_20_percent": self.passed,
+        }  # fmt: skip
+
+    @property
+    def texts(self) -> dict[str, str]:
+        own, best = (value_of(row, "time_ms") for row in (self.automatic, self.best))
+        is_known = self.automatic.method == self.best.method or own.is_apart(best)
+        missed = "" if self.reached else " (not reached)"
+        return {
+            "cloud": self.case, "imbalance ≤": self.tolerance, "automatic: ms": own.text(2),
+            "imbalance": f"{self.automatic.imbalance:.5f}{missed}",
+            "best setting": self.best.method, "ms": best.text(2),
+            "time ratio": f"{self.ratio:.2f}" + f", {NOT_TOLD_APART}" * (not is_known),
+            "of least times": f"{self.ratio_of_least:.2f}", "within 20 %": self.passed,
+        }  # fmt: skip
+
+
+def yes(value: bool) -> str:
+    return "yes" if value else "no"
+
+
+def judgements(rows: pd.DataFrame) -> list[Judgement]:
+    """Of the cases and tolerances where both were measured."""
+    found = []
+    for case, measured in cases(rows).items():
+        ours = measured[measured["method"].map(is_ours)]
+        for tolerance, method in TOLERANCES.items() if len(ours) > 1 else ():
+            automatic, best = row_of(ours, method), fastest(ours, tolerance)
+            if automatic and best and best.time_ms_min > 0:
+                found.append(Judgement(case, tolerance, automatic, best))
+    return found
+
+
+def automatic_sentence(found: list[Judgement]) -> str:
+    passed = sum(j.passed == "yes" for j in found)
+    missed = sum(not j.reached for j in found)
+    worst = max(found, key=lambda j: j.ratio)
+    return (
+        "RRCB's automatic mesh was within 20 % of the fastest setting that reaches the same"
+        f" tolerance in {passed} of {len(found)} cases"
+        + f" and missed the tolerance in {missed}" * bool(missed)
+        + f"; the worst ratio was {worst.ratio:.2f} ({worst.case}, {worst.tolerance})."
     )

@@ -30,11 +30,13 @@ pre { font-size: .78rem; background: #F6F6F6; padding: .8rem; overflow-x: auto; 
 
 
 LONGEST = 80  # rows of a table that is not folded up
+Rows = list[dict[str, str]]  # of a table: texts by the names of its columns, the same in every row
 
 
 @dataclass
 class Document:
     title: str
+    folder: Path
     blocks: list[tuple] = field(default_factory=list)
     summary: str = ""  # what is worth printing
 
@@ -52,43 +54,45 @@ class Document:
         self.blocks.append(("listing", caption, text))
 
     def picture(self, name: str, caption: str) -> None:
-        self.blocks.append(("picture", name, caption))
+        """Nothing where there is no such picture."""
+        if (self.folder / name).exists():
+            self.blocks.append(("picture", name, caption))
 
-    def table(self, caption: str, header: list[str], rows: list[list[str]]) -> None:
-        """A long one is folded up."""
-        self.blocks.append(("table", caption, header, rows))
+    def table(self, caption: str, rows: Rows) -> None:
+        """Nothing without rows; a long one is folded up."""
+        if rows:
+            lines = [list(rows[0]), *(list(row.values()) for row in rows)]
+            self.blocks.append(("table", caption, lines))
 
-    def summarise(self, caption: str, header: list[str], rows: list[list[str]]) -> None:
+    def summarise(self, caption: str, rows: Rows) -> None:
         """A table that is worth printing too."""
-        self.table(caption, header, rows)
-        self.summary += f"\n{caption}\n\n{_columns([header, *rows])}\n"
+        self.table(caption, rows)
+        if rows:
+            self.summary += f"\n{caption}\n\n{_columns(self.blocks[-1][2])}\n"
+
+    def write(self) -> None:
+        """report.html and report.md."""
+        body = "\n".join(_html_block(block, self.folder) for block in self.blocks)
+        title = html.escape(self.title)
+        (self.folder / "report.html").write_text(
+            '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+            '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+            f"<title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n"
+            f"{body}\n</body>\n</html>\n",
+            encoding="utf-8",
+        )
+        body = "\n\n".join(map(_markdown_block, self.blocks))
+        text = f"# {self.title}\n\n{body}\n"
+        (self.folder / "report.md").write_text(text, encoding="utf-8")
 
 
-def write_html(document: Document, directory: Path) -> None:
-    body = "\n".join(_html_block(block, directory) for block in document.blocks)
-    title = html.escape(document.title)
-    (directory / "report.html").write_text(
-        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
-        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        f"<title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n"
-        f"{body}\n</body>\n</html>\n",
-        encoding="utf-8",
-    )
-
-
-def write_markdown(document: Document, directory: Path) -> None:
-    body = "\n\n".join(_markdown_block(block) for block in document.blocks)
-    (directory / "report.md").write_text(f"# {document.title}\n\n{body}\n", encoding="utf-8")
-
-
-def _html_block(block: tuple, directory: Path) -> str:
+def _html_block(block: tuple, folder: Path) -> str:
     kind, *content = block
     if kind == "conclusion":
-        texts = "".join(_tag("p", text) for text in content[0])
-        return f'<div class="conclusion">{texts}</div>'
+        return f'<div class="conclusion">{"".join(_tag("p", text) for text in content[0])}</div>'
     if kind == "picture":
         name, caption = content
-        image = _html_image((directory / name).read_bytes(), caption)
+        image = _html_image((folder / name).read_bytes(), caption)
         return f'<figure><div class="wide">{image}</div>{_tag("figcaption", caption)}</figure>'
     if kind == "table":
         return _html_table(*content)
@@ -107,18 +111,17 @@ def _html_image(png: bytes, caption: str) -> str:
     )
 
 
-def _html_table(caption: str, header: list[str], rows: list[list[str]]) -> str:
-    is_text = [2 * sum(_is_number(row[c]) for row in rows) < len(rows) for c in range(len(header))]
-    lines = [
+def _html_table(caption: str, lines: list[list[str]]) -> str:
+    rows = lines[1:]
+    is_text = [2 * sum(map(_is_number, column)) < len(rows) for column in zip(*rows)]
+    head, *body = (
         "<tr>" + "".join(_cell(tag, text, left) for text, left in zip(cells, is_text)) + "</tr>"
-        for tag, cells in [("th", header), *(("td", row) for row in rows)]
-    ]
-    text = html.escape(caption)
-    table = (
-        f'<div class="wide"><table aria-label="{text}">\n<thead>{lines[0]}</thead>\n<tbody>'
-        + "\n".join(lines[1:])
-        + "</tbody></table></div>"
+        for tag, cells in zip(["th"] + ["td"] * len(rows), lines)
     )
+    text = html.escape(caption)
+    body = "\n".join(body)
+    table = f'<div class="wide"><table aria-label="{text}">\n<thead>{head}</thead>\n'
+    table += f"<tbody>{body}</tbody></table></div>"
     # The caption stands beside the table, since in it it would be as wide and scroll with it.
     if len(rows) > LONGEST:
         return f'<details><summary class="caption">{text}, {len(rows)} rows</summary>{table}</details>'
@@ -147,16 +150,17 @@ def _markdown_block(block: tuple) -> str:
     if kind == "picture":
         return f"![{_alternative(content[1])}]({content[0]})\n\n*{content[1]}*"
     if kind == "table":
-        caption, header, rows = content
-        lines = [header, ["---"] * len(header), *rows]
-        return f"**{caption}**\n\n" + "\n".join(map(_markdown_line, lines))
+        return f"**{content[0]}**\n\n{markdown_table(content[1])}"
     if kind == "listing":
         return f"{content[0]}:\n\n```\n{content[1].rstrip()}\n```"
     return f"## {content[0]}" if kind == "heading" else content[0]
 
 
-def _markdown_line(cells: list[str]) -> str:
-    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
+def markdown_table(lines: list[list[str]]) -> str:
+    """The first line is the header."""
+    cells = ([cell.replace("|", "\\|") for cell in line] for line in lines)
+    header, *rows = ("| " + " | ".join(line) + " |" for line in cells)
+    return "\n".join([header, "|---" * len(lines[0]) + "|", *rows])
 
 
 def _alternative(caption: str) -> str:

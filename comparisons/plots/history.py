@@ -1,59 +1,67 @@
-"""The load unbalance over the steps of the simulation: figure 6 of the paper."""
+"""The load unbalance over the steps of simulations: figure 6 of the paper."""
 
 from __future__ import annotations
 
-from pathlib import Path
+from statistics import mode
 
 import numpy as np
+import pandas as pd
+from intervals import Value
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
-
-from results import Columns, read_history
-from settings import legend_above
-from style import PART_COLOURS, distinct_styles, save
+from matplotlib.figure import Figure
+from methods import WINNERS, setting_of, values_of
+from results import Results
+from speed_up import read_speed_ups
+from style import (
+    PART_COLOURS,
+    distinct_styles,
+    draw_line,
+    key,
+    label_edges,
+    legend_above,
+    multiplier_colour,
+    panels,
+)
 
 MOST_WINDOWS = 150  # lines that swing at every rebalance would run into one another
+TIME = "time simulated [s]"
+CONFIGURATIONS = ("root-rcb", *WINNERS)
 
 
-def draw_history(directory: Path, picture: Path) -> bool:
+def draw_history(results: Results) -> Figure | None:
     """All methods together by their worst part, then every part of each method, in windows."""
-    histories = read_history(directory)
+    histories = results.histories()
     if not histories:
-        return False
+        return None
     lines = -(-len(histories) // 2)
     figure = plt.figure(figsize=(11, 4.6 + 1.6 * lines))
     grid = figure.add_gridspec(lines + 1, 2, height_ratios=[2.4] + [1] * lines)
     top = figure.add_subplot(grid[0, :])
     draw_worst(top, histories)
-    top.set_xlabel("time simulated [s]")
+    top.set_xlabel(TIME)
     for number, (method, history) in enumerate(histories.items()):
         axes = figure.add_subplot(grid[1 + number // 2, number % 2], sharex=top)
-        draw_parts_of(axes, method, history)
+        _draw_parts_of(axes, method, history)
         if number >= len(histories) - 2:
-            axes.set_xlabel("time simulated [s]")
-    parts = max(int(history["part"].max()) for history in histories.values()) + 1
+            axes.set_xlabel(TIME)
+    parts = 1 + max(history["part"].max() for history in histories.values())
     keys = top.get_legend_handles_labels()[0]
-    keys += [
-        Line2D([], [], color=PART_COLOURS[part], label=f"part {part}")
-        for part in range(min(parts, len(PART_COLOURS)))
-    ]
-    legend_above(figure, keys, inches=3.4)
-    save(figure, picture)
-    return True
+    colours = enumerate(PART_COLOURS[:parts])
+    keys += [key(f"part {part}", color=colour, linestyle="-") for part, colour in colours]
+    return legend_above(figure, keys, inches=3.4)
 
 
-def _per_part(history: Columns) -> tuple[np.ndarray, np.ndarray]:
+def per_part(history: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
     """Times of the steps, and the unbalance as an array of parts by steps."""
-    _, first, step = np.unique(history["step"], return_index=True, return_inverse=True)
-    unbalance = np.full((int(history["part"].max()) + 1, len(first)), np.nan)
-    unbalance[history["part"].astype(int), step] = history["lu_percent"]
-    return history["time"][first], unbalance
+    unbalance = history.pivot_table("lu_percent", "part", "step", dropna=False)
+    unbalance = unbalance.reindex(range(history["part"].max() + 1))
+    return history.groupby("step")["time"].first().to_numpy(), unbalance.to_numpy()
 
 
-def _one_point(history: Columns) -> float:
+def one_point(history: pd.DataFrame) -> float:
     """What one point more in a part is, in percent of the mean."""
-    return 100 / max(history["points"][history["step"] == history["step"][0]].mean(), 1)
+    return 100 / max(history["points"][history["step"] == history["step"].iloc[0]].mean(), 1)
 
 
 def _windows(steps: int) -> np.ndarray:
@@ -61,12 +69,11 @@ def _windows(steps: int) -> np.ndarray:
     return np.unique(np.linspace(0, steps, min(steps, MOST_WINDOWS), endpoint=False).astype(int))
 
 
-def draw_worst(axes: Axes, histories: dict[str, Columns]) -> None:
+def draw_worst(axes: Axes, histories: dict[str, pd.DataFrame]) -> None:
     """The worst part of every method, the worst step of each window."""
-    for method, style in distinct_styles(list(histories)).items():
-        history = histories[method]
-        times, unbalance = _per_part(history)
-        worst = np.maximum(np.nanmax(np.abs(unbalance), axis=0), _one_point(history))
+    for method, style in distinct_styles(histories).items():
+        times, unbalance = per_part(histories[method])
+        worst = np.maximum(np.nanmax(np.abs(unbalance), axis=0), one_point(histories[method]))
         windows = _windows(len(times))
         worst = np.maximum.reduceat(worst, windows)
         axes.plot(times[windows], worst, color=style.colour, linestyle=style.line, label=method)
@@ -76,17 +83,74 @@ def draw_worst(axes: Axes, histories: dict[str, Columns]) -> None:
     axes.grid(True, axis="y")
 
 
-def draw_parts_of(axes: Axes, method: str, history: Columns) -> None:
+def _draw_parts_of(axes: Axes, method: str, history: pd.DataFrame) -> None:
     """Lu of every part, from least to most of each window."""
-    times, unbalance = _per_part(history)
+    times, unbalance = per_part(history)
     axes.axhline(0, color="#999999", linewidth=0.6)
     windows = _windows(len(times))
-    for part, values in enumerate(unbalance):
+    for part, of_part in enumerate(unbalance):
+        ends = zip(*(end.reduceat(of_part, windows) for end in (np.fmin, np.fmax)))
+        values = [Value((low + high) / 2, low, high) for low, high in ends]
         colour = PART_COLOURS[part % len(PART_COLOURS)]
-        lowest = np.fmin.reduceat(values, windows)
-        highest = np.fmax.reduceat(values, windows)
-        axes.fill_between(times[windows], lowest, highest, color=colour, alpha=0.35, linewidth=0)
-        axes.plot(times[windows], (lowest + highest) / 2, color=colour, linewidth=0.9)
+        draw_line(axes, times[windows], values, 0.35, color=colour, linewidth=0.9)
     axes.set_ylabel("Lu [%]")
     most = np.nanmax(np.abs(unbalance))
     axes.set_title(f"{method}: |Lu| ≤ {most:.2g} %, a scale of its own", fontsize=9, loc="left")
+
+
+def draw_figure_6(results: Results) -> Figure | None:
+    """Lu of every part, with its sign, under the paper's RCB and its RRCB with four settings."""
+    histories, every = _configurations(results)
+    if not histories:
+        return None
+    figure, grid = panels(len(histories), 1, 8, 1.6 * len(histories) + 0.8, sharex=True)
+    for axes, (method, history) in zip(grid[:, 0], histories.items()):
+        _draw_parts_of(axes, f"{method}, rebalanced every {every}", history)
+        axes.grid(True, axis="y")
+    grid[-1, 0].set_xlabel(TIME)
+    return figure
+
+
+def _configurations(results: Results) -> tuple[dict[str, pd.DataFrame], str]:
+    """Of the runs that rebalance at every step, where there are any."""
+    for rows, prefix in ((results.paper_runs, "paper_history"), (results.swept_runs, "history")):
+        runs = [s.run for s in read_speed_ups(rows) if s.run.method in CONFIGURATIONS]
+        if runs:
+            found = study_history(results, mode(run.ranks for run in runs), prefix)
+            chosen = {name: found[name] for name in CONFIGURATIONS if name in found}
+            return chosen, "step" if runs[0].every == 1 else f"{runs[0].every} steps"
+    return {}, ""
+
+
+def study_history(
+    results: Results, ranks: int, prefix: str, method: str = ""
+) -> dict[str, pd.DataFrame]:
+    """Of the methods that begin so, on so many ranks, which have a file each."""
+    return results.histories(f"data/{prefix}_{method}*_{ranks}.csv")
+
+
+def draw_study_history(results: Results) -> Figure | None:
+    """Largest |Lu| over the steps, a panel per mesh and fraction, a line per k."""
+    runs = [s.run for s in read_speed_ups(results.swept_runs) if setting_of(s.run.method)]
+    ranks = mode(run.ranks for run in runs) if runs else 0
+    histories = study_history(results, ranks, "history", "rrcb-sampled_")
+    if not runs or not histories:
+        return None
+    methods = sorted(histories, key=setting_of)
+    meshes, fractions = values_of(methods, 0), values_of(methods, 2)[::-1]
+    width, height = 2.8 * len(fractions) + 0.6, 1.7 * len(meshes) + 0.9
+    figure, grid = panels(len(meshes), len(fractions), width, height, sharex=True, sharey=True)
+    handles = {}
+    for method in methods:
+        mesh, k, fraction = setting_of(method)
+        axes = grid[meshes.index(mesh), fractions.index(fraction)]
+        worst = histories[method].set_index("time")["lu_percent"].abs().groupby("time").max()
+        look = {"color": multiplier_colour(k), "linewidth": 0.9, "label": f"k = {k:g}"}
+        (handles[k],) = axes.plot(worst.index, worst, **look)
+    for axes, fraction in zip(grid[0], fractions):
+        axes.set_title(f"{100 * fraction:g} % of the points")
+    for axes in grid.flat:
+        axes.set_yscale("log")
+        axes.grid(True, axis="y")
+    label_edges(grid, [TIME] * len(fractions), [f"mesh {m:g}\nlargest |Lu| [%]" for m in meshes])
+    return legend_above(figure, [handles[k] for k in sorted(handles)])

@@ -1,100 +1,59 @@
 """Draws and tabulates the errors of standard deviations: moments.py DIRECTORY with moments_error.csv.
+
+An error that is no number belongs to a standard deviation whose square came out negative.
 """
 
 from __future__ import annotations
 
-import csv
-import math
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 
-from matplotlib import pyplot as plt
+import libraries  # noqa: F401, before what it looks for
+import pandas as pd
+from document import markdown_table
 from matplotlib.axes import Axes
-
-from style import method_style, save, use_style
+from matplotlib.figure import Figure
+from results import read_all
+from style import MethodStyle, method_style, panels, save, use_style
 
 FLOOR = 1e-17
 # Colours that no balancer has, but for RRCB's own.
 STYLES = {
-    "naive sums": ("#7A5C4A", "--", "s"),
-    "Welford": ("#B0005E", ":", "^"),
-    "Chan, pairwise": ("#4B5D0B", "-.", "D"),
-    "RRCB": (method_style("rrcb").colour, "-", "o"),
+    "naive sums": MethodStyle("#7A5C4A", "--", "s"),
+    "Welford": MethodStyle("#B0005E", ":", "^"),
+    "Chan, pairwise": MethodStyle("#4B5D0B", "-.", "D"),
+    "RRCB": method_style("rrcb"),
 }
 
 
-@dataclass(frozen=True)
-class Error:
-    """Relative error of a standard deviation; NaN where its square came out negative."""
-
-    cloud: str
-    offset: float
-    points: int
-    method: str
-    error: float
-
-
-def read_errors(file: Path) -> list[Error]:
-    with file.open(newline="") as lines:
-        return [
-            Error(
-                row["cloud"],
-                float(row["offset"]),
-                int(row["points"]),
-                row["method"],
-                float(row["error"]),
-            )
-            for row in csv.DictReader(lines)
-        ]
-
-
-def table_of(errors: list[Error]) -> str:
+def table_of(errors: pd.DataFrame) -> str:
     """Markdown: a row per cloud, offset and number of points, a column per method."""
-    methods = list(dict.fromkeys(error.method for error in errors))
-    rows: dict[tuple[str, float, int], dict[str, float]] = {}
-    for error in errors:
-        rows.setdefault((error.cloud, error.offset, error.points), {})[error.method] = error.error
-    lines = [
-        "| points | offset | number | " + " | ".join(methods) + " |",
-        "|---" * (3 + len(methods)) + "|",
-    ]
-    for (cloud, offset, points), values in rows.items():
-        cells = [_text(values[method]) for method in methods]
-        lines.append(f"| {cloud} | {offset:.0e} | {points:,} | " + " | ".join(cells) + " |")
-    return "\n".join(lines)
+    lines = [["points", "offset", "number", *errors["method"].unique()]]
+    for (cloud, offset, points), rows in errors.groupby(["cloud", "offset", "points"], sort=False):
+        texts = ["no number" if pd.isna(e) else f"{e:.0e}" if e > 0 else "0" for e in rows["error"]]
+        lines.append([cloud, f"{offset:.0e}", f"{points:,}", *texts])
+    return markdown_table(lines)
 
 
-def draw_errors(errors: list[Error], picture: Path) -> None:
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3.8), sharey=True)
-    uniform = [error for error in errors if error.cloud == "uniform"]
-    values = [error for error in errors if error.cloud != "uniform"]
-    _draw_panel(axes[0], uniform, "offset")
-    _draw_panel(axes[1], values, "points")
-    axes[0].set_xlabel("offset of a uniform cloud of extent 1")
-    axes[0].set_ylabel("relative error of sigma")
-    axes[1].set_xlabel("number of points of two values, 0.7 apart at $10^6$")
-    axes[0].set_ylim(FLOOR / 2, 1e17)
-    axes[0].legend(loc="upper left")
-    save(figure, picture)
+def draw_errors(errors: pd.DataFrame) -> Figure:
+    figure, grid = panels(1, 2, 9, 3.8, sharey=True)
+    left, right = grid[0]
+    is_uniform = errors["cloud"] == "uniform"
+    _draw_panel(left, errors[is_uniform], "offset")
+    _draw_panel(right, errors[~is_uniform], "points")
+    left.set_xlabel("offset of a uniform cloud of extent 1")
+    left.set_ylabel("relative error of sigma")
+    right.set_xlabel("number of points of two values, 0.7 apart at $10^6$")
+    left.set_ylim(FLOOR / 2, 1e17)
+    left.legend(loc="upper left")
+    return figure
 
 
-def _text(error: float) -> str:
-    return "no number" if math.isnan(error) else f"{error:.0e}" if error > 0 else "0"
-
-
-def _draw_panel(axes: Axes, errors: list[Error], abscissa: str) -> None:
-    for method, (colour, line, marker) in STYLES.items():
-        mine = [e for e in errors if e.method == method and not math.isnan(e.error)]
-        axes.plot(
-            [getattr(e, abscissa) for e in mine],
-            [max(e.error, FLOOR) for e in mine],
-            color=colour,
-            linestyle=line,
-            marker=marker,
-            markersize=4,
-            label=method,
-        )
+def _draw_panel(axes: Axes, errors: pd.DataFrame, abscissa: str) -> None:
+    for method, style in STYLES.items():
+        mine = errors[errors["method"] == method].dropna(subset="error")
+        axes.plot(mine[abscissa], mine["error"].clip(lower=FLOOR), **style.look, markersize=4,
+                  label=method)  # fmt: skip
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.axhline(1e-12, color="#BBBBBB", linewidth=0.8)
@@ -103,9 +62,9 @@ def _draw_panel(axes: Axes, errors: list[Error], abscissa: str) -> None:
 
 def main() -> None:
     directory = Path(sys.argv[1])
-    errors = read_errors(directory / "moments_error.csv")
+    errors = read_all(directory / "moments_error.csv")
     use_style()
-    draw_errors(errors, directory / "moments_error.png")
+    save(draw_errors(errors), directory / "moments_error.png")
     print(table_of(errors))
 
 

@@ -6,12 +6,12 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from matplotlib import pyplot as plt
-from matplotlib.axes import Axes
-from matplotlib.patches import FancyBboxPatch, Patch
-
+import libraries  # noqa: F401, before what it looks for
 from cycle import draw_map
-from style import save, use_style
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import FancyBboxPatch, Patch
+from style import panels, save, use_style
 
 EVERY_RANK, ROOT, MESSAGE = "every rank", "root", "message"
 COLOURS = {EVERY_RANK: "#DCEBF5", ROOT: "#FBE3D0", MESSAGE: "#FFFFFF"}
@@ -25,10 +25,8 @@ SHARED: list[Step] = [
 ]
 METHODS: dict[str, list[Step]] = {
     "RCB": [
-        (EVERY_RANK, "take the points"),
-        (MESSAGE, "all points to the root"),
-        *SHARED,
-    ],
+        (EVERY_RANK, "take the points"), (MESSAGE, "all points to the root"), *SHARED,
+    ],  # fmt: skip
     "RRCB": [
         (EVERY_RANK, "lay a support mesh of n × n cells\nover the box of its points"),
         (EVERY_RANK, "in each cell: number of points,\nmean and σ of their positions per axis"),
@@ -40,16 +38,18 @@ METHODS: dict[str, list[Step]] = {
 }
 
 
-def draw_methods(picture: Path) -> None:
-    figure, panels = plt.subplots(1, len(METHODS), figsize=(8.6, 7.2))
+def draw_methods() -> Figure:
+    figure, grid = panels(1, len(METHODS), 8.6, 7.2)
     longest = max(map(len, METHODS.values()))
-    for axes, (name, steps) in zip(panels, METHODS.items()):
+    arrow = {"arrowstyle": "-|>", "color": "#444444"}
+    for axes, (name, steps) in zip(grid[0], METHODS.items()):
         # The steps that both have stand beside each other.
         places = [*range(len(steps) - len(SHARED)), *range(longest - len(SHARED), longest)]
         for number, (place, step) in enumerate(zip(places, steps)):
             _draw_step(axes, -place, step)
             if number > 0:
-                _draw_arrow(axes, -places[number - 1], -place)
+                tip, tail = (0, -place + 0.3), (0, -places[number - 1] - 0.3)
+                axes.annotate("", tip, tail, arrowprops=arrow)
         axes.set_title(f"the paper's {name}")
         axes.set_xlim(-1.05, 1.05)
         axes.set_ylim(-longest + 0.5, 0.5)
@@ -57,28 +57,18 @@ def draw_methods(picture: Path) -> None:
     handles = [Patch(facecolor=c, edgecolor="#444444", label=n) for n, c in COLOURS.items()]
     figure.legend(handles=handles, loc="lower center", ncol=len(handles))
     figure.supxlabel(" ", fontsize=16)  # keeps room for the legend
-    save(figure, picture)
+    return figure
 
 
 def _draw_step(axes: Axes, y: float, step: Step) -> None:
     kind, text = step
     axes.add_patch(
         FancyBboxPatch(
-            (-0.95, y - 0.3),
-            1.9,
-            0.6,
-            boxstyle="round,pad=0,rounding_size=0.1",
-            facecolor=COLOURS[kind],
-            edgecolor="#444444",
-            linestyle="--" if kind == MESSAGE else "-",
+            (-0.95, y - 0.3), 1.9, 0.6, boxstyle="round,pad=0,rounding_size=0.1",
+            facecolor=COLOURS[kind], edgecolor="#444444", linestyle="--" if kind == MESSAGE else "-",
         )
-    )
+    )  # fmt: skip
     axes.text(0, y, text, ha="center", va="center", fontsize=9)
-
-
-def _draw_arrow(axes: Axes, above: float, below: float) -> None:
-    arrow = {"arrowstyle": "-|>", "color": "#444444"}
-    axes.annotate("", (0, below + 0.3), (0, above - 0.3), arrowprops=arrow)
 
 
 def main() -> int:
@@ -86,8 +76,8 @@ def main() -> int:
         print("usage: paper_methods.py DIRECTORY", file=sys.stderr)
         return 2
     use_style()
-    draw_methods(directory / "paper_methods.png")
-    draw_map(directory / "paper_cycle_map.png")
+    save(draw_methods(), directory / "paper_methods.png")
+    save(draw_map(), directory / "paper_cycle_map.png")
     return 0
 
 

@@ -2,58 +2,53 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
-from matplotlib import pyplot as plt
+import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.patches import Rectangle
-
-from results import Columns, Measurement, read_data, read_table, unique
-from style import draw_cloud, length_ratio, part_colours, save, show_lengths
+from matplotlib.figure import Figure
+from results import Results
+from style import draw_cloud, length_ratio, panels, part_colours, rectangles, show_lengths
 
 PANEL_WIDTH = 4.2
 MOST_TEXTS = 8  # parts with their points and Lu written inside; more get their number alone
+SIX = "six-boxes"  # the driver's name of the data of figure 2
 
 
-def draw_parts(directory: Path, picture: Path) -> bool:
+def draw_parts(results: Results) -> Figure | None:
     """A panel per method (rows) and workload (columns), or in two columns for one workload.
 
     Methods that make the same parts of every workload share a row.
     """
-    rows = {(row.method, row.workload): row for row in read_table(directory)}
-    panels = {key: points for key in rows if (points := read_data(directory, "points", *key[::-1]))}
-    if not panels:
-        return False
-    names = _same_parts(panels)
-    panels = {key: points for key, points in panels.items() if key[0] in names}
-    grid = _arrange(list(panels))
-    height = length_ratio(panels.values()) * PANEL_WIDTH + 0.7
-    figure, axes = plt.subplots(
-        *grid.shape,
-        figsize=(PANEL_WIDTH * grid.shape[1] + 0.7, height * grid.shape[0] + 0.5),
-        squeeze=False,
-        sharex=True,
-        sharey=True,
-    )
-    for (i, j), key in np.ndenumerate(grid):
-        show_lengths(axes[i, j], i == grid.shape[0] - 1, j == 0)
-        if key not in panels:
-            axes[i, j].set_axis_off()
+    rows = {(row.method, row.workload): row for row in results.table.itertuples()}
+    clouds = {key: results.data("points", *key[::-1]) for key in rows}
+    clouds = {key: points for key, points in clouds.items() if len(points)}
+    if not clouds:
+        return None
+    names = same_parts(clouds)
+    clouds = {key: points for key, points in clouds.items() if key[0] in names}
+    places = _arrange(list(clouds))
+    lines, columns = places.shape
+    height = (length_ratio(clouds.values()) * PANEL_WIDTH + 0.7) * lines + 0.5
+    width = PANEL_WIDTH * columns + 0.7
+    figure, grid = panels(lines, columns, width, height, sharex=True, sharey=True)
+    for (i, j), key in np.ndenumerate(places):
+        axes = grid[i, j]
+        show_lengths(axes, i == lines - 1, j == 0)
+        if key not in clouds:
+            axes.set_axis_off()
             continue
-        draw_cloud(axes[i, j], panels[key], part_colours(panels[key]["part"]))
-        _draw_boxes(axes[i, j], panels[key], read_data(directory, "boxes", *key[::-1]))
-        _write_loads(axes[i, j], panels[key], rows[key])
-        axes[i, j].set_title(_title(names[key[0]], rows[key]), fontsize=9)
-    save(figure, picture)
-    return True
+        draw_cloud(axes, clouds[key], part_colours(clouds[key]["part"]))
+        _draw_boxes(axes, clouds[key], results.data("boxes", *key[::-1]))
+        _write_loads(axes, clouds[key], rows[key])
+        axes.set_title(_title(names[key[0]], rows[key]), fontsize=9)
+    return figure
 
 
-def _same_parts(panels: dict[tuple[str, str], Columns]) -> dict[str, list[str]]:
+def same_parts(clouds: dict[tuple[str, str], pd.DataFrame]) -> dict[str, list[str]]:
     """By the first of each group of methods, all of the group."""
     made: dict[str, list[bytes]] = {}
-    for (method, _), points in panels.items():
-        made.setdefault(method, []).append(points["part"].tobytes())
+    for (method, _), points in clouds.items():
+        made.setdefault(method, []).append(points["part"].to_numpy().tobytes())
     groups: dict[tuple[bytes, ...], list[str]] = {}
     for method, parts in made.items():
         groups.setdefault(tuple(parts), []).append(method)
@@ -62,64 +57,78 @@ def _same_parts(panels: dict[tuple[str, str], Columns]) -> dict[str, list[str]]:
 
 def _arrange(keys: list[tuple[str, str]]) -> np.ndarray:
     """Which (method, workload) each panel of the picture shows; None where there is none."""
-    methods, workloads = (unique(list(names)) for names in zip(*keys))
+    methods, workloads = (list(dict.fromkeys(names)) for names in zip(*keys))
     rows = [[(method, workload) for workload in workloads] for method in methods]
     if len(workloads) == 1:
         rows = [keys[i : i + 2] for i in range(0, len(keys), 2)]
-    grid = np.full((len(rows), max(map(len, rows))), None, dtype=object)
+    places = np.full((len(rows), max(map(len, rows))), None, dtype=object)
     for i, row in enumerate(rows):
         for j, key in enumerate(row):
-            grid[i, j] = key
-    return grid
+            places[i, j] = key
+    return places
 
 
-def _draw_boxes(axes: Axes, points: Columns, boxes: Columns | None) -> None:
+def _draw_boxes(axes: Axes, points: pd.DataFrame, boxes: pd.DataFrame) -> None:
     """The parts' boxes, their open sides ended at the points."""
-    if boxes is None:
-        return
-    limits = {axis: (points[axis].min(), points[axis].max()) for axis in "xy"}
-    for k in range(len(boxes["part"])):
-        x0, x1 = np.clip([boxes["lower_x"][k], boxes["upper_x"][k]], *limits["x"])
-        y0, y1 = np.clip([boxes["lower_y"][k], boxes["upper_y"][k]], *limits["y"])
-        axes.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, lw=0.8, ec="black"))
+    for side in [f"{end}_{axis}" for end in ("lower", "upper") for axis in "xy" if len(boxes)]:
+        boxes[side] = boxes[side].clip(points[side[-1]].min(), points[side[-1]].max())
+    for box in rectangles(boxes, fill=False, lw=0.8, ec="black"):
+        axes.add_patch(box)
 
 
-def part_loads(points: Columns, row: Measurement) -> np.ndarray | None:
+def part_loads(points: pd.DataFrame, row: object) -> np.ndarray | None:
     """Points of each part; None where the file has not all of them, or their weights differ."""
     loads = np.bincount(points["part"].astype(int), minlength=row.ranks)
-    is_all = len(points["part"]) == row.points
+    is_all = len(points) == row.points
     return loads if is_all and abs(loads.max() / loads.mean() - row.imbalance) < 1e-6 else None
 
 
-def _write_loads(axes: Axes, points: Columns, row: Measurement) -> None:
+def _write_loads(axes: Axes, points: pd.DataFrame, row: object) -> None:
     """Inside each part its number, and its points and Lu where they are known."""
     loads = part_loads(points, row)
-    for part in np.unique(points["part"]).astype(int):
+    for part, inside in points.groupby(points["part"].astype(int)):
         text = f"{part}"
         if loads is not None and row.ranks <= MOST_TEXTS:
-            unbalance = 100 * (1 - loads[part] / loads.mean())
-            text += f"\n{loads[part]:,}\n{unbalance:+.2f} %"
-        x, y = _middle(points, part)
-        axes.text(
-            x,
-            y,
-            text,
-            ha="center",
-            va="center",
-            fontsize=8,
-            linespacing=1.05,
-            bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8},
-        )
+            text += f"\n{loads[part]:,}\n{100 * (1 - loads[part] / loads.mean()):+.2f} %"
+        # The point nearest to the mean, which may lie in another part.
+        places = inside[["x", "y"]]
+        x, y = places.loc[((places - places.mean()) ** 2).sum(axis=1).idxmin()]
+        box = {"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8}
+        axes.text(x, y, text, ha="center", va="center", fontsize=8, linespacing=1.05, bbox=box)
 
 
-def _middle(points: Columns, part: int) -> tuple[float, float]:
-    """The point of the part nearest to its mean, which may lie in another part."""
-    x, y = (points[axis][points["part"] == part] for axis in "xy")
-    nearest = np.argmin((x - x.mean()) ** 2 + (y - y.mean()) ** 2)
-    return x[nearest], y[nearest]
-
-
-def _title(methods: list[str], row: Measurement) -> str:
+def _title(methods: list[str], row: object) -> str:
     lines = [", ".join(methods[i : i + 3]) for i in range(0, len(methods), 3)]
-    worst = f"largest |Lu| {row.lu_percent:.2f} %"
+    worst = f"largest |Lu| {row.lu_max_percent:.2f} %"
     return "\n".join([*lines, f"{row.workload}: imbalance {row.imbalance:.5f}, {worst}"])
+
+
+def draw_figure_2(results: Results) -> Figure | None:
+    """The statistical domain bisected into a box for each of six processes, and the points."""
+    samples = results.data("statistical", SIX)
+    points, boxes = (results.data(kind, SIX, "rrcb-sampled") for kind in ("points", "boxes"))
+    if samples.empty or points.empty or boxes.empty:
+        return None
+    height = length_ratio([points, samples]) * 5.2 + 0.8
+    figure, grid = panels(1, 2, 11, height, sharex=True, sharey=True)
+    for axes, cloud, name in zip(grid[0], (samples, points), ("statistical domain", "points")):
+        shown = draw_cloud(axes, cloud, part_colours(_box_of(cloud, boxes)))
+        for box in rectangles(boxes, fill=False, linewidth=1.2):
+            axes.add_patch(box)
+        axes.set_title(f"{name} in {len(boxes)} boxes ({shown:,} shown)")
+        show_lengths(axes, y_label=axes is grid[0, 0])
+    return figure
+
+
+def _box_of(cloud: pd.DataFrame, boxes: pd.DataFrame) -> np.ndarray:
+    """Part of each point; the outer faces are open, and an inner one belongs to a box beside it."""
+    parts = np.zeros(len(cloud))
+    lowest, highest = boxes.min(), boxes.max()
+    for _, box in boxes.iterrows():
+        inside = np.ones(len(cloud), dtype=bool)
+        for axis in "xy":
+            lower, upper = "lower_" + axis, "upper_" + axis
+            inside &= (cloud[axis] >= box[lower]) | (box[lower] == lowest[lower])
+            inside &= (cloud[axis] <= box[upper]) | (box[upper] == highest[upper])
+        parts[inside] = box["part"]
+    return parts

@@ -2,71 +2,52 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
-from matplotlib import pyplot as plt
-from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
-
-from choice import cases
 from intervals import NOT_TOLD_APART, in_digits
-from prices import (
-    ACROSS,
-    CALL,
-    CALLS,
-    EXACT,
-    SIMULATION,
-    STEPS,
-    Price,
-    exchange_rate,
-    family,
-    is_of_the_paper,
-    optimum,
-    read_calls,
-    read_prices,
-    read_runs,
-)
-from settings import legend_above
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from methods import ACROSS, family, is_of_the_paper
+from prices import CALL, CALLS, SIMULATION, STEPS, Price, all_prices, all_runs, exchange_rate, optimum
+from results import Results
 from style import (
     CALL_COLOUR,
     UNBALANCE_COLOUR,
     distinct_styles,
+    draw_across,
+    draw_line,
+    key,
     label_right,
+    legend_above,
     method_style,
-    save,
+    panels,
 )
 
 EXACT_AT = 2e-4  # where exact stands on an axis of what is above the mean
-TICKS = {"1.1": 0.1, "1.05": 0.05, "1.01": 0.01, "1.001": 0.001, EXACT: EXACT_AT}
+TICKS = {"1.1": 0.1, "1.05": 0.05, "1.01": 0.01, "1.001": 0.001, "exact": EXACT_AT}
 
 
-def draw_price(directory: Path, picture: Path) -> bool:
+def draw_price(results: Results) -> Figure | None:
     """Left a call, right the whole simulation where one was run."""
-    prices = read_prices(directory)
+    prices = all_prices(results)
     calls = [price for price in prices if price.panel == CALL]
-    rows = read_calls(directory)
+    rows, runs = results.calls, all_runs(results)
     has_runs = len(_ours(prices, SIMULATION)) > 1
     if not _ours(prices, CALL) or not any(price.method == "zoltan-rcb" for price in calls):
-        return False
-    figure, axes = plt.subplots(
-        1, 1 + has_runs, figsize=(12 if has_runs else 8, 5.2), squeeze=False
-    )
-    handles = _draw_calls(axes[0, 0], calls)
-    number = len(cases(rows))
+        return None
+    figure, grid = panels(1, 1 + has_runs, 12 if has_runs else 8, 5.2)
+    left, right = grid[0, 0], grid[0, -1]
+    handles = _draw_calls(left, calls)
+    number = rows["case"].nunique()
     over = f"; geometric mean of {number}, bands over all" if number > 1 else ""
-    axes[0, 0].set_title(f"A call: {rows[0].points:,} points, {rows[0].ranks} ranks{over}")
+    first = rows.iloc[0]
+    left.set_title(f"A call: {first['points']:,} points, {first['ranks']} ranks{over}")
     if has_runs:
-        handles += _draw_runs(axes[0, 1], prices)
-        run = read_runs(directory)[-1]
-        axes[0, 1].set_title(f"The simulation: {run.steps:,} steps, rebalanced every {run.every}")
-        axes[0, 1].text(
-            0.5, -0.17, exchange_rate(read_runs(directory)).replace("; ", ";\n"),
-            transform=axes[0, 1].transAxes, ha="center", va="top", fontsize=8,
-        )
-    legend_above(figure, handles, inches=3.9)
-    save(figure, picture)
-    return True
+        handles += _draw_runs(right, prices)
+        last = runs.iloc[-1]
+        right.set_title(f"The simulation: {last['steps']:,} steps, rebalanced every {last['every']}")
+        right.text(0.5, -0.17, exchange_rate(runs).replace("; ", ";\n"), ha="center", va="top",
+                   fontsize=8, transform=right.transAxes)  # fmt: skip
+    return legend_above(figure, handles, inches=3.9)
 
 
 def _ours(prices: list[Price], panel: str) -> list[Price]:
@@ -78,40 +59,32 @@ def _ours(prices: list[Price], panel: str) -> list[Price]:
 
 def _place(price: Price) -> float:
     """What is above the mean, as asked for or left."""
-    if price.tolerance in TICKS:
-        return TICKS[price.tolerance]
-    return max(float(price.tolerance) - 1, EXACT_AT)
+    return TICKS.get(price.tolerance) or max(float(price.tolerance) - 1, EXACT_AT)
 
 
 def _draw_calls(axes: Axes, calls: list[Price]) -> list:
-    labels = _draw_across(axes, calls)
+    _draw_all_across(axes, calls)
     handles = _draw_families(axes, _ours(calls, CALL)) + _draw_papers(axes, calls)
-    axes.set_yscale("log")
-    axes.set_ylabel("time of a call [% of Zoltan's RCB]")
-    _show_tolerances(axes)
-    label_right(axes, labels)
+    _show_tolerances(axes, calls, "time of a call [% of Zoltan's RCB]")
     return handles
 
 
 def _draw_families(axes: Axes, ours: list[Price]) -> list:
     """A line with its band for each mesh; the automatic one is thick."""
     handles = []
-    for name, style in distinct_styles([family(price.method) for price in ours]).items():
+    for name, style in distinct_styles(family(price.method) for price in ours).items():
         line = [price for price in ours if family(price.method) == name]
-        at = [_place(price) for price in line]
         is_plain = name == "rrcb"
-        handles += axes.plot(
-            at, [100 * p.value for p in line], color=style.colour, linestyle=style.line,
-            marker=style.marker, markersize=6 - 2 * ("[" in name),
-            linewidth=2.2 if is_plain else 1, label=name + " to the tolerance asked for" * is_plain,
-        )  # fmt: skip
-        low, high = ([100 * getattr(p, end) for p in line] for end in ("low", "high"))
-        if len(line) > 1:
-            axes.fill_between(
-                at, low, high, color=style.colour, alpha=0.22 if is_plain else 0.05, linewidth=0
+        handles.append(
+            draw_line(
+                axes, [_place(p) for p in line], [p.value * 100 for p in line],
+                0.22 if is_plain else 0.05, **style.look, markersize=6 - 2 * ("[" in name),
+                linewidth=2.2 if is_plain else 1,
+                label=name + " to the tolerance asked for" * is_plain,
             )
-        for price in line if is_plain else []:
-            _write_percent(axes, _place(price), 100 * price.value, -9)
+        )  # fmt: skip
+        for price in line if is_plain else ():
+            _write_percent(axes, _place(price), 100 * price.value.number, -9)
     return handles
 
 
@@ -121,44 +94,40 @@ def _draw_papers(axes: Axes, prices: list[Price]) -> list:
     for price in prices:
         if not is_of_the_paper(price.method):
             continue
-        style = method_style(price.method)
-        whiskers = [[100 * (price.value - price.low)], [100 * (price.high - price.value)]]
-        axes.errorbar(
-            [_place(price)], [100 * price.value], yerr=np.maximum(whiskers, 0), color=style.colour,
-            marker=style.marker, markersize=7, elinewidth=0.9, linestyle="",
-        )  # fmt: skip
-        name = price.method if style != method_style("rrcb-sampled") else "rrcb-sampled"
-        handles[name] = Line2D(
-            [], [], color=style.colour, marker=style.marker, linestyle="", label=name
-        )
+        look = {**method_style(price.method).look, "linestyle": ""}
+        value = price.value * 100
+        whiskers = [[value.number - value.reach[0]], [value.reach[1] - value.number]]
+        axes.errorbar([_place(price)], [value.number], yerr=np.maximum(whiskers, 0), markersize=7,
+                      elinewidth=0.9, **look)  # fmt: skip
+        is_other = method_style(price.method) == method_style("rrcb-sampled")
+        name = "rrcb-sampled" if is_other else price.method
+        handles[name] = key(name, **look)
     return list(handles.values())
 
 
 def _draw_runs(axes: Axes, prices: list[Price]) -> list:
     """RRCB's costs over the tolerance and their sum, the other methods as lines and marks."""
-    parts = {(p.panel, p.method): 100 * p.value for p in prices}
-    totals = [p for p in _ours(prices, SIMULATION) if family(p.method) == "rrcb"]
+    parts = {(p.panel, p.method): 100 * p.value.number for p in prices}
+    all_totals = [p for p in prices if p.panel == SIMULATION]
+    totals = [p for p in _ours(all_totals, SIMULATION) if family(p.method) == "rrcb"]
     at = [_place(price) for price in totals]
-    colour = method_style("rrcb").colour
-    handles = axes.plot(at, [100 * p.value for p in totals], "o-", color=colour, linewidth=2.2,
-                        label="sum of both (right)")  # fmt: skip
-    low, high = ([100 * getattr(p, end) for p in totals] for end in ("low", "high"))
-    axes.fill_between(at, low, high, color=colour, alpha=0.22, linewidth=0)
+    handles = [
+        draw_line(axes, at, [p.value * 100 for p in totals], 0.22, linewidth=2.2, marker="o",
+                  color=method_style("rrcb").colour, label="sum of both (right)")
+    ]  # fmt: skip
     for panel, shade, line, label in (
         (CALLS, CALL_COLOUR, "--", "what RRCB's calls cost"),
         (STEPS, UNBALANCE_COLOUR, "-.", "what the unbalance it leaves costs in the steps"),
     ):
         values = [parts[panel, p.method] for p in totals]
         handles += axes.plot(at, values, color=shade, linestyle=line, marker=".", label=label)
-        for x, value in zip(at, values if panel == STEPS else [100 * p.value for p in totals]):
-            _write_percent(axes, x, value, 7)
-    labels = _draw_across(axes, [p for p in prices if p.panel == SIMULATION])
-    _draw_papers(axes, [p for p in prices if p.panel == SIMULATION])
-    axes.set_yscale("log")
+        for x, p in zip(at, totals):
+            shown = STEPS if panel == STEPS else SIMULATION
+            _write_percent(axes, x, parts[shown, p.method], 7)
+    _draw_all_across(axes, all_totals)
+    _draw_papers(axes, all_totals)
     _mark_optimum(axes, prices)
-    axes.set_ylabel("beyond ideal balance without calls [%]")
-    _show_tolerances(axes)
-    label_right(axes, labels)
+    _show_tolerances(axes, all_totals, "beyond ideal balance without calls [%]")
     return handles
 
 
@@ -170,33 +139,29 @@ def _write_percent(axes: Axes, x: float, percent: float, offset: float) -> None:
     )  # fmt: skip
 
 
-def _draw_across(axes: Axes, prices: list[Price]) -> list[tuple[float, str, str]]:
-    """Methods without a tolerance; returns what to write beside their lines."""
-    labels = []
+def _draw_all_across(axes: Axes, prices: list[Price]) -> None:
+    """Methods without a tolerance."""
     for price in prices:
         if price.method in ACROSS:
-            style = method_style(price.method)
-            axes.axhline(100 * price.value, color=style.colour, linestyle=style.line, linewidth=1.2)
-            axes.axhspan(100 * price.low, 100 * price.high, color=style.colour, alpha=0.1, lw=0)
-            labels.append((100 * price.value, price.method, style.colour))
-    return labels
+            draw_across(axes, price.value * 100, method_style(price.method), linewidth=1.2)
 
 
 def _mark_optimum(axes: Axes, prices: list[Price]) -> None:
-    found = optimum(prices)
-    if found is None:
+    if (found := optimum(prices)) is None:
         return
     best, others = found
     text = "optimum"
     if others:
         text += f"\n({NOT_TOLD_APART}\nfrom " + ", ".join(p.tolerance for p in others) + ")"
     axes.annotate(
-        text, (_place(best), 100 * best.low), (0, -30), ha="center", va="top", fontsize=8,
+        text, (_place(best), 100 * best.value.low), (0, -30), ha="center", va="top", fontsize=8,
         textcoords="offset points", arrowprops={"arrowstyle": "->"},
     )  # fmt: skip
 
 
-def _show_tolerances(axes: Axes) -> None:
+def _show_tolerances(axes: Axes, prices: list[Price], y_label: str) -> None:
+    axes.set_yscale("log")
+    axes.set_ylabel(y_label)
     axes.set_xscale("log")
     axes.set_xticks(list(TICKS.values()), list(TICKS))
     axes.set_xticks([], minor=True)
@@ -206,3 +171,7 @@ def _show_tolerances(axes: Axes) -> None:
     axes.set_ylim(low / 1.25, 1.25 * high)  # room for numbers and names
     axes.set_xlabel("imbalance asked for (of the paper's methods: left)")
     axes.grid(True, axis="y")
+    across = [p for p in prices if p.method in ACROSS]
+    label_right(
+        axes, ((100 * p.value.number, p.method, method_style(p.method).colour) for p in across)
+    )

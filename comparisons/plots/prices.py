@@ -6,18 +6,14 @@ of their intervals to the most upper end.
 
 from __future__ import annotations
 
-import csv
-import re
 from dataclasses import dataclass
-from pathlib import Path
 from statistics import geometric_mean, median, mode
 
-from choice import cases, find_method, is_within
-from intervals import in_digits
-from results import Interval, Measurement, Simulation, read_simulations, read_table, unique
+import pandas as pd
+from intervals import Value, in_digits, value_of
+from methods import ACROSS, family, is_of_the_paper, tolerance_asked
+from results import Results, cases, is_within, row_of
 
-EXACT = "exact"
-ACROSS = ("none", "zoltan-rcb", "zoltan-hsfc", "zoltan-rib", "zoltan2-mj")  # take no tolerance
 CALL, STEPS, CALLS, SIMULATION = "call", "steps", "calls", "simulation"
 
 
@@ -33,123 +29,84 @@ class Price:
     panel: str
     method: str
     tolerance: str
-    value: float
-    low: float
-    high: float
+    value: Value
+
+    @property
+    def numbers(self) -> dict:
+        ends = zip(("value", "low", "high"), (self.value.number, *self.value.reach))
+        return {
+            "panel": self.panel, "method": self.method, "tolerance": self.tolerance,
+            **{name: f"{number:.6g}" for name, number in ends},
+        }  # fmt: skip
 
 
-def tolerance_asked(method: str) -> str | None:
-    """None of a method that takes no tolerance, or is told not to keep it."""
-    name, parameters = _parse(method)
-    if name == "rrcb-exact" and parameters.keys() <= {"mesh"}:
-        return EXACT
-    if name in ("rrcb", "rrcb-arrays") and parameters.keys() <= {"mesh", "tol"}:
-        return parameters.get("tol", "1.01")
-    return None
+def all_runs(results: Results) -> pd.DataFrame:
+    return results.swept_runs if results.runs.empty else results.runs
 
 
-def family(method: str) -> str:
-    """What one line is drawn of: RRCB with one mesh at every tolerance."""
-    name, parameters = _parse(method)
-    name = name.replace("rrcb-exact", "rrcb")
-    return f"{name}[mesh={parameters['mesh']}]" if "mesh" in parameters else name
+def all_prices(results: Results) -> list[Price]:
+    return call_prices(results.calls) + simulation_prices(all_runs(results))
 
 
-def is_of_the_paper(method: str) -> bool:
-    return method.split("[")[0] in ("rrcb-sampled", "root-rcb")
+def call_prices(rows: pd.DataFrame) -> list[Price]:
+    shares: dict[str, list[Value]] = {}
+    for measured in cases(rows).values():
+        reference = row_of(measured, "zoltan-rcb")
+        for row in measured.itertuples() if reference and reference.time_ms > 0 else ():
+            share = value_of(row, "time_vs_zoltan_rcb")
+            if not share.number > 0:
+                share = Value(row.time_ms / reference.time_ms, share.low, share.high)
+            if row.time_ms > 0:
+                shares.setdefault(row.method, []).append(share)
+    return [
+        Price(CALL, method, _tolerance(method, rows), _combined(shares[method]))
+        for method in rows["method"].unique()
+        if method in shares and _takes_part(method)
+    ]
 
 
-def _parse(method: str) -> tuple[str, dict[str, str]]:
-    name, _, inside = method.partition("[")
-    return name, dict(re.findall(r"(\w+)=([^,\]]+)", inside))
-
-
-def read_calls(directory: Path) -> list[Measurement]:
-    """Of the table, or of a sweep: of its clouds, without them of its snapshots."""
-    swept = read_table(directory, "sweep.csv")
-    clouds = [row for row in swept if row.layout != "simulation"]
-    return read_table(directory) or clouds or swept
-
-
-def read_runs(directory: Path) -> list[Simulation]:
-    return read_simulations(directory) or read_simulations(directory, "sweep_simulation.csv")
-
-
-def read_prices(directory: Path) -> list[Price]:
-    return call_prices(read_calls(directory)) + simulation_prices(read_runs(directory))
-
-
-def call_prices(rows: list[Measurement]) -> list[Price]:
-    by_case = list(cases(rows).values())
-    prices = []
-    for method in unique([row.method for row in rows]):
-        found = [
-            (share, row)
-            for measured in by_case
-            if (row := find_method(measured, method)) and (share := _share(row, measured))
-        ]
-        if not found or not _has_place(method):
-            continue
-        shares = [share for share, _ in found]
-        prices.append(
-            Price(
-                CALL,
-                method,
-                _tolerance(method, [row for _, row in found]),
-                geometric_mean([value for value, _ in shares]),
-                min(interval[0] for _, interval in shares),
-                max(interval[1] for _, interval in shares),
-            )
-        )
-    return prices
-
-
-def _has_place(method: str) -> bool:
+def _takes_part(method: str) -> bool:
     return bool(tolerance_asked(method)) or is_of_the_paper(method) or method in ACROSS
 
 
-def _share(row: Measurement, measured: list[Measurement]) -> tuple[float, Interval] | None:
-    reference = find_method(measured, "zoltan-rcb")
-    if reference is None or reference.time_ms <= 0 or row.time_ms <= 0:
-        return None
-    share = row.share or row.time_ms / reference.time_ms
-    return share, row.share_interval or (share, share)
+def _combined(shares: list[Value]) -> Value:
+    low, high = zip(*(share.reach for share in shares))
+    return Value(geometric_mean([share.number for share in shares]), min(low), max(high))
 
 
-def _tolerance(method: str, rows: list[Measurement]) -> str:
+def _tolerance(method: str, rows: pd.DataFrame) -> str:
     if not is_of_the_paper(method):
-        return tolerance_asked(method) or ""
-    if all(is_within(row, EXACT) for row in rows):
-        return EXACT
-    return f"{geometric_mean([row.imbalance for row in rows]):.6f}"
+        return tolerance_asked(method)
+    rows = rows[rows["method"] == method]
+    is_exact = is_within(rows, "exact").all()
+    return "exact" if is_exact else f"{geometric_mean(rows['imbalance']):.6f}"
 
 
-def _comparable(runs: list[Simulation]) -> tuple[list[Simulation], float]:
+def _comparable(runs: pd.DataFrame) -> tuple[pd.DataFrame, float]:
     """The runs on as many ranks as most have, and the seconds of their steps if ideal."""
-    ranks = mode([run.ranks for run in runs]) if runs else 0
-    runs = [run for run in runs if run.ranks == ranks and run.method != "serial"]
-    return runs, median([run.step_work for run in runs]) / ranks if runs else 0.0
+    if runs.empty:
+        return runs, 0
+    ranks = mode(runs["ranks"])
+    runs = runs[(runs["ranks"] == ranks) & (runs["method"] != "serial")]
+    return runs, median(runs["step_work_s"]) / ranks if len(runs) else 0
 
 
-def simulation_prices(runs: list[Simulation]) -> list[Price]:
+def simulation_prices(runs: pd.DataFrame) -> list[Price]:
     """What unbalance costs is reckoned from the points of the fullest rank in each step, which no
     noise disturbs; what else the critical path holds is the same under every method.
     """
     runs, ideal = _comparable(runs)
-    if ideal <= 0:
-        return []
     prices = []
-    for run in runs:
+    for run in runs.itertuples() if ideal > 0 else ():
         steps = max(run.path_points * run.ranks / (run.points * run.steps) - 1, 0.0)
-        calls = (run.balance_path + run.balance_network) / ideal
-        low, high = run.critical_path_interval or (run.critical_path, run.critical_path)
-        beside = [(end - run.critical_path) / ideal for end in (low, high)]
-        total = steps + calls
+        calls = (run.balance_path_s + run.balance_network_s) / ideal
+        path = value_of(run, "critical_path_s")
+        total = [steps + calls + (end - path.number) / ideal for end in path.reach]
         tolerance = tolerance_asked(run.method) or f"{run.mean_imbalance:.6f}"
         prices += [
-            Price(STEPS, run.method, tolerance, steps, steps, steps),
-            Price(CALLS, run.method, tolerance, calls, calls, calls),
-            Price(SIMULATION, run.method, tolerance, total, total + beside[0], total + beside[1]),
+            Price(STEPS, run.method, tolerance, Value(steps)),
+            Price(CALLS, run.method, tolerance, Value(calls)),
+            Price(SIMULATION, run.method, tolerance, Value(steps + calls, *total)),
         ]
     return prices
 
@@ -160,44 +117,29 @@ def optimum(prices: list[Price]) -> tuple[Price, list[Price]] | None:
     totals = [p for p in totals if family(p.method) == "rrcb"]
     if len(totals) < 2:
         return None
-    best = min(totals, key=lambda p: p.value)
-    return best, [p for p in totals if p is not best and p.low <= best.high]
+    best = min(totals, key=lambda p: p.value.number)
+    return best, [p for p in totals if p is not best and p.value.low <= best.value.high]
 
 
-def exchange_rate(runs: list[Simulation]) -> str:
+def exchange_rate(runs: pd.DataFrame) -> str:
     """What a per cent of unbalance costs beside a more exact call, in words; else empty."""
     runs, ideal = _comparable(runs)
     calls = {
-        tolerance: (run.balance_path + run.balance_network)
-        / (run.rebalances or -(-run.steps // run.every))
-        for run in runs
-        if family(run.method) == "rrcb" and (tolerance := tolerance_asked(run.method))
+        tolerance_asked(run.method): (run.balance_path_s + run.balance_network_s)
+        / (getattr(run, "rebalances", 0) or -(-run.steps // run.every))
+        for run in runs.itertuples()
+        if family(run.method) == "rrcb" and tolerance_asked(run.method)
     }
-    if EXACT not in calls or len(calls) < 2 or ideal <= 0:
+    if "exact" not in calls or len(calls) < 2 or ideal <= 0:
         return ""
-    loosest = max((tolerance for tolerance in calls if tolerance != EXACT), key=float)
-    a_step = 0.01 * ideal / runs[0].steps
-    more = calls[EXACT] - calls[loosest]
-    return (
-        f"1 % of unbalance costs {_microseconds(a_step)} a step,"
-        f" {_microseconds(a_step * runs[0].every)} until the next call ({runs[0].every} steps);"
-        f" an exact call costs {_microseconds(abs(more))} {'more' if more >= 0 else 'less'}"
-        f" than one to {loosest}."
+    loosest = max(calls.keys() - {"exact"}, key=float)
+    steps, every = runs.iloc[0][["steps", "every"]]
+    more = calls["exact"] - calls[loosest]
+    step = 0.01 * ideal / steps
+    a_step, a_round, a_call = (
+        f"{in_digits(1e6 * seconds, 2)} µs" for seconds in (step, step * every, abs(more))
     )
-
-
-def _microseconds(seconds: float) -> str:
-    return f"{in_digits(1e6 * seconds, 2)} µs"
-
-
-def write_prices(directory: Path) -> None:
-    """price.csv: what price.png is drawn of; nothing without measurements."""
-    prices = read_prices(directory)
-    if not prices:
-        return
-    with (directory / "price.csv").open("w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow("panel,method,tolerance,value,low,high".split(","))
-        for p in prices:
-            numbers = [f"{number:.6g}" for number in (p.value, p.low, p.high)]
-            writer.writerow([p.panel, p.method, p.tolerance, *numbers])
+    return (
+        f"1 % of unbalance costs {a_step} a step, {a_round} until the next call ({every} steps);"
+        f" an exact call costs {a_call} {'more' if more >= 0 else 'less'} than one to {loosest}."
+    )

@@ -8,19 +8,20 @@ from what was counted.
 from __future__ import annotations
 
 import argparse
-import csv
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
-from matplotlib import pyplot as plt
-
-from document import Document, write_html, write_markdown
+import libraries  # noqa: F401, before what it looks for
+from document import Document, Rows
 from machine import add_machine
+from matplotlib.figure import Figure
+from results import write_csv
 from scaling_check import Comparison, compare_all, read_counted, read_sizes
-from scaling_time import Machine, Observed, Path as CallPath, all_paths, observe
-from settings import legend_above
-from style import method_style, save, use_style
+from scaling_time import CallPath, Machine, Observed, all_paths, observe
+from style import label_edges, legend_above, method_style, panels, save, use_style
 
+Paths = dict[int, dict[str, CallPath]]  # by ranks and method
 MOST_RANKS = 1 << 20
 LINES = {"rrcb, estimate alone": ":", "rrcb, estimate accepted": "-", "rrcb, refined": "-."}
 PANELS = {
@@ -47,11 +48,11 @@ def main() -> int:
         1 << power: all_paths(1 << power, observed, machine)
         for power in range(1, MOST_RANKS.bit_length())
     }
-    _write_check(directory, comparisons)
-    _write_paths(directory, paths)
+    write_csv(directory / "scaling_check.csv", (c.numbers for c in comparisons))
+    write_csv(directory / "scaling.csv", _path_rows(paths))
     use_style()
-    _draw(directory / "scaling.png", paths)
-    _write_report(directory, comparisons, paths, machine, observed)
+    save(_draw(paths), directory / "scaling.png")
+    _report(directory, comparisons, paths, _assumptions(machine, observed))
     wrong = [c for c in comparisons if not c.agrees]
     for comparison in wrong:
         print(f"{comparison.counted.method}, {comparison.counted.ranks} ranks: formula differs")
@@ -81,91 +82,50 @@ def whole_number(text: str) -> int:
     return value
 
 
-def _write_check(directory: Path, comparisons: list[Comparison]) -> None:
-    with (directory / "scaling_check.csv").open("w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(
-            "method,ranks,messages,predicted_messages,bytes,predicted_bytes,root_bytes_in,"
-            "predicted_root_bytes_in,inputs,agrees".split(",")
-        )
-        for c in comparisons:
-            writer.writerow(
-                [c.counted.method, c.counted.ranks, c.counted.messages, c.predicted.messages]
-                + [c.counted.bytes, c.predicted.bytes, c.counted.root_bytes_in]
-                + ["" if c.predicted_root_bytes is None else c.predicted_root_bytes]
-                + [c.inputs, "yes" if c.agrees else "no"]
-            )
+def _path_rows(paths: Paths) -> Iterator[dict]:
+    """The rows of scaling.csv."""
+    for ranks, by_method in paths.items():
+        for method, p in by_method.items():
+            numbers = {"model_s": p.seconds, "messages": p.messages, "bytes": p.bytes,
+                       "work_s": p.work, "bytes_into_root": p.root_bytes}  # fmt: skip
+            texts = {name: f"{number:.6g}" for name, number in numbers.items()}
+            yield {"method": method, "ranks": ranks, **texts}
 
 
-def _write_paths(directory: Path, paths: dict[int, dict[str, CallPath]]) -> None:
-    with (directory / "scaling.csv").open("w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow("method,ranks,model_s,messages,bytes,work_s,bytes_into_root".split(","))
-        for ranks, by_method in paths.items():
-            for method, p in by_method.items():
-                numbers = [p.seconds, p.messages, p.bytes, p.work, p.root_bytes]
-                writer.writerow([method, ranks, *(f"{number:.6g}" for number in numbers)])
-
-
-def _draw(picture: Path, paths: dict[int, dict[str, CallPath]]) -> None:
-    figure, grid = plt.subplots(1, len(PANELS), figsize=(4.1 * len(PANELS), 4), squeeze=False)
+def _draw(paths: Paths) -> Figure:
+    figure, grid = panels(1, len(PANELS), 4.1 * len(PANELS), 4)
     for axes, (label, value) in zip(grid[0], PANELS.items()):
         for method in paths[2]:
             style = method_style(method.split(",")[0])
-            axes.plot(
-                list(paths),
-                [value(by_method[method]) for by_method in paths.values()],
-                color=style.colour,
-                linestyle=LINES.get(method, style.line),
-                label=method,
-            )
+            line = LINES.get(method, style.line)
+            values = [value(by_method[method]) for by_method in paths.values()]
+            axes.plot(list(paths), values, color=style.colour, linestyle=line, label=method)
         axes.axvspan(2, 64, color="#EEEEEE", zorder=0, label="counts checked here")
         axes.set_xscale("log", base=2)
         axes.set_yscale("log")
-        axes.set_xlabel("ranks")
         axes.set_title(label)
         axes.grid(True)
-    legend_above(figure, grid[0, 0].get_legend_handles_labels()[0], inches=2.1)
-    save(figure, picture)
+    label_edges(grid, ["ranks"] * len(PANELS), ())
+    return legend_above(figure, grid[0, 0], inches=2.1)
 
 
-def _write_report(
-    directory: Path,
-    comparisons: list[Comparison],
-    paths: dict[int, dict[str, CallPath]],
-    machine: Machine,
-    observed: Observed,
+def _report(
+    directory: Path, comparisons: list[Comparison], paths: Paths, assumptions: list[str]
 ) -> None:
-    document = Document("To a million ranks: a model, checked by counting")
+    document = Document("To a million ranks: a model, checked by counting", directory)
     document.conclude([_sentence(ranks, paths[ranks]) for ranks in (64, 4096, MOST_RANKS)])
     document.picture("scaling.png", "What a call costs by the model; grey: counts checked here.")
-    document.summarise(*_time_table(paths))
-    document.table(*_share_table(paths[MOST_RANKS]))
+    document.summarise("Time of a call by the model", _time_table(paths))
+    caption = f"What of it goes where on {MOST_RANKS:,} ranks"
+    document.table(caption, _share_table(paths[MOST_RANKS]))
     document.heading("What the model assumes")
-    for text in _assumptions(machine, observed):
+    for text in assumptions:
         document.paragraph(text)
     document.heading("Formula beside count")
-    header = ["method", "ranks", "messages", "formula", "bytes", "formula", "into rank 0"]
-    header += ["formula", "taken from the run", "equal"]
-    rows = [
-        [
-            c.counted.method,
-            str(c.counted.ranks),
-            f"{c.counted.messages:,}",
-            f"{c.predicted.messages:,}",
-            f"{c.counted.bytes:,}",
-            f"{c.predicted.bytes:,}",
-            f"{c.counted.root_bytes_in:,}",
-            "–" if c.predicted_root_bytes is None else f"{c.predicted_root_bytes:,}",
-            c.inputs,
-            "yes" if c.agrees else "NO",
-        ]
-        for c in comparisons
-    ]
-    document.table("One call, function by function, summed over the ranks", header, rows)
+    caption = "One call, function by function, summed over the ranks"
+    document.table(caption, [comparison.texts for comparison in comparisons])
     add_machine(document, directory / "ranks-2", " ".join(sys.argv[2:]))
-    write_html(document, directory)
-    write_markdown(document, directory)
+    document.write()
     print(document.summary)
 
 
@@ -187,29 +147,25 @@ def _time(seconds: float) -> str:
     return f"{seconds:.3g} s" if seconds >= 0.1 else f"{1e3 * seconds:.3g} ms"
 
 
-def _time_table(paths: dict[int, dict[str, CallPath]]) -> tuple[str, list[str], list[list[str]]]:
-    header = ["ranks", *paths[2]]
-    rows = [
-        [f"{ranks:,}", *(_time(path.seconds) for path in paths[ranks].values())]
-        for ranks in paths
-        if ranks in (2, 8, 64, 512, 4096, 32768, 262144, MOST_RANKS)
+def _time_table(paths: Paths) -> Rows:
+    shown = (2, 8, 64, 512, 4096, 32768, 262144, MOST_RANKS)
+    return [
+        {"ranks": f"{ranks:,}"} | {method: _time(p.seconds) for method, p in paths[ranks].items()}
+        for ranks in shown
     ]
-    return "Time of a call by the model", header, rows
 
 
-def _share_table(by_method: dict[str, CallPath]) -> tuple[str, list[str], list[list[str]]]:
-    header = ["method", "messages", "bytes", "work", "bytes into rank 0"]
-    rows = [
-        [
-            method,
-            _time(path.messages * path.machine.latency),
-            _time(path.bytes / path.machine.bandwidth),
-            _time(path.work),
-            f"{path.root_bytes / 2**20:,.0f} MiB",
-        ]
+def _share_table(by_method: dict[str, CallPath]) -> Rows:
+    return [
+        {
+            "method": method,
+            "messages": _time(path.messages * path.machine.latency),
+            "bytes": _time(path.bytes / path.machine.bandwidth),
+            "work": _time(path.work),
+            "bytes into rank 0": f"{path.root_bytes / 2**20:,.0f} MiB",
+        }
         for method, path in by_method.items()
     ]
-    return f"What of it goes where on {MOST_RANKS:,} ranks", header, rows
 
 
 def _assumptions(machine: Machine, observed: Observed) -> list[str]:

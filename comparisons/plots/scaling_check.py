@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
-from results import read_rows
+from choice import yes
+from results import read
 from scaling_model import (
     LOOKS,
+    Count,
     Exchange,
     Rounds,
     Sizes,
@@ -34,8 +36,7 @@ ZOLTAN = "zoltan-rcb"
 JAGGED = "zoltan2-mj"
 
 
-@dataclass(frozen=True)
-class Counted:
+class Counted(NamedTuple):
     """A method at a number of ranks: a row of table.csv and its rows of calls.csv."""
 
     method: str
@@ -43,75 +44,75 @@ class Counted:
     messages: int
     bytes: int
     root_bytes_in: int
-    imbalance: float
     traffic: Traffic
 
 
-@dataclass(frozen=True)
-class Comparison:
+class Comparison(NamedTuple):
     """Predicted beside counted; `inputs` is what the prediction took from the run itself."""
 
     counted: Counted
     predicted: Traffic
-    predicted_root_bytes: int | None
+    root_bytes: int | str  # predicted; empty where no formula gives them
     inputs: str
 
     @property
     def agrees(self) -> bool:
-        counted = self.counted
+        counted, predicted = self.counted, self.predicted
         return (
-            self.predicted.messages == counted.messages
-            and self.predicted.bytes == counted.bytes
-            and _without_zeros(self.predicted) == _without_zeros(counted.traffic)
-            and self.predicted_root_bytes in (None, counted.root_bytes_in)
+            (predicted.messages, predicted.bytes) == (counted.messages, counted.bytes)
+            and all(predicted[name] == counted.traffic[name] for name in predicted | counted.traffic)
+            and self.root_bytes in ("", counted.root_bytes_in)
         )
 
+    @property
+    def numbers(self) -> dict:
+        """A row of scaling_check.csv."""
+        counted, predicted = self.counted, self.predicted
+        return {
+            "method": counted.method, "ranks": counted.ranks,
+            "messages": counted.messages, "predicted_messages": predicted.messages,
+            "bytes": counted.bytes, "predicted_bytes": predicted.bytes,
+            "root_bytes_in": counted.root_bytes_in, "predicted_root_bytes_in": self.root_bytes,
+            "inputs": self.inputs, "agrees": yes(self.agrees),
+        }  # fmt: skip
 
-def _without_zeros(traffic: Traffic) -> dict[str, tuple[int, int, int]]:
-    found = {
-        name: (count, traffic.bytes_in[name], traffic.bytes_out[name])
-        for name, count in traffic.calls.items()
-    }
-    return {name: values for name, values in found.items() if any(values)}
+    @property
+    def texts(self) -> dict[str, str]:
+        numbers = self.numbers
+        named = {
+            "messages": "messages", "formula: messages": "predicted_messages",
+            "bytes": "bytes", "formula: bytes": "predicted_bytes",
+            "into rank 0": "root_bytes_in", "formula: into rank 0": "predicted_root_bytes_in",
+        }  # fmt: skip
+        texts = {"method": self.counted.method, "ranks": str(self.counted.ranks)}
+        for name, column in named.items():
+            texts[name] = "–" if numbers[column] == "" else f"{numbers[column]:,}"
+        return texts | {"taken from the run": self.inputs, "equal": "yes" if self.agrees else "NO"}
 
 
 def read_counted(directory: Path) -> dict[tuple[str, int], Counted]:
     found = {}
     for folder in sorted([*directory.glob("ranks-*"), *directory.glob("refined-*")]):
-        calls = read_rows(folder / "calls.csv")
-        for row in read_rows(folder / "table.csv"):
-            if row["error"]:
-                continue
+        calls = read(folder / "calls.csv")
+        for row in read(folder / "table.csv").itertuples():
             traffic = Traffic()
-            for call in calls:
-                if call["method"] == row["method"]:
-                    traffic.add(
-                        call["function"].removeprefix("MPI_"),
-                        *(int(call[name]) for name in ("calls", "bytes_in", "bytes_out")),
-                    )
-            counted = Counted(
-                row["method"],
-                int(row["ranks"]),
-                int(row["messages"]),
-                int(row["bytes"]),
-                int(row["root_bytes_in"]),
-                float(row["imbalance"]),
-                traffic,
-            )
-            found[counted.method, counted.ranks] = counted
+            for call in calls[calls["method"] == row.method].itertuples():
+                count = Count(call.calls, call.bytes_in, call.bytes_out)
+                traffic.add(call.function.removeprefix("MPI_"), *count)
+            numbers = (row.ranks, row.messages, row.bytes, row.root_bytes_in)
+            found[row.method, row.ranks] = Counted(row.method, *numbers, traffic)
     return found
 
 
 def compare_all(counted: dict[tuple[str, int], Counted]) -> list[Comparison]:
     sizes = read_sizes(counted)
     found = []
-    for (method, ranks), row in sorted(counted.items()):
+    for (method, ranks), row in sorted(counted.items(), key=lambda item: item[0]):
         if sizes and ranks > 1 and method in (NONE, ACCEPTED, REFINED, EXACT):
             found.append(_compare_rrcb(row, sizes))
         if method == ZOLTAN and ranks > 1:
             traffic = zoltan_rcb(ranks, read_exchange(row))
-            inputs = "iterations, partners and points moved"
-            found.append(Comparison(row, traffic, None, inputs))
+            found.append(Comparison(row, traffic, "", "iterations, partners and points moved"))
         if method == JAGGED and ranks > 1:
             found.append(_compare_multijagged(row))
     return found
@@ -122,71 +123,68 @@ def read_sizes(counted: dict[tuple[str, int], Counted]) -> Sizes | None:
     if not all((method, 2) in counted for method in (NONE, EXACT)):
         return None
     none, exact = counted[NONE, 2].traffic, counted[EXACT, 2].traffic
-    rounds = (exact.calls["Bcast"] - none.calls["Bcast"]) // 2 - 1
-    searches = exact.bytes_in["Bcast"] - none.bytes_in["Bcast"] - answer_bytes(2)
+    rounds = (exact["Bcast"].calls - none["Bcast"].calls) // 2 - 1
+    searches = exact["Bcast"].sent - none["Bcast"].sent - answer_bytes(2)
     return Sizes(
-        none.bytes_in["Allreduce"] // 2 - checksum_bytes(2),
-        none.calls["Allreduce"] // 2,
-        none.bytes_in["Gather"] // 2,
-        none.bytes_in["Bcast"] - 8 * 2,
-        none.calls["Bcast"] // 2,
-        none.bytes_in["Send"] - hand_up_bytes(2, "none"),
-        exact.bytes_in["Reduce"] // 2 - look_bytes(2),
-        searches // rounds,
+        agreements=none["Allreduce"].sent // 2 - checksum_bytes(2),
+        num_agreements=none["Allreduce"].calls // 2,
+        parameters=none["Gather"].sent // 2,
+        broadcasts=none["Bcast"].sent - 8 * 2,
+        num_broadcasts=none["Bcast"].calls // 2,
+        summary=none["Send"].sent - hand_up_bytes(2, "none"),
+        histogram=exact["Reduce"].sent // 2 - look_bytes(2),
+        search=searches // rounds,
     )
 
 
 def read_rounds(row: Counted, sizes: Sizes) -> Rounds:
     """What the refinement did; fractions would mean that the formula does not hold."""
-    calls, bytes_in, ranks = row.traffic.calls, row.traffic.bytes_in, row.ranks
+    traffic, ranks = row.traffic, row.ranks
     looks = LOOKS["refined" if row.method == REFINED else "exact"]
     rest = beyond_head(ranks, "exact")
     once = sizes.broadcasts + 8 * ranks + rest + looks * answer_bytes(ranks)
-    reduced = bytes_in.get("Reduce", 0) - looks * ranks * look_bytes(ranks)
+    reduced = traffic["Reduce"].sent - looks * ranks * look_bytes(ranks)
+    broadcasts = _whole(traffic["Bcast"].calls, ranks)
     return Rounds(
-        _whole(calls["Bcast"], ranks) - sizes.num_broadcasts - (rest > 0) - looks,
-        _whole(bytes_in["Bcast"] - once, sizes.search),
-        _whole(calls.get("Reduce", 0), ranks) - looks,
-        _whole(reduced, ranks * sizes.histogram),
-        _whole(calls["Gather"], ranks) - 1,
-        bytes_in.get("Gatherv", 0),
+        rounds=broadcasts - sizes.num_broadcasts - (rest > 0) - looks,
+        searches=_whole(traffic["Bcast"].sent - once, sizes.search),
+        counts=_whole(traffic["Reduce"].calls, ranks) - looks,
+        histograms=_whole(reduced, ranks * sizes.histogram),
+        gathers=_whole(traffic["Gather"].calls, ranks) - 1,
+        candidate_bytes=traffic["Gatherv"].sent,
     )
 
 
 def _compare_rrcb(row: Counted, sizes: Sizes) -> Comparison:
-    was_accepted = row.traffic.calls.get("Reduce", 0) == row.ranks
+    was_accepted = row.traffic["Reduce"].calls == row.ranks
+    refine, rounds, inputs = "none" if row.method == NONE else "accepted", Rounds(), "none"
     if row.method == EXACT or row.method == REFINED and not was_accepted:
         refine = "refined" if row.method == REFINED else "exact"
-        rounds = read_rounds(row, sizes)
-        traffic = rrcb(row.ranks, sizes, refine, rounds)
-        into = rrcb_root_bytes(row.ranks, sizes, refine, rounds)
-        return Comparison(row, traffic, into, "rounds, histograms and candidates")
-    refine = "none" if row.method == NONE else "accepted"
-    traffic = rrcb(row.ranks, sizes, refine)
-    return Comparison(row, traffic, rrcb_root_bytes(row.ranks, sizes, refine), "none")
+        rounds, inputs = read_rounds(row, sizes), "rounds, histograms and candidates"
+    model = (row.ranks, sizes, refine, rounds)
+    return Comparison(row, rrcb(*model), rrcb_root_bytes(*model), inputs)
 
 
 def read_exchange(row: Counted) -> Exchange:
-    calls, bytes_in = row.traffic.calls, row.traffic.bytes_in
-    together = sets(row.ranks)
-    returned = _whole(calls["Reduce"] - sum(together), row.ranks) > 1
+    traffic = row.traffic
+    returned = _whole(traffic["Reduce"].calls - sum(sets(row.ranks)), row.ranks) > 1
     without = zoltan_rcb(row.ranks, Exchange(0, returned, 0, 0, 0, 0))
     return Exchange(
-        calls["Allreduce"] - without.calls["Allreduce"],
-        returned,
-        calls["Send"],
-        calls["Rsend"],
-        bytes_in["Rsend"],
-        bytes_in["Allgatherv"],
+        iterations=traffic["Allreduce"].calls - without["Allreduce"].calls,
+        returned=returned,
+        plan_messages=traffic["Send"].calls,
+        field_messages=traffic["Rsend"].calls,
+        field_bytes=traffic["Rsend"].sent,
+        overlap_bytes=traffic["Allgatherv"].sent,
     )
 
 
 def _compare_multijagged(row: Counted) -> Comparison:
     """Steps of two sizes at most: those of the larger from the bytes, all from the calls."""
     ranks = row.ranks
-    without = multijagged(ranks, {})
-    steps = _whole(row.traffic.calls["Allreduce"] - without.calls["Allreduce"], ranks)
-    size = _whole(row.traffic.bytes_in["Allreduce"] - without.bytes_in["Allreduce"], ranks)
+    counted, without = row.traffic["Allreduce"], multijagged(ranks, {})["Allreduce"]
+    steps = _whole(counted.calls - without.calls, ranks)
+    size = _whole(counted.sent - without.sent, ranks)
     widths = sorted({len(sections(ranks)), *(p for p in sections(ranks) if ranks > 2)} - {1})
     iterations = {widths[-1]: steps}
     if len(widths) == 2:
@@ -194,7 +192,7 @@ def _compare_multijagged(row: Counted) -> Comparison:
         larger = _whole(size - steps * few, many - few)
         iterations = {widths[1]: larger, widths[0]: steps - larger}
     traffic = multijagged(ranks, iterations)
-    root_bytes = traffic.bytes_out["Allreduce"] // ranks
+    root_bytes = traffic["Allreduce"].got // ranks
     return Comparison(row, traffic, root_bytes, "steps of the search")
 
 

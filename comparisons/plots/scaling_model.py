@@ -8,8 +8,8 @@ is predicted: rounds, partners, points moved.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from math import ceil, isqrt
+from typing import NamedTuple
 
 DIMENSION = 2
 MESH = 4
@@ -28,18 +28,20 @@ PLACE = 8 * (2 + 2 * DIMENSION**2)
 MOST_PLACES = 4096  # ranks that hand them up
 
 
-@dataclass
-class Traffic:
-    """Calls and bytes by MPI function, over all ranks."""
+class Count(NamedTuple):
+    calls: int = 0
+    sent: int = 0  # bytes that ranks hand in
+    got: int = 0  # bytes that ranks get out
 
-    calls: dict[str, int] = field(default_factory=dict)
-    bytes_in: dict[str, int] = field(default_factory=dict)
-    bytes_out: dict[str, int] = field(default_factory=dict)
 
-    def add(self, function: str, calls: int, bytes_in: int, bytes_out: int = 0) -> None:
-        self.calls[function] = self.calls.get(function, 0) + calls
-        self.bytes_in[function] = self.bytes_in.get(function, 0) + bytes_in
-        self.bytes_out[function] = self.bytes_out.get(function, 0) + bytes_out
+class Traffic(dict[str, Count]):
+    """Counts by MPI function, over all ranks; of a function that is not there they are 0."""
+
+    def __missing__(self, function: str) -> Count:
+        return Count()
+
+    def add(self, function: str, calls: int, sent: int, got: int = 0) -> None:
+        self[function] = Count(*map(sum, zip(self[function], (calls, sent, got))))
 
     def allreduce(self, ranks: int, size: int, times: int = 1) -> None:
         self.add("Allreduce", times * ranks, times * ranks * size, times * ranks * size)
@@ -58,18 +60,17 @@ class Traffic:
 
     @property
     def messages(self) -> int:
-        return sum(count for name, count in self.calls.items() if not name.startswith("Comm_"))
+        return sum(of.calls for name, of in self.items() if not name.startswith("Comm_"))
 
     @property
     def bytes(self) -> int:
-        return sum(self.bytes_in.values()) + sum(self.bytes_out.values())
+        return sum(of.sent + of.got for of in self.values())
 
 
 # --- RRCB ---------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Sizes:
+class Sizes(NamedTuple):
     """Bytes of RRCB's fixed messages."""
 
     agreements: int  # all reductions to everybody together, but for checksums of the parts
@@ -82,8 +83,7 @@ class Sizes:
     search: int
 
 
-@dataclass(frozen=True)
-class Rounds:
+class Rounds(NamedTuple):
     """What the refinement did: 0 rounds where the estimate was accepted or none was asked for."""
 
     rounds: int = 0
@@ -196,10 +196,8 @@ def expected_rounds(ranks: int, rounds_per_level: int, bytes_per_list: float) ->
     """Every cut counted once, then decided among candidates: the most that was measured."""
     levels = (ranks - 1).bit_length()
     cuts = ranks - 1
-    return Rounds(
-        rounds_per_level * levels, rounds_per_level * cuts, levels, cuts, levels,
-        int(cuts * bytes_per_list),
-    )
+    rounds, searches = rounds_per_level * levels, rounds_per_level * cuts
+    return Rounds(rounds, searches, levels, cuts, levels, int(cuts * bytes_per_list))
 
 
 # --- Zoltan's RCB -------------------------------------------------------------------------------
@@ -209,8 +207,7 @@ LIST_FIELDS, LIST_BYTES = 3, 12
 MEDIAN = 72
 
 
-@dataclass(frozen=True)
-class Exchange:
+class Exchange(NamedTuple):
     """What depends on the points in a call of Zoltan's RCB."""
 
     iterations: int  # of the median search, each counted on every rank of its set
@@ -223,9 +220,7 @@ class Exchange:
 
 def sets(ranks: int) -> list[int]:
     """Numbers of ranks that search for a median together, over all levels."""
-    if ranks < 2:
-        return []
-    return [ranks, *sets(ranks // 2), *sets(ranks - ranks // 2)]
+    return [ranks, *sets(ranks // 2), *sets(ranks - ranks // 2)] if ranks > 1 else []
 
 
 def _plan(traffic: Traffic, ranks: int, fields: int) -> None:
@@ -247,8 +242,7 @@ def zoltan_rcb(ranks: int, exchange: Exchange) -> Traffic:
         traffic.allreduce(together, 24 * together)
         _plan(traffic, together, POINT_FIELDS)
         traffic.add("Comm_split", together, 0)
-    traffic.add("Allreduce", exchange.iterations, MEDIAN * exchange.iterations,
-                MEDIAN * exchange.iterations)
+    traffic.allreduce(1, MEDIAN, exchange.iterations)
     traffic.allreduce(ranks, 8)
     traffic.allreduce(ranks, 8 + 8 * ranks)
     traffic.add("Allgather", ranks, 4 * ranks, 4 * ranks * ranks)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import ceil
 
-from scaling_check import read_exchange, read_rounds
+from scaling_check import EXACT, JAGGED, ZOLTAN, Counted, read_exchange, read_rounds
 from scaling_model import (
     CELL,
     DIMENSION,
@@ -51,7 +51,7 @@ class Machine:
 
 
 @dataclass
-class Path:
+class CallPath:
     """What is done one after the other."""
 
     machine: Machine
@@ -82,21 +82,19 @@ class Observed:
     steps: float  # of the search of multijagged in a section
 
 
-def observe(counted: dict, sizes: Sizes) -> Observed:
+def observe(counted: dict[tuple[str, int], Counted], sizes: Sizes) -> Observed:
     """Largest rounds, mean of the iterations, over the numbers of ranks that were run."""
-    exact = [
-        (row.ranks, read_rounds(row, sizes))
-        for (method, _), row in counted.items()
-        if method.startswith("rrcb-exact") and row.ranks > 1
-    ]
-    zoltan = [row for (method, _), row in counted.items() if method == "zoltan-rcb"]
-    jagged = [row for (method, _), row in counted.items() if method == "zoltan2-mj"]
+    exact, zoltan, jagged = (
+        [row for row in counted.values() if row.method == method and row.ranks > least]
+        for method, least in ((EXACT, 1), (ZOLTAN, 1), (JAGGED, 2))
+    )
+    refined = [(row.ranks - 1, read_rounds(row, sizes)) for row in exact]
     return Observed(
         sizes,
-        max(ceil(r.rounds / (ranks - 1).bit_length()) for ranks, r in exact),
-        max(r.candidate_bytes / (ranks - 1) for ranks, r in exact),
-        _mean([read_exchange(r).iterations / sum(sets(r.ranks)) for r in zoltan if r.ranks > 1]),
-        _mean([_steps(row) for row in jagged if row.ranks > 2]),
+        max(ceil(of.rounds / cuts.bit_length()) for cuts, of in refined),
+        max(of.candidate_bytes / cuts for cuts, of in refined),
+        _mean([read_exchange(row).iterations / sum(sets(row.ranks)) for row in zoltan]),
+        _mean([_steps(row) for row in jagged]),
     )
 
 
@@ -104,15 +102,14 @@ def _mean(values: list[float]) -> float:
     return sum(values) / len(values) if values else 0.0
 
 
-def _steps(row) -> float:
-    sections = expected_iterations(row.ranks, 1)
-    fixed = 8 + sum(sections.values()) - 1
-    return (row.traffic.calls["Allreduce"] / row.ranks - fixed) / sum(sections.values())
+def _steps(row: Counted) -> float:
+    sections = sum(expected_iterations(row.ranks, 1).values())
+    return (row.traffic["Allreduce"].calls / row.ranks - 7 - sections) / sections
 
 
-def rrcb_path(ranks: int, refine: str, observed: Observed, machine: Machine) -> Path:
+def rrcb_path(ranks: int, refine: str, observed: Observed, machine: Machine) -> CallPath:
     sizes = observed.sizes
-    path = Path(machine, work=machine.points * machine.per_point)
+    path = CallPath(machine, work=machine.points * machine.per_point)
     num_agreements, agreements = all_agreements(ranks, sizes, refine)
     per_agreement = agreements / num_agreements
     path.collective(ranks, 2 * per_agreement, num_agreements, per_agreement)
@@ -135,7 +132,7 @@ def rrcb_path(ranks: int, refine: str, observed: Observed, machine: Machine) -> 
     return path
 
 
-def _climb(path: Path, ranks: int, sizes: Sizes, place: int) -> None:
+def _climb(path: CallPath, ranks: int, sizes: Sizes, place: int) -> None:
     """Up the tree of radix 8, at each level seven children one after the other."""
     below = 1
     while below < ranks:
@@ -151,13 +148,10 @@ def _climb(path: Path, ranks: int, sizes: Sizes, place: int) -> None:
         below *= RADIX
 
 
-def _refine(path: Path, ranks: int, sizes: Sizes, rounds: Rounds) -> None:
+def _refine(path: CallPath, ranks: int, sizes: Sizes, rounds: Rounds) -> None:
     histograms = rounds.histograms * sizes.histogram
-    path.collective(ranks, 0, rounds.counts)
-    path.bytes += histograms
-    path.collective(ranks, 0, rounds.rounds)
-    path.bytes += rounds.searches * sizes.search
-    path.collective(ranks, 0, 2 * rounds.gathers)
+    path.collective(ranks, 0, rounds.counts + rounds.rounds + 2 * rounds.gathers)
+    path.bytes += histograms + rounds.searches * sizes.search
     gathered = 4 * rounds.gathers * ranks + rounds.candidate_bytes
     path.bytes += gathered
     path.root_bytes += histograms + gathered
@@ -165,8 +159,8 @@ def _refine(path: Path, ranks: int, sizes: Sizes, rounds: Rounds) -> None:
     path.work += levels * path.machine.points * path.machine.per_look
 
 
-def zoltan_path(ranks: int, observed: Observed, machine: Machine) -> Path:
-    path = Path(machine)
+def zoltan_path(ranks: int, observed: Observed, machine: Machine) -> CallPath:
+    path = CallPath(machine)
     path.collective(ranks, 16, 11, 8)
     together = ranks
     while together > 1:
@@ -187,7 +181,7 @@ def zoltan_path(ranks: int, observed: Observed, machine: Machine) -> Path:
     return path
 
 
-def _exchange(path: Path, ranks: int, partners: int, fields: int, point_bytes: float) -> None:
+def _exchange(path: CallPath, ranks: int, partners: int, fields: int, point_bytes: float) -> None:
     """A plan and a message of each field to each partner."""
     path.collective(ranks, 8, 2 + fields, 4)
     path.collective(ranks, 4 * ranks, 2, 4 * ranks)
@@ -196,8 +190,8 @@ def _exchange(path: Path, ranks: int, partners: int, fields: int, point_bytes: f
     path.root_bytes += path.machine.points * point_bytes
 
 
-def jagged_path(ranks: int, observed: Observed, machine: Machine) -> Path:
-    path = Path(machine)
+def jagged_path(ranks: int, observed: Observed, machine: Machine) -> CallPath:
+    path = CallPath(machine)
     path.collective(ranks, 16, 7, 8)
     sections = expected_iterations(ranks, observed.steps)
     for parts, times in sections.items():
@@ -209,7 +203,7 @@ def jagged_path(ranks: int, observed: Observed, machine: Machine) -> Path:
     return path
 
 
-def all_paths(ranks: int, observed: Observed, machine: Machine) -> dict[str, Path]:
+def all_paths(ranks: int, observed: Observed, machine: Machine) -> dict[str, CallPath]:
     found = {
         "rrcb, estimate alone": rrcb_path(ranks, "none", observed, machine),
         "rrcb, estimate accepted": rrcb_path(ranks, "accepted", observed, machine),

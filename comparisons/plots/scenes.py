@@ -9,55 +9,50 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from matplotlib import pyplot as plt
+import libraries  # noqa: F401, before what it looks for
+import pandas as pd
+from document import markdown_table
+from history import TIME, draw_worst
+from matplotlib.figure import Figure
+from results import Results
+from style import legend_above, panels, save, use_style
 
-from history import draw_worst
-from results import Simulation, read_history, read_simulations, unique
-from settings import legend_above
-from style import save, use_style
 
-
-def table(runs: dict[str, list[Simulation]]) -> str:
+def table(scenes: dict[str, Results]) -> str:
     """Markdown: the mean over the steps, and the worst step in brackets."""
-    methods = unique([run.method for scene in runs.values() for run in scene])
-    lines = ["| method | " + " | ".join(runs) + " |", "|---" * (len(runs) + 1) + "|"]
-    for method in methods:
-        cells = [_cell(method, scene) for scene in runs.values()]
-        lines.append(f"| `{method}` | " + " | ".join(cells) + " |")
-    return "\n".join(lines) + "\n"
+    texts = pd.DataFrame(
+        {
+            scene: {r.method: f"{r.mean_imbalance:.4f} ({r.worst_imbalance:.3f})" for r in runs}
+            for scene, results in scenes.items()
+            if (runs := list(results.runs.itertuples()))
+        }
+    ).fillna("")
+    lines = [[f"`{method}`", *row] for method, *row in texts.itertuples()]
+    return markdown_table([["method", *scenes], *lines]) + "\n"
 
 
-def _cell(method: str, runs: list[Simulation]) -> str:
-    for run in runs:
-        if run.method == method:
-            return f"{run.mean_imbalance:.4f} ({run.worst_imbalance:.3f})"
-    return ""
-
-
-def draw(directory: Path, scenes: list[str]) -> None:
-    size = (9, 2.4 * len(scenes) + 1)
-    figure, rows = plt.subplots(len(scenes), 1, figsize=size, squeeze=False)
-    for axes, scene in zip(rows[:, 0], scenes):
-        draw_worst(axes, read_history(directory / scene))
+def draw(scenes: dict[str, Results]) -> Figure:
+    figure, grid = panels(len(scenes), 1, 9, 2.4 * len(scenes) + 1)
+    for axes, (scene, results) in zip(grid[:, 0], scenes.items()):
+        draw_worst(axes, results.histories())
         axes.set_title(scene)
-    rows[-1, 0].set_xlabel("time simulated [s]")
-    legend_above(figure, rows[0, 0].get_legend_handles_labels()[0], inches=3)
-    save(figure, directory / "scenes.png")
+    grid[-1, 0].set_xlabel(TIME)
+    return legend_above(figure, grid[0, 0], inches=3)
 
 
 def main() -> int:
     if len(sys.argv) < 3 or not (directory := Path(sys.argv[1])).is_dir():
         print("usage: scenes.py DIRECTORY SCENE ...", file=sys.stderr)
         return 2
-    runs = {scene: read_simulations(directory / scene) for scene in sys.argv[2:]}
-    runs = {scene: found for scene, found in runs.items() if found}
-    if not runs:
+    scenes = {scene: Results(directory / scene) for scene in sys.argv[2:]}
+    scenes = {scene: results for scene, results in scenes.items() if len(results.runs)}
+    if not scenes:
         print(f"{directory}: no simulations of these scenes", file=sys.stderr)
         return 1
     use_style()
-    (directory / "scenes.md").write_text(table(runs))
-    draw(directory, list(runs))
-    print(f"\nImbalance, mean over the steps (worst)\n\n{table(runs)}")
+    (directory / "scenes.md").write_text(table(scenes))
+    save(draw(scenes), directory / "scenes.png")
+    print(f"\nImbalance, mean over the steps (worst)\n\n{table(scenes)}")
     print(f"Table: {directory / 'scenes.md'}\nPicture: {directory / 'scenes.png'}")
     return 0
 

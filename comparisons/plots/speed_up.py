@@ -2,259 +2,190 @@
 
 from __future__ import annotations
 
-import csv
-import os
-from dataclasses import dataclass, fields, replace
-from pathlib import Path
-from statistics import median, mode
+from dataclasses import dataclass
+from statistics import mode
 
-from matplotlib import pyplot as plt
+import pandas as pd
+from intervals import Value, interval95, median_of
+from machine import CORES
 from matplotlib.axes import Axes
-
-from intervals import Spread, interval95, spread_of
-from results import Simulation, read_simulations
-from settings import SETTING, draw_lines, legend_above, setting_of, values_of
-from style import method_style, save
-
-SIMULATIONS = "sweep_simulation.csv"
-EVERY_STEP = "paper_simulation.csv"  # rebalanced at every step
-STANDARD = "rrcb-sampled[mesh=4,k=1.5,fraction=1]"  # the paper's RRCB
-WINNERS = (  # the settings with which it was faster than RCB in the paper
-    "rrcb-sampled[mesh=2,k=1.5,fraction=0.25]",
-    "rrcb-sampled[mesh=4,k=2,fraction=0.125]",
-    "rrcb-sampled[mesh=6,k=2,fraction=0.125]",
-    "rrcb-sampled[mesh=8,k=2,fraction=0.125]",
+from matplotlib.figure import Figure
+from methods import parse, setting_of, values_of
+from results import Results
+from style import (
+    draw_across,
+    draw_line,
+    draw_settings,
+    label_edges,
+    legend_above,
+    method_style,
+    panels,
 )
+
 OTHERS = ("none", "zoltan-rcb", "root-rcb", "rrcb", "rrcb-exact")
 KINDS = {
     "critical_path": "critical path: a core for every rank",
     "points": "points alone: no costs of balancing and messages",
     "wall": "wall time on this machine",
 }
+SIZE = ["points", "steps", "every"]
 
 
 @dataclass(frozen=True)
 class SpeedUp:
-    """How many times as fast as the serial simulation, each way of looking at it: medians."""
+    """How many times as fast as the serial simulation: medians over the repeats of a run."""
 
-    run: Simulation  # of medians over the repeats
-    critical_path: float
-    every_step: float  # the critical path, were every step followed by a rebalance
-    points: float
-    wall: float
-    spreads: dict[str, Spread]  # of these, by name, and of the mean imbalance
+    run: object  # of medians
+    kinds: dict[str, Value]  # each way of looking at it, and the mean imbalance
+
+    @property
+    def numbers(self) -> dict:
+        """A row of speed_up.csv."""
+        run = self.run
+        setting = parse(run.method)[1] if setting_of(run.method) else {}
+        row = {"method": run.method}
+        row |= {name: setting.get(name, "") for name in ("mesh", "k", "fraction")}
+        row |= {"ranks": run.ranks, "cores": CORES, "points": run.points, "steps": run.steps}
+        row |= {"every": run.every, "repeats": self.kinds["wall"].count}
+        for kind, name in (
+            ("critical_path", "speed_up_critical_path"),
+            ("every_step", "speed_up_critical_path_every_step"),
+            ("points", "speed_up_points"),
+            ("wall", "speed_up_wall"),
+            ("mean_imbalance", "mean_imbalance"),
+        ):
+            value, digits = self.kinds[kind], 6 if kind == "mean_imbalance" else 4
+            row[name] = f"{value.number:.{digits}g}"
+            for end in ("low", "high"):
+                row[f"{name}_{end}"] = f"{getattr(value, end):.{digits}g}".replace("nan", "")
+        return {**row, "worst_imbalance": f"{run.worst_imbalance:.6g}"}
 
 
-def read_speed_ups(directory: Path, name: str = SIMULATIONS) -> list[SpeedUp]:
-    """One per method and number of ranks, over the median of the serial runs."""
-    runs = read_simulations(directory, name)
-    last = next((run for run in reversed(runs) if run.method == "serial"), None)
-    if last is None:
+def middle_runs(runs: pd.DataFrame) -> pd.DataFrame:
+    """Medians over the repeats of each simulation, with their intervals."""
+    if runs.empty:
+        return runs
+    groups = runs.groupby(SIZE + ["method", "ranks"], sort=False)
+    middle = groups.median(numeric_only=True)
+    for name in ("wall_s", "mean_imbalance", "critical_path_s"):
+        ends = groups[name].agg(list).map(interval95)
+        middle[f"{name}_low"], middle[f"{name}_high"] = ends.str[0], ends.str[1]
+    return middle.reset_index()
+
+
+def read_speed_ups(runs: pd.DataFrame) -> list[SpeedUp]:
+    """One per method and number of ranks, over the median of the serial runs as long as the last."""
+    serial = runs[runs["method"] == "serial"] if len(runs) else runs
+    if serial.empty:
         return []
-    repeats = _repeats([run for run in runs if _size_of(run) == _size_of(last)])
-    serial = middle_run(repeats["serial", 1])
-    return [_speed_up(same, serial) for same in repeats.values()]
+    size = serial.iloc[-1][SIZE]
+    runs, serial = (rows[(rows[SIZE] == size).all(axis=1)] for rows in (runs, serial))
+    step = runs["step_path_s"] + runs["step_network_s"]
+    balance = runs["balance_path_s"] + runs["balance_network_s"]
+    rebalances = -(-runs["steps"] // runs["every"])
+    work = serial["step_path_s"].median()
+    kinds = pd.DataFrame(
+        {
+            "critical_path": work / (step + balance),
+            "every_step": work / (step + balance / rebalances * runs["steps"]),
+            "points": runs["points"] * runs["steps"] / runs["path_points"],
+            "wall": serial["wall_s"].median() / runs["wall_s"],
+            "mean_imbalance": runs["mean_imbalance"],
+        }
+    )
+    groups = kinds.groupby([runs["method"], runs["ranks"]])
+    found = []
+    for run in middle_runs(runs).itertuples():
+        repeats = groups.get_group((run.method, run.ranks))
+        found.append(SpeedUp(run, {kind: median_of(values) for kind, values in repeats.items()}))
+    return found
 
 
-def middle_runs(runs: list[Simulation]) -> list[Simulation]:
-    """Medians over the repeats of each simulation."""
-    sizes = dict.fromkeys(_size_of(run) for run in runs)
+def draw_speed_up(results: Results) -> Figure | None:
+    """Figure 5: a column per fraction, a row per way of looking at it."""
+    speed_ups = read_speed_ups(results.swept_runs)
+    rows = [s for s in speed_ups if setting_of(s.run.method)]
+    if not rows:
+        return None
+    ranks = mode(s.run.ranks for s in rows)
+    rows = [s for s in rows if s.run.ranks == ranks]
+    others = [s for s in speed_ups if s.run.ranks == ranks and s.run.method in OTHERS]
+    fractions = values_of([s.run.method for s in rows], 2)[::-1]
+    width = 2.8 * max(2, len(fractions)) + 0.6
+    figure, grid = panels(3, len(fractions), width, 9, sharey="row")
+    for kind, line in zip(KINDS, grid):
+        for axes, fraction in zip(line, fractions):
+            chosen = [s for s in rows if setting_of(s.run.method)[2] == fraction]
+            _draw_kind(axes, chosen, others, kind)
+        is_shared = kind == "wall" and CORES < ranks
+        title = f"wall time: {ranks} ranks share {CORES} cores" if is_shared else KINDS[kind]
+        line[0].set_title(title, loc="left", fontsize=9)
+    cells = "support mesh, cells per axis\n"
+    label_edges(grid, [f"{cells}{100 * fraction:g} % of the points" for fraction in fractions],
+                ["speed-up over serial"] * len(grid))  # fmt: skip
+    return legend_above(figure, grid[0, 0])
+
+
+def _draw_kind(axes: Axes, settings: list[SpeedUp], others: list[SpeedUp], kind: str) -> None:
+    numbers = [(s.run.method, s.kinds[kind].number) for s in settings]
+    draw_settings(axes, pd.DataFrame(numbers, columns=["method", kind]), kind)
+    for s in settings:
+        mesh, reach = setting_of(s.run.method)[0], s.kinds[kind].reach
+        if s.kinds[kind].has_interval:
+            axes.plot([mesh, mesh], reach, color="#222222", linewidth=2.5, alpha=0.6)
+    for s in others:
+        style = method_style(s.run.method)
+        draw_across(axes, s.kinds[kind], style, linewidth=1, label=s.run.method)
+
+
+def draw_ranks(results: Results) -> Figure | None:
+    """Table 1 as a picture: the standard settings over the number of ranks."""
+    table = by_ranks(read_speed_ups(results.swept_runs))
+    if not table:
+        return None
+    figure, grid = panels(1, len(KINDS), 3.9 * len(KINDS), 3.9)
+    for axes, kind in zip(grid[0], KINDS):
+        for method, rows in table.items():
+            values = [s.kinds[kind] for s in rows.values()]
+            look = {**method_style(method).look, "markersize": 4, "label": method}
+            draw_line(axes, list(rows), values, 0.2, **look)
+        most = max(ranks for rows in table.values() for ranks in rows)
+        if kind != "wall" or most <= CORES:
+            axes.plot([1, most], [1, most], color="#BBBBBB", linewidth=0.8, label="ideal")
+        axes.set_title(kind.replace("_", " ") + f" ({CORES} cores)" * (kind == "wall"))
+        axes.grid(True)
+    label_edges(grid, ["ranks"] * len(KINDS), ["speed-up over serial"])
+    return legend_above(figure, grid[0, 0])
+
+
+def by_ranks(speed_ups: list[SpeedUp]) -> dict[str, dict[int, SpeedUp]]:
+    """Of the methods that were run at more than one number of ranks, by this."""
+    found: dict[str, dict[int, SpeedUp]] = {}
+    for s in sorted(speed_ups, key=lambda s: s.run.ranks):
+        found.setdefault(s.run.method, {})[s.run.ranks] = s
+    names = dict.fromkeys(s.run.method for s in speed_ups)
+    names = [name for name in names if name in OTHERS or name.startswith("rrcb-sampled")]
+    return {name: found[name] for name in names if len(found[name]) > 1}
+
+
+def rank_table(speed_ups: list[SpeedUp], kind: str) -> list[dict[str, str]]:
+    """A row per method, a column per number of ranks: table 1 of the paper."""
+    table = by_ranks(speed_ups)
+    numbers = sorted({ranks for rows in table.values() for ranks in rows})
     return [
-        middle_run(same)
-        for size in sizes
-        for same in _repeats([run for run in runs if _size_of(run) == size]).values()
+        {"method": method, "1 rank": "1.00"}
+        | {f"{n} ranks": rows[n].kinds[kind].text(2) if n in rows else "–" for n in numbers}
+        for method, rows in table.items()
     ]
 
 
-def middle_run(same: list[Simulation]) -> Simulation:
-    numbers = {
-        field.name: median(getattr(run, field.name) for run in same)
-        for field in fields(Simulation)
-        if all(isinstance(getattr(run, field.name), float) for run in same)
-    }
-    return replace(
-        same[0],
-        **numbers,
-        wall_interval=interval95([run.wall for run in same]),
-        imbalance_interval=interval95([run.mean_imbalance for run in same]),
-        critical_path_interval=interval95([run.critical_path for run in same]),
-    )
-
-
-def _repeats(runs: list[Simulation]) -> dict[tuple[str, int], list[Simulation]]:
-    repeats: dict[tuple[str, int], list[Simulation]] = {}
-    for run in runs:
-        repeats.setdefault((run.method, run.ranks), []).append(run)
-    return repeats
-
-
-def _size_of(run: Simulation) -> tuple[int, int, int]:
-    return run.points, run.steps, run.every
-
-
-def _speed_up(same: list[Simulation], serial: Simulation) -> SpeedUp:
-    kinds = [_kinds(run, serial) for run in same]
-    spreads = {kind: spread_of([of_run[kind] for of_run in kinds]) for kind in kinds[0]}
-    medians = {kind: spread.median for kind, spread in spreads.items()}
-    spreads["mean_imbalance"] = spread_of([run.mean_imbalance for run in same])
-    return SpeedUp(middle_run(same), **medians, spreads=spreads)
-
-
-def _kinds(run: Simulation, serial: Simulation) -> dict[str, float]:
-    step = run.step_path + run.step_network
-    balance = run.balance_path + run.balance_network
-    rebalances = -(-run.steps // run.every)
-    return {
-        "critical_path": serial.step_path / (step + balance),
-        "every_step": serial.step_path / (step + balance / rebalances * run.steps),
-        "points": run.points * run.steps / run.path_points,
-        "wall": serial.wall / run.wall,
-    }
-
-
-def write_speed_ups(directory: Path) -> None:
-    """speed_up.csv: a row per method and number of ranks; nothing without simulations."""
-    speed_ups = read_speed_ups(directory)
-    if not speed_ups:
-        return
-    kinds = ("critical_path", "every_step", "points", "wall", "mean_imbalance")
-    names = [f"speed_up_{kind}" for kind in ("critical_path", "critical_path_every_step")]
-    names += ["speed_up_points", "speed_up_wall", "mean_imbalance"]
-    with (directory / "speed_up.csv").open("w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(
-            "method,mesh,k,fraction,ranks,cores,points,steps,every,repeats".split(",")
-            + [f"{name}{end}" for name in names for end in ("", "_low", "_high")]
-            + ["worst_imbalance"]
-        )
-        for s in speed_ups:
-            match = SETTING.fullmatch(s.run.method)
-            row = [s.run.method, *(match.groups() if match else ("", "", "")), s.run.ranks]
-            row += [os.cpu_count(), s.run.points, s.run.steps, s.run.every]
-            row.append(s.spreads["critical_path"].count)
-            for kind in kinds:
-                spread, digits = s.spreads[kind], 6 if kind == "mean_imbalance" else 4
-                ends = spread.interval or ("", "")
-                row += [number if number == "" else f"{number:.{digits}g}" for number in
-                        (spread.median, *ends)]
-            writer.writerow([*row, f"{s.run.worst_imbalance:.6g}"])
-
-
-def draw_speed_up(directory: Path, picture: Path) -> bool:
-    """Figure 5: a column per fraction, a row per way of looking at it."""
-    speed_ups = read_speed_ups(directory)
-    grid_rows = [s for s in speed_ups if SETTING.fullmatch(s.run.method)]
-    if not grid_rows:
-        return False
-    ranks = mode([s.run.ranks for s in grid_rows])
-    rows = [s for s in grid_rows if s.run.ranks == ranks]
-    others = [s for s in speed_ups if s.run.ranks == ranks and s.run.method in OTHERS]
-    fractions = values_of([s.run.method for s in rows], 3)
-    figure, grid = plt.subplots(
-        len(KINDS),
-        len(fractions),
-        figsize=(2.8 * max(2, len(fractions)) + 0.6, 2.7 * len(KINDS) + 0.9),
-        squeeze=False,
-        sharey="row",
-    )
-    for kind, axes_row in zip(KINDS, grid):
-        for axes, fraction in zip(axes_row, fractions):
-            chosen = [s for s in rows if setting_of(s.run.method)[2] == fraction]
-            draw_lines(axes, chosen, lambda s: s.run.method, lambda s: getattr(s, kind))
-            _draw_intervals(axes, chosen, kind)
-            _draw_others(axes, others, kind)
-        axes_row[0].set_ylabel("speed-up over serial")
-        axes_row[0].set_title(_title(kind, rows[0].run), loc="left", fontsize=9)
-    for axes, fraction in zip(grid[-1], fractions):
-        axes.set_xlabel(f"support mesh, cells per axis\n{100 * fraction:g} % of the points")
-    legend_above(figure, grid[0, 0].get_legend_handles_labels()[0])
-    save(figure, picture)
-    return True
-
-
-def _title(kind: str, run: Simulation) -> str:
-    text = KINDS[kind]
-    cores = os.cpu_count() or 1
-    if kind == "wall" and cores < run.ranks:
-        text = f"wall time: {run.ranks} ranks share {cores} cores"
-    return text
-
-
-def _draw_intervals(axes: Axes, chosen: list[SpeedUp], kind: str) -> None:
-    """Of the settings that were run more than once."""
-    for s in chosen:
-        spread = s.spreads[kind]
-        if spread.interval:
-            mesh = setting_of(s.run.method)[0]
-            axes.plot([mesh, mesh], spread.interval, color="#222222", linewidth=2.5, alpha=0.6)
-
-
-def _draw_others(axes: Axes, others: list[SpeedUp], kind: str) -> None:
-    for s in others:
-        style = method_style(s.run.method)
-        axes.axhline(
-            getattr(s, kind),
-            color=style.colour,
-            linestyle=style.line,
-            linewidth=1,
-            label=s.run.method,
-        )
-        axes.axhspan(
-            s.spreads[kind].low, s.spreads[kind].high, color=style.colour, alpha=0.12, linewidth=0
-        )
-
-
-def draw_ranks(directory: Path, picture: Path) -> bool:
-    """Table 1 as a picture: the standard settings over the number of ranks."""
-    table = speed_up_table(read_speed_ups(directory))
-    if not table or len({s.run.ranks for speed_ups in table.values() for s in speed_ups}) < 2:
-        return False
-    figure, grid = plt.subplots(1, len(KINDS), figsize=(3.9 * len(KINDS), 3.9), squeeze=False)
-    for axes, kind in zip(grid[0], KINDS):
-        most = 1
-        for method, speed_ups in table.items():
-            style = method_style(method)
-            ranks = [s.run.ranks for s in speed_ups]
-            most = max(most, *ranks)
-            axes.plot(
-                ranks,
-                [getattr(s, kind) for s in speed_ups],
-                color=style.colour,
-                linestyle=style.line,
-                marker=style.marker,
-                markersize=4,
-                label=method,
-            )
-            spreads = [s.spreads[kind] for s in speed_ups]
-            lows, highs = [s.low for s in spreads], [s.high for s in spreads]
-            axes.fill_between(ranks, lows, highs, color=style.colour, alpha=0.2, linewidth=0)
-        if kind != "wall" or most <= (os.cpu_count() or 1):
-            axes.plot([1, most], [1, most], color="#BBBBBB", linewidth=0.8, label="ideal")
-        axes.set_title(kind.replace("_", " ") + f" ({os.cpu_count()} cores)" * (kind == "wall"))
-        axes.set_xlabel("ranks")
-        axes.grid(True)
-    grid[0, 0].set_ylabel("speed-up over serial")
-    legend_above(figure, grid[0, 0].get_legend_handles_labels()[0])
-    save(figure, picture)
-    return True
-
-
-def speed_up_table(speed_ups: list[SpeedUp]) -> dict[str, list[SpeedUp]]:
-    """Of the methods that were run at more than one number of ranks, else at any: by ranks."""
-    by_method: dict[str, list[SpeedUp]] = {}
-    for s in speed_ups:
-        if s.run.method in OTHERS or s.run.method.startswith("rrcb-sampled"):
-            by_method.setdefault(s.run.method, []).append(s)
-    several = {m: rows for m, rows in by_method.items() if len({s.run.ranks for s in rows}) > 1}
-    return {m: sorted(rows, key=lambda s: s.run.ranks) for m, rows in several.items()}
-
-
-def rank_table(speed_ups: list[SpeedUp], kind: str) -> tuple[list[str], list[list[str]]]:
-    """A row per method, a column per number of ranks: table 1 of the paper."""
-    table = speed_up_table(speed_ups)
-    numbers = sorted({s.run.ranks for rows in table.values() for s in rows})
-    lines = []
-    for method, rows in table.items():
-        by_ranks = {s.run.ranks: s.spreads[kind].text(2) for s in rows}
-        lines.append([method, "1.00", *(by_ranks.get(number, "–") for number in numbers)])
-    return ["method", "1 rank", *(f"{number} ranks" for number in numbers)], lines
+def speed_up_table(speed_ups: list[SpeedUp]) -> list[dict[str, str]]:
+    columns = {
+        "critical path": ("critical_path", 2), "rebalanced at every step": ("every_step", 2),
+        "points": ("points", 2), "wall": ("wall", 2), "mean imbalance": ("mean_imbalance", 4),
+    }  # fmt: skip
+    return [
+        {"method": s.run.method, "ranks": str(s.run.ranks), "runs": str(s.kinds["wall"].count)}
+        | {name: s.kinds[kind].text(digits) for name, (kind, digits) in columns.items()}
+        for s in sorted(speed_ups, key=lambda s: s.run.ranks)
+    ]

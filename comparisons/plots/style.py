@@ -1,10 +1,10 @@
-"""One look for all pictures: colours, lines, axes, and labels."""
+"""One look for all pictures: colours, lines with intervals, panels, axes, and labels."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 import matplotlib
 
@@ -12,16 +12,15 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
+import pandas as pd  # noqa: E402
+from intervals import Value  # noqa: E402
 from matplotlib.axes import Axes  # noqa: E402
 from matplotlib.axis import Axis  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
-from matplotlib.ticker import (  # noqa: E402
-    FixedLocator,
-    FuncFormatter,
-    LogLocator,
-    MaxNLocator,
-    NullFormatter,
-)
+from matplotlib import ticker  # noqa: E402
+from matplotlib.lines import Line2D  # noqa: E402
+from matplotlib.patches import Rectangle  # noqa: E402
+from methods import setting_of, values_of  # noqa: E402
 
 # Three palettes that share no colour: of parts, of the paper's multiplier k, and of methods; any
 # two differ by 14 units of CIELAB or more.
@@ -36,11 +35,14 @@ IDEAL_COLOUR, UNBALANCE_COLOUR, CALL_COLOUR = "#DDDDDD", "#AAAAAA", "#444444"  #
 MAX_POINTS = 60_000
 
 
-@dataclass(frozen=True)
-class MethodStyle:
+class MethodStyle(NamedTuple):
     colour: str
     line: str | tuple
     marker: str
+
+    @property
+    def look(self) -> dict:
+        return {"color": self.colour, "linestyle": self.line, "marker": self.marker}
 
 
 # After M. Okabe and K. Ito: Color universal design (2008); the line style and the marker tell the
@@ -78,15 +80,14 @@ def method_style(method: str) -> MethodStyle:
     return _METHODS.get(method) or _METHODS.get(method.split("[")[0]) or _OTHER
 
 
-def distinct_styles(methods: list[str]) -> dict[str, MethodStyle]:
+def distinct_styles(methods: Iterable[str]) -> dict[str, MethodStyle]:
     """Of each method; settings that share one get other markers and lines, of which there are 84."""
     styles: dict[str, MethodStyle] = {}
+    methods = list(dict.fromkeys(methods))
     for method in sorted(methods, key=lambda name: name not in _METHODS):
-        if method in styles:
-            continue
         style = method_style(method)
         if style in styles.values():
-            others = (replace(style, marker=m, line=n) for m, n in _MARKERS_AND_LINES)
+            others = (MethodStyle(style.colour, n, m) for m, n in _MARKERS_AND_LINES)
             style = next((other for other in others if other not in styles.values()), style)
         styles[method] = style
     return {method: styles[method] for method in methods}
@@ -97,8 +98,8 @@ def multiplier_colour(k: float) -> str:
     return MULTIPLIER_COLOURS[int(np.clip(round(2 * k) - 2, 0, len(MULTIPLIER_COLOURS) - 1))]
 
 
-def part_colours(parts: np.ndarray) -> np.ndarray:
-    return np.array(PART_COLOURS)[parts.astype(int) % len(PART_COLOURS)]
+def part_colours(parts: Sequence[float]) -> np.ndarray:
+    return np.array(PART_COLOURS)[np.asarray(parts, dtype=int) % len(PART_COLOURS)]
 
 
 def use_style() -> None:
@@ -119,11 +120,60 @@ def use_style() -> None:
     )
 
 
+# --- panels ---
+
+
+def panels(lines: int, columns: int, width: float, height: float, **share) -> tuple:
+    """A figure, and its panels as an array of lines and columns."""
+    return plt.subplots(lines, columns, figsize=(width, height), squeeze=False, **share)
+
+
+def small_multiples(
+    names: Sequence[str], draw: Callable[[Axes, str], None], margins: tuple, x: str, y: str
+) -> Figure:
+    """A panel for each name on equal scales, at most four beside each other."""
+    columns = min(4, len(names))
+    lines = -(-len(names) // columns)
+    size = (3.1 * columns + margins[0], 2.5 * lines + margins[1])
+    figure, grid = panels(lines, columns, *size, sharex=True, sharey=True)
+    for axes, name in zip(grid.flat, names):
+        draw(axes, name)
+        axes.set_title(name, fontsize=9)
+    for axes in grid.flat[len(names) :]:
+        axes.set_visible(False)
+    label_edges(grid, [x] * columns, [y] * lines)
+    return figure
+
+
+def label_edges(grid: np.ndarray, x: Iterable[str], y: Iterable[str]) -> None:
+    for axes, label in zip(grid[-1], x):
+        axes.set_xlabel(label)
+    for axes, label in zip(grid[:, 0], y):
+        axes.set_ylabel(label)
+
+
+def legend_above(figure: Figure, source: Axes | list, inches: float = 1.45) -> Figure:
+    """What the axes, or the handles, are labelled; outside of the panels, in as many lines as the
+    width needs at `inches` an entry."""
+    handles = source.get_legend_handles_labels()[0] if isinstance(source, Axes) else source
+    most = max(1, int(figure.get_figwidth() / inches))
+    lines = -(-len(handles) // most)
+    columns = -(-len(handles) // lines)
+    figure.suptitle("\n" * (lines - 1) + " ", fontsize=13)  # keeps room for the legend
+    figure.legend(handles=handles, loc="upper center", ncol=columns)
+    return figure
+
+
+def key(label: str, **look) -> Line2D:
+    return Line2D([], [], **{"linestyle": "", "label": label, **look})
+
+
 def save(figure: Figure, path: Path) -> None:
     """Writes the picture; its logarithmic axes get plain numbers, two of them at least."""
     for axes in figure.axes:
         for axis in (axes.xaxis, axes.yaxis):
-            if axis.get_scale() == "log" and not isinstance(axis.get_major_locator(), FixedLocator):
+            is_fixed = isinstance(axis.get_major_locator(), ticker.FixedLocator)
+            if axis.get_scale() == "log" and not is_fixed:
                 _label_plainly(axis)
     figure.savefig(path)
     plt.close(figure)
@@ -141,15 +191,48 @@ def _label_plainly(axis: Axis) -> None:
     low, high = sorted(axis.get_view_interval())
     if not 1e-7 < low < high < 1e13:
         return
-    locators = [axis.get_major_locator()]
-    locators += [LogLocator(subs=subs, numticks=12) for subs in ((1, 2, 5), (1, 1.5, 2, 3, 4, 6))]
-    locators.append(MaxNLocator(4))
-    for locator in locators:
+    several = ((1, 2, 5), (1, 1.5, 2, 3, 4, 6))
+    locators = [ticker.LogLocator(subs=subs, numticks=12) for subs in several]
+    for locator in (axis.get_major_locator(), *locators, ticker.MaxNLocator(4)):
         if sum(low <= tick <= high for tick in locator.tick_values(low, high)) >= 2:
             axis.set_major_locator(locator)
             break
-    axis.set_major_formatter(FuncFormatter(lambda value, _: plain_number(value)))
-    axis.set_minor_formatter(NullFormatter())
+    axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: plain_number(value)))
+    axis.set_minor_formatter(ticker.NullFormatter())
+
+
+# --- what stands in them ---
+
+
+def draw_line(
+    axes: Axes, x: Sequence[float], values: Iterable[Value], band: float = 0.15, **look
+) -> Line2D:
+    """Through the numbers, in a band of their intervals."""
+    values = list(values)
+    (line,) = axes.plot(x, [v.number for v in values], **look)
+    low, high = zip(*(v.reach for v in values))
+    if len(values) > 1:  # else it would be as high as it is invisible
+        axes.fill_between(x, low, high, color=line.get_color(), alpha=band, linewidth=0)
+    return line
+
+
+def draw_across(axes: Axes, value: Value, style: MethodStyle, **look) -> None:
+    """A line from side to side, in a band of its interval."""
+    axes.axhline(value.number, color=style.colour, linestyle=style.line, **look)
+    axes.axhspan(*value.reach, color=style.colour, alpha=0.1, linewidth=0)
+
+
+def draw_settings(axes: Axes, rows: pd.DataFrame, name: str) -> None:
+    """A line per multiplier k over the mesh: means, in a band of the least and the most."""
+    grid = pd.DataFrame([setting_of(m) for m in rows["method"]], rows.index, ["mesh", "k", "of"])
+    grid["value"] = rows[name]
+    for number, (k, line) in enumerate(grid.groupby("k")):
+        found = line.groupby("mesh")["value"].agg(["mean", "min", "max"])
+        values = [Value(*row) for row in found.itertuples(index=False)]
+        draw_line(axes, found.index, values, 0.12, color=multiplier_colour(k), markersize=4,
+                  marker="osD^vP"[number % 6], label=f"k = {k:g}")  # fmt: skip
+    axes.set_xticks(values_of(rows["method"], 0))
+    axes.grid(True)
 
 
 def show_lengths(axes: Axes, x_label: bool = True, y_label: bool = True) -> None:
@@ -162,24 +245,21 @@ def show_lengths(axes: Axes, x_label: bool = True, y_label: bool = True) -> None
         axes.set_ylabel("y [m]")
 
 
-def length_ratio(clouds: Iterable[dict[str, np.ndarray]]) -> float:
+def length_ratio(clouds: Iterable[pd.DataFrame]) -> float:
     """Height over width of panels that show every cloud, within what a picture can hold."""
-    clouds = list(clouds)
-    width, height = (
-        max(cloud[axis].max() for cloud in clouds) - min(cloud[axis].min() for cloud in clouds)
-        for axis in "xy"
-    )
+    all_points = pd.concat([cloud[["x", "y"]] for cloud in clouds])
+    width, height = all_points.max() - all_points.min()
     return float(np.clip(height / max(width, 1e-300), 0.2, 1.2))
 
 
 def draw_cloud(
-    axes: Axes, points: dict[str, np.ndarray], colours: np.ndarray | str, largest: float = 20
+    axes: Axes, points: pd.DataFrame, colours: Sequence[str] | str, largest: float = 20
 ) -> int:
     """Draws at most MAX_POINTS of the points, evenly chosen; returns how many.
 
     The markers are so large that all together cover about the area of the axes, or the largest.
     """
-    chosen = slice(None, None, len(points["x"]) // MAX_POINTS + 1)
+    chosen = slice(None, None, len(points) // MAX_POINTS + 1)
     x, y = points["x"][chosen], points["y"][chosen]
     size = axes.get_position(original=True).size * axes.figure.get_size_inches() * 72
     if not isinstance(colours, str):
@@ -188,7 +268,14 @@ def draw_cloud(
     return len(x)
 
 
-def label_right(axes: Axes, labels: list[tuple[float, str, str]]) -> None:
+def rectangles(boxes: pd.DataFrame, **look) -> list[Rectangle]:
+    return [
+        Rectangle((b.lower_x, b.lower_y), b.upper_x - b.lower_x, b.upper_y - b.lower_y, **look)
+        for b in boxes.itertuples()
+    ]
+
+
+def label_right(axes: Axes, labels: Iterable[tuple[float, str, str]]) -> None:
     """Writes height, text and colour beside the right end, each clear of the one below."""
     axes.figure.canvas.draw()
     line = 13 / 72 * axes.figure.dpi / axes.get_window_extent().height
@@ -196,6 +283,4 @@ def label_right(axes: Axes, labels: list[tuple[float, str, str]]) -> None:
     for value, text, colour in sorted(labels):
         place = axes.transAxes.inverted().transform(axes.transData.transform((1, value)))[1]
         free = max(place, free + line)
-        axes.text(
-            1.01, free, text, color=colour, va="center", fontsize=9, transform=axes.transAxes
-        )
+        axes.text(1.01, free, text, color=colour, va="center", fontsize=9, transform=axes.transAxes)

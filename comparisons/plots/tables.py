@@ -1,125 +1,122 @@
-"""The tables of a report: a header, and rows of text."""
+"""The tables of a report: rows of texts by the names of their columns."""
 
 from __future__ import annotations
 
-from choice import TOLERANCES, Choice, find_method
-from intervals import NOT_TOLD_APART, decimals, differs_from_one, inverse, with_interval
-from results import Interval, Measurement, Repeat, Simulation
+import pandas as pd
+from choice import Choice
+from document import Rows
+from intervals import NOT_TOLD_APART, ONE, Value, decimals, value_of
+from results import row_of
 
-Table = tuple[list[str], list[list[str]]]
 
-
-def method_table(rows: list[Measurement]) -> Table:
-    header = ["method", "imbalance", "largest |Lu|, signed %", "time ms", "times as fast", "bytes"]
-    header += ["messages", "into root", "moved %"]
-    reference = find_method(rows, "zoltan-rcb")
-    table = [
-        [
-            row.method,
-            with_interval(row.imbalance, row.imbalance_interval, 5),
-            _signed(row),
-            with_interval(row.time_ms, row.time_interval, 2),
-            _times_as_fast(row, reference),
-            f"{row.bytes:,}",
-            f"{row.messages:,}",
-            f"{row.root_bytes_in:,}",
-            f"{100 * row.moved_fraction:.1f}",
-        ]
-        for row in rows
+def method_table(rows: pd.DataFrame) -> Rows:
+    reference = row_of(rows, "zoltan-rcb")
+    return [
+        {
+            "method": row.method,
+            "imbalance": value_of(row, "imbalance").text(5),
+            "largest |Lu|, signed %": _signed(row),
+            "time ms": value_of(row, "time_ms").text(2),
+            "times as fast": _times_as_fast(row, reference),
+            "bytes": f"{row.bytes:,}",
+            "messages": f"{row.messages:,}",
+            "into root": f"{row.root_bytes_in:,}",
+            "moved %": f"{100 * row.moved_fraction:.1f}",
+        }
+        for row in rows.itertuples()
     ]
-    return header, table
 
 
-def _signed(row: Measurement) -> str:
+def _signed(row: object) -> str:
     """Largest |Lu| with its sign, where that was measured."""
-    if row.worst_lu is None:
-        return f"±{row.lu_percent:.3f}"
-    text = f"{row.worst_lu:+.3f}"
+    worst = value_of(row, "lu_worst_percent")
+    if pd.isna(worst.number):
+        return f"±{row.lu_max_percent:.3f}"
+    text = f"{worst.number:+.3f}"
     return "0.000" if float(text) == 0 else text
 
 
-def _times_as_fast(row: Measurement, reference: Measurement | None) -> str:
+def _times_as_fast(row: object, reference: object | None) -> str:
     if reference is None or row.time_ms <= 0:
         return "–"
-    speed = 1 / row.share if row.share else reference.time_ms / row.time_ms
-    text = with_interval(speed, inverse(row.share_interval), 2)
-    same = row is not reference and not differs_from_one(row.share_interval)
-    return text + f", {NOT_TOLD_APART}" * same
+    speed = ONE / value_of(row, "time_vs_zoltan_rcb")
+    if pd.isna(speed.number):
+        speed = Value(reference.time_ms / row.time_ms, speed.low, speed.high)
+    return _or_same(speed, row.method == reference.method)
 
 
-def choice_table(chosen: list[Choice]) -> Table:
-    header = ["cloud", "imbalance ≤", "fastest setting", "time ms", "times as fast", "imbalance"]
-    table = [
-        [
-            choice.case,
-            choice.tolerance,
-            choice.setting + choice.remark or "none",
-            _number(choice.time_ms, 2, choice.time_interval),
-            _number(choice.times_as_fast, 2, choice.speed_interval),
-            _number(choice.imbalance, 5),
-        ]
+def _or_same(ratio: Value, is_reference: bool) -> str:
+    same = not is_reference and not ratio.is_apart(ONE)
+    return ratio.text(2) + f", {NOT_TOLD_APART}" * same
+
+
+def choice_table(chosen: list[Choice]) -> Rows:
+    return [
+        {
+            "cloud": choice.case,
+            "imbalance ≤": choice.tolerance,
+            "fastest setting": choice.setting + choice.remark or "none",
+            "time ms": choice.time_ms.text(2) if choice.time_ms else "–",
+            "times as fast": choice.times_as_fast.text(2) if choice.times_as_fast else "–",
+            "imbalance": f"{choice.imbalance:.5f}" if choice.setting else "–",
+        }
         for choice in chosen
     ]
-    return header, table
 
 
-def choice_matrix(chosen: list[Choice]) -> Table:
+def choice_matrix(chosen: list[Choice]) -> Rows:
     """A row per cloud, a column per tolerance."""
-    table: dict[str, list[str]] = {}
+    table: dict[str, dict[str, str]] = {}
     for choice in chosen:
         text = "none"
         if choice.setting:
-            text = f"{choice.setting} {_number(choice.time_ms, 2)}"
-            text += f"\N{NO-BREAK SPACE}{_number(choice.times_as_fast, 1)}×{choice.remark}"
-        table.setdefault(choice.case, [choice.case]).append(text)
-    return ["cloud", *(f"≤ {t}" for t in TOLERANCES[:-1]), TOLERANCES[-1]], list(table.values())
+            speed = f"{choice.times_as_fast.number:.1f}" if choice.times_as_fast else "–"
+            text = f"{choice.setting} {choice.time_ms.number:.2f}"
+            text += f"\N{NO-BREAK SPACE}{speed}×{choice.remark}"
+        name = "≤ " * (choice.tolerance != "exact") + choice.tolerance
+        table.setdefault(choice.case, {"cloud": choice.case})[name] = text
+    return list(table.values())
 
 
-def _number(value: float | None, digits: int, interval: Interval | None = None) -> str:
-    return "–" if value is None else with_interval(value, interval, digits)
-
-
-def simulation_table(runs: list[Simulation], reference: str) -> Table:
-    base = next((run for run in runs if run.method == reference), None)
-    digits = decimals([run.critical_path for run in runs], 4)
-    header = ["method", "ranks", "critical path s", f"times as fast as {reference}", "gain kept %"]
-    header += ["rebalances", "moved %", "mean imbalance", "wall s"]
-    table = [
-        [
-            run.method,
-            str(run.ranks),
-            with_interval(run.critical_path, run.critical_path_interval, digits),
-            _speed_up(run, base),
-            _percent(run.gain_kept),
-            "–" if run.rebalances is None else str(run.rebalances),
-            _percent(run.moved_fraction),
-            with_interval(run.mean_imbalance, run.imbalance_interval, 4),
-            with_interval(run.wall, run.wall_interval, digits),
-        ]
-        for run in runs
+def simulation_table(runs: pd.DataFrame, reference: str) -> Rows:
+    base = row_of(runs, reference)
+    digits = decimals(runs["critical_path_s"], 4)
+    return [
+        {
+            "method": run.method,
+            "ranks": str(run.ranks),
+            "critical path s": value_of(run, "critical_path_s").text(digits),
+            f"times as fast as {reference}": _speed_up(run, base),
+            "gain kept %": _percent(run, "gain_kept"),
+            "rebalances": f"{run.rebalances:.0f}" if value_of(run, "rebalances").number >= 0 else "–",
+            "moved %": _percent(run, "moved_fraction"),
+            "mean imbalance": value_of(run, "mean_imbalance").text(4),
+            "wall s": value_of(run, "wall_s").text(digits),
+        }
+        for run in runs.itertuples()
     ]
-    return header, table
 
 
-def _speed_up(run: Simulation, base: Simulation | None) -> str:
-    value = run.speed_up
-    if value is None and base and run.critical_path > 0:
-        value = base.critical_path / run.critical_path
-    if value is None:
-        return "–"
-    same = run is not base and not differs_from_one(run.speed_up_interval)
-    return with_interval(value, run.speed_up_interval, 2) + f", {NOT_TOLD_APART}" * same
+def _speed_up(run: object, base: object | None) -> str:
+    speed = value_of(run, "speed_up_critical_path")
+    if pd.isna(speed.number) and base and run.critical_path_s > 0:
+        speed = Value(base.critical_path_s / run.critical_path_s, speed.low, speed.high)
+    return "–" if pd.isna(speed.number) else _or_same(speed, run.Index == getattr(base, "Index", None))
 
 
-def _percent(fraction: float | None) -> str:
-    return "–" if fraction is None else f"{100 * fraction:.1f}"
+def _percent(row: object, name: str) -> str:
+    fraction = value_of(row, name).number
+    return "–" if pd.isna(fraction) else f"{100 * fraction:.1f}"
 
 
-def noise_table(repeats: list[Repeat]) -> Table:
-    header = ["workload", "what was measured twice", "second / first", "differs"]
-    table = [
-        [r.workload, r.what, with_interval(r.ratio, r.interval, 3)]
-        + ["–" if r.interval is None else "yes" if differs_from_one(r.interval) else "no"]
-        for r in repeats
+def noise_table(repeats: pd.DataFrame) -> Rows:
+    found = [(row, Value(row.ratio, row.low, row.high)) for row in repeats.itertuples()]
+    return [
+        {
+            "workload": row.workload,
+            "what was measured twice": row.what,
+            "second / first": ratio.text(3),
+            "differs": ("yes" if ratio.is_apart(ONE) else "no") if ratio.has_interval else "–",
+        }
+        for row, ratio in found
     ]
-    return header, table

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 import io
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -14,15 +14,14 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "plots"))
 
-import cost  # noqa: E402
-import draw  # noqa: E402
 import history  # noqa: E402
-import numpy as np  # noqa: E402
 import parts  # noqa: E402
-import results  # noqa: E402
+import pandas as pd  # noqa: E402
+import report  # noqa: E402
 import speed_up  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 from matplotlib.text import Text  # noqa: E402
+from results import Results  # noqa: E402
 
 TABLE = """\
 method,ranks,parts,points,dim,workload,layout,lists,repeats,time_ms_median,time_ms_min,time_ms_max,\
@@ -132,11 +131,15 @@ class DrawTest(unittest.TestCase):
             path.parent.mkdir(exist_ok=True)
             path.write_text(FILES[name])
 
+    @property
+    def results(self) -> Results:
+        return Results(self.directory)
+
     def draw(self, *arguments: str) -> int:
-        sys.argv = ["draw.py", *(arguments or [str(self.directory)])]
+        sys.argv = ["report.py", *(arguments or [str(self.directory)])]
         output = io.StringIO()
         with contextlib.redirect_stdout(output), contextlib.redirect_stderr(output):
-            return draw.main()
+            return report.main()
 
     def pictures(self) -> list[str]:
         return sorted(path.name for path in self.directory.glob("*.png"))
@@ -152,7 +155,7 @@ class DrawTest(unittest.TestCase):
 
         with unittest.mock.patch.object(Figure, "savefig", check_and_save):
             self.assertEqual(self.draw(), 0)
-        self.assertEqual(self.pictures(), sorted(draw.PICTURES))
+        self.assertEqual(self.pictures(), sorted(report.PICTURES))
         for name in self.pictures():
             self.assertEqual((self.directory / name).read_bytes()[:4], b"\x89PNG")
 
@@ -175,23 +178,26 @@ class DrawTest(unittest.TestCase):
 
     def test_reckons_speed_ups_over_the_serial_run(self) -> None:
         self.write("sweep_simulation.csv")
-        found = {(s.run.method, s.run.ranks): s for s in speed_up.read_speed_ups(self.directory)}
+        speed_ups = speed_up.read_speed_ups(self.results.swept_runs)
+        found = {(s.run.method, s.run.ranks): s.kinds for s in speed_ups}
         two = found["rrcb", 2]  # rebalanced twice in its ten steps
-        self.assertAlmostEqual(two.critical_path, 2.4 / (1.2 + 0.1 + 0.05 + 0.01))
-        self.assertAlmostEqual(two.every_step, 2.4 / (1.2 + 0.1 + 5 * (0.05 + 0.01)))
-        self.assertAlmostEqual(two.points, 2)
-        self.assertAlmostEqual(two.wall, 2)
+        self.assertAlmostEqual(two["critical_path"].number, 2.4 / (1.2 + 0.1 + 0.05 + 0.01))
+        self.assertAlmostEqual(two["every_step"].number, 2.4 / (1.2 + 0.1 + 5 * (0.05 + 0.01)))
+        self.assertAlmostEqual(two["points"].number, 2)
+        self.assertAlmostEqual(two["wall"].number, 2)
 
     def test_leaves_out_simulations_of_another_length(self) -> None:
         self.write("sweep_simulation.csv")
         path = self.directory / "sweep_simulation.csv"
         path.write_text(path.read_text() + FILES["sweep_simulation.csv"].split("\n")[1].replace(
             "serial,1,4,10,5", "serial,1,4,20,5") + "\n")
-        self.assertEqual([s.run.steps for s in speed_up.read_speed_ups(self.directory)], [20])
+        found = speed_up.read_speed_ups(self.results.swept_runs)
+        self.assertEqual([s.run.steps for s in found], [20])
 
     def test_reads_the_history_of_one_number_of_ranks(self) -> None:
         self.write(*FILES)
-        (history_of,) = results.read_study_history(self.directory, 2).values()
+        found = history.study_history(self.results, 2, "history", "rrcb-sampled_")
+        (history_of,) = found.values()
         self.assertEqual(history_of["lu_percent"].tolist(), [-50, 50])
 
     def test_leaves_out_pictures_without_data_and_removes_old_ones(self) -> None:
@@ -204,39 +210,54 @@ class DrawTest(unittest.TestCase):
 
     def test_reads_methods_that_succeeded_only(self) -> None:
         self.write("table.csv")
-        methods = [row.method for row in results.read_table(self.directory)]
+        methods = self.results.table["method"].tolist()
         self.assertEqual(methods, ["zoltan-rcb", "rrcb-sampled[mesh=4,k=2]", "rrcb-exact"])
 
     def test_draws_a_perfect_balance_where_one_point_is(self) -> None:
         self.write("table.csv")
-        perfect, other, _ = results.read_table(self.directory)
-        self.assertEqual(cost.percent_above(perfect), 50)  # one of two points
-        row = dataclasses.replace(other, points=2000)
-        self.assertAlmostEqual(cost.percent_above(row), 50)
-        self.assertAlmostEqual(cost.percent_above(dataclasses.replace(row, imbalance=1)), 0.1)
+        # Of four points on two ranks one more is half of the mean, of 2000 a thousandth.
+        self.assertEqual(self.results.table["excess"].tolist(), [0.5, 0.5, 0.5])
+        path = self.directory / "table.csv"
+        path.write_text(path.read_text().replace(",2,2,4,", ",2,2,2000,"))
+        self.assertEqual(self.results.table["excess"].tolist(), [0.001, 0.5, 0.001])
 
     def test_draws_the_history_down_to_one_point(self) -> None:
         self.write("history.csv")
-        self.assertEqual(history._one_point(results.read_history(self.directory)["rrcb"]), 50)
+        self.assertEqual(history.one_point(self.results.histories()["rrcb"]), 50)
 
     def test_knows_the_loads_of_parts_where_every_point_is_in_the_file(self) -> None:
         self.write("table.csv")
-        _, row, _ = results.read_table(self.directory)
-        points = {"part": np.array([0, 0, 0, 1])}
+        _, row, _ = self.results.table.itertuples()
+        points = pd.DataFrame({"part": [0, 0, 0, 1]})
         self.assertEqual(parts.part_loads(points, row).tolist(), [3, 1])
-        self.assertIsNone(parts.part_loads(points, dataclasses.replace(row, points=5)))
-        self.assertIsNone(parts.part_loads(points, dataclasses.replace(row, imbalance=1.4)))
+        self.assertIsNone(parts.part_loads(points, row._replace(points=5)))
+        self.assertIsNone(parts.part_loads(points, row._replace(imbalance=1.4)))
 
     def test_draws_methods_that_make_the_same_parts_once(self) -> None:
-        same, other = ({"part": np.array(part)} for part in ([0, 1], [1, 0]))
-        groups = parts._same_parts({("a", "x"): same, ("b", "x"): other, ("c", "x"): same})
+        same, other = (pd.DataFrame({"part": part}) for part in ([0, 1], [1, 0]))
+        groups = parts.same_parts({("a", "x"): same, ("b", "x"): other, ("c", "x"): same})
         self.assertEqual(groups, {"a": ["a", "c"], "b": ["b"]})
 
     def test_arranges_the_history_by_part_and_step(self) -> None:
         self.write("history.csv")
-        times, unbalance = history._per_part(results.read_history(self.directory)["rrcb"])
+        times, unbalance = history.per_part(self.results.histories()["rrcb"])
         self.assertEqual(times.tolist(), [0.0, 0.1])
         self.assertEqual(unbalance.tolist(), [[0.0, -50.0], [0.0, 50.0]])
+
+    def test_every_program_names_the_package_that_it_misses(self) -> None:
+        folder = Path(report.__file__).parent
+        for name in ("moments", "paper_methods", "report", "scaling", "scenes"):
+            for missing in ("matplotlib", "pandas"):
+                hide = (
+                    "import importlib.util, runpy, sys; find = importlib.util.find_spec;"
+                    f"importlib.util.find_spec = lambda n: None if n == {missing!r} else find(n);"
+                    f"sys.path.insert(0, {str(folder)!r});"
+                    f"runpy.run_path({str(folder / name)!r} + '.py', run_name='__main__')"
+                )
+                found = subprocess.run([sys.executable, "-B", "-c", hide], capture_output=True)
+                self.assertEqual(found.returncode, 1)
+                text = f"{missing} is missing: tools/set_up installs the Debian package python3-{missing}\n"
+                self.assertEqual(found.stderr.decode(), text)
 
     def test_refuses_a_directory_that_is_not_there(self) -> None:
         self.assertEqual(self.draw(str(self.directory / "nowhere")), 2)

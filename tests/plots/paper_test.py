@@ -14,8 +14,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "pl
 import claims  # noqa: E402
 import cycle  # noqa: E402
 import paper_methods  # noqa: E402
+import pandas as pd  # noqa: E402
 import speed_up  # noqa: E402
-from intervals import Spread  # noqa: E402
+from intervals import Value  # noqa: E402
+from methods import WINNERS  # noqa: E402
+from results import Results  # noqa: E402
 
 
 def mass_below(x: float, cut: float, mesh: int, multiplier: float) -> float:
@@ -59,12 +62,12 @@ class CycleTest(unittest.TestCase):
 
     def test_lasting_values_leave_the_first_calls_out(self) -> None:
         calls = [
-            cycle.Call("rrcb", 4, 100, "", n, 1.5 if n <= 10 else 1 + n % 2 / 10, n / 100)
-            for n in range(1, 13)
+            ("rrcb", float("nan"), n, 1.5 if n <= 10 else 1 + n % 2 / 10, n) for n in range(1, 13)
         ]
-        (found,) = cycle.lasting(calls)
-        self.assertEqual((found.better.median, found.worse.median), (1.0, 1.1))
-        self.assertAlmostEqual(found.moved.median, 0.115)
+        columns = ["method", "seed", "call", "imbalance", "moved"]
+        found = cycle.lasting(pd.DataFrame(calls, columns=columns))["rrcb"]
+        self.assertEqual((found["least"].number, found["most"].number), (1.0, 1.1))
+        self.assertAlmostEqual(found["moved"].number, 11.5)
 
     def test_pictures_of_the_methods_and_the_map_are_drawn(self) -> None:
         with tempfile.TemporaryDirectory() as directory:
@@ -96,21 +99,24 @@ class ClaimsTest(unittest.TestCase):
     def write(self, *rows: str) -> None:
         (self.directory / "sweep_simulation.csv").write_text(RUN + "".join(rows))
 
+    def claims(self) -> list[dict[str, str]]:
+        return claims.claim_table(Results(self.directory))
+
     def verdicts(self) -> dict[str, str]:
-        return {row[0]: row[2] for row in claims.claim_table(self.directory)}
+        return {row["the paper says"]: row["verdict"] for row in self.claims()}
 
     def test_are_none_without_files(self) -> None:
-        self.assertEqual(claims.claim_table(self.directory), [])
+        self.assertEqual(self.claims(), [])
 
     def test_name_no_winner_within_the_noise(self) -> None:
         slow, fast = [8.0, 8.1, 8.2, 8.3, 8.4, 8.5], [4.0, 4.1, 4.2, 4.3, 4.4, 4.5]
         self.write(
             runs("serial", 1, [10.0] * 6),
             runs("root-rcb", 4, [5.0, 5.1, 5.2, 5.3, 5.4, 5.5]),
-            runs(claims.WINNERS[0], 4, fast, 1.2),
-            runs(claims.WINNERS[1], 4, slow, 1.2),
-            runs(claims.WINNERS[2], 4, [3.0, 5.1, 5.2, 5.3, 5.4, 9.0], 1.2),
-            runs(claims.WINNERS[3], 4, [1.0], 1.2),
+            runs(WINNERS[0], 4, fast, 1.2),
+            runs(WINNERS[1], 4, slow, 1.2),
+            runs(WINNERS[2], 4, [3.0, 5.1, 5.2, 5.3, 5.4, 9.0], 1.2),
+            runs(WINNERS[3], 4, [1.0], 1.2),
         )
         found = self.verdicts()
         self.assertEqual(found["mesh 2 × 2, 1.5 σ, 25 % is faster than RCB"], "confirmed")
@@ -135,22 +141,24 @@ class ClaimsTest(unittest.TestCase):
             for seed in range(1, 11)
         )
         (self.directory / "error_sources.csv").write_text(header + rows)
-        table = claims.claim_table(self.directory)
-        self.assertEqual([row[2] for row in table], ["refuted", "confirmed"])
-        self.assertIn("4.10 % of unbalance", table[0][1])
+        table = self.claims()
+        self.assertEqual([row["verdict"] for row in table], ["refuted", "confirmed"])
+        measured = table[0]["measured here, with 95 % intervals"]
+        self.assertIn("4.10 % of unbalance", measured)
 
     def test_comparison_needs_intervals_apart(self) -> None:
-        low, high = Spread(1, (0.9, 1.1), 6), Spread(2, (1.9, 2.1), 6)
+        low, high = Value(1, 0.9, 1.1), Value(2, 1.9, 2.1)
         self.assertEqual(claims.compare(high, low), "confirmed")
         self.assertEqual(claims.compare(low, high), "refuted")
-        self.assertEqual(claims.compare(high, Spread(1, None, 1)), "not told apart")
+        self.assertEqual(claims.compare(high, Value(1)), "not told apart")
 
     def test_speed_ups_are_medians_over_the_repeats(self) -> None:
         self.write(runs("serial", 1, [9.0, 10.0, 11.0]), runs("rrcb", 4, [4.0, 5.0, 2.0]))
-        found = {s.run.method: s for s in speed_up.read_speed_ups(self.directory)}
-        self.assertAlmostEqual(found["rrcb"].critical_path, 2.5)
-        self.assertAlmostEqual(found["rrcb"].run.step_path, 4.0)
-        self.assertEqual(found["rrcb"].spreads["critical_path"].count, 3)
+        runs_of = Results(self.directory).swept_runs
+        found = {s.run.method: s for s in speed_up.read_speed_ups(runs_of)}["rrcb"]
+        self.assertAlmostEqual(found.kinds["critical_path"].number, 2.5)
+        self.assertAlmostEqual(found.run.step_path_s, 4.0)
+        self.assertEqual(found.kinds["critical_path"].count, 3)
 
 
 if __name__ == "__main__":

@@ -10,8 +10,10 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "plots"))
 
+import methods  # noqa: E402
 import price  # noqa: E402
 import prices  # noqa: E402
+from results import Results  # noqa: E402
 
 COLUMNS = (
     "method,ranks,points,dim,workload,layout,time_ms_median,time_ms_min,time_ms_max,imbalance,"
@@ -56,10 +58,11 @@ class PriceTest(unittest.TestCase):
         (self.directory / "table.csv").write_text(table)
         if runs:
             (self.directory / "simulation.csv").write_text(runs)
-        return {(p.panel, p.method): p for p in prices.read_prices(self.directory)}
+        self.results = Results(self.directory)
+        return {(p.panel, p.method): p for p in prices.all_prices(self.results)}
 
     def check(self, found: prices.Price, *expected: float) -> None:
-        for value, wanted in zip((found.value, found.low, found.high), expected, strict=True):
+        for value, wanted in zip((found.value.number, *found.value.reach), expected, strict=True):
             self.assertAlmostEqual(value, wanted)
 
     def test_of_a_call_is_a_mean_within_the_ends_of_all_intervals(self) -> None:
@@ -102,31 +105,27 @@ class PriceTest(unittest.TestCase):
     def test_exchange_rate_of_unbalance_and_calls(self) -> None:
         self.prices(TABLE, RUNS)
         self.assertEqual(
-            prices.exchange_rate(prices.read_runs(self.directory)),
+            prices.exchange_rate(self.results.runs),
             "1 % of unbalance costs 1000 µs a step, 5000 µs until the next call (5 steps); an exact"
             " call costs 50000 µs more than one to 1.1.",
         )
 
     def test_file_has_a_row_for_each(self) -> None:
-        self.prices(TABLE)
-        prices.write_prices(self.directory)
-        lines = (self.directory / "price.csv").read_text().splitlines()
-        self.assertEqual(lines[0], "panel,method,tolerance,value,low,high")
-        self.assertIn("call,rrcb[tol=1.1],1.1,0.5,0.2,1.2", lines)
+        row = self.prices(TABLE)["call", "rrcb[tol=1.1]"].numbers
+        self.assertEqual(",".join(row), "panel,method,tolerance,value,low,high")
+        self.assertEqual(",".join(row.values()), "call,rrcb[tol=1.1],1.1,0.5,0.2,1.2")
 
     def test_picture_is_drawn_with_and_without_a_simulation(self) -> None:
-        picture = self.directory / "price.png"
-        self.prices(TABLE)
-        self.assertTrue(price.draw_price(self.directory, picture))
-        self.prices(TABLE, RUNS)
-        self.assertTrue(price.draw_price(self.directory, picture))
-        self.assertFalse(price.draw_price(self.directory / "nowhere", picture))
+        for runs, panels in (("", 1), (RUNS, 2)):
+            self.prices(TABLE, runs)
+            self.assertEqual(len(price.draw_price(self.results).axes), panels)
+        self.assertIsNone(price.draw_price(Results(self.directory / "nowhere")))
 
     def test_a_line_is_rrcb_with_one_mesh(self) -> None:
-        self.assertEqual(prices.family("rrcb-exact[mesh=8]"), "rrcb[mesh=8]")
-        self.assertEqual(prices.family("rrcb[tol=1.001]"), "rrcb")
-        self.assertEqual(prices.tolerance_asked("rrcb[mesh=8]"), "1.01")
-        self.assertIsNone(prices.tolerance_asked("zoltan-rcb"))
+        self.assertEqual(methods.family("rrcb-exact[mesh=8]"), "rrcb[mesh=8]")
+        self.assertEqual(methods.family("rrcb[tol=1.001]"), "rrcb")
+        self.assertEqual(methods.tolerance_asked("rrcb[mesh=8]"), "1.01")
+        self.assertEqual(methods.tolerance_asked("zoltan-rcb"), "")
 
 
 if __name__ == "__main__":

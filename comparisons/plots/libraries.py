@@ -1,0 +1,8 @@
+"""Fails where a library that draws or tabulates is missing; every program imports it first."""
+
+import sys
+from importlib.util import find_spec
+
+for library in ("matplotlib", "pandas"):
+    if find_spec(library) is None:
+        sys.exit(f"{library} is missing: tools/set_up installs the Debian package python3-{library}")

@@ -1,0 +1,56 @@
+"""What the names of methods say: their parameters, what they are asked for, whose they are."""
+
+from __future__ import annotations
+
+import re
+
+ACROSS = ("none", "zoltan-rcb", "zoltan-hsfc", "zoltan-rib", "zoltan2-mj")  # take no tolerance
+STANDARD = "rrcb-sampled[mesh=4,k=1.5,fraction=1]"  # the paper's RRCB
+WINNERS = (  # the settings with which it was faster than RCB in the paper
+    "rrcb-sampled[mesh=2,k=1.5,fraction=0.25]",
+    "rrcb-sampled[mesh=4,k=2,fraction=0.125]",
+    "rrcb-sampled[mesh=6,k=2,fraction=0.125]",
+    "rrcb-sampled[mesh=8,k=2,fraction=0.125]",
+)
+
+
+def parse(method: str) -> tuple[str, dict[str, str]]:
+    name, _, inside = method.partition("[")
+    return name, dict(re.findall(r"(\w+)=([^,\]]+)", inside))
+
+
+def is_ours(method: str) -> bool:
+    return parse(method)[0] in ("rrcb", "rrcb-exact")
+
+
+def is_of_the_paper(method: str) -> bool:
+    return parse(method)[0] in ("rrcb-sampled", "root-rcb")
+
+
+def tolerance_asked(method: str) -> str:
+    """Empty of a method that takes no tolerance, or is told not to keep it."""
+    name, parameters = parse(method)
+    if name == "rrcb-exact" and parameters.keys() <= {"mesh"}:
+        return "exact"
+    if name in ("rrcb", "rrcb-arrays") and parameters.keys() <= {"mesh", "tol"}:
+        return parameters.get("tol", "1.01")
+    return ""
+
+
+def family(method: str) -> str:
+    """What one line is drawn of: RRCB with one mesh at every tolerance."""
+    name, parameters = parse(method)
+    name = name.replace("rrcb-exact", "rrcb")
+    return f"{name}[mesh={parameters['mesh']}]" if "mesh" in parameters else name
+
+
+def setting_of(method: str) -> tuple[float, ...]:
+    """Mesh, multiplier k and fraction of the paper's grid; empty of other methods."""
+    name, parameters = parse(method)
+    is_setting = name == "rrcb-sampled" and list(parameters) == ["mesh", "k", "fraction"]
+    return tuple(map(float, parameters.values())) if is_setting else ()
+
+
+def values_of(methods: list[str], field: int) -> list[float]:
+    """Different values of mesh (0), k (1) or fraction (2) of settings."""
+    return sorted({setting_of(method)[field] for method in methods})

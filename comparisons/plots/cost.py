@@ -22,7 +22,9 @@ from style import (
 
 
 def draw_cost(results: Results) -> Figure | None:
-    """A panel per workload; lower is better balanced, further left is faster."""
+    """What accuracy costs: the time of a call against the imbalance it leaves; lower is better
+    balanced, further left is faster. One point more in a part than in the mean is the least that
+    can be told."""
     table = results.table
     if table.empty:
         return None
@@ -70,10 +72,13 @@ def _shade_one_point(axes: Axes, rows: pd.DataFrame) -> None:
 
 
 def draw_sweep_time(results: Results) -> Figure | None:
+    """What accuracy costs in time: every setting on every cloud, and the front of those that no
+    other beats in both."""
     return _draw_fronts(results.clouds, "time_ms", "time of a call [ms]")
 
 
 def draw_sweep_bytes(results: Results) -> Figure | None:
+    """What accuracy costs in traffic."""
     return _draw_fronts(results.clouds, "bytes", "bytes sent in a call")
 
 
@@ -110,7 +115,8 @@ def _draw_front(axes: Axes, rows: pd.DataFrame, cost: str) -> None:
 
 
 def draw_study(results: Results) -> Figure | None:
-    """Unbalance and time over the paper's parameters: mean, least and most of the snapshots."""
+    """The paper's parameters on snapshots of the failing slope: lines are means of the snapshots,
+    bands reach from least to most."""
     rows = results.snapshots
     rows = rows[[bool(setting_of(method)) for method in rows["method"]]]
     if rows.empty:

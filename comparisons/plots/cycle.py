@@ -35,7 +35,8 @@ def read_cycle(results: Results) -> pd.DataFrame:
 
 
 def draw_cycle(results: Results) -> Figure | None:
-    """Imbalance and moved share over the calls: medians, with their intervals over the seeds."""
+    """Calls on points that stand still, each from the cuts of the one before: medians and 95 %
+    intervals over the seeds."""
     calls = read_cycle(results)
     if calls.empty:
         return None

@@ -24,7 +24,7 @@ from style import (
 
 
 def draw_support_mesh(results: Results) -> Figure | None:
-    """Every rank's cells with the centroid and the standard deviation of the points inside."""
+    """A support mesh with the centroids and standard deviations of its cells."""
     meshes = _by_workload(results, "cells")
     if not meshes:
         return None
@@ -53,7 +53,7 @@ def draw_support_mesh(results: Results) -> Figure | None:
 
 
 def draw_domains(results: Results) -> Figure | None:
-    """The real points and, beside them, the pseudo-random ones that stand for them."""
+    """The real points and the statistical domain that stands for them, on equal scales."""
     sampled = _by_workload(results, "statistical")
     pairs = {name: (_real_points(results, name), points) for name, points in sampled.items()}
     pairs = {name: (real, points) for name, (real, points) in pairs.items() if len(real)}

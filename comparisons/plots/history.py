@@ -30,7 +30,8 @@ CONFIGURATIONS = ("root-rcb", *WINNERS)
 
 
 def draw_history(results: Results) -> Figure | None:
-    """All methods together by their worst part, then every part of each method, in windows."""
+    """Load unbalance over the steps of the simulation: the largest of each method, then Lu of every
+    part, bands from least to most of a window of steps; scales differ."""
     histories = results.histories()
     if not histories:
         return None
@@ -99,7 +100,8 @@ def _draw_parts_of(axes: Axes, method: str, history: pd.DataFrame) -> None:
 
 
 def draw_figure_6(results: Results) -> Figure | None:
-    """Lu of every part, with its sign, under the paper's RCB and its RRCB with four settings."""
+    """Figure 6 of the paper: Lu of every part under its RCB and the four settings of its RRCB that
+    were faster."""
     histories, every = _configurations(results)
     if not histories:
         return None
@@ -130,7 +132,7 @@ def study_history(
 
 
 def draw_study_history(results: Results) -> Figure | None:
-    """Largest |Lu| over the steps, a panel per mesh and fraction, a line per k."""
+    """Load unbalance over the simulation under all settings, largest |Lu| of the parts."""
     runs = [s.run for s in read_speed_ups(results.swept_runs) if setting_of(s.run.method)]
     ranks = mode(run.ranks for run in runs) if runs else 0
     histories = study_history(results, ranks, "history", "rrcb-sampled_")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
@@ -15,10 +17,8 @@ SIX = "six-boxes"  # the driver's name of the data of figure 2
 
 
 def draw_parts(results: Results) -> Figure | None:
-    """A panel per method (rows) and workload (columns), or in two columns for one workload.
-
-    Methods that make the same parts of every workload share a row.
-    """
+    """The points, coloured by part, with the boxes of the parts; in each part its number and, where
+    every point is drawn, its points and their Lu. All scales are equal."""
     rows = {(row.method, row.workload): row for row in results.table.itertuples()}
     clouds = {key: results.data("points", *key[::-1]) for key in rows}
     clouds = {key: points for key, points in clouds.items() if len(points)}
@@ -26,21 +26,22 @@ def draw_parts(results: Results) -> Figure | None:
         return None
     names = same_parts(clouds)
     clouds = {key: points for key, points in clouds.items() if key[0] in names}
-    places = _arrange(list(clouds))
-    lines, columns = places.shape
+    places = _places(clouds)
+    lines, columns = (1 + max(numbers) for numbers in zip(*places.values()))
     height = (length_ratio(clouds.values()) * PANEL_WIDTH + 0.7) * lines + 0.5
     width = PANEL_WIDTH * columns + 0.7
     figure, grid = panels(lines, columns, width, height, sharex=True, sharey=True)
-    for (i, j), key in np.ndenumerate(places):
-        axes = grid[i, j]
-        show_lengths(axes, i == lines - 1, j == 0)
-        if key not in clouds:
-            axes.set_axis_off()
-            continue
-        draw_cloud(axes, clouds[key], part_colours(clouds[key]["part"]))
-        _draw_boxes(axes, clouds[key], results.data("boxes", *key[::-1]))
-        _write_loads(axes, clouds[key], rows[key])
+    for axes in grid.flat:
+        axes.set_axis_off()
+    for key, (i, j) in places.items():
+        axes, points = grid[i, j], clouds[key]
+        axes.set_axis_on()
+        draw_cloud(axes, points, part_colours(points["part"]))
+        _draw_boxes(axes, points, results.data("boxes", *key[::-1]))
+        _write_loads(axes, points, rows[key])
         axes.set_title(_title(names[key[0]], rows[key]), fontsize=9)
+    for (i, j), axes in np.ndenumerate(grid):
+        show_lengths(axes, i == lines - 1, j == 0)
     return figure
 
 
@@ -55,17 +56,12 @@ def same_parts(clouds: dict[tuple[str, str], pd.DataFrame]) -> dict[str, list[st
     return {methods[0]: methods for methods in groups.values()}
 
 
-def _arrange(keys: list[tuple[str, str]]) -> np.ndarray:
-    """Which (method, workload) each panel of the picture shows; None where there is none."""
+def _places(keys: Iterable[tuple[str, str]]) -> dict[tuple[str, str], tuple[int, int]]:
+    """A row per method and a column per workload; two columns of the methods of one workload."""
     methods, workloads = (list(dict.fromkeys(names)) for names in zip(*keys))
-    rows = [[(method, workload) for workload in workloads] for method in methods]
     if len(workloads) == 1:
-        rows = [keys[i : i + 2] for i in range(0, len(keys), 2)]
-    places = np.full((len(rows), max(map(len, rows))), None, dtype=object)
-    for i, row in enumerate(rows):
-        for j, key in enumerate(row):
-            places[i, j] = key
-    return places
+        return {key: divmod(number, 2) for number, key in enumerate(keys)}
+    return {key: (methods.index(key[0]), workloads.index(key[1])) for key in keys}
 
 
 def _draw_boxes(axes: Axes, points: pd.DataFrame, boxes: pd.DataFrame) -> None:
@@ -104,7 +100,8 @@ def _title(methods: list[str], row: object) -> str:
 
 
 def draw_figure_2(results: Results) -> Figure | None:
-    """The statistical domain bisected into a box for each of six processes, and the points."""
+    """Figure 2 of the paper: the statistical domain in a box for each of six processes, and the
+    points in these boxes."""
     samples = results.data("statistical", SIX)
     points, boxes = (results.data(kind, SIX, "rrcb-sampled") for kind in ("points", "boxes"))
     if samples.empty or points.empty or boxes.empty:

@@ -12,13 +12,7 @@ from pathlib import Path
 
 import libraries  # noqa: F401, before what it looks for
 import pandas as pd
-from choice import (
-    EVERYWHERE,
-    automatic_sentence,
-    choices,
-    fronts,
-    judgements,
-)
+from choice import EVERYWHERE, automatic_sentence, choices, fronts, judgements
 from claims import claim_table, set_up_table
 from cost import draw_cost, draw_study, draw_sweep_bytes, draw_sweep_time
 from cycle import cycle_table, draw_cycle, read_cycle
@@ -47,91 +41,25 @@ from speed_up import (
 from style import save, use_style
 from tables import choice_matrix, choice_table, method_table, noise_table, simulation_table
 
+# Their captions are the docstrings of what draws them.
 PICTURES = {
-    "price.png": (
-        draw_price,
-        "The price of accuracy. Left, the time of a call as a share of Zoltan's RCB over the"
-        " imbalance asked for; the paper's methods, which take no tolerance, stand at what they"
-        " left. Over several workloads: geometric means, and bands from the least to the most end"
-        " of the 95 % intervals. Right, the simulation on the critical path: seconds that its calls"
-        " and the unbalance of its steps cost, over those of ideally balanced steps. What noise of"
-        " the processors and messages of the steps add is the same under all and left out."
-        " price.csv has the numbers.",
-    ),
-    "time_against_imbalance.png": (
-        draw_cost,
-        "What accuracy costs: the time of a call against the imbalance it leaves; lower is better"
-        " balanced, further left is faster. One point more in a part than in the mean is the least"
-        " that can be told.",
-    ),
-    "parts.png": (
-        draw_parts,
-        "The points, coloured by part, with the boxes of the parts; in each part its number and,"
-        " where every point is drawn, its points and their Lu. All scales are equal.",
-    ),
-    "support_mesh.png": (
-        draw_support_mesh,
-        "A support mesh with the centroids and standard deviations of its cells.",
-    ),
-    "statistical_domain.png": (
-        draw_domains,
-        "The real points and the statistical domain that stands for them, on equal scales.",
-    ),
-    "unbalance_history.png": (
-        draw_history,
-        "Load unbalance over the steps of the simulation: the largest of each method, then Lu of"
-        " every part, bands from least to most of a window of steps; scales differ.",
-    ),
-    "simulation_time.png": (
-        draw_simulation,
-        "Where the time of the whole simulation goes, on the critical path.",
-    ),
-    "sweep_time.png": (
-        draw_sweep_time,
-        "What accuracy costs in time: every setting on every cloud, and the front of those that no"
-        " other beats in both.",
-    ),
-    "sweep_bytes.png": (draw_sweep_bytes, "What accuracy costs in traffic."),
-    "error_sources.png": (
-        draw_sources,
-        "Imbalance when what is bisected goes from all points to a sample of them: the support mesh"
-        " adds what lies between the points and the cells, another half-width than √3 σ, or a box"
-        " cut off, what lies between cells and boxes, the sampling what lies above the boxes"
-        " (lines: medians over the seeds, bands: their 95 % intervals).",
-    ),
-    "cycle.png": (
-        draw_cycle,
-        "Calls on points that stand still, each from the cuts of the one before: medians and 95 %"
-        " intervals over the seeds.",
-    ),
-    "figure_2.png": (
-        draw_figure_2,
-        "Figure 2 of the paper: the statistical domain in a box for each of six processes, and the"
-        " points in these boxes.",
-    ),
-    "study.png": (
-        draw_study,
-        "The paper's parameters on snapshots of the failing slope: lines are means of the"
-        " snapshots, bands reach from least to most.",
-    ),
-    "speed_up.png": (
-        draw_speed_up,
-        "Figure 5 of the paper: speed-up of the simulation over the serial one. Top, with a core"
-        " for every rank, reckoned from the processor time of each rank outside MPI and a network"
-        " of 1.5 µs and 12 GB/s; middle, by the points of the fullest rank alone; bottom, as the"
-        " clock on this machine saw it. Bars and bands: 95 % intervals of what was run more than"
-        " once.",
-    ),
-    "ranks.png": (draw_ranks, "Table 1 of the paper: speed-up over the number of ranks."),
-    "figure_6.png": (
-        draw_figure_6,
-        "Figure 6 of the paper: Lu of every part under its RCB and the four settings of its RRCB"
-        " that were faster.",
-    ),
-    "study_history.png": (
-        draw_study_history,
-        "Load unbalance over the simulation under all settings, largest |Lu| of the parts.",
-    ),
+    "price.png": draw_price,
+    "time_against_imbalance.png": draw_cost,
+    "parts.png": draw_parts,
+    "support_mesh.png": draw_support_mesh,
+    "statistical_domain.png": draw_domains,
+    "unbalance_history.png": draw_history,
+    "simulation_time.png": draw_simulation,
+    "sweep_time.png": draw_sweep_time,
+    "sweep_bytes.png": draw_sweep_bytes,
+    "error_sources.png": draw_sources,
+    "cycle.png": draw_cycle,
+    "figure_2.png": draw_figure_2,
+    "study.png": draw_study,
+    "speed_up.png": draw_speed_up,
+    "ranks.png": draw_ranks,
+    "figure_6.png": draw_figure_6,
+    "study_history.png": draw_study_history,
 }
 
 
@@ -165,7 +93,7 @@ def main() -> int:
 
 def draw(results: Results) -> None:
     use_style()
-    for name, (draw_picture, _) in PICTURES.items():
+    for name, draw_picture in PICTURES.items():
         picture = results.folder / name
         if figure := draw_picture(results):
             save(figure, picture)
@@ -208,7 +136,7 @@ def sweep_report(results: Results) -> Document:
 
 def _add_pictures(document: Document, *names: str) -> None:
     for name in names:
-        document.picture(name, PICTURES[name][1])
+        document.picture(name, " ".join(PICTURES[name].__doc__.split()))
 
 
 def _begin(document: Document, results: Results, rows: pd.DataFrame, runs: pd.DataFrame) -> None:

@@ -7,26 +7,8 @@ from typing import NamedTuple
 
 from choice import yes
 from results import read
-from scaling_model import (
-    LOOKS,
-    Count,
-    Exchange,
-    Rounds,
-    Sizes,
-    Traffic,
-    answer_bytes,
-    beyond_head,
-    checksum_bytes,
-    hand_up_bytes,
-    look_bytes,
-    multijagged,
-    rrcb,
-    rrcb_root_bytes,
-    sections,
-    sets,
-    step_bytes,
-    zoltan_rcb,
-)
+import scaling_model as model
+from scaling_model import Count, Exchange, Rounds, Sizes, Traffic
 
 NONE = "rrcb[mesh=4,refine=none]"
 REFINED = "rrcb[mesh=4]"
@@ -111,7 +93,7 @@ def compare_all(counted: dict[tuple[str, int], Counted]) -> list[Comparison]:
         if sizes and ranks > 1 and method in (NONE, ACCEPTED, REFINED, EXACT):
             found.append(_compare_rrcb(row, sizes))
         if method == ZOLTAN and ranks > 1:
-            traffic = zoltan_rcb(ranks, read_exchange(row))
+            traffic = model.zoltan_rcb(ranks, read_exchange(row))
             found.append(Comparison(row, traffic, "", "iterations, partners and points moved"))
         if method == JAGGED and ranks > 1:
             found.append(_compare_multijagged(row))
@@ -124,15 +106,15 @@ def read_sizes(counted: dict[tuple[str, int], Counted]) -> Sizes | None:
         return None
     none, exact = counted[NONE, 2].traffic, counted[EXACT, 2].traffic
     rounds = (exact["Bcast"].calls - none["Bcast"].calls) // 2 - 1
-    searches = exact["Bcast"].sent - none["Bcast"].sent - answer_bytes(2)
+    searches = exact["Bcast"].sent - none["Bcast"].sent - model.answer_bytes(2)
     return Sizes(
-        agreements=none["Allreduce"].sent // 2 - checksum_bytes(2),
+        agreements=none["Allreduce"].sent // 2 - model.checksum_bytes(2),
         num_agreements=none["Allreduce"].calls // 2,
         parameters=none["Gather"].sent // 2,
         broadcasts=none["Bcast"].sent - 8 * 2,
         num_broadcasts=none["Bcast"].calls // 2,
-        summary=none["Send"].sent - hand_up_bytes(2, "none"),
-        histogram=exact["Reduce"].sent // 2 - look_bytes(2),
+        summary=none["Send"].sent - model.hand_up_bytes(2, "none"),
+        histogram=exact["Reduce"].sent // 2 - model.look_bytes(2),
         search=searches // rounds,
     )
 
@@ -140,10 +122,10 @@ def read_sizes(counted: dict[tuple[str, int], Counted]) -> Sizes | None:
 def read_rounds(row: Counted, sizes: Sizes) -> Rounds:
     """What the refinement did; fractions would mean that the formula does not hold."""
     traffic, ranks = row.traffic, row.ranks
-    looks = LOOKS["refined" if row.method == REFINED else "exact"]
-    rest = beyond_head(ranks, "exact")
-    once = sizes.broadcasts + 8 * ranks + rest + looks * answer_bytes(ranks)
-    reduced = traffic["Reduce"].sent - looks * ranks * look_bytes(ranks)
+    looks = model.LOOKS["refined" if row.method == REFINED else "exact"]
+    rest = model.beyond_head(ranks, "exact")
+    once = sizes.broadcasts + 8 * ranks + rest + looks * model.answer_bytes(ranks)
+    reduced = traffic["Reduce"].sent - looks * ranks * model.look_bytes(ranks)
     broadcasts = _whole(traffic["Bcast"].calls, ranks)
     return Rounds(
         rounds=broadcasts - sizes.num_broadcasts - (rest > 0) - looks,
@@ -161,14 +143,14 @@ def _compare_rrcb(row: Counted, sizes: Sizes) -> Comparison:
     if row.method == EXACT or row.method == REFINED and not was_accepted:
         refine = "refined" if row.method == REFINED else "exact"
         rounds, inputs = read_rounds(row, sizes), "rounds, histograms and candidates"
-    model = (row.ranks, sizes, refine, rounds)
-    return Comparison(row, rrcb(*model), rrcb_root_bytes(*model), inputs)
+    given = (row.ranks, sizes, refine, rounds)
+    return Comparison(row, model.rrcb(*given), model.rrcb_root_bytes(*given), inputs)
 
 
 def read_exchange(row: Counted) -> Exchange:
     traffic = row.traffic
-    returned = _whole(traffic["Reduce"].calls - sum(sets(row.ranks)), row.ranks) > 1
-    without = zoltan_rcb(row.ranks, Exchange(0, returned, 0, 0, 0, 0))
+    returned = _whole(traffic["Reduce"].calls - sum(model.sets(row.ranks)), row.ranks) > 1
+    without = model.zoltan_rcb(row.ranks, Exchange(0, returned, 0, 0, 0, 0))
     return Exchange(
         iterations=traffic["Allreduce"].calls - without["Allreduce"].calls,
         returned=returned,
@@ -182,16 +164,16 @@ def read_exchange(row: Counted) -> Exchange:
 def _compare_multijagged(row: Counted) -> Comparison:
     """Steps of two sizes at most: those of the larger from the bytes, all from the calls."""
     ranks = row.ranks
-    counted, without = row.traffic["Allreduce"], multijagged(ranks, {})["Allreduce"]
+    counted, without = row.traffic["Allreduce"], model.multijagged(ranks, {})["Allreduce"]
     steps = _whole(counted.calls - without.calls, ranks)
     size = _whole(counted.sent - without.sent, ranks)
-    widths = sorted({len(sections(ranks)), *(p for p in sections(ranks) if ranks > 2)} - {1})
+    widths = sorted({len(model.sections(ranks)), *(p for p in model.sections(ranks) if ranks > 2)} - {1})
     iterations = {widths[-1]: steps}
     if len(widths) == 2:
-        few, many = map(step_bytes, widths)
+        few, many = map(model.step_bytes, widths)
         larger = _whole(size - steps * few, many - few)
         iterations = {widths[1]: larger, widths[0]: steps - larger}
-    traffic = multijagged(ranks, iterations)
+    traffic = model.multijagged(ranks, iterations)
     root_bytes = traffic["Allreduce"].got // ranks
     return Comparison(row, traffic, root_bytes, "steps of the search")
 

@@ -10,31 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import ceil
 
+import scaling_model as model
 from scaling_check import EXACT, JAGGED, ZOLTAN, Counted, read_exchange, read_rounds
-from scaling_model import (
-    CELL,
-    DIMENSION,
-    LIST_BYTES,
-    LIST_FIELDS,
-    LOOKS,
-    MEDIAN,
-    MESH,
-    MOST_CELLS,
-    POINT_BYTES,
-    POINT_FIELDS,
-    RADIX,
-    Rounds,
-    Sizes,
-    all_agreements,
-    answer_bytes,
-    beyond_head,
-    expected_iterations,
-    expected_rounds,
-    look_bytes,
-    place_bytes,
-    sets,
-    step_bytes,
-)
+from scaling_model import Rounds, Sizes
 
 
 @dataclass(frozen=True)
@@ -93,7 +71,7 @@ def observe(counted: dict[tuple[str, int], Counted], sizes: Sizes) -> Observed:
         sizes,
         max(ceil(of.rounds / cuts.bit_length()) for cuts, of in refined),
         max(of.candidate_bytes / cuts for cuts, of in refined),
-        _mean([read_exchange(row).iterations / sum(sets(row.ranks)) for row in zoltan]),
+        _mean([read_exchange(row).iterations / sum(model.sets(row.ranks)) for row in zoltan]),
         _mean([_steps(row) for row in jagged]),
     )
 
@@ -103,32 +81,32 @@ def _mean(values: list[float]) -> float:
 
 
 def _steps(row: Counted) -> float:
-    sections = sum(expected_iterations(row.ranks, 1).values())
+    sections = sum(model.expected_iterations(row.ranks, 1).values())
     return (row.traffic["Allreduce"].calls / row.ranks - 7 - sections) / sections
 
 
 def rrcb_path(ranks: int, refine: str, observed: Observed, machine: Machine) -> CallPath:
     sizes = observed.sizes
     path = CallPath(machine, work=machine.points * machine.per_point)
-    num_agreements, agreements = all_agreements(ranks, sizes, refine)
+    num_agreements, agreements = model.all_agreements(ranks, sizes, refine)
     per_agreement = agreements / num_agreements
     path.collective(ranks, 2 * per_agreement, num_agreements, per_agreement)
     path.collective(ranks, ranks * sizes.parameters, 1, ranks * sizes.parameters)
-    rest = beyond_head(ranks, refine)
+    rest = model.beyond_head(ranks, refine)
     path.collective(ranks, 0, sizes.num_broadcasts + (rest > 0))
     path.bytes += sizes.broadcasts + 8 * ranks + rest
-    _climb(path, ranks, sizes, place_bytes(ranks, refine))
-    cells = min(MOST_CELLS, ranks * MESH**DIMENSION)
+    _climb(path, ranks, sizes, model.place_bytes(ranks, refine))
+    cells = min(model.MOST_CELLS, ranks * model.MESH**model.DIMENSION)
     path.work += (cells * (ranks - 1).bit_length() + ranks) * machine.per_cell
-    looks = LOOKS[refine]
-    path.collective(ranks, look_bytes(ranks), looks, look_bytes(ranks))
-    path.collective(ranks, answer_bytes(ranks), looks)
+    looks = model.LOOKS[refine]
+    path.collective(ranks, model.look_bytes(ranks), looks, model.look_bytes(ranks))
+    path.collective(ranks, model.answer_bytes(ranks), looks)
     if refine == "refined":
         levels = (ranks - 1).bit_length()
         _refine(path, ranks, sizes, Rounds(levels, ranks - 1, levels, ranks - 1))
     if refine == "exact":
         per_level, per_list = observed.rounds_per_level, observed.bytes_per_list
-        _refine(path, ranks, sizes, expected_rounds(ranks, per_level, per_list))
+        _refine(path, ranks, sizes, model.expected_rounds(ranks, per_level, per_list))
     return path
 
 
@@ -136,16 +114,16 @@ def _climb(path: CallPath, ranks: int, sizes: Sizes, place: int) -> None:
     """Up the tree of radix 8, at each level seven children one after the other."""
     below = 1
     while below < ranks:
-        num_children = min(RADIX - 1, ceil(ranks / below) - 1)
-        cells = min(MOST_CELLS, below * MESH**DIMENSION)
-        records = cells * CELL + below * place
+        num_children = min(model.RADIX - 1, ceil(ranks / below) - 1)
+        cells = min(model.MOST_CELLS, below * model.MESH**model.DIMENSION)
+        records = cells * model.CELL + below * place
         size = sizes.summary + records
         pieces = 1 + ceil(records / 65536)
         path.messages += num_children * pieces
         path.bytes += num_children * size
         path.root_bytes += num_children * size
         path.work += num_children * cells * path.machine.per_cell
-        below *= RADIX
+        below *= model.RADIX
 
 
 def _refine(path: CallPath, ranks: int, sizes: Sizes, rounds: Rounds) -> None:
@@ -164,10 +142,10 @@ def zoltan_path(ranks: int, observed: Observed, machine: Machine) -> CallPath:
     path.collective(ranks, 16, 11, 8)
     together = ranks
     while together > 1:
-        path.collective(together, 2 * MEDIAN, observed.iterations, MEDIAN)
+        path.collective(together, 2 * model.MEDIAN, observed.iterations, model.MEDIAN)
         path.collective(together, 2 * 24 * together, 1, 24 * together)
         path.collective(together, 8 * together)  # the communicator is split: who is where
-        _exchange(path, together, 1, POINT_FIELDS, POINT_BYTES / 2)
+        _exchange(path, together, 1, model.POINT_FIELDS, model.POINT_BYTES / 2)
         path.work += machine.points * observed.iterations * machine.per_look
         path.work += machine.points * machine.per_point / 2
         together = ceil(together / 2)
@@ -175,9 +153,9 @@ def zoltan_path(ranks: int, observed: Observed, machine: Machine) -> CallPath:
     path.collective(ranks, 4 * ranks, 1, 4 * ranks)
     overlaps = 12 * machine.partners * ranks
     path.collective(ranks, overlaps, 1, overlaps)
-    _exchange(path, ranks, 1, POINT_FIELDS, POINT_BYTES)
+    _exchange(path, ranks, 1, model.POINT_FIELDS, model.POINT_BYTES)
     path.collective(ranks, 22, 3, 11)
-    _exchange(path, ranks, machine.partners, LIST_FIELDS, LIST_BYTES)
+    _exchange(path, ranks, machine.partners, model.LIST_FIELDS, model.LIST_BYTES)
     return path
 
 
@@ -193,9 +171,9 @@ def _exchange(path: CallPath, ranks: int, partners: int, fields: int, point_byte
 def jagged_path(ranks: int, observed: Observed, machine: Machine) -> CallPath:
     path = CallPath(machine)
     path.collective(ranks, 16, 7, 8)
-    sections = expected_iterations(ranks, observed.steps)
+    sections = model.expected_iterations(ranks, observed.steps)
     for parts, times in sections.items():
-        path.collective(ranks, 2 * step_bytes(parts), times, step_bytes(parts))
+        path.collective(ranks, 2 * model.step_bytes(parts), times, model.step_bytes(parts))
     number = max(1, ceil(ranks**0.5))
     path.collective(ranks, 2 * 8 * (ranks + 1) * number, 1, 8 * (ranks + 1) * number)
     path.collective(ranks, 48, number, 24)

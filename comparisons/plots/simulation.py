@@ -10,7 +10,7 @@ from style import CALL_COLOUR, IDEAL_COLOUR, UNBALANCE_COLOUR, legend_above, pan
 
 
 def draw_simulation(results: Results) -> Figure | None:
-    """A bar per method: the critical path, as a core for every rank would give, in parts."""
+    """Where the time of the whole simulation goes, on the critical path."""
     runs = results.runs
     if runs.empty:
         return None

@@ -102,7 +102,10 @@ def read_speed_ups(runs: pd.DataFrame) -> list[SpeedUp]:
 
 
 def draw_speed_up(results: Results) -> Figure | None:
-    """Figure 5: a column per fraction, a row per way of looking at it."""
+    """Figure 5 of the paper: speed-up of the simulation over the serial one. Top, with a core for
+    every rank, reckoned from the processor time of each rank outside MPI and a network of 1.5 µs
+    and 12 GB/s; middle, by the points of the fullest rank alone; bottom, as the clock on this
+    machine saw it. Bars and bands: 95 % intervals of what was run more than once."""
     speed_ups = read_speed_ups(results.swept_runs)
     rows = [s for s in speed_ups if setting_of(s.run.method)]
     if not rows:
@@ -139,7 +142,7 @@ def _draw_kind(axes: Axes, settings: list[SpeedUp], others: list[SpeedUp], kind:
 
 
 def draw_ranks(results: Results) -> Figure | None:
-    """Table 1 as a picture: the standard settings over the number of ranks."""
+    """Table 1 of the paper: speed-up over the number of ranks."""
     table = by_ranks(read_speed_ups(results.swept_runs))
     if not table:
         return None

@@ -58,8 +58,9 @@ def fastest(rows: pd.DataFrame, tolerance: str) -> object | None:
 def choices(rows: pd.DataFrame) -> list[Choice]:
     """For every tolerance: the setting to take everywhere, then the fastest one on each case."""
     by_case = cases(rows)
-    found = [_choose(EVERYWHERE, rows, t) for t in TOLERANCES] if len(by_case) > 1 else []
-    return found + [_choose(case, of_case, t) for case, of_case in by_case.items() for t in TOLERANCES]
+    everywhere = {EVERYWHERE: rows} if len(by_case) > 1 else {}
+    named = everywhere | by_case
+    return [_choose(case, of_case, t) for case, of_case in named.items() for t in TOLERANCES]
 
 
 def _choose(case: str, rows: pd.DataFrame, tolerance: str) -> Choice:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cycle import lasting, read_cycle
+from cycle import lasting
 from intervals import NOT_TOLD_APART, ONE, Value, median_of
 from machine import CORES
 from methods import STANDARD, WINNERS, setting_of
 from results import Results
-from sources import mean_excess, read_sources
+from sources import mean_excess
 from speed_up import SpeedUp, read_speed_ups
 
 CONFIRMED, REFUTED = "confirmed", "refuted"
@@ -92,8 +92,8 @@ def _less_traffic(evidence: Evidence) -> Iterator[Claim]:
     if pairs:
         sent = [rcb.bytes / ours.bytes for rcb, ours in pairs]
         received = [rcb.root_bytes_in / ours.root_bytes_in for rcb, ours in pairs]
-        ours = f"RCB sends {min(sent):.3g} to {max(sent):.3g} times the bytes of a call with the four"
-        ours += f" settings; into the root {min(received):.3g} to {max(received):.3g} times"
+        ours = f"RCB sends {min(sent):.3g} to {max(sent):.3g} times the bytes of a call with the"
+        ours += f" four settings; into the root {min(received):.3g} to {max(received):.3g} times"
         verdict = CONFIRMED if min(received) > 1 and min(sent) > 1 else REFUTED
         yield "RRCB exchanges far less than RCB", ours, verdict, "snapshots"
 
@@ -143,7 +143,7 @@ def _larger_unbalance(evidence: Evidence) -> Iterator[Claim]:
 
 def _because_of_samples(evidence: Evidence) -> Iterator[Claim]:
     """Refuted where the boxes alone make more than half of the unbalance with any seed."""
-    rows = read_sources(evidence.results)
+    rows = evidence.results.sources
     rows = rows.query("mesh == 4 and k == 1.5") if len(rows) else rows
     boxes = rows[rows["domain"] == "boxes"] if len(rows) else rows
     for fraction in (1, 0.125) if len(boxes) else ():
@@ -171,7 +171,8 @@ def _finer_mesh(evidence: Evidence) -> Iterator[Claim]:
     ratios = [coarse / fine for coarse, fine in _by_mesh(kinds)]
     if ratios:
         found = median_of(ratios)
-        ours = f"speed-up with mesh {COARSE} / with mesh {FINE}: {found.text(2)}; {found.count} pairs"
+        ours = f"speed-up with mesh {COARSE} / with mesh {FINE}: {found.text(2)};"
+        ours += f" {found.count} pairs"
         yield "... and costs speed", ours, compare(found, ONE), "simulations"
 
 
@@ -197,12 +198,12 @@ def _literal_midpoint(evidence: Evidence) -> Iterator[Claim]:
 
 
 def _learned(evidence: Evidence) -> Iterator[Claim]:
-    found = lasting(read_cycle(evidence.results))
+    found = lasting(evidence.results.cycle)
     text = "no learned domain here"
     analytic, sampled = found.get("rrcb[refine=none]"), found.get(STANDARD)
     if analytic and sampled:
-        text += f"; the analytic one, without random points, leaves {analytic['most'].number:.4f} on"
-        text += f" points that stand still, the paper's {sampled['most'].text(4)}"
+        text += f"; the analytic one, without random points, leaves {analytic['most'].number:.4f}"
+        text += f" on points that stand still, the paper's {sampled['most'].text(4)}"
     claim = "a learned model may generate the statistical domain better (future work)"
     if found:
         yield claim, text, NOT_TESTABLE, "cycle"

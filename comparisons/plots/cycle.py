@@ -10,7 +10,7 @@ from intervals import Value, median_of
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from methods import setting_of
-from results import Results, read
+from results import Results
 from style import (
     CALL_COLOUR,
     draw_line,
@@ -24,20 +24,10 @@ from style import (
 LATE = 10  # calls after which what remains is called lasting
 
 
-def read_cycle(results: Results) -> pd.DataFrame:
-    """The calls on as many points and ranks as the last ones; moved is the share in percent."""
-    calls = read(results.folder / "cycle.csv")
-    if calls.empty:
-        return calls
-    size = ["ranks", "points"]
-    calls["moved"] = 100 * calls["moved_fraction"]
-    return calls[(calls[size] == calls[size].iloc[-1]).all(axis=1)]
-
-
 def draw_cycle(results: Results) -> Figure | None:
     """Calls on points that stand still, each from the cuts of the one before: medians and 95 %
     intervals over the seeds."""
-    calls = read_cycle(results)
+    calls = results.cycle
     if calls.empty:
         return None
     columns = {"mesh 4, 100 % of the points": [], "mesh 4, 12.5 %": [],
@@ -83,8 +73,9 @@ def lasting(calls: pd.DataFrame) -> dict[str, dict[str, Value]]:
     found = {}
     for method, of_method in late.groupby("method", sort=False) if len(late) else ():
         seeds = of_method.groupby("seed", dropna=False)
-        runs = seeds.agg(least=("imbalance", "min"), most=("imbalance", "max"), moved=("moved", "mean"))
-        found[method] = {name: median_of(values) for name, values in runs.items()}
+        imbalance = seeds["imbalance"]
+        values = {"least": imbalance.min(), "most": imbalance.max(), "moved": seeds["moved"].mean()}
+        found[method] = {name: median_of(of_seeds) for name, of_seeds in values.items()}
     return found
 
 

@@ -124,7 +124,8 @@ def _html_table(caption: str, lines: list[list[str]]) -> str:
     table += f"<tbody>{body}</tbody></table></div>"
     # The caption stands beside the table, since in it it would be as wide and scroll with it.
     if len(rows) > LONGEST:
-        return f'<details><summary class="caption">{text}, {len(rows)} rows</summary>{table}</details>'
+        summary = f'<summary class="caption">{text}, {len(rows)} rows</summary>'
+        return f"<details>{summary}{table}</details>"
     return f'<p class="caption">{text}</p>\n{table}'
 
 

@@ -82,8 +82,8 @@ def _real_points(results: Results, workload: str) -> pd.DataFrame:
 
 
 def _corners(cells: pd.DataFrame) -> pd.DataFrame:
-    sides = [cells[[f"{end}_x", f"{end}_y"]].set_axis(["x", "y"], axis=1) for end in ("lower", "upper")]
-    return pd.concat(sides)
+    sides = (cells[[f"{end}_x", f"{end}_y"]] for end in ("lower", "upper"))
+    return pd.concat([side.set_axis(["x", "y"], axis=1) for side in sides])
 
 
 def _ranks_overlap(cells: pd.DataFrame) -> bool:

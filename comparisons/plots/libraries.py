@@ -5,4 +5,5 @@ from importlib.util import find_spec
 
 for library in ("matplotlib", "pandas"):
     if find_spec(library) is None:
-        sys.exit(f"{library} is missing: tools/set_up installs the Debian package python3-{library}")
+        package = f"python3-{library}"
+        sys.exit(f"{library} is missing: tools/set_up installs the Debian package {package}")

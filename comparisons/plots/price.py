@@ -7,7 +7,8 @@ from intervals import NOT_TOLD_APART, in_digits
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from methods import ACROSS, family, is_of_the_paper
-from prices import CALL, CALLS, SIMULATION, STEPS, Price, all_prices, all_runs, exchange_rate, optimum
+from prices import CALL, CALLS, SIMULATION, STEPS, Price
+from prices import all_prices, all_runs, exchange_rate, optimum
 from results import Results
 from style import (
     CALL_COLOUR,
@@ -48,8 +49,8 @@ def draw_price(results: Results) -> Figure | None:
     left.set_title(f"A call: {first['points']:,} points, {first['ranks']} ranks{over}")
     if has_runs:
         handles += _draw_runs(right, prices)
-        last = runs.iloc[-1]
-        right.set_title(f"The simulation: {last['steps']:,} steps, rebalanced every {last['every']}")
+        steps, every = runs.iloc[-1][["steps", "every"]]
+        right.set_title(f"The simulation: {steps:,} steps, rebalanced every {every}")
         right.text(0.5, -0.17, exchange_rate(runs).replace("; ", ";\n"), ha="center", va="top",
                    fontsize=8, transform=right.transAxes)  # fmt: skip
     return legend_above(figure, handles, inches=3.9)
@@ -138,8 +139,8 @@ def _draw_runs(axes: Axes, prices: list[Price]) -> list:
 
 def _write_percent(axes: Axes, x: float, percent: float, offset: float) -> None:
     axes.annotate(
-        f"{in_digits(percent, 2)} %", (x, percent), (0, offset), textcoords="offset points", ha="center",
-        va="bottom" if offset > 0 else "top", fontsize=9, color="#222222",
+        f"{in_digits(percent, 2)} %", (x, percent), (0, offset), textcoords="offset points",
+        ha="center", va="bottom" if offset > 0 else "top", fontsize=9, color="#222222",
         bbox={"boxstyle": "square,pad=0.05", "fc": "white", "ec": "none", "alpha": 0.7},
     )  # fmt: skip
 

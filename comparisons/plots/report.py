@@ -15,7 +15,7 @@ import pandas as pd
 from choice import EVERYWHERE, automatic_sentence, choices, fronts, judgements
 from claims import claim_table, set_up_table
 from cost import draw_cost, draw_study, draw_sweep_bytes, draw_sweep_time
-from cycle import cycle_table, draw_cycle, read_cycle
+from cycle import cycle_table, draw_cycle
 from document import Document
 from domains import draw_domains, draw_support_mesh
 from history import draw_figure_6, draw_history, draw_study_history
@@ -24,10 +24,10 @@ from methods import STANDARD, WINNERS
 from parts import draw_figure_2, draw_parts
 from price import draw_price
 from prices import all_prices, exchange_rate
-from results import Results, cases, read, write_csv
+from results import Results, cases, write_csv
 from sentences import sentences, simulation_sentence
 from simulation import draw_simulation
-from sources import draw_sources, read_sources, source_table
+from sources import draw_sources, source_table
 from speed_up import (
     KINDS,
     OTHERS,
@@ -154,7 +154,7 @@ def _add_methods(document: Document, results: Results, rows: pd.DataFrame) -> No
     for case, measured in cases(rows).items():
         document.table(f"{case}: {_size(measured)}", method_table(measured))
     caption = "Noise: a baseline measured twice; less than this is not told apart"
-    document.table(caption, noise_table(read(results.folder / "noise.csv")))
+    document.table(caption, noise_table(results.noise))
 
 
 def _size(rows: pd.DataFrame) -> str:
@@ -185,7 +185,7 @@ def _add_choices(document: Document, results: Results) -> None:
 
 
 def _add_sources(document: Document, results: Results) -> None:
-    rows = read_sources(results)
+    rows = results.sources
     if rows.empty:
         return
     document.heading("Where the error comes from")
@@ -195,7 +195,7 @@ def _add_sources(document: Document, results: Results) -> None:
 
 
 def _add_cycle(document: Document, results: Results) -> None:
-    calls = read_cycle(results)
+    calls = results.cycle
     if calls.empty:
         return
     document.heading("Calls on points that stand still")
@@ -215,8 +215,8 @@ def _add_speed_ups(document: Document, results: Results) -> None:
             document.summarise(caption, rank_table(speed_ups, kind))
         run = speed_ups[-1].run
         chosen = (*OTHERS, "serial", STANDARD, *WINNERS)
-        caption = f"Speed-up over the serial simulation: {run.points:,} points, {run.steps:,} steps,"
-        caption += f" rebalanced every {run.every}"
+        caption = f"Speed-up over the serial simulation: {run.points:,} points, {run.steps:,}"
+        caption += f" steps, rebalanced every {run.every}"
         document.table(caption, speed_up_table([s for s in speed_ups if s.run.method in chosen]))
         document.paragraph(
             "critical path: serial work / (work of the slowest rank of each step and rebalance + its"

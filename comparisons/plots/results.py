@@ -7,7 +7,7 @@ columns.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import cached_property
 from pathlib import Path
 
@@ -58,45 +58,40 @@ def simulations(rows: pd.DataFrame) -> pd.DataFrame:
     return rows
 
 
+def last_calls(rows: pd.DataFrame) -> pd.DataFrame:
+    """Of cycle.csv those on as many points and ranks as the last ones; moved is in percent."""
+    if rows.empty:
+        return rows
+    size = ["ranks", "points"]
+    rows["moved"] = 100 * rows["moved_fraction"]
+    return rows[(rows[size] == rows[size].iloc[-1]).all(axis=1)]
+
+
+def _file(name: str, prepare: Callable[[pd.DataFrame], pd.DataFrame]) -> cached_property:
+    return cached_property(lambda results: prepare(read(results.folder / name)))
+
+
 class Results:
     """The files of a folder, each read once."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
 
-    @cached_property
-    def table(self) -> pd.DataFrame:
-        return measurements(read(self.folder / "table.csv"))
-
-    @cached_property
-    def swept(self) -> pd.DataFrame:
-        return measurements(read(self.folder / "sweep.csv"))
+    table = _file("table.csv", measurements)
+    swept = _file("sweep.csv", measurements)
+    clouds = property(lambda self: self.swept[self.swept["layout"] != "simulation"])
+    snapshots = property(lambda self: self.swept[self.swept["layout"] == "simulation"])
+    sources = _file("error_sources.csv", measurements)
+    cycle = _file("cycle.csv", last_calls)
+    noise = _file("noise.csv", pd.DataFrame)
+    runs = _file("simulation.csv", simulations)
+    swept_runs = _file("sweep_simulation.csv", simulations)
+    paper_runs = _file("paper_simulation.csv", simulations)  # rebalanced at every step
 
     @property
-    def clouds(self) -> pd.DataFrame:
-        return self.swept[self.swept["layout"] != "simulation"]
-
-    @property
-    def snapshots(self) -> pd.DataFrame:
-        return self.swept[self.swept["layout"] == "simulation"]
-
-    @cached_property
     def calls(self) -> pd.DataFrame:
         """Of the table, or of a sweep: of its clouds, without them of its snapshots."""
         return next((rows for rows in (self.table, self.clouds) if len(rows)), self.swept)
-
-    @cached_property
-    def runs(self) -> pd.DataFrame:
-        return simulations(read(self.folder / "simulation.csv"))
-
-    @cached_property
-    def swept_runs(self) -> pd.DataFrame:
-        return simulations(read(self.folder / "sweep_simulation.csv"))
-
-    @cached_property
-    def paper_runs(self) -> pd.DataFrame:
-        """Rebalanced at every step."""
-        return simulations(read(self.folder / "paper_simulation.csv"))
 
     @cached_property
     def record(self) -> dict[str, str]:

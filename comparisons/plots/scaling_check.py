@@ -167,7 +167,8 @@ def _compare_multijagged(row: Counted) -> Comparison:
     counted, without = row.traffic["Allreduce"], model.multijagged(ranks, {})["Allreduce"]
     steps = _whole(counted.calls - without.calls, ranks)
     size = _whole(counted.sent - without.sent, ranks)
-    widths = sorted({len(model.sections(ranks)), *(p for p in model.sections(ranks) if ranks > 2)} - {1})
+    sections = model.sections(ranks)
+    widths = sorted({len(sections), *(parts for parts in sections if ranks > 2)} - {1})
     iterations = {widths[-1]: steps}
     if len(widths) == 2:
         few, many = map(model.step_bytes, widths)

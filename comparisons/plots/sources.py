@@ -6,7 +6,7 @@ import pandas as pd
 from intervals import Value, mean_of, median_of
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from results import Results, cases, measurements, read
+from results import Results, cases
 from style import MULTIPLIER_COLOURS, draw_line, legend_above, method_style, small_multiples
 
 CELLS, CUT_OFF, WHOLE = (
@@ -31,16 +31,12 @@ STAGES = {  # colour and line of each, and which rows it is drawn of
 }
 
 
-def read_sources(results: Results) -> pd.DataFrame:
-    return measurements(read(results.folder / "error_sources.csv"))
-
-
 def draw_sources(results: Results) -> Figure | None:
     """Imbalance when what is bisected goes from all points to a sample of them: the support mesh
     adds what lies between the points and the cells, another half-width than √3 σ, or a box cut off,
     what lies between cells and boxes, the sampling what lies above the boxes (lines: medians over
     the seeds, bands: their 95 % intervals)."""
-    rows = read_sources(results)
+    rows = results.sources
     if rows.empty:
         return None
     by_case = cases(rows)

@@ -74,7 +74,7 @@ def middle_runs(runs: pd.DataFrame) -> pd.DataFrame:
 
 
 def read_speed_ups(runs: pd.DataFrame) -> list[SpeedUp]:
-    """One per method and number of ranks, over the median of the serial runs as long as the last."""
+    """One per method and number of ranks, over the median of the serial runs like the last one."""
     serial = runs[runs["method"] == "serial"] if len(runs) else runs
     if serial.empty:
         return []

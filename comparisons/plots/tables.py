@@ -87,9 +87,9 @@ def simulation_table(runs: pd.DataFrame, reference: str) -> Rows:
             "ranks": str(run.ranks),
             "critical path s": value_of(run, "critical_path_s").text(digits),
             f"times as fast as {reference}": _speed_up(run, base),
-            "gain kept %": _percent(run, "gain_kept"),
-            "rebalances": f"{run.rebalances:.0f}" if value_of(run, "rebalances").number >= 0 else "–",
-            "moved %": _percent(run, "moved_fraction"),
+            "gain kept %": _number(run, "gain_kept", 100, 1),
+            "rebalances": _number(run, "rebalances", 1, 0),
+            "moved %": _number(run, "moved_fraction", 100, 1),
             "mean imbalance": value_of(run, "mean_imbalance").text(4),
             "wall s": value_of(run, "wall_s").text(digits),
         }
@@ -101,12 +101,13 @@ def _speed_up(run: object, base: object | None) -> str:
     speed = value_of(run, "speed_up_critical_path")
     if pd.isna(speed.number) and base and run.critical_path_s > 0:
         speed = Value(base.critical_path_s / run.critical_path_s, speed.low, speed.high)
-    return "–" if pd.isna(speed.number) else _or_same(speed, run.Index == getattr(base, "Index", None))
+    is_base = run.Index == getattr(base, "Index", None)
+    return "–" if pd.isna(speed.number) else _or_same(speed, is_base)
 
 
-def _percent(row: object, name: str) -> str:
-    fraction = value_of(row, name).number
-    return "–" if pd.isna(fraction) else f"{100 * fraction:.1f}"
+def _number(row: object, name: str, factor: float, digits: int) -> str:
+    number = value_of(row, name).number
+    return "–" if pd.isna(number) else f"{factor * number:.{digits}f}"
 
 
 def noise_table(repeats: pd.DataFrame) -> Rows:

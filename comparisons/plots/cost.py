@@ -3,22 +3,13 @@
 from __future__ import annotations
 
 import pandas as pd
+import plot
 from choice import pareto_front
 from intervals import value_of
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from methods import parse, setting_of, values_of
 from results import Results, cases
-from style import (
-    distinct_styles,
-    draw_settings,
-    key,
-    label_edges,
-    legend_above,
-    method_style,
-    panels,
-    small_multiples,
-)
 
 
 def draw_cost(results: Results) -> Figure | None:
@@ -30,8 +21,8 @@ def draw_cost(results: Results) -> Figure | None:
         return None
     workloads = table.groupby("workload", sort=False)
     width = max(7.5, 3.7 * len(workloads) + 0.9)
-    figure, grid = panels(1, len(workloads), width, 5.4, sharex=True, sharey=True)
-    styles = distinct_styles(table["method"])
+    figure, grid = plot.panels(1, len(workloads), width, 5.4, sharex=True, sharey=True)
+    styles = plot.distinct_styles(table["method"])
     for axes, (_, rows) in zip(grid[0], workloads):
         for row in rows.itertuples():
             time = value_of(row, "time_ms")
@@ -46,8 +37,8 @@ def draw_cost(results: Results) -> Figure | None:
         axes.grid(True)
     _set_limits(grid[0, 0], table)
     grid[0, 0].set_ylabel("heaviest part above the mean [%]")
-    keys = [key(name, **{**style.look, "linestyle": ""}) for name, style in styles.items()]
-    return legend_above(figure, keys, inches=3.6)
+    keys = [style.key(name) for name, style in styles.items()]
+    return plot.legend_above(figure, keys, inches=3.6)
 
 
 def _set_limits(axes: Axes, table: pd.DataFrame) -> None:
@@ -87,16 +78,17 @@ def _draw_fronts(clouds: pd.DataFrame, cost: str, label: str) -> Figure | None:
     if clouds.empty:
         return None
     by_case = cases(clouds)
-    figure = small_multiples(
+    figure = plot.small_multiples(
         list(by_case), lambda axes, case: _draw_front(axes, by_case[case], cost), (0.4, 0.9),
         label, "heaviest part\nabove the mean [%]",
     )  # fmt: skip
     for axes, rows in zip(figure.axes, by_case.values()):
         _shade_one_point(axes, rows)
     methods = dict.fromkeys(parse(method)[0] for method in clouds["method"])
-    handles = [key(name, **{**method_style(name).look, "linestyle": ""}) for name in methods]
-    handles.append(key("Pareto front (large marks)", color="#444444", linewidth=1, linestyle="-"))
-    return legend_above(figure, handles)
+    handles = [plot.method_style(name).key(name) for name in methods]
+    front = {"color": "#444444", "linewidth": 1, "linestyle": "-"}
+    handles.append(plot.key("Pareto front (large marks)", **front))
+    return plot.legend_above(figure, handles)
 
 
 def _draw_front(axes: Axes, rows: pd.DataFrame, cost: str) -> None:
@@ -107,7 +99,7 @@ def _draw_front(axes: Axes, rows: pd.DataFrame, cost: str) -> None:
     )
     for row in rows.itertuples():
         is_best = row.Index in front.index
-        look = {**method_style(parse(row.method)[0]).look, "markersize": 6 if is_best else 4}
+        look = {**plot.method_style(parse(row.method)[0]).look, "markersize": 6 if is_best else 4}
         axes.plot(getattr(row, cost), 100 * row.excess, alpha=1 if is_best else 0.55, **look)
     axes.set_xscale("log")
     axes.set_yscale("log")
@@ -122,13 +114,13 @@ def draw_study(results: Results) -> Figure | None:
     if rows.empty:
         return None
     fractions = values_of(rows["method"], 2)[::-1]
-    figure, grid = panels(2, len(fractions), 2.8 * len(fractions) + 0.6, 5.6, sharey="row")
+    figure, grid = plot.panels(2, len(fractions), 2.8 * len(fractions) + 0.6, 5.6, sharey="row")
     for column, fraction in zip(grid.T, fractions):
         chosen = rows[[setting_of(method)[2] == fraction for method in rows["method"]]]
         for axes, name in zip(column, ("lu_max_percent", "time_ms")):
-            draw_settings(axes, chosen, name)
+            plot.draw_settings(axes, chosen, name)
             axes.set_yscale("log")
         column[0].set_title(f"{100 * fraction:g} % of the points")
-    label_edges(grid, ["support mesh, cells per axis"] * len(fractions),
+    plot.label_edges(grid, ["support mesh, cells per axis"] * len(fractions),
                 ["largest |Lu| [%]", "time of a call [ms]"])  # fmt: skip
-    return legend_above(figure, grid[0, 0])
+    return plot.legend_above(figure, grid[0, 0])

@@ -6,20 +6,12 @@ from math import copysign, sqrt
 
 import numpy as np
 import pandas as pd
+import plot
 from intervals import Value, median_of
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from methods import setting_of
 from results import Results
-from style import (
-    CALL_COLOUR,
-    draw_line,
-    label_edges,
-    legend_above,
-    method_style,
-    multiplier_colour,
-    panels,
-)
 
 LATE = 10  # calls after which what remains is called lasting
 
@@ -39,7 +31,7 @@ def draw_cycle(results: Results) -> Figure | None:
             list(columns.values())[place].append(method)
     columns = {name: methods for name, methods in columns.items() if methods}
     number = len(columns)
-    figure, grid = panels(2, number, 3.4 * number + 0.8, 7.2, sharex=True, sharey="row")
+    figure, grid = plot.panels(2, number, 3.4 * number + 0.8, 7.2, sharex=True, sharey="row")
     for column, (name, methods) in zip(grid.T, columns.items()):
         for method in methods:
             _draw_method(column, method, calls[calls["method"] == method])
@@ -47,7 +39,7 @@ def draw_cycle(results: Results) -> Figure | None:
         column[1].legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), fontsize=8)
         column[1].set_yscale("symlog", linthresh=1)
         column[1].yaxis.set_major_formatter("{x:g}")
-    label_edges(grid, ["call"] * number, ["imbalance", "points that change rank [%]"])
+    plot.label_edges(grid, ["call"] * number, ["imbalance", "points that change rank [%]"])
     for axes in grid.flat:
         axes.grid(True, axis="y")
         axes.xaxis.get_major_locator().set_params(integer=True)
@@ -55,15 +47,17 @@ def draw_cycle(results: Results) -> Figure | None:
 
 
 def _draw_method(column: np.ndarray, method: str, calls: pd.DataFrame) -> None:
-    style = method_style(method)
+    style = plot.method_style(method)
     look = {"color": style.colour, "linestyle": style.line}
     mesh, k, _ = setting_of(method) or (0, 0, 0)
     if mesh == 4:
-        look = {"color": multiplier_colour(k), "linestyle": "-" if (2 * k).is_integer() else "--"}
+        line = "-" if (2 * k).is_integer() else "--"
+        look = {"color": plot.multiplier_colour(k), "linestyle": line}
     look |= {"marker": ".", "label": method.removeprefix("rrcb-sampled")}
     by_call = calls.groupby("call")
     for axes, name in zip(column, ("imbalance", "moved")):
-        draw_line(axes, list(by_call.groups), map(median_of, by_call[name].agg(list)), 0.18, **look)
+        values = map(median_of, by_call[name].agg(list))
+        plot.draw_line(axes, list(by_call.groups), values, 0.18, **look)
 
 
 def lasting(calls: pd.DataFrame) -> dict[str, dict[str, Value]]:
@@ -113,14 +107,14 @@ def alternating_offset(mesh: int, multiplier: float) -> float:
 
 def draw_map() -> Figure:
     """The map of the model with its steps, for a multiplier below, at and above √3; mesh 4."""
-    figure, grid = panels(1, 3, 10.5, 4.6, sharey=True)
+    figure, grid = plot.panels(1, 3, 10.5, 4.6, sharey=True)
     for axes, (multiplier, name) in zip(grid[0], ((1.5, "1.5"), (sqrt(3), "√3"), (2, "2"))):
         _draw_steps(axes, 4, multiplier, -0.016)
         axes.set_title(f"k = {name}")
         axes.set_box_aspect(1)
         axes.grid(True)
-    label_edges(grid, ["offset of a cut from ½ [%]"] * 3, ["offset of the next [%]"])
-    return legend_above(figure, grid[0, 0], inches=2.2)
+    plot.label_edges(grid, ["offset of a cut from ½ [%]"] * 3, ["offset of the next [%]"])
+    return plot.legend_above(figure, grid[0, 0], inches=2.2)
 
 
 def _draw_steps(axes: Axes, mesh: int, multiplier: float, start: float) -> None:
@@ -131,12 +125,12 @@ def _draw_steps(axes: Axes, mesh: int, multiplier: float, start: float) -> None:
         offsets = side * np.linspace(1e-9, reach, 50)
         mapped = [100 * next_offset(e, mesh, multiplier) for e in offsets]
         label = "the next cut" if side < 0 else None
-        axes.plot(100 * offsets, mapped, color=CALL_COLOUR, linewidth=1.8, label=label)
+        axes.plot(100 * offsets, mapped, color=plot.CALL_COLOUR, linewidth=1.8, label=label)
     offset, path = start, [(start, 0.0)]
     for _ in range(12):
         following = next_offset(offset, mesh, multiplier)
         path += [(offset, following), (following, following)]
         offset = following
     x, y = 100 * np.array(path).T
-    colour = method_style("rrcb-sampled").colour
+    colour = plot.method_style("rrcb-sampled").colour
     axes.plot(x, y, color=colour, linewidth=1, marker=".", label="twelve calls")

@@ -4,23 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pandas as pd
+import plot
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PatchCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from results import Results
-from style import (
-    PART_COLOURS,
-    POINT_COLOUR,
-    draw_cloud,
-    key,
-    legend_above,
-    length_ratio,
-    panels,
-    part_colours,
-    rectangles,
-    show_lengths,
-)
 
 
 def draw_support_mesh(results: Results) -> Figure | None:
@@ -29,8 +18,8 @@ def draw_support_mesh(results: Results) -> Figure | None:
     if not meshes:
         return None
     corners = [_corners(cells) for cells in meshes.values()]
-    height = (length_ratio(corners) * 8.3 + 0.5) * len(meshes) + 0.4
-    figure, grid = panels(len(meshes), 1, 9, height, sharex=True)
+    height = (plot.length_ratio(corners) * 8.3 + 0.5) * len(meshes) + 0.4
+    figure, grid = plot.panels(len(meshes), 1, 9, height, sharex=True)
     for axes, (workload, cells) in zip(grid[:, 0], meshes.items()):
         num_ranks = cells["rank"].nunique()
         whose = f"{num_ranks} ranks, a colour each"
@@ -38,18 +27,18 @@ def draw_support_mesh(results: Results) -> Figure | None:
             cells = cells[cells["rank"] == 0]
             whose = f"rank 0 ({num_ranks} ranks' meshes lie over each other)"
         if len(points := _real_points(results, workload)):
-            draw_cloud(axes, points, "#C8C8C8", largest=3)
+            plot.draw_cloud(axes, points, "#C8C8C8", largest=3)
         _draw_cells(axes, cells)
         axes.set_title(f"{workload}: {len(cells)} cells of {whose}")
-        show_lengths(axes, axes is grid[-1, 0])
-    colour = PART_COLOURS[0]
+        plot.show_lengths(axes, axes is grid[-1, 0])
+    colour = plot.PART_COLOURS[0]
     keys = [
         Patch(facecolor=colour + "40", edgecolor=colour, label="cell of a rank"),
-        key("points", color="#C8C8C8", marker="o", markersize=3),
-        key("centroid", color="black", marker="o", markersize=3),
-        key("± standard deviation", color="#333333", linewidth=0.9, linestyle="-"),
+        plot.key("points", color="#C8C8C8", marker="o", markersize=3),
+        plot.key("centroid", color="black", marker="o", markersize=3),
+        plot.key("± standard deviation", color="#333333", linewidth=0.9, linestyle="-"),
     ]
-    return legend_above(figure, keys, inches=2.6)
+    return plot.legend_above(figure, keys, inches=2.6)
 
 
 def draw_domains(results: Results) -> Figure | None:
@@ -59,13 +48,13 @@ def draw_domains(results: Results) -> Figure | None:
     pairs = {name: (real, points) for name, (real, points) in pairs.items() if len(real)}
     if not pairs:
         return None
-    height = (length_ratio(real for real, _ in pairs.values()) * 5.2 + 0.4) * len(pairs) + 0.4
-    figure, grid = panels(len(pairs), 2, 11, height, sharex=True, sharey=True)
+    height = (plot.length_ratio(real for real, _ in pairs.values()) * 5.2 + 0.4) * len(pairs) + 0.4
+    figure, grid = plot.panels(len(pairs), 2, 11, height, sharex=True, sharey=True)
     for line, (workload, domains) in zip(grid, pairs.items()):
         for axes, points, kind in zip(line, domains, ("real", "statistical")):
-            shown = draw_cloud(axes, points, POINT_COLOUR)
+            shown = plot.draw_cloud(axes, points, plot.POINT_COLOUR)
             axes.set_title(f"{workload}, {kind} domain ({shown:,} points shown)")
-            show_lengths(axes, axes in grid[-1], kind == "real")
+            plot.show_lengths(axes, axes in grid[-1], kind == "real")
     return figure
 
 
@@ -96,8 +85,8 @@ def _ranks_overlap(cells: pd.DataFrame) -> bool:
 
 
 def _draw_cells(axes: Axes, cells: pd.DataFrame) -> None:
-    colours = part_colours(cells["rank"])
-    boxes = rectangles(cells)
+    colours = plot.part_colours(cells["rank"])
+    boxes = plot.rectangles(cells)
     for look in (
         {"facecolors": colours, "alpha": 0.25},
         {"facecolors": "none", "edgecolors": colours, "linewidths": 1.2},

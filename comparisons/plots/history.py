@@ -6,6 +6,7 @@ from statistics import mode
 
 import numpy as np
 import pandas as pd
+import plot
 from intervals import Value
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
@@ -13,16 +14,6 @@ from matplotlib.figure import Figure
 from methods import WINNERS, setting_of, values_of
 from results import Results
 from speed_up import read_speed_ups
-from style import (
-    PART_COLOURS,
-    distinct_styles,
-    draw_line,
-    key,
-    label_edges,
-    legend_above,
-    multiplier_colour,
-    panels,
-)
 
 MOST_WINDOWS = 150  # lines that swing at every rebalance would run into one another
 TIME = "time simulated [s]"
@@ -48,9 +39,9 @@ def draw_history(results: Results) -> Figure | None:
             axes.set_xlabel(TIME)
     parts = 1 + max(history["part"].max() for history in histories.values())
     keys = top.get_legend_handles_labels()[0]
-    colours = enumerate(PART_COLOURS[:parts])
-    keys += [key(f"part {part}", color=colour, linestyle="-") for part, colour in colours]
-    return legend_above(figure, keys, inches=3.4)
+    colours = enumerate(plot.PART_COLOURS[:parts])
+    keys += [plot.key(f"part {part}", color=colour, linestyle="-") for part, colour in colours]
+    return plot.legend_above(figure, keys, inches=3.4)
 
 
 def per_part(history: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
@@ -72,7 +63,7 @@ def _windows(steps: int) -> np.ndarray:
 
 def draw_worst(axes: Axes, histories: dict[str, pd.DataFrame]) -> None:
     """The worst part of every method, the worst step of each window."""
-    for method, style in distinct_styles(histories).items():
+    for method, style in plot.distinct_styles(histories).items():
         times, unbalance = per_part(histories[method])
         worst = np.maximum(np.nanmax(np.abs(unbalance), axis=0), one_point(histories[method]))
         windows = _windows(len(times))
@@ -92,8 +83,8 @@ def _draw_parts_of(axes: Axes, method: str, history: pd.DataFrame) -> None:
     for part, of_part in enumerate(unbalance):
         ends = zip(*(end.reduceat(of_part, windows) for end in (np.fmin, np.fmax)))
         values = [Value((low + high) / 2, low, high) for low, high in ends]
-        colour = PART_COLOURS[part % len(PART_COLOURS)]
-        draw_line(axes, times[windows], values, 0.35, color=colour, linewidth=0.9)
+        colour = plot.PART_COLOURS[part % len(plot.PART_COLOURS)]
+        plot.draw_line(axes, times[windows], values, 0.35, color=colour, linewidth=0.9)
     axes.set_ylabel("Lu [%]")
     most = np.nanmax(np.abs(unbalance))
     axes.set_title(f"{method}: |Lu| ≤ {most:.2g} %, a scale of its own", fontsize=9, loc="left")
@@ -105,7 +96,7 @@ def draw_figure_6(results: Results) -> Figure | None:
     histories, every = _configurations(results)
     if not histories:
         return None
-    figure, grid = panels(len(histories), 1, 8, 1.6 * len(histories) + 0.8, sharex=True)
+    figure, grid = plot.panels(len(histories), 1, 8, 1.6 * len(histories) + 0.8, sharex=True)
     for axes, (method, history) in zip(grid[:, 0], histories.items()):
         _draw_parts_of(axes, f"{method}, rebalanced every {every}", history)
         axes.grid(True, axis="y")
@@ -141,18 +132,20 @@ def draw_study_history(results: Results) -> Figure | None:
     methods = sorted(histories, key=setting_of)
     meshes, fractions = values_of(methods, 0), values_of(methods, 2)[::-1]
     width, height = 2.8 * len(fractions) + 0.6, 1.7 * len(meshes) + 0.9
-    figure, grid = panels(len(meshes), len(fractions), width, height, sharex=True, sharey=True)
+    shape = (len(meshes), len(fractions))
+    figure, grid = plot.panels(*shape, width, height, sharex=True, sharey=True)
     handles = {}
     for method in methods:
         mesh, k, fraction = setting_of(method)
         axes = grid[meshes.index(mesh), fractions.index(fraction)]
         worst = histories[method].set_index("time")["lu_percent"].abs().groupby("time").max()
-        look = {"color": multiplier_colour(k), "linewidth": 0.9, "label": f"k = {k:g}"}
+        look = {"color": plot.multiplier_colour(k), "linewidth": 0.9, "label": f"k = {k:g}"}
         (handles[k],) = axes.plot(worst.index, worst, **look)
     for axes, fraction in zip(grid[0], fractions):
         axes.set_title(f"{100 * fraction:g} % of the points")
     for axes in grid.flat:
         axes.set_yscale("log")
         axes.grid(True, axis="y")
-    label_edges(grid, [TIME] * len(fractions), [f"mesh {m:g}\nlargest |Lu| [%]" for m in meshes])
-    return legend_above(figure, [handles[k] for k in sorted(handles)])
+    labels = [f"mesh {mesh:g}\nlargest |Lu| [%]" for mesh in meshes]
+    plot.label_edges(grid, [TIME] * len(fractions), labels)
+    return plot.legend_above(figure, [handles[k] for k in sorted(handles)])

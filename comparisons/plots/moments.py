@@ -10,19 +10,19 @@ from pathlib import Path
 
 import libraries  # noqa: F401, before what it looks for
 import pandas as pd
+import plot
 from document import markdown_table
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from results import read_all
-from style import MethodStyle, method_style, panels, save, use_style
 
 FLOOR = 1e-17
 # Colours that no balancer has, but for RRCB's own.
 STYLES = {
-    "naive sums": MethodStyle("#7A5C4A", "--", "s"),
-    "Welford": MethodStyle("#B0005E", ":", "^"),
-    "Chan, pairwise": MethodStyle("#4B5D0B", "-.", "D"),
-    "RRCB": method_style("rrcb"),
+    "naive sums": plot.MethodStyle("#7A5C4A", "--", "s"),
+    "Welford": plot.MethodStyle("#B0005E", ":", "^"),
+    "Chan, pairwise": plot.MethodStyle("#4B5D0B", "-.", "D"),
+    "RRCB": plot.method_style("rrcb"),
 }
 
 
@@ -36,7 +36,7 @@ def table_of(errors: pd.DataFrame) -> str:
 
 
 def draw_errors(errors: pd.DataFrame) -> Figure:
-    figure, grid = panels(1, 2, 9, 3.8, sharey=True)
+    figure, grid = plot.panels(1, 2, 9, 3.8, sharey=True)
     left, right = grid[0]
     is_uniform = errors["cloud"] == "uniform"
     _draw_panel(left, errors[is_uniform], "offset")
@@ -63,8 +63,8 @@ def _draw_panel(axes: Axes, errors: pd.DataFrame, abscissa: str) -> None:
 def main() -> None:
     directory = Path(sys.argv[1])
     errors = read_all(directory / "moments_error.csv")
-    use_style()
-    save(draw_errors(errors), directory / "moments_error.png")
+    plot.use_style()
+    plot.save(draw_errors(errors), directory / "moments_error.png")
     print(table_of(errors))
 
 

@@ -7,11 +7,11 @@ import sys
 from pathlib import Path
 
 import libraries  # noqa: F401, before what it looks for
+import plot
 from cycle import draw_map
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyBboxPatch, Patch
-from style import panels, save, use_style
 
 EVERY_RANK, ROOT, MESSAGE = "every rank", "root", "message"
 COLOURS = {EVERY_RANK: "#DCEBF5", ROOT: "#FBE3D0", MESSAGE: "#FFFFFF"}
@@ -39,7 +39,7 @@ METHODS: dict[str, list[Step]] = {
 
 
 def draw_methods() -> Figure:
-    figure, grid = panels(1, len(METHODS), 8.6, 7.2)
+    figure, grid = plot.panels(1, len(METHODS), 8.6, 7.2)
     longest = max(map(len, METHODS.values()))
     arrow = {"arrowstyle": "-|>", "color": "#444444"}
     for axes, (name, steps) in zip(grid[0], METHODS.items()):
@@ -75,9 +75,9 @@ def main() -> int:
     if len(sys.argv) != 2 or not (directory := Path(sys.argv[1])).is_dir():
         print("usage: paper_methods.py DIRECTORY", file=sys.stderr)
         return 2
-    use_style()
-    save(draw_methods(), directory / "paper_methods.png")
-    save(draw_map(), directory / "paper_cycle_map.png")
+    plot.use_style()
+    plot.save(draw_methods(), directory / "paper_methods.png")
+    plot.save(draw_map(), directory / "paper_cycle_map.png")
     return 0
 
 

@@ -6,10 +6,10 @@ from collections.abc import Iterable
 
 import numpy as np
 import pandas as pd
+import plot
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from results import Results
-from style import draw_cloud, length_ratio, panels, part_colours, rectangles, show_lengths
 
 PANEL_WIDTH = 4.2
 MOST_TEXTS = 8  # parts with their points and Lu written inside; more get their number alone
@@ -28,20 +28,20 @@ def draw_parts(results: Results) -> Figure | None:
     clouds = {key: points for key, points in clouds.items() if key[0] in names}
     places = _places(clouds)
     lines, columns = (1 + max(numbers) for numbers in zip(*places.values()))
-    height = (length_ratio(clouds.values()) * PANEL_WIDTH + 0.7) * lines + 0.5
+    height = (plot.length_ratio(clouds.values()) * PANEL_WIDTH + 0.7) * lines + 0.5
     width = PANEL_WIDTH * columns + 0.7
-    figure, grid = panels(lines, columns, width, height, sharex=True, sharey=True)
+    figure, grid = plot.panels(lines, columns, width, height, sharex=True, sharey=True)
     for axes in grid.flat:
         axes.set_axis_off()
     for key, (i, j) in places.items():
         axes, points = grid[i, j], clouds[key]
         axes.set_axis_on()
-        draw_cloud(axes, points, part_colours(points["part"]))
+        plot.draw_cloud(axes, points, plot.part_colours(points["part"]))
         _draw_boxes(axes, points, results.data("boxes", *key[::-1]))
         _write_loads(axes, points, rows[key])
         axes.set_title(_title(names[key[0]], rows[key]), fontsize=9)
     for (i, j), axes in np.ndenumerate(grid):
-        show_lengths(axes, i == lines - 1, j == 0)
+        plot.show_lengths(axes, i == lines - 1, j == 0)
     return figure
 
 
@@ -68,7 +68,7 @@ def _draw_boxes(axes: Axes, points: pd.DataFrame, boxes: pd.DataFrame) -> None:
     """The parts' boxes, their open sides ended at the points."""
     for side in [f"{end}_{axis}" for end in ("lower", "upper") for axis in "xy" if len(boxes)]:
         boxes[side] = boxes[side].clip(points[side[-1]].min(), points[side[-1]].max())
-    for box in rectangles(boxes, fill=False, lw=0.8, ec="black"):
+    for box in plot.rectangles(boxes, fill=False, lw=0.8, ec="black"):
         axes.add_patch(box)
 
 
@@ -106,14 +106,14 @@ def draw_figure_2(results: Results) -> Figure | None:
     points, boxes = (results.data(kind, SIX, "rrcb-sampled") for kind in ("points", "boxes"))
     if samples.empty or points.empty or boxes.empty:
         return None
-    height = length_ratio([points, samples]) * 5.2 + 0.8
-    figure, grid = panels(1, 2, 11, height, sharex=True, sharey=True)
+    height = plot.length_ratio([points, samples]) * 5.2 + 0.8
+    figure, grid = plot.panels(1, 2, 11, height, sharex=True, sharey=True)
     for axes, cloud, name in zip(grid[0], (samples, points), ("statistical domain", "points")):
-        shown = draw_cloud(axes, cloud, part_colours(_box_of(cloud, boxes)))
-        for box in rectangles(boxes, fill=False, linewidth=1.2):
+        shown = plot.draw_cloud(axes, cloud, plot.part_colours(_box_of(cloud, boxes)))
+        for box in plot.rectangles(boxes, fill=False, linewidth=1.2):
             axes.add_patch(box)
         axes.set_title(f"{name} in {len(boxes)} boxes ({shown:,} shown)")
-        show_lengths(axes, y_label=axes is grid[0, 0])
+        plot.show_lengths(axes, y_label=axes is grid[0, 0])
     return figure
 
 

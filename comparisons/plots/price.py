@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import plot
 from intervals import NOT_TOLD_APART, in_digits
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -10,18 +11,6 @@ from methods import ACROSS, family, is_of_the_paper
 from prices import CALL, CALLS, SIMULATION, STEPS, Price
 from prices import all_prices, all_runs, exchange_rate, optimum
 from results import Results
-from style import (
-    CALL_COLOUR,
-    UNBALANCE_COLOUR,
-    distinct_styles,
-    draw_across,
-    draw_line,
-    key,
-    label_right,
-    legend_above,
-    method_style,
-    panels,
-)
 
 EXACT_AT = 2e-4  # where exact stands on an axis of what is above the mean
 TICKS = {"1.1": 0.1, "1.05": 0.05, "1.01": 0.01, "1.001": 0.001, "exact": EXACT_AT}
@@ -40,7 +29,7 @@ def draw_price(results: Results) -> Figure | None:
     has_runs = len(_ours(prices, SIMULATION)) > 1
     if not _ours(prices, CALL) or not any(price.method == "zoltan-rcb" for price in calls):
         return None
-    figure, grid = panels(1, 1 + has_runs, 12 if has_runs else 8, 5.2)
+    figure, grid = plot.panels(1, 1 + has_runs, 12 if has_runs else 8, 5.2)
     left, right = grid[0, 0], grid[0, -1]
     handles = _draw_calls(left, calls)
     number = rows["case"].nunique()
@@ -53,7 +42,7 @@ def draw_price(results: Results) -> Figure | None:
         right.set_title(f"The simulation: {steps:,} steps, rebalanced every {every}")
         right.text(0.5, -0.17, exchange_rate(runs).replace("; ", ";\n"), ha="center", va="top",
                    fontsize=8, transform=right.transAxes)  # fmt: skip
-    return legend_above(figure, handles, inches=3.9)
+    return plot.legend_above(figure, handles, inches=3.9)
 
 
 def _ours(prices: list[Price], panel: str) -> list[Price]:
@@ -78,11 +67,11 @@ def _draw_calls(axes: Axes, calls: list[Price]) -> list:
 def _draw_families(axes: Axes, ours: list[Price]) -> list:
     """A line with its band for each mesh; the automatic one is thick."""
     handles = []
-    for name, style in distinct_styles(family(price.method) for price in ours).items():
+    for name, style in plot.distinct_styles(family(price.method) for price in ours).items():
         line = [price for price in ours if family(price.method) == name]
         is_plain = name == "rrcb"
         handles.append(
-            draw_line(
+            plot.draw_line(
                 axes, [_place(p) for p in line], [p.value * 100 for p in line],
                 0.22 if is_plain else 0.05, **style.look, markersize=6 - 2 * ("[" in name),
                 linewidth=2.2 if is_plain else 1,
@@ -100,14 +89,14 @@ def _draw_papers(axes: Axes, prices: list[Price]) -> list:
     for price in prices:
         if not is_of_the_paper(price.method):
             continue
-        look = {**method_style(price.method).look, "linestyle": ""}
+        style = plot.method_style(price.method)
         value = price.value * 100
         whiskers = [[value.number - value.reach[0]], [value.reach[1] - value.number]]
         axes.errorbar([_place(price)], [value.number], yerr=np.maximum(whiskers, 0), markersize=7,
-                      elinewidth=0.9, **look)  # fmt: skip
-        is_other = method_style(price.method) == method_style("rrcb-sampled")
+                      elinewidth=0.9, **style.mark)  # fmt: skip
+        is_other = style == plot.method_style("rrcb-sampled")
         name = "rrcb-sampled" if is_other else price.method
-        handles[name] = key(name, **look)
+        handles[name] = style.key(name)
     return list(handles.values())
 
 
@@ -118,12 +107,12 @@ def _draw_runs(axes: Axes, prices: list[Price]) -> list:
     totals = [p for p in _ours(all_totals, SIMULATION) if family(p.method) == "rrcb"]
     at = [_place(price) for price in totals]
     handles = [
-        draw_line(axes, at, [p.value * 100 for p in totals], 0.22, linewidth=2.2, marker="o",
-                  color=method_style("rrcb").colour, label="sum of both (right)")
+        plot.draw_line(axes, at, [p.value * 100 for p in totals], 0.22, linewidth=2.2, marker="o",
+                       color=plot.method_style("rrcb").colour, label="sum of both (right)")
     ]  # fmt: skip
     for panel, shade, line, label in (
-        (CALLS, CALL_COLOUR, "--", "what RRCB's calls cost"),
-        (STEPS, UNBALANCE_COLOUR, "-.", "what the unbalance it leaves costs in the steps"),
+        (CALLS, plot.CALL_COLOUR, "--", "what RRCB's calls cost"),
+        (STEPS, plot.UNBALANCE_COLOUR, "-.", "what the unbalance it leaves costs in the steps"),
     ):
         values = [parts[panel, p.method] for p in totals]
         handles += axes.plot(at, values, color=shade, linestyle=line, marker=".", label=label)
@@ -149,7 +138,8 @@ def _draw_all_across(axes: Axes, prices: list[Price]) -> None:
     """Methods without a tolerance."""
     for price in prices:
         if price.method in ACROSS:
-            draw_across(axes, price.value * 100, method_style(price.method), linewidth=1.2)
+            style = plot.method_style(price.method)
+            plot.draw_across(axes, price.value * 100, style, linewidth=1.2)
 
 
 def _mark_optimum(axes: Axes, prices: list[Price]) -> None:
@@ -178,6 +168,6 @@ def _show_tolerances(axes: Axes, prices: list[Price], y_label: str) -> None:
     axes.set_xlabel("imbalance asked for (of the paper's methods: left)")
     axes.grid(True, axis="y")
     across = [p for p in prices if p.method in ACROSS]
-    label_right(
-        axes, ((100 * p.value.number, p.method, method_style(p.method).colour) for p in across)
+    plot.label_right(
+        axes, ((100 * p.value.number, p.method, plot.method_style(p.method).colour) for p in across)
     )

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import libraries  # noqa: F401, before what it looks for
 import pandas as pd
+import plot
 from choice import EVERYWHERE, automatic_sentence, choices, fronts, judgements
 from claims import claim_table, set_up_table
 from cost import draw_cost, draw_study, draw_sweep_bytes, draw_sweep_time
@@ -38,7 +39,6 @@ from speed_up import (
     read_speed_ups,
     speed_up_table,
 )
-from style import save, use_style
 from tables import choice_matrix, choice_table, method_table, noise_table, simulation_table
 
 # Their captions are the docstrings of what draws them.
@@ -92,11 +92,11 @@ def main() -> int:
 
 
 def draw(results: Results) -> None:
-    use_style()
+    plot.use_style()
     for name, draw_picture in PICTURES.items():
         picture = results.folder / name
         if figure := draw_picture(results):
-            save(figure, picture)
+            plot.save(figure, picture)
             print(f"Picture: {picture}")
         else:
             picture.unlink(missing_ok=True)

@@ -13,13 +13,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import libraries  # noqa: F401, before what it looks for
+import plot
 from document import Document, Rows
 from machine import add_machine
 from matplotlib.figure import Figure
 from results import write_csv
 from scaling_check import Comparison, compare_all, read_counted, read_sizes
 from scaling_time import CallPath, Machine, Observed, all_paths, observe
-from style import label_edges, legend_above, method_style, panels, save, use_style
 
 Paths = dict[int, dict[str, CallPath]]  # by ranks and method
 MOST_RANKS = 1 << 20
@@ -50,8 +50,8 @@ def main() -> int:
     }
     write_csv(directory / "scaling_check.csv", (c.numbers for c in comparisons))
     write_csv(directory / "scaling.csv", _path_rows(paths))
-    use_style()
-    save(_draw(paths), directory / "scaling.png")
+    plot.use_style()
+    plot.save(_draw(paths), directory / "scaling.png")
     _report(directory, comparisons, paths, _assumptions(machine, observed))
     wrong = [c for c in comparisons if not c.agrees]
     for comparison in wrong:
@@ -93,10 +93,10 @@ def _path_rows(paths: Paths) -> Iterator[dict]:
 
 
 def _draw(paths: Paths) -> Figure:
-    figure, grid = panels(1, len(PANELS), 4.1 * len(PANELS), 4)
+    figure, grid = plot.panels(1, len(PANELS), 4.1 * len(PANELS), 4)
     for axes, (label, value) in zip(grid[0], PANELS.items()):
         for method in paths[2]:
-            style = method_style(method.split(",")[0])
+            style = plot.method_style(method.split(",")[0])
             line = LINES.get(method, style.line)
             values = [value(by_method[method]) for by_method in paths.values()]
             axes.plot(list(paths), values, color=style.colour, linestyle=line, label=method)
@@ -105,8 +105,8 @@ def _draw(paths: Paths) -> Figure:
         axes.set_yscale("log")
         axes.set_title(label)
         axes.grid(True)
-    label_edges(grid, ["ranks"] * len(PANELS), ())
-    return legend_above(figure, grid[0, 0], inches=2.1)
+    plot.label_edges(grid, ["ranks"] * len(PANELS), ())
+    return plot.legend_above(figure, grid[0, 0], inches=2.1)
 
 
 def _report(

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import libraries  # noqa: F401, before what it looks for
 import pandas as pd
+import plot
 from document import markdown_table
 from history import TIME, draw_worst
 from matplotlib.figure import Figure
 from results import Results
-from style import legend_above, panels, save, use_style
 
 
 def table(scenes: dict[str, Results]) -> str:
@@ -32,12 +32,12 @@ def table(scenes: dict[str, Results]) -> str:
 
 
 def draw(scenes: dict[str, Results]) -> Figure:
-    figure, grid = panels(len(scenes), 1, 9, 2.4 * len(scenes) + 1)
+    figure, grid = plot.panels(len(scenes), 1, 9, 2.4 * len(scenes) + 1)
     for axes, (scene, results) in zip(grid[:, 0], scenes.items()):
         draw_worst(axes, results.histories())
         axes.set_title(scene)
     grid[-1, 0].set_xlabel(TIME)
-    return legend_above(figure, grid[0, 0], inches=3)
+    return plot.legend_above(figure, grid[0, 0], inches=3)
 
 
 def main() -> int:
@@ -49,9 +49,9 @@ def main() -> int:
     if not scenes:
         print(f"{directory}: no simulations of these scenes", file=sys.stderr)
         return 1
-    use_style()
+    plot.use_style()
     (directory / "scenes.md").write_text(table(scenes))
-    save(draw(scenes), directory / "scenes.png")
+    plot.save(draw(scenes), directory / "scenes.png")
     print(f"\nImbalance, mean over the steps (worst)\n\n{table(scenes)}")
     print(f"Table: {directory / 'scenes.md'}\nPicture: {directory / 'scenes.png'}")
     return 0

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import plot
 from intervals import decimals, value_of
 from machine import CORES
 from matplotlib.figure import Figure
 from results import Results
-from style import CALL_COLOUR, IDEAL_COLOUR, UNBALANCE_COLOUR, legend_above, panels
 
 
 def draw_simulation(results: Results) -> Figure | None:
@@ -17,13 +17,13 @@ def draw_simulation(results: Results) -> Figure | None:
     ideals = runs["step_work_s"] / runs["ranks"]
     beyond = (runs["step_path_s"] + runs["step_network_s"] - ideals).clip(lower=0)
     balancing = runs["balance_path_s"] + runs["balance_network_s"]
-    figure, grid = panels(1, 1, 11, 0.42 * len(runs) + 1.6)
+    figure, grid = plot.panels(1, 1, 11, 0.42 * len(runs) + 1.6)
     axes = grid[0, 0]
     ends = 0 * ideals
     for name, seconds, colour, hatch in (
-        ("steps, all work / ranks", ideals, IDEAL_COLOUR, ""),
-        ("steps beyond it: unbalance, noise, messages", beyond, UNBALANCE_COLOUR, ""),
-        ("balancing", balancing, CALL_COLOUR, "///"),
+        ("steps, all work / ranks", ideals, plot.IDEAL_COLOUR, ""),
+        ("steps beyond it: unbalance, noise, messages", beyond, plot.UNBALANCE_COLOUR, ""),
+        ("balancing", balancing, plot.CALL_COLOUR, "///"),
     ):
         axes.barh(runs["method"], seconds, left=ends, color=colour, hatch=hatch, edgecolor="white",
                   label=name)  # fmt: skip
@@ -41,4 +41,4 @@ def draw_simulation(results: Results) -> Figure | None:
         f"The whole simulation: {first['points']:,} points, {first['steps']:,} steps,"
         f" {first['ranks']} ranks" + f" that share {CORES} cores" * (CORES < first["ranks"])
     )
-    return legend_above(figure, axes, inches=3.4)
+    return plot.legend_above(figure, axes, inches=3.4)

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import pandas as pd
+import plot
 from intervals import Value, mean_of, median_of
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from results import Results, cases
-from style import MULTIPLIER_COLOURS, draw_line, legend_above, method_style, small_multiples
 
 CELLS, CUT_OFF, WHOLE = (
-    method_style(name).colour for name in ("rrcb", "rrcb[tol=1.05]", "rrcb[tol=1.1]")
+    plot.method_style(name).colour for name in ("rrcb", "rrcb[tol=1.05]", "rrcb[tol=1.1]")
 )
 FEW, AS_MANY, MORE = (
-    method_style(f"rrcb-sampled{setting}").colour
+    plot.method_style(f"rrcb-sampled{setting}").colour
     for setting in ("[mesh=2,k=1.5,fraction=0.25]", "", "[mesh=8,k=2,fraction=0.125]")
 )
-K_1, K_1_5, _, K_2_5 = MULTIPLIER_COLOURS
+K_1, K_1_5, _, K_2_5 = plot.MULTIPLIER_COLOURS
 STAGES = {  # colour and line of each, and which rows it is drawn of
     "cells, as RRCB does": (CELLS, "-", "domain == 'cells'"),
     "boxes of √3 σ, cut off at the cell": (CUT_OFF, ":", "domain == 'in_cells'"),
@@ -40,11 +40,11 @@ def draw_sources(results: Results) -> Figure | None:
     if rows.empty:
         return None
     by_case = cases(rows)
-    figure = small_multiples(
+    figure = plot.small_multiples(
         list(by_case), lambda axes, case: _draw_case(axes, by_case[case]), (0.6, 1.1),
         "support mesh, cells per axis", "imbalance − 1, at least a point",
     )  # fmt: skip
-    return legend_above(figure, figure.axes[0], inches=2.4)
+    return plot.legend_above(figure, figure.axes[0], inches=2.4)
 
 
 def _draw_case(axes: Axes, rows: pd.DataFrame) -> None:
@@ -54,7 +54,7 @@ def _draw_case(axes: Axes, rows: pd.DataFrame) -> None:
         by_mesh = rows.query(chosen).groupby("mesh")["excess"].agg(list).map(median_of)
         if len(by_mesh):
             look = {"color": colour, "linestyle": line, "marker": ".", "label": label}
-            draw_line(axes, by_mesh.index, by_mesh, **look)
+            plot.draw_line(axes, by_mesh.index, by_mesh, **look)
     axes.set_xscale("log", base=2)
     axes.xaxis.set_major_formatter("{x:g}")
     axes.set_yscale("log")

@@ -6,21 +6,13 @@ from dataclasses import dataclass
 from statistics import mode
 
 import pandas as pd
+import plot
 from intervals import Value, interval95, median_of
 from machine import CORES
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from methods import parse, setting_of, values_of
 from results import Results
-from style import (
-    draw_across,
-    draw_line,
-    draw_settings,
-    label_edges,
-    legend_above,
-    method_style,
-    panels,
-)
 
 OTHERS = ("none", "zoltan-rcb", "root-rcb", "rrcb", "rrcb-exact")
 KINDS = {
@@ -115,7 +107,7 @@ def draw_speed_up(results: Results) -> Figure | None:
     others = [s for s in speed_ups if s.run.ranks == ranks and s.run.method in OTHERS]
     fractions = values_of([s.run.method for s in rows], 2)[::-1]
     width = 2.8 * max(2, len(fractions)) + 0.6
-    figure, grid = panels(3, len(fractions), width, 9, sharey="row")
+    figure, grid = plot.panels(3, len(fractions), width, 9, sharey="row")
     for kind, line in zip(KINDS, grid):
         for axes, fraction in zip(line, fractions):
             chosen = [s for s in rows if setting_of(s.run.method)[2] == fraction]
@@ -124,21 +116,21 @@ def draw_speed_up(results: Results) -> Figure | None:
         title = f"wall time: {ranks} ranks share {CORES} cores" if is_shared else KINDS[kind]
         line[0].set_title(title, loc="left", fontsize=9)
     cells = "support mesh, cells per axis\n"
-    label_edges(grid, [f"{cells}{100 * fraction:g} % of the points" for fraction in fractions],
+    plot.label_edges(grid, [f"{cells}{100 * fraction:g} % of the points" for fraction in fractions],
                 ["speed-up over serial"] * len(grid))  # fmt: skip
-    return legend_above(figure, grid[0, 0])
+    return plot.legend_above(figure, grid[0, 0])
 
 
 def _draw_kind(axes: Axes, settings: list[SpeedUp], others: list[SpeedUp], kind: str) -> None:
     numbers = [(s.run.method, s.kinds[kind].number) for s in settings]
-    draw_settings(axes, pd.DataFrame(numbers, columns=["method", kind]), kind)
+    plot.draw_settings(axes, pd.DataFrame(numbers, columns=["method", kind]), kind)
     for s in settings:
         mesh, reach = setting_of(s.run.method)[0], s.kinds[kind].reach
         if s.kinds[kind].has_interval:
             axes.plot([mesh, mesh], reach, color="#222222", linewidth=2.5, alpha=0.6)
     for s in others:
-        style = method_style(s.run.method)
-        draw_across(axes, s.kinds[kind], style, linewidth=1, label=s.run.method)
+        style = plot.method_style(s.run.method)
+        plot.draw_across(axes, s.kinds[kind], style, linewidth=1, label=s.run.method)
 
 
 def draw_ranks(results: Results) -> Figure | None:
@@ -146,19 +138,19 @@ def draw_ranks(results: Results) -> Figure | None:
     table = by_ranks(read_speed_ups(results.swept_runs))
     if not table:
         return None
-    figure, grid = panels(1, len(KINDS), 3.9 * len(KINDS), 3.9)
+    figure, grid = plot.panels(1, len(KINDS), 3.9 * len(KINDS), 3.9)
     for axes, kind in zip(grid[0], KINDS):
         for method, rows in table.items():
             values = [s.kinds[kind] for s in rows.values()]
-            look = {**method_style(method).look, "markersize": 4, "label": method}
-            draw_line(axes, list(rows), values, 0.2, **look)
+            look = {**plot.method_style(method).look, "markersize": 4, "label": method}
+            plot.draw_line(axes, list(rows), values, 0.2, **look)
         most = max(ranks for rows in table.values() for ranks in rows)
         if kind != "wall" or most <= CORES:
             axes.plot([1, most], [1, most], color="#BBBBBB", linewidth=0.8, label="ideal")
         axes.set_title(kind.replace("_", " ") + f" ({CORES} cores)" * (kind == "wall"))
         axes.grid(True)
-    label_edges(grid, ["ranks"] * len(KINDS), ["speed-up over serial"])
-    return legend_above(figure, grid[0, 0])
+    plot.label_edges(grid, ["ranks"] * len(KINDS), ["speed-up over serial"])
+    return plot.legend_above(figure, grid[0, 0])
 
 
 def by_ranks(speed_ups: list[SpeedUp]) -> dict[str, dict[int, SpeedUp]]:

@@ -12,7 +12,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "pl
 
 import moments  # noqa: E402
 import numpy as np  # noqa: E402
-import style  # noqa: E402
+import plot  # noqa: E402
 from matplotlib import pyplot as plt  # noqa: E402
 
 
@@ -28,30 +28,30 @@ def cielab(colour: str) -> np.ndarray:
 
 class StyleTest(unittest.TestCase):
     def test_no_two_colours_are_alike(self) -> None:
-        colours = [method.colour for method in style._METHODS.values()]
-        colours += [*style.PART_COLOURS, *style.MULTIPLIER_COLOURS]
+        colours = [method.colour for method in plot._METHODS.values()]
+        colours += [*plot.PART_COLOURS, *plot.MULTIPLIER_COLOURS]
         colours += [colour for name, (colour, *_) in moments.STYLES.items() if name != "RRCB"]
         for first, second in itertools.combinations(colours, 2):
             with self.subTest(first=first, second=second):
                 self.assertGreater(np.linalg.norm(cielab(first) - cielab(second)), 14)
 
     def test_a_setting_without_a_style_has_that_of_its_method(self) -> None:
-        self.assertEqual(style.method_style("rrcb[mesh=8]"), style.method_style("rrcb"))
-        self.assertNotEqual(style.method_style("rrcb[tol=1.1]"), style.method_style("rrcb"))
+        self.assertEqual(plot.method_style("rrcb[mesh=8]"), plot.method_style("rrcb"))
+        self.assertNotEqual(plot.method_style("rrcb[tol=1.1]"), plot.method_style("rrcb"))
 
     def test_settings_that_share_a_style_are_told_apart(self) -> None:
         methods = ["rrcb", *(f"rrcb[mesh={mesh}]" for mesh in range(2, 40))]
-        styles = style.distinct_styles(methods)
-        self.assertEqual(styles["rrcb"], style.method_style("rrcb"))
+        styles = plot.distinct_styles(methods)
+        self.assertEqual(styles["rrcb"], plot.method_style("rrcb"))
         self.assertEqual(len(set(styles.values())), len(methods))
         self.assertEqual({found.colour for found in styles.values()}, {styles["rrcb"].colour})
 
     def test_k_is_the_darker_the_larger(self) -> None:
-        found = [style.multiplier_colour(k) for k in (1, 1.5, 2, 2.5)]
-        self.assertEqual(found, style.MULTIPLIER_COLOURS)
+        found = [plot.multiplier_colour(k) for k in (1, 1.5, 2, 2.5)]
+        self.assertEqual(found, plot.MULTIPLIER_COLOURS)
 
     def test_numbers_are_plain(self) -> None:
-        texts = [style.plain_number(x) for x in (0.001, 0.5, 1, 2000, 1e6, 2e7, 1e9)]
+        texts = [plot.plain_number(x) for x in (0.001, 0.5, 1, 2000, 1e6, 2e7, 1e9)]
         self.assertEqual(texts, ["0.001", "0.5", "1", "2,000", "1,000,000", "20 M", "1 G"])
 
     def test_logarithmic_axes_have_two_numbers_at_least(self) -> None:
@@ -60,7 +60,7 @@ class StyleTest(unittest.TestCase):
                 figure, axes = plt.subplots()
                 axes.set_yscale("log")
                 axes.set_ylim(low, high)
-                style._label_plainly(axes.yaxis)
+                plot._label_plainly(axes.yaxis)
                 ticks = axes.yaxis.get_majorticklocs()
                 self.assertGreaterEqual(sum((ticks >= low) & (ticks <= high)), 2)
                 plt.close(figure)

@@ -44,6 +44,14 @@ class MethodStyle(NamedTuple):
     def look(self) -> dict:
         return {"color": self.colour, "linestyle": self.line, "marker": self.marker}
 
+    @property
+    def mark(self) -> dict:
+        """The look without the line."""
+        return {**self.look, "linestyle": ""}
+
+    def key(self, label: str) -> Line2D:
+        return key(label, **self.mark)
+
 
 # After M. Okabe and K. Ito: Color universal design (2008); the line style and the marker tell the
 # methods apart without the colour. Settings of one method are shades of its colour.

@@ -49,6 +49,7 @@ class IntervalTest(unittest.TestCase):
         for found, wanted in zip((mean.number, *mean.reach), (4, 2, 8), strict=True):
             self.assertAlmostEqual(found, wanted)
         self.assertFalse(mean_of([Value(2, 1, 4), Value(8)]).has_interval)
+        self.assertFalse(mean_of([Value(2, 1, 4), Value(8, 0, 16)]).has_interval)
 
     def test_values_are_apart_where_their_intervals_do_not_meet_or_are_not_known(self) -> None:
         self.assertTrue(Value(1, 0.9, 1.1).is_apart(Value(2, 1.9, 2.1)))

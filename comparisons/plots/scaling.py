@@ -35,8 +35,8 @@ def main() -> int:
     arguments = _read_arguments()
     directory = arguments.directory
     counted = read_counted(directory)
-    comparisons = compare_all(counted)
-    sizes = read_sizes(counted)
+    sizes = read_sizes(directory, counted)
+    comparisons = compare_all(counted, sizes)
     if sizes is None or not comparisons:
         print(f"{directory}: no runs of rrcb on two ranks; run comparisons/run --scaling")
         return 2

@@ -86,8 +86,9 @@ def read_counted(directory: Path) -> dict[tuple[str, int], Counted]:
     return found
 
 
-def compare_all(counted: dict[tuple[str, int], Counted]) -> list[Comparison]:
-    sizes = read_sizes(counted)
+def compare_all(
+    counted: dict[tuple[str, int], Counted], sizes: Sizes | None
+) -> list[Comparison]:
     found = []
     for (method, ranks), row in sorted(counted.items(), key=lambda item: item[0]):
         if sizes and ranks > 1 and method in (NONE, ACCEPTED, REFINED, EXACT):
@@ -100,21 +101,23 @@ def compare_all(counted: dict[tuple[str, int], Counted]) -> list[Comparison]:
     return found
 
 
-def read_sizes(counted: dict[tuple[str, int], Counted]) -> Sizes | None:
+def read_sizes(directory: Path, counted: dict[tuple[str, int], Counted]) -> Sizes | None:
     """From two ranks, whose refinement takes a histogram a round."""
-    if not all((method, 2) in counted for method in (NONE, EXACT)):
+    file = read(directory / "ranks-2" / "message_sizes.csv")
+    if file.empty or not all((method, 2) in counted for method in (NONE, EXACT)):
         return None
+    parts = model.Parts(**file.set_index("name")["bytes"])
     none, exact = counted[NONE, 2].traffic, counted[EXACT, 2].traffic
     rounds = (exact["Bcast"].calls - none["Bcast"].calls) // 2 - 1
-    searches = exact["Bcast"].sent - none["Bcast"].sent - model.answer_bytes(2)
+    searches = exact["Bcast"].sent - none["Bcast"].sent - model.answer_bytes(2, parts)
     return Sizes(
+        parts,
         agreements=none["Allreduce"].sent // 2 - model.checksum_bytes(2),
         num_agreements=none["Allreduce"].calls // 2,
         parameters=none["Gather"].sent // 2,
         broadcasts=none["Bcast"].sent - 8 * 2,
         num_broadcasts=none["Bcast"].calls // 2,
-        summary=none["Send"].sent - model.hand_up_bytes(2, "none"),
-        histogram=exact["Reduce"].sent // 2 - model.look_bytes(2),
+        histogram=exact["Reduce"].sent // 2 - model.look_bytes(2, parts),
         search=searches // rounds,
     )
 
@@ -123,9 +126,9 @@ def read_rounds(row: Counted, sizes: Sizes) -> Rounds:
     """What the refinement did; fractions would mean that the formula does not hold."""
     traffic, ranks = row.traffic, row.ranks
     looks = model.LOOKS["refined" if row.method == REFINED else "exact"]
-    rest = model.beyond_head(ranks, "exact")
-    once = sizes.broadcasts + 8 * ranks + rest + looks * model.answer_bytes(ranks)
-    reduced = traffic["Reduce"].sent - looks * ranks * model.look_bytes(ranks)
+    rest = model.beyond_head(ranks, "exact", sizes.parts)
+    once = sizes.broadcasts + 8 * ranks + rest + looks * model.answer_bytes(ranks, sizes.parts)
+    reduced = traffic["Reduce"].sent - looks * ranks * model.look_bytes(ranks, sizes.parts)
     broadcasts = _whole(traffic["Bcast"].calls, ranks)
     return Rounds(
         rounds=broadcasts - sizes.num_broadcasts - (rest > 0) - looks,

@@ -1,9 +1,10 @@
 """What a call moves, by formula, for any number of ranks; 2-D, points scattered over the ranks.
 
 Every formula gives the calls and bytes by MPI function that the driver counts (see README.md): a
-collective of n ranks is n calls, with the bytes each rank hands in and gets out. Sizes of what the
-library sends are read off a run on two ranks, what depends on the points is an input of the run that
-is predicted: rounds, partners, points moved.
+collective of n ranks is n calls, with the bytes each rank hands in and gets out. What the
+library's messages are made of stands in message_sizes.csv, how many of them are fixed is read off a
+run on two ranks; what depends on the points is an input of the run that is predicted: rounds,
+partners, points moved.
 """
 
 from __future__ import annotations
@@ -15,16 +16,7 @@ DIMENSION = 2
 MESH = 4
 RADIX = 8
 MOST_CELLS = 8192
-CUT = 32
-BRACKET = 16
-HEAD = 2048  # the verdict and as many cuts as fit
-VERDICT = 64
-AGREEMENT = 8
 LOOKS = {"none": 0, "accepted": 1, "refined": 2, "exact": 1}  # at what the parts weigh
-CELL = 8 * (3 + 2 * DIMENSION)
-MESH_BLOCK = 8 * (3 + 2 * DIMENSION)
-BLOCK = MESH_BLOCK + MESH**DIMENSION * CELL
-PLACE = 8 * (2 + 2 * DIMENSION**2)
 MOST_PLACES = 4096  # ranks that hand them up
 
 
@@ -70,15 +62,30 @@ class Traffic(dict[str, Count]):
 # --- RRCB ---------------------------------------------------------------------------------------
 
 
+class Parts(NamedTuple):
+    """The bytes of message_sizes.csv, where README.md defines them."""
+
+    agreement: int
+    cut: int
+    bracket: int
+    head: int
+    verdict: int
+    summary: int
+    mesh: int
+    cell: int
+    place: int
+    part_weight: int
+
+
 class Sizes(NamedTuple):
     """Bytes of RRCB's fixed messages."""
 
+    parts: Parts
     agreements: int  # all reductions to everybody together, but for checksums of the parts
     num_agreements: int
     parameters: int  # gathered from every rank by the plug-in
     broadcasts: int  # all broadcasts together, but for what grows with the parts, head included
     num_broadcasts: int
-    summary: int
     histogram: int
     search: int
 
@@ -120,34 +127,34 @@ def all_agreements(ranks: int, sizes: Sizes, refine: str) -> tuple[int, int]:
     """Number and bytes; a look at the parts tells of failures as well."""
     number, size = sizes.num_agreements, sizes.agreements + checksum_bytes(ranks)
     if LOOKS[refine]:
-        return number - 1, size - AGREEMENT
+        return number - 1, size - sizes.parts.agreement
     return number, size
 
 
-def look_bytes(ranks: int) -> int:
+def look_bytes(ranks: int, parts: Parts) -> int:
     """Weights of the parts, and whether the rank has failed."""
-    return 8 * (ranks + 1)
+    return parts.part_weight * ranks + parts.agreement
 
 
-def answer_bytes(ranks: int) -> int:
+def answer_bytes(ranks: int, parts: Parts) -> int:
     """The same of all ranks, and the imbalance."""
-    return 8 * (ranks + 2)
+    return look_bytes(ranks, parts) + 8
 
 
-def beyond_head(ranks: int, refine: str) -> int:
+def beyond_head(ranks: int, refine: str, parts: Parts) -> int:
     """Bytes of cuts and brackets that the head has no room for and a second broadcast takes."""
-    cut = CUT + (0 if refine == "none" else BRACKET)
-    return max(0, cut * (ranks - 1) - (HEAD - VERDICT))
+    cut = parts.cut + (0 if refine == "none" else parts.bracket)
+    return max(0, cut * (ranks - 1) - (parts.head - parts.verdict))
 
 
-def place_bytes(ranks: int, refine: str) -> int:
+def place_bytes(ranks: int, refine: str, parts: Parts) -> int:
     """Where a rank's points lie, by which the root may find that they are well where they are."""
-    return PLACE if ranks <= MOST_PLACES and refine != "exact" else 0
+    return parts.place if ranks <= MOST_PLACES and refine != "exact" else 0
 
 
-def hand_up_bytes(ranks: int, refine: str) -> int:
+def hand_up_bytes(ranks: int, refine: str, parts: Parts) -> int:
     """What a rank adds to what passes through the ranks above it."""
-    return BLOCK + place_bytes(ranks, refine)
+    return parts.mesh + MESH**DIMENSION * parts.cell + place_bytes(ranks, refine, parts)
 
 
 def rrcb(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> Traffic:
@@ -158,13 +165,14 @@ def rrcb(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> Tr
     traffic.gather(ranks, sizes.parameters)
     once = sizes.broadcasts + 8 * ranks
     traffic.add("Bcast", ranks * sizes.num_broadcasts, once, (ranks - 1) * once)
-    if rest := beyond_head(ranks, refine):
+    if rest := beyond_head(ranks, refine, sizes.parts):
         traffic.broadcast(ranks, rest)
+    mine = hand_up_bytes(ranks, refine, sizes.parts)
     for rank in range(1, ranks):
-        traffic.add("Send", 2, sizes.summary + subtree(rank, ranks) * hand_up_bytes(ranks, refine))
+        traffic.add("Send", 2, sizes.parts.summary + subtree(rank, ranks) * mine)
     for _ in range(LOOKS[refine]):
-        traffic.reduce(ranks, look_bytes(ranks))
-        traffic.broadcast(ranks, answer_bytes(ranks))
+        traffic.reduce(ranks, look_bytes(ranks, sizes.parts))
+        traffic.broadcast(ranks, answer_bytes(ranks, sizes.parts))
     if refine in ("refined", "exact"):
         _refine(traffic, ranks, sizes, rounds)
     return traffic
@@ -183,9 +191,9 @@ def _refine(traffic: Traffic, ranks: int, sizes: Sizes, rounds: Rounds) -> None:
 def rrcb_root_bytes(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> int:
     """Bytes that rank 0 gets."""
     into = all_agreements(ranks, sizes, refine)[1] + ranks * sizes.parameters
-    mine = hand_up_bytes(ranks, refine)
-    into += sum(sizes.summary + subtree(child, ranks) * mine for child in children(0, ranks))
-    into += LOOKS[refine] * look_bytes(ranks)
+    mine = hand_up_bytes(ranks, refine, sizes.parts)
+    into += sum(sizes.parts.summary + subtree(child, ranks) * mine for child in children(0, ranks))
+    into += LOOKS[refine] * look_bytes(ranks, sizes.parts)
     if refine in ("refined", "exact"):
         into += rounds.histograms * sizes.histogram + 4 * rounds.gathers * ranks
         into += rounds.candidate_bytes

@@ -92,15 +92,16 @@ def rrcb_path(ranks: int, refine: str, observed: Observed, machine: Machine) -> 
     per_agreement = agreements / num_agreements
     path.collective(ranks, 2 * per_agreement, num_agreements, per_agreement)
     path.collective(ranks, ranks * sizes.parameters, 1, ranks * sizes.parameters)
-    rest = model.beyond_head(ranks, refine)
+    rest = model.beyond_head(ranks, refine, sizes.parts)
     path.collective(ranks, 0, sizes.num_broadcasts + (rest > 0))
     path.bytes += sizes.broadcasts + 8 * ranks + rest
-    _climb(path, ranks, sizes, model.place_bytes(ranks, refine))
+    _climb(path, ranks, sizes, model.place_bytes(ranks, refine, sizes.parts))
     cells = min(model.MOST_CELLS, ranks * model.MESH**model.DIMENSION)
     path.work += (cells * (ranks - 1).bit_length() + ranks) * machine.per_cell
     looks = model.LOOKS[refine]
-    path.collective(ranks, model.look_bytes(ranks), looks, model.look_bytes(ranks))
-    path.collective(ranks, model.answer_bytes(ranks), looks)
+    look = model.look_bytes(ranks, sizes.parts)
+    path.collective(ranks, look, looks, look)
+    path.collective(ranks, model.answer_bytes(ranks, sizes.parts), looks)
     if refine == "refined":
         levels = (ranks - 1).bit_length()
         _refine(path, ranks, sizes, Rounds(levels, ranks - 1, levels, ranks - 1))
@@ -116,8 +117,8 @@ def _climb(path: CallPath, ranks: int, sizes: Sizes, place: int) -> None:
     while below < ranks:
         num_children = min(model.RADIX - 1, ceil(ranks / below) - 1)
         cells = min(model.MOST_CELLS, below * model.MESH**model.DIMENSION)
-        records = cells * model.CELL + below * place
-        size = sizes.summary + records
+        records = cells * sizes.parts.cell + below * place
+        size = sizes.parts.summary + records
         pieces = 1 + ceil(records / 65536)
         path.messages += num_children * pieces
         path.bytes += num_children * size

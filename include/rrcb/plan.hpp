@@ -22,8 +22,15 @@ struct RankRange {
 /// the parts before the last.
 RankRange ranks_of_part(Part part, int num_parts, int num_ranks);
 
-/// Who sends what to whom; entry k of each list on this side describes one point.
+/// So many points, to or from one rank.
+struct RankCount {
+    int rank = 0;
+    LocalIndex count = 0;
+};
+
+/// Who sends what to whom, which transfer() does; entry k of each list on this side describes one point.
 struct Plan {
+    LocalIndex num_points = 0;               ///< that this rank holds before
     std::vector<LocalIndex> export_indices;  ///< of my points that leave, ascending
     std::vector<int> export_ranks;           ///< where they go
     std::vector<Part> export_parts;

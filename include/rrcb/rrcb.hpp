@@ -13,4 +13,5 @@
 #include <rrcb/stages.hpp>
 #include <rrcb/statistical_domain.hpp>
 #include <rrcb/support_mesh.hpp>
+#include <rrcb/transfer.hpp>
 #include <rrcb/version.hpp>

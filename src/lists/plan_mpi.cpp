@@ -102,6 +102,7 @@ Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm user) {
     std::vector<std::int64_t>& counts = kept.per_rank;
     Participant self{comm};
     Plan result;
+    result.num_points = parts.size();
     Exchange exchange(sizeof(Notice), counts);
     self.attempt([&] {
         check_parts(parts, num_parts);

@@ -1,0 +1,143 @@
+#pragma once
+
+#include <rrcb/plan.hpp>
+
+#include <mpi.h>
+
+#include <array>
+#include <cstddef>
+#include <ranges>
+#include <span>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+namespace rrcb {
+
+/// Borrowed view of a column of the points: `components` consecutive values for each of them.
+///
+/// Values are trivially copyable, such as numbers or structs of numbers, and not bool, of which a
+/// std::vector is no array.
+template <class T>
+struct Column {
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_same_v<T, bool>);
+
+    std::span<const T> values;  ///< length: points * components
+    std::size_t components = 1;
+};
+
+/// View of a vector or an array of any kind. Not collective.
+template <std::ranges::contiguous_range Values>
+auto column(const Values& values, std::size_t components = 1) {
+    return Column<std::ranges::range_value_t<Values>>{values, components};
+}
+
+template <class T>
+Column<T> column(const Column<T>& same) {
+    return same;
+}
+
+/// Several columns, to be moved in one message: columns(column(positions, 3), masses, numbers).
+template <class... Columns>
+auto columns(const Columns&... each) {
+    return std::tuple(column(each)...);
+}
+
+/// Bounds of one call, the same on every rank.
+struct TransferLimits {
+    /// Most memory for messages on each rank, beside the columns themselves: half for those that
+    /// leave, half for those that come. Each must hold one point with all its columns.
+    std::size_t bytes = std::size_t{64} << 20;
+};
+
+/// What a call took, on this rank.
+struct TransferReport {
+    std::size_t peak_bytes = 0;    ///< most memory in use for messages at a time
+    std::size_t bytes_sent = 0;    ///< of columns
+    std::size_t num_messages = 0;  ///< sent
+};
+
+namespace detail {
+
+/// A column without its type, and where its result goes.
+struct ByteColumn {
+    const std::byte* from;
+    std::size_t num_values;
+    std::size_t value_bytes;
+    std::size_t components;
+    void* result;
+    std::byte* (*make_room)(void* result, std::size_t num_values);
+};
+
+template <class T>
+ByteColumn byte_column(const Column<T>& column, std::vector<T>& result) {
+    return {reinterpret_cast<const std::byte*>(column.values.data()),
+            column.values.size(),
+            sizeof(T),
+            column.components,
+            &result,
+            [](void* vector, std::size_t num_values) {
+                auto& values = *static_cast<std::vector<T>*>(vector);
+                values.resize(num_values);
+                return reinterpret_cast<std::byte*>(values.data());
+            }};
+}
+
+void move(const Plan& plan, std::span<const ByteColumn> columns, const TransferLimits& limits,
+          TransferReport* report, MPI_Comm comm);
+
+/// Moves columns by a plan for which there is a `move` as above. Collective.
+template <class AnyPlan, class... T>
+std::tuple<std::vector<T>...> moved(const AnyPlan& plan, const std::tuple<Column<T>...>& columns,
+                                    MPI_Comm comm, const TransferLimits& limits,
+                                    TransferReport* report) {
+    return [&]<std::size_t... I>(std::index_sequence<I...>) {
+        std::tuple<std::vector<T>...> results;
+        const std::array<ByteColumn, sizeof...(T)> each{
+            byte_column(std::get<I>(columns), std::get<I>(results))...};
+        move(plan, each, limits, report, comm);
+        return results;
+    }
+    (std::index_sequence_for<T...>{});
+}
+
+}  // namespace detail
+
+/// Moves several columns of the points along a plan, and gives those of the points that this rank
+/// holds afterwards, as a tuple of vectors.
+///
+/// Collective over `comm`, the communicator of the plan: two reductions of a few numbers, then one
+/// message for each pair of ranks between which points move, however many columns there are, and
+/// more of up to an eighth of `limits.bytes` where it is longer. Every rank names columns of the
+/// same types and components, in the same order; on a rank without points they are empty.
+///
+/// First come the points that stay, in the order in which they were, then those that come, in the
+/// order of the plan's import lists: by rank, and as they lay there. So columns moved in separate
+/// calls fit each other, and plan.import_parts is the tail of the parts.
+///
+/// `report` may be null. The columns are only read; nothing is lost when a call fails. Throws Error
+/// on every rank alike where one has a column of another length than plan.num_points * components,
+/// lists that no plan of this communicator has or that do not match those of the other ranks, other
+/// sizes or limits than they have, or no memory; on that rank alone when a message fails.
+template <class... T>
+std::tuple<std::vector<T>...> transfer(const Plan& plan, const std::tuple<Column<T>...>& columns,
+                                       MPI_Comm comm, const TransferLimits& limits = {},
+                                       TransferReport* report = nullptr) {
+    return detail::moved(plan, columns, comm, limits, report);
+}
+
+/// The same for one column.
+template <class T>
+std::vector<T> transfer(const Plan& plan, const Column<T>& column, MPI_Comm comm,
+                        const TransferLimits& limits = {}, TransferReport* report = nullptr) {
+    return std::get<0>(detail::moved(plan, std::tuple(column), comm, limits, report));
+}
+
+/// The same for a vector or an array with one value for each point.
+template <std::ranges::contiguous_range Values>
+auto transfer(const Plan& plan, const Values& values, MPI_Comm comm,
+              const TransferLimits& limits = {}, TransferReport* report = nullptr) {
+    return transfer(plan, column(values), comm, limits, report);
+}
+
+}  // namespace rrcb

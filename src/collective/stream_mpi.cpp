@@ -1,0 +1,115 @@
+#include "collective/stream_mpi.hpp"
+
+#include "collective/communicator.hpp"
+
+#include <rrcb/error.hpp>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace rrcb {
+
+namespace {
+
+/// Pieces under way in one direction where memory is short: some are packed while others travel.
+constexpr std::size_t pieces_under_way = 4;
+
+}  // namespace
+
+Stream::Stream(std::size_t record_bytes, std::size_t limit)
+    : record_bytes_(record_bytes), lane_bytes_(limit / 2), most_records_(0) {
+    if (record_bytes_ == 0) return;
+    if (record_bytes_ > std::min(lane_bytes_, mpi::longest_message))
+        throw Error(ErrorCode::invalid_argument,
+                    "a point has " + std::to_string(record_bytes_) +
+                        " bytes in these columns; TransferLimits::bytes must hold two, and a "
+                        "message one");
+    const std::size_t bytes = std::min(lane_bytes_ / pieces_under_way, mpi::longest_message);
+    most_records_ = std::max(std::size_t{1}, bytes / record_bytes_);
+}
+
+/// Pieces by the step from rank to rank; `step` gives that of a rank.
+template <class Step>
+void Stream::lay_out(std::span<const RankCount> counts, Step&& step, Lane& lane) const {
+    std::size_t first = 0;
+    for (const RankCount& share : counts) {
+        const std::size_t end = first + share.count;
+        while (first < end) {
+            const std::size_t count = std::min(end - first, most_records_);
+            lane.pieces.push_back({share.rank, first, count});
+            first += count;
+        }
+    }
+    std::ranges::sort(lane.pieces, {},
+                      [&](const Piece& piece) { return std::pair(step(piece.rank), piece.first); });
+}
+
+/// A place for each piece, or for as many of the longest as there is memory for.
+void Stream::make_buffer(Lane& lane) const {
+    if (lane.pieces.empty()) return;
+    std::size_t bytes = 0;
+    std::size_t longest = 0;
+    for (Piece& piece : lane.pieces) {
+        piece.offset = bytes;
+        bytes += piece.count * record_bytes_;
+        longest = std::max(longest, piece.count * record_bytes_);
+    }
+    std::size_t num_places = lane.pieces.size();
+    if (bytes > lane_bytes_) {
+        num_places = lane_bytes_ / longest;
+        bytes = num_places * longest;
+        for (std::size_t k = 0; k < lane.pieces.size(); ++k)
+            lane.pieces[k].offset = k % num_places * longest;
+    }
+    lane.buffer.resize(bytes);
+    lane.requests.assign(num_places, MPI_REQUEST_NULL);
+}
+
+void Stream::make_room(std::span<const RankCount> to, std::span<const RankCount> from, int rank,
+                       int num_ranks) {
+    if (record_bytes_ == 0) return;
+    lay_out(
+        to, [&](int there) { return there >= rank ? there - rank : there - rank + num_ranks; },
+        sends_);
+    lay_out(
+        from, [&](int there) { return rank >= there ? rank - there : rank - there + num_ranks; },
+        receives_);
+    make_buffer(sends_);
+    make_buffer(receives_);
+}
+
+void Stream::send(const Piece& piece, Participant& self) {
+    self.always([&] {
+        mpi::check(MPI_Isend(&sends_.buffer[piece.offset],
+                             static_cast<int>(piece.count * record_bytes_), MPI_BYTE, piece.rank,
+                             mpi::stream_tag, self.comm, &sends_.request_of(sends_.num_begun - 1)),
+                   "MPI_Isend");
+    });
+}
+
+void Stream::receive(const Piece& piece, Participant& self) {
+    self.always([&] {
+        mpi::check(
+            MPI_Irecv(&receives_.buffer[piece.offset],
+                      static_cast<int>(piece.count * record_bytes_), MPI_BYTE, piece.rank,
+                      mpi::stream_tag, self.comm, &receives_.request_of(receives_.num_begun - 1)),
+            "MPI_Irecv");
+    });
+}
+
+/// The lane in which the oldest piece has ended; null when all have.
+Stream::Lane* Stream::wait(Participant& self) {
+    MPI_Request oldest[] = {receives_.oldest(), sends_.oldest()};
+    int ended = MPI_UNDEFINED;
+    self.always(
+        [&] { mpi::check(MPI_Waitany(2, oldest, &ended, MPI_STATUS_IGNORE), "MPI_Waitany"); });
+    if (ended == MPI_UNDEFINED) return nullptr;
+    return ended == 0 ? &receives_ : &sends_;
+}
+
+void Stream::finish(const Participant& self) {
+    if (self.failure.failed) throw Error(self.failure.code, self.failure.text.data());
+}
+
+}  // namespace rrcb

@@ -1,0 +1,101 @@
+#pragma once
+
+#include "collective/participant.hpp"
+
+#include <rrcb/plan.hpp>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+/// Records of one size on their way between ranks that know how many they send each other, in
+/// pieces that keep to a limit of memory.
+class Stream {
+  public:
+    /// The size and the limit are the same on every rank. Throws Error where the limit does not
+    /// hold a record to send and one to receive.
+    Stream(std::size_t record_bytes, std::size_t limit);
+
+    /// Makes room for the records to and from each rank, in ascending order of them.
+    ///
+    /// Not collective. Throws std::bad_alloc.
+    void make_room(std::span<const RankCount> to, std::span<const RankCount> from, int rank,
+                   int num_ranks);
+
+    std::size_t num_bytes() const { return sends_.buffer.size() + receives_.buffer.size(); }
+    std::size_t num_messages() const { return sends_.pieces.size(); }
+
+    /// Sends and receives, after the ranks agreed that all have room.
+    ///
+    /// Collective. pack(first, count, place) writes so many of the records that leave, counted over
+    /// all ranks, and unpack(first, count, place) reads those that have come. Throws Error where
+    /// one fails, of which no other rank hears.
+    ///
+    /// Each lane begins and ends its pieces in its order, which is that of the steps from rank to
+    /// rank, here as there. Of all that have not ended the one of the first step is first in its
+    /// lane on both sides, so that it begins: no rank waits for ever.
+    template <class Pack, class Unpack>
+    void run(Participant& self, Pack&& pack, Unpack&& unpack) {
+        const auto begin_all = [&] {
+            while (receives_.may_begin()) receive(receives_.begin_next(), self);
+            while (sends_.may_begin()) {
+                const Piece& piece = sends_.begin_next();
+                pack(piece.first, piece.count, &sends_.buffer[piece.offset]);
+                send(piece, self);
+            }
+        };
+        begin_all();
+        while (Lane* lane = wait(self)) {
+            const Piece& piece = lane->pieces[lane->num_ended++];
+            if (lane == &receives_)
+                unpack(piece.first, piece.count, &receives_.buffer[piece.offset]);
+            begin_all();
+        }
+        finish(self);
+    }
+
+  private:
+    /// Consecutive records to or from one rank, and where they are in the buffer.
+    struct Piece {
+        int rank;
+        std::size_t first;
+        std::size_t count;
+        std::size_t offset = 0;
+    };
+
+    /// The pieces in one direction, some of them under way.
+    struct Lane {
+        std::vector<Piece> pieces;
+        std::vector<std::byte> buffer;
+        std::vector<MPI_Request> requests;  ///< as many as are under way at most
+        std::size_t num_begun = 0;
+        std::size_t num_ended = 0;
+
+        bool may_begin() const {
+            return num_begun < pieces.size() && num_begun - num_ended < requests.size();
+        }
+        const Piece& begin_next() { return pieces[num_begun++]; }
+        MPI_Request& request_of(std::size_t piece) { return requests[piece % requests.size()]; }
+        MPI_Request oldest() {
+            return num_ended < num_begun ? request_of(num_ended) : MPI_REQUEST_NULL;
+        }
+    };
+
+    template <class Step>
+    void lay_out(std::span<const RankCount> counts, Step&& step, Lane& lane) const;
+    void make_buffer(Lane& lane) const;
+    void send(const Piece& piece, Participant& self);
+    void receive(const Piece& piece, Participant& self);
+    Lane* wait(Participant& self);
+    static void finish(const Participant& self);
+
+    std::size_t record_bytes_;
+    std::size_t lane_bytes_;    ///< in each direction at most
+    std::size_t most_records_;  ///< in a piece
+    Lane sends_;
+    Lane receives_;
+};
+
+}  // namespace rrcb

@@ -1,0 +1,191 @@
+#include "lists/delivery_mpi.hpp"
+
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
+#include "collective/stream_mpi.hpp"
+
+#include <rrcb/error.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <type_traits>
+
+namespace rrcb {
+
+namespace {
+
+using detail::ByteColumn;
+
+[[noreturn]] void reject(const std::string& what) {
+    throw Error(ErrorCode::invalid_argument, what);
+}
+
+/// One column as it travels: the bytes of a point lie together.
+struct Lane {
+    const std::byte* from;
+    std::byte* to;
+    std::size_t bytes;  ///< of a point
+};
+
+void check_column(const ByteColumn& column, LocalIndex num_points) {
+    const bool fits = column.components == 0
+                          ? column.num_values == 0
+                          : column.num_values % column.components == 0 &&
+                                column.num_values / column.components == num_points;
+    if (!fits)
+        reject("a column has " + std::to_string(column.num_values) + " values for " +
+               std::to_string(num_points) + " points of the plan; give " +
+               std::to_string(column.components) + " for each");
+}
+
+/// Bytes of a point in all columns.
+std::size_t point_bytes_of(std::span<const ByteColumn> columns) {
+    std::size_t bytes = 0;
+    for (const ByteColumn& column : columns) {
+        if (column.components > (mpi::longest_message - bytes) / column.value_bytes)
+            reject("a point has more bytes in these columns than a message holds");
+        bytes += column.components * column.value_bytes;
+    }
+    return bytes;
+}
+
+LocalIndex total(std::span<const RankCount> counts) {
+    LocalIndex sum = 0;
+    for (const RankCount& share : counts) sum += share.count;
+    return sum;
+}
+
+/// Compares what the ranks send, `per_rank`, with what this one expects of them.
+void check_agreement(std::span<const RankCount> from, std::span<const std::int64_t> per_rank) {
+    auto next = from.begin();
+    for (std::size_t rank = 0; rank < per_rank.size(); ++rank) {
+        const bool is_next = next != from.end() && next->rank == static_cast<int>(rank);
+        const LocalIndex expected = is_next ? (next++)->count : 0;
+        const std::int64_t sent = per_rank[rank];
+        if (sent != failed_there && static_cast<LocalIndex>(sent) != expected)
+            reject("rank " + std::to_string(rank) + " sends " + std::to_string(sent) +
+                   " points, not " + std::to_string(expected) +
+                   " as this plan has it; make the plans of all ranks in one call, with this "
+                   "communicator");
+    }
+}
+
+std::vector<Lane> make_results(std::span<const ByteColumn> columns, LocalIndex num_points) {
+    std::vector<Lane> lanes;
+    for (const ByteColumn& column : columns)
+        lanes.push_back({column.from,
+                         column.make_room(column.result, num_points * column.components),
+                         column.value_bytes * column.components});
+    return lanes;
+}
+
+void copy(const std::byte* from, std::size_t bytes, std::byte* to) {
+    if (bytes > 0) std::memcpy(to, from, bytes);
+}
+
+void keep(const Delivery& delivery, const Lane& lane) {
+    if (delivery.num_kept == 0) return;
+    std::byte* to = lane.to;
+    LocalIndex begin = 0;
+    const auto copy_run = [&](LocalIndex end) {
+        const std::size_t bytes = (end - begin) * lane.bytes;
+        copy(lane.from + begin * lane.bytes, bytes, to);
+        to += bytes;
+    };
+    for (const LocalIndex index : delivery.removed) {
+        copy_run(index);
+        begin = index + 1;
+    }
+    copy_run(delivery.num_points);
+}
+
+/// With the number of bytes known to the compiler where it is a common one.
+void gather(const Lane& lane, std::span<const LocalIndex> points, std::byte* to) {
+    const auto gather_by = [&](auto bytes) {
+        for (const LocalIndex point : points) {
+            copy(lane.from + point * bytes, bytes, to);
+            to += bytes;
+        }
+    };
+    switch (lane.bytes) {
+        case 8:
+            return gather_by(std::integral_constant<std::size_t, 8>{});
+        case 16:
+            return gather_by(std::integral_constant<std::size_t, 16>{});
+        case 24:
+            return gather_by(std::integral_constant<std::size_t, 24>{});
+        default:
+            return gather_by(lane.bytes);
+    }
+}
+
+void run(Stream& stream, const Delivery& delivery, std::span<const Lane> lanes, Participant& self) {
+    // In a piece one column follows the other.
+    const auto pack = [&](std::size_t first, std::size_t count, std::byte* place) {
+        for (const Lane& lane : lanes) {
+            gather(lane, delivery.sent.subspan(first, count), place);
+            place += count * lane.bytes;
+        }
+    };
+    const auto unpack = [&](std::size_t first, std::size_t count, const std::byte* place) {
+        for (const Lane& lane : lanes) {
+            copy(place, count * lane.bytes, lane.to + (delivery.num_kept + first) * lane.bytes);
+            place += count * lane.bytes;
+        }
+    };
+    stream.run(self, pack, unpack);
+}
+
+}  // namespace
+
+void exchange_counts(std::span<const RankCount> to, std::span<std::int64_t> per_rank,
+                     const Participant& self) {
+    std::ranges::fill(per_rank, self.failure.failed ? failed_there : 0);
+    if (!self.failure.failed)
+        for (const RankCount& share : to)
+            per_rank[static_cast<std::size_t>(share.rank)] = static_cast<std::int64_t>(share.count);
+    mpi::check(
+        MPI_Alltoall(MPI_IN_PLACE, 1, MPI_INT64_T, per_rank.data(), 1, MPI_INT64_T, self.comm),
+        "MPI_Alltoall");
+}
+
+void check_counts(std::span<const RankCount> counts, LocalIndex total_count, int num_ranks) {
+    int least = 0;
+    for (const RankCount& share : counts) {
+        if (share.rank < least || share.rank >= num_ranks)
+            reject("the plan names rank " + std::to_string(share.rank) + ", which is none of the " +
+                   std::to_string(num_ranks) + " of this communicator or not in ascending order");
+        least = share.rank + 1;
+    }
+    if (total(counts) != total_count) reject("the counts of the plan do not add up to its list");
+}
+
+void deliver(const Delivery& delivery, std::span<const ByteColumn> columns,
+             const TransferLimits& limits, TransferReport* report, std::span<std::int64_t> per_rank,
+             Participant& self) {
+    std::size_t point_bytes = 0;
+    self.attempt([&] {
+        for (const ByteColumn& column : columns) check_column(column, delivery.num_points);
+        point_bytes = point_bytes_of(columns);
+    });
+    exchange_counts(delivery.to, per_rank, self);
+    std::optional<Stream> stream;
+    std::vector<Lane> lanes;
+    self.attempt([&] {
+        check_agreement(delivery.from, per_rank);
+        stream.emplace(point_bytes, limits.bytes);
+        stream->make_room(delivery.to, delivery.from, mpi::rank_of(self.comm),
+                          mpi::size_of(self.comm));
+        lanes = make_results(columns, delivery.num_kept + total(delivery.from));
+    });
+    agree(self, {{"the size of a point in all columns", point_bytes},
+                 {"TransferLimits::bytes", limits.bytes}});
+    for (const Lane& lane : lanes) keep(delivery, lane);
+    run(*stream, delivery, lanes, self);
+    if (report != nullptr)
+        *report = {stream->num_bytes(), point_bytes * delivery.sent.size(), stream->num_messages()};
+}
+
+}  // namespace rrcb

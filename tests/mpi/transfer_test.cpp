@@ -1,0 +1,304 @@
+#include "../support/ranks.hpp"
+
+#include <rrcb/error.hpp>
+#include <rrcb/transfer.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+using test::num_ranks;
+using test::rank;
+
+/// Names a point by where it lay before.
+std::int64_t number_of(int origin, LocalIndex index) {
+    return 1'000'000 * std::int64_t{origin} + static_cast<std::int64_t>(index);
+}
+
+/// Every third rank is empty; the others hold different numbers of points, of any part.
+std::vector<Part> mixed_parts(int num_parts, int round = 0) {
+    std::vector<Part> parts(rank() % 3 == 1 ? 0 : static_cast<std::size_t>(40 + 11 * rank()));
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        parts[i] = (static_cast<Part>(i * i) + 5 * rank() + round) % num_parts;
+    return parts;
+}
+
+/// All points of this rank go to the next one.
+Plan shift(std::size_t num_points) {
+    const std::vector<Part> parts(num_points, (rank() + 1) % num_ranks());
+    return plan(parts, num_ranks(), MPI_COMM_WORLD);
+}
+
+std::vector<std::int64_t> numbers_before(const Plan& plan) {
+    std::vector<std::int64_t> numbers;
+    for (LocalIndex i = 0; i < plan.num_points; ++i) numbers.push_back(number_of(rank(), i));
+    return numbers;
+}
+
+/// As the manual has it, from the lists alone.
+std::vector<std::int64_t> numbers_after(const Plan& plan) {
+    std::vector<std::int64_t> numbers;
+    for (LocalIndex i = 0; i < plan.num_points; ++i)
+        if (std::ranges::find(plan.export_indices, i) == plan.export_indices.end())
+            numbers.push_back(number_of(rank(), i));
+    for (std::size_t k = 0; k < plan.import_indices.size(); ++k)
+        numbers.push_back(number_of(plan.import_ranks[k], plan.import_indices[k]));
+    return numbers;
+}
+
+TEST(Transfer, gives_what_stays_and_then_what_comes_by_rank) {
+    for (const int num_parts : {num_ranks(), 2 * num_ranks() + 1, (num_ranks() + 1) / 2, 1}) {
+        const Plan lists = plan(mixed_parts(num_parts), num_parts, MPI_COMM_WORLD);
+        EXPECT_EQ(transfer(lists, numbers_before(lists), MPI_COMM_WORLD), numbers_after(lists));
+    }
+}
+
+TEST(Transfer, moves_nothing_along_an_empty_plan) {
+    const Plan none;
+    TransferReport report{1, 1, 1};
+    EXPECT_TRUE(transfer(none, std::vector<double>(), MPI_COMM_WORLD, {}, &report).empty());
+    EXPECT_EQ(report.num_messages, 0u);
+    EXPECT_EQ(report.peak_bytes, 0u);
+}
+
+struct Large {
+    std::int64_t number;
+    std::array<char, 1001> rest;
+};
+
+TEST(Transfer, moves_columns_of_any_type_and_width_in_one_message_for_each_pair) {
+    const Plan lists = plan(mixed_parts(num_ranks()), num_ranks(), MPI_COMM_WORLD);
+    const std::vector<std::int64_t> numbers = numbers_before(lists);
+    std::vector<double> positions;
+    std::vector<char> letters;
+    std::vector<Large> large;
+    for (const std::int64_t number : numbers) {
+        for (const double offset : {0.0, 0.25, 0.5})
+            positions.push_back(static_cast<double>(number) + offset);
+        letters.push_back(static_cast<char>(number % 100));
+        large.push_back({number, {}});
+        large.back().rest.back() = letters.back();
+    }
+    const std::vector<float> nothing;
+    TransferReport report;
+    const auto [x, letter, first, again, empty] = transfer(
+        lists,
+        columns(column(positions, 3), letters, large, std::span(numbers), column(nothing, 0)),
+        MPI_COMM_WORLD, {}, &report);
+
+    const std::vector<std::int64_t> expected = numbers_after(lists);
+    ASSERT_EQ(x.size(), 3 * expected.size());
+    ASSERT_EQ(letter.size(), expected.size());
+    ASSERT_EQ(first.size(), expected.size());
+    EXPECT_EQ(again, expected);
+    EXPECT_TRUE(empty.empty());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_EQ(x[3 * i], static_cast<double>(expected[i]));
+        EXPECT_EQ(x[3 * i + 2], static_cast<double>(expected[i]) + 0.5);
+        EXPECT_EQ(letter[i], static_cast<char>(expected[i] % 100));
+        EXPECT_EQ(first[i].number, expected[i]);
+        EXPECT_EQ(first[i].rest.back(), letter[i]);
+    }
+    std::vector<int> receivers = lists.export_ranks;
+    std::ranges::sort(receivers);
+    receivers.erase(std::ranges::unique(receivers).begin(), receivers.end());
+    EXPECT_EQ(report.num_messages, receivers.size());
+    EXPECT_EQ(report.bytes_sent, lists.export_ranks.size() * (24 + 1 + sizeof(Large) + 8));
+}
+
+TEST(Transfer, of_no_columns_at_all_is_legal) {
+    const Plan lists = shift(3);
+    const std::tuple<> none = transfer(lists, columns(), MPI_COMM_WORLD);
+    EXPECT_EQ(std::tuple_size_v<decltype(none)>, 0u);
+}
+
+TEST(Transfer, follows_lists_that_send_a_point_to_its_own_rank) {
+    Plan lists;
+    lists.num_points = 3;
+    lists.export_indices = {1};
+    lists.export_ranks = lists.import_ranks = {rank()};
+    lists.import_indices = {1};
+    const std::vector<int> values{10, 11, 12};
+    EXPECT_EQ(transfer(lists, values, MPI_COMM_WORLD), (std::vector{10, 12, 11}));
+}
+
+TEST(Transfer, keeps_calls_apart_that_follow_each_other_at_once) {
+    for (int round = 0; round < 60; ++round) {
+        const Plan lists = plan(mixed_parts(num_ranks(), round), num_ranks(), MPI_COMM_WORLD);
+        std::vector<std::int64_t> numbers = numbers_before(lists);
+        const TransferLimits limits{round % 2 == 0 ? std::size_t{96} : std::size_t{1} << 20};
+        const auto once = transfer(lists, numbers, MPI_COMM_WORLD, limits);
+        for (std::int64_t& number : numbers) number = -number;
+        auto twice = transfer(lists, numbers, MPI_COMM_WORLD, limits);
+        for (std::int64_t& number : twice) number = -number;
+        ASSERT_EQ(once, numbers_after(lists));
+        ASSERT_EQ(twice, once);
+    }
+}
+
+TEST(Transfer, keeps_to_its_limit_of_memory_in_any_pattern) {
+    for (const std::size_t bytes : {std::size_t{16}, std::size_t{17}, std::size_t{100},
+                                    std::size_t{1000}, std::size_t{4096}}) {
+        const Plan lists = plan(mixed_parts(num_ranks()), num_ranks(), MPI_COMM_WORLD);
+        TransferReport report;
+        EXPECT_EQ(transfer(lists, numbers_before(lists), MPI_COMM_WORLD, {bytes}, &report),
+                  numbers_after(lists));
+        EXPECT_LE(report.peak_bytes, bytes);
+    }
+}
+
+TEST(Transfer, sends_fifty_times_its_limit_in_pieces) {
+    constexpr std::size_t limit = 8192;
+    const Plan lists = shift(50 * limit / sizeof(std::int64_t) + 1);
+    TransferReport report;
+    EXPECT_EQ(transfer(lists, numbers_before(lists), MPI_COMM_WORLD, {limit}, &report).back(),
+              num_ranks() == 1 ? number_of(0, lists.num_points - 1)
+                               : number_of(lists.import_ranks[0], lists.num_points - 1));
+    if (num_ranks() == 1) return;
+    EXPECT_GE(report.bytes_sent, 50 * limit);
+    EXPECT_LE(report.peak_bytes, limit);
+    EXPECT_GT(report.peak_bytes, limit / 2);
+    EXPECT_GE(report.num_messages, 50u);
+}
+
+/// What is wrong on the last rank, and what all ranks are told.
+struct Fault {
+    const char* text;
+    std::function<void(Plan& plan, std::vector<double>& column, TransferLimits& limits)> make;
+};
+
+const std::vector<Fault>& faults() {
+    static const std::vector<Fault> faults{
+        {"a column has 8 values for 7 points of the plan; give 1 for each",
+         [](auto&, auto& column, auto&) { column.push_back(0); }},
+        {"a column has 0 values for 7 points", [](auto&, auto& column, auto&) { column.clear(); }},
+        {"names a rank that is none of this communicator",
+         [](auto& plan, auto&, auto&) { plan.export_ranks[0] = num_ranks(); }},
+        {"names a rank that is none of this communicator",
+         [](auto& plan, auto&, auto&) { plan.import_ranks[0] = -1; }},
+        {"lists of exports of the plan differ in length",
+         [](auto& plan, auto&, auto&) { plan.export_ranks.pop_back(); }},
+        {"export_indices of the plan must ascend below num_points",
+         [](auto& plan, auto&, auto&) { plan.export_indices[1] = plan.export_indices[0]; }},
+        {"export_indices of the plan must ascend below num_points",
+         [](auto& plan, auto&, auto&) { plan.export_indices.back() = 7; }},
+        {"import_ranks of the plan must ascend",
+         [](auto& plan, auto&, auto&) {
+             plan.import_ranks.insert(plan.import_ranks.begin(), num_ranks());
+         }},
+        {"rank 0 sends 0 points, not 1 as this plan has it",
+         [](auto& plan, auto&, auto&) { plan.import_ranks.insert(plan.import_ranks.begin(), 0); }},
+        {"TransferLimits::bytes must hold two", [](auto&, auto&, auto& limits) { limits = {15}; }},
+    };
+    return faults;
+}
+
+/// The text of the Error that a call throws, empty when it throws none.
+std::string text_of(const std::function<void()>& call) {
+    try {
+        call();
+        return {};
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
+        return error.what();
+    }
+}
+
+void expect_on_all_ranks(const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text << " | " << part;
+    std::array<char, 512> of_root{};
+    text.copy(of_root.data(), of_root.size() - 1);
+    MPI_Bcast(of_root.data(), static_cast<int>(of_root.size()), MPI_CHAR, 0, MPI_COMM_WORLD);
+    EXPECT_EQ(text, of_root.data());
+}
+
+TEST(Transfer, tells_all_ranks_what_is_wrong_on_one_of_them) {
+    if (num_ranks() < 3) GTEST_SKIP() << "needs three ranks, so that rank 0 sends the last nothing";
+    // The last rank sends to rank 1 and gets from the one before it.
+    const int next = rank() == num_ranks() - 2 ? num_ranks() - 1 : rank();
+    const std::vector<Part> parts(7, test::is_last_rank() ? 1 : next);
+    const Plan lists = plan(parts, num_ranks(), MPI_COMM_WORLD);
+    const std::vector<double> values(7, rank());
+    const auto expected = transfer(lists, values, MPI_COMM_WORLD);
+    for (const Fault& fault : faults()) {
+        Plan wrong = lists;
+        std::vector<double> column = values;
+        TransferLimits limits;
+        if (test::is_last_rank()) fault.make(wrong, column, limits);
+        const std::vector<double> before = column;
+        expect_on_all_ranks(text_of([&] { transfer(wrong, column, MPI_COMM_WORLD, limits); }),
+                            "rank " + std::to_string(num_ranks() - 1) + ": ");
+        expect_on_all_ranks(text_of([&] { transfer(wrong, column, MPI_COMM_WORLD, limits); }),
+                            fault.text);
+        EXPECT_EQ(column, before);
+        EXPECT_EQ(transfer(lists, values, MPI_COMM_WORLD), expected);
+    }
+}
+
+TEST(Transfer, refuses_limits_and_types_that_differ_between_ranks) {
+    if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
+    const Plan lists = shift(4);
+    const std::vector<double> wide(4);
+    const std::vector<float> narrow(4);
+    expect_on_all_ranks(text_of([&] {
+                            transfer(
+                                lists, wide, MPI_COMM_WORLD,
+                                {test::is_last_rank() ? std::size_t{2000} : std::size_t{1000}});
+                        }),
+                        "TransferLimits::bytes differs between rank 0 and rank");
+    expect_on_all_ranks(text_of([&] {
+                            if (test::is_last_rank())
+                                transfer(lists, narrow, MPI_COMM_WORLD);
+                            else
+                                transfer(lists, wide, MPI_COMM_WORLD);
+                        }),
+                        "the size of a point in all columns differs between rank 0 and rank");
+}
+
+TEST(Transfer, refuses_more_components_than_a_size_can_count) {
+    const Plan none;
+    const std::vector<double> empty;
+    for (const std::size_t components :
+         {std::size_t{1} << 30, std::size_t{1} << 61, std::numeric_limits<std::size_t>::max()})
+        expect_on_all_ranks(
+            text_of([&] { transfer(none, column(empty, components), MPI_COMM_WORLD); }),
+            "a point has more bytes in these columns than a message holds");
+}
+
+TEST(Transfer, refuses_a_plan_of_another_communicator) {
+    if (num_ranks() < 3) GTEST_SKIP() << "needs three ranks";
+    MPI_Comm reversed = MPI_COMM_NULL;
+    MPI_Comm_split(MPI_COMM_WORLD, 0, -rank(), &reversed);
+    const std::vector<Part> parts(static_cast<std::size_t>(10 + rank()),
+                                  (num_ranks() - rank()) % num_ranks());
+    const Plan lists = plan(parts, num_ranks(), reversed);
+    const std::vector<double> values(parts.size());
+    EXPECT_FALSE(transfer(lists, values, reversed).empty());
+    expect_on_all_ranks(text_of([&] { transfer(lists, values, MPI_COMM_WORLD); }),
+                        "make the plans of all ranks in one call, with this communicator");
+    MPI_Comm_free(&reversed);
+}
+
+TEST(Transfer, refuses_the_plan_of_a_larger_communicator_on_a_smaller_one) {
+    if (num_ranks() < 3) GTEST_SKIP() << "needs three ranks";
+    const Plan lists = shift(4);
+    const std::vector<double> values(4);
+    try {
+        transfer(lists, values, MPI_COMM_SELF);
+        EXPECT_TRUE(false) << "nothing was thrown";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
+    }
+}
+
+}  // namespace
+}  // namespace rrcb

@@ -4,6 +4,7 @@
 #include <rrcb/bisection.hpp>
 #include <rrcb/cuts.hpp>
 #include <rrcb/error.hpp>
+#include <rrcb/ghosts.hpp>
 #include <rrcb/moments.hpp>
 #include <rrcb/options.hpp>
 #include <rrcb/plan.hpp>

@@ -70,6 +70,10 @@ std::uint64_t bits_of(const Option& option, const Options& options) {
     });
 }
 
+std::uint64_t bits_of(const Cuts& cuts) {
+    return hash_of(values_of(cuts));
+}
+
 std::vector<double> values_of_part_sizes(const Options& options) {
     return options.part_sizes;
 }
@@ -87,7 +91,7 @@ Request request_of(const Options& options, int dimension, const Cuts* previous) 
     auto value = request.begin();
     *value++ = bits_of(dimension);
     for (const Option& option : option_table) *value++ = bits_of(option, options);
-    *value++ = previous ? hash_of(values_of(*previous)) : 0;
+    *value++ = previous ? bits_of(*previous) : 0;
     *value = arithmetic_in_use();
     return request;
 }

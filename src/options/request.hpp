@@ -19,6 +19,9 @@ using Request = std::array<std::uint64_t, num_options + 3>;
 /// The bits of one option, or a hash.
 std::uint64_t bits_of(const Option& option, const Options& options);
 
+/// Hash of cuts.
+std::uint64_t bits_of(const Cuts& cuts);
+
 /// Request of options in which empty `part_sizes` still stand for equal parts.
 Request request_of(const Options& options, int dimension, const Cuts* previous);
 

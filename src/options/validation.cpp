@@ -5,6 +5,7 @@
 
 #include <rrcb/error.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -83,6 +84,13 @@ void check_weights(const Points& points) {
     reject("the sum of the weights overflows; scale them down");
 }
 
+bool cross_axes_at_numbers(const Cuts& cuts) {
+    return std::ranges::all_of(cuts.tree, [&](const Cut& cut) {
+        return cut.axis >= 0 && cut.axis < cuts.dimension &&
+               std::ranges::none_of(cut.at, [](double x) { return std::isnan(x); });
+    });
+}
+
 }  // namespace
 
 void check_part_sizes(const Options& options, int) {
@@ -115,14 +123,19 @@ void check_axes(const Options& options, int dimension) {
         require(axis >= 0 && axis < dimension, "cut_axes must be axes of the points");
 }
 
+void check_cuts(const Cuts& cuts, int dimension) {
+    require(cuts.dimension == dimension, "cuts must have the dimension of the points");
+    require(cuts.num_parts >= 1 && cuts.tree.size() + 1 == static_cast<std::size_t>(cuts.num_parts),
+            "the tree must hold one cut less than there are parts");
+    require(cross_axes_at_numbers(cuts), "cuts must cross axes of the points at numbers");
+}
+
 void check_previous(const Cuts& previous, const Options& options, int dimension) {
     require(previous.dimension == dimension && previous.num_parts == options.num_parts &&
                 previous.tree.size() + 1 == static_cast<std::size_t>(options.num_parts),
             "previous cuts must have the dimension and number of parts asked for");
-    for (const Cut& cut : previous.tree)
-        require(cut.axis >= 0 && cut.axis < dimension && !std::isnan(cut.at[0]) &&
-                    !std::isnan(cut.at[1]) && !std::isnan(cut.at[2]),
-                "previous cuts must cross axes of the points at numbers");
+    require(cross_axes_at_numbers(previous),
+            "previous cuts must cross axes of the points at numbers");
 }
 
 void check_options(const Options& options, int dimension) {

@@ -13,6 +13,9 @@ void check_options(const Options& options, int dimension);
 /// unusable.
 Box check_points(const Points& points);
 
+/// Throws Error when cuts are no tree, or not one for points of this dimension.
+void check_cuts(const Cuts& cuts, int dimension);
+
 /// Throws Error when the cuts of an earlier call don't fit these options.
 void check_previous(const Cuts& previous, const Options& options, int dimension);
 

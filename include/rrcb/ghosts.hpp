@@ -1,0 +1,77 @@
+#pragma once
+
+#include <rrcb/cuts.hpp>
+#include <rrcb/transfer.hpp>
+
+#include <mpi.h>
+
+#include <span>
+#include <tuple>
+#include <vector>
+
+namespace rrcb {
+
+/// Who needs which points of whom; no two entries of a list of ranks name the same one.
+struct GhostPlan {
+    LocalIndex num_points = 0;             ///< that this rank holds
+    std::vector<RankCount> send;           ///< how many of them which ranks need; ranks ascending
+    std::vector<LocalIndex> send_indices;  ///< for one rank after the other, ascending for each
+    std::vector<RankCount> receive;        ///< how many come from which ranks; ranks ascending
+};
+
+/// The points that other ranks need within a cut-off `radius`, from the cuts alone.
+///
+/// Collective over `comm`: two reductions. A rank needs the points of others whose distance to the
+/// region of one of its parts, the closed box_of(cuts, part), is at most `radius`. So of any two
+/// points in the regions of their ranks that are that near each rank gets the other's. A distance
+/// of exactly `radius` counts, and to lose none by rounding so do those up to 8 units in the last
+/// place beyond. Points may lie anywhere, also outside the regions of their own rank, and are sent
+/// to each rank once. Ranks that share a part need all the points in it of each other. The radius
+/// is in the unit of the coordinates, finite, 0 or more.
+///
+/// Parts lie on ranks_of_part. In time O(1) for a point farther than `radius` inside the only part
+/// of its rank, and otherwise as the number of regions it is near times the depth of the tree.
+///
+/// Throws Error on every rank alike where one has unusable points, another radius or other cuts
+/// than the others, cuts of another dimension than its points, or no memory.
+GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius, MPI_Comm comm);
+
+/// The same where the parts lie on other ranks, as after a remap(): part p on ranks_of_parts[p],
+/// the same on every rank.
+GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
+                 std::span<const RankRange> ranks_of_parts, MPI_Comm comm);
+
+namespace detail {
+
+void move(const GhostPlan& plan, std::span<const ByteColumn> columns, const TransferLimits& limits,
+          TransferReport* report, MPI_Comm comm);
+
+}  // namespace detail
+
+/// Columns of the ghosts of this rank: by rank, as in plan.receive, and as they lie there.
+///
+/// Collective over `comm`, otherwise as transfer(): columns hold one entry, or `components`, for
+/// each of plan.num_points points. To be called with the same plan as long as no point changes its
+/// place in the columns.
+template <class... T>
+std::tuple<std::vector<T>...> fetch(const GhostPlan& plan, const std::tuple<Column<T>...>& columns,
+                                    MPI_Comm comm, const TransferLimits& limits = {},
+                                    TransferReport* report = nullptr) {
+    return detail::moved(plan, columns, comm, limits, report);
+}
+
+/// The same for one column.
+template <class T>
+std::vector<T> fetch(const GhostPlan& plan, const Column<T>& column, MPI_Comm comm,
+                     const TransferLimits& limits = {}, TransferReport* report = nullptr) {
+    return std::get<0>(detail::moved(plan, std::tuple(column), comm, limits, report));
+}
+
+/// The same for a vector or an array with one value for each point.
+template <std::ranges::contiguous_range Values>
+auto fetch(const GhostPlan& plan, const Values& values, MPI_Comm comm,
+           const TransferLimits& limits = {}, TransferReport* report = nullptr) {
+    return fetch(plan, column(values), comm, limits, report);
+}
+
+}  // namespace rrcb

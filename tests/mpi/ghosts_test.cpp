@@ -1,0 +1,280 @@
+#include "../support/clouds.hpp"
+#include "../support/ranks.hpp"
+#include "slabs.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/error.hpp>
+#include <rrcb/ghosts.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+using test::num_ranks;
+using test::rank;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A cloud of which every rank knows all points.
+struct Cloud {
+    int dimension;
+    std::vector<double> coordinates;
+
+    std::size_t count() const { return coordinates.size() / static_cast<std::size_t>(dimension); }
+    Points points() const { return interleaved_points(coordinates, dimension); }
+    Vector position(std::size_t i) const { return points().position(i); }
+};
+
+Cloud random_cloud(std::size_t count, int dimension, double scale = 1) {
+    Cloud cloud{dimension, test::uniform_cloud(count, dimension, 3)};
+    for (double& x : cloud.coordinates) x *= scale;
+    return cloud;
+}
+
+/// Whole coordinates: many points share them, lie on cuts, and are exactly 1, sqrt(2), 5 apart.
+Cloud lattice_cloud(int dimension) {
+    Cloud cloud{dimension, {}};
+    const int width = dimension == 2 ? 24 : 9;
+    for (int x = 0; x < width; ++x)
+        for (int y = 0; y < width; ++y)
+            for (int z = 0; z < (dimension == 3 ? width : 1); ++z)
+                for (const int coordinate : std::vector{x, y, z})
+                    cloud.coordinates.push_back(coordinate);
+    if (dimension == 2) {
+        Cloud flat{2, {}};
+        for (std::size_t i = 0; i < cloud.coordinates.size(); ++i)
+            if (i % 3 != 2) flat.coordinates.push_back(cloud.coordinates[i]);
+        return flat;
+    }
+    return cloud;
+}
+
+long double square(long double x) {
+    return x * x;
+}
+
+long double distance(const Vector& a, const Vector& b, int dimension) {
+    long double sum = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k)
+        sum += square(static_cast<long double>(a[k]) - b[k]);
+    return std::sqrt(sum);
+}
+
+long double distance(const Vector& a, const Box& box, int dimension) {
+    long double sum = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k)
+        sum += square(std::max({0.0L, static_cast<long double>(box.lower[k]) - a[k],
+                                static_cast<long double>(a[k]) - box.upper[k]}));
+    return std::sqrt(sum);
+}
+
+/// The points of a cloud on the ranks of their parts, by number.
+struct Division {
+    Cloud cloud;
+    Cuts cuts;
+    std::vector<RankRange> ranks_of_parts;
+    std::vector<int> owners;            ///< of all points
+    std::vector<std::int64_t> numbers;  ///< of the points here
+    std::vector<double> here;           ///< their coordinates
+
+    Points points() const { return interleaved_points(here, cloud.dimension); }
+};
+
+/// Balances into parts that lie on ranks_of_part, or turned by `turn` ranks.
+Division divide(const Cloud& cloud, int num_parts, int turn = 0) {
+    Division division{cloud, {}, {}, {}, {}, {}};
+    std::vector<double> mine;
+    std::vector<std::int64_t> numbers;
+    const auto d = static_cast<std::ptrdiff_t>(cloud.dimension);
+    for (std::size_t i = 0; i < cloud.count(); ++i) {
+        if (static_cast<int>(i) % num_ranks() != rank()) continue;
+        numbers.push_back(static_cast<std::int64_t>(i));
+        const auto begin = cloud.coordinates.begin() + static_cast<std::ptrdiff_t>(i) * d;
+        mine.insert(mine.end(), begin, begin + d);
+    }
+    Options options;
+    options.num_parts = num_parts;
+    options.refine = Refine::exact;
+    const Balance balance =
+        rrcb::balance(interleaved_points(mine, cloud.dimension), options, MPI_COMM_WORLD);
+    division.cuts = balance.cuts;
+    std::vector<Part> destinations = balance.parts;
+    for (Part part = 0; part < num_parts; ++part) {
+        RankRange ranks = ranks_of_part(part, num_parts, num_ranks());
+        if (turn > 0) ranks = {(ranks.first_rank + turn) % num_ranks(), 1};
+        division.ranks_of_parts.push_back(ranks);
+    }
+    if (turn > 0)
+        for (Part& part : destinations)
+            part = division.ranks_of_parts[static_cast<std::size_t>(part)].first_rank;
+    const Plan lists = plan(destinations, turn > 0 ? num_ranks() : num_parts, MPI_COMM_WORLD);
+    std::tie(division.numbers, division.here) = transfer(
+        lists, columns(numbers, column(mine, static_cast<std::size_t>(d))), MPI_COMM_WORLD);
+    division.owners.assign(cloud.count(), -1);
+    for (const std::int64_t number : division.numbers)
+        division.owners[static_cast<std::size_t>(number)] = rank();
+    MPI_Allreduce(MPI_IN_PLACE, division.owners.data(), static_cast<int>(cloud.count()), MPI_INT,
+                  MPI_MAX, MPI_COMM_WORLD);
+    return division;
+}
+
+/// Distance of a point to the nearest region of this rank.
+long double distance_to_mine(const Division& division, const Vector& x) {
+    long double least = infinity;
+    for (Part part = 0; part < division.cuts.num_parts; ++part) {
+        const RankRange& ranks = division.ranks_of_parts[static_cast<std::size_t>(part)];
+        if (rank() >= ranks.first_rank && rank() < ranks.first_rank + ranks.count)
+            least =
+                std::min(least, distance(x, box_of(division.cuts, part), division.cloud.dimension));
+    }
+    return least;
+}
+
+/// Compares the ghosts with the regions, and with all pairs of points; gives how many pairs.
+std::size_t expect_ghosts(const Division& division, double radius, const GhostPlan& lists) {
+    const Cloud& cloud = division.cloud;
+    const std::vector<std::int64_t> got = fetch(lists, division.numbers, MPI_COMM_WORLD);
+    std::vector<char> is_ghost(cloud.count(), 0);
+    for (const std::int64_t number : got) ++is_ghost[static_cast<std::size_t>(number)];
+    std::size_t num_pairs = 0;
+    for (std::size_t j = 0; j < cloud.count(); ++j) {
+        const Vector x = cloud.position(j);
+        const bool is_mine = division.owners[j] == rank();
+        const long double apart = distance_to_mine(division, x);
+        if (is_mine || apart > radius * (1 + 4e-15L)) {
+            EXPECT_EQ(is_ghost[j], 0);
+        } else if (apart <= radius) {
+            EXPECT_EQ(is_ghost[j], 1);
+        }
+        if (is_mine) continue;
+        for (const std::int64_t i : division.numbers) {
+            const long double pair =
+                distance(x, cloud.position(static_cast<std::size_t>(i)), cloud.dimension);
+            if (pair <= radius && is_ghost[j] == 0)
+                ADD_FAILURE() << "points " << i << " and " << j << " at " << pair;
+            ++num_pairs;
+        }
+    }
+    return num_pairs;
+}
+
+TEST(Ghosts, miss_none_of_a_million_pairs) {
+    std::size_t num_pairs = 0;
+    for (const int dimension : {2, 3}) {
+        for (const Cloud& cloud : {random_cloud(600, dimension), lattice_cloud(dimension)}) {
+            const Division division = divide(cloud, num_ranks());
+            for (const double radius : {0.0, 0.03, 0.2, 1.0, std::sqrt(2.0), 5.0, 100.0})
+                num_pairs +=
+                    expect_ghosts(division, radius,
+                                  ghosts(division.cuts, division.points(), radius, MPI_COMM_WORLD));
+        }
+    }
+    if (num_ranks() == 1) return;
+    MPI_Allreduce(MPI_IN_PLACE, &num_pairs, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+    EXPECT_GT(num_pairs, 1'000'000u);
+}
+
+TEST(Ghosts, are_those_of_all_parts_where_there_are_more_than_ranks) {
+    const Division division = divide(random_cloud(400, 2), 3 * num_ranks() + 1);
+    for (const double radius : {0.0, 0.05, 0.5})
+        expect_ghosts(division, radius,
+                      ghosts(division.cuts, division.points(), radius, MPI_COMM_WORLD));
+}
+
+TEST(Ghosts, include_all_points_of_a_part_that_ranks_share) {
+    const Division division = divide(random_cloud(400, 3), (num_ranks() + 1) / 2);
+    for (const double radius : {0.0, 0.1})
+        expect_ghosts(division, radius,
+                      ghosts(division.cuts, division.points(), radius, MPI_COMM_WORLD));
+}
+
+TEST(Ghosts, follow_parts_to_the_ranks_that_have_them) {
+    const Division division = divide(lattice_cloud(2), 2 * num_ranks(), 1);
+    for (const double radius : {0.0, 1.0, 2.5})
+        expect_ghosts(division, radius,
+                      ghosts(division.cuts, division.points(), radius, division.ranks_of_parts,
+                             MPI_COMM_WORLD));
+}
+
+TEST(Ghosts, keep_their_numbers_at_the_ends_of_the_range) {
+    for (const double scale : {1e308, 1e-310}) {
+        const Division division = divide(random_cloud(200, 3, scale), num_ranks());
+        for (const double radius : {0.0, 0.1 * scale, 1.5 * scale})
+            expect_ghosts(division, radius,
+                          ghosts(division.cuts, division.points(), radius, MPI_COMM_WORLD));
+    }
+}
+
+TEST(Ghosts, of_points_outside_the_regions_of_their_rank_are_those_near_another) {
+    // Points stay where they were scattered.
+    Division division = divide(random_cloud(300, 2), num_ranks());
+    division.numbers.clear();
+    division.here.clear();
+    for (std::size_t i = 0; i < division.cloud.count(); ++i) {
+        division.owners[i] = static_cast<int>(i) % num_ranks();
+        if (division.owners[i] != rank()) continue;
+        division.numbers.push_back(static_cast<std::int64_t>(i));
+        for (std::size_t a = 0; a < 2; ++a)
+            division.here.push_back(division.cloud.coordinates[2 * i + a]);
+    }
+    const double radius = 0.1;
+    const GhostPlan lists = ghosts(division.cuts, division.points(), radius, MPI_COMM_WORLD);
+    const std::vector<std::int64_t> got = fetch(lists, division.numbers, MPI_COMM_WORLD);
+    for (std::size_t j = 0; j < division.cloud.count(); ++j) {
+        const bool is_near = distance_to_mine(division, division.cloud.position(j)) <= radius;
+        EXPECT_EQ(std::ranges::count(got, static_cast<std::int64_t>(j)),
+                  is_near && division.owners[j] != rank() ? 1 : 0);
+    }
+}
+
+TEST(Ghosts, come_from_neighbours_alone_in_one_message_each) {
+    const std::vector<double> coordinates{rank() + 0.1, 0, rank() + 0.5, 0, rank() + 0.9, 0};
+    const Points points = interleaved_points(coordinates, 2);
+    const GhostPlan lists = ghosts(test::slabs(), points, 0.2, MPI_COMM_WORLD);
+    std::vector<std::pair<int, LocalIndex>> expected;
+    if (rank() > 0) expected.emplace_back(rank() - 1, 0);
+    if (!test::is_last_rank()) expected.emplace_back(rank() + 1, 2);
+    ASSERT_EQ(lists.send.size(), expected.size());
+    ASSERT_EQ(lists.receive.size(), expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        EXPECT_EQ(lists.send[k].rank, expected[k].first);
+        EXPECT_EQ(lists.send[k].count, 1u);
+        EXPECT_EQ(lists.send_indices[k], expected[k].second);
+        EXPECT_EQ(lists.receive[k].rank, expected[k].first);
+        EXPECT_EQ(lists.receive[k].count, 1u);
+    }
+    const std::vector<int> colours{10 * rank(), 10 * rank() + 1, 10 * rank() + 2};
+    TransferReport report;
+    const auto [colour, x] = fetch(lists, columns(colours, column(coordinates, 2)), MPI_COMM_WORLD,
+                                   TransferLimits{100}, &report);
+    EXPECT_EQ(report.num_messages, expected.size());
+    EXPECT_LE(report.peak_bytes, 100u);
+    ASSERT_EQ(x.size(), 2 * expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        const int from = expected[k].first;
+        EXPECT_EQ(colour[k], 10 * from + (from < rank() ? 2 : 0));
+        EXPECT_EQ(x[2 * k], from + (from < rank() ? 0.9 : 0.1));
+    }
+}
+
+TEST(Ghosts, at_exactly_the_radius_count) {
+    if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
+    // 0.25 from the cut, and the next number beyond what rounding may lose.
+    const std::vector<double> coordinates{rank() + 0.75, 0, rank() + 0.75 - 0x1p-40, 0};
+    const GhostPlan lists =
+        ghosts(test::slabs(), interleaved_points(coordinates, 2), 0.25, MPI_COMM_WORLD);
+    EXPECT_EQ(lists.send_indices,
+              test::is_last_rank() ? std::vector<LocalIndex>{} : std::vector<LocalIndex>{0});
+}
+
+}  // namespace
+}  // namespace rrcb

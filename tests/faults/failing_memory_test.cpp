@@ -4,6 +4,9 @@
 
 #include <rrcb/rrcb.hpp>
 
+#include <array>
+#include <tuple>
+
 namespace rrcb {
 namespace {
 
@@ -166,6 +169,69 @@ TEST(FailingMemory, in_the_weights_of_the_parts) {
         },
         [&] { EXPECT_EQ(weights[0], 120); })
         .run();
+}
+
+TEST(FailingMemory, in_columns_that_move) {
+    const std::vector<Part> parts = parts_here();
+    const Plan lists = plan(parts, 2 * test::num_ranks(), MPI_COMM_WORLD);
+    const std::vector<double> positions(3 * parts.size(), test::rank());
+    const auto call = [&] {
+        return transfer(lists, columns(parts, column(positions, 3)), MPI_COMM_WORLD, {300});
+    };
+    const auto expected = call();
+    std::tuple<std::vector<Part>, std::vector<double>> result;
+    FailingMemory(
+        {ok, static_cast<int>(ErrorCode::out_of_memory)},
+        [&] {
+            result = {};
+            return code_of([&] { result = call(); });
+        },
+        [&] { EXPECT_EQ(result, expected); })
+        .run();
+}
+
+TEST(FailingMemory, in_ghosts_and_what_is_fetched_of_them) {
+    const std::vector<double> coordinates = cloud_here(2);
+    const Points points = interleaved_points(coordinates, 2);
+    Options options;
+    options.num_parts = 2 * test::num_ranks();
+    const Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
+    const auto call = [&] {
+        const GhostPlan lists = ghosts(cuts, points, 0.1, MPI_COMM_WORLD);
+        return fetch(lists, column(coordinates, 2), MPI_COMM_WORLD);
+    };
+    const std::vector<double> expected = call();
+    std::vector<double> result;
+    FailingMemory(
+        {ok, static_cast<int>(ErrorCode::out_of_memory)},
+        [&] {
+            result = {};
+            return code_of([&] { result = call(); });
+        },
+        [&] { EXPECT_EQ(result, expected); })
+        .run();
+}
+
+TEST(Memory, of_a_transfer_fifty_times_its_limit_stays_below_it) {
+    constexpr std::size_t limit = 1 << 18;
+    struct Point {
+        std::array<char, 1 << 12> bytes;
+    };
+    const std::size_t num_points = 50 * limit / sizeof(Point) + 1;
+    const std::vector<Part> parts(num_points, (test::rank() + 1) % test::num_ranks());
+    const Plan lists = plan(parts, test::num_ranks(), MPI_COMM_WORLD);
+    const std::vector<Point> points(num_points);
+    TransferReport report;
+    memory_layer::restart_peak();
+    const std::vector<Point> moved = transfer(lists, points, MPI_COMM_WORLD, {limit}, &report);
+    const long peak = memory_layer::peak_bytes();
+    // Beside the result and the messages there is a list of the points to send, and of the pieces.
+    const long lists_bytes = static_cast<long>(64 * num_points + 4096);
+    const long of_messages = peak - static_cast<long>(num_points * sizeof(Point)) - lists_bytes;
+    EXPECT_EQ(moved.size(), num_points);
+    EXPECT_LE(report.peak_bytes, limit);
+    EXPECT_LE(of_messages, static_cast<long>(limit));
+    EXPECT_LE(static_cast<long>(report.peak_bytes), of_messages + lists_bytes);
 }
 
 }  // namespace

@@ -117,13 +117,31 @@ TEST(FailingMpi, reaches_the_caller_of_what_follows_a_balance) {
         [&] { moved_fraction(cloud.points(), parts, test::num_ranks(), MPI_COMM_WORLD); });
 }
 
-TEST(FailingMpi, of_one_message_of_a_plan_is_that_ranks_alone_and_the_next_plan_is_right) {
-    // Every rank sends to every other one.
+/// Every rank sends to every other one.
+Plan plan_of_all_pairs() {
     std::vector<Part> parts(static_cast<std::size_t>(3 * test::num_ranks()));
     for (std::size_t i = 0; i < parts.size(); ++i)
         parts[i] = static_cast<Part>(i) % test::num_ranks();
+    return plan(parts, test::num_ranks(), MPI_COMM_WORLD);
+}
+
+TEST(FailingMpi, reaches_the_caller_of_what_moves_columns) {
+    const Cloud cloud;
+    const Plan lists = plan_of_all_pairs();
+    const std::vector<int> values(lists.num_points);
+    expect_errors([&] { transfer(lists, values, MPI_COMM_WORLD); });
+    const Cuts cuts = balance(cloud.points(), Options{}, MPI_COMM_WORLD).cuts;
+    expect_errors([&] { ghosts(cuts, cloud.points(), 0.1, MPI_COMM_WORLD); });
+    const GhostPlan near = ghosts(cuts, cloud.points(), 0.1, MPI_COMM_WORLD);
+    const std::vector<int> colours(near.num_points);
+    expect_errors([&] { fetch(near, colours, MPI_COMM_WORLD); });
+}
+
+TEST(FailingMpi, of_one_message_of_a_column_is_that_ranks_alone_and_the_next_is_right) {
+    const Plan lists = plan_of_all_pairs();
+    std::vector<int> values(lists.num_points, test::rank());
     mpi_layer::fail_message(0);
-    const Plan expected = plan(parts, test::num_ranks(), MPI_COMM_WORLD);
+    const std::vector<int> expected = transfer(lists, values, MPI_COMM_WORLD);
     const long num_messages = mpi_layer::counted_messages();
     ASSERT_EQ(num_messages, 2 * (test::num_ranks() - 1));
     for (long message = 1; message <= num_messages; ++message) {
@@ -131,15 +149,35 @@ TEST(FailingMpi, of_one_message_of_a_plan_is_that_ranks_alone_and_the_next_plan_
         mpi_layer::fail_message(test::is_last_rank() ? message : 0);
         bool threw = false;
         try {
-            plan(parts, test::num_ranks(), MPI_COMM_WORLD);
+            EXPECT_EQ(transfer(lists, values, MPI_COMM_WORLD), expected);
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::mpi);
             threw = true;
         }
         EXPECT_EQ(threw, test::is_last_rank());
         mpi_layer::fail_message(0);
-        EXPECT_EQ(plan(parts, test::num_ranks(), MPI_COMM_WORLD).import_indices,
-                  expected.import_indices);
+        EXPECT_EQ(transfer(lists, values, MPI_COMM_WORLD), expected);
+    }
+}
+
+TEST(FailingMpi, of_one_message_of_a_plan_is_that_ranks_alone_and_the_next_plan_is_right) {
+    mpi_layer::fail_message(0);
+    const Plan expected = plan_of_all_pairs();
+    const long num_messages = mpi_layer::counted_messages();
+    ASSERT_EQ(num_messages, 2 * (test::num_ranks() - 1));
+    for (long message = 1; message <= num_messages; ++message) {
+        SCOPED_TRACE(message);
+        mpi_layer::fail_message(test::is_last_rank() ? message : 0);
+        bool threw = false;
+        try {
+            plan_of_all_pairs();
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::mpi);
+            threw = true;
+        }
+        EXPECT_EQ(threw, test::is_last_rank());
+        mpi_layer::fail_message(0);
+        EXPECT_EQ(plan_of_all_pairs().import_indices, expected.import_indices);
     }
 }
 

@@ -61,6 +61,19 @@ TEST(LongMessages, give_the_same_plan_in_pieces) {
     EXPECT_EQ(result.import_parts, expected.import_parts);
 }
 
+TEST(LongMessages, move_the_same_columns_in_pieces) {
+    std::vector<Part> parts(static_cast<std::size_t>(50 + 7 * test::rank()));
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        parts[i] = (test::rank() + static_cast<Part>(i * i)) % test::num_ranks();
+    const Plan lists = plan(parts, test::num_ranks(), MPI_COMM_WORLD);
+    std::vector<double> positions(2 * parts.size());
+    std::iota(positions.begin(), positions.end(), 1000 * test::rank());
+    const auto both = columns(parts, column(positions, 2));
+    const auto expected = transfer(lists, both, MPI_COMM_WORLD);
+    const ShortMessages pieces;
+    EXPECT_EQ(transfer(lists, both, MPI_COMM_WORLD), expected);
+}
+
 TEST(LongMessages, give_the_same_numbers_of_parts_in_pieces) {
     const int num_parts = 7 * test::num_ranks();
     std::vector<Part> parts(100);

@@ -1,5 +1,8 @@
 #include "memory_layer.hpp"
 
+#include <malloc.h>
+
+#include <algorithm>
 #include <cstdlib>
 #include <new>
 
@@ -11,6 +14,9 @@ long failing_allocation = 0;
 Shortage failing = Shortage::once;
 long num_counted = 0;
 long num_live = 0;
+long bytes_live = 0;
+long bytes_before = 0;
+long bytes_at_peak = 0;
 bool has_ended = false;
 
 }  // namespace
@@ -42,12 +48,26 @@ long live_blocks() {
     return num_live;
 }
 
+long peak_bytes() {
+    return bytes_at_peak - bytes_before;
+}
+
+void restart_peak() {
+    bytes_before = bytes_at_peak = bytes_live;
+}
+
+void note(void* block, int sign) {
+    num_live += sign;
+    bytes_live += sign * static_cast<long>(malloc_usable_size(block));
+    bytes_at_peak = std::max(bytes_at_peak, bytes_live);
+}
+
 }  // namespace memory_layer
 
 void* operator new(std::size_t size) {
     void* block = memory_layer::next_fails() ? nullptr : std::malloc(size == 0 ? 1 : size);
     if (block == nullptr) throw std::bad_alloc();
-    ++memory_layer::num_live;
+    memory_layer::note(block, 1);
     return block;
 }
 
@@ -61,7 +81,7 @@ void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
 }
 
 void operator delete(void* block) noexcept {
-    if (block != nullptr) --memory_layer::num_live;
+    if (block != nullptr) memory_layer::note(block, -1);
     std::free(block);
 }
 

@@ -24,4 +24,9 @@ long counted_allocations();
 /// How many blocks of operator new are in use.
 long live_blocks();
 
+/// Most bytes that blocks of operator new had in use at a time since restart_peak, beyond those in
+/// use then.
+long peak_bytes();
+void restart_peak();
+
 }  // namespace memory_layer

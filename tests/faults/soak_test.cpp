@@ -8,9 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <numeric>
 #include <string>
 
@@ -164,6 +166,70 @@ bool plans(const Round& round, MPI_Comm comm) {
            lists.import_parts == expected.import_parts;
 }
 
+/// Names a point by where it lies.
+int number_of(int rank, std::size_t index) {
+    return 100 * rank + static_cast<int>(index);
+}
+
+std::vector<int> numbers_here(const Round& round) {
+    std::vector<int> numbers(round.mine().count);
+    std::iota(numbers.begin(), numbers.end(), number_of(rank(), 0));
+    return numbers;
+}
+
+TransferLimits limits_of(const Round& round) {
+    return {std::size_t{64} << (round.drawn() % 8)};
+}
+
+bool moves(const Round& round, MPI_Comm comm) {
+    const Holding& mine = round.mine();
+    const Plan lists = plan(mine.parts, round.num_parts(), comm);
+    const auto [numbers, x] = transfer(
+        lists, columns(numbers_here(round), column(mine.coordinates, 2)), comm, limits_of(round));
+    std::vector<int> expected = numbers_here(round);
+    for (const LocalIndex index : lists.export_indices)
+        std::erase(expected, number_of(rank(), index));
+    for (std::size_t k = 0; k < lists.import_ranks.size(); ++k)
+        expected.push_back(number_of(lists.import_ranks[k], lists.import_indices[k]));
+    bool right = numbers == expected && x.size() == 2 * expected.size();
+    for (std::size_t k = 0; right && k < expected.size(); ++k) {
+        const Holding& origin = round.all[static_cast<std::size_t>(expected[k] / 100)];
+        right =
+            x[2 * k + 1] == origin.coordinates[static_cast<std::size_t>(expected[k] % 100) * 2 + 1];
+    }
+    return right;
+}
+
+/// Square of the distance of a position to the nearest region of this rank.
+double square_apart(const Cuts& cuts, const Vector& x) {
+    double least = std::numeric_limits<double>::infinity();
+    for (Part part = 0; part < cuts.num_parts; ++part) {
+        const RankRange ranks = ranks_of_part(part, cuts.num_parts, num_ranks());
+        if (rank() < ranks.first_rank || rank() >= ranks.first_rank + ranks.count) continue;
+        const Box box = box_of(cuts, part);
+        double sum = 0;
+        for (const std::size_t a : {0, 1}) {
+            const double apart = std::max({0.0, box.lower[a] - x[a], x[a] - box.upper[a]});
+            sum += apart * apart;
+        }
+        least = std::min(least, sum);
+    }
+    return least;
+}
+
+bool fetches_ghosts(const Round& round, MPI_Comm comm) {
+    const Points points = round.mine().points();
+    const Cuts cuts = balance(points, options_of(round), comm).cuts;
+    const double radius = std::ldexp(static_cast<double>(round.drawn() % 8), -4);
+    const GhostPlan lists = ghosts(cuts, points, radius, comm);
+    std::vector<int> expected;
+    round.for_each([&](int source, const Holding& held, std::size_t i) {
+        if (source != rank() && square_apart(cuts, held.points().position(i)) <= radius * radius)
+            expected.push_back(number_of(source, i));
+    });
+    return fetch(lists, numbers_here(round), comm, limits_of(round)) == expected;
+}
+
 /// Points that stay under the numbers: in their part, or on their rank.
 GlobalCount kept_under(const std::vector<Part>& numbers, const Round& round, bool in_part) {
     GlobalCount kept = 0;
@@ -234,8 +300,8 @@ bool meets_a_new_communicator(const Round& round, MPI_Comm comm) {
 using Call = bool (*)(const Round&, MPI_Comm);
 
 Call call_of(const Round& round) {
-    constexpr std::array<Call, 7> usual = {balances,  balances_twice, plans,  plans,
-                                           renumbers, measures,       refuses};
+    constexpr std::array<Call, 8> usual = {balances,  balances_twice, plans,   moves,
+                                           renumbers, measures,       refuses, fetches_ghosts};
     const std::uint64_t drawn = mixed(round.number, call_use);
     // Seldom, since a new communicator takes long to make.
     return drawn % 64 == 0 ? meets_a_new_communicator : usual[drawn / 64 % usual.size()];

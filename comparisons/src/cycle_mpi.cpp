@@ -109,7 +109,7 @@ std::vector<StillCall> balance_still_points(Workload workload, const mpm::Balanc
         const rrcb::Points points = workload.points();
         calls.push_back({rrcb::imbalance(rrcb::part_weights(points, owners, num_parts, comm)),
                          rrcb::moved_fraction(points, owners, num_parts, comm)});
-        workload.coordinates = exchange(workload.coordinates, workload.dimension, owners, comm);
+        move(workload, owners, comm);
     }
     return calls;
 }

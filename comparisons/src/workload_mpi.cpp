@@ -4,10 +4,13 @@
 #include "failure_mpi.hpp"
 #include "points_file.hpp"
 
+#include <rrcb/transfer.hpp>
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace comparisons {
@@ -99,17 +102,6 @@ std::vector<int> random_ranks(std::size_t count, std::uint64_t seed, MPI_Comm co
     return ranks;
 }
 
-struct Lengths {
-    std::vector<int> counts;
-    std::vector<int> starts;
-};
-
-Lengths with_starts(std::vector<int> counts) {
-    std::vector<int> starts(counts.size());
-    std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
-    return {std::move(counts), std::move(starts)};
-}
-
 void reorder(Workload& workload, const std::vector<std::size_t>& places) {
     std::vector<std::size_t> order(places.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -148,31 +140,26 @@ const char* layout_name(Layout layout) {
     return layout == Layout::sorted ? "sorted" : "scattered";
 }
 
-std::vector<double> exchange(const std::vector<double>& rows, int width,
-                             const std::vector<int>& ranks, MPI_Comm comm) {
-    const int size = size_of(comm);
-    std::vector<int> counts(static_cast<std::size_t>(size));
-    for (const int rank : ranks) ++counts[static_cast<std::size_t>(rank)];
-    const Lengths out = with_starts(counts);
-    MPI_Alltoall(out.counts.data(), 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
-    const Lengths in = with_starts(counts);
-
-    const auto row_length = static_cast<std::size_t>(width);
-    std::vector<double> packed(rows.size());
-    std::vector<int> next = out.starts;
-    for (std::size_t i = 0; i < ranks.size(); ++i) {
-        const auto slot = static_cast<std::size_t>(next[static_cast<std::size_t>(ranks[i])]++);
-        std::copy_n(&rows[i * row_length], row_length, &packed[slot * row_length]);
-    }
-    std::vector<double> received(static_cast<std::size_t>(in.starts.back() + in.counts.back()) *
-                                 row_length);
-    MPI_Datatype row = MPI_DATATYPE_NULL;
-    MPI_Type_contiguous(width, MPI_DOUBLE, &row);
-    MPI_Type_commit(&row);
-    MPI_Alltoallv(packed.data(), out.counts.data(), out.starts.data(), row, received.data(),
-                  in.counts.data(), in.starts.data(), row, comm);
-    MPI_Type_free(&row);
-    return received;
+void move(Workload& workload, std::span<const int> ranks, MPI_Comm comm) {
+    const int rank = rank_of(comm);
+    const rrcb::Plan plan = rrcb::plan(ranks, size_of(comm), comm);
+    const std::size_t width = static_cast<std::size_t>(workload.dimension);
+    const std::size_t weights = workload.weighted ? 1 : 0;
+    std::tie(workload.coordinates, workload.weights) =
+        rrcb::transfer(plan,
+                       rrcb::columns(rrcb::column(workload.coordinates, width),
+                                     rrcb::column(workload.weights, weights)),
+                       comm);
+    // What stays comes first; it belongs behind what comes from the ranks before this one.
+    const auto kept = plan.num_points - plan.export_indices.size();
+    const auto before = static_cast<std::size_t>(std::ranges::lower_bound(plan.import_ranks, rank) -
+                                                 plan.import_ranks.begin());
+    const auto order = [&](std::vector<double>& column, std::size_t components) {
+        const auto begin = column.data();
+        std::rotate(begin, begin + kept * components, begin + (kept + before) * components);
+    };
+    order(workload.coordinates, width);
+    order(workload.weights, weights);
 }
 
 namespace {
@@ -187,8 +174,7 @@ void distribute(Workload& workload, Layout layout, std::uint64_t seed, MPI_Comm 
         layout == Layout::sorted
             ? sorted_ranks(curve_places(workload, comm), hilbert_cells(workload.dimension), comm)
             : random_ranks(workload.points().count, seed, comm);
-    workload.coordinates = exchange(workload.coordinates, workload.dimension, ranks, comm);
-    if (workload.weighted) workload.weights = exchange(workload.weights, 1, ranks, comm);
+    move(workload, ranks, comm);
     if (layout == Layout::sorted) reorder(workload, curve_places(workload, comm));
 }
 

@@ -7,6 +7,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,10 +38,9 @@ const char* layout_name(Layout layout);
 /// Box around the points of all ranks. Collective over `comm`.
 rrcb::Box global_box(const Workload& workload, MPI_Comm comm);
 
-/// Sends row i of `rows` (of `width` doubles) to ranks[i]; rows come in the order of the senders.
-/// Collective over `comm`.
-std::vector<double> exchange(const std::vector<double>& rows, int width,
-                             const std::vector<int>& ranks, MPI_Comm comm);
+/// Moves each point to its rank; points come in the order of the ranks that held them, and as they
+/// lay there. Collective over `comm`.
+void move(Workload& workload, std::span<const int> ranks, MPI_Comm comm);
 
 /// Levels of the curve: bits per axis, so that there are 2^16 or 2^18 cells in all.
 constexpr int hilbert_bits(int dimension) {

@@ -1,4 +1,5 @@
-// Balances points that lie unevenly on the ranks: arrays and a communicator are all it takes.
+// Balances points that lie unevenly on the ranks, moves them, and fetches the neighbours of each
+// rank's: arrays and a communicator are all it takes.
 #include <rrcb/rrcb.hpp>
 
 #include <mpi.h>
@@ -30,6 +31,13 @@ int main(int argc, char** argv) {
     const int num_parts = balance.cuts.num_parts;
     const rrcb::Plan plan = rrcb::plan(balance.parts, num_parts, MPI_COMM_WORLD);
 
+    // Columns of the points that are here now, and copies of those of others within 0.02.
+    const std::vector<double> here =
+        rrcb::transfer(plan, rrcb::column(coordinates, 2), MPI_COMM_WORLD);
+    const rrcb::GhostPlan near =
+        rrcb::ghosts(balance.cuts, rrcb::interleaved_points(here, 2), 0.02, MPI_COMM_WORLD);
+    const std::vector<double> ghosts = rrcb::fetch(near, rrcb::column(here, 2), MPI_COMM_WORLD);
+
     const std::vector<double> weights =
         rrcb::part_weights(points, balance.parts, num_parts, MPI_COMM_WORLD);
     const double moved = rrcb::moved_fraction(points, balance.parts, num_parts, MPI_COMM_WORLD);
@@ -39,6 +47,7 @@ int main(int argc, char** argv) {
         std::printf("imbalance %.4f, moved %.0f %%\n", rrcb::imbalance(weights), 100 * moved);
         std::printf("rank 0 sends %zu points and receives %zu\n", plan.export_indices.size(),
                     plan.import_indices.size());
+        std::printf("it holds %zu and knows %zu near them\n", here.size() / 2, ghosts.size() / 2);
     }
     MPI_Finalize();
 }
@@ -47,3 +56,4 @@ int main(int argc, char** argv) {
 // 100000 points in 4 parts
 // imbalance 1.0000, moved 50 %
 // rank 0 sends 0 points and receives 15000
+// it holds 25000 and knows 200 near them

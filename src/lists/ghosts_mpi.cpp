@@ -3,6 +3,7 @@
 #include "collective/duplicate.hpp"
 #include "cuts/ball_search.hpp"
 #include "lists/delivery_mpi.hpp"
+#include "lists/remap_mpi.hpp"
 #include "options/request.hpp"
 #include "options/validation.hpp"
 
@@ -31,16 +32,6 @@ void check_ranges(std::span<const RankRange> ranks_of_parts, int num_parts, int 
         require(ranks.first_rank >= 0 && ranks.count >= 1 && ranks.first_rank < num_ranks &&
                     ranks.count <= num_ranks - ranks.first_rank,
                 "ranks_of_parts must name ranks of this communicator");
-}
-
-std::uint64_t hash_of(std::span<const RankRange> ranks_of_parts) {
-    std::uint64_t hash = ranks_of_parts.size();
-    for (const RankRange& ranks : ranks_of_parts) {
-        hash = (hash ^ static_cast<std::uint64_t>(ranks.first_rank)) * 0x9e3779b97f4a7c15u;
-        hash =
-            (hash ^ (hash >> 32) ^ static_cast<std::uint64_t>(ranks.count)) * 0xff51afd7ed558ccdu;
-    }
-    return hash;
 }
 
 /// Which of this rank's points which other ranks need.

@@ -235,16 +235,6 @@ void check_arguments(std::span<const Part> parts, const PreviousParts& previous,
                             " is none of the " + std::to_string(num_parts) + " parts");
 }
 
-std::uint64_t hash_of(std::span<const RankRange> ranks_of_parts) {
-    std::uint64_t hash = ranks_of_parts.size();
-    for (const RankRange& ranks : ranks_of_parts) {
-        for (const int number : {ranks.first_rank, ranks.count})
-            hash = (hash ^ static_cast<std::uint64_t>(number)) * 0x9e3779b97f4a7c15u;
-        hash ^= hash >> 32;
-    }
-    return hash;
-}
-
 /// Checks the arguments and makes the buffers for the public functions. Collective.
 Remap remap_alone(std::span<const Part> parts, const PreviousParts& previous,
                   std::span<const RankRange> ranks_of_parts, MPI_Comm user) {
@@ -261,6 +251,16 @@ Remap remap_alone(std::span<const Part> parts, const PreviousParts& previous,
 }
 
 }  // namespace
+
+std::uint64_t hash_of(std::span<const RankRange> ranks_of_parts) {
+    std::uint64_t hash = ranks_of_parts.size();
+    for (const RankRange& ranks : ranks_of_parts) {
+        for (const int number : {ranks.first_rank, ranks.count})
+            hash = (hash ^ static_cast<std::uint64_t>(number)) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
+    }
+    return hash;
+}
 
 RemapBuffers::RemapBuffers(int num_parts, int num_ranks, bool is_root, Origins origins) {
     const auto parts_per_rank = static_cast<std::size_t>((num_parts - 1) / num_ranks + 1);

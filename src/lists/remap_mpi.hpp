@@ -38,6 +38,9 @@ struct RemapBuffers {
     std::vector<Part> numbers;          ///< one per part
 };
 
+/// Hash of lists that must be the same on every rank.
+std::uint64_t hash_of(std::span<const RankRange> ranks_of_parts);
+
 /// Earlier parts of the points; none when points are to stay on their rank.
 using PreviousParts = std::optional<std::span<const Part>>;
 

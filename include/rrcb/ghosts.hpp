@@ -21,13 +21,14 @@ struct GhostPlan {
 
 /// The points that other ranks need within a cut-off `radius`, from the cuts alone.
 ///
-/// Collective over `comm`: two reductions. A rank needs the points of others whose distance to the
-/// region of one of its parts, the closed box_of(cuts, part), is at most `radius`. So of any two
-/// points in the regions of their ranks that are that near each rank gets the other's. A distance
-/// of exactly `radius` counts, and to lose none by rounding so do those up to 8 units in the last
-/// place beyond. Points may lie anywhere, also outside the regions of their own rank, and are sent
-/// to each rank once. Ranks that share a part need all the points in it of each other. The radius
-/// is in the unit of the coordinates, finite, 0 or more.
+/// Collective over `comm`: each pair of ranks exchanges a number, then one reduction. A rank needs
+/// the points of others whose distance to the region of one of its parts, the closed box_of(cuts,
+/// part), is at most `radius`. So of any two points in the regions of their ranks that are that
+/// near each rank gets the other's. A distance of exactly `radius` counts, and to lose none by
+/// rounding so do those up to 8 units in the last place beyond. Points may lie anywhere, also
+/// outside the regions of their own rank, and are sent to each rank once. Ranks that share a part
+/// need all the points in it of each other. The radius is in the unit of the coordinates, finite, 0
+/// or more.
 ///
 /// Parts lie on ranks_of_part. In time O(1) for a point farther than `radius` inside the only part
 /// of its rank, and otherwise as the number of regions it is near times the depth of the tree.

@@ -28,7 +28,8 @@ struct RankCount {
     LocalIndex count = 0;
 };
 
-/// Who sends what to whom, which transfer() does; entry k of each list on this side describes one point.
+/// Who sends what to whom, which transfer() does; entry k of each list on this side describes one
+/// point.
 struct Plan {
     LocalIndex num_points = 0;               ///< that this rank holds before
     std::vector<LocalIndex> export_indices;  ///< of my points that leave, ascending

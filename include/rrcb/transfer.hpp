@@ -10,6 +10,7 @@
 #include <span>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace rrcb {
@@ -106,10 +107,11 @@ std::tuple<std::vector<T>...> moved(const AnyPlan& plan, const std::tuple<Column
 /// Moves several columns of the points along a plan, and gives those of the points that this rank
 /// holds afterwards, as a tuple of vectors.
 ///
-/// Collective over `comm`, the communicator of the plan: two reductions of a few numbers, then one
-/// message for each pair of ranks between which points move, however many columns there are, and
-/// more of up to an eighth of `limits.bytes` where it is longer. Every rank names columns of the
-/// same types and components, in the same order; on a rank without points they are empty.
+/// Collective over `comm`, the communicator of the plan: each pair of ranks exchanges a number, one
+/// reduction, then one message for each pair between which points move, however many columns there
+/// are; more where it is longer than an eighth of `limits.bytes` or than MPI counts. Every rank
+/// names columns of the same types and components, in the same order; on a rank without points they
+/// are empty.
 ///
 /// First come the points that stay, in the order in which they were, then those that come, in the
 /// order of the plan's import lists: by rank, and as they lay there. So columns moved in separate

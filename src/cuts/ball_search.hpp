@@ -3,6 +3,9 @@
 #include "cuts/tree.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <limits>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -13,7 +16,14 @@ class BallSearch {
   public:
     /// `is_wanted` has an entry for each part; the radius is finite, 0 or more. `cuts` outlive the
     /// search. Throws std::bad_alloc.
-    BallSearch(const Cuts& cuts, double radius, std::span<const char> is_wanted);
+    BallSearch(const Cuts& cuts, double radius, std::span<const char> is_wanted)
+        : cuts_(cuts),
+          reach_(std::min(radius * (1 + 4 * epsilon), std::numeric_limits<double>::max())),
+          unit_(reach_ > 0 ? reach_ : 1),
+          num_wanted_before_(is_wanted.size() + 1, 0) {
+        std::inclusive_scan(is_wanted.begin(), is_wanted.end(), num_wanted_before_.begin() + 1,
+                            std::plus<>(), 0);
+    }
 
     /// Calls visit(part), ascending. In time as there are such parts times the depth of the tree.
     template <class Visit>
@@ -30,13 +40,22 @@ class BallSearch {
     }
 
   private:
+    static constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
     bool has_wanted(const Descent& at) const {
         const auto first = static_cast<std::size_t>(at.first_part);
         return num_wanted_before_[first] !=
                num_wanted_before_[first + static_cast<std::size_t>(at.num_parts)];
     }
 
-    bool is_near(const Vector& apart) const;
+    bool is_near(const Vector& apart) const {
+        double square = 0;
+        for (std::size_t a = 0; a < static_cast<std::size_t>(cuts_.dimension); ++a) {
+            if (apart[a] > reach_) return false;
+            if (apart[a] > 0) square += (apart[a] / unit_) * (apart[a] / unit_);
+        }
+        return square <= 1 + 8 * epsilon;
+    }
 
     /// Each entry of `apart` is the distance of the centre, along that axis, to the region of `at`.
     template <class Visit>

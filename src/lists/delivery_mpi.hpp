@@ -34,7 +34,8 @@ void check_counts(std::span<const RankCount> counts, LocalIndex total, int num_r
 
 /// Moves columns into their results; `per_rank` is to work with.
 ///
-/// Collective: two reductions, then the messages. What went wrong on a rank before is told to all.
+/// Collective: a number for each pair of ranks, one reduction, then the messages. What went wrong
+/// on a rank before is told to all.
 void deliver(const Delivery& delivery, std::span<const detail::ByteColumn> columns,
              const TransferLimits& limits, TransferReport* report, std::span<std::int64_t> per_rank,
              Participant& self);

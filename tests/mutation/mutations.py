@@ -213,14 +213,14 @@ MUTATIONS = [
     ),
     Mutation(
         "parts at exactly the radius do not count",
-        "src/cuts/ball_search.cpp",
+        "src/cuts/ball_search.hpp",
         "apart[a] > reach_",
         "apart[a] >= reach_",
         ("unit_ball_search", "mpi_ghosts"),
     ),
     Mutation(
         "a part at the radius is lost by rounding",
-        "src/cuts/ball_search.cpp",
+        "src/cuts/ball_search.hpp",
         "radius * (1 + 4 * epsilon)",
         "radius * (1 - 4 * epsilon)",
         ("unit_ball_search",),

@@ -49,7 +49,8 @@ Held moved(const Held& held, const Plan& plan, const Case& input) {
 }
 
 bool same_bits(std::span<const double> a, std::span<const double> b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
 }
 
 /// In the order that they had first.

@@ -80,36 +80,31 @@ void Stream::make_room(std::span<const RankCount> to, std::span<const RankCount>
 }
 
 void Stream::send(const Piece& piece, Participant& self) {
-    self.always([&] {
-        mpi::check(MPI_Isend(&sends_.buffer[piece.offset],
-                             static_cast<int>(piece.count * record_bytes_), MPI_BYTE, piece.rank,
-                             mpi::stream_tag, self.comm, &sends_.request_of(sends_.num_begun - 1)),
-                   "MPI_Isend");
-    });
+    self.check(MPI_Isend(&sends_.buffer[piece.offset],
+                         static_cast<int>(piece.count * record_bytes_), MPI_BYTE, piece.rank,
+                         mpi::stream_tag, self.comm, &sends_.request_of(sends_.num_begun - 1)),
+               "MPI_Isend");
 }
 
 void Stream::receive(const Piece& piece, Participant& self) {
-    self.always([&] {
-        mpi::check(
-            MPI_Irecv(&receives_.buffer[piece.offset],
-                      static_cast<int>(piece.count * record_bytes_), MPI_BYTE, piece.rank,
-                      mpi::stream_tag, self.comm, &receives_.request_of(receives_.num_begun - 1)),
-            "MPI_Irecv");
-    });
+    self.check(
+        MPI_Irecv(&receives_.buffer[piece.offset], static_cast<int>(piece.count * record_bytes_),
+                  MPI_BYTE, piece.rank, mpi::stream_tag, self.comm,
+                  &receives_.request_of(receives_.num_begun - 1)),
+        "MPI_Irecv");
 }
 
 /// The lane in which the oldest piece has ended; null when all have.
 Stream::Lane* Stream::wait(Participant& self) {
     MPI_Request oldest[] = {receives_.oldest(), sends_.oldest()};
     int ended = MPI_UNDEFINED;
-    self.always(
-        [&] { mpi::check(MPI_Waitany(2, oldest, &ended, MPI_STATUS_IGNORE), "MPI_Waitany"); });
+    self.check(MPI_Waitany(2, oldest, &ended, MPI_STATUS_IGNORE), "MPI_Waitany");
     if (ended == MPI_UNDEFINED) return nullptr;
     return ended == 0 ? &receives_ : &sends_;
 }
 
 void Stream::finish(const Participant& self) {
-    if (self.failure.failed) throw Error(self.failure.code, self.failure.text.data());
+    if (self.failed()) throw Error(self.failure.code, self.failure.text.data());
 }
 
 }  // namespace rrcb

@@ -142,8 +142,8 @@ void run(Stream& stream, const Delivery& delivery, std::span<const Lane> lanes, 
 
 void exchange_counts(std::span<const RankCount> to, std::span<std::int64_t> per_rank,
                      const Participant& self) {
-    std::ranges::fill(per_rank, self.failure.failed ? failed_there : 0);
-    if (!self.failure.failed)
+    std::ranges::fill(per_rank, self.failed() ? failed_there : 0);
+    if (!self.failed())
         for (const RankCount& share : to)
             per_rank[static_cast<std::size_t>(share.rank)] = static_cast<std::int64_t>(share.count);
     mpi::check(

@@ -28,6 +28,7 @@ void expect_refusal(MPI_Comm comm, const std::string& text) {
         [&] { remap(parts, parts, ranks, comm); },
         [&] { part_weights(points, parts, 1, comm); },
         [&] { moved_fraction(points, parts, 1, comm); },
+        [&] { Controller controller(comm); },
     };
     for (const auto& call : calls) {
         try {

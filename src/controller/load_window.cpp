@@ -1,0 +1,49 @@
+#include "controller/load_window.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rrcb {
+
+namespace {
+
+/// Rank of the order statistic that lies below the median of `count` independent values in 96 % of
+/// all cases or more, from 5 values on; the smallest where there is none.
+///
+/// Those below the median are binomially distributed, count / 2 +- sqrt(count) / 2.
+std::size_t rank_below_median(std::size_t count) {
+    const auto n = static_cast<double>(count);
+    return static_cast<std::size_t>(std::max(0.0, n / 2 - 0.9 * std::sqrt(n)));
+}
+
+}  // namespace
+
+void LoadWindow::add(double excess, double mean) {
+    excess_[count_ % longest] = excess;
+    mean_[count_ % longest] = mean;
+    ++count_;
+}
+
+double LoadWindow::median_of_three(const Values& values) const {
+    const double a = latest(values, 0);
+    if (count_ == 1) return a;
+    const double b = latest(values, 1);
+    if (count_ == 2) return std::min(a, b);
+    return std::max(std::min(a, b), std::min(std::max(a, b), latest(values, 2)));
+}
+
+double LoadWindow::lower_bound() const {
+    double bound = -std::numeric_limits<double>::infinity();
+    Values last;
+    // A short window follows a jump, a long one sees growth in spite of noise.
+    for (std::size_t length = 3; length <= std::min(count_, longest); length *= 2) {
+        for (std::size_t ago = 0; ago < length; ++ago) last[ago] = latest(excess_, ago);
+        const auto place = last.begin() + static_cast<std::ptrdiff_t>(rank_below_median(length));
+        std::nth_element(last.begin(), place, last.begin() + static_cast<std::ptrdiff_t>(length));
+        bound = std::max(bound, *place);
+    }
+    return bound;
+}
+
+}  // namespace rrcb

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace rrcb {
+
+/// The latest values of a noisy series.
+class LoadWindow {
+  public:
+    void add(double excess, double mean);
+    void clear() { count_ = 0; }
+    std::size_t count() const { return count_; }  ///< since cleared
+
+    /// Medians of the last three: an outlier alone does not show. Of two the smaller.
+    double excess() const { return median_of_three(excess_); }
+    double mean() const { return median_of_three(mean_); }
+
+    /// What the median of the series exceeds by now, with some certainty however its noise is
+    /// distributed; minus infinity before the third value.
+    double lower_bound() const;
+
+  private:
+    static constexpr std::size_t longest = 48;
+    using Values = std::array<double, longest>;
+
+    double median_of_three(const Values& values) const;
+    double latest(const Values& values, std::size_t ago) const {
+        return values[(count_ - 1 - ago) % longest];
+    }
+
+    Values excess_{};
+    Values mean_{};
+    std::size_t count_ = 0;
+};
+
+}  // namespace rrcb

@@ -1,0 +1,181 @@
+// The controller on ranks: one decision for all, errors that reach all, an end that is free.
+#include "ranks.hpp"
+
+#include <rrcb/controller.hpp>
+#include <rrcb/error.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+using test::is_last_rank;
+using test::num_ranks;
+using test::rank;
+
+/// Rank 0 gains a hundredth of the mean at each step since the last rebalance, the others lose it;
+/// in at most 100 steps.
+double drifting_load(int steps_since) {
+    const double others = num_ranks() - 1;
+    if (others == 0) return 1;
+    return 1 + 0.01 * steps_since * (rank() == 0 ? 1 : -1 / others);
+}
+
+/// Steps after which it says to rebalance, where it is heeded.
+std::vector<int> rebalances(Controller& controller, int num_steps, double cost) {
+    std::vector<int> steps;
+    int last = 0;
+    controller.rebalanced(cost);
+    for (int step = 0; step < num_steps; ++step) {
+        if (!controller.step(step, drifting_load(step - last))) continue;
+        steps.push_back(step);
+        last = step + 1;
+        controller.rebalanced(cost);
+    }
+    return steps;
+}
+
+bool is_same_on_all(int value) {
+    int bounds[] = {value, -value};
+    MPI_Allreduce(MPI_IN_PLACE, bounds, 2, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    return bounds[0] == -bounds[1];
+}
+
+TEST(Controller, says_the_same_on_every_rank_and_rebalances_what_grows) {
+    Controller controller(MPI_COMM_WORLD);
+    const std::vector<int> steps = rebalances(controller, 200, 0.5);
+    ASSERT_TRUE(is_same_on_all(static_cast<int>(steps.size())));
+    for (const int step : steps) EXPECT_TRUE(is_same_on_all(step));
+    if (num_ranks() == 1) {
+        EXPECT_TRUE(steps.empty());
+        return;
+    }
+    // The mean cost (C + s t^2 / 2) / t is least at t = sqrt(2 C / s) = 10. The rule sees it by the
+    // 12 steps 0 ... 11, and is heeded two steps later.
+    ASSERT_FALSE(steps.empty());
+    EXPECT_EQ(steps.front(), 13);
+    const double mean_cycle = 200.0 / static_cast<double>(steps.size());
+    EXPECT_GE(mean_cycle, 9);
+    EXPECT_LE(mean_cycle, 16);
+}
+
+TEST(Controller, drops_what_it_decided_before_a_rebalance_it_did_not_ask_for) {
+    Controller controller(MPI_COMM_WORLD);
+    controller.rebalanced(0.5);
+    for (int step = 0; step <= 11; ++step) EXPECT_FALSE(controller.step(step, drifting_load(step)));
+    controller.rebalanced(0.5);
+    for (int step = 12; step < 20; ++step)
+        EXPECT_FALSE(controller.step(step, drifting_load(step - 12)));
+}
+
+TEST(Controller, repeats_what_is_not_heeded) {
+    if (num_ranks() == 1) GTEST_SKIP() << "nothing is due";
+    Controller controller(MPI_COMM_WORLD);
+    controller.rebalanced(0.5);
+    std::vector<int> due;
+    for (int step = 0; step < 20; ++step)
+        if (controller.step(step, drifting_load(step))) due.push_back(step);
+    EXPECT_EQ(due, (std::vector<int>{13, 16, 19}));
+}
+
+TEST(Controller, does_not_rebalance_above_the_least_imbalance) {
+    Controller controller(MPI_COMM_WORLD);
+    Report report;
+    report.least_imbalance = 3;  // loads stay below it
+    controller.rebalanced(report, 0.5);
+    for (int step = 0; step < 90; ++step) EXPECT_FALSE(controller.step(step, drifting_load(step)));
+}
+
+/// Every rank gets the same error, at this call and each later one.
+void expect_error(Controller& controller, int step, const std::string& text) {
+    for (int call = 0; call < 2; ++call) {
+        try {
+            controller.step(step, 1);
+            ADD_FAILURE() << "nothing was thrown";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
+            EXPECT_EQ(error.what(), text);
+        }
+    }
+}
+
+TEST(Controller, refuses_bad_loads_and_costs_of_one_rank_on_all) {
+    const std::string last = "rank " + std::to_string(num_ranks() - 1);
+    const std::string fix = " is negative, NaN or infinite; give a finite number of at least 0";
+    for (const double bad : {std::nan(""), -1.0, std::numeric_limits<double>::infinity()}) {
+        Controller loads(MPI_COMM_WORLD);
+        EXPECT_FALSE(loads.step(7, is_last_rank() ? bad : 1));
+        expect_error(loads, 8, last + ": the load of step 7" + fix);
+
+        Controller costs(MPI_COMM_WORLD);
+        EXPECT_FALSE(costs.step(0, 1));
+        costs.rebalanced(is_last_rank() ? bad : 1);
+        EXPECT_FALSE(costs.step(1, 1));
+        expect_error(costs, 2, last + ": the cost of a rebalance before step 1" + fix);
+    }
+}
+
+TEST(Controller, tells_ranks_that_are_out_of_step) {
+    if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
+    Controller steps(MPI_COMM_WORLD);
+    EXPECT_FALSE(steps.step(is_last_rank() ? 4 : 3, 1));
+    expect_error(steps, 5,
+                 "the controller is at step 3 on one rank and at 4 on another; call it once for "
+                 "each step on every rank");
+
+    Controller rebalances(MPI_COMM_WORLD);
+    if (is_last_rank()) rebalances.rebalanced(1);
+    EXPECT_FALSE(rebalances.step(0, 1));
+    expect_error(rebalances, 1,
+                 "rebalanced() was called 0 times on one rank and 1 times on another; call it on "
+                 "every rank after each rebalance");
+}
+
+TEST(Controller, works_beside_another_and_after_its_communicator) {
+    MPI_Comm comm = MPI_COMM_NULL;
+    MPI_Comm_dup(MPI_COMM_WORLD, &comm);
+    Controller one(comm);
+    Controller other(comm);
+    MPI_Comm_free(&comm);
+    one.rebalanced(0.5);
+    other.rebalanced(1e6);
+    bool is_any_due = false;
+    for (int step = 0; step < 60; ++step) {
+        is_any_due = one.step(step, drifting_load(step)) || is_any_due;
+        EXPECT_FALSE(other.step(step, drifting_load(step)));
+    }
+    EXPECT_EQ(is_any_due, num_ranks() > 1);
+}
+
+TEST(Controller, decides_alike_for_loads_of_any_unit) {
+    Controller plain(MPI_COMM_WORLD);
+    const std::vector<int> steps = rebalances(plain, 100, 0.5);
+    for (const double unit : {0x1p1000, 0x1p-1000}) {
+        Controller controller(MPI_COMM_WORLD);
+        std::vector<int> found;
+        int last = 0;
+        controller.rebalanced(0.5 * unit);
+        for (int step = 0; step < 100; ++step) {
+            if (!controller.step(step, drifting_load(step - last) * unit)) continue;
+            found.push_back(step);
+            last = step + 1;
+            controller.rebalanced(0.5 * unit);
+        }
+        EXPECT_EQ(found, steps);
+    }
+}
+
+TEST(Controller, may_be_forgotten_until_after_the_end_of_mpi) {
+    static std::optional<Controller> forgotten;
+    forgotten.emplace(MPI_COMM_WORLD);
+    forgotten->step(0, 1);  // its reduction is under way when MPI ends
+}
+
+}  // namespace
+}  // namespace rrcb

@@ -13,14 +13,16 @@ namespace {
 /// Number of an option, or `none` where it is not given. Throws std::invalid_argument for no
 /// number.
 template <typename Number>
-Number number(const std::string& option, const std::string& text, Number none, Number least) {
+Number number(const std::string& option, const std::string& text, Number none, Number least,
+              const std::string& alternative = "") {
     if (text.empty()) return none;
     Number value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size() || !(value >= least) ||
         !std::isfinite(static_cast<double>(value)))
         throw std::invalid_argument("--" + option + ": '" + text +
-                                    "' is not a number of at least " + std::to_string(least));
+                                    "' is not a number of at least " + std::to_string(least) +
+                                    alternative);
     return value;
 }
 
@@ -33,7 +35,7 @@ void set_options(Teuchos::CommandLineProcessor& parser, Arguments& arguments, Te
     parser.setDocString("Simulates a scene of material points.");
     parser.setOption("scene", &arguments.scene, "scene file, YAML or XML");
     parser.setOption("balancer", &arguments.balancer, balancer_names().c_str());
-    parser.setOption("every", &texts.every, "steps between two rebalances");
+    parser.setOption("every", &texts.every, "steps between two rebalances, or auto: when they pay");
     parser.setOption("end-time", &texts.end_time, "simulated seconds, in place of the scene's");
     parser.setOption("cell-size", &texts.cell_size, "m, in place of the scene's");
     parser.setOption("vtk-every", &texts.vtk_every, "steps between VTK files; 0: none");
@@ -59,7 +61,7 @@ std::optional<Arguments> read_arguments(int argc, char** argv) {
     if (arguments.scene.empty())
         throw std::invalid_argument("--scene=FILE is missing; examples/mpm/scenes has some");
     if (arguments.out.empty()) throw std::invalid_argument("--out: must name a folder");
-    arguments.every = number("every", texts.every, 10, 1);
+    if (texts.every != "auto") arguments.every = number("every", texts.every, 0, 1, " or auto");
     arguments.vtk_every = number("vtk-every", texts.vtk_every, -1, 0);
     arguments.end_time = number("end-time", texts.end_time, 0.0, 1e-300);
     arguments.cell_size = number("cell-size", texts.cell_size, 0.0, 1e-300);

@@ -8,7 +8,7 @@ struct Arguments {
     std::string scene;
     std::string balancer;
     std::string out;
-    int every = 10;
+    int every = 0;         ///< steps between rebalances; 0: when they pay
     int vtk_every = -1;    ///< -1: as the scene says
     double end_time = 0;   ///< s; 0: as the scene says
     double cell_size = 0;  ///< m; 0: as the scene says

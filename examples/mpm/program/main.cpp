@@ -9,10 +9,13 @@
 #include "output/history_mpi.hpp"
 #include "output/vtk_mpi.hpp"
 
+#include <rrcb/controller.hpp>
+
 #include <mpi.h>
 #include <mpm/simulation.hpp>
 #include <unistd.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -64,6 +67,35 @@ class Recorder {
     std::optional<mpm::VtkSeries> vtk_;
 };
 
+/// When to rebalance: before the first step, and then each so many steps or when it pays.
+class Schedule {
+  public:
+    /// Collective over `comm`. `every` is as in Arguments.
+    Schedule(int every, MPI_Comm comm) : every_(every) {
+        if (every == 0) controller_.emplace(comm);
+    }
+
+    /// Collective; once before each step.
+    void rebalance_if_due(mpm::Simulation& simulation, const mpm::Balancer& balancer) {
+        const std::int64_t step = simulation.step_count();
+        bool is_due = step == 0;
+        if (!controller_) {
+            is_due = step % every_ == 0;
+        } else if (step > 0) {
+            is_due = controller_->step(step, simulation.work_seconds());
+        }
+        if (!is_due) return;
+        // The step before has brought the ranks together: none waits for another's load here.
+        const double start = MPI_Wtime();
+        simulation.rebalance(balancer);
+        if (controller_) controller_->rebalanced(MPI_Wtime() - start);
+    }
+
+  private:
+    int every_;
+    std::optional<rrcb::Controller> controller_;
+};
+
 void show_progress(const mpm::Simulation& simulation, double end_time, bool is_last) {
     if (!isatty(STDERR_FILENO) || (simulation.step_count() % 20 != 0 && !is_last)) return;
     std::fprintf(stderr, "\r%10.4g of %.4g s, step %lld, %lld points%s", simulation.time(),
@@ -74,10 +106,10 @@ void show_progress(const mpm::Simulation& simulation, double end_time, bool is_l
 void simulate(mpm::Simulation& simulation, const Arguments& arguments, Recorder& recorder,
               MPI_Comm comm) {
     const std::optional<mpm::Balancer> balancer = make_balancer(arguments.balancer);
+    Schedule schedule(arguments.every, comm);
     for (bool is_last = false; !is_last;) {
         is_last = !(simulation.time() < arguments.end_time);
-        if (balancer && !is_last && simulation.step_count() % arguments.every == 0)
-            simulation.rebalance(*balancer);
+        if (balancer && !is_last) schedule.rebalance_if_due(simulation, *balancer);
         recorder.record(simulation, is_last);
         if (mpm::rank_of(comm) == 0) show_progress(simulation, arguments.end_time, is_last);
         if (!is_last) simulation.step();

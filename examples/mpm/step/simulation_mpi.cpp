@@ -38,6 +38,9 @@ std::int64_t Simulation::num_points() const {
 double Simulation::max_speed() const {
     return model_->max_speed;
 }
+double Simulation::work_seconds() const {
+    return model_->work.seconds();
+}
 const Particles& Simulation::particles() const {
     return model_->particles;
 }

@@ -5,6 +5,7 @@
 #include "parallel/ghost_nodes_mpi.hpp"
 #include "parallel/ownership_mpi.hpp"
 #include "scene/lattice.hpp"
+#include "step/work_clock.hpp"
 #include "transfer/velocity_remap.hpp"
 
 #include <mpm/simulation.hpp>
@@ -31,6 +32,7 @@ class Simulation::Model {
     std::int64_t num_points = 0, num_steps = 0;
     std::int64_t num_sent = 0;  ///< by this rank
     double time = 0, time_step = 0, max_speed = 0;
+    WorkClock work;  ///< of the last step
 };
 
 /// A scene of D dimensions in time. `step` is the list of its stages.

@@ -135,7 +135,9 @@ void Stepper<D>::advance_nodes() {
         transfers_->scatter(particles, field.column, field.axis, runs_, patch_, patch_.fields[f]);
     }
     for (const auto& effect : stages_.scatters) effect.kernel(particles, runs_, patch_);
+    work.pause();
     ghosts_->sum(patch_);
+    work.resume();
     const StepTime now{time, time_step};
     for (const auto& effect : stages_.forces) effect.kernel(patch_, now);
     for (const auto& effect : stages_.constraints) effect.kernel(patch_, now);
@@ -148,7 +150,9 @@ template <int D>
 void Stepper<D>::remap_velocities() {
     velocity_remap_->scatter(particles, runs_, patch_);
     for (const auto& effect : stages_.velocity_scatters) effect.kernel(particles, runs_, patch_);
+    work.pause();
     ghosts_->sum_momentum(patch_);
+    work.resume();
     strain_by_momentum(patch_);
     for (const auto& effect : stages_.remapped_velocities) effect.kernel(patch_, {time, time_step});
 }
@@ -231,8 +235,10 @@ void Stepper<D>::take_in(std::size_t num_arrived) {
 
 template <int D>
 void Stepper<D>::step() {
+    work.restart();
     advance_nodes();
     advance_points();
+    work.pause();
     for (const auto& effect : stages_.ends) effect.kernel({time, time_step}, comm_);
     time += time_step;
     ++num_steps;

@@ -60,6 +60,9 @@ class Simulation {
     std::int64_t step_count() const;
     std::int64_t num_points() const;  ///< over all ranks
     double max_speed() const;         ///< over all points, m/s
+    /// Processor time that this rank has spent on its own nodes and points in the last step, s:
+    /// without communication, which waits for others.
+    double work_seconds() const;
 
     /// Points of this rank, columns by name, as "x", "displacement_x".
     const Particles& particles() const;

@@ -39,7 +39,8 @@ def draw_price(results: Results) -> Figure | None:
     if has_runs:
         handles += _draw_runs(right, prices)
         steps, every = runs.iloc[-1][["steps", "every"]]
-        right.set_title(f"The simulation: {steps:,} steps, rebalanced every {every}")
+        when = f"every {every}" if every else "when it pays"
+        right.set_title(f"The simulation: {steps:,} steps, rebalanced {when}")
         right.text(0.5, -0.17, exchange_rate(runs).replace("; ", ";\n"), ha="center", va="top",
                    fontsize=8, transform=right.transAxes)  # fmt: skip
     return plot.legend_above(figure, handles, inches=3.9)

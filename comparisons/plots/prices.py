@@ -139,7 +139,8 @@ def exchange_rate(runs: pd.DataFrame) -> str:
     a_step, a_round, a_call = (
         f"{in_digits(1e6 * seconds, 2)} µs" for seconds in (step, step * every, abs(more))
     )
+    until = f", {a_round} until the next call ({every} steps)" if every else ""
     return (
-        f"1 % of unbalance costs {a_step} a step, {a_round} until the next call ({every} steps);"
+        f"1 % of unbalance costs {a_step} a step{until};"
         f" an exact call costs {a_call} {'more' if more >= 0 else 'less'} than one to {loosest}."
     )

@@ -29,6 +29,8 @@ def read(path: Path) -> pd.DataFrame:
     rows = read_all(path) if path.exists() else pd.DataFrame()
     if "error" in rows:
         rows = rows[rows["error"].isna()].reset_index(drop=True)
+    if "every" in rows:  # steps between rebalances; 0: when they pay
+        rows["every"] = rows["every"].replace("auto", 0)
     whole = [name for name in WHOLE if name in rows and rows[name].notna().all()]
     return rows.astype(dict.fromkeys(whole, int))
 

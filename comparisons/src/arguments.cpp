@@ -44,7 +44,7 @@ const std::map<std::string, std::string>& documentation() {
         {"methods", "methods, by commas, parameters in brackets: " + method_names()},
         {"lists", "lists Zoltan returns: PARTS (default), EXPORT or ALL"},
         {"steps", "steps of the simulation; to the end of the scene"},
-        {"every", "steps between rebalances; 5"},
+        {"every", "steps between rebalances, or auto (default): when they pay"},
         {"repeats", "timed calls of each method; 7"},
         {"seed", "seed of the cloud; 1"},
         {"only", "parts of the sweep, by commas: " + joined(Arguments().only)},
@@ -131,6 +131,8 @@ void check_combination(const Texts& texts) {
     needs("only", texts.sweep, "--sweep only; remove it");
     needs("steps", is_scene, "--scene only; remove it");
     needs("every", is_scene, "--scene only; remove it");
+    if (texts.sweep && texts["every"] == "auto")
+        throw Failure("--every=auto goes with --scene only; give --sweep a number of steps");
 }
 
 void use_default_sizes(Arguments& arguments) {
@@ -198,7 +200,7 @@ Arguments read_arguments(int argc, char** argv) {
     read_choice<Lists>(texts, "lists", arguments.lists,
                        {{"PARTS", Lists::parts}, {"EXPORT", Lists::exports}, {"ALL", Lists::all}});
     read_integer(texts, "steps", arguments.steps, 1, many);
-    read_integer(texts, "every", arguments.every, 1, many);
+    if (texts["every"] != "auto") read_integer(texts, "every", arguments.every, 1, many);
     read_integer(texts, "repeats", arguments.repeats, 1, 1000);
     read_integer<std::uint64_t>(texts, "seed", arguments.seed, 0,
                                 std::numeric_limits<std::uint64_t>::max());

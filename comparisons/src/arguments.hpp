@@ -32,7 +32,7 @@ struct Arguments {
     std::vector<Method> methods;
     Lists lists = Lists::parts;
     int steps = 0;  ///< of the simulation; 0: to the end of the scene
-    int every = 0;  ///< steps between rebalances; 0: the default
+    int every = 0;  ///< steps between rebalances; 0: a controller says when, of a sweep its default
     int repeats = 7;
     std::uint64_t seed = 1;
     std::string out = "comparisons/out";

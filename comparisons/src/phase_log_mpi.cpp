@@ -40,6 +40,10 @@ PhaseLog::Recording::~Recording() {
     log_.traffic_.push_back(traffic);
 }
 
+double PhaseLog::last_s(int num_ranks) const {
+    return work_s_.back() + network_seconds(traffic_.back(), num_ranks, Network{});
+}
+
 PathCost PhaseLog::cost(MPI_Comm comm) const {
     const int num_ranks = size_of(comm);
     std::vector<double> network_s;

@@ -37,6 +37,9 @@ class PhaseLog {
         action();
     }
 
+    /// Work and network of the latest phase, as one of `num_ranks`, in s.
+    double last_s(int num_ranks) const;
+
     /// Collective over `comm`, whose ranks have recorded the same phases.
     PathCost cost(MPI_Comm comm) const;
 

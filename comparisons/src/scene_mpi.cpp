@@ -140,12 +140,11 @@ void print_and_write(const SimulationPlan& plan, const SceneRuns& scene,
 
 SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_Comm comm) {
     constexpr int quick_steps = 40;
-    constexpr int default_every = 5;
     SimulationPlan plan{choose_scene(arguments.scene, arguments.quick, comm)};
     plan.num_steps = arguments.steps > 0 ? arguments.steps
                      : arguments.quick   ? quick_steps
                                          : steps_to_end(plan.scene, comm);
-    plan.every = arguments.every > 0 ? arguments.every : default_every;
+    plan.every = arguments.every;
     plan.record_every = record_interval(plan.num_steps, num_runs, comm);
     return plan;
 }

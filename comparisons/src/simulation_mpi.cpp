@@ -81,7 +81,9 @@ double critical_path_s(const SimulationRun& run) {
 TimedSimulation::TimedSimulation(const SimulationPlan& plan, std::optional<mpm::Balancer> balancer,
                                  Observer observe, MPI_Comm comm)
     : plan_(plan), balancer_(std::move(balancer)), observe_(std::move(observe)), comm_(comm) {
+    MPI_Comm_size(comm, &num_ranks_);
     unless_failed(run_, [&] {
+        if (balancer_ && plan.every == 0) controller_.emplace(comm);
         simulation_ = std::make_unique<mpm::Simulation>(plan.scene, comm);
         run_.num_points = simulation_->num_points();
         observe_(0, *simulation_);
@@ -96,7 +98,7 @@ void TimedSimulation::advance(int num_steps) {
 }
 
 void TimedSimulation::advance_one() {
-    if (balancer_ && steps_done_ % plan_.every == 0) rebalance();
+    if (balancer_ && is_due()) rebalance();
     if (steps_done_ % plan_.record_every == 0) {
         run_.history.push_back(record_load(*simulation_, comm_));
         run_.history.back().moved_fraction = moved_lately_;
@@ -106,9 +108,15 @@ void TimedSimulation::advance_one() {
     observe_(++steps_done_, *simulation_);
 }
 
+bool TimedSimulation::is_due() {
+    if (!controller_) return steps_done_ % plan_.every == 0;
+    return steps_done_ == 0 || controller_->step(steps_done_, steps_.last_s(num_ranks_));
+}
+
 void TimedSimulation::rebalance() {
     mpm::RebalanceReport report;
     run_.balance_s += timed([&] { report = simulation_->rebalance(*balancer_); }, balances_, comm_);
+    if (controller_) controller_->rebalanced(balances_.last_s(num_ranks_));
     const auto num_points = static_cast<double>(std::max<std::int64_t>(1, run_.num_points));
     moved_lately_ = static_cast<double>(report.moved_points) / num_points;
     run_.moved_fraction += (moved_lately_ - run_.moved_fraction) / ++run_.rebalances;

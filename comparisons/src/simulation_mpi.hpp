@@ -3,6 +3,8 @@
 #include "phase_log_mpi.hpp"
 #include "progress.hpp"
 
+#include <rrcb/controller.hpp>
+
 #include <mpm/simulation.hpp>
 
 #include <cstdint>
@@ -18,7 +20,7 @@ namespace comparisons {
 struct SimulationPlan {
     mpm::Scene scene;
     int num_steps = 1;
-    int every = 1;         ///< steps between rebalances
+    int every = 1;         ///< steps between rebalances; 0: a controller says when
     int record_every = 1;  ///< steps between records of the load
 };
 
@@ -64,7 +66,8 @@ using Observer = std::function<void(int steps_done, const mpm::Simulation&)>;
 
 /// A scene under one method, to be run in turns with others so that all meet the same noise.
 ///
-/// Rebalanced before step 0, every, 2 every, ...; without a balancer the slabs of the start stay.
+/// Rebalanced before step 0, every, 2 every, ... or when the controller says so, by processor time
+/// outside MPI and network; without a balancer the slabs of the start stay.
 /// All functions are collective over `comm`; a simulation that fails notes why and stands still.
 /// The plan must outlive it.
 class TimedSimulation {
@@ -80,6 +83,7 @@ class TimedSimulation {
 
   private:
     void advance_one();
+    bool is_due();
     void rebalance();
     void note_loads(SimulationRun& run) const;
 
@@ -87,7 +91,9 @@ class TimedSimulation {
     std::optional<mpm::Balancer> balancer_;
     Observer observe_;
     MPI_Comm comm_;
+    int num_ranks_ = 1;
     std::unique_ptr<mpm::Simulation> simulation_;
+    std::optional<rrcb::Controller> controller_;
     SimulationRun run_;
     PhaseLog steps_;
     PhaseLog balances_;

@@ -63,6 +63,8 @@ SimulationRun middle_run(const SimulationRounds& rounds) {
           &SimulationRun::path_points}) {
         take_median(middle, member, rounds.runs);
     }
+    middle.rebalances = static_cast<int>(
+        median(values(rounds, [](const SimulationRun& run) -> double { return run.rebalances; })));
     middle.step_cost = middle_cost(rounds, &SimulationRun::step_cost);
     middle.balance_cost = middle_cost(rounds, &SimulationRun::balance_cost);
     middle.front_m = middle_front(rounds);
@@ -93,11 +95,15 @@ double shortest_steps(std::span<const SimulationRounds> methods) {
     return shortest;
 }
 
+std::string interval(const SimulationPlan& plan) {
+    return plan.every > 0 ? std::to_string(plan.every) : "auto";
+}
+
 void add_size(Row& row, const SimulationPlan& plan, int num_ranks, std::int64_t num_points) {
     row.add("ranks", num_ranks)
         .add("points", num_points)
         .add("steps", plan.num_steps)
-        .add("every", plan.every)
+        .add("every", interval(plan))
         .end_key();
 }
 
@@ -261,8 +267,9 @@ std::string history_csv(std::span<const SimulationRun> runs) {
 void print_simulations(std::ostream& out, const SimulationPlan& plan, int num_ranks,
                        std::span<const SimulationSummary> summaries) {
     out << "\nWhole simulation: " << summaries.front().middle.num_points << " points, " << num_ranks
-        << " ranks, " << plan.num_steps << " steps, rebalanced every " << plan.every
-        << ", median of " << summaries.front().repeats << "\n\n";
+        << " ranks, " << plan.num_steps << " steps, rebalanced "
+        << (plan.every > 0 ? "every " + interval(plan) : "when it pays") << ", median of "
+        << summaries.front().repeats << "\n\n";
     std::vector<Row> rows;
     for (const SimulationSummary& summary : summaries) {
         rows.push_back(printed_row(summary, summaries.front()));

@@ -98,6 +98,8 @@ TEST(Arguments, name_options_that_do_not_go_together) {
     expect_error({"--cloud=slope", "--scene=slope"},
                  "give one of --scene, --cloud, --file and --replay only");
     expect_error({"--replay=dump", "--layout=sorted"}, "--layout goes with --cloud, --file or");
+    expect_error({"--sweep", "--every=auto"},
+                 "--every=auto goes with --scene only; give --sweep a number of steps");
     expect_error({"--replay=dump", "--steps=3"}, "--steps goes with --scene only; remove it");
     expect_error({"--sweep", "--file=points.csv"}, "--sweep has points of its own; remove");
     expect_error({"--only=clouds"}, "--only goes with --sweep only; remove it");

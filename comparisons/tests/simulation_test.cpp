@@ -195,6 +195,26 @@ TEST(Simulation, tells_what_the_rebalances_moved) {
     EXPECT_EQ(slabs.history.front().moved_fraction, 0);
 }
 
+TEST(Simulation, a_controller_rebalances_where_no_interval_is_given) {
+    const SimulationPlan plan{.scene = mpm::slope_scene(22), .num_steps = 15, .every = 0};
+    int num_calls = 0;
+    const mpm::Balancer slabs = [&](mpm::Positions positions, MPI_Comm) {
+        ++num_calls;
+        mpm::Decomposition same = mpm::slabs({{0, -15, 0}, {110, 20, 0}}, num_ranks());
+        same.local_owners.resize(positions.size());
+        same.owners(positions, same.local_owners);
+        return same;
+    };
+    TimedSimulation simulation(
+        plan, slabs, [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
+    simulation.advance(15);
+    const SimulationRun result = simulation.result();
+    EXPECT_EQ(result.error, "");
+    EXPECT_EQ(result.rebalances, num_calls);
+    EXPECT_GE(num_calls, 1);  // before the first step, whatever the loads
+    EXPECT_LE(num_calls, 3);  // each takes two steps to heed and three to judge
+}
+
 mpm::Decomposition decomposed(const char* method, mpm::Positions positions) {
     return make_balancer(read_method(method)).value()(positions, MPI_COMM_WORLD);
 }

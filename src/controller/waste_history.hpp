@@ -28,7 +28,7 @@ class WasteHistory {
   private:
     struct Stretch {
         double work = 0;
-        double waste = 0;   ///< sum of excess * work
+        double waste = 0;    ///< sum of excess * work
         double highest = 0;  ///< excess
         double lowest = 0;
     };

@@ -109,6 +109,13 @@ class PriceTest(unittest.TestCase):
             "1 % of unbalance costs 1000 µs a step, 5000 µs until the next call (5 steps); an exact"
             " call costs 50000 µs more than one to 1.1.",
         )
+        self.prices(TABLE, RUNS.replace(",10,5,", ",10,auto,"))
+        self.assertEqual(
+            prices.exchange_rate(self.results.runs),
+            "1 % of unbalance costs 1000 µs a step; an exact call costs 50000 µs more than one to"
+            " 1.1.",
+        )
+        self.assertIsNotNone(price.draw_price(self.results))
 
     def test_file_has_a_row_for_each(self) -> None:
         row = self.prices(TABLE)["call", "rrcb[tol=1.1]"].numbers

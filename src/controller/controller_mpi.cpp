@@ -200,7 +200,7 @@ void Controller::State::follow(const StepRecord& all) {
 Controller::Controller(MPI_Comm comm) {
     Participant self{mpi::duplicate_of(comm)};
     MPI_Comm own = MPI_COMM_NULL;
-    self.always([&] { mpi::check(MPI_Comm_dup(self.comm, &own), "MPI_Comm_dup"); });
+    self.check(MPI_Comm_dup(self.comm, &own), "MPI_Comm_dup");
     self.attempt([&] {
         state_ = std::make_unique<State>();
         state_->open(own);

@@ -1,4 +1,3 @@
-#include "cells/point_layout.hpp"
 #include "cuts/tree.hpp"
 
 #include <rrcb/cuts.hpp>
@@ -11,48 +10,6 @@ namespace rrcb {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// The tree as a table for the loop over points: child 0 is below the plane, child 1 above. Parts
-/// are nodes that lead to themselves, so that every point takes the same number of steps.
-struct Table {
-    struct Node {
-        double plane = infinity;
-        std::int32_t axis = 0;
-        std::array<std::int32_t, 2> child{};
-        Part part = 0;
-    };
-    std::vector<Node> nodes;
-    int depth = 0;
-    bool plain = true;  ///< every cut is a plane, none breaks ties by position
-};
-
-std::int32_t tabulate(const Cuts& cuts, Descent at, int depth, Table& table) {
-    const auto index = static_cast<std::int32_t>(table.nodes.size());
-    table.nodes.emplace_back();
-    table.depth = std::max(table.depth, depth);
-    if (at.is_part()) {
-        table.nodes.back() = {infinity, 0, {index, index}, at.first_part};
-        return index;
-    }
-    const Cut& cut = cuts.tree[at.node];
-    table.plain = table.plain && is_plane(cut, cuts.dimension);
-    const std::int32_t below = tabulate(cuts, at.lower(), depth + 1, table);
-    const std::int32_t above = tabulate(cuts, at.upper(), depth + 1, table);
-    table.nodes[static_cast<std::size_t>(index)] = {
-        cut.at[static_cast<std::size_t>(cut.axis)], cut.axis, {below, above}, 0};
-    return index;
-}
-
-template <class Layout>
-void assign_by_planes(const Layout& x, const Table& table, std::span<Part> parts) {
-    const Table::Node* nodes = table.nodes.data();
-    for (LocalIndex i = 0; i < parts.size(); ++i) {
-        std::int32_t node = 0;
-        for (int level = 0; level < table.depth; ++level)
-            node = nodes[node].child[x(i, nodes[node].axis) >= nodes[node].plane];
-        parts[i] = nodes[node].part;
-    }
-}
 
 void collect_touching(const Cuts& cuts, const Box& box, Descent at, std::vector<Part>& parts) {
     if (at.is_part()) {
@@ -87,18 +44,6 @@ Part part_of(const Cuts& cuts, const Vector& position) {
     while (!at.is_part())
         at = is_above(cuts.tree[at.node], position, cuts.dimension) ? at.upper() : at.lower();
     return at.first_part;
-}
-
-void assign(const Cuts& cuts, const Points& points, std::span<Part> parts) {
-    if (points.count == 0) return;
-    Table table;
-    tabulate(cuts, root_of(cuts), 0, table);
-    if (!table.plain) {
-        for (LocalIndex i = 0; i < points.count; ++i) parts[i] = part_of(cuts, points.position(i));
-        return;
-    }
-    visit_layout(points,
-                 [&](const auto& x) { assign_by_planes(x, table, parts.first(points.count)); });
 }
 
 Box box_of(const Cuts& cuts, Part part) {

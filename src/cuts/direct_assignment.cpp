@@ -1,0 +1,267 @@
+#include "cuts/direct_assignment.hpp"
+
+#include "cells/point_layout.hpp"
+#include "cells/running_sums.hpp"
+#include "cuts/tree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+
+// Compiles a function for processors with longer vectors as well; the loader takes what fits. It
+// compares and selects alone, so the results are the same.
+#if defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define RRCB_VECTOR_CLONES [[gnu::target_clones("default", "avx2", "arch=x86-64-v4")]]
+#else
+#define RRCB_VECTOR_CLONES
+#endif
+
+namespace rrcb {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+constexpr LocalIndex block_length = 512;
+
+constexpr int top_levels = 3;
+constexpr std::size_t num_top_nodes = 7;
+constexpr std::size_t num_exits = 8;
+
+/// The tree as a heap, whose nodes 2 k + 1 and 2 k + 2 lie below and above the plane of node k.
+/// Every point takes the same number of steps: below a part all nodes are that part.
+struct Heap {
+    std::vector<double> planes;
+    std::vector<double> ties;  ///< the planes on which points are told apart by position, or NaN
+    std::vector<std::int32_t> axes;
+    std::vector<double> parts;  ///< of the nodes of the last level
+    int depth = top_levels;
+    bool is_plain = true;  ///< every cut is a plane, none breaks ties by position
+
+    explicit Heap(const Cuts& cuts) {
+        while (cuts.num_parts > 1 << depth) ++depth;
+        const std::size_t num_exits_of_all = std::size_t{1} << depth;
+        planes.assign(num_exits_of_all - 1, infinity);
+        ties.assign(num_exits_of_all - 1, nowhere);
+        axes.assign(num_exits_of_all - 1, 0);
+        parts.resize(num_exits_of_all);
+        fill(cuts, root_of(cuts), 0);
+    }
+
+  private:
+    void fill(const Cuts& cuts, const Descent& at, std::size_t k) {
+        const bool is_last = k >= planes.size();
+        if (is_last) parts[k - planes.size()] = at.first_part;
+        if (is_last) return;
+        if (at.is_part()) {
+            fill(cuts, at, 2 * k + 1);
+            return fill(cuts, at, 2 * k + 2);
+        }
+        const Cut& cut = cuts.tree[at.node];
+        planes[k] = cut.at[static_cast<std::size_t>(cut.axis)];
+        axes[k] = cut.axis;
+        if (!is_plane(cut, cuts.dimension)) {
+            ties[k] = planes[k];
+            is_plain = false;
+        }
+        fill(cuts, at.lower(), 2 * k + 1);
+        fill(cuts, at.upper(), 2 * k + 2);
+    }
+};
+
+/// The coordinates of the points of a block, one array per axis.
+using Columns = std::array<std::array<double, block_length>, max_dimension>;
+
+/// Columns one behind the other, as one array.
+constexpr auto column_length = static_cast<std::int32_t>(block_length);
+
+/// The nodes of a heap below its top levels, or the parts where it is no deeper. As doubles, which
+/// vectors select as fast as they compare.
+std::array<double, num_exits> exits_of(const Heap& heap) {
+    std::array<double, num_exits> exits;
+    for (std::size_t k = 0; k < num_exits; ++k)
+        exits[k] =
+            heap.depth == top_levels ? heap.parts[k] : static_cast<double>(num_top_nodes + k);
+    return exits;
+}
+
+/// The exit of each point of a block. All comparisons are made, so that no branch depends on a
+/// point.
+RRCB_VECTOR_CLONES
+void descend_top(const Heap& heap, const std::array<double, num_exits>& exits,
+                 const Columns& columns, LocalIndex length, std::int32_t* found) {
+    const auto x = [&](std::size_t k) {
+        return columns[static_cast<std::size_t>(heap.axes[k])].data();
+    };
+    const double *x0 = x(0), *x1 = x(1), *x2 = x(2), *x3 = x(3), *x4 = x(4), *x5 = x(5), *x6 = x(6);
+    const double* p = heap.planes.data();
+    const double p0 = p[0], p1 = p[1], p2 = p[2], p3 = p[3], p4 = p[4], p5 = p[5], p6 = p[6];
+    const auto [e0, e1, e2, e3, e4, e5, e6, e7] = exits;
+    for (LocalIndex i = 0; i < length; ++i) {
+        const double pair0 = x3[i] >= p3 ? e1 : e0;
+        const double pair1 = x4[i] >= p4 ? e3 : e2;
+        const double pair2 = x5[i] >= p5 ? e5 : e4;
+        const double pair3 = x6[i] >= p6 ? e7 : e6;
+        const double below = x1[i] >= p1 ? pair1 : pair0;
+        const double above = x2[i] >= p2 ? pair3 : pair2;
+        found[i] = static_cast<std::int32_t>(x0[i] >= p0 ? above : below);
+    }
+}
+
+/// One level of the heap for each point of a block.
+RRCB_VECTOR_CLONES
+void descend_level(const Heap& heap, const double* columns, LocalIndex length,
+                   std::int32_t* nodes) {
+    const double* planes = heap.planes.data();
+    const std::int32_t* axes = heap.axes.data();
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(length); ++i) {
+        const std::int32_t node = nodes[i];
+        const double value = columns[axes[node] * column_length + i];
+        nodes[i] = 2 * node + 1 + (value >= planes[node] ? 1 : 0);
+    }
+}
+
+/// Copies a block of points; returns a number whose highest bit is 1 where a coordinate is not
+/// finite.
+template <class Layout>
+std::uint64_t copy_block(const Layout& x, LocalIndex first, LocalIndex length, Columns& columns) {
+    constexpr std::uint64_t magnitude = ~std::uint64_t{0} >> 1;
+    constexpr std::uint64_t lowest_of_exponent = std::uint64_t{1} << 52;
+    std::uint64_t carries = 0;
+    for (LocalIndex i = 0; i < length; ++i) {
+        for (int axis = 0; axis < Layout::dimension; ++axis) {
+            const double value = x(first + i, axis);
+            columns[static_cast<std::size_t>(axis)][i] = value;
+            // Only the largest exponent, that of infinities and NaN, carries into the sign.
+            carries |= (std::bit_cast<std::uint64_t>(value) & magnitude) + lowest_of_exponent;
+        }
+    }
+    return carries;
+}
+
+/// Finds the parts of points block by block.
+class Assigner {
+  public:
+    explicit Assigner(const Cuts& cuts) : cuts_(cuts), heap_(cuts), exits_(exits_of(heap_)) {}
+
+    /// Calls `visit(first, length)` after each block whose parts were written. Returns whether all
+    /// coordinates are finite.
+    template <class Visit>
+    bool run(const Points& points, std::span<Part> parts, Visit&& visit) {
+        std::uint64_t carries = 0;
+        visit_layout(points, [&](const auto& x) {
+            in_ranges(points.count, block_length, [&](LocalIndex first, LocalIndex last) {
+                const LocalIndex length = last - first;
+                carries |= copy_block(x, first, length, columns_);
+                assign_block(length, &parts[first]);
+                visit(first, length);
+            });
+        });
+        return carries >> 63 == 0;
+    }
+
+  private:
+    void assign_block(LocalIndex length, Part* parts) {
+        descend_top(heap_, exits_, columns_, length, parts);
+        for (int level = top_levels; level < heap_.depth; ++level)
+            descend_level(heap_, columns_[0].data(), length, parts);
+        if (heap_.depth > top_levels) {
+            const std::size_t first = heap_.planes.size();
+            for (LocalIndex i = 0; i < length; ++i)
+                parts[i] =
+                    static_cast<Part>(heap_.parts[static_cast<std::size_t>(parts[i]) - first]);
+        }
+        if (!heap_.is_plain) look_up_ties(length, parts);
+    }
+
+    /// Whether a point lies on a plane of its way on which position tells points apart.
+    bool is_tied(LocalIndex i) const {
+        std::size_t node = 0;
+        bool tied = false;
+        while (node < heap_.planes.size()) {
+            const double value = columns_[static_cast<std::size_t>(heap_.axes[node])][i];
+            tied |= value == heap_.ties[node];
+            node = 2 * node + 1 + (value >= heap_.planes[node] ? 1 : 0);
+        }
+        return tied;
+    }
+
+    void look_up_ties(LocalIndex length, Part* parts) const {
+        std::array<LocalIndex, block_length> tied;
+        std::size_t num_tied = 0;
+        for (LocalIndex i = 0; i < length; ++i) {
+            tied[num_tied] = i;
+            num_tied += is_tied(i);
+        }
+        for (const LocalIndex i : std::span(tied).first(num_tied)) {
+            Vector position{};
+            for (std::size_t a = 0; a < static_cast<std::size_t>(cuts_.dimension); ++a)
+                position[a] = columns_[a][i];
+            parts[i] = part_of(cuts_, position);
+        }
+    }
+
+    const Cuts& cuts_;
+    Heap heap_;
+    std::array<double, num_exits> exits_;
+    Columns columns_{};
+};
+
+/// Counts in turns, as a number is read again no sooner than it was written.
+class Counter {
+  public:
+    explicit Counter(std::size_t num_parts) : counts_(num_parts) {}
+
+    void add(std::span<const Part> parts) {
+        std::size_t i = 0;
+        for (; i + num_turns <= parts.size(); i += num_turns)
+            for (std::size_t turn = 0; turn < num_turns; ++turn)
+                ++counts_[static_cast<std::size_t>(parts[i + turn])][turn];
+        for (; i < parts.size(); ++i) ++counts_[static_cast<std::size_t>(parts[i])][0];
+    }
+
+    std::vector<double> totals() const {
+        std::vector<double> totals;
+        for (const auto& turns : counts_)
+            totals.push_back(static_cast<double>(turns[0] + turns[1] + turns[2] + turns[3]));
+        return totals;
+    }
+
+  private:
+    static constexpr std::size_t num_turns = 4;
+    std::vector<std::array<LocalIndex, num_turns>> counts_;
+};
+
+}  // namespace
+
+void assign(const Cuts& cuts, const Points& points, std::span<Part> parts) {
+    if (points.count == 0) return;
+    Assigner(cuts).run(points, parts, [](LocalIndex, LocalIndex) {});
+}
+
+PartTotals assign_and_count(const Cuts& cuts, const Points& points, std::span<Part> parts) {
+    const auto num_parts = static_cast<std::size_t>(cuts.num_parts);
+    PartTotals totals;
+    Counter counter(num_parts);
+    RunningSums<double> weights(num_parts);
+    LocalIndex num_added = 0;
+    totals.all_finite = Assigner(cuts).run(points, parts, [&](LocalIndex first, LocalIndex length) {
+        counter.add(parts.subspan(first, length));
+        if (points.weights.empty()) return;
+        for (LocalIndex i = first; i < first + length; ++i)
+            weights[static_cast<std::size_t>(parts[i])] += points.weights[i];
+        num_added += length;
+        if (num_added < weights.interval()) return;
+        weights.empty();
+        num_added = 0;
+    });
+    weights.empty();
+    totals.counts = counter.totals();
+    totals.weights = points.weights.empty() ? totals.counts : weights.totals();
+    return totals;
+}
+
+}  // namespace rrcb

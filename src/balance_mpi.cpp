@@ -4,7 +4,9 @@
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "cuts/binned_assignment.hpp"
+#include "cuts/direct_assignment.hpp"
 #include "gather/decision_mpi.hpp"
+#include "gather/earlier_cuts.hpp"
 #include "gather/keeping.hpp"
 #include "gather/merge_tree_mpi.hpp"
 #include "options/validation.hpp"
@@ -14,6 +16,7 @@
 #include <rrcb/stages.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -71,13 +74,13 @@ void gather(Contribution& mine, const Options& options, int dimension, Participa
 }
 
 /// Brings the decision of the root to every rank, or throws on all what failed on one. Collective.
-void decide_together(const Contribution& all, const Options& options, const Cuts* previous,
-                     Decision& decision, Participant& self) {
+void decide_together(const Contribution& all, const Options& options, Decision& decision,
+                     Participant& self) {
     if (mpi::rank_of(self.comm) == root) {
         self.hear_of(all.summary.failing_rank);
         self.attempt([&] {
             const StageScope stage(options.observer, Stage::bisection);
-            decide(all, options, previous, decision);
+            decide(all, options, decision);
         });
         decision.verdict.failing_rank = self.failing_rank();
     }
@@ -100,13 +103,10 @@ bool is_known(const Verdict& verdict) {
     return !std::isnan(verdict.current_imbalance);
 }
 
-/// Everything before the first message. Not collective.
-void prepare(const Points& points, const Options& given, const Cuts* previous, bool may_stay,
-             Work& work, const Participant& self) {
-    const StageScope stage(given.observer, Stage::moments);
-    const int num_ranks = mpi::size_of(self.comm);
-    Options& options = work.options = complete(given, num_ranks);
-    const Box box = check_points(points);
+/// Completes the options, and tells the other ranks of them and of the points.
+void introduce(const Points& points, const Options& given, const Box& box, const Cuts* previous,
+               Work& work, const Participant& self) {
+    Options& options = work.options = complete(given, mpi::size_of(self.comm));
     check_options(options, points.dimension);
     if (previous) check_previous(*previous, options, points.dimension);
     work.mine.summary = summarize(points, box);
@@ -114,18 +114,64 @@ void prepare(const Points& points, const Options& given, const Cuts* previous, b
     // Not before the ranks are compared by what they were given.
     if (previous) options.domain = DomainKind::analytic;
     normalize(options.part_sizes, options.num_parts);
-    const bool reads_current = !previous && reads_current_parts(options, num_ranks);
-    make_room(work.decision, options, points.dimension, reads_current);
+}
+
+/// Makes room for the points' parts and for what a refinement needs.
+void make_room_for_parts(const Points& points, bool counts, Work& work, const Participant& self) {
+    const Options& options = work.options;
     work.result.parts.resize(points.count);
-    if (is_refined(options) || reads_current) work.sums = PartSums(options.part_sizes.size());
+    if (is_refined(options) || counts) work.sums = PartSums(options.part_sizes.size());
     if (is_refined(options))
         work.refinement.emplace(options, points.dimension, mpi::rank_of(self.comm) == root,
                                 work.sums);
+}
+
+/// Everything before the first message. Not collective.
+void prepare(const Points& points, const Options& given, bool may_stay, Work& work,
+             const Participant& self) {
+    const StageScope stage(given.observer, Stage::moments);
+    const Box box = check_points(points);
+    introduce(points, given, box, nullptr, work, self);
+    const Options& options = work.options;
+    const bool reads_current = reads_current_parts(options, mpi::size_of(self.comm));
+    make_room(work.decision, options, points.dimension, reads_current);
+    make_room_for_parts(points, reads_current, work, self);
     work.binned = bin_by_options(points, box, options);
-    if (!previous) add_records(points, work.binned, options, work.mine);
+    add_records(points, work.binned, options, work.mine);
     if (reads_current && may_stay)
         append_place(place_of(points, box, work.mine.summary.weight), points.dimension,
                      work.mine.places);
+}
+
+/// The same where earlier cuts may stay: assigns the points by them, and counts the parts.
+void prepare_to_reuse(const Points& points, const Options& given, const Cuts& previous, Work& work,
+                      const Participant& self) {
+    const StageScope stage(given.observer, Stage::assignment);
+    check_arrays(points);
+    introduce(points, given, Box{}, &previous, work, self);
+    make_room_to_reuse(work.decision, work.options, previous);
+    make_room_for_parts(points, false, work, self);
+    if (!counts_earlier_parts(work.options)) {
+        check_points(points);
+        return;
+    }
+    PartTotals totals = assign_and_count(work.decision.bisection.cuts, points, work.result.parts);
+    if (!totals.all_finite) reject_coordinates(points);
+    work.mine.part_totals = std::move(totals.weights);
+    work.mine.part_totals.insert(work.mine.part_totals.end(), totals.counts.begin(),
+                                 totals.counts.end());
+}
+
+/// Smallest box that holds the points of all ranks. Collective.
+Box box_together(const Points& points, const Participant& self) {
+    Box box = bounding_box(points);
+    for (double& lower : box.lower) lower = -lower;
+    std::array ends{box.lower, box.upper};
+    mpi::check(
+        MPI_Allreduce(MPI_IN_PLACE, ends.data(), 2 * max_dimension, MPI_DOUBLE, MPI_MAX, self.comm),
+        "MPI_Allreduce");
+    for (double& lower : ends[0]) lower = -lower;
+    return {ends[0], ends[1]};
 }
 
 /// Tells what the parts weigh, as counted.
@@ -165,13 +211,33 @@ void refine_together(Work& work, Participant& self) {
     if (report.all_weights_zero) work.binned.points.weights = {};
     const double weight =
         report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
-    Estimate estimate{std::move(result.cuts), std::move(work.decision.bisection.brackets), weight,
-                      work.decision.verdict.common_weight, work.decision.verdict.current_imbalance};
+    Estimate estimate{std::move(result.cuts),
+                      std::move(work.decision.bisection.brackets),
+                      weight,
+                      work.decision.verdict.common_weight,
+                      work.decision.verdict.current_imbalance,
+                      std::move(work.decision.part_weights)};
     Refined refined = work.refinement->refine(std::move(estimate), work.binned, result.parts, self);
     report_measured(refined.imbalance, work.sums.take(), options, report);
     report.rounds = refined.rounds;
     report.coincident_cuts = refined.coincident_cuts;
     result.cuts = std::move(refined.cuts);
+}
+
+/// Ends with earlier cuts where their parts are even enough, or moves them. Collective.
+void reuse_together(const Points& points, Work& work, Participant& self) {
+    const Options& options = work.options;
+    Report& report = work.result.report;
+    const bool is_good = report.measured_imbalance <= options.imbalance_tolerance;
+    if (is_good || !is_refined(options) || report.num_points == 0) {
+        report.rounds = is_refined(options) ? 1 : 0;
+        report_measured(report.measured_imbalance, std::move(work.decision.part_weights), options,
+                        report);
+        return;
+    }
+    bracket_earlier(work.result.cuts, box_together(points, self), work.decision.bisection.brackets);
+    self.attempt([&] { work.binned = bin_by_options(points, bounding_box(points), options); });
+    refine_together(work, self);
 }
 
 /// Leaves the points in the parts that they lie in. Not collective.
@@ -215,12 +281,15 @@ Balance balance(const Points& points, const Options& given, const Cuts* previous
                 Participant& self) {
     Work work;
     work.options.observer = given.observer;
-    self.attempt([&] { prepare(points, given, previous, may_stay, work, self); });
+    self.attempt([&] {
+        previous ? prepare_to_reuse(points, given, *previous, work, self)
+                 : prepare(points, given, may_stay, work, self);
+    });
     gather(work.mine, work.options, points.dimension, self);
-    decide_together(work.mine, work.options, previous, work.decision, self);
+    decide_together(work.mine, work.options, work.decision, self);
     work.result.report = report_of(work.decision.verdict, work.options.num_parts);
     work.result.cuts = std::move(work.decision.bisection.cuts);
-    divide_together(points, work, self);
+    previous ? reuse_together(points, work, self) : divide_together(points, work, self);
     return std::move(work.result);
 }
 

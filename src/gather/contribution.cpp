@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace rrcb {
@@ -107,6 +108,12 @@ void join(Summary& mine, const Summary& next) {
 }
 
 void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t most) {
+    const auto first_total = mine.records.end() - next.num_total_doubles;
+    // Others than here come from a rank that asked for something else.
+    if (std::ssize(mine.part_totals) == next.num_total_doubles)
+        std::transform(first_total, mine.records.end(), mine.part_totals.begin(),
+                       mine.part_totals.begin(), std::plus<>());
+    mine.records.erase(first_total, mine.records.end());
     const auto first_place = mine.records.end() - next.num_place_doubles;
     mine.places.insert(mine.places.end(), first_place, mine.records.end());
     mine.records.erase(first_place, mine.records.end());

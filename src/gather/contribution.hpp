@@ -25,7 +25,8 @@ struct Summary {
     std::int64_t num_points = 0;
     std::int64_t num_cells = 0;  ///< or points, where these are the records
     std::int64_t num_doubles = 0;
-    std::int64_t num_place_doubles = 0;  ///< the last of them
+    std::int64_t num_place_doubles = 0;  ///< of them, behind the cells
+    std::int64_t num_total_doubles = 0;  ///< of them, the last ones
     double weight = 0;
     double lightest = std::numeric_limits<double>::infinity();  ///< weight of one point
     double heaviest = 0;
@@ -39,6 +40,8 @@ struct Contribution {
     Summary summary;
     std::vector<double> records;   ///< the moments of their cells
     std::vector<double> places{};  ///< of their points, a Place each, where the root wants them
+    /// Weights in the parts of earlier cuts, then numbers of points in them, where these count.
+    std::vector<double> part_totals{};
     std::vector<double> points{};  ///< of one rank, in place of cells, until the root wants them
 };
 
@@ -64,8 +67,9 @@ std::size_t most_cells(const Options& options);
 /// Adds the totals of the ranks that follow, and what stands in their way.
 void join(Summary& mine, const Summary& next);
 
-/// Takes in the records and places of the ranks that follow, already at the end of `mine.records`:
-/// joins the summaries, and coarsens where there are too many cells. Not collective.
+/// Takes in the records, places and part totals of the ranks that follow, already at the end of
+/// `mine.records`: joins the summaries, adds the totals up, and coarsens where there are too many
+/// cells. Not collective.
 void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t most);
 
 /// Domain that the root bisects, from the contributions of all ranks.

@@ -3,7 +3,7 @@
 #include "bisection/bisection.hpp"
 #include "bisection/domain_kinds.hpp"
 #include "collective/communicator.hpp"
-#include "cuts/tree.hpp"
+#include "gather/earlier_cuts.hpp"
 #include "gather/keeping.hpp"
 
 #include <rrcb/error.hpp>
@@ -63,58 +63,11 @@ void check_together(const Summary& summary) {
                     "the sum of the weights of all ranks overflows; scale them down");
 }
 
-/// Earlier cuts with brackets about them, as wide as estimated cuts of an even cloud would have.
-void bracket_previous(const Cuts& cuts, Descent at, Box box, int depth,
-                      std::vector<Bracket>& brackets) {
-    if (at.is_part()) return;
-    const Cut& cut = cuts.tree[at.node];
-    const auto axis = static_cast<std::size_t>(cut.axis);
-    const double value = std::clamp(cut.at[axis], box.lower[axis], box.upper[axis]);
-    const double margin = expected_error(depth);
-    brackets.push_back({std::lerp(value, box.lower[axis], 2 * margin),
-                        std::nextafter(std::lerp(value, box.upper[axis], 2 * margin),
-                                       std::numeric_limits<double>::infinity())});
-    Box below = box;
-    below.upper[axis] = value;
-    bracket_previous(cuts, at.lower(), below, depth + 1, brackets);
-    box.lower[axis] = value;
-    bracket_previous(cuts, at.upper(), box, depth + 1, brackets);
-}
-
-/// Makes earlier cuts such as the options ask for: planes, and nothing in parts of size 0.
-void fit(const Options& options, Descent at, Cuts& cuts) {
-    if (at.is_part()) return;
-    Cut& cut = cuts.tree[at.node];
-    const auto sizes = std::span(options.part_sizes)
-                           .subspan(static_cast<std::size_t>(at.first_part),
-                                    static_cast<std::size_t>(at.num_parts));
-    const double share = share_below(sizes);
-    const auto axis = static_cast<std::size_t>(cut.axis);
-    double value = cut.at[axis];
-    if (share <= 0) value = -std::numeric_limits<double>::infinity();
-    if (share >= 1) value = std::numeric_limits<double>::infinity();
-    if (options.plain_cuts || value != cut.at[axis]) {
-        cut.divides = 0;
-        cut.at.fill(-std::numeric_limits<double>::infinity());
-    }
-    cut.at[axis] = value;
-    fit(options, at.lower(), cuts);
-    fit(options, at.upper(), cuts);
-}
-
-Bisection reuse(const Cuts& previous, const Options& options, const Box& box, bool with_brackets) {
-    Bisection bisection;
-    bisection.cuts = previous;
-    fit(options, root_of(previous), bisection.cuts);
-    if (with_brackets && box.lower[0] <= box.upper[0])
-        bracket_previous(bisection.cuts, root_of(previous), box, 0, bisection.brackets);
-    return bisection;
-}
-
 /// Calls `visit` with each of the arrays that the message holds: of the current parts where they
-/// stay, of the new cuts otherwise.
+/// stay, of the new cuts otherwise; of earlier cuts, which all ranks have, what their parts weigh.
 template <class Visit>
 void for_each_array(Decision& decision, Visit&& visit) {
+    if (decision.reuses) return visit(std::span(decision.part_weights));
     const bool stays = decision.verdict.stays != 0;
     visit(std::span(stays ? decision.current.cuts.tree : decision.bisection.cuts.tree));
     if (stays) visit(std::span(decision.current.part_weights));
@@ -151,6 +104,16 @@ void broadcast_head(Head& head, Verdict& verdict, const Participant& self) {
     fail_together(verdict.failing_rank, self);
 }
 
+/// Tells what the parts of earlier cuts weigh, where the ranks have counted them.
+void weigh_parts(const Contribution& all, const Options& options, Decision& decision) {
+    const std::size_t num_parts = decision.part_weights.size();
+    if (num_parts == 0) return;
+    const std::span<const double> totals(all.part_totals);
+    std::ranges::copy(all.summary.weight > 0 ? totals.first(num_parts) : totals.last(num_parts),
+                      decision.part_weights.begin());
+    decision.verdict.measured_imbalance = imbalance(decision.part_weights, options.part_sizes);
+}
+
 /// Reads the current parts from the places of all ranks, where these are one part each.
 void weigh_current(const Contribution& all, const Options& options, Decision& decision) {
     const Cuts& estimate = decision.bisection.cuts;
@@ -172,7 +135,7 @@ Report report_of(const Verdict& verdict, int num_parts) {
     report.num_records = verdict.num_records;
     report.total_weight = verdict.total_weight;
     report.estimated_imbalance = verdict.estimated_imbalance;
-    report.measured_imbalance = not_known;
+    report.measured_imbalance = verdict.measured_imbalance;
     report.least_imbalance = verdict.least_imbalance;
     report.all_weights_zero = verdict.num_points > 0 && verdict.total_weight == 0;
     report.surplus_parts =
@@ -183,6 +146,18 @@ Report report_of(const Verdict& verdict, int num_parts) {
 bool is_refined(const Options& options) {
     return options.refine != Refine::none && options.cut_rule == CutRule::weighted_fraction &&
            !traits_of(options.domain).sends_points;
+}
+
+bool counts_earlier_parts(const Options& options) {
+    return !is_refined(options) || options.refine != Refine::exact;
+}
+
+void make_room_to_reuse(Decision& decision, const Options& options, const Cuts& previous) {
+    decision.reuses = true;
+    decision.bisection.cuts = fitted(previous, options);
+    decision.bisection.brackets.reserve(is_refined(options) ? previous.tree.size() : 0);
+    decision.part_weights.resize(counts_earlier_parts(options) ? options.part_sizes.size() : 0);
+    decision.message.resize(std::span(decision.part_weights).size_bytes());
 }
 
 void make_room(Decision& decision, const Options& options, int dimension, bool may_stay) {
@@ -204,16 +179,17 @@ void make_room(Decision& decision, const Options& options, int dimension, bool m
     decision.message.resize(num_cuts * sizeof(Cut) + beside_cuts);
 }
 
-void decide(const Contribution& all, const Options& options, const Cuts* previous,
-            Decision& decision) {
+void decide(const Contribution& all, const Options& options, Decision& decision) {
     check_together(all.summary);
-    const int dimension = decision.bisection.cuts.dimension;
-    const bool with_brackets = is_refined(options);
     Bisection& bisection = decision.bisection;
-    bisection = previous ? reuse(*previous, options, all.summary.box, with_brackets)
-                         : bisect(build_domain(all, options, dimension), options, with_brackets);
-    bisection.brackets.resize(with_brackets ? bisection.cuts.tree.size() : 0);
+    if (!decision.reuses) {
+        const int dimension = bisection.cuts.dimension;
+        const bool with_brackets = is_refined(options);
+        bisection = bisect(build_domain(all, options, dimension), options, with_brackets);
+        bisection.brackets.resize(with_brackets ? bisection.cuts.tree.size() : 0);
+    }
     decision.verdict = verdict_of(all.summary, bisection, options.part_sizes);
+    if (decision.reuses) weigh_parts(all, options, decision);
     weigh_current(all, options, decision);
 }
 

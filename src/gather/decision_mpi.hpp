@@ -26,7 +26,8 @@ struct Verdict {
     double total_weight = 0;
     double estimated_imbalance = 1;
     double least_imbalance = 1;
-    double current_imbalance = not_known;  ///< of the parts that the ranks hold, where they do
+    double current_imbalance = not_known;   ///< of the parts that the ranks hold, where they do
+    double measured_imbalance = not_known;  ///< of the parts of earlier cuts, where all counted
 };
 
 /// What every rank expects of the root first, whatever it was asked for: the verdict, and as much
@@ -37,8 +38,10 @@ using Head = std::array<std::byte, 2048>;
 struct Decision {
     Verdict verdict;
     Bisection bisection;
-    CurrentParts current{};          ///< on all ranks once they were told that these stay
-    std::vector<std::byte> message;  ///< either of them on its way
+    CurrentParts current{};              ///< on all ranks once they were told that these stay
+    bool reuses = false;                 ///< the cuts are earlier ones, which all ranks have
+    std::vector<double> part_weights{};  ///< of the parts of these, where all counted
+    std::vector<std::byte> message;      ///< either of them on its way
 };
 
 /// Report on a partition that nobody has measured.
@@ -52,11 +55,17 @@ bool is_refined(const Options& options);
 /// collective.
 void make_room(Decision& decision, const Options& options, int dimension, bool may_stay);
 
-/// Bisects, at the root, what the ranks contributed; or takes the cuts of an earlier call. Finds
-/// out whether the current parts are so good that they stay. Throws Error when the ranks do not fit
-/// together.
-void decide(const Contribution& all, const Options& options, const Cuts* previous,
-            Decision& decision);
+/// True when the parts of earlier cuts are counted: they may be good enough.
+bool counts_earlier_parts(const Options& options);
+
+/// The same where earlier cuts are the decision, unless their parts turn out too uneven: takes the
+/// cuts, as the options ask for them. Not collective.
+void make_room_to_reuse(Decision& decision, const Options& options, const Cuts& previous);
+
+/// Bisects, at the root, what the ranks contributed; or looks at what they counted by earlier cuts.
+/// Finds out whether the current parts are so good that they stay. Throws Error when the ranks do
+/// not fit together.
+void decide(const Contribution& all, const Options& options, Decision& decision);
 
 /// Tells all ranks that they fit together, before what only some of them may be waiting for; or
 /// throws everywhere why they don't. Collective: the first message of broadcast(), which ranks that

@@ -47,8 +47,9 @@ void receive_records(std::vector<double>& records, std::size_t count, int from, 
 
 void send_up(Contribution& mine, int to, Participant& self) {
     if (!mine.summary.is_usable()) mine.records.clear();
-    mine.summary.num_place_doubles =
-        mine.summary.is_usable() ? static_cast<std::int64_t>(mine.places.size()) : 0;
+    const bool is_usable = mine.summary.is_usable();
+    mine.summary.num_place_doubles = is_usable ? std::ssize(mine.places) : 0;
+    mine.summary.num_total_doubles = is_usable ? std::ssize(mine.part_totals) : 0;
     mine.summary.num_doubles = static_cast<std::int64_t>(mine.records.size());
     send(std::as_bytes(std::span(&mine.summary, 1)), to, mpi::contribution_tag, self);
     send_records(mine.records, to, mpi::contribution_tag, self);
@@ -70,7 +71,9 @@ void merge_up(Contribution& mine, int dimension, const MergeTree& tree, std::siz
     // In one message with the cells.
     if (rank != 0)
         self.attempt([&] {
-            mine.records.insert(mine.records.end(), mine.places.begin(), mine.places.end());
+            std::vector<double>& records = mine.records;
+            records.insert(records.end(), mine.places.begin(), mine.places.end());
+            records.insert(records.end(), mine.part_totals.begin(), mine.part_totals.end());
         });
     if (self.failed()) mine.summary.failing_rank = rank;
     if (rank != 0) send_up(mine, tree.parent(rank), self);

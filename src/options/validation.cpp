@@ -53,22 +53,6 @@ std::string tally(std::size_t bad) {
            " on this rank)";
 }
 
-[[noreturn]] void reject_coordinates(const Points& points) {
-    std::size_t bad = 0;
-    LocalIndex first = points.count;
-    int first_axis = 0;
-    for (LocalIndex i = 0; i < points.count; ++i) {
-        for (int axis = 0; axis < points.dimension; ++axis) {
-            if (std::isfinite(points.coordinate(i, axis))) continue;
-            if (bad++ > 0) continue;
-            first = i;
-            first_axis = axis;
-        }
-    }
-    reject("coordinate of object " + std::to_string(first) + " on axis " +
-           std::to_string(first_axis) + " is NaN or infinite" + tally(bad));
-}
-
 void check_weights(const Points& points) {
     std::size_t bad = 0;
     double sum = 0;
@@ -146,11 +130,31 @@ void check_options(const Options& options, int dimension) {
     }
 }
 
-Box check_points(const Points& points) {
+void reject_coordinates(const Points& points) {
+    std::size_t bad = 0;
+    LocalIndex first = points.count;
+    int first_axis = 0;
+    for (LocalIndex i = 0; i < points.count; ++i) {
+        for (int axis = 0; axis < points.dimension; ++axis) {
+            if (std::isfinite(points.coordinate(i, axis))) continue;
+            if (bad++ > 0) continue;
+            first = i;
+            first_axis = axis;
+        }
+    }
+    reject("coordinate of object " + std::to_string(first) + " on axis " +
+           std::to_string(first_axis) + " is NaN or infinite" + tally(bad));
+}
+
+void check_arrays(const Points& points) {
     require(points.dimension >= 1 && points.dimension <= max_dimension,
             "points must have 1, 2 or 3 dimensions, also on a rank without points");
     check_lengths(points);
     check_weights(points);
+}
+
+Box check_points(const Points& points) {
+    check_arrays(points);
     const Box box = bounding_box(points);
     for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a)
         if (std::isnan(box.lower[a])) reject_coordinates(points);

@@ -9,6 +9,13 @@ namespace rrcb {
 /// Throws Error naming the option and its range when `options` can't be used.
 void check_options(const Options& options, int dimension);
 
+/// Throws Error when the arrays of the points do not fit together, or weights are unusable.
+void check_arrays(const Points& points);
+
+/// Throws the Error that names the first coordinate that is NaN or infinite, of points that have
+/// one, and how many there are.
+[[noreturn]] void reject_coordinates(const Points& points);
+
 /// Box of the points; throws Error naming the first object and how many there are when they are
 /// unusable.
 Box check_points(const Points& points);

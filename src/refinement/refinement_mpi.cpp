@@ -40,7 +40,9 @@ Refined Refinement::refine(Estimate&& estimate, const BinnedPoints& binned, std:
     rule_ = {sizes, options_.imbalance_tolerance, estimate_.common_weight,
              estimate_.total_weight / std::accumulate(sizes.begin(), sizes.end(), 0.0),
              options_.refine == Refine::exact};
-    if (rule_.is_exact || !accept_estimate(binned, parts, self)) {
+    const bool was_counted = !estimate_.part_weights.empty();
+    refined_.rounds = was_counted ? 1 : 0;
+    if (rule_.is_exact || was_counted || !accept_estimate(binned, parts, self)) {
         search_all_levels(binned, parts, self);
         const bool missed = refined_.imbalance > options_.imbalance_tolerance;
         if (missed && !rule_.is_exact) search_exactly(binned, parts, self);

@@ -22,6 +22,8 @@ struct Estimate {
     double common_weight = 0;       ///< weight of each point where all weigh the same, else 0
     /// Of the parts that may stay instead; NaN where there are none.
     double current_imbalance = std::numeric_limits<double>::quiet_NaN();
+    /// Of the parts that the cuts make, where they have been counted and are not good enough.
+    std::vector<double> part_weights{};
 };
 
 /// Refined cuts and how even the parts really are; the same on every rank. The weights of the parts

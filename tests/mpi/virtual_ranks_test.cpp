@@ -85,7 +85,7 @@ TEST_P(ManyRanks, send_the_root_a_bounded_number_of_cells_and_are_balanced_all_t
 
     Decision decision;
     make_room(decision, ranks.options, 2, false);
-    decide(all, ranks.options, nullptr, decision);
+    decide(all, ranks.options, decision);
     const Points points = ranks.points();
     const BinnedPoints binned = bin_by_options(points, bounding_box(points), ranks.options);
     PartSums sums(ranks.options.part_sizes.size());

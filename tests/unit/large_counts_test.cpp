@@ -83,7 +83,7 @@ TEST(LargeCounts, are_divided_and_reported_by_the_root) {
     options.refine = Refine::none;
     Decision decision;
     make_room(decision, options, 1, false);
-    decide(large_contribution(options), options, nullptr, decision);
+    decide(large_contribution(options), options, decision);
     // Half of the weight is two thirds of the first cell's.
     EXPECT_DOUBLE_EQ(decision.bisection.cuts.tree[0].at[0], 2.0 / 3);
     const Report report = report_of(decision.verdict, 2);

@@ -1,0 +1,63 @@
+#include "gather/earlier_cuts.hpp"
+
+#include "bisection/bisection.hpp"
+#include "cuts/tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace rrcb {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+void bracket_node(const Cuts& cuts, const Descent& at, Box box, int depth,
+                  std::vector<Bracket>& brackets) {
+    if (at.is_part()) return;
+    const Cut& cut = cuts.tree[at.node];
+    const auto axis = static_cast<std::size_t>(cut.axis);
+    const double value = std::clamp(cut.at[axis], box.lower[axis], box.upper[axis]);
+    const double margin = expected_error(depth);
+    brackets.push_back({std::lerp(value, box.lower[axis], 2 * margin),
+                        std::nextafter(std::lerp(value, box.upper[axis], 2 * margin), infinity)});
+    Box below = box;
+    below.upper[axis] = value;
+    bracket_node(cuts, at.lower(), below, depth + 1, brackets);
+    box.lower[axis] = value;
+    bracket_node(cuts, at.upper(), box, depth + 1, brackets);
+}
+
+void fit(const Options& options, const Descent& at, Cuts& cuts) {
+    if (at.is_part()) return;
+    Cut& cut = cuts.tree[at.node];
+    const auto sizes = std::span(options.part_sizes)
+                           .subspan(static_cast<std::size_t>(at.first_part),
+                                    static_cast<std::size_t>(at.num_parts));
+    const double share = share_below(sizes);
+    const auto axis = static_cast<std::size_t>(cut.axis);
+    double value = cut.at[axis];
+    if (share <= 0) value = -infinity;
+    if (share >= 1) value = infinity;
+    if (options.plain_cuts || value != cut.at[axis]) cut.at.fill(-infinity);
+    cut.divides = 0;
+    cut.at[axis] = value;
+    fit(options, at.lower(), cuts);
+    fit(options, at.upper(), cuts);
+}
+
+}  // namespace
+
+Cuts fitted(const Cuts& previous, const Options& options) {
+    Cuts cuts = previous;
+    fit(options, root_of(cuts), cuts);
+    return cuts;
+}
+
+void bracket_earlier(const Cuts& cuts, const Box& box, std::vector<Bracket>& brackets) {
+    if (box.lower[0] <= box.upper[0]) bracket_node(cuts, root_of(cuts), box, 0, brackets);
+}
+
+}  // namespace rrcb

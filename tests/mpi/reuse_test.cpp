@@ -1,0 +1,240 @@
+// Calls that start from the cuts of an earlier one: these stay while they are good enough, at the
+// cost of one assignment and one count.
+#include "held_points.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/error.hpp>
+#include <rrcb/quality.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <numeric>
+#include <vector>
+
+namespace {
+
+std::atomic<std::size_t> bytes_allocated = 0;
+int num_collectives = 0;
+
+}  // namespace
+
+[[gnu::noinline]] void* operator new(std::size_t size) {
+    bytes_allocated += size;
+    void* memory = std::malloc(size);
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+
+int MPI_Bcast(void* buffer, int count, MPI_Datatype type, int root, MPI_Comm comm) {
+    ++num_collectives;
+    return PMPI_Bcast(buffer, count, type, root, comm);
+}
+int MPI_Reduce(const void* in, void* out, int count, MPI_Datatype type, MPI_Op op, int root,
+               MPI_Comm comm) {
+    ++num_collectives;
+    return PMPI_Reduce(in, out, count, type, op, root, comm);
+}
+int MPI_Allreduce(const void* in, void* out, int count, MPI_Datatype type, MPI_Op op,
+                  MPI_Comm comm) {
+    ++num_collectives;
+    return PMPI_Allreduce(in, out, count, type, op, comm);
+}
+
+namespace rrcb {
+namespace {
+
+using test::HeldPoints;
+using test::num_ranks;
+using test::rank;
+using test::Share;
+
+/// The same points on every rank: a lattice, on whose cuts many of them lie, or at random.
+HeldPoints cloud(int dimension, std::size_t count, bool is_lattice) {
+    HeldPoints all{dimension, test::uniform_cloud(count, dimension, 21)};
+    if (is_lattice)
+        for (double& x : all.coordinates) x = std::floor(12 * x);
+    all.scatter();
+    return all;
+}
+
+/// What each part weighs over all ranks, by looking up every point; by count without weight.
+std::vector<double> weights_by_look_up(const HeldPoints& all, const Cuts& cuts) {
+    const bool by_count = std::ranges::all_of(all.weights, [](double w) { return w == 0; });
+    const Points points = interleaved_points(all.coordinates, all.dimension);
+    std::vector<double> weights(static_cast<std::size_t>(cuts.num_parts));
+    for (std::size_t i = 0; i < points.count; ++i)
+        weights[static_cast<std::size_t>(part_of(cuts, points.position(i)))] +=
+            by_count ? 1 : all.weights[i];
+    return weights;
+}
+
+bool same_cuts(const Cuts& a, const Cuts& b) {
+    return std::ranges::equal(a.tree, b.tree, [](const Cut& one, const Cut& other) {
+        return one.axis == other.axis && one.at == other.at;
+    });
+}
+
+Options with_parts(int num_parts, double tolerance) {
+    Options options;
+    options.num_parts = num_parts;
+    options.imbalance_tolerance = tolerance;
+    return options;
+}
+
+TEST(Reuse, keeps_cuts_within_the_tolerance_and_tells_what_their_parts_weigh) {
+    for (const bool is_lattice : {false, true})
+        for (const int dimension : {1, 2, 3})
+            for (const int num_parts : {1, 5, 24}) {
+                HeldPoints all = cloud(dimension, 3000, is_lattice && dimension > 1);
+                for (const double weight : {-1.0, 0.0, 0.25}) {
+                    if (weight >= 0) all.weights.assign(all.count(), weight);
+                    const Share mine(all);
+                    const Options options = with_parts(num_parts, 1.2);
+                    const Balance first = balance(mine.points(), options, MPI_COMM_WORLD);
+                    const Balance second =
+                        balance(mine.points(), options, MPI_COMM_WORLD, first.cuts);
+                    EXPECT_TRUE(same_cuts(second.cuts, first.cuts));
+                    const Points points = mine.points();
+                    for (std::size_t i = 0; i < points.count; ++i)
+                        ASSERT_EQ(second.parts[i], part_of(first.cuts, points.position(i)));
+                    const auto weights = weights_by_look_up(all, first.cuts);
+                    EXPECT_EQ(second.report.part_weights, weights);
+                    EXPECT_EQ(second.report.measured_imbalance, imbalance(weights));
+                    EXPECT_TRUE(second.report.within_tolerance);
+                    EXPECT_EQ(second.report.num_points, 3000);
+                    EXPECT_EQ(second.report.all_weights_zero, weight == 0);
+                }
+            }
+}
+
+TEST(Reuse, without_refinement_keeps_any_cuts_and_measures_them) {
+    const HeldPoints all = cloud(2, 2000, false);
+    const Share mine(all);
+    Options options = with_parts(3, 1.01);
+    options.refine = Refine::none;
+    const Cuts poor{
+        2, 3, {Cut{0, 0, {0.1, -INFINITY, -INFINITY}}, Cut{1, 0, {-INFINITY, 0.9, -INFINITY}}}};
+    const Balance result = balance(mine.points(), options, MPI_COMM_WORLD, poor);
+    EXPECT_TRUE(same_cuts(result.cuts, poor));
+    EXPECT_EQ(result.report.part_weights, weights_by_look_up(all, poor));
+    EXPECT_FALSE(result.report.within_tolerance);
+}
+
+TEST(Reuse, takes_two_collectives_and_no_memory_that_grows_with_the_points) {
+    std::size_t bytes[2] = {0, 0};
+    for (const std::size_t count : {std::size_t{1000}, std::size_t{100000}}) {
+        const std::vector<double> mine =
+            test::uniform_cloud(count, 2, static_cast<unsigned>(rank() + 1));
+        const Points points = interleaved_points(mine, 2);
+        const Options options = with_parts(8, 1.05);
+        const Balance first = balance(points, options, MPI_COMM_WORLD);
+        num_collectives = 0;
+        const std::size_t before = bytes_allocated;
+        const Balance second = balance(points, options, MPI_COMM_WORLD, first.cuts);
+        bytes[count == 1000 ? 0 : 1] = bytes_allocated - before - count * sizeof(Part);
+        EXPECT_LE(num_collectives, 2);
+        EXPECT_EQ(second.report.rounds, 1);
+    }
+    EXPECT_EQ(bytes[0], bytes[1]);
+}
+
+TEST(Reuse, moves_cuts_beyond_the_tolerance) {
+    for (const double tolerance : {1.01, 1.1}) {
+        HeldPoints all = cloud(2, 6000, false);
+        const Options options = with_parts(7, tolerance);
+        const Share before(all);
+        const Cuts first = balance(before.points(), options, MPI_COMM_WORLD).cuts;
+        for (double& x : all.coordinates) x *= x;
+        const Share mine(all);
+        const Balance second = balance(mine.points(), options, MPI_COMM_WORLD, first);
+        EXPECT_LE(imbalance(weights_by_look_up(all, second.cuts)), tolerance);
+        EXPECT_EQ(second.report.part_weights, weights_by_look_up(all, second.cuts));
+        EXPECT_FALSE(same_cuts(second.cuts, first));
+        for (std::size_t k = 0; k < first.tree.size(); ++k)
+            EXPECT_EQ(second.cuts.tree[k].axis, first.tree[k].axis);
+    }
+}
+
+/// Expects the same error on every rank, which names `what`.
+template <class Call>
+void expect_error(Call&& call, const std::string& what) {
+    try {
+        call();
+        ADD_FAILURE() << "nothing was thrown, not " << what;
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+    }
+}
+
+TEST(Reuse, throws_on_every_rank_what_is_wrong_on_one) {
+    const Options options = with_parts(4, 1.05);
+    std::vector<double> mine = test::uniform_cloud(700, 2, static_cast<unsigned>(rank() + 1));
+    const Cuts cuts = balance(interleaved_points(mine, 2), options, MPI_COMM_WORLD).cuts;
+    const auto call = [&](const Cuts& previous, std::span<const double> weights = {}) {
+        balance(interleaved_points(mine, 2, weights), options, MPI_COMM_WORLD, previous);
+    };
+    const bool is_last = test::is_last_rank();
+    if (num_ranks() > 1) {
+        Cuts others = cuts;
+        if (is_last) others.tree[1].at.fill(7);
+        expect_error([&] { call(others); }, "previous differs between rank");
+        expect_error(
+            [&] {
+                balance(interleaved_points(mine, 2), with_parts(is_last ? 5 : 4, 1.05),
+                        MPI_COMM_WORLD, is_last ? Cuts{2, 5, {Cut{}, Cut{}, Cut{}, Cut{}}} : cuts);
+            },
+            "num_parts differs between rank");
+        expect_error(
+            [&] {
+                if (is_last)
+                    balance(interleaved_points(mine, 2), options, MPI_COMM_WORLD);
+                else
+                    call(cuts);
+            },
+            "previous differs between rank");
+    }
+    expect_error(
+        [&] {
+            call(is_last ? Cuts{2, 3, {Cut{}, Cut{}}} : cuts);
+        },
+        "previous cuts must have");
+    std::vector<double> weights(700, 1.0);
+    if (is_last) weights[3] = -1;
+    expect_error([&] { call(cuts, weights); }, "weight of object 3");
+    std::vector<double> giant(700, is_last ? 2e305 : 1e305);
+    if (num_ranks() > 2) expect_error([&] { call(cuts, giant); }, "overflows");
+    if (is_last) mine[601] = std::nan("");
+    expect_error([&] { call(cuts); }, "coordinate of object 300 on axis 1");
+    if (is_last) mine[601] = 0.5;
+    call(cuts);
+}
+
+TEST(Reuse, goes_on_where_ranks_are_empty) {
+    HeldPoints all = cloud(2, 500, false);
+    std::ranges::fill(all.owners, num_ranks() / 2);
+    const Share mine(all);
+    const Options options = with_parts(3, 1.05);
+    const Cuts cuts = balance(mine.points(), options, MPI_COMM_WORLD).cuts;
+    EXPECT_EQ(balance(mine.points(), options, MPI_COMM_WORLD, cuts).report.part_weights,
+              weights_by_look_up(all, cuts));
+    Points none;
+    none.dimension = 2;
+    const Balance empty = balance(none, options, MPI_COMM_WORLD, cuts);
+    EXPECT_EQ(empty.report.part_weights, std::vector<double>(3, 0.0));
+    EXPECT_EQ(empty.report.measured_imbalance, 1);
+}
+
+}  // namespace
+}  // namespace rrcb

@@ -94,7 +94,8 @@ struct Work {
     BinnedPoints binned;
     Contribution mine;
     Decision decision;
-    PartSums sums;  ///< where parts are counted
+    PartTotals totals;  ///< of this rank, by earlier cuts
+    PartSums sums;      ///< where parts are counted
     std::optional<Refinement> refinement;
     Balance result;
 };
@@ -155,9 +156,10 @@ void prepare_to_reuse(const Points& points, const Options& given, const Cuts& pr
         check_points(points);
         return;
     }
-    PartTotals totals = assign_and_count(work.decision.bisection.cuts, points, work.result.parts);
+    work.totals = assign_and_count(work.decision.bisection.cuts, points, work.result.parts);
+    const PartTotals& totals = work.totals;
     if (!totals.all_finite) reject_coordinates(points);
-    work.mine.part_totals = std::move(totals.weights);
+    work.mine.part_totals = totals.weights;
     work.mine.part_totals.insert(work.mine.part_totals.end(), totals.counts.begin(),
                                  totals.counts.end());
 }
@@ -216,7 +218,9 @@ void refine_together(Work& work, Participant& self) {
                       weight,
                       work.decision.verdict.common_weight,
                       work.decision.verdict.current_imbalance,
-                      std::move(work.decision.part_weights)};
+                      !work.decision.part_weights.empty(),
+                      work.decision.verdict.heaviest,
+                      work.decision.reuses};
     Refined refined = work.refinement->refine(std::move(estimate), work.binned, result.parts, self);
     report_measured(refined.imbalance, work.sums.take(), options, report);
     report.rounds = refined.rounds;
@@ -236,6 +240,9 @@ void reuse_together(const Points& points, Work& work, Participant& self) {
         return;
     }
     bracket_earlier(work.result.cuts, box_together(points, self), work.decision.bisection.brackets);
+    if (counts_earlier_parts(options))
+        work.sums.set(report.all_weights_zero ? work.totals.counts : work.totals.weights,
+                      work.decision.part_weights);
     self.attempt([&] { work.binned = bin_by_options(points, bounding_box(points), options); });
     refine_together(work, self);
 }

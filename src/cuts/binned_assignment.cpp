@@ -20,16 +20,6 @@ struct Rule {
     std::array<Part, 3> parts{undecided, undecided, undecided};
 };
 
-/// The node where the cuts first part a box, or the part that holds all of it.
-Descent first_crossing(const Cuts& cuts, const Box& box, Descent at) {
-    while (!at.is_part()) {
-        const Sides sides = sides_of(box, cuts.tree[at.node], cuts.dimension);
-        if (sides.below && sides.above) break;
-        at = sides.above ? at.upper() : at.lower();
-    }
-    return at;
-}
-
 Rule rule_of(const Cuts& cuts, const Box& box) {
     const Descent at = first_crossing(cuts, box, root_of(cuts));
     if (at.is_part()) return {0, 0, {at.first_part, at.first_part, at.first_part}};

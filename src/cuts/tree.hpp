@@ -35,6 +35,16 @@ inline Sides sides_of(const Box& box, const Cut& cut, int dimension) {
     return {!is_above(cut, box.lower, dimension), is_above(cut, box.upper, dimension)};
 }
 
+/// The node at or below `at` where the cuts first part a box, or the part that holds all of it.
+inline Descent first_crossing(const Cuts& cuts, const Box& box, Descent at) {
+    while (!at.is_part()) {
+        const Sides sides = sides_of(box, cuts.tree[at.node], cuts.dimension);
+        if (sides.below && sides.above) break;
+        at = sides.above ? at.upper() : at.lower();
+    }
+    return at;
+}
+
 /// True when a closed box holds the place of points that lie on both sides of a cut.
 inline bool holds_divided_points(const Box& box, const Cut& cut, int dimension) {
     if (cut.divides == 0) return false;

@@ -38,6 +38,7 @@ Verdict verdict_of(const Summary& summary, const Bisection& bisection,
                    std::span<const double> part_sizes) {
     Verdict verdict;
     verdict.common_weight = common_weight_of(summary);
+    verdict.heaviest = summary.weight == 0 ? 1 : summary.heaviest;
     verdict.num_points = summary.num_points;
     verdict.num_records = summary.num_cells;
     verdict.total_weight = summary.weight;

@@ -20,6 +20,7 @@ inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 struct Verdict {
     std::int32_t failing_rank = no_rank;
     std::int32_t stays = 0;    ///< 1: the current parts stay
+    double heaviest = 0;       ///< weight of the heaviest point, 1 by count
     double common_weight = 0;  ///< weight of each point where all weigh the same, else 0
     std::int64_t num_points = 0;
     std::int64_t num_records = 0;

@@ -1,7 +1,5 @@
 #include "refinement/fragments.hpp"
 
-#include "cuts/tree.hpp"
-
 #include <algorithm>
 
 namespace rrcb {
@@ -131,6 +129,26 @@ std::pair<std::vector<Fragment>, std::vector<Fragment>> split(
         }
     }
     return {std::move(lower), std::move(upper)};
+}
+
+void write_parts(const std::vector<Fragment>& fragments, const Cuts& cuts, const Descent& at,
+                 const SortedPoints& points, std::span<Part> parts, std::span<double> weights) {
+    std::ranges::fill(weights.subspan(static_cast<std::size_t>(at.first_part),
+                                      static_cast<std::size_t>(at.num_parts)),
+                      0.0);
+    for (const Fragment& fragment : fragments) {
+        const Descent from = first_crossing(cuts, fragment.box, at);
+        if (from.is_part()) weights[static_cast<std::size_t>(from.first_part)] += fragment.weight;
+        for (LocalIndex i = fragment.begin; i < fragment.end; ++i) {
+            Descent to = from;
+            while (!to.is_part())
+                to = is_above(cuts.tree[to.node], points.position(i), cuts.dimension) ? to.upper()
+                                                                                      : to.lower();
+            parts[points.original[i]] = to.first_part;
+            if (!from.is_part())
+                weights[static_cast<std::size_t>(to.first_part)] += points.weight(i);
+        }
+    }
 }
 
 double write_part(const std::vector<Fragment>& fragments, Part part, const SortedPoints& points,

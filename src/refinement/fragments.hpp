@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cells/sorted_points.hpp"
+#include "cuts/tree.hpp"
 
 #include <rrcb/cuts.hpp>
 
@@ -36,6 +37,11 @@ double weight_at(const Cut& cut, const std::vector<Fragment>& fragments,
 /// change places within the fragment.
 std::pair<std::vector<Fragment>, std::vector<Fragment>> split(
     const std::vector<Fragment>& fragments, const Cut& cut, const Lot& lot, SortedPoints& points);
+
+/// Sets the part of every point of the fragments by the cuts at `at` and below, and writes what the
+/// parts there weigh into `weights`, which has one entry per part of the whole tree.
+void write_parts(const std::vector<Fragment>& fragments, const Cuts& cuts, const Descent& at,
+                 const SortedPoints& points, std::span<Part> parts, std::span<double> weights);
 
 /// Sets the part of every point of the fragments, by its original index; returns their weight.
 double write_part(const std::vector<Fragment>& fragments, Part part, const SortedPoints& points,

@@ -116,7 +116,8 @@ void LevelSearch::decide_counted(std::size_t k, std::span<const double> histogra
         // What the node weighs is known when all of it has been counted.
         if (search.stage == CutSearch::over_fragments)
             targets_[k] =
-                rule.target_of(nodes_[k]->at, std::accumulate(weights.begin(), weights.end(), 0.0));
+                rule.target_of(nodes_[k]->at, std::accumulate(weights.begin(), weights.end(), 0.0),
+                               nodes_[k]->below);
         decide_by_bins(search, targets_[k], layout, histogram);
     }
 }

@@ -15,6 +15,8 @@ struct Node {
     Descent at;
     std::vector<Fragment> fragments;
     double weight = 0;
+    bool is_counted = false;     ///< what its parts weigh by the cuts as they are
+    double below = not_counted;  ///< weight below the cut as it is, where that was counted
 };
 
 /// Searches for all cuts of one level at once, in step on all ranks.

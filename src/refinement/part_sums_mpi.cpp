@@ -5,6 +5,8 @@
 
 #include <rrcb/quality.hpp>
 
+#include <algorithm>
+
 namespace rrcb {
 
 double PartSums::add_up(std::span<const double> part_sizes, const Participant& self) {
@@ -18,6 +20,11 @@ double PartSums::add_up(std::span<const double> part_sizes, const Participant& s
     mpi::broadcast(std::as_writable_bytes(std::span(sums_)), root, self.comm);
     if (sums_[num_parts] > 0) fail_together(some_rank, self);
     return sums_.back();
+}
+
+void PartSums::set(std::span<const double> here, std::span<const double> sums) {
+    std::ranges::copy(here, here_.begin());
+    std::ranges::copy(sums, sums_.begin());
 }
 
 std::vector<double> PartSums::take() {

@@ -25,6 +25,12 @@ class PartSums {
     /// has failed. `part_sizes` has one entry per part.
     double add_up(std::span<const double> part_sizes, const Participant& self);
 
+    /// Takes what was counted and added up elsewhere.
+    void set(std::span<const double> here, std::span<const double> sums);
+
+    /// What was added up last, one entry per part.
+    std::span<const double> sums() const { return std::span(sums_).first(sums_.size() - 2); }
+
     /// The sums, one entry per part. What takes them leaves none.
     std::vector<double> take();
 

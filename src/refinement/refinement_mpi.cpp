@@ -1,9 +1,11 @@
 #include "refinement/refinement_mpi.hpp"
 
+#include "bisection/bisection.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/binned_assignment.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -13,6 +15,10 @@ namespace rrcb {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double sum_of(std::span<const double> values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
 
 /// Keeps all points off a side whose parts have no size; another cut without a search stays.
 void set_aside(double share, Cut& cut) {
@@ -37,12 +43,20 @@ Refined Refinement::refine(Estimate&& estimate, const BinnedPoints& binned, std:
                            Participant& self) {
     const auto& sizes = options_.part_sizes;
     estimate_ = std::move(estimate);
-    rule_ = {sizes, options_.imbalance_tolerance, estimate_.common_weight,
-             estimate_.total_weight / std::accumulate(sizes.begin(), sizes.end(), 0.0),
-             options_.refine == Refine::exact};
-    const bool was_counted = !estimate_.part_weights.empty();
-    refined_.rounds = was_counted ? 1 : 0;
-    if (rule_.is_exact || was_counted || !accept_estimate(binned, parts, self)) {
+    rule_ = {sizes,
+             options_.imbalance_tolerance,
+             estimate_.common_weight,
+             estimate_.heaviest,
+             estimate_.total_weight / sum_of(sizes),
+             0,
+             options_.refine == Refine::exact,
+             estimate_.is_earlier};
+    if (estimate_.is_counted) {
+        refined_.rounds = 1;
+        rule_.counted_weight = sum_of(sums_.sums());
+    }
+    const bool is_known = rule_.is_exact || estimate_.is_counted;
+    if (is_known || !accept_estimate(binned, parts, self)) {
         search_all_levels(binned, parts, self);
         const bool missed = refined_.imbalance > options_.imbalance_tolerance;
         if (missed && !rule_.is_exact) search_exactly(binned, parts, self);
@@ -66,16 +80,19 @@ bool Refinement::accept_estimate(const BinnedPoints& binned, std::span<Part> par
 /// Adds up what the parts weigh on all ranks, on every rank. Collective; throws where one failed.
 void Refinement::measure(const Participant& self) {
     refined_.imbalance = sums_.add_up(options_.part_sizes, self);
+    rule_.counted_weight = sum_of(sums_.sums());
 }
 
 /// Finds the cuts of one level after the other, and the parts at the end. Collective.
 void Refinement::search_all_levels(const BinnedPoints& binned, std::span<Part> parts,
                                    Participant& self) {
-    nodes_.push_back({root_of(estimate_.cuts), {}, estimate_.total_weight});
+    nodes_.push_back({root_of(estimate_.cuts), {}, estimate_.total_weight, !rule_.is_exact});
     self.attempt([&] {
         points_ = sort_by_cell(binned);
         nodes_[0].fragments = cell_fragments(points_);
     });
+    depth_ = 0;
+    const bool recounts = rule_.is_earlier && !rule_.is_exact;
     // All nodes are of one level; together with the parts written they hold every point once.
     while (!nodes_.empty()) {
         write_parts(parts);
@@ -83,14 +100,19 @@ void Refinement::search_all_levels(const BinnedPoints& binned, std::span<Part> p
         refined_.rounds += level_.run(rule_, self);
         place_in_lots(self);
         descend(self);
+        if (recounts) recount(parts, self);
+        ++depth_;
     }
-    measure(self);
+    if (!recounts) measure(self);
 }
 
-/// Writes the parts that the level holds, and takes them out of it.
+/// Writes the parts that the level holds, and takes them out of it, with nodes whose parts were
+/// written when they were counted.
 void Refinement::write_parts(std::span<Part> parts) {
     std::erase_if(nodes_, [&](const Node& node) {
+        if (node.is_counted && rule_.are_within(node.at, sums_.sums())) return true;
         if (!node.at.is_part()) return false;
+        if (node.is_counted) return true;
         const Part part = node.at.first_part;
         sums_.here()[static_cast<std::size_t>(part)] =
             write_part(node.fragments, part, points_, parts);
@@ -101,11 +123,32 @@ void Refinement::write_parts(std::span<Part> parts) {
 /// True when counting finds the cut of a node: when it divides weight among parts on both sides.
 bool Refinement::needs_search(const Node& node) const {
     const double share = rule_.share_below(node.at);
-    return share > 0 && share < 1 && node.weight > 0;
+    const bool stays = node.is_counted && rule_.may_stay(node.at, sums_.sums());
+    return share > 0 && share < 1 && node.weight > 0 && !stays;
+}
+
+/// Counts the parts below cuts that moved, where there are any, by the cuts as they are. Collective
+/// there.
+void Refinement::recount(std::span<Part> parts, Participant& self) {
+    if (std::ranges::all_of(nodes_, &Node::is_counted)) return;
+    self.attempt([&] {
+        for (const Node& node : nodes_)
+            if (!node.is_counted)
+                rrcb::write_parts(node.fragments, estimate_.cuts, node.at, points_, parts,
+                                  sums_.here());
+    });
+    measure(self);
+    ++refined_.rounds;
+    for (Node& node : nodes_) node.is_counted = true;
 }
 
 void Refinement::start_level() {
     level_.clear();
+    for (Node& node : nodes_) {
+        if (!node.is_counted) continue;
+        node.weight = weight_of(node.at, sums_.sums());
+        node.below = weight_of(node.at.lower(), sums_.sums());
+    }
     for (const Node& node : nodes_)
         if (needs_search(node)) level_.add(node, first_search(node), points_);
 }
@@ -117,10 +160,33 @@ CutSearch Refinement::first_search(const Node& node) const {
     search.num_axes = options_.plain_cuts ? 1 : estimate_.cuts.dimension;
     search.divides = options_.coincident == Coincident::divide && !options_.plain_cuts ? 1 : 0;
     search.cut.at.fill(-infinity);
-    search.lower = estimate_.brackets[node.at.node].lower;
-    search.upper = estimate_.brackets[node.at.node].upper;
+    const Bracket bracket = bracket_of(node);
+    search.lower = bracket.lower;
+    search.upper = bracket.upper;
     search.quantum = quantum_for(node.weight);
     return search;
+}
+
+/// Where the cut of a node is looked for: to a tolerance in wider bins than for an exact cut, so
+/// that a cut that is far off is found as soon; where it is known how far, on one side of it.
+Bracket Refinement::bracket_of(const Node& node) const {
+    constexpr double largest = std::numeric_limits<double>::max();
+    constexpr double caution = 2;
+    double widths = 4;
+    Bracket bracket = estimate_.brackets[node.at.node];
+    if (rule_.is_exact) return bracket;
+    const Cut& cut = estimate_.cuts.tree[node.at.node];
+    const double value =
+        std::clamp(cut.at[static_cast<std::size_t>(cut.axis)], bracket.lower, bracket.upper);
+    if (node.is_counted) {
+        const double target = rule_.target_of(node.at, node.weight, node.below).target;
+        const double error = (target - node.below) / node.weight;
+        widths *= std::max(1.0, caution * std::abs(error) / expected_error(depth_));
+        if (error < 0) bracket.upper = std::nextafter(value, infinity);
+        if (error > 0) bracket.lower = value;
+    }
+    return {std::max(std::lerp(value, bracket.lower, widths), -largest),
+            std::lerp(value, bracket.upper, widths)};
 }
 
 /// Finds where in its lot each rank begins, for the cuts that divide one. Collective where there
@@ -151,6 +217,7 @@ void Refinement::descend(Participant& self) {
     for (Node& node : nodes_) {
         Cut& cut = estimate_.cuts.tree[node.at.node];
         double below = 0;
+        bool is_counted = false;
         Lot lot;
         if (needs_search(node)) {
             const CutSearch& search = level_.search(next++);
@@ -163,12 +230,14 @@ void Refinement::descend(Participant& self) {
         } else {
             const double share = rule_.share_below(node.at);
             set_aside(share, cut);
-            below = share > 0 ? node.weight : 0;
+            is_counted = node.is_counted && share > 0 && share < 1;
+            below = is_counted ? node.below : share > 0 ? node.weight : 0;
         }
         std::pair<std::vector<Fragment>, std::vector<Fragment>> halves;
         self.attempt([&] { halves = split(node.fragments, cut, lot, points_); });
-        children_.push_back({node.at.lower(), std::move(halves.first), below});
-        children_.push_back({node.at.upper(), std::move(halves.second), node.weight - below});
+        children_.push_back({node.at.lower(), std::move(halves.first), below, is_counted});
+        children_.push_back(
+            {node.at.upper(), std::move(halves.second), node.weight - below, is_counted});
     }
     std::swap(nodes_, children_);
 }

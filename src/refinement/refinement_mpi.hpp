@@ -22,8 +22,9 @@ struct Estimate {
     double common_weight = 0;       ///< weight of each point where all weigh the same, else 0
     /// Of the parts that may stay instead; NaN where there are none.
     double current_imbalance = std::numeric_limits<double>::quiet_NaN();
-    /// Of the parts that the cuts make, where they have been counted and are not good enough.
-    std::vector<double> part_weights{};
+    bool is_counted = false;  ///< `parts` and the sums hold what the cuts make, not good enough
+    double heaviest = 0;      ///< weight of the heaviest point
+    bool is_earlier = false;  ///< the cuts are those of an earlier call
 };
 
 /// Refined cuts and how even the parts really are; the same on every rank. The weights of the parts
@@ -48,10 +49,12 @@ class Refinement {
     /// Refines the cuts of `estimate`, once.
     ///
     /// Collective. Writes the part of each point into `parts`; where the estimate is not good
-    /// enough, and the current parts neither, it works on a sorted copy of the points. Where a
-    /// tolerance is missed because slack was spent on upper levels that lower ones need, it
-    /// searches once more, exactly, and keeps the better cuts. Without weight anywhere the cuts
-    /// stay. What fails on one rank, before or here, is thrown on all, see LevelSearch::run.
+    /// enough, and the current parts neither, it works on a sorted copy of the points. To a
+    /// tolerance, cuts that divide well enough stay, with what lies below them. Where earlier cuts
+    /// move, the parts below are counted anew, as most cuts there stay. Where a tolerance is missed
+    /// because slack was spent on upper levels that lower ones need, it searches once more,
+    /// exactly, and keeps the better cuts. Without weight anywhere the cuts stay. What fails on one
+    /// rank, before or here, is thrown on all, see LevelSearch::run.
     Refined refine(Estimate&& estimate, const BinnedPoints& binned, std::span<Part> parts,
                    Participant& self);
 
@@ -64,6 +67,8 @@ class Refinement {
     void write_parts(std::span<Part> parts);
     void start_level();
     CutSearch first_search(const Node& node) const;
+    Bracket bracket_of(const Node& node) const;
+    void recount(std::span<Part> parts, Participant& self);
     void place_in_lots(const Participant& self);
     void descend(Participant& self);
 
@@ -72,6 +77,7 @@ class Refinement {
     Estimate estimate_;
     TargetRule rule_;
     SortedPoints points_;         ///< where cuts are searched
+    int depth_ = 0;               ///< cuts above the current level
     std::vector<Node> nodes_;     ///< of the current level; capacity for any
     std::vector<Node> children_;  ///< of the next one
     LevelSearch level_;

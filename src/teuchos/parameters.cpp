@@ -92,7 +92,9 @@ struct Getter {
     void operator()(const Lists&) const {}
 };
 
-void add_dump(ParameterList& list) {
+void add_parameters_of_plug_in(ParameterList& list) {
+    add_number(list, "RRCB_SKIP_WITHIN", 0.0, {0.0, largest},
+               "Plug-in only: imbalance within which objects stay: a number, 1 or more; 0: none.");
     static constexpr Word words[] = {{"FAILURE", 0, "when a call fails"},
                                      {"ALWAYS", 1, "at every call"}};
     list.set("RRCB_DUMP", std::string(),
@@ -190,7 +192,7 @@ Teuchos::RCP<const ParameterList> valid_parameters() {
     static const Teuchos::RCP<const ParameterList> valid = [] {
         const auto list = Teuchos::parameterList("RRCB");
         for (const Option& option : option_table) visit_kind(option, Adder{*list, option});
-        add_dump(*list);
+        add_parameters_of_plug_in(*list);
         return list;
     }();
     return valid;

@@ -23,9 +23,9 @@ Teuchos::ParameterList read_parameters(const std::string& file);
 
 /// The options that a list asks for; what it does not name keeps its default.
 ///
-/// RRCB_DUMP and RRCB_DUMP_WHEN concern the plug-in alone and are checked only. A whole number is
-/// taken where a real one is due. Not collective; `balance` checks that ranks agree. Throws Error
-/// for an unknown name, a wrong type or a value out of range.
+/// RRCB_SKIP_WITHIN, RRCB_DUMP and RRCB_DUMP_WHEN concern the plug-in alone and are checked only. A
+/// whole number is taken where a real one is due. Not collective; `balance` checks that ranks
+/// agree. Throws Error for an unknown name, a wrong type or a value out of range.
 Options options_from(const Teuchos::ParameterList& list);
 
 /// Names and values of what a list sets, as Zoltan_Set_Param wants them; see zoltan_parameters.hpp.

@@ -1,6 +1,7 @@
 #include "zoltan/call/partition_mpi.hpp"
 
 #include "balance_mpi.hpp"
+#include "collective/communicator.hpp"
 #include "zoltan/call/average_cuts_mpi.hpp"
 #include "zoltan/call/fortran_mpi.hpp"
 #include "zoltan/call/frame_mpi.hpp"
@@ -9,7 +10,7 @@
 #include "zoltan/call/notices.hpp"
 #include "zoltan/call/rcb_options.hpp"
 #include "zoltan/call/renumber_mpi.hpp"
-#include "zoltan/call/rest.hpp"
+#include "zoltan/call/rest_mpi.hpp"
 #include "zoltan/call/vote_mpi.hpp"
 #include "zoltan/call/weights_mpi.hpp"
 #include "zoltan/dump/dump_mpi.hpp"
@@ -18,6 +19,7 @@
 #include "zoltan/real/zoltan_error.hpp"
 
 #include <rrcb/error.hpp>
+#include <rrcb/quality.hpp>
 
 #include <algorithm>
 #include <array>
@@ -60,6 +62,8 @@ LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Obj
                          state.parameters.return_lists != ReturnLists::none &&
                          is_at_rest(*state.rest, *state.kept, state.parameters, state.workspace,
                                     objects, state.communicator->rank());
+        status.is_as_cut = may_skip(state) && are_as_cut(*state.rest, *state.kept, objects,
+                                                         state.communicator->rank());
         return status;
     } catch (const ZoltanError& error) {
         return {error.code(), error.what()};
@@ -109,17 +113,32 @@ struct Call {
     const CallerLists& to;
     const Outcome& outcome;
     std::optional<KeptPartition> previous = {};
+    std::optional<Rest> rest = {};  ///< of the previous partition
 
     /// Whether nothing has changed on any rank since the last partition.
-    bool stays() const { return outcome.at_rest && outcome.differing == nullptr; }
+    bool is_at_rest() const { return outcome.at_rest && outcome.differing == nullptr; }
 };
 
 /// Takes the last partition out of the state: should this call fail, the next one must not build on
 /// it.
 void take_previous(Call& call) {
-    call.state.rest.reset();
+    call.rest = std::exchange(call.state.rest, std::nullopt);
     call.previous = std::exchange(call.state.kept, std::nullopt);
     if (!call.outcome.all_kept_cuts) call.previous.reset();
+}
+
+/// Whether the objects stay where the last partition put them: nothing has changed on any rank, or
+/// they lie as its cuts tell and their parts, counted, are even enough. Collective where they are.
+bool stays(Call& call) {
+    if (call.is_at_rest()) return true;
+    State& state = call.state;
+    const bool is_even =
+        call.outcome.all_as_cut &&
+        are_even(*call.rest, state.parameters.skip_within, state.communicator->get());
+    if (!is_even) return false;
+    state.rest = std::exchange(call.rest, std::nullopt);
+    state.kept = std::exchange(call.previous, std::nullopt);
+    return true;
 }
 
 /// Positions that are cut: in their principal axes where REDUCE_DIMENSIONS finds the objects flat.
@@ -175,6 +194,8 @@ Preparation prepare(const Call& call, const Layout& layout, const Objects& objec
         if (parameters.average_cuts != 0) made.average.emplace(num_parts);
         made.rest.dimension = objects.points.dimension;
         made.rest.checksums.resize(num_parts + 1);
+        made.rest.part_sizes = layout.part_sizes;
+        made.rest.part_weights.resize(num_parts);
     });
     return made;
 }
@@ -220,7 +241,7 @@ void serve_fortran(const Call& call, Partition& result, Participant& self) {
     result.with_caller = true;
 }
 
-/// Answers a call where nothing has changed on any rank since the last partition. Collective as
+/// Answers a call where the objects stay where the last partition put them. Collective as
 /// serve_fortran is.
 int stay(const Call& call, Objects&& objects, Partition& result) {
     State& state = call.state;
@@ -266,6 +287,10 @@ int balance_objects(const Call& call, Objects&& objects, Partition& result) {
     if (prepared.average)
         prepared.average->run(flat.points, balanced.parts, self.comm, balanced.cuts);
     Remap remap = prepared.renumbering->run(layout, objects, balanced.parts, self);
+    if (!layout.part_sizes.empty())
+        for (std::size_t part = 0; part < remap.numbers.size(); ++part)
+            prepared.rest.part_sizes[static_cast<std::size_t>(remap.numbers[part])] =
+                layout.part_sizes[part];
     list_exports(call, layout, std::move(objects), balanced, prepared.rest, result);
     select_lists(parameters, prepared.per_rank, self, result);
     serve_fortran(call, result, self);
@@ -316,7 +341,7 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
     const LocalStatus local = collect(zz, state, one_part_per_rank, objects);
     const Outcome outcome = vote(local, state);
     Call call{zz, state, function, to, outcome};
-    if (!call.stays()) take_previous(call);
+    if (!call.is_at_rest()) take_previous(call);
     dump_inputs(DumpReason::asked, call, objects, local);
     if (outcome.failed()) {
         fail(call, objects, {local.code, local.text.data(), outcome.failing_rank}, result);
@@ -324,8 +349,8 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
     }
     if (outcome.differing != nullptr) return refuse_difference(call, objects, result);
     try {
-        const int code = call.stays() ? stay(call, std::move(objects), result)
-                                      : balance_objects(call, std::move(objects), result);
+        const int code = stays(call) ? stay(call, std::move(objects), result)
+                                     : balance_objects(call, std::move(objects), result);
         return code == ZOLTAN_OK ? outcome.code : code;
     } catch (const ZoltanError& error) {
         return fail(call, objects, {error.code(), error.what()}, result);

@@ -32,6 +32,15 @@ bool read_dump_when(bool& always, std::string_view text) {
     return true;
 }
 
+bool read_imbalance(double& imbalance, std::string_view text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return false;
+    if (value != 0 && !(value >= 1 && std::isfinite(value))) return false;
+    imbalance = value;
+    return true;
+}
+
 /// Parameter that only the plug-in has: name, reader, and setter of the default.
 struct OwnParameter {
     std::string_view name;
@@ -46,6 +55,7 @@ constexpr OwnParameter of_plug_in(std::string_view name) {
 }
 
 constexpr OwnParameter own_parameters[] = {
+    of_plug_in<&Parameters::skip_within, read_imbalance>("RRCB_SKIP_WITHIN"),
     of_plug_in<&Parameters::dump_folder, read_folder>(dump_folder_name),
     of_plug_in<&Parameters::dump_always, read_dump_when>("RRCB_DUMP_WHEN"),
 };

@@ -50,6 +50,8 @@ struct Parameters {
     ReturnLists return_lists = ReturnLists::all;
     Options options = default_options();  ///< RRCB_* only; parts are filled in per call
 
+    double skip_within =
+        0;  ///< imbalance up to which objects stay without a look at new cuts; 0: none
     std::string dump_folder;   ///< where the inputs of calls go; empty: nowhere
     bool dump_always = false;  ///< the inputs of all calls, not only of failing ones
     std::map<std::string, std::string> given;  ///< all that was set, as it was set

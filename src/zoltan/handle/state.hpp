@@ -54,6 +54,8 @@ struct Rest {
     Report report;
     int dimension = 0;
     std::vector<std::uint64_t> checksums;  ///< of the objects of each part
+    std::vector<double> part_sizes{};      ///< relative; empty: equal
+    std::vector<double> part_weights{};    ///< room for one per part, to count in
 
     /// Whether checksums need positions. Cuts do not tell the part of objects in one place that are
     /// in several parts.

@@ -64,11 +64,22 @@ struct Balance {
 /// that round differently or treat subnormal numbers differently.
 Balance balance(const Points& points, const Options& options, MPI_Comm comm);
 
-/// The same, searched from the cuts of an earlier call in place of statistics.
+/// The same, from the cuts of an earlier call in place of statistics, for points that moved little
+/// since.
 ///
-/// Collective over `comm`. For points that moved little since: no cells are gathered, and the axes
-/// of `previous` stay. `previous` must be the same on every rank and have the dimension and number
-/// of parts asked for. With Refine::none the cuts stay as they are.
+/// Collective over `comm`. Every rank assigns its points by `previous` and counts them in that one
+/// pass; the counts travel up the tree of ranks, and one broadcast tells whether the cuts stay: no
+/// cells, no sorting, no memory that grows with the points but the result. With Refine::none they
+/// stay whatever was counted. To a tolerance they stay while the parts are within it. Beyond it a
+/// cut stays where each side of it is within the tolerance, or light enough for the cuts below to
+/// bring it there; any other moves to the nearest place where that holds, but for a sixteenth of
+/// the room that it has, or half a point. So few points change parts, which end near the tolerance
+/// and not near the mean. Cuts are searched from the top, and what lies below one that moved is
+/// counted once more. With Refine::exact all cuts are searched.
+///
+/// The axes of `previous` stay. `previous` must be the same on every rank and have the dimension
+/// and number of parts asked for. Points in one place that it divides are counted on the side where
+/// the look-up finds them. Report::kept, estimated_imbalance and num_records tell nothing here.
 Balance balance(const Points& points, const Options& options, MPI_Comm comm, const Cuts& previous);
 
 }  // namespace rrcb

@@ -11,7 +11,8 @@ enum class Stage {
     bisection,   ///< local to the root, and seen there alone
     broadcast,   ///< the cuts travel to every rank, which includes the wait for the root
     refinement,  ///< the cuts are moved by what the ranks hold, and the points assigned by them
-    assignment   ///< local: the points assigned by the estimated cuts, where none are refined
+    assignment   ///< local: the points assigned by the estimated cuts, where none are refined; by
+                 ///< earlier cuts before the gather
 };
 
 inline constexpr std::array stages = {Stage::moments,   Stage::gather,     Stage::bisection,

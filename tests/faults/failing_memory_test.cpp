@@ -75,10 +75,15 @@ TEST(FailingMemory, in_exact_cuts) {
 }
 
 TEST(FailingMemory, in_cuts_from_an_earlier_call) {
-    const Options options = refining(Refine::exact);
     const std::vector<double> coordinates = cloud_here(2);
-    const Cuts previous = balance(interleaved_points(coordinates, 2), options, MPI_COMM_WORLD).cuts;
-    fail_in_balance(options, &previous);
+    const Cuts good =
+        balance(interleaved_points(coordinates, 2), refining(Refine::exact), MPI_COMM_WORLD).cuts;
+    Cuts moved = good;
+    for (Cut& cut : moved.tree) cut.at[static_cast<std::size_t>(cut.axis)] += 0.05;
+    for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
+        fail_in_balance(refining(refine), &good);
+        fail_in_balance(refining(refine), &moved);
+    }
 }
 
 /// The cloud in slabs, one for each rank, but for a share of it, which the first one has as well.

@@ -103,6 +103,11 @@ TEST(FailingMpi, reaches_the_caller_of_balance_as_an_error_that_names_the_call) 
     const Cloud cloud;
     const Points points = cloud.points();
     expect_errors([&] { balance(points, Options{}, MPI_COMM_WORLD); });
+    const Cuts good = balance(points, Options{}, MPI_COMM_WORLD).cuts;
+    Cuts moved = good;
+    for (Cut& cut : moved.tree) cut.at[static_cast<std::size_t>(cut.axis)] *= 0.9;
+    for (const Cuts& previous : {good, moved})
+        expect_errors([&] { balance(points, Options{}, MPI_COMM_WORLD, previous); });
 }
 
 TEST(FailingMpi, reaches_the_caller_of_what_follows_a_balance) {

@@ -1,6 +1,6 @@
 #include "cells/sorted_points.hpp"
 #include "clouds.hpp"
-#include "cuts/binned_assignment.hpp"
+#include "cuts/direct_assignment.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/moments.hpp>
@@ -78,14 +78,10 @@ void moments(benchmark::State& state) {
 
 void assignment(benchmark::State& state) {
     Cuts cuts;
-    BinnedPoints binned;
     std::vector<Part> parts(static_cast<std::size_t>(state.range(0)));
     run(state, [&](const Points& points) {
-        if (cuts.tree.empty()) {
-            cuts = balance_alone(points).cuts;
-            binned = bin(points);
-        }
-        return assign(cuts, binned, parts);
+        if (cuts.tree.empty()) cuts = balance_alone(points).cuts;
+        return assign_and_count(cuts, points, parts).counts[0];
     });
 }
 

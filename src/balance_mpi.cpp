@@ -3,7 +3,6 @@
 #include "bisection/domain_kinds.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
-#include "cuts/binned_assignment.hpp"
 #include "cuts/direct_assignment.hpp"
 #include "gather/decision_mpi.hpp"
 #include "gather/earlier_cuts.hpp"
@@ -190,14 +189,12 @@ void assign_together(const Points& points, Work& work, Participant& self) {
     const StageScope stage(work.options.observer, Stage::assignment);
     Balance& result = work.result;
     const bool counts = is_known(work.decision.verdict);
-    if (counts && result.report.all_weights_zero) work.binned.points.weights = {};
+    Points counted = points;
+    if (result.report.all_weights_zero) counted.weights = {};
     self.attempt([&] {
-        if (traits_of(work.options.domain).sends_points) {
-            assign(result.cuts, points, result.parts);
-        } else {
-            const auto weights = assign(result.cuts, work.binned, result.parts);
-            if (counts) std::ranges::copy(weights, work.sums.here().begin());
-        }
+        if (!counts) return assign(result.cuts, points, result.parts);
+        const PartTotals totals = assign_and_count(result.cuts, counted, result.parts);
+        std::ranges::copy(totals.weights, work.sums.here().begin());
     });
     if (!counts) return agree(self);
     const double imbalance = work.sums.add_up(work.options.part_sizes, self);

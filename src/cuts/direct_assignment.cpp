@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -124,6 +125,27 @@ void descend_level(const Heap& heap, const double* columns, LocalIndex length,
     }
 }
 
+/// The same, and marks points on a plane on which position tells points apart.
+RRCB_VECTOR_CLONES
+void descend_tilted_level(const Heap& heap, const double* columns, LocalIndex length,
+                          std::int32_t* nodes, std::int32_t* tied) {
+    const double* planes = heap.planes.data();
+    const double* ties = heap.ties.data();
+    const std::int32_t* axes = heap.axes.data();
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(length); ++i) {
+        const std::int32_t node = nodes[i];
+        const double value = columns[axes[node] * column_length + i];
+        tied[i] |= value == ties[node] ? 1 : 0;
+        nodes[i] = 2 * node + 1 + (value >= planes[node] ? 1 : 0);
+    }
+}
+
+/// Marks the points on one such plane, wherever it ends.
+RRCB_VECTOR_CLONES
+void mark_tied(double tie, const double* x, LocalIndex length, std::int32_t* tied) {
+    for (LocalIndex i = 0; i < length; ++i) tied[i] |= x[i] == tie ? 1 : 0;
+}
+
 /// Copies a block of points; returns a number whose highest bit is 1 where a coordinate is not
 /// finite.
 template <class Layout>
@@ -165,38 +187,37 @@ class Assigner {
 
   private:
     void assign_block(LocalIndex length, Part* parts) {
+        const double* columns = columns_[0].data();
         descend_top(heap_, exits_, columns_, length, parts);
+        if (!heap_.is_plain) mark_tied_at_top(length);
         for (int level = top_levels; level < heap_.depth; ++level)
-            descend_level(heap_, columns_[0].data(), length, parts);
+            heap_.is_plain ? descend_level(heap_, columns, length, parts)
+                           : descend_tilted_level(heap_, columns, length, parts, tied_.data());
         if (heap_.depth > top_levels) {
             const std::size_t first = heap_.planes.size();
             for (LocalIndex i = 0; i < length; ++i)
                 parts[i] =
                     static_cast<Part>(heap_.parts[static_cast<std::size_t>(parts[i]) - first]);
         }
-        if (!heap_.is_plain) look_up_ties(length, parts);
+        if (!heap_.is_plain) look_up_tied(length, parts);
     }
 
-    /// Whether a point lies on a plane of its way on which position tells points apart.
-    bool is_tied(LocalIndex i) const {
-        std::size_t node = 0;
-        bool tied = false;
-        while (node < heap_.planes.size()) {
-            const double value = columns_[static_cast<std::size_t>(heap_.axes[node])][i];
-            tied |= value == heap_.ties[node];
-            node = 2 * node + 1 + (value >= heap_.planes[node] ? 1 : 0);
-        }
-        return tied;
+    void mark_tied_at_top(LocalIndex length) {
+        tied_.fill(0);
+        for (std::size_t k = 0; k < num_top_nodes; ++k)
+            if (!std::isnan(heap_.ties[k]))
+                mark_tied(heap_.ties[k], columns_[static_cast<std::size_t>(heap_.axes[k])].data(),
+                          length, tied_.data());
     }
 
-    void look_up_ties(LocalIndex length, Part* parts) const {
-        std::array<LocalIndex, block_length> tied;
-        std::size_t num_tied = 0;
+    void look_up_tied(LocalIndex length, Part* parts) const {
+        std::array<LocalIndex, block_length> left;
+        std::size_t num_left = 0;
         for (LocalIndex i = 0; i < length; ++i) {
-            tied[num_tied] = i;
-            num_tied += is_tied(i);
+            left[num_left] = i;
+            num_left += static_cast<std::size_t>(tied_[i]);
         }
-        for (const LocalIndex i : std::span(tied).first(num_tied)) {
+        for (const LocalIndex i : std::span(left).first(num_left)) {
             Vector position{};
             for (std::size_t a = 0; a < static_cast<std::size_t>(cuts_.dimension); ++a)
                 position[a] = columns_[a][i];
@@ -208,6 +229,7 @@ class Assigner {
     Heap heap_;
     std::array<double, num_exits> exits_;
     Columns columns_{};
+    std::array<std::int32_t, block_length> tied_{};  ///< 1: on a plane that position decides on
 };
 
 /// Counts in turns, as a number is read again no sooner than it was written.

@@ -2,7 +2,7 @@
 
 #include "bisection/bisection.hpp"
 #include "collective/communicator.hpp"
-#include "cuts/binned_assignment.hpp"
+#include "cuts/direct_assignment.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -69,8 +69,10 @@ Refined Refinement::refine(Estimate&& estimate, const BinnedPoints& binned, std:
 /// `parts` is complete, or the current parts are. Collective.
 bool Refinement::accept_estimate(const BinnedPoints& binned, std::span<Part> parts,
                                  Participant& self) {
-    self.attempt(
-        [&] { std::ranges::copy(assign(estimate_.cuts, binned, parts), sums_.here().begin()); });
+    self.attempt([&] {
+        const PartTotals totals = assign_and_count(estimate_.cuts, binned.points, parts);
+        std::ranges::copy(totals.weights, sums_.here().begin());
+    });
     measure(self);
     ++refined_.rounds;
     const double tolerance = options_.imbalance_tolerance;

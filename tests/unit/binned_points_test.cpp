@@ -1,6 +1,5 @@
 #include "../support/clouds.hpp"
 #include "cells/sorted_points.hpp"
-#include "cuts/binned_assignment.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +10,6 @@
 
 namespace rrcb {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 BinnedPoints bin(const Points& points, int cells_per_axis) {
     return bin_by_cell(points,
@@ -77,53 +74,6 @@ TEST(BinnedPoints, are_sorted_by_cell_in_the_order_they_came_in) {
     EXPECT_EQ(sorted.coordinates, (std::vector<double>{0, 0, 1, 3, 2, 3}));
     EXPECT_EQ(sorted.weights, (std::vector<double>{2, 6, 5, 1, 3, 4}));
     EXPECT_EQ(sorted.begins, (std::vector<LocalIndex>{0, 2, 3, 6}));
-}
-
-/// Points of a lattice, so that many lie on the cuts, in an order that jumps.
-std::vector<double> lattice(int side) {
-    std::vector<double> coordinates;
-    const int count = side * side;
-    for (int i = 0; i < count; ++i) {
-        const int k = static_cast<int>(static_cast<std::int64_t>(i) * 7919 % count);
-        coordinates.push_back(k % side);
-        coordinates.push_back(k / side);
-    }
-    return coordinates;
-}
-
-void expect_look_up(const Cuts& cuts, const BinnedPoints& binned) {
-    const Points& points = binned.points;
-    std::vector<Part> parts(points.count, -1);
-    const std::vector<double> weights = assign(cuts, binned, parts);
-    std::vector<double> expected(static_cast<std::size_t>(cuts.num_parts));
-    for (LocalIndex i = 0; i < points.count; ++i) {
-        const Part part = part_of(cuts, points.position(i));
-        EXPECT_EQ(parts[i], part) << "point " << i;
-        expected[static_cast<std::size_t>(part)] += points.weight(i);
-    }
-    EXPECT_EQ(weights, expected);
-}
-
-TEST(BinnedPoints, are_assigned_as_the_look_up_has_it) {
-    const std::vector<double> coordinates = lattice(60);
-    std::vector<double> weights(60 * 60);
-    std::iota(weights.begin(), weights.end(), 1);
-    // The second pair of cuts meets the first in the middle of a cell; ties are split by position.
-    const std::vector<Cuts> cases{
-        {2, 1, {}},
-        {2, 2, {{0, 0, {30, -infinity, 0}}}},
-        {2, 2, {{0, 0, {29, 17, 0}}}},
-        {2, 4, {{0, 0, {29, 17, 0}}, {1, 0, {-infinity, 31, 0}}, {1, 0, {12, 31, 0}}}},
-        {2, 4, {{0, 0, {29, -infinity, 0}}, {0, 0, {28, 3, 0}}, {0, 0, {30, -infinity, 0}}}},
-        {2, 3, {{0, 0, {-infinity, -infinity, 0}}, {1, 0, {5, infinity, 0}}}},
-    };
-    for (const Cuts& cuts : cases) {
-        for (const int cells : {1, 5, 16}) {
-            SCOPED_TRACE(std::to_string(cuts.num_parts) + " parts, mesh " + std::to_string(cells));
-            expect_look_up(cuts, bin(interleaved_points(coordinates, 2), cells));
-            expect_look_up(cuts, bin(interleaved_points(coordinates, 2, weights), cells));
-        }
-    }
 }
 
 }  // namespace

@@ -47,6 +47,7 @@ const std::map<std::string, std::string>& documentation() {
         {"every", "steps between rebalances, or auto (default): when they pay"},
         {"repeats", "timed calls of each method; 7"},
         {"seed", "seed of the cloud; 1"},
+        {"drift", "fraction of its extent by which the cloud moves between calls; 0"},
         {"only", "parts of the sweep, by commas: " + joined(Arguments().only)},
         {"out", "folder of the results; comparisons/out"},
     };
@@ -126,6 +127,7 @@ void check_combination(const Texts& texts) {
     const bool is_scene = sources == 0 || texts.given("scene");
     needs("points", texts.given("cloud") || texts.sweep, "--cloud or --sweep only; remove it");
     needs("dim", texts.given("cloud") || texts.sweep, "--cloud or --sweep only; remove it");
+    needs("drift", texts.given("cloud") && !texts.sweep, "--cloud only; remove it");
     needs("layout", texts.given("cloud") || texts.given("file") || texts.sweep,
           "--cloud, --file or --sweep only; remove it");
     needs("only", texts.sweep, "--sweep only; remove it");
@@ -204,6 +206,12 @@ Arguments read_arguments(int argc, char** argv) {
     read_integer(texts, "repeats", arguments.repeats, 1, 1000);
     read_integer<std::uint64_t>(texts, "seed", arguments.seed, 0,
                                 std::numeric_limits<std::uint64_t>::max());
+    if (texts.given("drift")) {
+        const std::optional<double> drift = read_number<double>(texts["drift"]);
+        if (!drift || !(*drift >= 0 && *drift <= 1))
+            throw Failure("--drift must be a number from 0 to 1, not '" + texts["drift"] + "'");
+        arguments.drift = *drift;
+    }
     if (texts.given("out")) arguments.out = texts["out"];
     choose_sweep(texts, arguments);
     return arguments;

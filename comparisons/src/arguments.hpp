@@ -35,6 +35,7 @@ struct Arguments {
     int every = 0;  ///< steps between rebalances; 0: a controller says when, of a sweep its default
     int repeats = 7;
     std::uint64_t seed = 1;
+    double drift = 0;  ///< of the cloud's points between calls, as a fraction of the extent
     std::string out = "comparisons/out";
     bool sweep = false;  ///< the study of settings in place of one comparison
     SweptClouds swept;

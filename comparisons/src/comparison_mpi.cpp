@@ -98,7 +98,8 @@ Comparison describe(const Workload& workload, const MeasurementPlan& plan, MPI_C
 
 Comparison compare_methods(const Workload& workload, const Arguments& arguments,
                            const ResultsFolder& folder, Progress& progress, MPI_Comm comm) {
-    Comparison comparison = describe(workload, {arguments.lists, arguments.repeats}, comm);
+    Comparison comparison = describe(
+        workload, {arguments.lists, arguments.repeats, arguments.drift, arguments.seed}, comm);
     std::vector<Method> methods = arguments.methods;
     const auto reference = std::ranges::find(methods, "zoltan-rcb", &Method::label);
     const bool is_twice = reference != methods.end();

@@ -1,5 +1,6 @@
 #include "measurement_mpi.hpp"
 
+#include "drift_mpi.hpp"
 #include "failure_mpi.hpp"
 #include "partitioner_mpi.hpp"
 #include "statistics.hpp"
@@ -9,6 +10,7 @@
 #include <zoltan.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -30,6 +32,7 @@ struct Candidate {
     std::vector<std::uint64_t> seeds;  ///< to be used in turn; none where there is no choice
     Measurement measurement;
     std::vector<Judgement> judgements;  ///< one per seed
+    std::vector<rrcb::Part> before;     ///< parts of the points before they moved last
 
     int num_judged() const { return std::max(1, static_cast<int>(seeds.size())); }
 };
@@ -108,8 +111,21 @@ Judgement judge(const Workload& workload, const std::vector<rrcb::Part>& parts, 
             rrcb::moved_fraction(workload.points(), parts, num_parts, comm)};
 }
 
+/// Share of the weight whose part is another than before. Collective over `comm`.
+double changed_fraction(const Workload& workload, const std::vector<rrcb::Part>& before,
+                        const std::vector<rrcb::Part>& parts, MPI_Comm comm) {
+    const rrcb::Points points = workload.points();
+    std::array<double, 2> sums{};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        sums[0] += parts[i] != before[i] ? points.weight(i) : 0;
+        sums[1] += points.weight(i);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, comm);
+    return sums[1] > 0 ? sums[0] / sums[1] : 0;
+}
+
 /// One call that is not timed; that of the first seed is counted.
-void count_and_judge(Candidate& candidate, const Workload& workload, MPI_Comm comm) {
+void count_and_judge(Candidate& candidate, const Workload& workload, bool drifts, MPI_Comm comm) {
     start_counting_traffic();
     const int code = candidate.partitioner->partition();
     const Traffic traffic = stop_counting_traffic();
@@ -122,7 +138,10 @@ void count_and_judge(Candidate& candidate, const Workload& workload, MPI_Comm co
     note_code(candidate, code, comm);
     if (!candidate.partitioner) return;
     std::vector<rrcb::Part> parts = candidate.partitioner->parts();
-    candidate.judgements.push_back(judge(workload, parts, comm));
+    Judgement judgement = judge(workload, parts, comm);
+    if (drifts)
+        judgement.moved_fraction = changed_fraction(workload, candidate.before, parts, comm);
+    candidate.judgements.push_back(judgement);
     if (is_first) result.parts = std::move(parts);
 }
 
@@ -144,9 +163,9 @@ Measurement concluded(Candidate&& candidate) {
     return result;
 }
 
-/// A first call that is not timed, then the repeats.
-void time_in_turns(std::span<Candidate> candidates, int repeats, Progress& progress,
-                   MPI_Comm comm) {
+/// A first call that is not timed, then the repeats; between them the points drift.
+void time_in_turns(std::span<Candidate> candidates, int repeats, const Drift& drift,
+                   Workload& workload, Progress& progress, MPI_Comm comm) {
     for (int call = 0; call < repeats + 1; ++call) {
         for (Candidate& candidate : candidates) {
             progress.advance();
@@ -154,19 +173,22 @@ void time_in_turns(std::span<Candidate> candidates, int repeats, Progress& progr
             choose_seed(candidate, std::max(0, call - 1));
             const double elapsed = timed_call(candidate, comm);
             if (call > 0) candidate.measurement.times_ms.push_back(elapsed);
-            if (candidate.partitioner) candidate.partitioner->free_lists();
+            if (!candidate.partitioner) continue;
+            if (drift.moves()) candidate.before = candidate.partitioner->parts();
+            candidate.partitioner->free_lists();
         }
+        drift.move(workload);
     }
 }
 
-void judge_all(std::span<Candidate> candidates, const Workload& workload, Progress& progress,
-               MPI_Comm comm) {
+void judge_all(std::span<Candidate> candidates, const Workload& workload, bool drifts,
+               Progress& progress, MPI_Comm comm) {
     for (Candidate& candidate : candidates) {
         for (int call = 0; call < candidate.num_judged(); ++call) {
             progress.advance();
             if (!candidate.partitioner) continue;
             choose_seed(candidate, call);
-            count_and_judge(candidate, workload, comm);
+            count_and_judge(candidate, workload, drifts, comm);
             if (candidate.partitioner) candidate.partitioner->free_lists();
         }
     }
@@ -176,15 +198,17 @@ void judge_all(std::span<Candidate> candidates, const Workload& workload, Progre
 
 std::vector<Measurement> measure(const Workload& workload, std::span<const Method> methods,
                                  const MeasurementPlan& plan, Progress& progress, MPI_Comm comm) {
+    Workload moving = workload;
+    const Drift drift(workload, plan.drift, plan.seed, comm);
     std::vector<Candidate> candidates;
     int num_calls = 0;
     for (const Method& method : methods) {
-        candidates.push_back(make_candidate(workload, method, plan.lists, comm));
+        candidates.push_back(make_candidate(moving, method, plan.lists, comm));
         num_calls += plan.repeats + 1 + candidates.back().num_judged();
     }
     progress.start(workload.name + ": methods", num_calls);
-    time_in_turns(candidates, plan.repeats, progress, comm);
-    judge_all(candidates, workload, progress, comm);
+    time_in_turns(candidates, plan.repeats, drift, moving, progress, comm);
+    judge_all(candidates, moving, drift.moves(), progress, comm);
     std::vector<Measurement> measurements;
     for (Candidate& candidate : candidates) {
         measurements.push_back(concluded(std::move(candidate)));

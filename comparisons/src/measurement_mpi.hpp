@@ -7,6 +7,7 @@
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <map>
 #include <span>
 #include <string>
@@ -32,6 +33,9 @@ struct Measurement {
 struct MeasurementPlan {
     Lists lists = Lists::parts;
     int repeats = 7;
+    double drift = 0;  ///< fraction of the extent by which the points move between two rounds of
+                       ///< calls; then the moved fraction is that of the last of these moves
+    std::uint64_t seed = 1;  ///< of the drift
 };
 
 /// Seeds that a method is judged over when its points are pseudo-random.

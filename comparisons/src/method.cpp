@@ -49,7 +49,11 @@ const std::vector<Entry>& entries() {
          DomainKind::sampled,
          Refine::none,
          {"mesh", "cut", "k", "fraction", "seed"}},
-        {"rrcb", "RRCB", DomainKind::analytic, Refine::automatic, {"mesh", "cut", "refine", "tol"}},
+        {"rrcb",
+         "RRCB",
+         DomainKind::analytic,
+         Refine::automatic,
+         {"mesh", "cut", "refine", "tol", "reuse"}},
         {"rrcb-exact", "RRCB", DomainKind::analytic, Refine::exact, {"mesh"}},
         {"rrcb-arrays",
          on_arrays,
@@ -86,6 +90,10 @@ void apply(Method& method, const Entry& entry, std::string_view assignment) {
                       std::string(name) + "'; it takes " +
                       (entry.keys.empty() ? "none" : joined(entry.keys)));
     }
+    if (name == "reuse" && equals != assignment.npos)
+        throw Failure("--methods: " + method.label + ": reuse takes no value");
+    method.reuses = method.reuses || name == "reuse";
+    if (name == "reuse") return;
     const Key& key = *std::ranges::find(keys, name, &Key::name);
     const std::string_view value =
         equals == assignment.npos ? "" : trim(assignment.substr(equals + 1));
@@ -194,6 +202,10 @@ ZoltanParameters zoltan_parameters(const Method& method, Lists lists) {
         {"DEBUG_LEVEL", "0"}, {"LB_METHOD", method.lb_method}, {"RETURN_LISTS", lists_name(lists)}};
     if (method.lb_method == on_arrays) parameters = {{"function", on_arrays}};
     if (method.options) add_options(parameters, *method.options);
+    if (!method.reuses) return parameters;
+    parameters.emplace_back("RCB_REUSE", "1");
+    // The driver's points stay on their ranks, by which the parts are not to be numbered anew.
+    parameters.emplace_back("REMAP", "0");
     return parameters;
 }
 

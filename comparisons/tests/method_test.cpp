@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace comparisons {
 namespace {
 
@@ -92,11 +94,19 @@ TEST(Method, varies_with_the_seed_unless_it_is_given) {
     EXPECT_FALSE(varies_with_seed(read_method("zoltan-rcb")));
 }
 
+TEST(Method, starts_from_its_last_cuts_where_asked) {
+    const ZoltanParameters reuses = zoltan_parameters(read_method("rrcb[tol=1.05,reuse]"), {});
+    const std::pair<std::string, std::string> expected{"RCB_REUSE", "1"};
+    EXPECT_EQ(std::ranges::count(reuses, expected), 1);
+    EXPECT_EQ(std::ranges::count(zoltan_parameters(read_method("rrcb"), {}), expected), 0);
+    EXPECT_EQ(error_of("rrcb[reuse=1]"), "--methods: rrcb[reuse=1]: reuse takes no value");
+}
+
 TEST(Method, names_what_is_unknown) {
     EXPECT_EQ(error_of("zoltan-rcb,magic"),
               "--methods: unknown method 'magic'; choose from: " + method_names());
     EXPECT_EQ(error_of("rrcb[k=2]"),
-              "--methods: rrcb has no parameter 'k'; it takes mesh, cut, refine, tol");
+              "--methods: rrcb has no parameter 'k'; it takes mesh, cut, refine, tol, reuse");
     EXPECT_EQ(error_of("zoltan-rcb[mesh=2]"),
               "--methods: zoltan-rcb has no parameter 'mesh'; it takes none");
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "workload.hpp"
+#include "workload_mpi.hpp"
 
 #include <mpi.h>
 

@@ -203,7 +203,10 @@ std::vector<Measurement> measure(const Workload& workload, std::span<const Metho
     std::vector<Candidate> candidates;
     int num_calls = 0;
     for (const Method& method : methods) {
-        candidates.push_back(make_candidate(moving, method, plan.lists, comm));
+        // Parts are compared by number, and by no numbers that follow where points are kept.
+        Method measured = method;
+        measured.keeps_numbers = drift.moves();
+        candidates.push_back(make_candidate(moving, measured, plan.lists, comm));
         num_calls += plan.repeats + 1 + candidates.back().num_judged();
     }
     progress.start(workload.name + ": methods", num_calls);

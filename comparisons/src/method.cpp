@@ -202,10 +202,8 @@ ZoltanParameters zoltan_parameters(const Method& method, Lists lists) {
         {"DEBUG_LEVEL", "0"}, {"LB_METHOD", method.lb_method}, {"RETURN_LISTS", lists_name(lists)}};
     if (method.lb_method == on_arrays) parameters = {{"function", on_arrays}};
     if (method.options) add_options(parameters, *method.options);
-    if (!method.reuses) return parameters;
-    parameters.emplace_back("RCB_REUSE", "1");
-    // The driver's points stay on their ranks, by which the parts are not to be numbered anew.
-    parameters.emplace_back("REMAP", "0");
+    if (method.reuses) parameters.emplace_back("RCB_REUSE", "1");
+    if (method.keeps_numbers) parameters.emplace_back("REMAP", "0");
     return parameters;
 }
 

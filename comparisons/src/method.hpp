@@ -18,6 +18,7 @@ struct Method {
     std::optional<rrcb::Options> options;  ///< of our own methods; none for Zoltan's
     bool seed_given = false;               ///< the user chose the seed of its points
     bool reuses = false;                   ///< starts from the cuts of its last call
+    bool keeps_numbers = false;            ///< of parts, where objects stay on their ranks: REMAP=0
 };
 
 /// `lb_method` of Zoltan2's multijagged, which is none of Zoltan's, and the imbalance asked of it:

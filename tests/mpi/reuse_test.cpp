@@ -215,7 +215,6 @@ TEST(Reuse, moves_a_cut_no_further_than_the_tolerance_asks_for) {
     }
 }
 
-/// Cuts of a subtree are the same.
 bool same_below(const Cuts& a, const Cuts& b, std::size_t node, int num_parts) {
     for (std::size_t k = node; k + 1 < node + static_cast<std::size_t>(num_parts); ++k)
         if (a.tree[k].at != b.tree[k].at) return false;

@@ -62,8 +62,7 @@ LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Obj
                          state.parameters.return_lists != ReturnLists::none &&
                          is_at_rest(*state.rest, *state.kept, state.parameters, state.workspace,
                                     objects, state.communicator->rank());
-        status.is_as_cut = may_skip(state) && are_as_cut(*state.rest, *state.kept, objects,
-                                                         state.communicator->rank());
+        status.is_as_cut = are_as_cut(state, objects);
         return status;
     } catch (const ZoltanError& error) {
         return {error.code(), error.what()};

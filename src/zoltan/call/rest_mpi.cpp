@@ -90,9 +90,15 @@ bool is_at_rest(const Rest& rest, const KeptPartition& kept, const Parameters& p
     return true;
 }
 
-bool are_as_cut(Rest& rest, const KeptPartition& kept, const Objects& objects, int rank) {
+bool are_as_cut(State& state, const Objects& objects) {
+    const Parameters& parameters = state.parameters;
+    const bool counts = parameters.return_lists != ReturnLists::none &&
+                        !has_several_weights(parameters) && parameters.skip_within > 0;
+    if (!counts || !state.rest || !state.kept) return false;
+    Rest& rest = *state.rest;
     std::vector<Part> parts;
-    if (!are_where_sent(rest, kept, objects, rank, true, parts)) return false;
+    if (!are_where_sent(rest, *state.kept, objects, state.communicator->rank(), true, parts))
+        return false;
     std::ranges::fill(rest.part_weights, 0.0);
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const double weight = objects.points.weight(i);
@@ -100,12 +106,6 @@ bool are_as_cut(Rest& rest, const KeptPartition& kept, const Objects& objects, i
         rest.part_weights[static_cast<std::size_t>(parts[i])] += weight;
     }
     return true;
-}
-
-bool may_skip(const State& state) {
-    const Parameters& parameters = state.parameters;
-    return parameters.skip_within > 0 && state.rest && state.kept &&
-           parameters.return_lists != ReturnLists::none && !has_several_weights(parameters);
 }
 
 bool are_even(Rest& rest, double within, MPI_Comm comm) {

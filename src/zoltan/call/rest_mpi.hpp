@@ -30,13 +30,10 @@ bool are_in_own_part(const Objects& objects, const PartMap& map, int rank);
 bool is_at_rest(const Rest& rest, const KeptPartition& kept, const Parameters& parameters,
                 const Workspace& workspace, const Objects& objects, int rank);
 
-/// Whether every object of this rank is where the last cuts tell, whatever was changed since; what
-/// the objects weigh in each part goes into `rest`. Not where they cannot be weighed, or their
-/// parts are not known. Not collective.
-bool are_as_cut(Rest& rest, const KeptPartition& kept, const Objects& objects, int rank);
-
-/// Whether a call may end with the objects where they are, if their parts are even enough.
-bool may_skip(const State& state);
+/// Whether RRCB_SKIP_WITHIN is set and every object of this rank is where the last cuts tell; what
+/// the objects weigh in each part goes into `state.rest`. Not where they cannot be weighed, or
+/// their parts are not known. Not collective.
+bool are_as_cut(State& state, const Objects& objects);
 
 /// Whether the parts, weighed by are_as_cut(), are within an imbalance. Collective: one reduction.
 bool are_even(Rest& rest, double within, MPI_Comm comm);

@@ -1,19 +1,30 @@
-# cmake -D README=README.md -D SOURCE=main.cpp -P readme.cmake
+# cmake -D ROOT=... -P readme.cmake
 #
-# Fails unless the C++ shown in README is part of SOURCE, which is compiled and run; the
-# indentation does not count.
+# Fails unless each block of C++ shown in README.md is part of an example, which is compiled and run;
+# the indentation does not count.
 function(read_flat file result)
   file(READ ${file} text)
   string(REGEX REPLACE "\n +" "\n" text "${text}")
+  # A semicolon would split the blocks, as elements of a list.
+  string(REPLACE ";" "," text "${text}")
   set(${result} "${text}" PARENT_SCOPE)
 endfunction()
 
-read_flat(${README} readme)
-read_flat(${SOURCE} source)
-if(NOT readme MATCHES "```cpp\n([^`]+)```")
-  message(FATAL_ERROR "no block of C++ in ${README}")
+read_flat(${ROOT}/README.md readme)
+set(compiled "")
+foreach(example IN ITEMS quick_start loop)
+  read_flat(${ROOT}/examples/${example}/main.cpp source)
+  string(APPEND compiled "${source}")
+endforeach()
+string(REGEX MATCHALL "```cpp\n[^`]+```" blocks "${readme}")
+list(LENGTH blocks num_blocks)
+if(num_blocks EQUAL 0)
+  message(FATAL_ERROR "README.md shows no C++")
 endif()
-string(FIND "${source}" "${CMAKE_MATCH_1}" position)
-if(position EQUAL -1)
-  message(FATAL_ERROR "the C++ in ${README} is not the one in ${SOURCE}")
-endif()
+foreach(block IN LISTS blocks)
+  string(REGEX REPLACE "^```cpp\n|```$" "" block "${block}")
+  string(FIND "${compiled}" "${block}" position)
+  if(position EQUAL -1)
+    message(FATAL_ERROR "this C++ in README.md is in no example:\n${block}")
+  endif()
+endforeach()

@@ -88,23 +88,28 @@ class IntervalPolicy : public Policy {
     int num_steps_ = 0;
 };
 
-NamedPolicy interval_policy(const std::string& name, int interval) {
-    return {name, [interval] { return std::make_unique<IntervalPolicy>(interval); }};
+}  // namespace
+
+std::unique_ptr<Policy> interval_policy(int interval) {
+    return std::make_unique<IntervalPolicy>(interval);
 }
 
-}  // namespace
+std::unique_ptr<Policy> controller_policy() {
+    return std::make_unique<ControllerPolicy>();
+}
 
 std::vector<NamedPolicy> policies() {
     std::vector<NamedPolicy> all = {
-        {"controller", [] { return std::make_unique<ControllerPolicy>(); }},
+        {"controller", controller_policy},
         {"plain criterion", [] { return std::make_unique<PlainPolicy>(); }},
         {"imbalance 1.35 for 3 steps; 100 of rest",
          [] { return std::make_unique<ThresholdPolicy>(1.35, 3, 100); }},
         {"imbalance 1.1", [] { return std::make_unique<ThresholdPolicy>(1.1, 1, 0); }}};
     for (const int interval : {1, 5, 20, 100}) {
-        all.push_back(interval_policy("every " + std::to_string(interval), interval));
+        all.push_back({"every " + std::to_string(interval),
+                       [interval] { return interval_policy(interval); }});
     }
-    all.push_back(interval_policy("never", std::numeric_limits<int>::max()));
+    all.push_back({"never", [] { return interval_policy(std::numeric_limits<int>::max()); }});
     return all;
 }
 

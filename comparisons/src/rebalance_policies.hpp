@@ -28,10 +28,16 @@ struct NamedPolicy {
 /// The controller's rule, what it is compared with, fixed intervals among it.
 std::vector<NamedPolicy> policies();
 
+/// Rebalances before the steps interval, 2 interval, ...
+std::unique_ptr<Policy> interval_policy(int interval);
+
+/// The controller's rule, heeded two steps late as on ranks.
+std::unique_ptr<Policy> controller_policy();
+
 /// The heaviest loads of all steps and the rebalances.
 double cost_of(const LoadHistory& history, Policy& policy);
 
-/// Rebalances before the steps interval, 2 interval, ...
+/// That of the interval_policy.
 double cost_of_interval(const LoadHistory& history, int interval);
 
 /// The least of cost_of_interval.

@@ -1,5 +1,6 @@
 #include "scene_histories.hpp"
 
+#include "load_table.hpp"
 #include "scene_choice_mpi.hpp"
 #include "simulation_mpi.hpp"
 #include "text.hpp"
@@ -32,48 +33,7 @@ Snapshot take(const mpm::Simulation& simulation) {
     return snapshot;
 }
 
-/// Loads at the recorded times, over their mean, by parts made at the recorded times.
-class Table {
-  public:
-    Table(int num_times, int num_parts)
-        : num_times_(num_times),
-          num_parts_(num_parts),
-          loads_(static_cast<std::size_t>(num_times * num_times * num_parts)) {}
-
-    double& load(int made, int at, int part) {
-        return loads_[static_cast<std::size_t>((made * num_times_ + at) * num_parts_ + part)];
-    }
-    double load(int made, int at, int part) const {
-        return loads_[static_cast<std::size_t>((made * num_times_ + at) * num_parts_ + part)];
-    }
-
-    /// Of parts `age` old that were made at a recorded time; times in recorded ones.
-    double load_at_age(int made, double age, int part) const {
-        const double at = std::min(made + age, num_times_ - 1.0);
-        const int before = std::min(static_cast<int>(at), num_times_ - 2);
-        const double share = at - before;
-        return (1 - share) * load(made, before, part) + share * load(made, before + 1, part);
-    }
-
-    rrcb::StepLoad step(double made, double at) const {
-        const int before = std::min(static_cast<int>(made), num_times_ - 2);
-        const double share = made - before;
-        rrcb::StepLoad step{1, 0};
-        for (int part = 0; part < num_parts_; ++part) {
-            const double mine = (1 - share) * load_at_age(before, at - made, part) +
-                                share * load_at_age(before + 1, at - made, part);
-            step.heaviest = std::max(step.heaviest, mine);
-        }
-        return step;
-    }
-
-  private:
-    int num_times_;
-    int num_parts_;
-    std::vector<double> loads_;
-};
-
-void count(Table& table, const std::vector<Snapshot>& snapshots, int made, int num_parts) {
+void count(LoadTable& table, const std::vector<Snapshot>& snapshots, int made, int num_parts) {
     rrcb::Options options;
     options.num_parts = num_parts;
     const Snapshot& source = snapshots[static_cast<std::size_t>(made)];
@@ -103,7 +63,7 @@ std::vector<LoadHistory> scene_histories(const Recording& recording,
             snapshots.push_back(take(simulation));
         if (step < num_steps) simulation.step();
     }
-    const auto table = std::make_shared<Table>(recording.num_times, recording.num_parts);
+    const auto table = std::make_shared<LoadTable>(recording.num_times, recording.num_parts);
     for (int made = 0; made < recording.num_times; ++made)
         count(*table, snapshots, made, recording.num_parts);
 

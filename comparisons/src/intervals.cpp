@@ -1,0 +1,109 @@
+// What rebalances cost over the interval between them, beside what unbalance costs, as CSV.
+//
+//   mpirun -n RANKS rrcb_intervals DIRECTORY [--quick]     adds to intervals.csv,
+//       intervals_optimum.csv and intervals_steps.csv; with --quick: two small scenes
+#include "failure.hpp"
+#include "interval_recording_mpi.hpp"
+#include "machine_load_mpi.hpp"
+#include "results_folder_mpi.hpp"
+#include "row.hpp"
+
+#include <rrcb/zoltan/rrcb_zoltan.h>
+
+#include <mpi.h>
+#include <zoltan.h>
+
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace comparisons;
+
+/// Its steps are written one by one.
+constexpr const char* shown_by_steps = "slope";
+
+/// Adds rows that `make` makes on rank 0 alone, the first ones under their header.
+template <typename Make>
+void append(const ResultsFolder& folder, const std::string& name, Make&& make) {
+    const std::string before = folder.read(name);
+    folder.write(name, [&] {
+        const std::vector<Row> rows = make();
+        std::string text = before.empty() ? rows.front().header() + '\n' : before;
+        for (const Row& row : rows) text += row.text() + '\n';
+        return text;
+    });
+}
+
+void append(const ResultsFolder& folder, const MappedScene& scene) {
+    append(folder, "intervals.csv", [&] { return map_rows(scene); });
+    append(folder, "intervals_optimum.csv", [&] { return optimum_rows(scene); });
+    if (scene.scene != shown_by_steps) return;
+    append(folder, "intervals_steps.csv", [&] { return step_rows(scene); });
+}
+
+struct NamedCloud {
+    std::string name;
+    double speed;  ///< m in a step
+};
+
+void map_all(const ResultsFolder& folder, bool quick, MPI_Comm comm) {
+    if (RRCB_Zoltan_Active() == 0) throw Failure("rrcb_zoltan is not in front of Zoltan");
+    const std::vector<Method> methods = read_methods("zoltan-rcb,rrcb,rrcb-arrays");
+    IntervalRecording recording;
+    if (quick) recording = {"", 11, 2, 2, 0};
+    double of_slope = 0;
+    for (const char* scene : {"slope", "granular_column", "submarine_slide", "dam_break"}) {
+        recording.scene = scene;
+        const RecordedScene recorded =
+            record_intervals(*scene_points(scene, quick, comm), methods, recording, comm);
+        if (of_slope == 0) of_slope = recorded.seconds_per_point;
+        append(folder, recorded.map);
+        if (quick) break;
+    }
+    // The points of a cloud do no work; theirs is taken to be that of the slope's.
+    recording.seconds_per_point = of_slope;
+    const std::vector<NamedCloud> clouds = {
+        {"cloud, slow", 0.002}, {"cloud, faster", 0.02}, {"cloud, fast", 0.2}};
+    for (const NamedCloud& cloud : clouds) {
+        recording.scene = cloud.name;
+        DriftingCloud drifting{.speed = cloud.speed};
+        if (quick) drifting = {2000, 100, cloud.speed};
+        append(folder,
+               record_intervals(*cloud_points(drifting, comm), methods, recording, comm).map);
+        if (quick) break;
+    }
+}
+
+int run(int argc, char** argv, MPI_Comm comm) {
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    const bool quick = argc == 3 && std::string(argv[2]) == "--quick";
+    if (argc < 2 || (argc > 2 && !quick)) {
+        if (rank == 0) std::cerr << "usage: mpirun -n RANKS rrcb_intervals DIRECTORY [--quick]\n";
+        return 2;
+    }
+    try {
+        const MachineWatch watch(comm);
+        map_all({argv[1], comm}, quick, comm);
+        const MachineUse use = watch.use();
+        if (rank == 0) print_warning(std::cout, use);
+        return 0;
+    } catch (const std::exception& error) {
+        std::cerr << "rrcb_intervals: rank " << rank << ": " << error.what() << std::endl;
+        MPI_Abort(comm, 1);
+    }
+    return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    MPI_Init(&argc, &argv);
+    float zoltan_version = 0;
+    Zoltan_Initialize(argc, argv, &zoltan_version);
+    const int code = run(argc, argv, MPI_COMM_WORLD);
+    MPI_Finalize();
+    return code;
+}

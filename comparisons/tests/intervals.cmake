@@ -1,0 +1,30 @@
+# Runs COMMAND with an empty FOLDER and --quick, and expects its three tables: those of the optima
+# with a row for each of three methods in two scenes, the others with those of each or the slope.
+file(REMOVE_RECURSE ${FOLDER})
+file(MAKE_DIRECTORY ${FOLDER})
+execute_process(COMMAND ${COMMAND} ${FOLDER} --quick RESULT_VARIABLE code)
+if(NOT code EQUAL 0)
+  message(FATAL_ERROR "exit code ${code}")
+endif()
+
+# expect(file pattern count): so many lines match.
+function(expect file pattern count)
+  file(STRINGS ${FOLDER}/${file} lines REGEX "${pattern}")
+  list(LENGTH lines found)
+  if(NOT found EQUAL count)
+    message(FATAL_ERROR "${file}: ${found} lines match ${pattern}, not ${count}")
+  endif()
+endfunction()
+
+set(number "-?[0-9.e-]+")
+foreach(scene slope "\"cloud, slow\"")
+  expect(intervals.csv "^${scene},3,none,,${number}$" 1)
+  foreach(method zoltan-rcb rrcb rrcb-arrays)
+    expect(intervals.csv "^${scene},3,${method},1,${number}$" 1)
+    expect(intervals.csv "^${scene},3,${method},auto,${number}$" 1)
+    expect(intervals_optimum.csv "^${scene},3,${method},[0-9]+(,${number})+$" 1)
+  endforeach()
+endforeach()
+expect(intervals_optimum.csv "^scene,ranks,method,best_every,overhead,predicted_every," 1)
+expect(intervals_steps.csv "^slope,3,rrcb,auto,0,${number},0,${number}$" 1)
+expect(intervals_steps.csv "^slope,3,none,,0,${number},0,${number}$" 1)

@@ -1,6 +1,7 @@
 #include "balance_mpi.hpp"
 
 #include "bisection/domain_kinds.hpp"
+#include "bisection/limited_bisection.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "cuts/direct_assignment.hpp"
@@ -48,6 +49,7 @@ Options complete(Options options, int num_ranks) {
     if (options.num_parts == 0) options.num_parts = num_ranks;
     if (options.refine == Refine::automatic)
         options.refine = traits_of(options.domain).automatic_refine;
+    if (!options.grid.empty()) options.plain_cuts = true;
     return options;
 }
 
@@ -150,7 +152,7 @@ void prepare_to_reuse(const Points& points, const Options& given, const Cuts& pr
     check_arrays(points);
     introduce(points, given, Box{}, &previous, work, self);
     make_room_to_reuse(work.decision, work.options, previous);
-    make_room_for_parts(points, false, work, self);
+    make_room_for_parts(points, are_cuts_limited(work.options), work, self);
     if (!counts_earlier_parts(work.options)) {
         check_points(points);
         return;
@@ -183,12 +185,12 @@ void report_measured(double imbalance, std::vector<double>&& part_weights, const
     report.part_weights = std::move(part_weights);
 }
 
-/// Assigns the points by the cuts as they are, and counts the parts where the ranks hold others
-/// that may be as good. Collective.
+/// Assigns the points by the cuts as they are, and counts the parts where the cuts are earlier ones
+/// or the ranks hold parts that may be as good. Collective.
 void assign_together(const Points& points, Work& work, Participant& self) {
     const StageScope stage(work.options.observer, Stage::assignment);
     Balance& result = work.result;
-    const bool counts = is_known(work.decision.verdict);
+    const bool counts = is_known(work.decision.verdict) || work.decision.reuses;
     Points counted = points;
     if (result.report.all_weights_zero) counted.weights = {};
     self.attempt([&] {
@@ -210,14 +212,17 @@ void refine_together(Work& work, Participant& self) {
     if (report.all_weights_zero) work.binned.points.weights = {};
     const double weight =
         report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
+    Decision& decision = work.decision;
     Estimate estimate{std::move(result.cuts),
-                      std::move(work.decision.bisection.brackets),
+                      std::move(decision.bisection.brackets),
                       weight,
-                      work.decision.verdict.common_weight,
-                      work.decision.verdict.current_imbalance,
-                      !work.decision.part_weights.empty(),
-                      work.decision.verdict.heaviest,
-                      work.decision.reuses};
+                      decision.verdict.common_weight,
+                      decision.verdict.current_imbalance,
+                      !decision.part_weights.empty(),
+                      decision.verdict.heaviest,
+                      decision.reuses,
+                      decision.box.empty() ? Box{} : decision.box[0],
+                      std::move(decision.planned)};
     Refined refined = work.refinement->refine(std::move(estimate), work.binned, result.parts, self);
     report_measured(refined.imbalance, work.sums.take(), options, report);
     report.rounds = refined.rounds;
@@ -225,9 +230,27 @@ void refine_together(Work& work, Participant& self) {
     result.cuts = std::move(refined.cuts);
 }
 
+/// Searches cuts from earlier ones on, of points in `box`. Collective.
+void search_from_earlier(const Points& points, const Box& box, Work& work, Participant& self) {
+    bracket_earlier(work.result.cuts, box, work.decision.bisection.brackets);
+    self.attempt([&] { work.binned = bin_by_options(points, bounding_box(points), work.options); });
+    refine_together(work, self);
+}
+
+/// Moves earlier cuts to where limits let them lie, and searches them there. Collective.
+void reuse_within_limits(const Points& points, Work& work, Participant& self) {
+    if (work.result.report.num_points == 0) return assign_together(points, work, self);
+    const Box box = box_together(points, self);
+    self.attempt([&] { move_into_places(box, work.options, work.result.cuts); });
+    if (!is_refined(work.options)) return assign_together(points, work, self);
+    work.decision.box[0] = box;
+    search_from_earlier(points, box, work, self);
+}
+
 /// Ends with earlier cuts where their parts are even enough, or moves them. Collective.
 void reuse_together(const Points& points, Work& work, Participant& self) {
     const Options& options = work.options;
+    if (are_cuts_limited(options)) return reuse_within_limits(points, work, self);
     Report& report = work.result.report;
     const bool is_good = report.measured_imbalance <= options.imbalance_tolerance;
     if (is_good || !is_refined(options) || report.num_points == 0) {
@@ -236,12 +259,11 @@ void reuse_together(const Points& points, Work& work, Participant& self) {
                         report);
         return;
     }
-    bracket_earlier(work.result.cuts, box_together(points, self), work.decision.bisection.brackets);
+    const Box box = box_together(points, self);
     if (counts_earlier_parts(options))
         work.sums.set(report.all_weights_zero ? work.totals.counts : work.totals.weights,
                       work.decision.part_weights);
-    self.attempt([&] { work.binned = bin_by_options(points, bounding_box(points), options); });
-    refine_together(work, self);
+    search_from_earlier(points, box, work, self);
 }
 
 /// Leaves the points in the parts that they lie in. Not collective.

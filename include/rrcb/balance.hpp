@@ -59,9 +59,14 @@ struct Balance {
 /// Part r goes to rank r where it lay there, as after the last call; to another where ranks were
 /// renumbered and none is empty.
 ///
+/// Cuts lie where Options::min_width and Options::grid let them, those of points that stay as well.
+/// The axes are then chosen with a look ahead at what the cuts below can do, and refined cuts are
+/// moved as far as they may; the imbalance may stay above the tolerance.
+///
 /// Throws Error on every rank alike: for NaN or infinite coordinates, negative, NaN or infinite
-/// weights, arrays of inconsistent length, options out of range or different between ranks, ranks
-/// that round differently or treat subnormal numbers differently.
+/// weights, arrays of inconsistent length, options out of range or different between ranks, limits
+/// of cuts that leave no room for so many parts (it tells for how many), grids that coordinates
+/// can't tell apart, ranks that round differently or treat subnormal numbers differently.
 Balance balance(const Points& points, const Options& options, MPI_Comm comm);
 
 /// The same, from the cuts of an earlier call in place of statistics, for points that moved little
@@ -77,9 +82,14 @@ Balance balance(const Points& points, const Options& options, MPI_Comm comm);
 /// and not near the mean. Cuts are searched from the top, and what lies below one that moved is
 /// counted once more. With Refine::exact all cuts are searched.
 ///
-/// The axes of `previous` stay. `previous` must be the same on every rank and have the dimension
-/// and number of parts asked for. Points in one place that it divides are counted on the side where
-/// the look-up finds them. Report::kept, estimated_imbalance and num_records tell nothing here.
+/// With Options::min_width or Options::grid, cuts that lie where they may not are moved first: to
+/// the nearest place, or across another axis where there is none. Then the points are counted, and
+/// beyond the tolerance all cuts are searched in their places, to the shares of the parts.
+///
+/// The other axes of `previous` stay. `previous` must be the same on every rank and have the
+/// dimension and number of parts asked for. Points in one place that it divides are counted on the
+/// side where the look-up finds them. Report::kept, estimated_imbalance and num_records tell
+/// nothing here.
 Balance balance(const Points& points, const Options& options, MPI_Comm comm, const Cuts& previous);
 
 }  // namespace rrcb

@@ -35,6 +35,13 @@ enum class Coincident {
     divide     ///< some go to each side, those of lower ranks below; look-ups find one part
 };
 
+/// Lines of a grid across an axis: at origin + k * spacing for whole numbers k, as doubles compute
+/// it, the product first.
+struct GridLines {
+    double origin = 0;
+    double spacing = 0;  ///< > 0 and finite
+};
+
 /// How `balance` works; must be the same on every rank, which is checked.
 struct Options {
     int num_parts = 0;               ///< parts to make; 0: one per rank
@@ -52,6 +59,15 @@ struct Options {
                                     ///< ...; empty: each box across its own longest axis
     std::vector<int> cut_axes;      ///< axis of each cut in the order of Cuts::tree; empty: free
     bool plain_cuts = false;        ///< planes only: points on a plane stay together
+
+    /// Least extent of every part along each axis, > 0 and finite, one per axis of the points;
+    /// empty: any. Between two cuts `upper - lower >= min_width` holds as doubles compute it. On a
+    /// side without a cut the extent counts to the bounding box of all points of the call; along an
+    /// axis that is not cut there is nothing to keep. Parts of size 0 have no extent.
+    std::vector<double> min_width;
+    /// Cuts on these lines only, one entry per axis of the points; empty: anywhere. Such cuts are
+    /// plain; each part holds one cell of the grid at least. With min_width as well both hold.
+    std::vector<GridLines> grid;
 
     /// Only where cuts are refined and not plain.
     Coincident coincident = Coincident::together;

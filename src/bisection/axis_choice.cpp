@@ -2,6 +2,8 @@
 
 #include "bisection/domain_kinds.hpp"
 
+#include <rrcb/cuts.hpp>
+
 #include <algorithm>
 #include <bit>
 
@@ -54,6 +56,19 @@ int AxisChoice::operator()(std::size_t node, int depth, const Box& box) const {
     if (!cut_axes_.empty()) return cut_axes_[node];
     if (!level_axes_.empty()) return level_axes_[static_cast<std::size_t>(depth)];
     return longest_axis(box, dimension_, enough_);
+}
+
+std::vector<int> AxisChoice::given(int num_parts) const {
+    std::vector<int> axes = cut_axes_;
+    if (axes.empty() && !level_axes_.empty()) append_given(num_parts, 0, axes);
+    return axes;
+}
+
+void AxisChoice::append_given(int num_parts, int depth, std::vector<int>& axes) const {
+    if (num_parts == 1) return;
+    axes.push_back(level_axes_[static_cast<std::size_t>(depth)]);
+    append_given(lower_parts(num_parts), depth + 1, axes);
+    append_given(num_parts - lower_parts(num_parts), depth + 1, axes);
 }
 
 }  // namespace rrcb

@@ -23,7 +23,15 @@ class AxisChoice {
     /// Axis of cut number `node` in preorder, at `depth` cuts below the root, across `box`.
     int operator()(std::size_t node, int depth, const Box& box) const;
 
+    /// True when the axis of a cut does not depend on what it divides.
+    bool is_given() const { return !cut_axes_.empty() || !level_axes_.empty(); }
+
+    /// The axes of the cuts among this many parts, in preorder; empty where they are not given.
+    std::vector<int> given(int num_parts) const;
+
   private:
+    void append_given(int num_parts, int depth, std::vector<int>& axes) const;
+
     std::vector<int> cut_axes_;
     std::vector<int> level_axes_;
     int dimension_;

@@ -1,6 +1,7 @@
 #include "bisection/bisection.hpp"
 
 #include "bisection/axis_choice.hpp"
+#include "bisection/patches.hpp"
 #include "bisection/point_selection.hpp"
 #include "bisection/weighted_quantile.hpp"
 
@@ -15,23 +16,6 @@ namespace rrcb {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-double weight_of(const StatisticalDomain& domain) {
-    double weight = 0;
-    for (const Patch& patch : domain.patches) weight += patch.weight;
-    return weight;
-}
-
-Box extent_of(const StatisticalDomain& domain) {
-    Box box;
-    for (const Patch& patch : domain.patches) {
-        for (std::size_t a = 0; a < max_dimension; ++a) {
-            box.lower[a] = std::min(box.lower[a], patch.lower[a]);
-            box.upper[a] = std::max(box.upper[a], patch.upper[a]);
-        }
-    }
-    return box;
-}
 
 double weight_of(std::span<const MassPoint> points) {
     double weight = 0;
@@ -48,13 +32,6 @@ Box extent_of(std::span<const MassPoint> points) {
         }
     }
     return box;
-}
-
-Cut plane(int axis, double value) {
-    Cut cut{axis, {}};
-    cut.at.fill(-infinity);
-    cut.at[static_cast<std::size_t>(axis)] = value;
-    return cut;
 }
 
 struct Task {
@@ -76,64 +53,6 @@ Cut choose_cut(const StatisticalDomain& domain, double below, int depth, const T
     if (task.options.cut_rule == CutRule::midpoint)
         return plane(axis, std::lerp(box.lower[a], box.upper[a], below));
     return weighted_quantile(domain, axis, below * weight, task.options.plain_cuts);
-}
-
-/// Where the cut may lie when the domain is a little wrong.
-Bracket bracket_of(const StatisticalDomain& domain, const Cut& cut, double below, int depth) {
-    const double weight = weight_of(domain);
-    const auto axis = static_cast<std::size_t>(cut.axis);
-    const Box box = extent_of(domain);
-    const auto quantile = [&](double share, double end) {
-        if (!(share > 0 && share < 1 && weight > 0)) return end;
-        return weighted_quantile(domain, cut.axis, share * weight, true).at[axis];
-    };
-    if (domain.patches.empty()) return {};
-    const double margin = expected_error(depth);
-    const double value = std::clamp(cut.at[axis], box.lower[axis], box.upper[axis]);
-    const double lower =
-        std::clamp(quantile(below - margin, box.lower[axis]), box.lower[axis], value);
-    const double upper =
-        std::clamp(quantile(below + margin, box.upper[axis]), value, box.upper[axis]);
-    return {lower, std::nextafter(upper, infinity)};
-}
-
-/// The axis that tells on which side of the cut a patch lies: later ones only where it is tied.
-int deciding_axis(const Cut& cut, const Patch& patch, int dimension) {
-    const auto tied = [&](int axis) {
-        const auto a = static_cast<std::size_t>(axis);
-        return patch.lower[a] == cut.at[a] && patch.upper[a] == cut.at[a];
-    };
-    if (!tied(cut.axis)) return cut.axis;
-    for (int axis = 0; axis < dimension; ++axis)
-        if (axis != cut.axis && !tied(axis)) return axis;
-    return cut.axis;
-}
-
-struct Halves {
-    StatisticalDomain lower;
-    StatisticalDomain upper;
-};
-
-Halves split_domain(const StatisticalDomain& domain, const Cut& cut) {
-    Halves halves{{domain.dimension, {}}, {domain.dimension, {}}};
-    for (const Patch& patch : domain.patches) {
-        const auto axis = static_cast<std::size_t>(deciding_axis(cut, patch, domain.dimension));
-        const double value = cut.at[axis];
-        if (patch.lower[axis] >= value) {
-            halves.upper.patches.push_back(patch);
-        } else if (patch.upper[axis] <= value) {
-            halves.lower.patches.push_back(patch);
-        } else {
-            Patch below = patch;
-            Patch above = patch;
-            below.upper[axis] = above.lower[axis] = value;
-            below.weight *= fraction_below(patch.lower[axis], value, patch.upper[axis]);
-            above.weight -= below.weight;
-            halves.lower.patches.push_back(below);
-            halves.upper.patches.push_back(above);
-        }
-    }
-    return halves;
 }
 
 void bisect_node(StatisticalDomain domain, std::span<const double> sizes, int depth, Task& task) {

@@ -1,6 +1,7 @@
 #include "gather/contribution.hpp"
 
 #include "bisection/domain_kinds.hpp"
+#include "cuts/cut_limits.hpp"
 #include "gather/cell_records.hpp"
 #include "gather/coarsening.hpp"
 
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <optional>
 
 namespace rrcb {
 
@@ -43,17 +45,47 @@ void coarsen_records(Contribution& all, int dimension, std::size_t most) {
     all.summary.num_cells = static_cast<std::int64_t>(merged.cells.size());
 }
 
+double most_automatic_cells(int dimension) {
+    return dimension == 1 ? 64 : dimension == 2 ? 16 : 8;
+}
+
+/// A mesh whose cells are one or more cells of the grid that limits the cuts, so that it is known
+/// what lies between the lines; nothing where the numbers do not allow it.
+std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, const Options& options) {
+    SupportMesh mesh = make_support_mesh(box, dimension, 1);
+    const auto limits = axis_limits(options);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
+        if (!limits[a].resolves(std::max(std::abs(box.lower[a]), std::abs(box.upper[a]))))
+            return {};
+        const double first = limits[a].line_below(box.lower[a]);
+        const double num_lines = limits[a].line_below(box.upper[a]) + 1 - first;
+        const double together = std::ceil(num_lines / most_automatic_cells(dimension));
+        const double cells = std::ceil(num_lines / together);
+        mesh.box.lower[a] = limits[a].line(first);
+        mesh.box.upper[a] = limits[a].line(first + cells * together);
+        const double extent = mesh.box.upper[a] * mesh.scale[a] - mesh.box.lower[a] * mesh.scale[a];
+        if (!(extent > 0 && std::isfinite(mesh.box.upper[a]) && std::isfinite(mesh.box.lower[a])))
+            return {};
+        mesh.cells[a] = static_cast<int>(cells);
+        mesh.cells_per_length[a] = cells / extent;
+    }
+    return mesh;
+}
+
 }  // namespace
 
 int automatic_cells_per_axis(int dimension, LocalIndex num_points) {
     constexpr double points_per_cell = 16;
-    const double most = dimension == 1 ? 64 : dimension == 2 ? 16 : 8;
+    const double most = most_automatic_cells(dimension);
     const double cells = static_cast<double>(num_points) / points_per_cell;
     return static_cast<int>(std::clamp(std::floor(std::pow(cells, 1.0 / dimension)), 1.0, most));
 }
 
 BinnedPoints bin_by_options(const Points& points, const Box& box, const Options& options) {
     if (traits_of(options.domain).sends_points) return {};
+    if (!options.grid.empty() && options.support_mesh == 0 && points.count > 0)
+        if (const auto mesh = mesh_on_lines(box, points.dimension, options))
+            return bin_by_cell(points, *mesh);
     const int cells_per_axis = options.support_mesh > 0
                                    ? options.support_mesh
                                    : automatic_cells_per_axis(points.dimension, points.count);

@@ -1,5 +1,6 @@
 #include "gather/current_parts.hpp"
 
+#include "cuts/cut_limits.hpp"
 #include "cuts/position_order.hpp"
 #include "cuts/tree.hpp"
 
@@ -41,12 +42,14 @@ class Reader {
           ranks_(places.size()) {
         std::iota(ranks_.begin(), ranks_.end(), std::size_t{0});
         current_.cuts = estimate;
+        gaps_.resize(estimate.tree.size());
         current_.parts.resize(places.size());
         current_.part_weights.resize(places.size());
     }
 
     std::optional<CurrentParts> read() {
         if (!read_node(root_of(estimate_), ranks_, true)) return std::nullopt;
+        if (are_cuts_limited(options_) && !move_into_places()) return std::nullopt;
         current_.imbalance = imbalance(current_.part_weights, options_.part_sizes);
         return std::move(current_);
     }
@@ -66,14 +69,46 @@ class Reader {
             const bool as_expected = expected && axis == usual;
             if (!may_cross(axis, usual, as_expected, below, above)) continue;
             if (!find_cut(below, above, axis, current_.cuts.tree[at.node])) continue;
+            if (are_cuts_limited(options_)) gaps_[at.node] = gap_between(below, above, axis);
             return read_node(at.lower(), ranks.first(num_below), as_expected) &&
                    read_node(at.upper(), ranks.subspan(num_below), as_expected);
         }
         return false;
     }
 
+    /// Where a cut between the points of two groups may lie: behind the last, not behind the first.
+    Places gap_between(const Place& below, const Place& above, int axis) const {
+        const auto a = static_cast<std::size_t>(axis);
+        const double last = below.last[a][a];
+        const double first = above.first[a][a];
+        const AxisLimits limits = axis_limits(options_)[a];
+        if (last == first) return {last, last};
+        return {std::isinf(last) ? last : limits.place_behind(last),
+                std::isinf(first) ? first : limits.place_before(std::nextafter(first, infinity))};
+    }
+
+    /// Moves the cuts into places within their gaps; false where these are not enough.
+    bool move_into_places() {
+        std::vector<int> axes;
+        for (const Cut& cut : current_.cuts.tree) axes.push_back(cut.axis);
+        CutLimits limits(options_, joined(ranks_).box(), estimate_.dimension, {axes, gaps_});
+        if (!limits.has_room()) return false;
+        move_node(root_of(estimate_), limits.region(), limits);
+        return true;
+    }
+
+    void move_node(const Descent& at, const Box& region, CutLimits& limits) {
+        if (at.is_part()) return;
+        Cut& cut = current_.cuts.tree[at.node];
+        if (limits.divides(at)) cut = limits.nearest(cut, limits.places(at, region, cut.axis));
+        move_node(at.lower(), box_below(region, cut), limits);
+        move_node(at.upper(), box_above(region, cut), limits);
+    }
+
     bool may_cross(int axis, int usual, bool as_expected, Place all, const Place& above) const {
         if (!options_.cut_axes.empty() || !options_.grouped_axes.empty()) return axis == usual;
+        // Limited cuts lie across whatever axis makes the parts even.
+        if (are_cuts_limited(options_)) return true;
         join(all, above, estimate_.dimension);
         return as_expected || is_long(all.box(), axis, estimate_.dimension);
     }
@@ -135,6 +170,7 @@ class Reader {
     bool by_number_;
     bool by_count_;
     std::vector<std::size_t> ranks_;  ///< in the order of the parts, as far as read
+    std::vector<Places> gaps_;        ///< between the points on both sides of each cut
     CurrentParts current_;
 };
 

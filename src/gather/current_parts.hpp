@@ -28,7 +28,8 @@ struct CurrentParts {
 ///
 /// A cut counts where a new one might lie as well: across the axis of the cut in `estimate`, with
 /// those above it, or a long axis of what it divides. So slabs of a cube are no bisection, and a
-/// box whose sides are nearly the same is one either way.
+/// box whose sides are nearly the same is one either way. Limited cuts count across any axis, if
+/// there are places for them between the ranks.
 std::optional<CurrentParts> read_current(std::span<const Place> places, const Cuts& estimate,
                                          const Options& options);
 

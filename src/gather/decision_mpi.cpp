@@ -2,6 +2,7 @@
 
 #include "bisection/bisection.hpp"
 #include "bisection/domain_kinds.hpp"
+#include "bisection/limited_bisection.hpp"
 #include "collective/communicator.hpp"
 #include "gather/earlier_cuts.hpp"
 #include "gather/keeping.hpp"
@@ -74,6 +75,7 @@ void for_each_array(Decision& decision, Visit&& visit) {
     if (stays) visit(std::span(decision.current.part_weights));
     if (stays) visit(std::span(decision.current.parts));
     if (!stays) visit(std::span(decision.bisection.brackets));
+    if (!stays) visit(std::span(decision.box));
 }
 
 /// The message, as long as what it holds.
@@ -103,6 +105,18 @@ void broadcast_head(Head& head, Verdict& verdict, const Participant& self) {
     mpi::broadcast(head, root, self.comm);
     std::memcpy(&verdict, head.data(), sizeof verdict);
     fail_together(verdict.failing_rank, self);
+}
+
+void make_room_for_box(Decision& decision, const Options& options) {
+    decision.box.resize(is_refined(options) && are_cuts_limited(options) ? 1 : 0);
+}
+
+Bisection bisect_gathered(const Contribution& all, const Options& options, int dimension,
+                          bool with_brackets) {
+    StatisticalDomain domain = build_domain(all, options, dimension);
+    if (are_cuts_limited(options) && all.summary.num_points > 0)
+        return bisect_within(all.summary.box, std::move(domain), options, with_brackets);
+    return bisect(std::move(domain), options, with_brackets);
 }
 
 /// Tells what the parts of earlier cuts weigh, where the ranks have counted them.
@@ -150,13 +164,14 @@ bool is_refined(const Options& options) {
 }
 
 bool counts_earlier_parts(const Options& options) {
-    return !is_refined(options) || options.refine != Refine::exact;
+    return !are_cuts_limited(options) && (!is_refined(options) || options.refine != Refine::exact);
 }
 
 void make_room_to_reuse(Decision& decision, const Options& options, const Cuts& previous) {
     decision.reuses = true;
     decision.bisection.cuts = fitted(previous, options);
     decision.bisection.brackets.reserve(is_refined(options) ? previous.tree.size() : 0);
+    make_room_for_box(decision, options);
     decision.part_weights.resize(counts_earlier_parts(options) ? options.part_sizes.size() : 0);
     decision.message.resize(std::span(decision.part_weights).size_bytes());
 }
@@ -169,13 +184,14 @@ void make_room(Decision& decision, const Options& options, int dimension, bool m
     bisection.cuts.num_parts = static_cast<int>(num_parts);
     bisection.cuts.tree.resize(num_cuts);
     bisection.brackets.resize(is_refined(options) ? num_cuts : 0);
+    make_room_for_box(decision, options);
     if (may_stay) {
         decision.current.cuts = bisection.cuts;
         decision.current.part_weights.resize(num_parts);
         decision.current.parts.resize(num_parts);
     }
     const std::size_t beside_cuts =
-        std::max(bisection.brackets.size() * sizeof(Bracket),
+        std::max(bisection.brackets.size() * sizeof(Bracket) + decision.box.size() * sizeof(Box),
                  decision.current.parts.size() * (sizeof(double) + sizeof(Part)));
     decision.message.resize(num_cuts * sizeof(Cut) + beside_cuts);
 }
@@ -184,10 +200,13 @@ void decide(const Contribution& all, const Options& options, Decision& decision)
     check_together(all.summary);
     Bisection& bisection = decision.bisection;
     if (!decision.reuses) {
-        const int dimension = bisection.cuts.dimension;
         const bool with_brackets = is_refined(options);
-        bisection = bisect(build_domain(all, options, dimension), options, with_brackets);
+        bisection = bisect_gathered(all, options, bisection.cuts.dimension, with_brackets);
         bisection.brackets.resize(with_brackets ? bisection.cuts.tree.size() : 0);
+        if (!decision.box.empty()) {
+            decision.box[0] = all.summary.box;
+            decision.planned = planned_shares(bisection.part_weights, options.part_sizes);
+        }
     }
     decision.verdict = verdict_of(all.summary, bisection, options.part_sizes);
     if (decision.reuses) weigh_parts(all, options, decision);

@@ -39,6 +39,8 @@ using Head = std::array<std::byte, 2048>;
 struct Decision {
     Verdict verdict;
     Bisection bisection;
+    std::vector<Box> box{};              ///< of all points, where limited cuts are to be refined
+    std::vector<double> planned{};       ///< shares below new ones, see planned_shares; at the root
     CurrentParts current{};              ///< on all ranks once they were told that these stay
     bool reuses = false;                 ///< the cuts are earlier ones, which all ranks have
     std::vector<double> part_weights{};  ///< of the parts of these, where all counted
@@ -56,7 +58,8 @@ bool is_refined(const Options& options);
 /// collective.
 void make_room(Decision& decision, const Options& options, int dimension, bool may_stay);
 
-/// True when the parts of earlier cuts are counted: they may be good enough.
+/// True when the parts of earlier cuts are counted: they may be good enough, and the cuts lie where
+/// they may.
 bool counts_earlier_parts(const Options& options);
 
 /// The same where earlier cuts are the decision, unless their parts turn out too uneven: takes the

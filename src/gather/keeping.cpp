@@ -1,6 +1,7 @@
 #include "gather/keeping.hpp"
 
 #include "bisection/domain_kinds.hpp"
+#include "cuts/cut_limits.hpp"
 
 #include <algorithm>
 
@@ -23,8 +24,10 @@ bool is_worth_moving(double current, double offered, const Options& options) {
     if (current > tolerance && offered <= tolerance) return true;
     const bool gains = current - offered > std::max((tolerance - 1) / 20, rounding);
     const bool is_half = offered - 1 <= (current - 1) / 2;
-    // What a search found is the best there is, an estimate is as good as chance has it.
-    const bool was_searched = current > tolerance && options.refine != Refine::none;
+    // What a search found is the best there is, an estimate is as good as chance has it, and so are
+    // the axes of limited cuts.
+    const bool was_searched =
+        current > tolerance && options.refine != Refine::none && !are_cuts_limited(options);
     return gains && (is_half || was_searched);
 }
 

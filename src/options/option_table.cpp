@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <type_traits>
 
@@ -12,6 +13,8 @@ namespace rrcb {
 namespace {
 
 constexpr std::string_view automatic = "AUTO";
+
+constexpr std::string_view none = "NONE";
 
 template <class Kind>
 constexpr bool is_range = requires(Kind kind) {
@@ -40,6 +43,36 @@ bool equal_words(std::string_view a, std::string_view b) {
     return std::ranges::equal(
         a, b, {}, [](unsigned char c) { return std::toupper(c); },
         [](unsigned char c) { return std::toupper(c); });
+}
+
+/// Numbers with blanks or commas between them; nothing where the text has anything else.
+std::optional<std::vector<double>> numbers_in(std::string_view text) {
+    std::vector<double> numbers;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    const auto is_separator = [](char c) { return c == ' ' || c == '\t' || c == ','; };
+    while ((at = std::find_if_not(at, end, is_separator)) != end) {
+        const auto [stop, error] = std::from_chars(at, end, numbers.emplace_back());
+        if (error != std::errc() || (stop != end && !is_separator(*stop))) return std::nullopt;
+        at = stop;
+    }
+    return numbers;
+}
+
+std::string text_of_rows(const std::vector<double>& numbers, std::size_t row_length) {
+    std::string text;
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+        text += (k == 0                                  ? ""
+                 : row_length > 1 && k % row_length == 0 ? ", "
+                                                         : " ") +
+                text_of(numbers[k]);
+    return text.empty() ? std::string(none) : text;
+}
+
+bool read_rows(const RowsOfNumbers& rows, std::string_view text, Options& options) {
+    if (equal_words(text, none)) return rows.set(options, {});
+    const auto numbers = numbers_in(text);
+    return numbers && !numbers->empty() && rows.set(options, *numbers);
 }
 
 /// Text in the case of a sentence's middle, unless it begins with a word of the interface.
@@ -102,6 +135,11 @@ std::string values_in_table(const Range<Number>& range, const Options& first) {
            ", " + bounds;
 }
 
+std::string values_in_table(const Lists& lists, const Options& first) {
+    return '`' + text_of_rows(lists.text->get(first), lists.text->row_length) + "`, " +
+           lists.text->rows + ": `" + lists.text->example + '`';
+}
+
 std::string values_in_table(const Choice& choice, const Options& first) {
     const Word& front = word_of(choice, first);
     std::string text = '`' + std::string(front.word) + '`';
@@ -158,6 +196,8 @@ std::string legal_values(const Option& option) {
         } else if constexpr (is_range<Kind>) {
             const bool is_real = std::is_same_v<Kind, Range<double>>;
             return (is_real ? "a number" : "a whole number") + bounds_of(kind);
+        } else if (kind.text != nullptr) {
+            return std::string(none) + ", or " + kind.text->rows + ": " + kind.text->example;
         } else {
             return "a list";
         }
@@ -193,7 +233,7 @@ bool read_option(const Option& option, std::string_view text, Options& options) 
             options.*kind.field = is_automatic ? 0 : value;
             return true;
         } else {
-            return false;
+            return kind.text != nullptr && read_rows(*kind.text, text, options);
         }
     });
 }
@@ -205,6 +245,8 @@ std::string write_option(const Option& option, const Options& options) {
         } else if constexpr (is_range<Kind>) {
             const bool is_automatic = kind.zero != nullptr && options.*kind.field == 0;
             return is_automatic ? std::string(automatic) : text_of(options.*kind.field);
+        } else if (kind.text != nullptr) {
+            return text_of_rows(kind.text->get(options), kind.text->row_length);
         } else {
             return "";
         }
@@ -217,6 +259,8 @@ void copy_option(const Option& option, const Options& from, Options& to) {
             kind.set(to, kind.get(from));
         } else if constexpr (is_range<Kind>) {
             to.*kind.field = from.*kind.field;
+        } else if (kind.text != nullptr) {
+            kind.text->set(to, kind.text->get(from));
         }
     });
 }
@@ -230,10 +274,9 @@ std::string table_row(const Option& option, const Options& first) {
             if (kind.zero != nullptr) text += "; " + std::string(automatic) + ": " + kind.zero;
         }
         if constexpr (std::is_same_v<Kind, Lists>)
-            return "";
-        else
-            return '|' + (" `" + std::string(option.parameter)) + "` | " +
-                   values_in_table(kind, first) + " | " + with_code_marks(text) + " |";
+            if (kind.text == nullptr) return "";
+        return '|' + (" `" + std::string(option.parameter)) + "` | " +
+               values_in_table(kind, first) + " | " + with_code_marks(text) + " |";
     });
 }
 

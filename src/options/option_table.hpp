@@ -46,11 +46,22 @@ struct Choice {
     const Word* end() const { return words + num_words; }
 };
 
-/// An option, or several that belong together, of any number of values; not to be had as text.
+/// How an option of several numbers is had as text: NONE, or a row of them for each axis.
+struct RowsOfNumbers {
+    const char* rows;  ///< what there is for each axis
+    const char* example;
+    bool (*set)(Options&, const std::vector<double>& numbers);  ///< false where they are not legal
+    std::vector<double> (*get)(const Options&);
+    std::size_t row_length;
+};
+
+/// An option, or several that belong together, of any number of values.
 struct Lists {
+    /// What is compared between ranks; null for what others of the table have among their values.
     std::vector<double> (*values)(const Options&);
     /// Throws Error that names the option; `options` have their number of parts.
     void (*check)(const Options& options, int dimension);
+    const RowsOfNumbers* text = nullptr;  ///< null: not to be had as text
 };
 
 struct Option {
@@ -103,8 +114,21 @@ constexpr Choice choice_of(const Word (&words)[num_words]) {
 std::vector<double> values_of_part_sizes(const Options& options);
 void check_part_sizes(const Options& options, int dimension);
 
-std::vector<double> values_of_axes(const Options& options);
+std::vector<double> values_of_places(const Options& options);
 void check_axes(const Options& options, int dimension);
+
+std::vector<double> min_width_of(const Options& options);
+bool set_min_width(Options& options, const std::vector<double>& numbers);
+void check_min_width(const Options& options, int dimension);
+
+std::vector<double> grid_of(const Options& options);
+bool set_grid(Options& options, const std::vector<double>& numbers);
+void check_grid(const Options& options, int dimension);
+
+inline constexpr RowsOfNumbers min_width_rows{"a number above 0 for each axis", "0.1 0.1",
+                                              set_min_width, min_width_of, 1};
+inline constexpr RowsOfNumbers grid_rows{"an origin and a spacing above 0 for each axis",
+                                         "0 0.05, 0 0.05", set_grid, grid_of, 2};
 
 /// Every option but the observer, which belongs to its rank alone.
 inline constexpr Option option_table[] = {
@@ -120,8 +144,12 @@ inline constexpr Option option_table[] = {
      choice_of<DomainKind, &Options::domain>(domain_words)},
     {"cut_rule", "RRCB_CUT_RULE", "Where a box is cut across its longest axis",
      choice_of<CutRule, &Options::cut_rule>(cut_rule_words)},
-    {"one of grouped_axes, cut_axes, plain_cuts", "", "Which axes are cut, and how",
-     Lists{values_of_axes, check_axes}},
+    {"one of grouped_axes, cut_axes, plain_cuts, min_width, grid", "",
+     "Which axes are cut, and where", Lists{values_of_places, check_axes}},
+    {"min_width", "RRCB_MIN_WIDTH", "Least extent of every part along each axis",
+     Lists{nullptr, check_min_width, &min_width_rows}},
+    {"grid", "RRCB_GRID", "Lines of a grid across each axis that all cuts lie on",
+     Lists{nullptr, check_grid, &grid_rows}},
     {"refine", "RRCB_REFINE", "How far the estimated cuts are moved by what the ranks really hold",
      choice_of<Refine, &Options::refine>(refine_words)},
     {"coincident", "RRCB_COINCIDENT",
@@ -139,7 +167,11 @@ inline constexpr Option option_table[] = {
      Range<std::uint64_t>{&Options::seed, 0, std::numeric_limits<std::uint64_t>::max()}},
 };
 
-inline constexpr std::size_t num_options = sizeof option_table / sizeof *option_table;
+/// True when the value of the option is compared between ranks by itself.
+constexpr bool is_compared(const Option& option) {
+    const Lists* lists = std::get_if<Lists>(&option.kind);
+    return lists == nullptr || lists->values != nullptr;
+}
 
 /// The option of a name in Options, or of a parameter; null where there is none.
 const Option* find_option(std::string_view name);

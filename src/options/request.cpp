@@ -63,7 +63,7 @@ std::uint64_t bits_of(const Option& option, const Options& options) {
         if constexpr (std::is_same_v<Kind, Choice>) {
             return bits_of(kind.get(options));
         } else if constexpr (std::is_same_v<Kind, Lists>) {
-            return hash_of(kind.values(options));
+            return hash_of(kind.values ? kind.values(options) : kind.text->get(options));
         } else {
             return bits_of(options.*kind.field);
         }
@@ -78,19 +78,35 @@ std::vector<double> values_of_part_sizes(const Options& options) {
     return options.part_sizes;
 }
 
-std::vector<double> values_of_axes(const Options& options) {
+std::vector<double> values_of_places(const Options& options) {
     std::vector<double> values{options.plain_cuts ? 1.0 : 0.0};
     values.insert(values.end(), options.grouped_axes.begin(), options.grouped_axes.end());
     values.push_back(-1);
     values.insert(values.end(), options.cut_axes.begin(), options.cut_axes.end());
+    for (const auto& limits : {min_width_of(options), grid_of(options)}) {
+        values.push_back(-1);
+        values.insert(values.end(), limits.begin(), limits.end());
+    }
     return values;
+}
+
+std::vector<double> min_width_of(const Options& options) {
+    return options.min_width;
+}
+
+std::vector<double> grid_of(const Options& options) {
+    std::vector<double> numbers;
+    for (const GridLines& lines : options.grid)
+        numbers.insert(numbers.end(), {lines.origin, lines.spacing});
+    return numbers;
 }
 
 Request request_of(const Options& options, int dimension, const Cuts* previous) {
     Request request{};
     auto value = request.begin();
     *value++ = bits_of(dimension);
-    for (const Option& option : option_table) *value++ = bits_of(option, options);
+    for (const Option& option : option_table)
+        if (is_compared(option)) *value++ = bits_of(option, options);
     *value++ = previous ? bits_of(*previous) : 0;
     *value = arithmetic_in_use();
     return request;
@@ -104,8 +120,10 @@ std::optional<std::size_t> first_difference(const Request& a, const Request& b) 
 
 std::string_view name_of_request(std::size_t index) {
     if (index == 0) return "dimension";
-    if (index <= num_options) return option_table[index - 1].name;
-    return index == num_options + 1
+    std::size_t at = 0;
+    for (const Option& option : option_table)
+        if (is_compared(option) && ++at == index) return option.name;
+    return index == num_compared + 1
                ? "previous"
                : "the floating-point environment (rounding, subnormal numbers)";
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <utility>
 
 namespace rrcb {
 
@@ -46,6 +47,10 @@ void check_lengths(const Points& points) {
     check_coordinates(points);
     require(points.weights.empty() || points.weights.size() == points.count,
             "weights must hold one entry per point, or none for unit weights");
+}
+
+bool is_grid(const GridLines& lines) {
+    return std::isfinite(lines.origin) && std::isfinite(lines.spacing) && lines.spacing > 0;
 }
 
 std::string tally(std::size_t bad) {
@@ -112,6 +117,39 @@ void check_cuts(const Cuts& cuts, int dimension) {
     require(cuts.num_parts >= 1 && cuts.tree.size() + 1 == static_cast<std::size_t>(cuts.num_parts),
             "the tree must hold one cut less than there are parts");
     require(cross_axes_at_numbers(cuts), "cuts must cross axes of the points at numbers");
+}
+
+bool set_min_width(Options& options, const std::vector<double>& numbers) {
+    const auto is_legal = [](double width) { return width > 0 && std::isfinite(width); };
+    if (numbers.size() > max_dimension || !std::ranges::all_of(numbers, is_legal)) return false;
+    options.min_width = numbers;
+    return true;
+}
+
+bool set_grid(Options& options, const std::vector<double>& numbers) {
+    std::vector<GridLines> grid;
+    for (std::size_t k = 0; k + 1 < numbers.size(); k += 2)
+        grid.push_back({numbers[k], numbers[k + 1]});
+    const bool is_complete = numbers.size() % 2 == 0 && grid.size() <= max_dimension;
+    if (!is_complete || !std::ranges::all_of(grid, is_grid)) return false;
+    options.grid = std::move(grid);
+    return true;
+}
+
+void check_min_width(const Options& options, int dimension) {
+    const auto size = static_cast<std::size_t>(dimension);
+    require(options.min_width.empty() || options.min_width.size() == size,
+            "min_width must hold one number per axis of the points, or be empty");
+    Options unused;
+    require(set_min_width(unused, options.min_width), "min_width must be finite and above 0");
+}
+
+void check_grid(const Options& options, int dimension) {
+    const auto size = static_cast<std::size_t>(dimension);
+    require(options.grid.empty() || options.grid.size() == size,
+            "grid must hold the lines across each axis of the points, or be empty");
+    require(std::ranges::all_of(options.grid, is_grid),
+            "grid must have finite origins, and spacings that are finite and above 0");
 }
 
 void check_previous(const Cuts& previous, const Options& options, int dimension) {

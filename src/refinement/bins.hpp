@@ -1,5 +1,7 @@
 #pragma once
 
+#include "cuts/axis_limits.hpp"
+
 #include <cstdint>
 
 namespace rrcb {
@@ -8,10 +10,14 @@ namespace rrcb {
 /// num_bins + 1 above it.
 ///
 /// Of equal width; or, `by_bits`, of equal numbers of doubles, which divides a cloud over hundreds
-/// of decades as evenly as others.
+/// of decades as evenly as others; or of equal numbers of cells of a grid, as cuts lie on its
+/// lines.
 class Bins {
   public:
     Bins(double lower, double upper, bool by_bits, int num_bins);
+
+    /// Between two lines of the grid of `limits`.
+    Bins(double lower, double upper, const AxisLimits& limits, int num_bins);
 
     /// Edge number k of the num_bins + 1 edges, ascending from lower to upper.
     double edge(int k) const;
@@ -21,15 +27,21 @@ class Bins {
 
   private:
     std::int32_t bin_by_width(double value) const;
+    // By doubles or cells; apart, as most bins are of equal width and each instruction tells there.
+    [[gnu::noinline]] double edge_by_number(int k) const;
+    [[gnu::noinline]] std::int32_t slot_by_number(double value) const;
 
     double lower_;
     double upper_;
     int num_bins_;
     bool by_bits_;
-    double width_;               ///< of a bin
-    std::int64_t lower_rank_;    ///< of `lower` in the order of all doubles
-    std::uint64_t num_doubles_;  ///< in the bracket
-    std::uint64_t doubles_a_bin_;
+    double width_ = 0;               ///< of a bin
+    std::int64_t lower_rank_ = 0;    ///< of `lower` in the order of all doubles
+    std::uint64_t num_doubles_ = 0;  ///< in the bracket
+    std::uint64_t doubles_a_bin_ = 1;
+    AxisLimits limits_{};
+    double first_line_ = 0;
+    double cells_a_bin_ = 0;  ///< 0 without a grid
 };
 
 }  // namespace rrcb

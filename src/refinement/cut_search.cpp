@@ -1,5 +1,7 @@
 #include "refinement/cut_search.hpp"
 
+#include "refinement/candidate_division.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -88,68 +90,22 @@ void narrow(CutSearch& search, CutTarget& target, const Bins& bins, int num_bins
     const double lower = slot == 0 ? extent.smallest : bins.edge(slot - 1);
     const double upper =
         slot > num_bins ? std::nextafter(extent.largest, infinity) : bins.edge(slot);
+    // Some candidates lie where the cut may not: another count tells what they weigh.
+    const bool is_limited =
+        search.tied == 0 && (lower < target.places.first || upper > target.places.last);
     // Twice in bins of equal width, the fragments included; what is left then is no even cloud.
     search.by_bits = search.stage == CutSearch::over_candidates ? 1 : 0;
-    search.lower = lower;
-    search.upper = upper;
-    if (target.num_candidates <= most_gathered) {
+    search.lower = is_limited ? std::max(lower, target.places.first) : lower;
+    search.upper = is_limited ? std::min(upper, target.places.last) : upper;
+    if (is_limited) {
+        search.stage = CutSearch::over_candidates;
+    } else if (target.num_candidates <= most_gathered) {
         search.stage = CutSearch::gathering;
     } else if (target.num_counts >= most_counts) {
         search.stage = CutSearch::sampling;
     } else {
         search.stage = CutSearch::over_candidates;
     }
-}
-
-struct Candidate {
-    Vector position{};
-    double weight = 0;
-};
-
-std::vector<Candidate> read_candidates(std::span<const double> records, int dimension) {
-    const auto d = static_cast<std::size_t>(dimension);
-    std::vector<Candidate> candidates(records.size() / (d + 1));
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-        std::copy_n(records.begin() + static_cast<std::ptrdiff_t>(k * (d + 1)), d,
-                    candidates[k].position.begin());
-        candidates[k].weight = records[k * (d + 1) + d];
-    }
-    return candidates;
-}
-
-/// Candidates at one position, the first of them and how many, with the weight below them.
-struct Ties {
-    std::size_t begin = 0;
-    std::size_t count = 0;
-    double below = 0;
-    double weight = 0;
-};
-
-/// How many of the candidates are to lie below the cut.
-struct Division {
-    std::size_t num_below = 0;
-    double below = 0;  ///< weight of the node below the cut
-    Ties ties;         ///< that the target lies in, of several candidates; else empty
-};
-
-/// The division of sorted candidates that comes nearest to the target.
-Division best_division(std::span<const Candidate> sorted, const PositionOrder& before,
-                       const CutTarget& target) {
-    Division best{0, target.base, {}};
-    double below = target.base;
-    Ties ties{0, 0, below, 0};
-    for (std::size_t k = 0; k < sorted.size(); ++k) {
-        below += sorted[k].weight;
-        if (k + 1 < sorted.size() && !before(sorted[k].position, sorted[k + 1].position)) continue;
-        ties.count = k + 1 - ties.begin;
-        ties.weight = below - ties.below;
-        if (ties.count > 1 && ties.below < target.target && target.target < below) best.ties = ties;
-        ties = {k + 1, 0, below, 0};
-        if (std::abs(below - target.target) >= std::abs(best.below - target.target)) continue;
-        best.num_below = k + 1;
-        best.below = below;
-    }
-    return best;
 }
 
 /// Slot of the histogram that the target falls into, with the weight below it.
@@ -185,6 +141,45 @@ EdgeErrors errors_at(const Chosen& chosen, double weight, const CutTarget& targe
     return {target.target - chosen.below, chosen.below + weight - target.target};
 }
 
+/// True when all candidates share a coordinate, at which a cut may lie and may break ties.
+bool may_break_tie(const CutSearch& search, const CutTarget& target, const Extent& extent,
+                   const HistogramLayout& layout) {
+    if (extent.smallest != extent.largest) return false;
+    if (target.places.all() || search.tied > 0) return true;
+    return !layout.limits[axis_index(search, 0)].has_grid() && search.lower <= extent.smallest &&
+           extent.largest < search.upper;
+}
+
+/// Ends where it is limited: at the first or the last place when the target lies beyond it.
+bool finish_at_limit(CutSearch& search, const CutTarget& target, std::span<const double> weights,
+                     const Chosen& chosen) {
+    if (target.places.all() || search.tied > 0) return false;
+    const bool is_first = chosen.slot == 0 && search.lower <= target.places.first;
+    const bool is_last =
+        chosen.slot + 1 == std::ssize(weights) && search.upper >= target.places.last;
+    if (is_first) finish(search, search.lower, chosen.below + weights[0]);
+    if (is_last && !is_first) finish(search, search.upper, chosen.below);
+    return is_first || is_last;
+}
+
+/// Goes on in the slot of a grid that was chosen; ends at the nearer edge of a single cell.
+void narrow_on_lines(CutSearch& search, const CutTarget& target, const HistogramLayout& layout,
+                     const EdgeErrors& errors, double weight) {
+    const Bins bins = bins_of(search, layout);
+    const AxisLimits& limits = layout.limits[static_cast<std::size_t>(search.cut.axis)];
+    const int slot = search.chosen;
+    const double lower = slot == 0 ? target.places.first : bins.edge(slot - 1);
+    const double upper = slot > layout.num_bins ? target.places.last : bins.edge(slot);
+    if (slot > 0 && slot <= layout.num_bins && limits.place_behind(lower) >= upper) {
+        finish(search, errors.at_lower() ? lower : upper,
+               target.base + (errors.at_lower() ? 0 : weight));
+        return;
+    }
+    search.lower = lower;
+    search.upper = upper;
+    search.stage = CutSearch::over_candidates;
+}
+
 /// Notes which slot the search goes on in, and what is in it.
 void go_on_in(const Chosen& chosen, double count, CutSearch& search, CutTarget& target) {
     search.chosen = chosen.slot;
@@ -203,6 +198,8 @@ int current_axis(const CutSearch& search) {
 }
 
 Bins bins_of(const CutSearch& search, const HistogramLayout& layout) {
+    const AxisLimits& limits = layout.limits[axis_index(search, search.tied)];
+    if (limits.has_grid()) return {search.lower, search.upper, limits, layout.num_bins};
     return {search.lower, search.upper, search.by_bits != 0, layout.num_bins};
 }
 
@@ -236,16 +233,19 @@ void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout&
     const auto axis = static_cast<std::size_t>(current_axis(search));
     if (!(target.target > 0)) {
         search.stage = CutSearch::done;
+        if (!target.places.all()) finish(search, search.lower, weights[0]);
         return;
     }
     const bool counted_candidates = search.stage == CutSearch::over_candidates;
     target.num_counts += counted_candidates ? 1 : 0;
-    if (counted_candidates && -histogram[axis] == histogram[max_dimension + axis]) {
+    const Extent extent{-histogram[axis], histogram[max_dimension + axis]};
+    if (counted_candidates && may_break_tie(search, target, extent, layout)) {
         break_tie(search, target, histogram, weights);
         return;
     }
     const Bins bins = bins_of(search, layout);
     const Chosen chosen = choose(target.base, target.target, weights);
+    if (finish_at_limit(search, target, weights, chosen)) return;
     const auto slot = static_cast<std::size_t>(chosen.slot);
     const EdgeErrors errors = errors_at(chosen, weights[slot], target);
     const int edge = chosen.slot - (errors.at_lower() ? 1 : 0);
@@ -254,8 +254,11 @@ void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout&
         return;
     }
     go_on_in(chosen, counts[slot], search, target);
-    narrow(search, target, bins, layout.num_bins,
-           {-histogram[axis], histogram[max_dimension + axis]});
+    if (layout.limits[axis].has_grid()) {
+        narrow_on_lines(search, target, layout, errors, weights[slot]);
+    } else {
+        narrow(search, target, bins, layout.num_bins, extent);
+    }
 }
 
 void decide_by_splitters(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
@@ -293,7 +296,7 @@ void decide_among(CutSearch& search, CutTarget& target, std::span<const double> 
     const PositionOrder before = order_of(search);
     std::ranges::stable_sort(candidates, before, &Candidate::position);
 
-    const Division division = best_division(candidates, before, target);
+    const Division division = best_division(candidates, before, target.base, target.target);
     const std::size_t best = division.num_below;
     search.coincident = division.ties.count > 0 ? 1 : 0;
     const bool good = std::abs(division.below - target.target) <= target.slack;

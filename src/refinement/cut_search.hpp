@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cuts/cut_limits.hpp"
 #include "cuts/position_order.hpp"
 #include "refinement/bins.hpp"
 #include "refinement/histogram.hpp"
@@ -51,6 +52,7 @@ struct CutTarget {
     double base = 0;                 ///< weight of the node below what is left to the search
     GlobalCount num_candidates = 0;  ///< points of all ranks that are left
     int num_counts = 0;              ///< times that candidates were counted in bins
+    Places places{};                 ///< of the cut; any where cuts are not limited
 };
 
 /// Number of the axis a search works on.
@@ -73,7 +75,10 @@ std::vector<Vector> splitters_of(std::vector<Vector> sample, const PositionOrder
 /// Moves the search on by the counts in its bins; done when the cut is good enough.
 ///
 /// A search takes at most 1 + 4 rounds of counting in bins, then two rounds for every factor of
-/// about 16 by which its candidates outnumber most_gathered: 16 up to 10^9 of them.
+/// about 16 by which its candidates outnumber most_gathered: 16 up to 10^9 of them. On lines of a
+/// grid it takes one round for every factor of num_bins in their number, and two more.
+///
+/// Where cuts are limited the bracket lies between the first and the last of their places.
 void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout& layout,
                     std::span<const double> histogram);
 

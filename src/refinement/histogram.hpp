@@ -1,5 +1,7 @@
 #pragma once
 
+#include "cuts/axis_limits.hpp"
+
 #include <rrcb/points.hpp>
 
 #include <cstddef>
@@ -16,6 +18,7 @@ namespace rrcb {
 /// summed, or a sample.
 struct HistogramLayout {
     int num_bins = 64;
+    std::array<AxisLimits, max_dimension> limits{};  ///< the edges of bins lie on their grids
 
     std::size_t num_slots() const { return static_cast<std::size_t>(num_bins) + 2; }
     static constexpr std::size_t status = 2 * max_dimension;

@@ -29,12 +29,14 @@ bool is_over(const CutSearch& search) {
 
 }  // namespace
 
-LevelSearch::LevelSearch(std::size_t most, int dimension, bool is_root)
+LevelSearch::LevelSearch(std::size_t most, const HistogramLayout& layout, int dimension,
+                         bool is_root)
     : dimension_(dimension),
       is_root_(is_root),
-      histograms_(HistogramLayout{}, most, is_root),
+      histograms_(layout, most, is_root),
       candidates_(dimension) {
     nodes_.reserve(most);
+    places_.reserve(most);
     searches_.reserve(most);
     before_.reserve(most);
     targets_.reserve(most);
@@ -44,13 +46,16 @@ LevelSearch::LevelSearch(std::size_t most, int dimension, bool is_root)
 
 void LevelSearch::clear() {
     nodes_.clear();
+    places_.clear();
     searches_.clear();
     targets_.clear();
     local_.clear();
 }
 
-void LevelSearch::add(const Node& node, const CutSearch& start, const SortedPoints& points) {
+void LevelSearch::add(const Node& node, const CutSearch& start, const Places& places,
+                      const SortedPoints& points) {
     nodes_.push_back(&node);
+    places_.push_back(places);
     searches_.push_back(start);
     targets_.emplace_back();
     local_.emplace_back(node.fragments, points);
@@ -114,10 +119,12 @@ void LevelSearch::decide_counted(std::size_t k, std::span<const double> histogra
     } else {
         const auto weights = histogram.subspan(layout.num_extents, layout.num_slots());
         // What the node weighs is known when all of it has been counted.
-        if (search.stage == CutSearch::over_fragments)
+        if (search.stage == CutSearch::over_fragments) {
             targets_[k] =
                 rule.target_of(nodes_[k]->at, std::accumulate(weights.begin(), weights.end(), 0.0),
                                nodes_[k]->below);
+            targets_[k].places = places_[k];
+        }
         decide_by_bins(search, targets_[k], layout, histogram);
     }
 }

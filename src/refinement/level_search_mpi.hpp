@@ -17,6 +17,7 @@ struct Node {
     double weight = 0;
     bool is_counted = false;     ///< what its parts weigh by the cuts as they are
     double below = not_counted;  ///< weight below the cut as it is, where that was counted
+    Box region{};                ///< of the space, where cuts are limited
 };
 
 /// Searches for all cuts of one level at once, in step on all ranks.
@@ -26,13 +27,15 @@ struct Node {
 class LevelSearch {
   public:
     /// Makes buffers for `most` searches at once. Not collective. Throws Error or std::bad_alloc.
-    LevelSearch(std::size_t most, int dimension, bool is_root);
+    LevelSearch(std::size_t most, const HistogramLayout& layout, int dimension, bool is_root);
 
     void clear();
 
-    /// Adds the search for the cut of a node, from `start` on; `node` and `points` are borrowed and
-    /// must not change before clear(). The same on every rank, in the same order. Not collective.
-    void add(const Node& node, const CutSearch& start, const SortedPoints& points);
+    /// Adds the search for the cut of a node, in its places, from `start` on; `node` and `points`
+    /// are borrowed and must not change before clear(). The same on every rank, in the same order.
+    /// Not collective.
+    void add(const Node& node, const CutSearch& start, const Places& places,
+             const SortedPoints& points);
 
     /// Ends all searches, in at most 16 rounds, see decide_by_bins; returns how many it took.
     ///
@@ -61,6 +64,7 @@ class LevelSearch {
 
     // One entry per search; capacity for any.
     std::vector<const Node*> nodes_;
+    std::vector<Places> places_;
     std::vector<CutSearch> searches_;
     std::vector<CutSearch> before_;   ///< the searches before the root decided
     std::vector<CutTarget> targets_;  ///< at the root only

@@ -20,19 +20,19 @@ double sum_of(std::span<const double> values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// Keeps all points off a side whose parts have no size; another cut without a search stays.
-void set_aside(double share, Cut& cut) {
-    if (share > 0 && share < 1) return;
-    cut.divides = 0;
-    cut.at.fill(-infinity);
-    if (share > 0) cut.at[static_cast<std::size_t>(cut.axis)] = infinity;
+std::vector<int> axes_of(const Cuts& cuts) {
+    std::vector<int> axes;
+    for (const Cut& cut : cuts.tree) axes.push_back(cut.axis);
+    return axes;
 }
 
 }  // namespace
 
 // A node that is searched has two parts or more.
 Refinement::Refinement(const Options& options, int dimension, bool is_root, PartSums& sums)
-    : options_(options), sums_(sums), level_(options.part_sizes.size() / 2, dimension, is_root) {
+    : options_(options),
+      sums_(sums),
+      level_(options.part_sizes.size() / 2, {.limits = axis_limits(options)}, dimension, is_root) {
     const std::size_t num_parts = options.part_sizes.size();
     nodes_.reserve(num_parts);
     children_.reserve(num_parts);
@@ -41,7 +41,27 @@ Refinement::Refinement(const Options& options, int dimension, bool is_root, Part
 
 Refined Refinement::refine(Estimate&& estimate, const BinnedPoints& binned, std::span<Part> parts,
                            Participant& self) {
+    start(std::move(estimate), self);
+    const bool is_limited = are_cuts_limited(options_);
+    const bool is_known = estimate_.is_counted || (rule_.is_exact && !is_limited);
+    const bool is_accepted = !is_known && accept_estimate(binned, parts, self);
+    if (rule_.is_exact || !is_accepted) {
+        if (is_limited) {
+            search_for_better(binned, parts, self);
+        } else {
+            search_all_levels(binned, parts, self);
+        }
+        const bool missed = refined_.imbalance > options_.imbalance_tolerance;
+        if (missed && !std::exchange(rule_.is_exact, true)) search_for_better(binned, parts, self);
+    }
+    refined_.cuts = std::move(estimate_.cuts);
+    return std::move(refined_);
+}
+
+/// Takes an estimate, and derives from it what belongs below cuts and where they may lie.
+void Refinement::start(Estimate&& estimate, Participant& self) {
     const auto& sizes = options_.part_sizes;
+    const bool is_limited = are_cuts_limited(options_);
     estimate_ = std::move(estimate);
     rule_ = {sizes,
              options_.imbalance_tolerance,
@@ -50,19 +70,17 @@ Refined Refinement::refine(Estimate&& estimate, const BinnedPoints& binned, std:
              estimate_.total_weight / sum_of(sizes),
              0,
              options_.refine == Refine::exact,
-             estimate_.is_earlier};
+             estimate_.is_earlier && !is_limited,
+             estimate_.planned};
+    if (is_limited)
+        self.attempt([&] {
+            limits_.emplace(options_, estimate_.box, estimate_.cuts.dimension,
+                            GivenAxes{axes_of(estimate_.cuts), {}});
+        });
     if (estimate_.is_counted) {
         refined_.rounds = 1;
         rule_.counted_weight = sum_of(sums_.sums());
     }
-    const bool is_known = rule_.is_exact || estimate_.is_counted;
-    if (is_known || !accept_estimate(binned, parts, self)) {
-        search_all_levels(binned, parts, self);
-        const bool missed = refined_.imbalance > options_.imbalance_tolerance;
-        if (missed && !rule_.is_exact) search_exactly(binned, parts, self);
-    }
-    refined_.cuts = std::move(estimate_.cuts);
-    return std::move(refined_);
 }
 
 /// True when there is nothing to search: the estimated cuts are good enough as they are, and
@@ -88,7 +106,9 @@ void Refinement::measure(const Participant& self) {
 /// Finds the cuts of one level after the other, and the parts at the end. Collective.
 void Refinement::search_all_levels(const BinnedPoints& binned, std::span<Part> parts,
                                    Participant& self) {
-    nodes_.push_back({root_of(estimate_.cuts), {}, estimate_.total_weight, !rule_.is_exact});
+    const bool is_counted = !rule_.is_exact && !limits_;
+    nodes_.push_back({root_of(estimate_.cuts), {}, estimate_.total_weight, is_counted});
+    if (limits_) nodes_[0].region = limits_->region();
     self.attempt([&] {
         points_ = sort_by_cell(binned);
         nodes_[0].fragments = cell_fragments(points_);
@@ -151,12 +171,21 @@ void Refinement::start_level() {
         node.weight = weight_of(node.at, sums_.sums());
         node.below = weight_of(node.at.lower(), sums_.sums());
     }
-    for (const Node& node : nodes_)
-        if (needs_search(node)) level_.add(node, first_search(node), points_);
+    for (const Node& node : nodes_) {
+        if (!needs_search(node)) continue;
+        const Places places = places_of(node);
+        level_.add(node, first_search(node, places), places, points_);
+    }
+}
+
+/// The places of the cut of a node that divides.
+Places Refinement::places_of(const Node& node) {
+    if (!limits_) return {};
+    return limits_->places(node.at, node.region, estimate_.cuts.tree[node.at.node].axis);
 }
 
 /// The search for the cut of a node, before anything is counted.
-CutSearch Refinement::first_search(const Node& node) const {
+CutSearch Refinement::first_search(const Node& node, const Places& places) const {
     CutSearch search;
     search.cut.axis = estimate_.cuts.tree[node.at.node].axis;
     search.num_axes = options_.plain_cuts ? 1 : estimate_.cuts.dimension;
@@ -166,6 +195,11 @@ CutSearch Refinement::first_search(const Node& node) const {
     search.lower = bracket.lower;
     search.upper = bracket.upper;
     search.quantum = quantum_for(node.weight);
+    if (limits_) {
+        const AxisLimits& limits = limits_->across(search.cut.axis);
+        search.lower = limits.nearest(search.lower, places.first, places.last);
+        search.upper = limits.nearest(search.upper, search.lower, places.last);
+    }
     return search;
 }
 
@@ -176,7 +210,7 @@ Bracket Refinement::bracket_of(const Node& node) const {
     constexpr double caution = 2;
     double widths = 4;
     Bracket bracket = estimate_.brackets[node.at.node];
-    if (rule_.is_exact) return bracket;
+    if (rule_.is_exact || limits_) return bracket;
     const Cut& cut = estimate_.cuts.tree[node.at.node];
     const double value =
         std::clamp(cut.at[static_cast<std::size_t>(cut.axis)], bracket.lower, bracket.upper);
@@ -189,6 +223,17 @@ Bracket Refinement::bracket_of(const Node& node) const {
     }
     return {std::max(std::lerp(value, bracket.lower, widths), -largest),
             std::lerp(value, bracket.upper, widths)};
+}
+
+/// Keeps all points off a side whose parts have no size; another cut without a search stays, a
+/// limited one in its places.
+void Refinement::set_aside(const Node& node, Cut& cut) {
+    const double share = rule_.share_below(node.at);
+    if (share > 0 && share < 1) {
+        if (limits_) cut = limits_->nearest(cut, places_of(node));
+        return;
+    }
+    cut = plane(cut.axis, share > 0 ? infinity : -infinity);
 }
 
 /// Finds where in its lot each rank begins, for the cuts that divide one. Collective where there
@@ -230,23 +275,24 @@ void Refinement::descend(Participant& self) {
             cut.divides = lot.below > 0 ? 1 : 0;
             refined_.coincident_cuts += search.coincident;
         } else {
+            set_aside(node, cut);
             const double share = rule_.share_below(node.at);
-            set_aside(share, cut);
             is_counted = node.is_counted && share > 0 && share < 1;
             below = is_counted ? node.below : share > 0 ? node.weight : 0;
         }
         std::pair<std::vector<Fragment>, std::vector<Fragment>> halves;
         self.attempt([&] { halves = split(node.fragments, cut, lot, points_); });
-        children_.push_back({node.at.lower(), std::move(halves.first), below, is_counted});
-        children_.push_back(
-            {node.at.upper(), std::move(halves.second), node.weight - below, is_counted});
+        children_.push_back({node.at.lower(), std::move(halves.first), below, is_counted,
+                             not_counted, box_below(node.region, cut)});
+        children_.push_back({node.at.upper(), std::move(halves.second), node.weight - below,
+                             is_counted, not_counted, box_above(node.region, cut)});
     }
     std::swap(nodes_, children_);
 }
 
-/// Searches once more, without slack, and keeps the better of the two outcomes. Collective.
-void Refinement::search_exactly(const BinnedPoints& binned, std::span<Part> parts,
-                                Participant& self) {
+/// Searches all cuts, and keeps them where they are better than those before. Collective.
+void Refinement::search_for_better(const BinnedPoints& binned, std::span<Part> parts,
+                                   Participant& self) {
     struct {
         std::vector<Cut> tree;
         std::vector<Part> parts;
@@ -260,7 +306,6 @@ void Refinement::search_exactly(const BinnedPoints& binned, std::span<Part> part
                   std::exchange(refined_.coincident_cuts, 0)};
     });
     const double imbalance_before = refined_.imbalance;
-    rule_.is_exact = true;
     search_all_levels(binned, parts, self);
     if (refined_.imbalance < imbalance_before) return;
     refined_.imbalance = imbalance_before;

@@ -2,6 +2,7 @@
 
 #include "cells/sorted_points.hpp"
 #include "collective/participant.hpp"
+#include "cuts/cut_limits.hpp"
 #include "refinement/level_search_mpi.hpp"
 #include "refinement/part_sums_mpi.hpp"
 
@@ -9,6 +10,7 @@
 #include <rrcb/options.hpp>
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,6 +27,10 @@ struct Estimate {
     bool is_counted = false;  ///< `parts` and the sums hold what the cuts make, not good enough
     double heaviest = 0;      ///< weight of the heaviest point
     bool is_earlier = false;  ///< the cuts are those of an earlier call
+    /// Of all points, and the shares of weight planned below the cuts (at the root only); where
+    /// cuts are limited.
+    Box box{};
+    std::vector<double> planned{};
 };
 
 /// Refined cuts and how even the parts really are; the same on every rank. The weights of the parts
@@ -53,20 +59,25 @@ class Refinement {
     /// tolerance, cuts that divide well enough stay, with what lies below them. Where earlier cuts
     /// move, the parts below are counted anew, as most cuts there stay. Where a tolerance is missed
     /// because slack was spent on upper levels that lower ones need, it searches once more,
-    /// exactly, and keeps the better cuts. Without weight anywhere the cuts stay. What fails on one
-    /// rank, before or here, is thrown on all, see LevelSearch::run.
+    /// exactly, and keeps the better cuts. Limited cuts are all searched in their places, along the
+    /// axes of the estimate, and the estimate is kept where it is better. Without weight anywhere
+    /// the cuts stay. What fails on one rank, before or here, is thrown on all, see
+    /// LevelSearch::run.
     Refined refine(Estimate&& estimate, const BinnedPoints& binned, std::span<Part> parts,
                    Participant& self);
 
   private:
+    void start(Estimate&& estimate, Participant& self);
     bool accept_estimate(const BinnedPoints& binned, std::span<Part> parts, Participant& self);
     void search_all_levels(const BinnedPoints& binned, std::span<Part> parts, Participant& self);
-    void search_exactly(const BinnedPoints& binned, std::span<Part> parts, Participant& self);
+    void search_for_better(const BinnedPoints& binned, std::span<Part> parts, Participant& self);
     void measure(const Participant& self);
     bool needs_search(const Node& node) const;
     void write_parts(std::span<Part> parts);
     void start_level();
-    CutSearch first_search(const Node& node) const;
+    Places places_of(const Node& node);
+    CutSearch first_search(const Node& node, const Places& places) const;
+    void set_aside(const Node& node, Cut& cut);
     Bracket bracket_of(const Node& node) const;
     void recount(std::span<Part> parts, Participant& self);
     void place_in_lots(const Participant& self);
@@ -75,6 +86,7 @@ class Refinement {
     const Options& options_;
     PartSums& sums_;
     Estimate estimate_;
+    std::optional<CutLimits> limits_;  ///< nothing where cuts may lie anywhere
     TargetRule rule_;
     SortedPoints points_;         ///< where cuts are searched
     int depth_ = 0;               ///< cuts above the current level

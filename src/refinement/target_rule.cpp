@@ -95,7 +95,7 @@ double TargetRule::share_below(const Descent& at) const {
 CutTarget TargetRule::target_of(const Descent& at, double weight, double below) const {
     const auto sizes = sizes_of(at);
     CutTarget target;
-    target.target = share_below(at) * weight;
+    target.target = (planned.empty() ? share_below(at) : planned[at.node]) * weight;
     target.slack = common_weight / 2;
     if (is_exact || !(weight > 0)) return target;
     if (is_earlier && below >= 0) return nearest_target(at, weight, below);

@@ -70,7 +70,10 @@ struct Adder {
     void operator()(const Choice& choice) const {
         add_choice(list, option.parameter, choice, documentation(option));
     }
-    void operator()(const Lists&) const {}
+    void operator()(const Lists& lists) const {
+        if (lists.text != nullptr)
+            list.set(option.parameter, write_option(option, Options{}), documentation(option));
+    }
 };
 
 /// Reads an option from a complete list.
@@ -89,7 +92,10 @@ struct Getter {
     void operator()(const Choice& choice) const {
         choice.set(options, Teuchos::getIntegralValue<int>(list, option.parameter));
     }
-    void operator()(const Lists&) const {}
+    void operator()(const Lists& lists) const {
+        if (lists.text != nullptr)
+            read_option(option, list.get<std::string>(option.parameter), options);
+    }
 };
 
 void add_parameters_of_plug_in(ParameterList& list) {
@@ -133,6 +139,11 @@ ParameterEntry promoted(ParameterEntry entry, const ParameterEntry& valid) {
 bool is_legal(const ParameterEntry& entry, const ParameterEntry& valid, const std::string& name) {
     if (entry.isList() || entry.getAny(false).type() != valid.getAny(false).type()) return false;
     if (entry.isType<double>() && !std::isfinite(entry.getValue<double>(nullptr))) return false;
+    const Option* option = find_parameter(name);
+    if (option != nullptr && std::holds_alternative<Lists>(option->kind)) {
+        Options unused;
+        return read_option(*option, entry.getValue<std::string>(nullptr), unused);
+    }
     if (valid.validator().is_null()) return true;
     try {
         valid.validator()->validate(entry, name, "");

@@ -157,7 +157,8 @@ TEST_F(Agreement, on_options_that_differ_between_ranks) {
     with([](Options& o) { o.seed = 2; }, "seed");
     with([](Options& o) { o.refine = Refine::exact; }, "refine");
     with([](Options& o) { o.imbalance_tolerance = 2; }, "imbalance_tolerance");
-    with([](Options& o) { o.plain_cuts = true; }, "one of grouped_axes, cut_axes, plain_cuts");
+    with([](Options& o) { o.plain_cuts = true; },
+         "one of grouped_axes, cut_axes, plain_cuts, min_width, grid");
     with([&](Options& o) { o.part_sizes.assign(static_cast<std::size_t>(num_ranks_), 2.0); },
          "part_sizes");
     const std::vector<double> empty;

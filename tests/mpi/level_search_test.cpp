@@ -30,7 +30,7 @@ class Level {
         start.upper = 1;
         start.num_axes = 2;
         start.quantum = quantum_for(weight);
-        level_.add(node_, start, points_);
+        level_.add(node_, start, {}, points_);
     }
 
     int run(Participant& self) { return level_.run(rule_, self); }
@@ -53,7 +53,7 @@ class Level {
     SortedPoints points_;
     Node node_;
     TargetRule rule_;
-    LevelSearch level_{1, 2, test::rank() == 0};
+    LevelSearch level_{1, {}, 2, test::rank() == 0};
 };
 
 TEST(LevelSearch, halves_the_points_of_all_ranks) {

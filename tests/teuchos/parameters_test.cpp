@@ -183,6 +183,26 @@ TEST(Parameters, become_strings_for_zoltan_only_where_they_are_set) {
     EXPECT_THROW(zoltan_strings(list), Error);
 }
 
+TEST(Parameters, of_rows_of_numbers_are_strings) {
+    ParameterList list;
+    list.set("RRCB_MIN_WIDTH", "0.1 0.2");
+    list.set("RRCB_GRID", "0 0.05, -1 0.05");
+    const Options options = options_from(list);
+    EXPECT_EQ(options.min_width, (std::vector<double>{0.1, 0.2}));
+    ASSERT_EQ(options.grid.size(), 2u);
+    EXPECT_EQ(options.grid[1].origin, -1);
+    EXPECT_EQ(options.grid[1].spacing, 0.05);
+    EXPECT_TRUE(options_from(ParameterList()).grid.empty());
+    const std::vector<std::pair<std::string, std::string>> expected = {
+        {"RRCB_MIN_WIDTH", "0.1 0.2"}, {"RRCB_GRID", "0 0.05, -1 0.05"}};
+    EXPECT_EQ(zoltan_strings(list), expected);
+    expect_error(list_with("RRCB_MIN_WIDTH", 0.1),
+                 {"must not be 0.1 (double)", "NONE, or a number"});
+    expect_error(list_with("RRCB_MIN_WIDTH", std::string("0.1 -1")), {"must not be '0.1 -1'"});
+    expect_error(list_with("RRCB_GRID", std::string("0 1 2")),
+                 {"must not be '0 1 2'", "an origin and a spacing above 0 for each axis"});
+}
+
 TEST(Parameters, are_all_documented) {
     const auto valid = valid_parameters();
     std::ostringstream printed;
@@ -192,7 +212,7 @@ TEST(Parameters, are_all_documented) {
         EXPECT_FALSE(valid->entry(entry).docString().empty()) << valid->name(entry);
         EXPECT_NE(printed.str().find(valid->name(entry)), std::string::npos);
     }
-    EXPECT_EQ(count, 13);
+    EXPECT_EQ(count, 15);
     EXPECT_NE(printed.str().find("points drawn per real point"), std::string::npos)
         << printed.str();
 }

@@ -58,7 +58,9 @@ TEST(OptionTable, writes_what_it_reads) {
         {"imbalance_tolerance", {"1", "1.01", "1e+300"}},
         {"sigma_multiplier", {"0.1", "5e-324", "1.7976931348623157e+308"}},
         {"sample_fraction", {"0.25", "1"}},
-        {"seed", {"0", "18446744073709551615"}}};
+        {"seed", {"0", "18446744073709551615"}},
+        {"min_width", {"NONE", "0.1", "0.1 1e-300 5e-324"}},
+        {"grid", {"NONE", "0 0.05", "-1.5 0.25, 1e+300 7, 0 1"}}};
     for (const auto& [name, values] : texts) {
         for (const std::string& value : values) {
             Options options;
@@ -96,6 +98,46 @@ TEST(OptionTable, reads_no_number_beyond_its_range_and_leaves_the_value) {
     EXPECT_EQ(options.sample_fraction, 1);
 }
 
+TEST(OptionTable, reads_rows_of_numbers_with_blanks_or_commas_between_them) {
+    Options options;
+    EXPECT_TRUE(read_option(named("min_width"), " 1,2 ,\t3 ", options));
+    EXPECT_EQ(options.min_width, (std::vector<double>{1, 2, 3}));
+    EXPECT_TRUE(read_option(named("grid"), "0.5 1 -2 3E-1", options));
+    ASSERT_EQ(options.grid.size(), 2u);
+    EXPECT_EQ(options.grid[1].origin, -2);
+    EXPECT_EQ(options.grid[1].spacing, 0.3);
+    for (const char* text : {"", " ", "0", "-1", "nan", "inf", "1 2 3 4", "1;2", "1x", "1 two"})
+        EXPECT_FALSE(reads("min_width", text)) << text;
+    for (const char* text : {"", "1", "0 0", "0 -1", "nan 1", "0 inf", "0 1 0", "0 1 0 1 0 1 0 1"})
+        EXPECT_FALSE(reads("grid", text)) << text;
+    EXPECT_TRUE(read_option(named("grid"), "none", options));
+    EXPECT_TRUE(options.grid.empty());
+    EXPECT_FALSE(options.min_width.empty());
+}
+
+TEST(Check, refuses_limits_of_cuts_that_are_no_lengths_or_not_one_per_axis) {
+    const std::string one_each =
+        "min_width must hold one number per axis of the points, or be empty";
+    const auto width = [](std::vector<double> widths, int dimension) {
+        return complaint([&](Options& o) { o.min_width = widths; }, dimension);
+    };
+    EXPECT_EQ(width({1, 2}, 2) + width({5e-324}, 1) + width({1e308, 1, 1}, 3), "");
+    EXPECT_EQ(width({1}, 2), one_each);
+    EXPECT_EQ(width({1, 1, 1}, 2), one_each);
+    for (const double value : {0.0, -1.0, std::nan(""), HUGE_VAL})
+        EXPECT_EQ(width({1, value}, 2), "min_width must be finite and above 0");
+    const auto grid = [](std::vector<GridLines> lines, int dimension) {
+        return complaint([&](Options& o) { o.grid = lines; }, dimension);
+    };
+    EXPECT_EQ(grid({{0, 1}, {-1e308, 1e-300}}, 2), "");
+    EXPECT_EQ(grid({{0, 1}}, 3),
+              "grid must hold the lines across each axis of the points, or be empty");
+    for (const double value : {0.0, -1.0, std::nan(""), HUGE_VAL})
+        EXPECT_EQ(grid({{0, value}}, 1),
+                  "grid must have finite origins, and spacings that are finite and above 0");
+    EXPECT_NE(grid({{HUGE_VAL, 1}}, 1), "");
+}
+
 TEST(Check, refuses_what_lies_beyond_the_range_of_an_option_and_tells_the_range) {
     EXPECT_EQ(complaint([](Options&) {}), "");
     EXPECT_EQ(complaint([](Options& o) { o.num_parts = -1; }),
@@ -129,6 +171,8 @@ TEST(OptionTable, tells_what_each_option_may_be) {
     EXPECT_EQ(legal_values(named("imbalance_tolerance")), "a number, 1 or more");
     EXPECT_EQ(legal_values(named("support_mesh")), "a whole number from 1 to 4096");
     EXPECT_EQ(legal_values(named("seed")), "a whole number, 0 or more");
+    EXPECT_EQ(legal_values(named("min_width")), "NONE, or a number above 0 for each axis: 0.1 0.1");
+    EXPECT_EQ(legal_values(named("part_sizes")), "a list");
     EXPECT_EQ(legal_values(named("refine")), "AUTO, NONE, TOLERANCE or EXACT");
     EXPECT_EQ(documentation(named("num_parts")),
               "Parts to make: a whole number, 1 or more; 0: one part per rank.");
@@ -142,9 +186,18 @@ TEST(Request, differs_in_every_option_by_its_name) {
         {"support_mesh", [](Options& o) { o.support_mesh = 3; }},
         {"domain", [](Options& o) { o.domain = DomainKind::points; }},
         {"cut_rule", [](Options& o) { o.cut_rule = CutRule::midpoint; }},
-        {"one of grouped_axes, cut_axes, plain_cuts", [](Options& o) { o.plain_cuts = true; }},
-        {"one of grouped_axes, cut_axes, plain_cuts", [](Options& o) { o.cut_axes = {1}; }},
-        {"one of grouped_axes, cut_axes, plain_cuts", [](Options& o) { o.grouped_axes = {1}; }},
+        {"one of grouped_axes, cut_axes, plain_cuts, min_width, grid",
+         [](Options& o) { o.plain_cuts = true; }},
+        {"one of grouped_axes, cut_axes, plain_cuts, min_width, grid",
+         [](Options& o) { o.cut_axes = {1}; }},
+        {"one of grouped_axes, cut_axes, plain_cuts, min_width, grid",
+         [](Options& o) { o.grouped_axes = {1}; }},
+        {"one of grouped_axes, cut_axes, plain_cuts, min_width, grid",
+         [](Options& o) { o.min_width = {1}; }},
+        {"one of grouped_axes, cut_axes, plain_cuts, min_width, grid",
+         [](Options& o) {
+             o.grid = {{0, 1}};
+         }},
         {"refine", [](Options& o) { o.refine = Refine::none; }},
         {"coincident", [](Options& o) { o.coincident = Coincident::divide; }},
         {"imbalance_tolerance", [](Options& o) { o.imbalance_tolerance = 2; }},

@@ -58,8 +58,7 @@ List make_list(std::size_t count, const Record& record) {
     return list;
 }
 
-}  // namespace
-
+/// Import list that answers the export lists of all ranks. Collective.
 List invert(const List& exports, const Parameters& parameters, std::span<std::int64_t> per_rank,
             Participant& self) {
     const Record record{IdWidths(parameters)};
@@ -79,6 +78,24 @@ List invert(const List& exports, const Parameters& parameters, std::span<std::in
         record.read(place, i++, imports);
     });
     return imports;
+}
+
+}  // namespace
+
+void select_lists(const Parameters& parameters, bool changes, std::span<std::int64_t> per_rank,
+                  Participant& self, List& imports, List& exports) {
+    constexpr int not_asked = -1;
+    const ReturnLists asked = parameters.return_lists;
+    if (!changes) return;
+    if (asked == ReturnLists::all || asked == ReturnLists::imports) {
+        imports = invert(exports, parameters, per_rank, self);
+    } else {
+        imports.count = not_asked;
+    }
+    if (asked == ReturnLists::imports || asked == ReturnLists::none) {
+        exports = List{};
+        exports.count = not_asked;
+    }
 }
 
 }  // namespace rrcb::zoltan

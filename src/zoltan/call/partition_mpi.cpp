@@ -2,6 +2,7 @@
 
 #include "balance_mpi.hpp"
 #include "collective/communicator.hpp"
+#include "cuts/cut_limits.hpp"
 #include "zoltan/call/average_cuts_mpi.hpp"
 #include "zoltan/call/fortran_mpi.hpp"
 #include "zoltan/call/frame_mpi.hpp"
@@ -37,21 +38,6 @@ namespace rrcb::zoltan {
 
 namespace {
 
-void check_parameters(const State& state, bool one_part_per_rank) {
-    const Parameters& parameters = state.parameters;
-    if (parameters.return_lists == ReturnLists::candidates) {
-        throw ZoltanError(ZOLTAN_FATAL, "RRCB makes no candidate lists; change RETURN_LISTS");
-    }
-    const int global = asked_global_parts(state);
-    const int local = parameters.num_local_parts;
-    const bool other_global = global != -1 && global != state.communicator->size();
-    if (one_part_per_rank && (other_global || (local != -1 && local != 1))) {
-        throw ZoltanError(ZOLTAN_FATAL,
-                          "Zoltan_LB_Balance makes one part per rank; use Zoltan_LB_Partition for "
-                          "other NUM_GLOBAL_PARTS or NUM_LOCAL_PARTS");
-    }
-}
-
 /// Result of all that one rank does alone. Errors and foreign exceptions become a status.
 LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Objects& objects) {
     try {
@@ -74,23 +60,6 @@ LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Obj
         return {ZOLTAN_FATAL, text.data()};
     } catch (...) {
         return {ZOLTAN_FATAL, "a callback threw"};
-    }
-}
-
-/// Drops or completes the lists as RETURN_LISTS asks.
-void select_lists(const Parameters& parameters, std::span<std::int64_t> per_rank, Participant& self,
-                  Partition& result) {
-    constexpr int not_asked = -1;
-    const ReturnLists asked = parameters.return_lists;
-    if (!result.changes) return;
-    if (asked == ReturnLists::all || asked == ReturnLists::imports) {
-        result.imports = invert(result.exports, parameters, per_rank, self);
-    } else {
-        result.imports.count = not_asked;
-    }
-    if (asked == ReturnLists::imports || asked == ReturnLists::none) {
-        result.exports = List{};
-        result.exports.count = not_asked;
     }
 }
 
@@ -190,7 +159,9 @@ Preparation prepare(const Call& call, const Layout& layout, const Objects& objec
         made.renumbering.emplace(parameters, layout, objects, *call.state.communicator);
         const auto num_parts = static_cast<std::size_t>(layout.map.num_parts());
         made.kept.emplace(num_parts);
-        if (parameters.average_cuts != 0) made.average.emplace(num_parts);
+        // What the options ask of the places of cuts comes first.
+        if (parameters.average_cuts != 0 && !are_cuts_limited(made.options))
+            made.average.emplace(num_parts);
         made.rest.dimension = objects.points.dimension;
         made.rest.checksums.resize(num_parts + 1);
         made.rest.part_sizes = layout.part_sizes;
@@ -291,7 +262,8 @@ int balance_objects(const Call& call, Objects&& objects, Partition& result) {
             prepared.rest.part_sizes[static_cast<std::size_t>(remap.numbers[part])] =
                 layout.part_sizes[part];
     list_exports(call, layout, std::move(objects), balanced, prepared.rest, result);
-    select_lists(parameters, prepared.per_rank, self, result);
+    select_lists(parameters, result.changes, prepared.per_rank, self, result.imports,
+                 result.exports);
     serve_fortran(call, result, self);
     print_notices(balanced.report, layout.map.num_parts(), remap, call.state, call.function);
     keep(std::move(prepared), std::move(balanced), flat.frame, std::move(layout.map),

@@ -1,7 +1,9 @@
 #include "zoltan/call/rcb_options.hpp"
 
 #include "bisection/domain_kinds.hpp"
+#include "cuts/cut_limits.hpp"
 #include "zoltan/norm/multicriteria.hpp"
+#include "zoltan/real/zoltan_error.hpp"
 
 #include <array>
 
@@ -28,6 +30,26 @@ std::vector<int> axes_of(const Cuts& cuts) {
 }
 
 }  // namespace
+
+void check_parameters(const State& state, bool one_part_per_rank) {
+    const Parameters& parameters = state.parameters;
+    if (parameters.return_lists == ReturnLists::candidates) {
+        throw ZoltanError(ZOLTAN_FATAL, "RRCB makes no candidate lists; change RETURN_LISTS");
+    }
+    if (are_cuts_limited(parameters.options) &&
+        (has_several_weights(parameters) || parameters.reduce_dimensions != 0))
+        throw ZoltanError(ZOLTAN_FATAL,
+                          "RRCB_MIN_WIDTH and RRCB_GRID hold along the axes of the coordinates and "
+                          "for one weight; unset REDUCE_DIMENSIONS and OBJ_WEIGHT_DIM above 1");
+    const int global = asked_global_parts(state);
+    const int local = parameters.num_local_parts;
+    const bool other_global = global != -1 && global != state.communicator->size();
+    if (one_part_per_rank && (other_global || (local != -1 && local != 1))) {
+        throw ZoltanError(ZOLTAN_FATAL,
+                          "Zoltan_LB_Balance makes one part per rank; use Zoltan_LB_Partition for "
+                          "other NUM_GLOBAL_PARTS or NUM_LOCAL_PARTS");
+    }
+}
 
 Options make_options(const Parameters& parameters, const Layout& layout, int dimension,
                      const Cuts* previous) {

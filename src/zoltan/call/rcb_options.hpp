@@ -1,7 +1,7 @@
 #pragma once
 
 #include "zoltan/call/layout_mpi.hpp"
-#include "zoltan/handle/parameters.hpp"
+#include "zoltan/handle/state.hpp"
 
 #include <rrcb/cuts.hpp>
 #include <rrcb/options.hpp>
@@ -11,6 +11,10 @@
 #include <vector>
 
 namespace rrcb::zoltan {
+
+/// Throws ZoltanError for parameters that RRCB does not serve. Zoltan_LB_Balance makes one part per
+/// rank.
+void check_parameters(const State& state, bool one_part_per_rank);
 
 /// Options of the balancer for one call. `previous`: cuts of the last call, or null.
 ///

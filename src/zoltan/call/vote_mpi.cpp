@@ -68,14 +68,15 @@ constexpr std::array same_on_all_ranks = {
                    [](const Parameters& p) { return fold(p.degenerate_ratio); }},
 };
 
-/// Whether an option of the balancer is compared as a parameter. The parts are agreed on by
-/// themselves.
-constexpr bool is_compared(const Option& option) {
-    return option.parameter[0] != '\0' && std::string_view(option.name) != "num_parts";
+/// Options of the balancer that are parameters, but for the parts, which are agreed on as such, and
+/// those that the balancer compares by itself.
+constexpr bool is_voted_on(const Option& option) {
+    return option.parameter[0] != '\0' && is_compared(option) &&
+           std::string_view(option.name) != "num_parts";
 }
 
 constexpr auto num_compared_options =
-    static_cast<std::size_t>(std::ranges::count_if(option_table, is_compared));
+    static_cast<std::size_t>(std::ranges::count_if(option_table, is_voted_on));
 
 constexpr std::size_t num_shared = same_on_all_ranks.size() + num_compared_options;
 
@@ -84,7 +85,7 @@ template <class Visit>
 void for_each_shared(const Parameters& parameters, Visit&& visit) {
     for (const SameOnAllRanks& one : same_on_all_ranks) visit(one.name, one.value(parameters));
     for (const Option& option : option_table)
-        if (is_compared(option)) visit(option.parameter, fold(bits_of(option, parameters.options)));
+        if (is_voted_on(option)) visit(option.parameter, fold(bits_of(option, parameters.options)));
 }
 
 /// Numbers of one rank in the vote, reduced by maximum. A minimum travels as the maximum of the

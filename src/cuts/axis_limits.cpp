@@ -1,0 +1,101 @@
+#include "cuts/axis_limits.hpp"
+
+#include "cuts/double_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rrcb {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The least double above `from` that `holds`, which all above it do; `guess` is likely near it.
+template <class Holds>
+double least_double(double from, double guess, Holds&& holds) {
+    for (const double x : {guess, std::nextafter(guess, infinity)})
+        if (holds(x) && !holds(std::nextafter(x, -infinity))) return x;
+    std::int64_t below = double_rank(from);
+    std::int64_t at = double_rank(infinity);
+    // What is looked for lies in (below, at].
+    while (at - 1 > below) {
+        const std::int64_t middle = below / 2 + at / 2 + (below % 2 + at % 2) / 2;
+        (holds(double_of_rank(middle)) ? at : below) = middle;
+    }
+    return double_of_rank(at);
+}
+
+}  // namespace
+
+bool AxisLimits::is_apart(double lower, double upper) const {
+    return upper > lower && upper - lower >= min_width_;
+}
+
+bool AxisLimits::resolves(double magnitude) const {
+    return grid_.spacing >= 0x1p-50 * std::max(magnitude, std::abs(grid_.origin));
+}
+
+double AxisLimits::line(double k) const {
+    return grid_.origin + k * grid_.spacing;
+}
+
+double AxisLimits::line_below(double value) const {
+    // By parts, as the difference might overflow.
+    double k = std::floor(value / grid_.spacing - grid_.origin / grid_.spacing);
+    while (line(k) > value) --k;
+    while (line(k + 1) <= value) ++k;
+    return k;
+}
+
+double AxisLimits::next_behind(double face) const {
+    if (!has_grid())
+        return least_double(face, std::max(face + min_width_, std::nextafter(face, infinity)),
+                            [&](double x) { return is_apart(face, x); });
+    // More cells than doubles tell apart are behind all points.
+    const double cells = std::floor(min_width_ / grid_.spacing);
+    if (!(cells < 0x1p52)) return infinity;
+    double k = line_below(face) + cells;
+    while (is_apart(face, line(k))) --k;
+    while (!is_apart(face, line(k))) ++k;
+    return line(k);
+}
+
+double AxisLimits::next_before(double face) const {
+    return -AxisLimits(min_width_, {-grid_.origin, grid_.spacing}).next_behind(-face);
+}
+
+double AxisLimits::place_behind(double value) const {
+    return AxisLimits(0, grid_).next_behind(value);
+}
+
+double AxisLimits::place_before(double value) const {
+    return AxisLimits(0, grid_).next_before(value);
+}
+
+double AxisLimits::first_behind(double face, int count) const {
+    for (int k = 0; k < count && face < infinity; ++k) face = next_behind(face);
+    return face;
+}
+
+double AxisLimits::last_before(double face, int count) const {
+    for (int k = 0; k < count && face > -infinity; ++k) face = next_before(face);
+    return face;
+}
+
+int AxisLimits::count_between(double lower, double upper, int most) const {
+    int count = 1;
+    while (count < most && is_apart(lower = next_behind(lower), upper)) ++count;
+    return count;
+}
+
+double AxisLimits::nearest(double value, double first, double last) const {
+    value = std::clamp(value, first, last);
+    if (!has_grid() || value == first || value == last) return value;
+    const double k = line_below(value);
+    const double above = line(k + 1);
+    return value - line(k) <= above - value ? line(k) : above;
+}
+
+}  // namespace rrcb

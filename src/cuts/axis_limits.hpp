@@ -1,0 +1,56 @@
+#pragma once
+
+#include <rrcb/options.hpp>
+
+namespace rrcb {
+
+/// Where cuts across one axis may lie, and how far apart.
+///
+/// Boxes lie side by side between two faces, which may be anywhere; what is between two of them is
+/// a cut. `upper - lower` of each box, as computed, is at least `min_width`; above 0 without one.
+/// All results are exact to the bit: first_behind() and last_before() are each other's inverse, so
+/// that boxes that fit when counted from one end fit from the other.
+class AxisLimits {
+  public:
+    /// `min_width` 0 and a `spacing` of 0 stand for none.
+    AxisLimits() = default;
+    AxisLimits(double min_width, const GridLines& grid) : min_width_(min_width), grid_(grid) {}
+
+    bool has_grid() const { return grid_.spacing > 0; }
+
+    /// True when doubles up to `magnitude` can tell the lines of the grid apart.
+    bool resolves(double magnitude) const;
+
+    /// The least place of a cut with room for `count` boxes between `face` and it; infinity where
+    /// there is none.
+    double first_behind(double face, int count) const;
+
+    /// The greatest place of a cut with room for `count` boxes between it and `face`.
+    double last_before(double face, int count) const;
+
+    /// How many boxes there is room for between two faces, from 1 to `most`.
+    int count_between(double lower, double upper, int most) const;
+
+    /// The place in [first, last], which are places, that is next to `value`.
+    double nearest(double value, double first, double last) const;
+
+    /// The next place above and below a value, wherever the faces are.
+    double place_behind(double value) const;
+    double place_before(double value) const;
+
+    /// Line number `k` of the grid.
+    double line(double k) const;
+
+    /// The number of the greatest line that is not above `value`.
+    double line_below(double value) const;
+
+  private:
+    bool is_apart(double lower, double upper) const;
+    double next_behind(double face) const;
+    double next_before(double face) const;
+
+    double min_width_ = 0;
+    GridLines grid_{0, 0};
+};
+
+}  // namespace rrcb

@@ -1,0 +1,120 @@
+#include "cuts/box_packing.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+namespace rrcb {
+
+namespace {
+
+/// Levels that can halve this much room.
+int halvings(int room) {
+    return std::bit_width(static_cast<unsigned>(room)) - 1;
+}
+
+/// The least number in [first, last] that `holds`, as do all above it; last + 1 where none does.
+template <class Holds>
+int least_number(int first, int last, Holds&& holds) {
+    int end = last + 1;
+    // All below `first` do not hold, all from `end` on do.
+    while (first < end) {
+        const int middle = first + (end - first) / 2;
+        if (holds(middle)) {
+            end = middle;
+        } else {
+            first = middle + 1;
+        }
+    }
+    return end;
+}
+
+}  // namespace
+
+BoxPacking::BoxPacking(std::span<const double> sizes)
+    : shapes_{{}, {empty, empty, 1, 0}}, shape_of_node_(sizes.size() - 1) {
+    shape_of_part_.reserve(sizes.size());
+    add_node(sizes, 0);
+}
+
+std::size_t BoxPacking::add_node(std::span<const double> sizes, std::size_t first_node) {
+    if (sizes.size() == 1) return shape_of_part_.emplace_back(sizes[0] > 0 ? single : empty);
+    const auto num_below = static_cast<std::size_t>(lower_parts(static_cast<int>(sizes.size())));
+    const std::size_t lower = add_node(sizes.first(num_below), first_node + 1);
+    const std::size_t upper = add_node(sizes.subspan(num_below), first_node + num_below);
+    return shape_of_node_[first_node] = shape_with(lower, upper);
+}
+
+std::size_t BoxPacking::shape_with(std::size_t lower, std::size_t upper) {
+    if (lower == empty) return upper;
+    if (upper == empty) return lower;
+    const auto [at, is_new] = numbers_.try_emplace({lower, upper}, shapes_.size());
+    if (is_new)
+        shapes_.push_back({lower, upper, shapes_[lower].num_parts + shapes_[upper].num_parts,
+                           1 + std::max(shapes_[lower].depth, shapes_[upper].depth)});
+    return at->second;
+}
+
+std::size_t BoxPacking::shape_of(const Descent& at) const {
+    return at.is_part() ? shape_of_part_[static_cast<std::size_t>(at.first_part)]
+                        : shape_of_node_[at.node];
+}
+
+bool BoxPacking::fits(std::size_t shape, const Room& room) {
+    // Along the axis of most room, so that there is least to look up.
+    Room sorted = room;
+    std::ranges::sort(sorted);
+    if (sorted[2] >= shapes_[shape].num_parts) return true;
+    return least_length(shape, sorted[0], sorted[1]) <= sorted[2];
+}
+
+int BoxPacking::least_room(const Descent& at, int axis, Room room, int most) {
+    const std::size_t shape = shape_of(at);
+    return least_number(1, most, [&](int length) {
+        room[static_cast<std::size_t>(axis)] = length;
+        return fits(shape, room);
+    });
+}
+
+/// The least room along one axis for that along the others.
+int BoxPacking::least_length(std::size_t number, int width, int height) {
+    const Shape shape = shapes_[number];
+    if (shape.num_parts <= 1) return 1;
+    if (halvings(width) + halvings(height) >= shape.depth) return 1;
+    const std::array<std::size_t, 3> key{number, static_cast<std::size_t>(width),
+                                         static_cast<std::size_t>(height)};
+    if (const auto known = lengths_.find(key); known != lengths_.end()) return known->second;
+    int least = least_length(shape.lower, width, height) + least_length(shape.upper, width, height);
+    least = std::min(least, shared_length(shape, width, height));
+    least = std::min(least, shared_length(shape, height, width));
+    return lengths_[key] = least;
+}
+
+/// The least room that both children need beside each other, `width` being divided among them.
+int BoxPacking::shared_length(const Shape& shape, int width, int height) {
+    const auto length = [&](std::size_t child, int part_of_width) {
+        return least_length(child, std::min(part_of_width, height),
+                            std::max(part_of_width, height));
+    };
+    const auto longer = [&](int below) {
+        return std::max(length(shape.lower, below), length(shape.upper, width - below));
+    };
+    if (width < 2) return shape.num_parts;
+    // The length that the lower child needs falls with what lies below, that of the upper rises.
+    const int crossing = least_number(1, width - 2, [&](int below) {
+        return length(shape.lower, below) <= length(shape.upper, width - below);
+    });
+    return crossing > 1 ? std::min(longer(crossing), longer(crossing - 1)) : longer(crossing);
+}
+
+int most_parts(const Room& room, int most) {
+    std::int64_t units = 1;
+    for (const int count : room) units = std::min<std::int64_t>(units * count, most);
+    const auto too_many = [&](int num_parts) {
+        const std::vector<double> sizes(static_cast<std::size_t>(num_parts), 1.0);
+        return !BoxPacking(sizes).fits({0, 0, num_parts}, room);
+    };
+    return least_number(1, static_cast<int>(units), too_many) - 1;
+}
+
+}  // namespace rrcb

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "cuts/tree.hpp"
+
+#include <array>
+#include <map>
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+/// How many boxes have room side by side, along each axis.
+using Room = std::array<int, max_dimension>;
+
+/// Which bisections have room, where each part takes one unit of room along each axis.
+///
+/// The room along an axis is divided by a cut across it: i units lie below, the others above. A
+/// node fits when there is an axis and a division that fit both children; more room never harms,
+/// so there is a least room along one axis for what there is along the others. Found by recursion
+/// over the shapes of nodes: two per level, where no part has size 0.
+class BoxPacking {
+  public:
+    /// Of the tree that bisects parts of these relative sizes; those of size 0 take no room.
+    explicit BoxPacking(std::span<const double> sizes);
+
+    int num_parts(const Descent& at) const { return shapes_[shape_of(at)].num_parts; }
+
+    bool fits(const Descent& at, const Room& room) { return fits(shape_of(at), room); }
+
+    /// The least room along `axis`, of which room[axis] is not read, that the node fits in; more
+    /// than `most` where that is not enough.
+    int least_room(const Descent& at, int axis, Room room, int most);
+
+  private:
+    struct Shape {
+        std::size_t lower = 0;
+        std::size_t upper = 0;
+        int num_parts = 0;
+        int depth = 0;  ///< levels of cuts below it
+    };
+    static constexpr std::size_t empty = 0;
+    static constexpr std::size_t single = 1;
+
+    std::size_t add_node(std::span<const double> sizes, std::size_t first_node);
+    std::size_t shape_with(std::size_t lower, std::size_t upper);
+    std::size_t shape_of(const Descent& at) const;
+    bool fits(std::size_t shape, const Room& room);
+    int least_length(std::size_t shape, int width, int height);
+    int shared_length(const Shape& shape, int width, int height);
+
+    std::vector<Shape> shapes_;
+    std::map<std::array<std::size_t, 2>, std::size_t> numbers_;  ///< of shapes, by their children
+    std::vector<std::size_t> shape_of_node_;                     ///< in preorder
+    std::vector<std::size_t> shape_of_part_;
+    std::map<std::array<std::size_t, 3>, int> lengths_;  ///< found so far
+};
+
+/// The most parts of equal size, up to `most`, that there is room for.
+int most_parts(const Room& room, int most);
+
+}  // namespace rrcb

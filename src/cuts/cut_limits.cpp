@@ -1,0 +1,156 @@
+#include "cuts/cut_limits.hpp"
+
+#include <rrcb/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace rrcb {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+[[noreturn]] void reject(const std::string& what) {
+    throw Error(ErrorCode::invalid_argument, what);
+}
+
+}  // namespace
+
+bool are_cuts_limited(const Options& options) {
+    return !options.min_width.empty() || !options.grid.empty();
+}
+
+std::array<AxisLimits, max_dimension> axis_limits(const Options& options) {
+    std::array<AxisLimits, max_dimension> axes;
+    for (std::size_t a = 0; a < std::max(options.min_width.size(), options.grid.size()); ++a)
+        axes[a] = {options.min_width.empty() ? 0 : options.min_width[a],
+                   options.grid.empty() ? GridLines{} : options.grid[a]};
+    return axes;
+}
+
+CutLimits::CutLimits(const Options& options, const Box& points, int dimension, GivenAxes given)
+    : axes_(axis_limits(options)),
+      region_(points),
+      dimension_(dimension),
+      whole_{0, 0, static_cast<int>(options.part_sizes.size())},
+      packing_(options.part_sizes),
+      given_(std::move(given)),
+      limiting_(options.grid.empty()        ? "min_width leaves"
+                : options.min_width.empty() ? "grid leaves"
+                                            : "min_width and grid together leave") {
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
+        if (!axes_[a].has_grid()) continue;
+        if (!axes_[a].resolves(std::max(std::abs(points.lower[a]), std::abs(points.upper[a]))))
+            reject("grid is finer along axis " + std::to_string(a) +
+                   " than coordinates as large as these can tell; give a larger spacing");
+        // A line through the last points has a cell of points above it.
+        if (options.min_width.empty()) region_.upper[a] = std::nextafter(points.upper[a], infinity);
+    }
+}
+
+bool CutLimits::has_room() {
+    if (given_.axes.empty())
+        return packing_.fits(whole_, room_in(region_, packing_.num_parts(whole_)));
+    for (int axis = 0; axis < dimension_; ++axis)
+        if (!has_room_across(whole_, axis)) return false;
+    return true;
+}
+
+/// True when the first cuts across `axis` on each way down the tree have places.
+bool CutLimits::has_room_across(const Descent& at, int axis) {
+    if (at.is_part()) return true;
+    if (divides(at) && given_.axes[at.node] == axis) return !places(at, region_, axis).empty();
+    return has_room_across(at.lower(), axis) && has_room_across(at.upper(), axis);
+}
+
+void CutLimits::require_room() {
+    if (has_room()) return;
+    const int num_parts = packing_.num_parts(whole_);
+    const Room room = room_in(region_, num_parts);
+    const std::string limited(limiting_);
+    if (given_.axes.empty())
+        reject(limited + " room for " + std::to_string(most_parts(room, num_parts)) +
+               " parts, but " + std::to_string(num_parts) + " are asked for");
+    std::string side_by_side;
+    for (int axis = 0; axis < dimension_; ++axis)
+        side_by_side +=
+            (axis == 0 ? "" : " x ") + std::to_string(room[static_cast<std::size_t>(axis)]);
+    reject(limited + " room for " + side_by_side +
+           " parts side by side, not for what the axes given to the cuts ask for");
+}
+
+Room CutLimits::room_in(const Box& region, int most) const {
+    Room room{1, 1, 1};
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension_); ++a)
+        room[a] = axes_[a].count_between(region.lower[a], region.upper[a], most);
+    return room;
+}
+
+/// The least place of a cut across `axis` with room for a node between `face` and it.
+double CutLimits::first_face_behind(const Descent& at, int axis, double face) const {
+    if (at.is_part()) return across(axis).first_behind(face, 1);
+    if (!divides(at)) return first_face_behind(with_parts(at), axis, face);
+    const double behind_lower = first_face_behind(at.lower(), axis, face);
+    if (axis != given_.axes[at.node])
+        return std::max(behind_lower, first_face_behind(at.upper(), axis, face));
+    const Places gap = given_.gaps.empty() ? Places{} : given_.gaps[at.node];
+    if (behind_lower > gap.last) return infinity;
+    return first_face_behind(at.upper(), axis, std::max(behind_lower, gap.first));
+}
+
+/// The greatest place of a cut across `axis` with room for a node between it and `face`.
+double CutLimits::last_face_before(const Descent& at, int axis, double face) const {
+    if (at.is_part()) return across(axis).last_before(face, 1);
+    if (!divides(at)) return last_face_before(with_parts(at), axis, face);
+    const double before_upper = last_face_before(at.upper(), axis, face);
+    if (axis != given_.axes[at.node])
+        return std::min(before_upper, last_face_before(at.lower(), axis, face));
+    const Places gap = given_.gaps.empty() ? Places{} : given_.gaps[at.node];
+    if (before_upper < gap.first) return -infinity;
+    return last_face_before(at.lower(), axis, std::min(before_upper, gap.last));
+}
+
+Places CutLimits::places(const Descent& at, const Box& region, int axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    if (!given_.axes.empty()) {
+        const Places gap = given_.gaps.empty() ? Places{} : given_.gaps[at.node];
+        return {std::max(gap.first, first_face_behind(at.lower(), axis, region.lower[a])),
+                std::min(gap.last, last_face_before(at.upper(), axis, region.upper[a]))};
+    }
+    const Room room = room_in(region, packing_.num_parts(at));
+    const int below = packing_.least_room(at.lower(), axis, room, room[a]);
+    const int above = packing_.least_room(at.upper(), axis, room, room[a]);
+    if (below + above > room[a]) return {infinity, -infinity};
+    return {axes_[a].first_behind(region.lower[a], below),
+            axes_[a].last_before(region.upper[a], above)};
+}
+
+Cut CutLimits::nearest(const Cut& cut, const Places& places) const {
+    const double value = cut.at[static_cast<std::size_t>(cut.axis)];
+    const double place = across(cut.axis).nearest(value, places.first, places.last);
+    return place == value ? cut : plane(cut.axis, place);
+}
+
+Cut plane(int axis, double value) {
+    Cut cut{axis, 0, {-infinity, -infinity, -infinity}};
+    cut.at[static_cast<std::size_t>(axis)] = value;
+    return cut;
+}
+
+Box box_below(Box region, const Cut& cut) {
+    const auto a = static_cast<std::size_t>(cut.axis);
+    region.upper[a] = std::min(region.upper[a], cut.at[a]);
+    return region;
+}
+
+Box box_above(Box region, const Cut& cut) {
+    const auto a = static_cast<std::size_t>(cut.axis);
+    region.lower[a] = std::max(region.lower[a], cut.at[a]);
+    return region;
+}
+
+}  // namespace rrcb

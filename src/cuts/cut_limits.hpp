@@ -1,0 +1,93 @@
+#pragma once
+
+#include "cuts/axis_limits.hpp"
+#include "cuts/box_packing.hpp"
+
+#include <rrcb/options.hpp>
+
+namespace rrcb {
+
+/// True when the options limit where cuts may lie: by min_width or a grid.
+bool are_cuts_limited(const Options& options);
+
+/// What the options ask of cuts across each axis; for any options.
+std::array<AxisLimits, max_dimension> axis_limits(const Options& options);
+
+/// Places that a cut may have, both ends included.
+struct Places {
+    double first = -std::numeric_limits<double>::infinity();
+    double last = std::numeric_limits<double>::infinity();
+
+    bool empty() const { return !(first <= last); }
+    bool all() const { return first < -std::numeric_limits<double>::max(); }
+};
+
+/// Axes of the cuts of a tree in preorder, and the places that each may have by itself: any where
+/// `gaps` is empty. Both are empty where axes are free.
+struct GivenAxes {
+    std::vector<int> axes{};
+    std::vector<Places> gaps{};
+};
+
+/// Where the cuts of a tree may lie, so that all parts keep their widths and all cuts lie on lines.
+///
+/// Where there is room for the whole tree, any cut within its places leaves places to all cuts
+/// below it, and no other does.
+class CutLimits {
+  public:
+    /// By complete options that limit the cuts, for points in the box `points`. Throws Error where
+    /// the grid is too fine.
+    CutLimits(const Options& options, const Box& points, int dimension, GivenAxes given = {});
+
+    /// What the cuts divide.
+    const Box& region() const { return region_; }
+
+    int dimension() const { return dimension_; }
+    bool are_axes_given() const { return !given_.axes.empty(); }
+
+    bool has_room();
+
+    /// Throws Error, with the number of parts that there is room for, where there is not enough.
+    void require_room();
+
+    /// True when weight may lie on both sides of the cut of a node.
+    bool divides(const Descent& at) const {
+        return packing_.num_parts(at.lower()) > 0 && packing_.num_parts(at.upper()) > 0;
+    }
+
+    /// Places of the cut of a node that divides, of what is in `region`, across `axis`: the one
+    /// given where axes are.
+    Places places(const Descent& at, const Box& region, int axis);
+
+    /// `cut` where it lies in one of its places; otherwise the plane in the nearest.
+    Cut nearest(const Cut& cut, const Places& places) const;
+
+    const AxisLimits& across(int axis) const { return axes_[static_cast<std::size_t>(axis)]; }
+
+  private:
+    Room room_in(const Box& region, int most) const;
+    bool has_room_across(const Descent& at, int axis);
+    /// The side of a node that does not divide on which its parts lie.
+    Descent with_parts(const Descent& at) const {
+        return packing_.num_parts(at.lower()) > 0 ? at.lower() : at.upper();
+    }
+    double first_face_behind(const Descent& at, int axis, double face) const;
+    double last_face_before(const Descent& at, int axis, double face) const;
+
+    std::array<AxisLimits, max_dimension> axes_;
+    Box region_;
+    int dimension_;
+    Descent whole_;
+    BoxPacking packing_;
+    GivenAxes given_;
+    const char* limiting_;  ///< options, with a verb
+};
+
+/// A cut without ties.
+Cut plane(int axis, double value);
+
+/// The box on either side of a cut.
+Box box_below(Box region, const Cut& cut);
+Box box_above(Box region, const Cut& cut);
+
+}  // namespace rrcb

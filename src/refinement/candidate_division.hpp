@@ -1,0 +1,41 @@
+#pragma once
+
+#include "cuts/position_order.hpp"
+
+#include <rrcb/points.hpp>
+
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+/// A point that may still lie on either side of a cut.
+struct Candidate {
+    Vector position{};
+    double weight = 0;
+};
+
+/// Candidates from records of position and weight.
+std::vector<Candidate> read_candidates(std::span<const double> records, int dimension);
+
+/// Candidates at one position, the first of them and how many, with the weight below them.
+struct Ties {
+    std::size_t begin = 0;
+    std::size_t count = 0;
+    double below = 0;
+    double weight = 0;
+};
+
+/// How many of the candidates are to lie below the cut.
+struct Division {
+    std::size_t num_below = 0;
+    double below = 0;  ///< weight of the node below the cut
+    Ties ties;         ///< that the target lies in, of several candidates; else empty
+};
+
+/// The division of sorted candidates, all above the weight `base`, that comes nearest to the
+/// target.
+Division best_division(std::span<const Candidate> sorted, const PositionOrder& before, double base,
+                       double target);
+
+}  // namespace rrcb

@@ -1,0 +1,270 @@
+// Options::min_width and Options::grid on clouds large enough to be searched round by round.
+#include "../support/clouds.hpp"
+#include "../support/ranks.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/error.hpp>
+#include <rrcb/quality.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace rrcb {
+namespace {
+
+using test::num_ranks;
+using test::rank;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Points of the unit square, dense towards the lower left corner, dealt out to the ranks.
+std::vector<double> dense_corner(int count, unsigned seed) {
+    std::mt19937_64 engine(seed);
+    std::vector<double> mine;
+    for (int i = 0; i < count; ++i) {
+        const double x = test::uniform(engine);
+        const double y = test::uniform(engine);
+        if (i % num_ranks() == rank()) mine.insert(mine.end(), {x * x * x, y * y});
+    }
+    return mine;
+}
+
+Box box_of_all(const Points& points) {
+    Box box = bounding_box(points);
+    MPI_Allreduce(MPI_IN_PLACE, box.lower.data(), 3, MPI_DOUBLE, MPI_MIN, MPI_COMM_WORLD);
+    MPI_Allreduce(MPI_IN_PLACE, box.upper.data(), 3, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    return box;
+}
+
+/// Least extent of the parts along an axis that is cut; open sides count to the box of all points.
+double least_width(const Cuts& cuts, const Box& box, std::size_t axis) {
+    double least = infinity;
+    for (Part part = 0; part < cuts.num_parts; ++part) {
+        const Box region = box_of(cuts, part);
+        if (std::isinf(region.lower[axis]) && std::isinf(region.upper[axis])) continue;
+        least = std::min(least, std::min(region.upper[axis], box.upper[axis]) -
+                                    std::max(region.lower[axis], box.lower[axis]));
+    }
+    return least;
+}
+
+std::string message_of(const Points& points, const Options& options) {
+    try {
+        balance(points, options, MPI_COMM_WORLD);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
+        return error.what();
+    }
+    return "";
+}
+
+TEST(MinWidth, holds_for_every_part_while_the_rest_is_balanced) {
+    const auto coordinates = dense_corner(6000, 1);
+    const Points points = interleaved_points(coordinates, 2);
+    const Box box = box_of_all(points);
+    for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
+        for (const DomainKind domain :
+             {DomainKind::analytic, DomainKind::sampled, DomainKind::points}) {
+            for (const int num_parts : {2, 5, 12}) {
+                Options options;
+                options.domain = domain;
+                options.refine = refine;
+                options.num_parts = num_parts;
+                const Balance free = balance(points, options, MPI_COMM_WORLD);
+                options.min_width = {0.15, 0.1};
+                const Balance wide = balance(points, options, MPI_COMM_WORLD);
+                EXPECT_GE(least_width(wide.cuts, box, 0), 0.15) << num_parts;
+                EXPECT_GE(least_width(wide.cuts, box, 1), 0.1) << num_parts;
+                // Parts of a 12th would be narrower in the corner.
+                if (num_parts == 12) {
+                    EXPECT_LT(std::min(least_width(free.cuts, box, 0) - 0.15,
+                                       least_width(free.cuts, box, 1) - 0.1),
+                              0);
+                }
+                const auto weights = part_weights(points, wide.parts, num_parts, MPI_COMM_WORLD);
+                if (!wide.report.part_weights.empty()) {
+                    EXPECT_EQ(weights, wide.report.part_weights);
+                }
+                if (refine != Refine::none && num_parts == 2) {
+                    EXPECT_LE(imbalance(weights), 1.01);
+                }
+            }
+        }
+    }
+}
+
+TEST(MinWidth, of_a_fraction_of_the_extent_leaves_one_place_for_each_cut) {
+    // 8 x 4 parts of exactly these widths in the box 0 ... 8, 0 ... 2, and not one more.
+    std::vector<double> coordinates;
+    if (rank() == 0) coordinates = {0, 0, 8, 2};
+    for (const double x : dense_corner(500, 2)) coordinates.push_back(2 * x);
+    const Points points = interleaved_points(coordinates, 2);
+    Options options;
+    options.min_width = {1, 0.5};
+    options.num_parts = 32;
+    const Balance full = balance(points, options, MPI_COMM_WORLD);
+    for (const Cut& cut : full.cuts.tree) {
+        const double unit = options.min_width[static_cast<std::size_t>(cut.axis)];
+        const double value = cut.at[static_cast<std::size_t>(cut.axis)];
+        EXPECT_EQ(value, unit * std::round(value / unit));
+    }
+    options.num_parts = 33;
+    EXPECT_EQ(message_of(points, options),
+              "rank 0: min_width leaves room for 32 parts, but 33 are asked for");
+    options.num_parts = 32;
+    options.min_width[0] = std::nextafter(1, 2);
+    EXPECT_EQ(message_of(points, options),
+              "rank 0: min_width leaves room for 28 parts, but 32 are asked for");
+}
+
+TEST(MinWidth, tells_when_the_axes_given_leave_no_room) {
+    const auto coordinates = dense_corner(1000, 3);
+    const Points points = interleaved_points(coordinates, 2);
+    Options options;
+    options.num_parts = 4;
+    options.min_width = {0.3, 0.1};
+    options.cut_axes = {0, 0, 0};
+    EXPECT_EQ(message_of(points, options),
+              "rank 0: min_width leaves room for 3 x 4 parts side by side, not for what the axes "
+              "given to the cuts ask for");
+    options.cut_axes = {0, 1, 1};
+    EXPECT_EQ(message_of(points, options), "");
+    options.cut_axes.clear();
+    options.grouped_axes = {1, 0};
+    EXPECT_EQ(message_of(points, options), "");
+}
+
+TEST(Grid, holds_all_cuts_on_its_lines) {
+    const auto coordinates = dense_corner(6000, 4);
+    const Points points = interleaved_points(coordinates, 2);
+    for (const double spacing : {0.3, 0.02, 1.0 / 1024, 1e-6}) {
+        for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
+            Options options;
+            options.num_parts = 7;
+            options.refine = refine;
+            options.grid = {{0.1, spacing}, {-7, spacing / 3}};
+            const Balance result = balance(points, options, MPI_COMM_WORLD);
+            for (const Cut& cut : result.cuts.tree) {
+                const auto axis = static_cast<std::size_t>(cut.axis);
+                const auto [origin, step] = options.grid[axis];
+                const double k = std::round((cut.at[axis] - origin) / step);
+                EXPECT_EQ(cut.at[axis], origin + k * step);
+                EXPECT_EQ(cut.at[1 - axis], -infinity);
+                EXPECT_EQ(cut.divides, 0);
+            }
+            // Lines this near leave at most a few points too many below a cut.
+            if (spacing < 1e-5 && refine == Refine::exact) {
+                EXPECT_LE(result.report.measured_imbalance, 1.005);
+            }
+            if (spacing < 1e-2 && refine == Refine::tolerance) {
+                EXPECT_LE(result.report.measured_imbalance, 1.01);
+            }
+        }
+    }
+}
+
+TEST(Grid, that_coordinates_cannot_tell_apart_is_refused) {
+    std::vector<double> coordinates{1e15 + rank(), 3, 1e15, 4};
+    const Points points = interleaved_points(coordinates, 2);
+    Options options;
+    options.num_parts = 2;
+    options.grid = {{0, 0.1}, {0, 0.1}};
+    EXPECT_EQ(message_of(points, options),
+              "rank 0: grid is finer along axis 0 than coordinates as large as these can tell; "
+              "give a larger spacing");
+}
+
+TEST(Limits, that_differ_between_ranks_are_an_error_on_all) {
+    if (num_ranks() == 1) GTEST_SKIP();
+    const auto coordinates = dense_corner(1000, 5);
+    Options options;
+    options.min_width = {0.1, rank() == num_ranks() - 1 ? 0.1 : 0.2};
+    const std::string message = message_of(interleaved_points(coordinates, 2), options);
+    EXPECT_NE(message.find("min_width, grid differs between rank"), std::string::npos) << message;
+}
+
+TEST(Limits, move_earlier_cuts_that_break_them) {
+    const auto coordinates = dense_corner(6000, 6);
+    const Points points = interleaved_points(coordinates, 2);
+    const Box box = box_of_all(points);
+    Options options;
+    options.num_parts = 12;
+    const Cuts previous = balance(points, options, MPI_COMM_WORLD).cuts;
+    for (const Refine refine : {Refine::none, Refine::tolerance}) {
+        options.refine = refine;
+        options.min_width = {0.15, 0.1};
+        const Balance moved = balance(points, options, MPI_COMM_WORLD, previous);
+        EXPECT_GE(least_width(moved.cuts, box, 0), 0.15);
+        EXPECT_GE(least_width(moved.cuts, box, 1), 0.1);
+        // What keeps them stays as it is.
+        options.refine = Refine::none;
+        const Cuts again = balance(points, options, MPI_COMM_WORLD, moved.cuts).cuts;
+        for (std::size_t k = 0; k < again.tree.size(); ++k)
+            EXPECT_EQ(again.tree[k].at, moved.cuts.tree[k].at);
+    }
+}
+
+TEST(Limits, hold_between_parts_that_stay) {
+    if (num_ranks() == 1) GTEST_SKIP();
+    // A strip for each rank, 1 wide, with a gap of 0.5 behind it.
+    std::mt19937_64 engine(static_cast<unsigned>(rank()));
+    std::vector<double> coordinates;
+    for (int i = 0; i < 500; ++i) {
+        coordinates.push_back(1.5 * rank() + test::uniform(engine));
+        coordinates.push_back(test::uniform(engine));
+    }
+    const Points points = interleaved_points(coordinates, 2);
+    const Box box = box_of_all(points);
+    Options options;
+    options.refine = Refine::tolerance;
+    // More than the middles of the gaps leave to the first and the last.
+    const double width = num_ranks() > 2 ? 1.3 : 1.2;
+    options.min_width = {width, 1e-3};
+    const Balance kept = balance(points, options, MPI_COMM_WORLD);
+    EXPECT_TRUE(kept.report.kept);
+    EXPECT_GE(least_width(kept.cuts, box, 0), width);
+    options.grid = {{-0.2, 0.75}, {0, 0.1}};
+    options.min_width.clear();
+    const Balance on_lines = balance(points, options, MPI_COMM_WORLD);
+    EXPECT_TRUE(on_lines.report.kept);
+    for (const Cut& cut : on_lines.cuts.tree) {
+        const double k = std::round((cut.at[0] + 0.2) / 0.75);
+        EXPECT_EQ(cut.at[0], -0.2 + k * 0.75);
+    }
+    // No line lies in the gaps: something has to move.
+    options.grid = {{0.5, 1.5}, {0, 0.1}};
+    EXPECT_FALSE(balance(points, options, MPI_COMM_WORLD).report.kept);
+}
+
+TEST(Limits, hold_where_nothing_has_weight) {
+    for (unsigned seed = 1; seed <= 40; ++seed) {
+        const auto coordinates = dense_corner(200, seed);
+        std::vector<double> weights;
+        for (std::size_t i = 0; i < coordinates.size(); i += 2)
+            weights.push_back(std::fmod(coordinates[i], 0.25) < 0.02 ? 1 : 0);
+        const Points points = interleaved_points(coordinates, 2, weights);
+        Options options;
+        options.num_parts = 11;
+        options.support_mesh = 1;
+        options.refine = Refine::exact;
+        options.min_width = {0.07, 0.07};
+        const Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
+        EXPECT_GE(least_width(cuts, box_of_all(points), 0), 0.07) << seed;
+        EXPECT_GE(least_width(cuts, box_of_all(points), 1), 0.07) << seed;
+    }
+}
+
+TEST(Limits, need_no_points) {
+    Options options;
+    options.min_width = {1, 1, 1};
+    options.grid = {{0, 1}, {0, 1}, {0, 1}};
+    options.num_parts = 9;
+    const Balance result = balance(interleaved_points({}, 3), options, MPI_COMM_WORLD);
+    EXPECT_EQ(result.cuts.tree.size(), 8u);
+}
+
+}  // namespace
+}  // namespace rrcb

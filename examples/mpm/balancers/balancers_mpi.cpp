@@ -13,8 +13,8 @@
 
 namespace {
 
-constexpr std::array<std::string_view, 6> names{"none",         "rrcb",     "rrcb-exact",
-                                                "rrcb-sampled", "root-rcb", "zoltan-rcb"};
+constexpr std::array<std::string_view, 7> names{
+    "none", "rrcb", "rrcb-exact", "rrcb-cells", "rrcb-sampled", "root-rcb", "zoltan-rcb"};
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 3> without_boxes{{
     {"zoltan-rib", "RIB cuts along the axes of inertia"},
@@ -27,9 +27,20 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 3> without_b
                                 "; choose from: " + balancer_names());
 }
 
+/// Limits the cuts to faces of cells, and the parts to the width of shape functions.
+void cut_by_cells(const mpm::Scene& scene, rrcb::Options& options) {
+    const int num_nodes = scene.shape_function == mpm::ShapeFunction::linear ? 2 : 3;
+    const mpm::GridShape& grid = scene.grid;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a) {
+        options.min_width.push_back(num_nodes * grid.spacing);
+        options.grid.push_back({grid.lower[a], grid.spacing});
+    }
+}
+
 /// Options of the paper's two methods, and of the library's own.
-rrcb::Options options_of(const std::string& name) {
+rrcb::Options options_of(const std::string& name, const mpm::Scene& scene) {
     rrcb::Options options;
+    if (name == "rrcb-cells") cut_by_cells(scene, options);
     if (name == "rrcb-exact") options.refine = rrcb::Refine::exact;
     if (name == "rrcb-sampled") options.domain = rrcb::DomainKind::sampled;
     if (name == "root-rcb") options.domain = rrcb::DomainKind::points;
@@ -45,14 +56,14 @@ std::string balancer_names() {
     return text;
 }
 
-std::optional<mpm::Balancer> make_balancer(const std::string& name) {
+std::optional<mpm::Balancer> make_balancer(const std::string& name, const mpm::Scene& scene) {
     for (const auto& [method, reason] : without_boxes) {
         if (name == method)
             refuse(name, "makes no boxes, which the simulation needs: " + std::string(reason));
     }
     if (std::ranges::find(names, name) == names.end()) refuse(name, "is not known");
     if (name == "none") return std::nullopt;
-    if (name != "zoltan-rcb") return rrcb_balancer(options_of(name));
+    if (name != "zoltan-rcb") return rrcb_balancer(options_of(name, scene));
 #ifdef RRCB_MPM_ZOLTAN
     return zoltan_balancer({{"DEBUG_LEVEL", "0"}, {"LB_METHOD", "RCB"}, {"CHECK_GEOM", "0"}});
 #else

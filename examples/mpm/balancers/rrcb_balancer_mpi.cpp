@@ -3,6 +3,8 @@
 #include <rrcb/balance.hpp>
 
 #include <array>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -13,14 +15,22 @@ rrcb::Points points_of(mpm::Positions positions) {
     return rrcb::column_points(std::span(columns).first(positions.z.empty() ? 2 : 3));
 }
 
+/// The box of a part. A cut on a face of cells leaves the points on it above, so that the box below
+/// ends before it and touches no cell beyond.
+mpm::Box closed_box(const rrcb::Cuts& cuts, rrcb::Part part, bool on_faces) {
+    rrcb::Box box = rrcb::box_of(cuts, part);
+    for (double& face : box.upper)
+        if (on_faces && std::isfinite(face))
+            face = std::nextafter(face, -std::numeric_limits<double>::infinity());
+    return {box.lower, box.upper};
+}
+
 mpm::Decomposition decompose(mpm::Positions positions, const rrcb::Options& options,
                              MPI_Comm comm) {
     rrcb::Balance balance = rrcb::balance(points_of(positions), options, comm);
     mpm::Decomposition decomposition;
-    for (rrcb::Part part = 0; part < balance.cuts.num_parts; ++part) {
-        const rrcb::Box box = rrcb::box_of(balance.cuts, part);
-        decomposition.boxes.push_back({box.lower, box.upper});
-    }
+    for (rrcb::Part part = 0; part < balance.cuts.num_parts; ++part)
+        decomposition.boxes.push_back(closed_box(balance.cuts, part, !options.grid.empty()));
     decomposition.local_owners = std::move(balance.parts);
     decomposition.owners = [cuts = std::move(balance.cuts)](mpm::Positions at,
                                                             std::span<int> owners) {

@@ -30,6 +30,9 @@ class GhostNodes {
     /// does.
     void mark_counted(GridPatch<D>& patch) const;
 
+    /// Nodes that this rank shares with any other.
+    std::size_t num_shared() const { return shared_.size(); }
+
     /// Ranks that share a node with this one, ascending.
     const std::vector<int>& neighbours() const { return ranks_; }
 

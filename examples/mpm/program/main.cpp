@@ -103,9 +103,9 @@ void show_progress(const mpm::Simulation& simulation, double end_time, bool is_l
                  static_cast<long long>(simulation.num_points()), is_last ? "\n" : "");
 }
 
-void simulate(mpm::Simulation& simulation, const Arguments& arguments, Recorder& recorder,
-              MPI_Comm comm) {
-    const std::optional<mpm::Balancer> balancer = make_balancer(arguments.balancer);
+void simulate(mpm::Simulation& simulation, const mpm::Scene& scene, const Arguments& arguments,
+              Recorder& recorder, MPI_Comm comm) {
+    const std::optional<mpm::Balancer> balancer = make_balancer(arguments.balancer, scene);
     Schedule schedule(arguments.every, comm);
     for (bool is_last = false; !is_last;) {
         is_last = !(simulation.time() < arguments.end_time);
@@ -146,7 +146,7 @@ void run(Arguments arguments, MPI_Comm comm) {
     }
     Recorder recorder(arguments.out, file, comm);
     const double start_time = MPI_Wtime();
-    simulate(simulation, arguments, recorder, comm);
+    simulate(simulation, file.scene, arguments, recorder, comm);
     if (mpm::rank_of(comm) == 0) print_end(simulation, arguments, MPI_Wtime() - start_time);
 }
 

@@ -9,6 +9,7 @@ namespace {
 /// Sums of one rank, all of them doubles: one reduction adds them.
 struct Sums {
     double mass = 0, kinetic_energy = 0, strain_energy = 0, dissipated_energy = 0, num_sent = 0;
+    double num_ghost_nodes = 0;
     Vector moment{}, momentum{};
 };
 
@@ -78,13 +79,15 @@ Totals Stepper<D>::totals() const {
     for (const auto& dissipated : stages_.dissipated)
         sums.dissipated_energy += dissipated(particles);
     sums.num_sent = static_cast<double>(num_sent);
+    sums.num_ghost_nodes = static_cast<double>(ghosts_->num_shared());
     MPI_Allreduce(MPI_IN_PLACE, &sums, sizeof sums / sizeof(double), MPI_DOUBLE, MPI_SUM, comm_);
     Totals totals{.num_points = num_points,
                   .mass = sums.mass,
                   .momentum = sums.momentum,
                   .kinetic_energy = sums.kinetic_energy,
                   .strain_energy = sums.strain_energy,
-                  .num_migrated = static_cast<std::int64_t>(sums.num_sent)};
+                  .num_migrated = static_cast<std::int64_t>(sums.num_sent),
+                  .num_ghost_nodes = static_cast<std::int64_t>(sums.num_ghost_nodes)};
     if (stages_.internal_work) totals.dissipated_energy = sums.dissipated_energy;
     for (std::size_t a = 0; a < D; ++a) {
         totals.center[a] = sums.moment[a] / sums.mass;

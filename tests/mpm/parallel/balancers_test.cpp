@@ -61,7 +61,7 @@ State run(const Scene& scene, const char* name, MPI_Comm comm) {
     Zoltan_Initialize(0, nullptr, &version);
 #endif
     Simulation simulation(scene, comm);
-    const std::optional<Balancer> balancer = make_balancer(name);
+    const std::optional<Balancer> balancer = make_balancer(name, scene);
     for (int step = 0; step < num_steps; ++step) {
         if (balancer && step % every == 0) simulation.rebalance(*balancer);
         simulation.step();
@@ -155,6 +155,40 @@ TEST(Balancers, do_not_show_on_an_inclined_plane_where_velocities_are_mapped_twi
     scene.bodies.front().velocity = velocity_field({.constant = {4, -2}});
     scene.time_integration = TimeIntegration::modified;
     expect_serial_whatever_the_balancer(scene);
+}
+
+/// Whether a face lies on a line of the grid or ends just below one.
+bool ends_at_cell(const GridShape& grid, double face, std::size_t axis) {
+    const double k = std::round((face - grid.lower[axis]) / grid.spacing);
+    const double line = grid.lower[axis] + k * grid.spacing;
+    return face == line || face == std::nextafter(line, -HUGE_VAL);
+}
+
+TEST(Balancers, of_cells_cut_on_faces_and_do_not_show) {
+    for (const ShapeFunction function : {ShapeFunction::linear, ShapeFunction::quadratic}) {
+        Scene scene = shipped("slope", 2);
+        scene.shape_function = function;
+        const int num_nodes = function == ShapeFunction::linear ? 2 : 3;
+        expect_same(run(scene, "none", MPI_COMM_SELF), run(scene, "rrcb-cells", MPI_COMM_WORLD));
+        Simulation simulation(scene, MPI_COMM_WORLD);
+        simulation.rebalance(*make_balancer("rrcb", scene));
+        const std::int64_t anywhere = simulation.totals().num_ghost_nodes;
+        simulation.rebalance(*make_balancer("rrcb-cells", scene));
+        const std::int64_t on_faces = simulation.totals().num_ghost_nodes;
+        if (size_of(MPI_COMM_WORLD) > 1) {
+            EXPECT_LT(on_faces, anywhere);
+        }
+        for (const Box& box : simulation.decomposition().boxes) {
+            for (std::size_t a = 0; a < 2; ++a) {
+                for (const double face : {box.lower[a], box.upper[a]})
+                    EXPECT_TRUE(std::isinf(face) || ends_at_cell(scene.grid, face, a)) << face;
+                if (std::isfinite(box.lower[a]) && std::isfinite(box.upper[a])) {
+                    EXPECT_GE(box.upper[a] - box.lower[a],
+                              num_nodes * scene.grid.spacing * (1 - 1e-12));
+                }
+            }
+        }
+    }
 }
 
 TEST(Balancers, without_boxes_are_refused_with_the_reason) {

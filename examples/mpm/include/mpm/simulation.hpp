@@ -30,7 +30,8 @@ struct Totals {
     double strain_energy = 0;     ///< elastic, J
     double potential_energy = 0;  ///< of gravity at its full strength, J; 0 at the origin
     std::optional<double> dissipated_energy = {};  ///< J, where an effect keeps account of it
-    std::int64_t num_migrated = 0;  ///< changes of rank since the start, rebalances included
+    std::int64_t num_migrated = 0;     ///< changes of rank since the start, rebalances included
+    std::int64_t num_ghost_nodes = 0;  ///< nodes that a rank shares with others, of all ranks
 };
 
 /// A scene, advanced in time by all ranks of a communicator.

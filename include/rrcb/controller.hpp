@@ -51,6 +51,7 @@ class Controller {
 
     /// Says that the ranks have rebalanced since the last step, asked to or not.
     ///
+    /// Where they were not asked to, one of the next two steps may ask by loads from before it.
     /// On all ranks, without communication. `cost` is what it took on this rank with the migration
     /// of the points; the largest of all ranks counts. Of `report` the least imbalance does: where
     /// the heaviest load is no more above the mean than that, no rebalance is due.

@@ -35,15 +35,24 @@ double LoadWindow::median_of_three(const Values& values) const {
 
 double LoadWindow::lower_bound() const {
     double bound = -std::numeric_limits<double>::infinity();
-    Values last;
     // A short window follows a jump, a long one sees growth in spite of noise.
-    for (std::size_t length = 3; length <= std::min(count_, longest); length *= 2) {
-        for (std::size_t ago = 0; ago < length; ++ago) last[ago] = latest(excess_, ago);
-        const auto place = last.begin() + static_cast<std::ptrdiff_t>(rank_below_median(length));
-        std::nth_element(last.begin(), place, last.begin() + static_cast<std::ptrdiff_t>(length));
-        bound = std::max(bound, *place);
-    }
+    for (std::size_t length = 3; length <= std::min(count_, longest); length *= 2)
+        bound = std::max(bound, order_statistic(length, rank_below_median(length)));
     return bound;
+}
+
+double LoadWindow::upper_bound() const {
+    constexpr std::size_t length = 12;
+    if (count_ < length) return std::numeric_limits<double>::infinity();
+    return order_statistic(length, length - 1 - rank_below_median(length));
+}
+
+double LoadWindow::order_statistic(std::size_t length, std::size_t rank) const {
+    Values last{};
+    for (std::size_t ago = 0; ago < length; ++ago) last[ago] = latest(excess_, ago);
+    const auto place = last.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(last.begin(), place, last.begin() + static_cast<std::ptrdiff_t>(length));
+    return *place;
 }
 
 }  // namespace rrcb

@@ -20,10 +20,16 @@ class LoadWindow {
     /// distributed; minus infinity before the third value.
     double lower_bound() const;
 
+    /// What the median of the latest twelve does not exceed, with the same certainty; infinity
+    /// before there are twelve.
+    double upper_bound() const;
+
   private:
     static constexpr std::size_t longest = 48;
     using Values = std::array<double, longest>;
 
+    /// Of the latest `length`, the one of `rank` from below.
+    double order_statistic(std::size_t length, std::size_t rank) const;
     double median_of_three(const Values& values) const;
     double latest(const Values& values, std::size_t ago) const {
         return values[(count_ - 1 - ago) % longest];

@@ -7,6 +7,9 @@ namespace rrcb {
 
 namespace {
 
+/// Excess that equal loads may show.
+constexpr double rounding = 1e-12;
+
 /// Of the first `count`, three at most; of two the smaller.
 double median(const std::array<double, 3>& values, std::size_t count) {
     const auto [a, b, c] = values;
@@ -22,9 +25,11 @@ void RebalanceRule::add(const StepLoad& load) {
     if (!(unit_ > 0)) unit_ = load.mean;
     window_.add(load.heaviest / load.mean - 1, load.mean / unit_);
     history_.add(window_.excess(), window_.mean());
+    if (num_rebalances_ == 0) return;
+    // The first steps may be slow for reasons of their own: what later ones fall to counts, too.
     constexpr std::size_t settled = 3;
-    if (num_rebalances_ > 0 && window_.count() <= settled)
-        floors_[(num_rebalances_ - 1) % floors_.size()] = window_.excess();
+    double& floor = floors_[(num_rebalances_ - 1) % floors_.size()];
+    floor = window_.count() <= settled ? window_.excess() : std::min(floor, window_.upper_bound());
 }
 
 void RebalanceRule::rebalanced(double cost, double least_imbalance) {
@@ -77,7 +82,7 @@ bool RebalanceRule::is_due() const {
     constexpr std::size_t fewest = 3;
     if (window_.count() < fewest) return false;
     const double excess = lasting_excess();
-    if (excess <= std::max(floor(), least_)) return false;
+    if (excess <= std::max({floor(), least_, rounding})) return false;
     return excess >= mean_cost() || history_.lasting_waste(floor()) >= patience_ * cost();
 }
 

@@ -49,7 +49,7 @@ class RebalanceRule {
     LoadWindow window_;
     WasteHistory history_;
     std::array<double, 3> costs_{};   ///< the latest, in turns
-    std::array<double, 4> floors_{};  ///< excess just after the latest rebalances, in turns
+    std::array<double, 4> floors_{};  ///< lowest excess after the latest rebalances, in turns
     std::size_t num_rebalances_ = 0;
     double least_ = 0;  ///< excess that no rebalance removes
     Past past_;

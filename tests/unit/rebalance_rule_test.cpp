@@ -47,6 +47,40 @@ TEST(LoadWindow, bounds_the_median_from_below) {
     EXPECT_EQ(window.lower_bound(), 4);  // two of twelve are too few to tell
 }
 
+TEST(LoadWindow, bounds_the_median_from_above) {
+    LoadWindow window;
+    for (int i = 0; i < 11; ++i) window.add(i, 1);
+    EXPECT_EQ(window.upper_bound(), infinity);
+    window.add(11, 1);
+    EXPECT_EQ(window.upper_bound(), 9);  // 10 and 11 are left out, as 0 and 1 are from below
+    for (int i = 0; i < 12; ++i) window.add(i < 2 ? 7 : 1, 1);
+    EXPECT_EQ(window.upper_bound(), 1);
+}
+
+// The program starts slowly on one rank; what comes after that is no floor.
+TEST(RebalanceRule, sees_a_jump_after_a_slow_start) {
+    RebalanceRule rule;
+    rule.rebalanced(10, 1);
+    for (int i = 0; i < 2; ++i) rule.add({1, 4});
+    for (int i = 0; i < 48; ++i) {
+        rule.add({1, 1});
+        EXPECT_FALSE(rule.is_due()) << i;
+    }
+    int waited = 0;
+    for (; !rule.is_due() && waited < 100; ++waited) rule.add({1, 2.5});
+    EXPECT_LE(waited, 10);
+}
+
+// 4.1 / 4.1 of three ranks may differ from 1 by rounding.
+TEST(RebalanceRule, takes_rounding_for_no_imbalance) {
+    RebalanceRule rule;
+    rule.rebalanced(0, 1);
+    for (int i = 0; i < 1000; ++i) {
+        rule.add({1, 1 + (i % 3 == 0 ? 0 : 4e-16)});
+        EXPECT_FALSE(rule.is_due()) << i;
+    }
+}
+
 TEST(WasteHistory, tells_what_lasts_of_a_level) {
     WasteHistory history;
     // Up to 2 and down again: since it was first there, the mean is (2 + 1 + 0 + 1 + 2) / 5.

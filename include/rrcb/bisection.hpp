@@ -24,10 +24,10 @@ struct Bisection {
 /// Recursive coordinate bisection of a domain, across the longest extent of what each box holds;
 /// with DomainKind::analytic across the first axis that is within a tenth of it.
 ///
-/// `part_sizes` are relative, one per part, or empty for equal parts. Cuts divide the weight in
-/// the ratio of the sizes below and above, exactly for the piecewise-linear cumulative weight of
-/// the patches, or the extent in that ratio with CutRule::midpoint. Patches that lie on the plane
-/// are divided along the other axes. Parts of size 0 get an empty region. Not collective.
+/// `part_sizes` are relative, one per part, or empty for equal parts. Cuts lie where `rule` says,
+/// in the ratio of the sizes below and above; those by weight exactly for the piecewise-linear
+/// cumulative weight of the patches. Patches that lie on the plane are divided along the other
+/// axes. Parts of size 0 get an empty region. Not collective.
 Bisection bisect(StatisticalDomain domain, int num_parts, std::span<const double> part_sizes,
                  CutRule rule);
 

@@ -51,6 +51,15 @@ double least_width(const Cuts& cuts, const Box& box, std::size_t axis) {
     return least;
 }
 
+/// What each part holds on all ranks, by a look-up for every point.
+std::vector<double> counts_by_look_up(const Cuts& cuts, const Points& points) {
+    std::vector<double> counts(static_cast<std::size_t>(cuts.num_parts));
+    for (LocalIndex i = 0; i < points.count; ++i)
+        counts[static_cast<std::size_t>(part_of(cuts, points.position(i)))] += 1;
+    MPI_Allreduce(MPI_IN_PLACE, counts.data(), cuts.num_parts, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    return counts;
+}
+
 std::string message_of(const Points& points, const Options& options) {
     try {
         balance(points, options, MPI_COMM_WORLD);
@@ -199,6 +208,8 @@ TEST(Limits, move_earlier_cuts_that_break_them) {
         const Balance moved = balance(points, options, MPI_COMM_WORLD, previous);
         EXPECT_GE(least_width(moved.cuts, box, 0), 0.15);
         EXPECT_GE(least_width(moved.cuts, box, 1), 0.1);
+        EXPECT_EQ(moved.report.part_weights, counts_by_look_up(moved.cuts, points));
+        EXPECT_EQ(moved.report.measured_imbalance, imbalance(moved.report.part_weights, {}));
         // What keeps them stays as it is.
         options.refine = Refine::none;
         const Cuts again = balance(points, options, MPI_COMM_WORLD, moved.cuts).cuts;

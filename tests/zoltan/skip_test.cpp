@@ -125,6 +125,18 @@ TEST(Skip, counts_parts_by_name_and_by_their_sizes) {
     EXPECT_EQ(num_messages, 0) << "counted by these sizes";
 }
 
+TEST(Skip, is_off_where_parts_have_a_least_width) {
+    for (const bool on_lines : {true, false}) {
+        Placed program("1.2");
+        program.set(on_lines ? "RRCB_GRID" : "RRCB_MIN_WIDTH",
+                    on_lines ? "0 0.001, 0 0.001" : "0.001 0.001");
+        calls_until_rest(program, 5);
+        program.weigh_first_rank(1.1F);
+        program.changes();
+        EXPECT_EQ(num_messages == 0, on_lines);
+    }
+}
+
 TEST(Skip, of_an_illegal_value_warns_and_is_off) {
     for (const char* value : {"0.9", "-1", "nan", "inf", "1.1x", "much"}) {
         Program program(2);

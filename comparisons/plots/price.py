@@ -119,7 +119,7 @@ def _draw_runs(axes: Axes, prices: list[Price]) -> list:
         handles += axes.plot(at, values, color=shade, linestyle=line, marker=".", label=label)
         sums = [100 * p.value.number for p in totals]
         for x, value in zip(at, values if panel == STEPS else sums):
-            _write_percent(axes, x, value, 7)
+            _write_percent(axes, x, value, -7 if panel == STEPS else 7)
     _draw_all_across(axes, all_totals)
     _draw_papers(axes, all_totals)
     _mark_optimum(axes, prices)

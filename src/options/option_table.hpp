@@ -169,8 +169,8 @@ inline constexpr Option option_table[] = {
 
 /// True when the value of the option is compared between ranks by itself.
 constexpr bool is_compared(const Option& option) {
-    const Lists* lists = std::get_if<Lists>(&option.kind);
-    return lists == nullptr || lists->values != nullptr;
+    if (!std::holds_alternative<Lists>(option.kind)) return true;
+    return std::get<Lists>(option.kind).values != nullptr;
 }
 
 /// The option of a name in Options, or of a parameter; null where there is none.

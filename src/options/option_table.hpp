@@ -62,6 +62,7 @@ struct Lists {
     /// Throws Error that names the option; `options` have their number of parts.
     void (*check)(const Options& options, int dimension);
     const RowsOfNumbers* text = nullptr;  ///< null: not to be had as text
+    bool is_compared = true;  ///< by itself; said here, as sanitized builds can't ask for a null
 };
 
 struct Option {
@@ -147,9 +148,9 @@ inline constexpr Option option_table[] = {
     {"one of grouped_axes, cut_axes, plain_cuts, min_width, grid", "",
      "Which axes are cut, and where", Lists{values_of_places, check_axes}},
     {"min_width", "RRCB_MIN_WIDTH", "Least extent of every part along each axis",
-     Lists{nullptr, check_min_width, &min_width_rows}},
+     Lists{nullptr, check_min_width, &min_width_rows, false}},
     {"grid", "RRCB_GRID", "Lines of a grid across each axis that all cuts lie on",
-     Lists{nullptr, check_grid, &grid_rows}},
+     Lists{nullptr, check_grid, &grid_rows, false}},
     {"refine", "RRCB_REFINE", "How far the estimated cuts are moved by what the ranks really hold",
      choice_of<Refine, &Options::refine>(refine_words)},
     {"coincident", "RRCB_COINCIDENT",
@@ -169,8 +170,7 @@ inline constexpr Option option_table[] = {
 
 /// True when the value of the option is compared between ranks by itself.
 constexpr bool is_compared(const Option& option) {
-    if (!std::holds_alternative<Lists>(option.kind)) return true;
-    return std::get<Lists>(option.kind).values != nullptr;
+    return !std::holds_alternative<Lists>(option.kind) || std::get<Lists>(option.kind).is_compared;
 }
 
 /// The option of a name in Options, or of a parameter; null where there is none.

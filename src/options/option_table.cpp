@@ -59,17 +59,18 @@ std::optional<std::vector<double>> numbers_in(std::string_view text) {
     return numbers;
 }
 
-std::string text_of_rows(const std::vector<double>& numbers, std::size_t row_length) {
+std::string text_of(const Rows& rows, const Options& options) {
+    const std::vector<double> numbers = rows.get(options);
     std::string text;
     for (std::size_t k = 0; k < numbers.size(); ++k)
-        text += (k == 0                                  ? ""
-                 : row_length > 1 && k % row_length == 0 ? ", "
-                                                         : " ") +
+        text += (k == 0                                            ? ""
+                 : rows.row_length > 1 && k % rows.row_length == 0 ? ", "
+                                                                   : " ") +
                 text_of(numbers[k]);
     return text.empty() ? std::string(none) : text;
 }
 
-bool read_rows(const RowsOfNumbers& rows, std::string_view text, Options& options) {
+bool read_rows(const Rows& rows, std::string_view text, Options& options) {
     if (equal_words(text, none)) return rows.set(options, {});
     const auto numbers = numbers_in(text);
     return numbers && !numbers->empty() && rows.set(options, *numbers);
@@ -135,9 +136,8 @@ std::string values_in_table(const Range<Number>& range, const Options& first) {
            ", " + bounds;
 }
 
-std::string values_in_table(const Lists& lists, const Options& first) {
-    return '`' + text_of_rows(lists.text->get(first), lists.text->row_length) + "`, " +
-           lists.text->rows + ": `" + lists.text->example + '`';
+std::string values_in_table(const Rows& rows, const Options& first) {
+    return '`' + text_of(rows, first) + "`, " + rows.text + ": `" + rows.example + '`';
 }
 
 std::string values_in_table(const Choice& choice, const Options& first) {
@@ -196,8 +196,8 @@ std::string legal_values(const Option& option) {
         } else if constexpr (is_range<Kind>) {
             const bool is_real = std::is_same_v<Kind, Range<double>>;
             return (is_real ? "a number" : "a whole number") + bounds_of(kind);
-        } else if (kind.text != nullptr) {
-            return std::string(none) + ", or " + kind.text->rows + ": " + kind.text->example;
+        } else if constexpr (std::is_same_v<Kind, Rows>) {
+            return std::string(none) + ", or " + kind.text + ": " + kind.example;
         } else {
             return "a list";
         }
@@ -232,8 +232,10 @@ bool read_option(const Option& option, std::string_view text, Options& options) 
             if (!is_automatic && !(is_number && lies_in(kind, kind.most, value))) return false;
             options.*kind.field = is_automatic ? 0 : value;
             return true;
+        } else if constexpr (std::is_same_v<Kind, Rows>) {
+            return read_rows(kind, text, options);
         } else {
-            return kind.text != nullptr && read_rows(*kind.text, text, options);
+            return false;
         }
     });
 }
@@ -245,8 +247,8 @@ std::string write_option(const Option& option, const Options& options) {
         } else if constexpr (is_range<Kind>) {
             const bool is_automatic = kind.zero != nullptr && options.*kind.field == 0;
             return is_automatic ? std::string(automatic) : text_of(options.*kind.field);
-        } else if (kind.text != nullptr) {
-            return text_of_rows(kind.text->get(options), kind.text->row_length);
+        } else if constexpr (std::is_same_v<Kind, Rows>) {
+            return text_of(kind, options);
         } else {
             return "";
         }
@@ -259,8 +261,8 @@ void copy_option(const Option& option, const Options& from, Options& to) {
             kind.set(to, kind.get(from));
         } else if constexpr (is_range<Kind>) {
             to.*kind.field = from.*kind.field;
-        } else if (kind.text != nullptr) {
-            kind.text->set(to, kind.text->get(from));
+        } else if constexpr (std::is_same_v<Kind, Rows>) {
+            kind.set(to, kind.get(from));
         }
     });
 }
@@ -274,9 +276,10 @@ std::string table_row(const Option& option, const Options& first) {
             if (kind.zero != nullptr) text += "; " + std::string(automatic) + ": " + kind.zero;
         }
         if constexpr (std::is_same_v<Kind, Lists>)
-            if (kind.text == nullptr) return "";
-        return '|' + (" `" + std::string(option.parameter)) + "` | " +
-               values_in_table(kind, first) + " | " + with_code_marks(text) + " |";
+            return "";
+        else
+            return '|' + (" `" + std::string(option.parameter)) + "` | " +
+                   values_in_table(kind, first) + " | " + with_code_marks(text) + " |";
     });
 }
 

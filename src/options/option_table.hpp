@@ -46,30 +46,31 @@ struct Choice {
     const Word* end() const { return words + num_words; }
 };
 
-/// How an option of several numbers is had as text: NONE, or a row of them for each axis.
-struct RowsOfNumbers {
-    const char* rows;  ///< what there is for each axis
-    const char* example;
-    bool (*set)(Options&, const std::vector<double>& numbers);  ///< false where they are not legal
-    std::vector<double> (*get)(const Options&);
-    std::size_t row_length;
+/// Throws Error that names the option; `options` have their number of parts.
+using Check = void (*)(const Options& options, int dimension);
+
+/// Values of an option, or of several that belong together, of any number; no text stands for them.
+struct Lists {
+    std::vector<double> (*get)(const Options&);  ///< what is compared between ranks
+    Check check;
 };
 
-/// An option, or several that belong together, of any number of values.
-struct Lists {
-    /// What is compared between ranks; null for what others of the table have among their values.
-    std::vector<double> (*values)(const Options&);
-    /// Throws Error that names the option; `options` have their number of parts.
-    void (*check)(const Options& options, int dimension);
-    const RowsOfNumbers* text = nullptr;  ///< null: not to be had as text
-    bool is_compared = true;  ///< by itself; said here, as sanitized builds can't ask for a null
+/// Values of an option of several numbers for each axis, as text NONE or a row for each axis. They
+/// are compared between ranks among those of Lists.
+struct Rows {
+    std::vector<double> (*get)(const Options&);
+    Check check;
+    bool (*set)(Options&, const std::vector<double>& numbers);  ///< false where they are not legal
+    std::size_t row_length;
+    const char* text;  ///< what there is for each axis
+    const char* example;
 };
 
 struct Option {
     const char* name;       ///< in Options, as errors have it
     const char* parameter;  ///< in the plug-in and in Teuchos' list; empty: in neither
     const char* text;       ///< what it sets
-    std::variant<Range<int>, Range<double>, Range<std::uint64_t>, Choice, Lists> kind;
+    std::variant<Range<int>, Range<double>, Range<std::uint64_t>, Choice, Lists, Rows> kind;
 };
 
 inline constexpr Word domain_words[] = {
@@ -126,11 +127,6 @@ std::vector<double> grid_of(const Options& options);
 bool set_grid(Options& options, const std::vector<double>& numbers);
 void check_grid(const Options& options, int dimension);
 
-inline constexpr RowsOfNumbers min_width_rows{"a number above 0 for each axis", "0.1 0.1",
-                                              set_min_width, min_width_of, 1};
-inline constexpr RowsOfNumbers grid_rows{"an origin and a spacing above 0 for each axis",
-                                         "0 0.05, 0 0.05", set_grid, grid_of, 2};
-
 /// Every option but the observer, which belongs to its rank alone.
 inline constexpr Option option_table[] = {
     {"num_parts", "NUM_GLOBAL_PARTS", "Parts to make",
@@ -148,9 +144,11 @@ inline constexpr Option option_table[] = {
     {"one of grouped_axes, cut_axes, plain_cuts, min_width, grid", "",
      "Which axes are cut, and where", Lists{values_of_places, check_axes}},
     {"min_width", "RRCB_MIN_WIDTH", "Least extent of every part along each axis",
-     Lists{nullptr, check_min_width, &min_width_rows, false}},
+     Rows{min_width_of, check_min_width, set_min_width, 1, "a number above 0 for each axis",
+          "0.1 0.1"}},
     {"grid", "RRCB_GRID", "Lines of a grid across each axis that all cuts lie on",
-     Lists{nullptr, check_grid, &grid_rows, false}},
+     Rows{grid_of, check_grid, set_grid, 2, "an origin and a spacing above 0 for each axis",
+          "0 0.05, 0 0.05"}},
     {"refine", "RRCB_REFINE", "How far the estimated cuts are moved by what the ranks really hold",
      choice_of<Refine, &Options::refine>(refine_words)},
     {"coincident", "RRCB_COINCIDENT",
@@ -170,7 +168,7 @@ inline constexpr Option option_table[] = {
 
 /// True when the value of the option is compared between ranks by itself.
 constexpr bool is_compared(const Option& option) {
-    return !std::holds_alternative<Lists>(option.kind) || std::get<Lists>(option.kind).is_compared;
+    return !std::holds_alternative<Rows>(option.kind);
 }
 
 /// The option of a name in Options, or of a parameter; null where there is none.

@@ -62,8 +62,8 @@ std::uint64_t bits_of(const Option& option, const Options& options) {
     return visit_kind(option, [&]<class Kind>(const Kind& kind) {
         if constexpr (std::is_same_v<Kind, Choice>) {
             return bits_of(kind.get(options));
-        } else if constexpr (std::is_same_v<Kind, Lists>) {
-            return hash_of(kind.values ? kind.values(options) : kind.text->get(options));
+        } else if constexpr (std::is_same_v<Kind, Lists> || std::is_same_v<Kind, Rows>) {
+            return hash_of(kind.get(options));
         } else {
             return bits_of(options.*kind.field);
         }

@@ -164,7 +164,9 @@ void check_options(const Options& options, int dimension) {
     for (const Option& option : option_table) {
         if (!is_legal(option, options, dimension))
             reject(std::string(option.name) + " must be " + requirement(option, dimension));
-        if (const auto* lists = std::get_if<Lists>(&option.kind)) lists->check(options, dimension);
+        visit_kind(option, [&](const auto& kind) {
+            if constexpr (requires { kind.check; }) kind.check(options, dimension);
+        });
     }
 }
 

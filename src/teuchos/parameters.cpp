@@ -70,9 +70,9 @@ struct Adder {
     void operator()(const Choice& choice) const {
         add_choice(list, option.parameter, choice, documentation(option));
     }
-    void operator()(const Lists& lists) const {
-        if (lists.text != nullptr)
-            list.set(option.parameter, write_option(option, Options{}), documentation(option));
+    void operator()(const Lists&) const {}
+    void operator()(const Rows&) const {
+        list.set(option.parameter, write_option(option, Options{}), documentation(option));
     }
 };
 
@@ -92,9 +92,9 @@ struct Getter {
     void operator()(const Choice& choice) const {
         choice.set(options, Teuchos::getIntegralValue<int>(list, option.parameter));
     }
-    void operator()(const Lists& lists) const {
-        if (lists.text != nullptr)
-            read_option(option, list.get<std::string>(option.parameter), options);
+    void operator()(const Lists&) const {}
+    void operator()(const Rows&) const {
+        read_option(option, list.get<std::string>(option.parameter), options);
     }
 };
 
@@ -140,7 +140,7 @@ bool is_legal(const ParameterEntry& entry, const ParameterEntry& valid, const st
     if (entry.isList() || entry.getAny(false).type() != valid.getAny(false).type()) return false;
     if (entry.isType<double>() && !std::isfinite(entry.getValue<double>(nullptr))) return false;
     const Option* option = find_parameter(name);
-    if (option != nullptr && std::holds_alternative<Lists>(option->kind)) {
+    if (option != nullptr && std::holds_alternative<Rows>(option->kind)) {
         Options unused;
         return read_option(*option, entry.getValue<std::string>(nullptr), unused);
     }

@@ -69,10 +69,6 @@ Options make_options(const Parameters& parameters, const Layout& layout, int dim
     return options;
 }
 
-bool reuses_cuts(const Parameters& parameters) {
-    return parameters.reuse_cuts == not_set ? parameters.replace_rcb : parameters.reuse_cuts != 0;
-}
-
 bool has_several_weights(const Parameters& parameters) {
     return parameters.weight_dimension > 1;
 }

@@ -22,10 +22,6 @@ void check_parameters(const State& state, bool one_part_per_rank);
 Options make_options(const Parameters& parameters, const Layout& layout, int dimension,
                      const Cuts* previous);
 
-/// Whether RCB_REUSE holds. By default it does where RRCB replaces RCB: a balanced distribution
-/// then stays as it is.
-bool reuses_cuts(const Parameters& parameters);
-
 /// Whether objects have several weights, of which a norm is balanced (RCB_MULTICRITERIA_NORM). The
 /// balancer then makes an estimate only.
 bool has_several_weights(const Parameters& parameters);

@@ -3,11 +3,9 @@
 #include "collective/communicator.hpp"
 #include "options/request.hpp"
 #include "zoltan/call/fortran_mpi.hpp"
-#include "zoltan/call/rcb_options.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <utility>
 
@@ -25,49 +23,6 @@ int severity(int code) {
     return severity(ZOLTAN_FATAL);
 }
 
-/// Hash of a value. Equal values give equal hashes; the balancer compares the values themselves.
-int fold(std::uint64_t value) {
-    return static_cast<int>(static_cast<std::uint32_t>(value ^ (value >> 32)));
-}
-
-int fold(double value) {
-    return fold(std::bit_cast<std::uint64_t>(value));
-}
-
-/// A parameter that must be the same on all ranks, or their messages would not fit.
-struct SameOnAllRanks {
-    const char* name;
-    int (*value)(const Parameters&);
-};
-
-constexpr std::array same_on_all_ranks = {
-    SameOnAllRanks{"NUM_GID_ENTRIES", [](const Parameters& p) { return p.num_gid_entries; }},
-    SameOnAllRanks{"NUM_LID_ENTRIES", [](const Parameters& p) { return p.num_lid_entries; }},
-    SameOnAllRanks{"OBJ_WEIGHT_DIM", [](const Parameters& p) { return p.weight_dimension; }},
-    SameOnAllRanks{"AUTO_MIGRATE", [](const Parameters& p) { return int{p.auto_migrate != 0}; }},
-    SameOnAllRanks{"REMAP", [](const Parameters& p) { return int{p.remap != 0}; }},
-    SameOnAllRanks{"RCB_REUSE", [](const Parameters& p) { return int{reuses_cuts(p)}; }},
-    SameOnAllRanks{"OBJ_WEIGHTS_COMPARABLE",
-                   [](const Parameters& p) { return int{p.weights_comparable != 0}; }},
-    SameOnAllRanks{"AVERAGE_CUTS", [](const Parameters& p) { return int{p.average_cuts != 0}; }},
-    SameOnAllRanks{"RETURN_LISTS",
-                   [](const Parameters& p) { return static_cast<int>(p.return_lists); }},
-    SameOnAllRanks{"RCB_LOCK_DIRECTIONS",
-                   [](const Parameters& p) { return int{p.lock_directions != 0}; }},
-    SameOnAllRanks{"RCB_SET_DIRECTIONS", [](const Parameters& p) { return p.set_directions; }},
-    SameOnAllRanks{"RCB_RECTILINEAR_BLOCKS",
-                   [](const Parameters& p) { return int{p.rectilinear_blocks != 0}; }},
-    SameOnAllRanks{"REDUCE_DIMENSIONS",
-                   [](const Parameters& p) { return int{p.reduce_dimensions != 0}; }},
-    SameOnAllRanks{"RCB_MULTICRITERIA_NORM",
-                   [](const Parameters& p) { return p.multicriteria_norm; }},
-    SameOnAllRanks{"RCB_MAX_ASPECT_RATIO",
-                   [](const Parameters& p) { return fold(p.max_aspect_ratio); }},
-    SameOnAllRanks{"RRCB_SKIP_WITHIN", [](const Parameters& p) { return fold(p.skip_within); }},
-    SameOnAllRanks{"DEGENERATE_RATIO",
-                   [](const Parameters& p) { return fold(p.degenerate_ratio); }},
-};
-
 /// Options of the balancer that are parameters, but for the parts, which are agreed on as such, and
 /// those that the balancer compares by itself.
 constexpr bool is_voted_on(const Option& option) {
@@ -75,17 +30,19 @@ constexpr bool is_voted_on(const Option& option) {
            std::string_view(option.name) != "num_parts";
 }
 
-constexpr auto num_compared_options =
-    static_cast<std::size_t>(std::ranges::count_if(option_table, is_voted_on));
-
-constexpr std::size_t num_shared = same_on_all_ranks.size() + num_compared_options;
+constexpr std::size_t num_shared =
+    static_cast<std::size_t>(std::ranges::count_if(option_table, is_voted_on)) +
+    static_cast<std::size_t>(std::ranges::count_if(
+        parameter_table, [](const ParameterRow& row) { return row.compared.has_value(); }));
 
 /// Calls visit(name, value) for each parameter that must be the same on every rank.
 template <class Visit>
 void for_each_shared(const Parameters& parameters, Visit&& visit) {
-    for (const SameOnAllRanks& one : same_on_all_ranks) visit(one.name, one.value(parameters));
+    for (const ParameterRow& row : parameter_table)
+        if (row.compared) visit(row.name, (*row.compared)(parameters));
     for (const Option& option : option_table)
-        if (is_voted_on(option)) visit(option.parameter, fold(bits_of(option, parameters.options)));
+        if (is_voted_on(option))
+            visit(option.parameter, number_of(bits_of(option, parameters.options)));
 }
 
 /// Numbers of one rank in the vote, reduced by maximum. A minimum travels as the maximum of the

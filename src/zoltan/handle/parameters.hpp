@@ -2,8 +2,12 @@
 
 #include <rrcb/options.hpp>
 
+#include <bit>
+#include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +59,121 @@ struct Parameters {
     std::string dump_folder;   ///< where the inputs of calls go; empty: nowhere
     bool dump_always = false;  ///< the inputs of all calls, not only of failing ones
     std::map<std::string, std::string> given;  ///< all that was set, as it was set
+};
+
+/// Whether RCB_REUSE holds. By default it does where RRCB replaces RCB: a balanced distribution
+/// then stays as it is.
+bool reuses_cuts(const Parameters& parameters);
+
+// Readers of a value, in upper case but that of RRCB_DUMP. False, and nothing is set, for what is
+// no legal value.
+bool read_integer(int& value, std::string_view text, int least);
+bool read_real(double& value, std::string_view text);
+bool read_imbalance(double& imbalance, std::string_view text);
+bool read_return_lists(ReturnLists& lists, std::string_view text);
+bool read_folder(std::string& folder, std::string_view text);
+bool read_dump_when(bool& always, std::string_view text);
+
+/// An integer that Zoltan takes the default for when it is below `least`.
+template <int least = std::numeric_limits<int>::min()>
+bool read_integer(int& value, std::string_view text) {
+    return read_integer(value, text, least);
+}
+
+/// Number by which ranks compare a value: equal ones for equal values.
+constexpr int number_of(std::uint64_t value) {
+    return static_cast<int>(static_cast<std::uint32_t>(value ^ (value >> 32)));
+}
+constexpr int number_of(double value) {
+    return number_of(std::bit_cast<std::uint64_t>(value));
+}
+constexpr int number_of(int value) {
+    return value;
+}
+constexpr int number_of(ReturnLists value) {
+    return static_cast<int>(value);
+}
+
+/// Value for DEFAULT and for illegal texts: that of a new handle, but in two cases of Zoltan's.
+template <class Value>
+Value fallback_of(Value Parameters::*field) {
+    return Parameters{}.*field;
+}
+int fallback_of(int Parameters::*field);
+
+/// A parameter that has a field of its own.
+struct ParameterRow {
+    const char* name;
+    bool (*read)(Parameters&, std::string_view text);
+    void (*reset)(Parameters&);
+    /// Number that must be the same on all ranks, or their messages would not fit.
+    std::optional<int (*)(const Parameters&)> compared;
+};
+
+template <auto field>
+int number_in(const Parameters& parameters) {
+    return number_of(parameters.*field);
+}
+
+template <auto member>
+int is_on(const Parameters& parameters) {
+    return std::invoke(member, parameters) ? 1 : 0;
+}
+
+/// Row of a parameter that may differ between ranks.
+template <auto field, auto read>
+constexpr ParameterRow may_differ(const char* name) {
+    return {name, [](Parameters& p, std::string_view text) { return read(p.*field, text); },
+            [](Parameters& p) { p.*field = fallback_of(field); }, std::nullopt};
+}
+
+/// Row of a parameter that may not.
+template <auto field, auto read, int (*compared)(const Parameters&) = number_in<field>>
+constexpr ParameterRow must_agree(const char* name) {
+    ParameterRow row = may_differ<field, read>(name);
+    row.compared = compared;
+    return row;
+}
+
+/// Row of a parameter that is on for any number but 0, on all ranks or on none.
+template <auto field>
+constexpr ParameterRow flag(const char* name) {
+    return must_agree<field, read_integer<>, is_on<field>>(name);
+}
+
+/// Name of the one parameter whose value keeps its case.
+inline constexpr const char* dump_folder_name = "RRCB_DUMP";
+
+/// Every parameter but LB_METHOD and those of Options, the compared ones in the order in which a
+/// difference is told.
+inline constexpr ParameterRow parameter_table[] = {
+    must_agree<&Parameters::num_gid_entries, read_integer<1>>("NUM_GID_ENTRIES"),
+    must_agree<&Parameters::num_lid_entries, read_integer<0>>("NUM_LID_ENTRIES"),
+    must_agree<&Parameters::weight_dimension, read_integer<0>>("OBJ_WEIGHT_DIM"),
+    flag<&Parameters::auto_migrate>("AUTO_MIGRATE"),
+    flag<&Parameters::remap>("REMAP"),
+    must_agree<&Parameters::reuse_cuts, read_integer<>, is_on<reuses_cuts>>("RCB_REUSE"),
+    flag<&Parameters::weights_comparable>("OBJ_WEIGHTS_COMPARABLE"),
+    flag<&Parameters::average_cuts>("AVERAGE_CUTS"),
+    must_agree<&Parameters::return_lists, read_return_lists>("RETURN_LISTS"),
+    flag<&Parameters::lock_directions>("RCB_LOCK_DIRECTIONS"),
+    must_agree<&Parameters::set_directions, read_integer<>>("RCB_SET_DIRECTIONS"),
+    flag<&Parameters::rectilinear_blocks>("RCB_RECTILINEAR_BLOCKS"),
+    flag<&Parameters::reduce_dimensions>("REDUCE_DIMENSIONS"),
+    must_agree<&Parameters::multicriteria_norm, read_integer<>>("RCB_MULTICRITERIA_NORM"),
+    must_agree<&Parameters::max_aspect_ratio, read_real>("RCB_MAX_ASPECT_RATIO"),
+    must_agree<&Parameters::skip_within, read_imbalance>("RRCB_SKIP_WITHIN"),
+    must_agree<&Parameters::degenerate_ratio, read_real>("DEGENERATE_RATIO"),
+    may_differ<&Parameters::num_global_parts, read_integer<1>>("NUM_GLOBAL_PARTS"),
+    may_differ<&Parameters::num_global_parts, read_integer<1>>("NUM_GLOBAL_PARTITIONS"),
+    may_differ<&Parameters::num_local_parts, read_integer<0>>("NUM_LOCAL_PARTS"),
+    may_differ<&Parameters::num_local_parts, read_integer<0>>("NUM_LOCAL_PARTITIONS"),
+    may_differ<&Parameters::keep_cuts, read_integer<>>("KEEP_CUTS"),
+    may_differ<&Parameters::output_level, read_integer<>>("RCB_OUTPUT_LEVEL"),
+    may_differ<&Parameters::final_output, read_integer<>>("FINAL_OUTPUT"),
+    may_differ<&Parameters::debug_level, read_integer<0>>("DEBUG_LEVEL"),
+    may_differ<&Parameters::dump_folder, read_folder>(dump_folder_name),
+    may_differ<&Parameters::dump_always, read_dump_when>("RRCB_DUMP_WHEN"),
 };
 
 enum class Setting {

@@ -1,5 +1,4 @@
-#include "../support/clouds.hpp"
-#include "../support/ranks.hpp"
+#include "clouds_of_all_ranks.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/quality.hpp>
@@ -20,34 +19,8 @@ namespace {
 
 using test::num_ranks;
 using test::rank;
-
-/// The same cloud for any number of ranks: every rank makes all of it and keeps each P-th point.
-std::vector<double> share_of_cloud(
-    std::size_t count, int dimension,
-    const std::function<double(std::size_t i, int axis, double u)>& coordinate) {
-    std::mt19937_64 engine(97);
-    std::vector<double> mine;
-    for (std::size_t i = 0; i < count; ++i) {
-        for (int a = 0; a < dimension; ++a) {
-            const double x = coordinate(i, a, test::uniform(engine));
-            if (i % static_cast<std::size_t>(num_ranks()) == static_cast<std::size_t>(rank()))
-                mine.push_back(x);
-        }
-    }
-    return mine;
-}
-
-/// Columns of 100, 300 and 200 points: a plane can leave 100, 400 or 600 of them below, and only a
-/// tilted cut halves them.
-std::vector<double> three_columns() {
-    std::vector<double> mine;
-    for (int i = 0; i < 600; ++i) {
-        if (i % num_ranks() != rank()) continue;
-        mine.push_back(i < 100 ? 0 : i < 400 ? 1000 : 2000);
-        mine.push_back(i);
-    }
-    return mine;
-}
+using test::share_of_cloud;
+using test::three_columns;
 
 struct Cloud {
     std::string name;
@@ -330,57 +303,6 @@ TEST(EarlierCuts, that_were_tilted_are_made_planes_where_planes_are_asked_for) {
         EXPECT_EQ(plain.cuts.tree[0].at[1], -std::numeric_limits<double>::infinity());
         expect_look_ups_agree(points, plain);
     }
-}
-
-TEST(GivenAxes, are_crossed_in_groups) {
-    // 8 parts of a box of 1 x 5: three cuts of the longest extent, all across y.
-    const auto mine = share_of_cloud(
-        8000, 2, [](std::size_t, int axis, double u) { return axis == 0 ? u : 5 * u; });
-    const Points points = interleaved_points(mine, 2);
-    Options options;
-    options.num_parts = 8;
-    options.grouped_axes = {0, 1};
-    const Balance tall = balance(points, options, MPI_COMM_WORLD);
-    for (const Cut& cut : tall.cuts.tree) EXPECT_EQ(cut.axis, 1);
-
-    // A square: two levels across one axis, one across the other, in the order asked for.
-    const auto square = share_of_cloud(8000, 2, [](std::size_t, int, double u) { return u; });
-    for (const int first : {0, 1}) {
-        options.grouped_axes = {first, 1 - first};
-        const Balance even = balance(interleaved_points(square, 2), options, MPI_COMM_WORLD);
-        EXPECT_EQ(even.cuts.tree[0].axis, first);
-        for (const std::size_t leaf_cut : {2u, 3u, 5u, 6u})
-            EXPECT_EQ(even.cuts.tree[leaf_cut].axis, 1 - first);
-    }
-}
-
-TEST(GivenAxes, of_each_cut_are_kept) {
-    const auto mine = share_of_cloud(4000, 3, [](std::size_t, int, double u) { return u; });
-    Options options;
-    options.num_parts = 4;
-    options.cut_axes = {2, 0, 1};
-    const Balance result = balance(interleaved_points(mine, 3), options, MPI_COMM_WORLD);
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(result.cuts.tree[k].axis, options.cut_axes[k]);
-    EXPECT_LE(result.report.measured_imbalance, 1.01);
-}
-
-TEST(PlainCuts, keep_points_on_a_plane_together) {
-    const std::vector<double> mine = three_columns();
-    const Points points = interleaved_points(mine, 2);
-    Options options;
-    options.refine = Refine::exact;
-    options.num_parts = 2;
-    options.plain_cuts = true;
-    const Balance plain = balance(points, options, MPI_COMM_WORLD);
-    EXPECT_EQ(part_weights(points, plain.parts, 2, MPI_COMM_WORLD),
-              (std::vector<double>{400, 200}));
-    EXPECT_EQ(plain.cuts.tree[0].at[1], -std::numeric_limits<double>::infinity());
-    EXPECT_EQ(plain.report.coincident_cuts, 1);
-    options.plain_cuts = false;
-    const Balance tilted = balance(points, options, MPI_COMM_WORLD);
-    EXPECT_EQ(part_weights(points, tilted.parts, 2, MPI_COMM_WORLD),
-              (std::vector<double>{300, 300}));
-    EXPECT_EQ(tilted.report.coincident_cuts, 0);
 }
 
 }  // namespace

@@ -1,0 +1,69 @@
+#include "clouds_of_all_ranks.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/quality.hpp>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+using test::share_of_cloud;
+using test::three_columns;
+
+TEST(GivenAxes, are_crossed_in_groups) {
+    // 8 parts of a box of 1 x 5: three cuts of the longest extent, all across y.
+    const auto mine = share_of_cloud(
+        8000, 2, [](std::size_t, int axis, double u) { return axis == 0 ? u : 5 * u; });
+    const Points points = interleaved_points(mine, 2);
+    Options options;
+    options.num_parts = 8;
+    options.grouped_axes = {0, 1};
+    const Balance tall = balance(points, options, MPI_COMM_WORLD);
+    for (const Cut& cut : tall.cuts.tree) EXPECT_EQ(cut.axis, 1);
+
+    // A square: two levels across one axis, one across the other, in the order asked for.
+    const auto square = share_of_cloud(8000, 2, [](std::size_t, int, double u) { return u; });
+    for (const int first : {0, 1}) {
+        options.grouped_axes = {first, 1 - first};
+        const Balance even = balance(interleaved_points(square, 2), options, MPI_COMM_WORLD);
+        EXPECT_EQ(even.cuts.tree[0].axis, first);
+        for (const std::size_t leaf_cut : {2u, 3u, 5u, 6u})
+            EXPECT_EQ(even.cuts.tree[leaf_cut].axis, 1 - first);
+    }
+}
+
+TEST(GivenAxes, of_each_cut_are_kept) {
+    const auto mine = share_of_cloud(4000, 3, [](std::size_t, int, double u) { return u; });
+    Options options;
+    options.num_parts = 4;
+    options.cut_axes = {2, 0, 1};
+    const Balance result = balance(interleaved_points(mine, 3), options, MPI_COMM_WORLD);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(result.cuts.tree[k].axis, options.cut_axes[k]);
+    EXPECT_LE(result.report.measured_imbalance, 1.01);
+}
+
+TEST(PlainCuts, keep_points_on_a_plane_together) {
+    const std::vector<double> mine = three_columns();
+    const Points points = interleaved_points(mine, 2);
+    Options options;
+    options.refine = Refine::exact;
+    options.num_parts = 2;
+    options.plain_cuts = true;
+    const Balance plain = balance(points, options, MPI_COMM_WORLD);
+    EXPECT_EQ(part_weights(points, plain.parts, 2, MPI_COMM_WORLD),
+              (std::vector<double>{400, 200}));
+    EXPECT_EQ(plain.cuts.tree[0].at[1], -std::numeric_limits<double>::infinity());
+    EXPECT_EQ(plain.report.coincident_cuts, 1);
+    options.plain_cuts = false;
+    const Balance tilted = balance(points, options, MPI_COMM_WORLD);
+    EXPECT_EQ(part_weights(points, tilted.parts, 2, MPI_COMM_WORLD),
+              (std::vector<double>{300, 300}));
+    EXPECT_EQ(tilted.report.coincident_cuts, 0);
+}
+
+}  // namespace
+}  // namespace rrcb

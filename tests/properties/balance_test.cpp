@@ -2,6 +2,7 @@
 #include "../support/ranks.hpp"
 #include "check_mpi.hpp"
 #include "expectations.hpp"
+#include "list_entries_mpi.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/plan.hpp>
@@ -154,22 +155,6 @@ TEST(Balance, gives_the_same_bits_twice_and_on_all_ranks) {
             return first.parts == second.parts ? "" : "other parts";
         },
         num_cases);
-}
-
-/// From rank, index there, to rank, part: what a list says of one point.
-using Transfer = std::array<int, 4>;
-
-std::vector<Transfer> gathered(const std::vector<Transfer>& mine) {
-    std::vector<int> sizes(static_cast<std::size_t>(num_ranks()));
-    const auto size = static_cast<int>(4 * mine.size());
-    MPI_Allgather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, MPI_COMM_WORLD);
-    std::vector<int> starts(sizes.size());
-    std::exclusive_scan(sizes.begin(), sizes.end(), starts.begin(), 0);
-    std::vector<Transfer> all(static_cast<std::size_t>(starts.back() + sizes.back()) / 4);
-    MPI_Allgatherv(mine.data(), size, MPI_INT, all.data(), sizes.data(), starts.data(), MPI_INT,
-                   MPI_COMM_WORLD);
-    std::ranges::sort(all);
-    return all;
 }
 
 std::vector<Transfer> exports_of(const Plan& plan) {

@@ -1,4 +1,5 @@
 // What holds for columns that move along any plan, and for the ghosts of any partition.
+#include "../support/distance.hpp"
 #include "../support/ranks.hpp"
 #include "check_mpi.hpp"
 #include "expectations.hpp"
@@ -85,16 +86,6 @@ TEST(Transfer, there_and_back_is_the_identity) {
             return same_bits(back.coordinates, first.coordinates) ? "" : "other coordinates";
         },
         num_cases);
-}
-
-long double distance(const Vector& x, const Box& box, int dimension) {
-    long double sum = 0;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
-        const long double apart = std::max({0.0L, static_cast<long double>(box.lower[a]) - x[a],
-                                            static_cast<long double>(x[a]) - box.upper[a]});
-        sum += apart * apart;
-    }
-    return std::sqrt(sum);
 }
 
 /// Whether a position is as near as that to a region of this rank.

@@ -3,6 +3,7 @@
 #include "../zoltan/program.hpp"
 #include "check_mpi.hpp"
 #include "expectations.hpp"
+#include "list_entries_mpi.hpp"
 
 #include <rrcb/plan.hpp>
 
@@ -197,9 +198,6 @@ TEST(ZoltanCall, answers_alike_twice) {
         num_cases);
 }
 
-/// From rank, object there, to rank, part.
-using Transfer = std::array<int, 4>;
-
 /// What the lists of all ranks say, ascending. Collective.
 std::vector<Transfer> transfers_of(const ListCopy& list, bool is_export) {
     std::vector<Transfer> mine;
@@ -208,16 +206,7 @@ std::vector<Transfer> transfers_of(const ListCopy& list, bool is_export) {
         const auto home = static_cast<int>(list.global_ids[k][1]);
         mine.push_back({home, object, is_export ? list.ranks[k] : rank(), list.parts[k]});
     }
-    std::vector<int> sizes(static_cast<std::size_t>(num_ranks()));
-    const auto size = static_cast<int>(4 * mine.size());
-    MPI_Allgather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, MPI_COMM_WORLD);
-    std::vector<int> starts(sizes.size());
-    std::exclusive_scan(sizes.begin(), sizes.end(), starts.begin(), 0);
-    std::vector<Transfer> all(static_cast<std::size_t>(starts.back() + sizes.back()) / 4);
-    MPI_Allgatherv(mine.data(), size, MPI_INT, all.data(), sizes.data(), starts.data(), MPI_INT,
-                   MPI_COMM_WORLD);
-    std::ranges::sort(all);
-    return all;
+    return gathered(mine);
 }
 
 /// Every object whose part is on other ranks leaves for one of them, once.

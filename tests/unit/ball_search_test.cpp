@@ -1,6 +1,7 @@
 #include "cuts/ball_search.hpp"
 
 #include "../support/clouds.hpp"
+#include "../support/distance.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +13,8 @@
 
 namespace rrcb {
 namespace {
+
+using test::distance;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -29,16 +32,6 @@ Cuts random_cuts(int dimension, int num_parts, std::mt19937_64& engine) {
         cuts.tree.push_back(cut);
     }
     return cuts;
-}
-
-long double distance(const Vector& x, const Box& box, int dimension) {
-    long double sum = 0;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
-        const long double apart = std::max({0.0L, static_cast<long double>(box.lower[a]) - x[a],
-                                            static_cast<long double>(x[a]) - box.upper[a]});
-        sum += apart * apart;
-    }
-    return std::sqrt(sum);
 }
 
 std::vector<Part> parts_found(const BallSearch& search, const Vector& x) {

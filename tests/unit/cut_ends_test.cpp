@@ -1,48 +1,29 @@
 // The edges of every stage of the search for one cut: where it may end and where it must go on.
-#include "refinement/local_search.hpp"
+#include "cut_search_cases.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace rrcb {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using test::infinity;
+using test::layout;
+using test::search_in;
+using test::target_of;
+
 constexpr double largest = std::numeric_limits<double>::max();
-constexpr HistogramLayout layout{4};  // six slots
 
 /// Points at 1 ... 4 on all axes, 5000 in each slot: more than are gathered.
 std::vector<double> histogram_of(std::vector<double> weights) {
-    std::vector<double> histogram(layout.length());
-    clear_histogram(histogram);
+    std::vector<double> histogram = test::histogram_of(std::move(weights), 5000);
     std::fill_n(histogram.begin(), max_dimension, -1);
     std::fill_n(histogram.begin() + max_dimension, max_dimension, 4);
-    weights.resize(layout.num_slots());
-    std::copy(weights.begin(), weights.end(), histogram.begin() + layout.num_extents);
-    std::fill_n(histogram.end() - static_cast<std::ptrdiff_t>(layout.num_slots()),
-                layout.num_slots(), 5000);
     return histogram;
-}
-
-/// In the bracket [0, 4) of axis 0: four bins of width one.
-CutSearch search_in(CutSearch::Stage stage, std::int32_t num_axes = 1) {
-    CutSearch search;
-    search.stage = stage;
-    search.num_axes = num_axes;
-    search.cut.at.fill(-infinity);
-    search.upper = 4;
-    return search;
-}
-
-CutTarget target_of(double weight, double slack = 0, double base = 0) {
-    CutTarget target;
-    target.target = weight;
-    target.slack = slack;
-    target.base = base;
-    return target;
 }
 
 TEST(CountInBins, does_not_end_below_the_first_or_above_the_last_slot_which_have_no_edge_there) {

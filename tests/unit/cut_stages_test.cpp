@@ -1,49 +1,29 @@
 // Every stage of the search for one cut by itself, on histograms and candidates worked out by hand.
-#include "refinement/local_search.hpp"
+#include "cut_search_cases.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
+#include <utility>
 
 namespace rrcb {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr HistogramLayout layout{4};  // six slots
-constexpr double many = 5000;         // more than are gathered
+using test::infinity;
+using test::layout;
+using test::search_in;
+using test::target_of;
+
+constexpr double many = 5000;  // more than are gathered
 constexpr double few = 1000;
 
 /// A histogram of one axis with these weights and as many points in each slot.
 std::vector<double> histogram_of(std::vector<double> weights, double count, double smallest = 0,
                                  double largest = 4) {
-    std::vector<double> histogram(layout.length());
-    clear_histogram(histogram);
+    std::vector<double> histogram = test::histogram_of(std::move(weights), count);
     histogram[0] = -smallest;
     histogram[max_dimension] = largest;
-    weights.resize(layout.num_slots());
-    std::copy(weights.begin(), weights.end(), histogram.begin() + layout.num_extents);
-    std::fill_n(histogram.end() - static_cast<std::ptrdiff_t>(layout.num_slots()),
-                layout.num_slots(), count);
     return histogram;
-}
-
-/// In the bracket [0, 4) of axis 0: four bins of width one.
-CutSearch search_in(CutSearch::Stage stage, std::int32_t num_axes = 1) {
-    CutSearch search;
-    search.stage = stage;
-    search.num_axes = num_axes;
-    search.cut.at.fill(-infinity);
-    search.upper = 4;
-    return search;
-}
-
-CutTarget target_of(double weight, double slack = 0, double base = 0) {
-    CutTarget target;
-    target.target = weight;
-    target.slack = slack;
-    target.base = base;
-    return target;
 }
 
 const std::vector<double> slot_weights{2, 3, 5.25, 4, 1, 0};

@@ -12,15 +12,6 @@
 
 namespace rrcb::test {
 
-inline int largest(int value) {
-    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
-    return value;
-}
-
-inline bool same_on_all_ranks(int value) {
-    return largest(value) == -largest(-value);
-}
-
 /// A call whose allocations fail one after the other.
 class FailingMemory {
   public:

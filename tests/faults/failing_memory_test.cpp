@@ -5,7 +5,6 @@
 #include <rrcb/rrcb.hpp>
 
 #include <array>
-#include <tuple>
 
 namespace rrcb {
 namespace {
@@ -25,6 +24,20 @@ int code_of(Step&& step) {
     }
 }
 
+/// Fails each allocation of `call`, and hands the results of calls that succeed to `expect_result`.
+template <class Call, class ExpectResult>
+void fail_in(Call&& call, ExpectResult&& expect_result) {
+    decltype(call()) result;
+    FailingMemory(
+        {ok, static_cast<int>(ErrorCode::out_of_memory)},
+        [&] {
+            result = {};
+            return code_of([&] { result = call(); });
+        },
+        [&] { expect_result(result); })
+        .run();
+}
+
 std::vector<double> cloud_here(int dimension) {
     return test::uniform_cloud(120, dimension, static_cast<unsigned>(test::rank() + 1));
 }
@@ -38,15 +51,7 @@ void fail_in_balance(const Options& options, const Cuts* previous = nullptr,
                         : balance(points, options, MPI_COMM_WORLD);
     };
     const std::vector<Part> expected = call().parts;
-    Balance result;
-    FailingMemory(
-        {ok, static_cast<int>(ErrorCode::out_of_memory)},
-        [&] {
-            result = {};
-            return code_of([&] { result = call(); });
-        },
-        [&] { EXPECT_EQ(result.parts, expected); })
-        .run();
+    fail_in(call, [&](const Balance& result) { EXPECT_EQ(result.parts, expected); });
 }
 
 Options refining(Refine refine) {
@@ -117,20 +122,13 @@ std::vector<Part> parts_here() {
 
 TEST(FailingMemory, in_a_plan) {
     const std::vector<Part> parts = parts_here();
-    const Plan expected = plan(parts, 2 * test::num_ranks(), MPI_COMM_WORLD);
-    Plan result;
-    FailingMemory(
-        {ok, static_cast<int>(ErrorCode::out_of_memory)},
-        [&] {
-            result = {};
-            return code_of([&] { result = plan(parts, 2 * test::num_ranks(), MPI_COMM_WORLD); });
-        },
-        [&] {
-            EXPECT_EQ(result.export_indices, expected.export_indices);
-            EXPECT_EQ(result.import_indices, expected.import_indices);
-            EXPECT_EQ(result.import_ranks, expected.import_ranks);
-        })
-        .run();
+    const auto call = [&] { return plan(parts, 2 * test::num_ranks(), MPI_COMM_WORLD); };
+    const Plan expected = call();
+    fail_in(call, [&](const Plan& result) {
+        EXPECT_EQ(result.export_indices, expected.export_indices);
+        EXPECT_EQ(result.import_indices, expected.import_indices);
+        EXPECT_EQ(result.import_ranks, expected.import_ranks);
+    });
 }
 
 TEST(FailingMemory, in_new_part_numbers) {
@@ -145,18 +143,10 @@ TEST(FailingMemory, in_new_part_numbers) {
                            : remap(parts, previous, ranks, MPI_COMM_WORLD);
         };
         const Remap expected = call();
-        Remap result;
-        FailingMemory(
-            {ok, static_cast<int>(ErrorCode::out_of_memory)},
-            [&] {
-                result = {};
-                return code_of([&] { result = call(); });
-            },
-            [&] {
-                EXPECT_EQ(result.numbers, expected.numbers);
-                EXPECT_EQ(result.kept_after, expected.kept_after) << "a rank was left out";
-            })
-            .run();
+        fail_in(call, [&](const Remap& result) {
+            EXPECT_EQ(result.numbers, expected.numbers);
+            EXPECT_EQ(result.kept_after, expected.kept_after) << "a rank was left out";
+        });
     }
 }
 
@@ -164,16 +154,8 @@ TEST(FailingMemory, in_the_weights_of_the_parts) {
     const std::vector<double> coordinates = cloud_here(2);
     const Points points = interleaved_points(coordinates, 2);
     const std::vector<Part> parts(points.count, test::rank());
-    std::vector<double> weights;
-    FailingMemory(
-        {ok, static_cast<int>(ErrorCode::out_of_memory)},
-        [&] {
-            weights = {};
-            return code_of(
-                [&] { weights = part_weights(points, parts, test::num_ranks(), MPI_COMM_WORLD); });
-        },
-        [&] { EXPECT_EQ(weights[0], 120); })
-        .run();
+    fail_in([&] { return part_weights(points, parts, test::num_ranks(), MPI_COMM_WORLD); },
+            [](const std::vector<double>& weights) { EXPECT_EQ(weights[0], 120); });
 }
 
 TEST(FailingMemory, in_columns_that_move) {
@@ -184,15 +166,7 @@ TEST(FailingMemory, in_columns_that_move) {
         return transfer(lists, columns(parts, column(positions, 3)), MPI_COMM_WORLD, {300});
     };
     const auto expected = call();
-    std::tuple<std::vector<Part>, std::vector<double>> result;
-    FailingMemory(
-        {ok, static_cast<int>(ErrorCode::out_of_memory)},
-        [&] {
-            result = {};
-            return code_of([&] { result = call(); });
-        },
-        [&] { EXPECT_EQ(result, expected); })
-        .run();
+    fail_in(call, [&](const auto& result) { EXPECT_EQ(result, expected); });
 }
 
 TEST(FailingMemory, in_ghosts_and_what_is_fetched_of_them) {
@@ -206,15 +180,7 @@ TEST(FailingMemory, in_ghosts_and_what_is_fetched_of_them) {
         return fetch(lists, column(coordinates, 2), MPI_COMM_WORLD);
     };
     const std::vector<double> expected = call();
-    std::vector<double> result;
-    FailingMemory(
-        {ok, static_cast<int>(ErrorCode::out_of_memory)},
-        [&] {
-            result = {};
-            return code_of([&] { result = call(); });
-        },
-        [&] { EXPECT_EQ(result, expected); })
-        .run();
+    fail_in(call, [&](const std::vector<double>& result) { EXPECT_EQ(result, expected); });
 }
 
 TEST(Memory, of_a_transfer_fifty_times_its_limit_stays_below_it) {

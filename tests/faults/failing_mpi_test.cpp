@@ -14,12 +14,6 @@ namespace {
 using zoltan_test::Outcome;
 using zoltan_test::Program;
 
-bool same_on_all_ranks(int value) {
-    int largest[2] = {value, -value};
-    MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
-    return largest[0] == -largest[1];
-}
-
 bool has_no_lists(const Outcome& outcome) {
     return outcome.changes == 0 && outcome.imports.count <= 0 && outcome.exports.count <= 0;
 }
@@ -51,7 +45,7 @@ void expect_one_code_and_no_lists(Cloud& cloud) {
                    [&] {
                        const Outcome outcome = cloud.partition();
                        EXPECT_EQ(outcome.code, ZOLTAN_FATAL);
-                       EXPECT_TRUE(same_on_all_ranks(outcome.code));
+                       EXPECT_TRUE(test::same_on_all_ranks(outcome.code));
                        EXPECT_TRUE(has_no_lists(outcome));
                    });
 }
@@ -142,11 +136,11 @@ TEST(FailingMpi, reaches_the_caller_of_what_moves_columns) {
     expect_errors([&] { fetch(near, colours, MPI_COMM_WORLD); });
 }
 
-TEST(FailingMpi, of_one_message_of_a_column_is_that_ranks_alone_and_the_next_is_right) {
-    const Plan lists = plan_of_all_pairs();
-    std::vector<int> values(lists.num_points, test::rank());
+/// Fails each message of a call on the last rank, one after the other; the call expects its result
+/// itself.
+void fail_each_message(const std::function<void()>& call) {
     mpi_layer::fail_message(0);
-    const std::vector<int> expected = transfer(lists, values, MPI_COMM_WORLD);
+    call();
     const long num_messages = mpi_layer::counted_messages();
     ASSERT_EQ(num_messages, 2 * (test::num_ranks() - 1));
     for (long message = 1; message <= num_messages; ++message) {
@@ -154,36 +148,28 @@ TEST(FailingMpi, of_one_message_of_a_column_is_that_ranks_alone_and_the_next_is_
         mpi_layer::fail_message(test::is_last_rank() ? message : 0);
         bool threw = false;
         try {
-            EXPECT_EQ(transfer(lists, values, MPI_COMM_WORLD), expected);
+            call();
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::mpi);
             threw = true;
         }
         EXPECT_EQ(threw, test::is_last_rank());
         mpi_layer::fail_message(0);
-        EXPECT_EQ(transfer(lists, values, MPI_COMM_WORLD), expected);
+        call();
     }
 }
 
+TEST(FailingMpi, of_one_message_of_a_column_is_that_ranks_alone_and_the_next_is_right) {
+    const Plan lists = plan_of_all_pairs();
+    const std::vector<int> values(lists.num_points, test::rank());
+    const std::vector<int> expected = transfer(lists, values, MPI_COMM_WORLD);
+    fail_each_message([&] { EXPECT_EQ(transfer(lists, values, MPI_COMM_WORLD), expected); });
+}
+
 TEST(FailingMpi, of_one_message_of_a_plan_is_that_ranks_alone_and_the_next_plan_is_right) {
-    mpi_layer::fail_message(0);
     const Plan expected = plan_of_all_pairs();
-    const long num_messages = mpi_layer::counted_messages();
-    ASSERT_EQ(num_messages, 2 * (test::num_ranks() - 1));
-    for (long message = 1; message <= num_messages; ++message) {
-        SCOPED_TRACE(message);
-        mpi_layer::fail_message(test::is_last_rank() ? message : 0);
-        bool threw = false;
-        try {
-            plan_of_all_pairs();
-        } catch (const Error& error) {
-            EXPECT_EQ(error.code(), ErrorCode::mpi);
-            threw = true;
-        }
-        EXPECT_EQ(threw, test::is_last_rank());
-        mpi_layer::fail_message(0);
-        EXPECT_EQ(plan_of_all_pairs().import_indices, expected.import_indices);
-    }
+    fail_each_message(
+        [&] { EXPECT_EQ(plan_of_all_pairs().import_indices, expected.import_indices); });
 }
 
 /// The error of a call of `balance` in which that message fails on that rank.

@@ -20,4 +20,15 @@ inline bool is_last_rank() {
     return rank() == num_ranks() - 1;
 }
 
+/// Largest value of all ranks. Collective.
+inline int largest(int value) {
+    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    return value;
+}
+
+/// Collective.
+inline bool same_on_all_ranks(int value) {
+    return largest(value) == -largest(-value);
+}
+
 }  // namespace rrcb::test

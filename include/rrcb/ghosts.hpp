@@ -6,7 +6,6 @@
 #include <mpi.h>
 
 #include <span>
-#include <tuple>
 #include <vector>
 
 namespace rrcb {
@@ -54,25 +53,10 @@ void move(const GhostPlan& plan, std::span<const ByteColumn> columns, const Tran
 /// Collective over `comm`, otherwise as transfer(): columns hold one entry, or `components`, for
 /// each of plan.num_points points. To be called with the same plan as long as no point changes its
 /// place in the columns.
-template <class... T>
-std::tuple<std::vector<T>...> fetch(const GhostPlan& plan, const std::tuple<Column<T>...>& columns,
-                                    MPI_Comm comm, const TransferLimits& limits = {},
-                                    TransferReport* report = nullptr) {
-    return detail::moved(plan, columns, comm, limits, report);
-}
-
-/// The same for one column.
-template <class T>
-std::vector<T> fetch(const GhostPlan& plan, const Column<T>& column, MPI_Comm comm,
-                     const TransferLimits& limits = {}, TransferReport* report = nullptr) {
-    return std::get<0>(detail::moved(plan, std::tuple(column), comm, limits, report));
-}
-
-/// The same for a vector or an array with one value for each point.
-template <std::ranges::contiguous_range Values>
-auto fetch(const GhostPlan& plan, const Values& values, MPI_Comm comm,
+template <class Columns>
+auto fetch(const GhostPlan& plan, const Columns& columns, MPI_Comm comm,
            const TransferLimits& limits = {}, TransferReport* report = nullptr) {
-    return fetch(plan, column(values), comm, limits, report);
+    return detail::moved(plan, columns, comm, limits, report);
 }
 
 }  // namespace rrcb

@@ -102,10 +102,23 @@ std::tuple<std::vector<T>...> moved(const AnyPlan& plan, const std::tuple<Column
     (std::index_sequence_for<T...>{});
 }
 
+template <class AnyPlan, class T>
+std::vector<T> moved(const AnyPlan& plan, const Column<T>& column, MPI_Comm comm,
+                     const TransferLimits& limits, TransferReport* report) {
+    return std::get<0>(moved(plan, std::tuple(column), comm, limits, report));
+}
+
+template <class AnyPlan, std::ranges::contiguous_range Values>
+auto moved(const AnyPlan& plan, const Values& values, MPI_Comm comm, const TransferLimits& limits,
+           TransferReport* report) {
+    return moved(plan, column(values), comm, limits, report);
+}
+
 }  // namespace detail
 
-/// Moves several columns of the points along a plan, and gives those of the points that this rank
-/// holds afterwards, as a tuple of vectors.
+/// Moves columns of the points along a plan, and gives those of the points that this rank holds
+/// afterwards: a tuple of vectors for several columns(), and a vector for one column(), or for a
+/// vector or an array with one value for each point.
 ///
 /// Collective over `comm`, the communicator of the plan: each pair of ranks exchanges a number, one
 /// reduction, then one message for each pair between which points move, however many columns there
@@ -121,25 +134,10 @@ std::tuple<std::vector<T>...> moved(const AnyPlan& plan, const std::tuple<Column
 /// on every rank alike where one has a column of another length than plan.num_points * components,
 /// lists that no plan of this communicator has or that do not match those of the other ranks, other
 /// sizes or limits than they have, or no memory; on that rank alone when a message fails.
-template <class... T>
-std::tuple<std::vector<T>...> transfer(const Plan& plan, const std::tuple<Column<T>...>& columns,
-                                       MPI_Comm comm, const TransferLimits& limits = {},
-                                       TransferReport* report = nullptr) {
-    return detail::moved(plan, columns, comm, limits, report);
-}
-
-/// The same for one column.
-template <class T>
-std::vector<T> transfer(const Plan& plan, const Column<T>& column, MPI_Comm comm,
-                        const TransferLimits& limits = {}, TransferReport* report = nullptr) {
-    return std::get<0>(detail::moved(plan, std::tuple(column), comm, limits, report));
-}
-
-/// The same for a vector or an array with one value for each point.
-template <std::ranges::contiguous_range Values>
-auto transfer(const Plan& plan, const Values& values, MPI_Comm comm,
+template <class Columns>
+auto transfer(const Plan& plan, const Columns& columns, MPI_Comm comm,
               const TransferLimits& limits = {}, TransferReport* report = nullptr) {
-    return transfer(plan, column(values), comm, limits, report);
+    return detail::moved(plan, columns, comm, limits, report);
 }
 
 }  // namespace rrcb

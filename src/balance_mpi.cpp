@@ -165,9 +165,8 @@ void prepare_to_reuse(const Points& points, const Options& given, const Cuts& pr
                                  totals.counts.end());
 }
 
-/// Smallest box that holds the points of all ranks. Collective.
-Box box_together(const Points& points, const Participant& self) {
-    Box box = bounding_box(points);
+/// Smallest box that holds those of all ranks. Collective.
+Box box_together(Box box, const Participant& self) {
     for (double& lower : box.lower) lower = -lower;
     std::array ends{box.lower, box.upper};
     mpi::check(
@@ -230,21 +229,24 @@ void refine_together(Work& work, Participant& self) {
     result.cuts = std::move(refined.cuts);
 }
 
-/// Searches cuts from earlier ones on, of points in `box`. Collective.
-void search_from_earlier(const Points& points, const Box& box, Work& work, Participant& self) {
-    bracket_earlier(work.result.cuts, box, work.decision.bisection.brackets);
-    self.attempt([&] { work.binned = bin_by_options(points, bounding_box(points), work.options); });
+/// Searches cuts from earlier ones on, of points in `box` here and in `whole` on all ranks.
+/// Collective.
+void search_from_earlier(const Points& points, const Box& box, const Box& whole, Work& work,
+                         Participant& self) {
+    bracket_earlier(work.result.cuts, whole, work.decision.bisection.brackets);
+    self.attempt([&] { work.binned = bin_by_options(points, box, work.options); });
     refine_together(work, self);
 }
 
 /// Moves earlier cuts to where limits let them lie, and searches them there. Collective.
 void reuse_within_limits(const Points& points, Work& work, Participant& self) {
     if (work.result.report.num_points == 0) return assign_together(points, work, self);
-    const Box box = box_together(points, self);
-    self.attempt([&] { move_into_places(box, work.options, work.result.cuts); });
+    const Box box = bounding_box(points);
+    const Box whole = box_together(box, self);
+    self.attempt([&] { move_into_places(whole, work.options, work.result.cuts); });
     if (!is_refined(work.options)) return assign_together(points, work, self);
-    work.decision.box[0] = box;
-    search_from_earlier(points, box, work, self);
+    work.decision.box[0] = whole;
+    search_from_earlier(points, box, whole, work, self);
 }
 
 /// Ends with earlier cuts where their parts are even enough, or moves them. Collective.
@@ -259,11 +261,12 @@ void reuse_together(const Points& points, Work& work, Participant& self) {
                         report);
         return;
     }
-    const Box box = box_together(points, self);
+    const Box box = bounding_box(points);
+    const Box whole = box_together(box, self);
     if (counts_earlier_parts(options))
         work.sums.set(report.all_weights_zero ? work.totals.counts : work.totals.weights,
                       work.decision.part_weights);
-    search_from_earlier(points, box, work, self);
+    search_from_earlier(points, box, whole, work, self);
 }
 
 /// Leaves the points in the parts that they lie in. Not collective.

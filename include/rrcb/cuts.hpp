@@ -33,7 +33,7 @@ struct Cuts {
     std::vector<Cut> tree;
 };
 
-/// How many of a node's parts lie below its cut; `num_parts` >= 2.
+/// Number of a node's parts that lie below its cut; `num_parts` >= 2.
 constexpr int lower_parts(int num_parts) {
     return num_parts / 2;
 }

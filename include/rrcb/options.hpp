@@ -21,7 +21,7 @@ enum class CutRule {
     midpoint            ///< at that share of the extent: the literal reading of the paper
 };
 
-/// How far the estimated cuts are moved by what the ranks really hold.
+/// Accuracy to which the estimated cuts are moved by what the ranks really hold.
 enum class Refine {
     automatic,  ///< tolerance for the analytic domain; none for sampled, the method of the paper
     none,       ///< not at all: the estimate from the statistics stands
@@ -42,7 +42,7 @@ struct GridLines {
     double spacing = 0;  ///< > 0 and finite
 };
 
-/// How `balance` works; must be the same on every rank, which is checked.
+/// Options of `balance`; must be the same on every rank, which is checked.
 struct Options {
     int num_parts = 0;               ///< parts to make; 0: one per rank
     std::vector<double> part_sizes;  ///< relative weight of each part, >= 0, some > 0; empty: equal

@@ -4,7 +4,7 @@
 
 namespace rrcb {
 
-/// What a call of `balance` goes through, in this order.
+/// Stages of a call of `balance`, in this order.
 enum class Stage {
     moments,     ///< local: what this rank contributes, in place of its points
     gather,      ///< the contributions travel to the root

@@ -51,7 +51,7 @@ struct TransferLimits {
     std::size_t bytes = std::size_t{64} << 20;
 };
 
-/// What a call took, on this rank.
+/// Memory and messages of a call on this rank.
 struct TransferReport {
     std::size_t peak_bytes = 0;    ///< most memory in use for messages at a time
     std::size_t bytes_sent = 0;    ///< of columns

@@ -17,12 +17,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double weight_of(std::span<const MassPoint> points) {
-    double weight = 0;
-    for (const MassPoint& point : points) weight += point.weight;
-    return weight;
-}
-
 Box extent_of(std::span<const MassPoint> points) {
     Box box;
     for (const MassPoint& point : points) {

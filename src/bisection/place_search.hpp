@@ -29,7 +29,7 @@ struct Piece {
     int depth;
 };
 
-/// How the parts of a node turn out.
+/// Cuts of a node and what they make of its parts.
 struct Outcome {
     double heaviest = 0;            ///< weight over size, of the part where it is greatest
     std::vector<Cut> tree{};        ///< in preorder

@@ -12,12 +12,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double weight_of(std::span<const MassPoint> points) {
-    double weight = 0;
-    for (const MassPoint& point : points) weight += point.weight;
-    return weight;
-}
-
 struct Place {
     std::size_t index;
     double below;  ///< weight of the points before it
@@ -86,6 +80,12 @@ void cut_between(const Vector& last_below, const Vector& first_above, const Posi
 }
 
 }  // namespace
+
+double weight_of(std::span<const MassPoint> points) {
+    double weight = 0;
+    for (const MassPoint& point : points) weight += point.weight;
+    return weight;
+}
 
 std::size_t select_below(std::span<MassPoint> points, int dimension, double target, bool plain,
                          Cut& cut) {

@@ -7,6 +7,8 @@
 
 namespace rrcb {
 
+double weight_of(std::span<const MassPoint> points);
+
 /// Divides points in place: those below the cut come first. Expected cost linear in their number.
 ///
 /// The cut across `axis` has the weight `target` below it, out of some weight > target >= 0 in all.

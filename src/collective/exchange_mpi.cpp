@@ -84,7 +84,7 @@ void Exchange::run(Participant& self) {
     self.check(
         MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE),
         "MPI_Waitall");
-    if (self.failed()) throw Error(self.failure.code, self.failure.text.data());
+    self.throw_alone();
     std::ranges::sort(arrived_, [](const Message& a, const Message& b) {
         return std::pair(a.source, a.first) < std::pair(b.source, b.first);
     });

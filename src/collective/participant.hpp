@@ -40,6 +40,11 @@ struct Participant {
         failure = rrcb::attempt([&] { mpi::check(code, call); });
     }
 
+    /// Throws what failed on this rank, of which no other hears.
+    void throw_alone() const {
+        if (failed()) throw Error(failure.code, failure.text.data());
+    }
+
     /// Notes the failing rank that a message told, which may be no_rank or some_rank.
     void hear_of(int rank) {
         if (failing_there == no_rank) failing_there = rank;

@@ -103,8 +103,4 @@ Stream::Lane* Stream::wait(Participant& self) {
     return ended == 0 ? &receives_ : &sends_;
 }
 
-void Stream::finish(const Participant& self) {
-    if (self.failed()) throw Error(self.failure.code, self.failure.text.data());
-}
-
 }  // namespace rrcb

@@ -53,7 +53,7 @@ class Stream {
                 unpack(piece.first, piece.count, &receives_.buffer[piece.offset]);
             begin_all();
         }
-        finish(self);
+        self.throw_alone();
     }
 
   private:
@@ -89,7 +89,6 @@ class Stream {
     void send(const Piece& piece, Participant& self);
     void receive(const Piece& piece, Participant& self);
     Lane* wait(Participant& self);
-    static void finish(const Participant& self);
 
     std::size_t record_bytes_;
     std::size_t lane_bytes_;    ///< in each direction at most

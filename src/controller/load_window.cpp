@@ -19,18 +19,17 @@ std::size_t rank_below_median(std::size_t count) {
 
 }  // namespace
 
+double median(const std::array<double, 3>& values, std::size_t count) {
+    const auto [a, b, c] = values;
+    if (count == 1) return a;
+    if (count == 2) return std::min(a, b);
+    return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
 void LoadWindow::add(double excess, double mean) {
     excess_[count_ % longest] = excess;
     mean_[count_ % longest] = mean;
     ++count_;
-}
-
-double LoadWindow::median_of_three(const Values& values) const {
-    const double a = latest(values, 0);
-    if (count_ == 1) return a;
-    const double b = latest(values, 1);
-    if (count_ == 2) return std::min(a, b);
-    return std::max(std::min(a, b), std::min(std::max(a, b), latest(values, 2)));
 }
 
 double LoadWindow::lower_bound() const {

@@ -10,14 +10,6 @@ namespace {
 /// Excess that equal loads may show.
 constexpr double rounding = 1e-12;
 
-/// Of the first `count`, three at most; of two the smaller.
-double median(const std::array<double, 3>& values, std::size_t count) {
-    const auto [a, b, c] = values;
-    if (count == 1) return a;
-    if (count == 2) return std::min(a, b);
-    return std::max(std::min(a, b), std::min(std::max(a, b), c));
-}
-
 }  // namespace
 
 void RebalanceRule::add(const StepLoad& load) {

@@ -28,7 +28,7 @@ class AxisLimits {
     /// The greatest place of a cut with room for `count` boxes between it and `face`.
     double last_before(double face, int count) const;
 
-    /// How many boxes there is room for between two faces, from 1 to `most`.
+    /// Number of boxes with room between two faces, from 1 to `most`.
     int count_between(double lower, double upper, int most) const;
 
     /// The place in [first, last], which are places, that is next to `value`.

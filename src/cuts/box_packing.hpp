@@ -9,7 +9,7 @@
 
 namespace rrcb {
 
-/// How many boxes have room side by side, along each axis.
+/// Number of boxes with room side by side, along each axis.
 using Room = std::array<int, max_dimension>;
 
 /// Which bisections have room, where each part takes one unit of room along each axis.

@@ -1,6 +1,6 @@
 #include "cuts/cut_limits.hpp"
 
-#include <rrcb/error.hpp>
+#include "options/rejection.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +13,6 @@ namespace rrcb {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-[[noreturn]] void reject(const std::string& what) {
-    throw Error(ErrorCode::invalid_argument, what);
-}
 
 }  // namespace
 

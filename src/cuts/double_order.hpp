@@ -8,7 +8,7 @@ namespace rrcb {
 
 // Doubles in their order as whole numbers: neighbours differ by 1, both zeros are one.
 
-/// How many doubles lie between 0 and `value`, negative below 0.
+/// Number of doubles between 0 and `value`, negative below 0.
 inline std::int64_t double_rank(double value) {
     if (value == 0) return 0;
     const auto bits = std::bit_cast<std::int64_t>(value);

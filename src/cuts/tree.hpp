@@ -2,6 +2,8 @@
 
 #include <rrcb/cuts.hpp>
 
+#include <vector>
+
 namespace rrcb {
 
 /// A node on the way down the tree: its place in the preorder and the parts below it.
@@ -33,6 +35,13 @@ struct Sides {
 
 inline Sides sides_of(const Box& box, const Cut& cut, int dimension) {
     return {!is_above(cut, box.lower, dimension), is_above(cut, box.upper, dimension)};
+}
+
+/// Axis of each cut, in preorder.
+inline std::vector<int> axes_of(const Cuts& cuts) {
+    std::vector<int> axes;
+    for (const Cut& cut : cuts.tree) axes.push_back(cut.axis);
+    return axes;
 }
 
 /// The node at or below `at` where the cuts first part a box, or the part that holds all of it.

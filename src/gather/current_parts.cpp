@@ -89,9 +89,8 @@ class Reader {
 
     /// Moves the cuts into places within their gaps; false where these are not enough.
     bool move_into_places() {
-        std::vector<int> axes;
-        for (const Cut& cut : current_.cuts.tree) axes.push_back(cut.axis);
-        CutLimits limits(options_, joined(ranks_).box(), estimate_.dimension, {axes, gaps_});
+        CutLimits limits(options_, joined(ranks_).box(), estimate_.dimension,
+                         {axes_of(current_.cuts), gaps_});
         if (!limits.has_room()) return false;
         move_node(root_of(estimate_), limits.region(), limits);
         return true;

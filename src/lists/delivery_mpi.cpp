@@ -3,8 +3,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/stream_mpi.hpp"
-
-#include <rrcb/error.hpp>
+#include "options/rejection.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -17,10 +16,6 @@ namespace rrcb {
 namespace {
 
 using detail::ByteColumn;
-
-[[noreturn]] void reject(const std::string& what) {
-    throw Error(ErrorCode::invalid_argument, what);
-}
 
 /// One column as it travels: the bytes of a point lie together.
 struct Lane {

@@ -20,7 +20,7 @@ struct Delivery {
     std::vector<RankCount> from{};
 };
 
-/// What a rank that has failed tells the others in place of a count.
+/// Count by which a rank tells the others that it has failed.
 inline constexpr std::int64_t failed_there = -1;
 
 /// Turns the counts that go to each rank into those that come from each, `per_rank`.

@@ -4,10 +4,10 @@
 #include "cuts/ball_search.hpp"
 #include "lists/delivery_mpi.hpp"
 #include "lists/remap_mpi.hpp"
+#include "options/rejection.hpp"
 #include "options/request.hpp"
 #include "options/validation.hpp"
 
-#include <rrcb/error.hpp>
 #include <rrcb/ghosts.hpp>
 
 #include <algorithm>
@@ -20,10 +20,6 @@
 namespace rrcb {
 
 namespace {
-
-void require(bool condition, const char* what) {
-    if (!condition) throw Error(ErrorCode::invalid_argument, what);
-}
 
 void check_ranges(std::span<const RankRange> ranks_of_parts, int num_parts, int num_ranks) {
     require(ranks_of_parts.size() == static_cast<std::size_t>(num_parts),

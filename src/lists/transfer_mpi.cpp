@@ -1,8 +1,8 @@
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "lists/delivery_mpi.hpp"
+#include "options/rejection.hpp"
 
-#include <rrcb/error.hpp>
 #include <rrcb/transfer.hpp>
 
 #include <algorithm>
@@ -12,10 +12,6 @@
 namespace rrcb {
 
 namespace {
-
-void require(bool condition, const char* what) {
-    if (!condition) throw Error(ErrorCode::invalid_argument, what);
-}
 
 void check_lists(const Plan& plan) {
     const std::vector<LocalIndex>& exports = plan.export_indices;
@@ -27,7 +23,7 @@ void check_lists(const Plan& plan) {
     require(std::ranges::is_sorted(plan.import_ranks), "import_ranks of the plan must ascend");
 }
 
-/// How often each rank is named, by ascending rank; `ranks` may be in any order.
+/// Number of times that each rank is named, by ascending rank; `ranks` may be in any order.
 std::vector<RankCount> counts_of(std::span<const int> ranks, int num_ranks) {
     std::vector<LocalIndex> per_rank(static_cast<std::size_t>(num_ranks), 0);
     for (const int rank : ranks) {

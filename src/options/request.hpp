@@ -11,14 +11,16 @@
 
 namespace rrcb {
 
-/// What a rank asks for, which must be the same on every rank: the bits of each value, or a hash.
-/// The dimension, every option that is compared in the order of the table, the cuts of an earlier
-/// call, and how this thread does arithmetic.
+/// Number of options that are compared between ranks by themselves.
 inline constexpr std::size_t num_compared = [] {
     std::size_t count = 0;
     for (const Option& option : option_table) count += is_compared(option) ? 1 : 0;
     return count;
 }();
+
+/// Request of a rank, which must be the same on every rank: the bits of each value, or a hash. It
+/// holds the dimension, every option that is compared in the order of the table, the cuts of an
+/// earlier call, and how this thread does arithmetic.
 using Request = std::array<std::uint64_t, num_compared + 3>;
 
 /// The bits of one option, or a hash.

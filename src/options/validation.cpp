@@ -2,8 +2,7 @@
 
 #include "cells/point_layout.hpp"
 #include "options/option_table.hpp"
-
-#include <rrcb/error.hpp>
+#include "options/rejection.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,14 +13,6 @@
 namespace rrcb {
 
 namespace {
-
-[[noreturn]] void reject(const std::string& what) {
-    throw Error(ErrorCode::invalid_argument, what);
-}
-
-void require(bool condition, const char* what) {
-    if (!condition) reject(what);
-}
 
 void check_coordinates(const Points& points) {
     constexpr const char* left_over =

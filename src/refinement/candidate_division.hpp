@@ -26,7 +26,7 @@ struct Ties {
     double weight = 0;
 };
 
-/// How many of the candidates are to lie below the cut.
+/// Candidates in two groups: those below the cut come first.
 struct Division {
     std::size_t num_below = 0;
     double below = 0;  ///< weight of the node below the cut

@@ -20,12 +20,6 @@ double sum_of(std::span<const double> values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-std::vector<int> axes_of(const Cuts& cuts) {
-    std::vector<int> axes;
-    for (const Cut& cut : cuts.tree) axes.push_back(cut.axis);
-    return axes;
-}
-
 }  // namespace
 
 // A node that is searched has two parts or more.

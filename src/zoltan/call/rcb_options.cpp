@@ -2,6 +2,7 @@
 
 #include "bisection/domain_kinds.hpp"
 #include "cuts/cut_limits.hpp"
+#include "cuts/tree.hpp"
 #include "zoltan/norm/multicriteria.hpp"
 #include "zoltan/real/zoltan_error.hpp"
 
@@ -20,12 +21,6 @@ std::vector<int> axis_order(int set_directions, int dimension) {
     for (const int axis : orders[known ? static_cast<std::size_t>(set_directions - 1) : 0]) {
         if (axis < dimension) axes.push_back(axis);
     }
-    return axes;
-}
-
-std::vector<int> axes_of(const Cuts& cuts) {
-    std::vector<int> axes;
-    for (const Cut& cut : cuts.tree) axes.push_back(cut.axis);
     return axes;
 }
 

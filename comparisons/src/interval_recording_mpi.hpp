@@ -11,7 +11,7 @@
 
 namespace comparisons {
 
-/// How the histories of a scene are recorded.
+/// Settings by which the histories of a scene are recorded.
 struct IntervalRecording {
     std::string scene;
     int num_times = 101;  ///< at which parts are made and loads counted, from the start to the end

@@ -107,7 +107,6 @@ Workload make_workload(const Arguments& arguments, MPI_Comm comm) {
                           arguments.layout, comm);
 }
 
-/// How a run ended.
 struct Outcome {
     bool succeeded = true;
     std::vector<Noise> noise;

@@ -19,7 +19,7 @@ namespace comparisons {
 
 namespace {
 
-/// How well one call divides the points.
+/// Quality of the parts of one call.
 struct Judgement {
     double imbalance = 1;
     double worst_unbalance_percent = 0;

@@ -29,7 +29,6 @@ struct Measurement {
     std::vector<rrcb::Part> parts;  ///< of this rank's points, as the counted call made them
 };
 
-/// How to measure.
 struct MeasurementPlan {
     Lists lists = Lists::parts;
     int repeats = 7;

@@ -21,7 +21,7 @@ class ResultsFolder {
     /// What `text` makes on rank 0 alone, on every rank.
     std::string from_root(const std::function<std::string()>& text) const;
 
-    /// What a file holds, on every rank; nothing when there is no such file.
+    /// Contents of a file, on every rank; nothing when there is no such file.
     std::string read(const std::string& name) const;
 
   private:

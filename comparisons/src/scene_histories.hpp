@@ -7,7 +7,7 @@
 
 namespace comparisons {
 
-/// How a scene's history is recorded.
+/// Settings by which a scene's history is recorded.
 struct Recording {
     std::string scene;
     bool quick = false;  ///< the coarse scene

@@ -16,7 +16,7 @@
 
 namespace comparisons {
 
-/// How a scene is run, the same for every method.
+/// Run of a scene, the same for every method.
 struct SimulationPlan {
     mpm::Scene scene;
     int num_steps = 1;
@@ -32,7 +32,7 @@ struct LoadRecord {
     double moved_fraction = 0;   ///< of the points, by the latest rebalance; 0 before the first
 };
 
-/// What a whole simulation under one method cost; the same on every rank.
+/// Cost of a whole simulation under one method; the same on every rank.
 struct SimulationRun {
     std::string method;
     std::string error;                  ///< empty unless the simulation failed

@@ -7,7 +7,7 @@ namespace comparisons {
 
 namespace {
 
-/// How many values may be left out at each end.
+/// Number of values that may be left out at each end.
 std::optional<std::size_t> left_out_at_each_end(std::size_t num_values) {
     constexpr long double most_at_one_end = 0.05L / 2;
     // Of 0 values below the median first; long double, as it is 2^-n.

@@ -27,7 +27,7 @@ struct Workload {
     }
 };
 
-/// How the points lie on the ranks before they are balanced.
+/// Layout of the points on the ranks before they are balanced.
 enum class Layout {
     sorted,    ///< each rank holds a piece of equal count of a Hilbert curve through the points
     scattered  ///< each point lies on a random rank

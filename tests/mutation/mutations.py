@@ -17,10 +17,10 @@ class Mutation:
 MUTATIONS = [
     Mutation(
         "a flipped comparison: points on a plane are below it",
-        "src/cuts/cuts.cpp",
-        "x(i, nodes[node].axis) >= nodes[node].plane",
-        "x(i, nodes[node].axis) > nodes[node].plane",
-        ("properties.balance",),
+        "src/cuts/direct_assignment.cpp",
+        "x0[i] >= p0 ? above : below",
+        "x0[i] > p0 ? above : below",
+        ("unit_direct_assignment", "properties.balance"),
     ),
     Mutation(
         "a flipped comparison: ties are broken downwards",
@@ -101,7 +101,7 @@ MUTATIONS = [
     ),
     Mutation(
         "a patch that is divided keeps its weight above",
-        "src/bisection/bisection.cpp",
+        "src/bisection/patches.cpp",
         "above.weight -= below.weight;",
         "",
         ("unit_bisection",),
@@ -126,6 +126,20 @@ MUTATIONS = [
         "weight += points.weights[i];",
         "weight += 1;",
         ("mpi_refinement", "properties.balance"),
+    ),
+    Mutation(
+        "a rank without memory for its candidates does not say so",
+        "src/refinement/level_search_mpi.cpp",
+        "if (self.failed()) candidates_.mark_failed();",
+        "",
+        ("faults.failing_search",),
+    ),
+    Mutation(
+        "the root does not hear of a rank without memory for its candidates",
+        "src/refinement/level_search_mpi.cpp",
+        "if (candidates_.any_failed()) self.hear_of(some_rank);",
+        "",
+        ("faults.failing_search",),
     ),
     Mutation(
         "load unbalance forgets its sign",

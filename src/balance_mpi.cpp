@@ -240,7 +240,6 @@ void search_from_earlier(const Points& points, const Box& box, const Box& whole,
 
 /// Moves earlier cuts to where limits let them lie, and searches them there. Collective.
 void reuse_within_limits(const Points& points, Work& work, Participant& self) {
-    if (work.result.report.num_points == 0) return assign_together(points, work, self);
     const Box box = bounding_box(points);
     const Box whole = box_together(box, self);
     self.attempt([&] { move_into_places(whole, work.options, work.result.cuts); });
@@ -252,10 +251,11 @@ void reuse_within_limits(const Points& points, Work& work, Participant& self) {
 /// Ends with earlier cuts where their parts are even enough, or moves them. Collective.
 void reuse_together(const Points& points, Work& work, Participant& self) {
     const Options& options = work.options;
-    if (are_cuts_limited(options)) return reuse_within_limits(points, work, self);
     Report& report = work.result.report;
+    if (report.num_points == 0) return;
+    if (are_cuts_limited(options)) return reuse_within_limits(points, work, self);
     const bool is_good = report.measured_imbalance <= options.imbalance_tolerance;
-    if (is_good || !is_refined(options) || report.num_points == 0) {
+    if (is_good || !is_refined(options)) {
         report.rounds = is_refined(options) ? 1 : 0;
         report_measured(report.measured_imbalance, std::move(work.decision.part_weights), options,
                         report);

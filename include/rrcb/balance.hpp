@@ -89,7 +89,7 @@ Balance balance(const Points& points, const Options& options, MPI_Comm comm);
 /// The other axes of `previous` stay. `previous` must be the same on every rank and have the
 /// dimension and number of parts asked for. Points in one place that it divides are counted on the
 /// side where the look-up finds them. Report::kept, estimated_imbalance and num_records tell
-/// nothing here.
+/// nothing here. Without any points the cuts stay, and the report is that of a call from nothing.
 Balance balance(const Points& points, const Options& options, MPI_Comm comm, const Cuts& previous);
 
 }  // namespace rrcb

@@ -47,8 +47,9 @@ Verdict verdict_of(const Summary& summary, const Bisection& bisection,
         summary.weight == 0
             ? least_imbalance(1, static_cast<double>(summary.num_points), part_sizes)
             : least_imbalance(summary.heaviest, summary.weight, part_sizes);
+    const bool estimates = !bisection.part_weights.empty() || summary.num_points == 0;
     verdict.estimated_imbalance =
-        bisection.part_weights.empty() ? not_known : imbalance(bisection.part_weights, part_sizes);
+        estimates ? imbalance(bisection.part_weights, part_sizes) : not_known;
     return verdict;
 }
 
@@ -119,10 +120,10 @@ Bisection bisect_gathered(const Contribution& all, const Options& options, int d
     return bisect(std::move(domain), options, with_brackets);
 }
 
-/// Tells what the parts of earlier cuts weigh, where the ranks have counted them.
+/// Tells what the parts of earlier cuts weigh, where the ranks have counted points in them.
 void weigh_parts(const Contribution& all, const Options& options, Decision& decision) {
     const std::size_t num_parts = decision.part_weights.size();
-    if (num_parts == 0) return;
+    if (num_parts == 0 || all.summary.num_points == 0) return;
     const std::span<const double> totals(all.part_totals);
     std::ranges::copy(all.summary.weight > 0 ? totals.first(num_parts) : totals.last(num_parts),
                       decision.part_weights.begin());

@@ -15,6 +15,7 @@
 #include <limits>
 #include <new>
 #include <numeric>
+#include <tuple>
 #include <vector>
 
 namespace {
@@ -340,10 +341,33 @@ TEST(Reuse, goes_on_where_ranks_are_empty) {
     const Cuts cuts = balance(mine.points(), options, MPI_COMM_WORLD).cuts;
     EXPECT_EQ(balance(mine.points(), options, MPI_COMM_WORLD, cuts).report.part_weights,
               weights_by_look_up(all, cuts));
+}
+
+/// What a report tells but of the records.
+auto told(const Report& report) {
+    return std::tuple(report.num_points, report.total_weight, report.estimated_imbalance,
+                      std::isnan(report.measured_imbalance), report.within_tolerance,
+                      report.part_weights, report.least_imbalance, report.coincident_cuts,
+                      report.kept, report.rounds, report.all_weights_zero, report.surplus_parts);
+}
+
+TEST(Reuse, without_points_tells_what_a_call_from_nothing_does) {
+    const HeldPoints all = cloud(2, 500, false);
     const Points none{.dimension = 2};
-    const Balance empty = balance(none, options, MPI_COMM_WORLD, cuts);
-    EXPECT_EQ(empty.report.part_weights, std::vector<double>(3, 0.0));
-    EXPECT_EQ(empty.report.measured_imbalance, 1);
+    for (const bool limited : {false, true}) {
+        for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
+            Options options = with_parts(3, 1.05);
+            options.refine = refine;
+            if (limited) options.min_width = {0.1, 0.1};
+            const Cuts cuts = balance(Share(all).points(), options, MPI_COMM_WORLD).cuts;
+            const Balance empty = balance(none, options, MPI_COMM_WORLD, cuts);
+            EXPECT_TRUE(same_cuts(empty.cuts, cuts));
+            EXPECT_EQ(told(empty.report), told(balance(none, options, MPI_COMM_WORLD).report))
+                << limited << static_cast<int>(refine);
+            EXPECT_EQ(empty.report.estimated_imbalance, 1);
+            EXPECT_TRUE(std::isnan(empty.report.measured_imbalance));
+        }
+    }
 }
 
 }  // namespace

@@ -24,29 +24,12 @@ using namespace comparisons;
 /// Its steps are written one by one.
 constexpr const char* shown_by_steps = "slope";
 
-/// Adds rows that `make` makes on rank 0 alone, the first ones under their header.
-template <typename Make>
-void append(const ResultsFolder& folder, const std::string& name, Make&& make) {
-    const std::string before = folder.read(name);
-    folder.write(name, [&] {
-        const std::vector<Row> rows = make();
-        std::string text = before.empty() ? rows.front().header() + '\n' : before;
-        for (const Row& row : rows) text += row.text() + '\n';
-        return text;
-    });
-}
-
 void append(const ResultsFolder& folder, const MappedScene& scene) {
-    append(folder, "intervals.csv", [&] { return map_rows(scene); });
-    append(folder, "intervals_optimum.csv", [&] { return optimum_rows(scene); });
+    folder.append("intervals.csv", [&] { return map_rows(scene); });
+    folder.append("intervals_optimum.csv", [&] { return optimum_rows(scene); });
     if (scene.scene != shown_by_steps) return;
-    append(folder, "intervals_steps.csv", [&] { return step_rows(scene); });
+    folder.append("intervals_steps.csv", [&] { return step_rows(scene); });
 }
-
-struct NamedCloud {
-    std::string name;
-    double speed;  ///< m in a step
-};
 
 void map_all(const ResultsFolder& folder, bool quick, MPI_Comm comm) {
     if (RRCB_Zoltan_Active() == 0) throw Failure("rrcb_zoltan is not in front of Zoltan");
@@ -64,14 +47,9 @@ void map_all(const ResultsFolder& folder, bool quick, MPI_Comm comm) {
     }
     // The points of a cloud do no work; theirs is taken to be that of the slope's.
     recording.seconds_per_point = of_slope;
-    const std::vector<NamedCloud> clouds = {
-        {"cloud, slow", 0.002}, {"cloud, faster", 0.02}, {"cloud, fast", 0.2}};
-    for (const NamedCloud& cloud : clouds) {
-        recording.scene = cloud.name;
-        DriftingCloud drifting{.speed = cloud.speed};
-        if (quick) drifting = {2000, 100, cloud.speed};
-        append(folder,
-               record_intervals(*cloud_points(drifting, comm), methods, recording, comm).map);
+    for (const auto& [name, cloud] : drifting_clouds(quick)) {
+        recording.scene = name;
+        append(folder, record_intervals(*cloud_points(cloud, comm), methods, recording, comm).map);
         if (quick) break;
     }
 }

@@ -37,7 +37,7 @@ struct Entry {
 
 const std::vector<Entry>& entries() {
     static const std::vector<Entry> table = {
-        {"zoltan-rcb", "RCB", {}, {}, {}},
+        {"zoltan-rcb", "RCB", {}, {}, {"reuse", "lock"}},
         {"zoltan-rib", "RIB", {}, {}, {}},
         {"zoltan-hsfc", "HSFC", {}, {}, {}},
 #ifdef RRCB_HAS_ZOLTAN2
@@ -90,10 +90,13 @@ void apply(Method& method, const Entry& entry, std::string_view assignment) {
                       std::string(name) + "'; it takes " +
                       (entry.keys.empty() ? "none" : joined(entry.keys)));
     }
-    if (name == "reuse" && equals != assignment.npos)
-        throw Failure("--methods: " + method.label + ": reuse takes no value");
-    method.reuses = method.reuses || name == "reuse";
-    if (name == "reuse") return;
+    if (name == "reuse" || name == "lock") {
+        if (equals != assignment.npos)
+            throw Failure("--methods: " + method.label + ": " + std::string(name) +
+                          " takes no value");
+        (name == "reuse" ? method.reuses : method.locks_axes) = true;
+        return;
+    }
     const Key& key = *std::ranges::find(keys, name, &Key::name);
     const std::string_view value =
         equals == assignment.npos ? "" : trim(assignment.substr(equals + 1));
@@ -203,6 +206,7 @@ ZoltanParameters zoltan_parameters(const Method& method, Lists lists) {
     if (method.lb_method == on_arrays) parameters = {{"function", on_arrays}};
     if (method.options) add_options(parameters, *method.options);
     if (method.reuses) parameters.emplace_back("RCB_REUSE", "1");
+    if (method.locks_axes) parameters.emplace_back("RCB_LOCK_DIRECTIONS", "1");
     if (method.keeps_numbers) parameters.emplace_back("REMAP", "0");
     return parameters;
 }

@@ -18,6 +18,7 @@ struct Method {
     std::optional<rrcb::Options> options;  ///< of our own methods; none for Zoltan's
     bool seed_given = false;               ///< the user chose the seed of its points
     bool reuses = false;                   ///< starts from the cuts of its last call
+    bool locks_axes = false;               ///< keeps the axes of the cuts of its first call
     bool keeps_numbers = false;            ///< of parts, where objects stay on their ranks: REMAP=0
 };
 

@@ -155,6 +155,15 @@ std::unique_ptr<MovingPoints> scene_points(const std::string& scene, bool quick,
     return std::make_unique<ScenePoints>(choose(scene, quick, comm), comm);
 }
 
+std::vector<std::pair<std::string, DriftingCloud>> drifting_clouds(bool quick) {
+    std::vector<std::pair<std::string, DriftingCloud>> clouds = {{"cloud, slow", {.speed = 0.002}},
+                                                                 {"cloud, faster", {.speed = 0.02}},
+                                                                 {"cloud, fast", {.speed = 0.2}}};
+    for (auto& [name, cloud] : clouds)
+        if (quick) cloud = {2000, 100, cloud.speed};
+    return clouds;
+}
+
 std::unique_ptr<MovingPoints> cloud_points(const DriftingCloud& cloud, MPI_Comm comm) {
     return std::make_unique<CloudPoints>(cloud, comm);
 }

@@ -6,6 +6,8 @@
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace comparisons {
 
@@ -37,6 +39,9 @@ struct DriftingCloud {
     int num_steps = 1000;
     double speed = 0.1;
 };
+
+/// Such clouds at three speeds, and their names; small ones if `quick`.
+std::vector<std::pair<std::string, DriftingCloud>> drifting_clouds(bool quick);
 
 /// The points of the cloud, each with 24 columns. Collective.
 std::unique_ptr<MovingPoints> cloud_points(const DriftingCloud& cloud, MPI_Comm comm);

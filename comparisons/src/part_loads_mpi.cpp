@@ -10,13 +10,6 @@
 
 namespace comparisons {
 
-namespace {
-
-mpm::Positions positions_of(const std::array<std::vector<double>, 3>& columns) {
-    return {columns[0], columns[1], columns[2]};
-}
-
-/// Each point that has left the box of its owner goes to the first box that holds it.
 void follow(std::vector<int>& owners, const std::vector<mpm::Box>& boxes, mpm::Positions at) {
     for (std::size_t i = 0; i < owners.size(); ++i) {
         const mpm::Vector x = at[i];
@@ -26,8 +19,6 @@ void follow(std::vector<int>& owners, const std::vector<mpm::Box>& boxes, mpm::P
     }
 }
 
-}  // namespace
-
 PointTracks::PointTracks(MPI_Comm comm) : comm_(comm) {
     MPI_Comm_rank(comm, &rank_);
     MPI_Comm_size(comm, &num_ranks_);
@@ -36,8 +27,7 @@ PointTracks::PointTracks(MPI_Comm comm) : comm_(comm) {
 void PointTracks::add(const MovingPoints& points) {
     const mpm::Positions at = points.positions();
     const std::span<const double> ids = points.particles()["id"];
-    num_points_ = static_cast<std::int64_t>(ids.size());
-    MPI_Allreduce(MPI_IN_PLACE, &num_points_, 1, MPI_INT64_T, MPI_SUM, comm_);
+    count_points(ids.size());
     int num_axes = at.z.empty() ? 2 : 3;  // 2 as well where there are no points
     MPI_Allreduce(MPI_IN_PLACE, &num_axes, 1, MPI_INT, MPI_MAX, comm_);
     std::vector<rrcb::Part> ranks;
@@ -61,8 +51,23 @@ void PointTracks::add(const MovingPoints& points) {
     snapshots_.push_back(std::move(columns));
 }
 
+void PointTracks::add(Columns columns) {
+    count_points(columns[0].size());
+    snapshots_.push_back(std::move(columns));
+}
+
+void PointTracks::count_points(std::size_t mine) {
+    num_points_ = static_cast<std::int64_t>(mine);
+    MPI_Allreduce(MPI_IN_PLACE, &num_points_, 1, MPI_INT64_T, MPI_SUM, comm_);
+}
+
+mpm::Positions PointTracks::positions(int time) const {
+    const Columns& columns = snapshots_[static_cast<std::size_t>(time)];
+    return {columns[0], columns[1], columns[2]};
+}
+
 void PointTracks::count(LoadTable& table, int made, const mpm::Balancer& balancer) const {
-    const mpm::Positions start = positions_of(snapshots_[static_cast<std::size_t>(made)]);
+    const mpm::Positions start = positions(made);
     const mpm::Decomposition parts = balancer(start, comm_);
     std::vector<int> owners = parts.local_owners;
     if (owners.empty()) {
@@ -72,7 +77,7 @@ void PointTracks::count(LoadTable& table, int made, const mpm::Balancer& balance
     const auto num_ranks = static_cast<std::size_t>(num_ranks_);
     std::vector<std::int64_t> counts;
     for (int at = made; at < num_times(); ++at) {
-        follow(owners, parts.boxes, positions_of(snapshots_[static_cast<std::size_t>(at)]));
+        follow(owners, parts.boxes, positions(at));
         counts.resize(counts.size() + num_ranks);
         for (const int owner : owners) ++counts[counts.size() - num_ranks + owner];
     }

@@ -12,16 +12,27 @@
 
 namespace comparisons {
 
+/// Gives each point that has left the box of its owner to the first of the boxes that holds it.
+void follow(std::vector<int>& owners, const std::vector<mpm::Box>& boxes, mpm::Positions at);
+
 /// Where points were at some times, and how they load parts made at any of them.
 ///
 /// Rank r of R keeps the points with id R / N = r in their order, whoever owns them. All functions
 /// are collective over `comm`.
 class PointTracks {
   public:
+    using Columns = std::array<std::vector<double>, 3>;
+
     explicit PointTracks(MPI_Comm comm);
 
     /// One time more. No point is ever lost or added.
     void add(const MovingPoints& points);
+
+    /// The same of the points that this rank keeps, without the third axis in 2-D.
+    void add(Columns columns);
+
+    /// Of the points that this rank keeps.
+    mpm::Positions positions(int time) const;
     std::int64_t num_points() const { return num_points_; }
     int num_times() const { return static_cast<int>(snapshots_.size()); }
 
@@ -37,8 +48,7 @@ class PointTracks {
     }
 
   private:
-    using Columns = std::array<std::vector<double>, 3>;
-
+    void count_points(std::size_t mine);
     void count(LoadTable& table, int made, const mpm::Balancer& balancer) const;
 
     MPI_Comm comm_;

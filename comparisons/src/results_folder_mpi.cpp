@@ -51,4 +51,15 @@ std::string ResultsFolder::read(const std::string& name) const {
     });
 }
 
+void ResultsFolder::append(const std::string& name,
+                           const std::function<std::vector<Row>()>& rows) const {
+    const std::string before = read(name);
+    write(name, [&] {
+        const std::vector<Row> more = rows();
+        std::string text = before.empty() ? more.front().header() + '\n' : before;
+        for (const Row& row : more) text += row.text() + '\n';
+        return text;
+    });
+}
+
 }  // namespace comparisons

@@ -1,10 +1,13 @@
 #pragma once
 
+#include "row.hpp"
+
 #include <mpi.h>
 
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace comparisons {
 
@@ -23,6 +26,10 @@ class ResultsFolder {
 
     /// Contents of a file, on every rank; nothing when there is no such file.
     std::string read(const std::string& name) const;
+
+    /// Adds the rows that `rows` makes on rank 0 alone to a table, the first ones under their
+    /// header.
+    void append(const std::string& name, const std::function<std::vector<Row>()>& rows) const;
 
   private:
     std::filesystem::path path_;

@@ -100,6 +100,11 @@ TEST(Method, starts_from_its_last_cuts_where_asked) {
     EXPECT_EQ(std::ranges::count(reuses, expected), 1);
     EXPECT_EQ(std::ranges::count(zoltan_parameters(read_method("rrcb"), {}), expected), 0);
     EXPECT_EQ(error_of("rrcb[reuse=1]"), "--methods: rrcb[reuse=1]: reuse takes no value");
+    const ZoltanParameters locks = zoltan_parameters(read_method("zoltan-rcb[reuse,lock]"), {});
+    EXPECT_EQ(std::ranges::count(locks, expected), 1);
+    const std::pair<std::string, std::string> locked("RCB_LOCK_DIRECTIONS", "1");
+    EXPECT_EQ(std::ranges::count(locks, locked), 1);
+    EXPECT_EQ(std::ranges::count(reuses, locked), 0);
 }
 
 TEST(Method, names_what_is_unknown) {
@@ -107,8 +112,8 @@ TEST(Method, names_what_is_unknown) {
               "--methods: unknown method 'magic'; choose from: " + method_names());
     EXPECT_EQ(error_of("rrcb[k=2]"),
               "--methods: rrcb has no parameter 'k'; it takes mesh, cut, refine, tol, reuse");
-    EXPECT_EQ(error_of("zoltan-rcb[mesh=2]"),
-              "--methods: zoltan-rcb has no parameter 'mesh'; it takes none");
+    EXPECT_EQ(error_of("zoltan-rib[mesh=2]"),
+              "--methods: zoltan-rib has no parameter 'mesh'; it takes none");
 }
 
 TEST(Method, names_values_out_of_range) {

@@ -139,9 +139,9 @@ class ZoltanRcb {
 }  // namespace
 
 mpm::Balancer zoltan_balancer(ZoltanParameters parameters) {
-    // Boxes and look-ups need kept cuts, and parts that are ranks. The last setting counts.
-    parameters.insert(parameters.end(),
-                      {{"KEEP_CUTS", "1"}, {"RETURN_LISTS", "PARTS"}, {"REMAP", "0"}});
+    // Boxes and look-ups need kept cuts. The last setting counts.
+    parameters.insert(parameters.begin(), {"REMAP", "0"});
+    parameters.insert(parameters.end(), {{"KEEP_CUTS", "1"}, {"RETURN_LISTS", "PARTS"}});
     auto zoltan = std::make_shared<std::unique_ptr<ZoltanRcb>>();
     return [zoltan, parameters](mpm::Positions positions, MPI_Comm comm) {
         if (!*zoltan) *zoltan = std::make_unique<ZoltanRcb>(parameters, comm);

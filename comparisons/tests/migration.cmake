@@ -1,0 +1,18 @@
+# Runs COMMAND with an empty FOLDER and --quick, and expects a row for each of six methods, of points
+# that wait and that follow, of two cubes and a slope.
+file(REMOVE_RECURSE ${FOLDER})
+execute_process(COMMAND ${COMMAND} ${FOLDER} --quick RESULT_VARIABLE code)
+if(NOT code EQUAL 0)
+  message(FATAL_ERROR "exit code ${code}")
+endif()
+set(method "(zoltan-rcb|zoltan-rcb.reuse.|\"zoltan-rcb.reuse,lock.\"|rrcb|rrcb-exact|rrcb.reuse.)")
+set(count 0)
+file(STRINGS ${FOLDER}/migration.csv lines)
+foreach(line IN LISTS lines)
+  if(line MATCHES "^(\"cube, 0.01 %\",3,[12]|slope,3,),(follow|stay),${method},[0-9]+(,[0-9.e-]+)+$")
+    math(EXPR count "${count} + 1")
+  endif()
+endforeach()
+if(NOT count EQUAL 36)
+  message(FATAL_ERROR "migration.csv: ${count} rows, not 36")
+endif()

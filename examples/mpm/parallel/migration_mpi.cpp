@@ -62,6 +62,9 @@ std::vector<double> receive(int sender, MPI_Comm comm) {
 
 }  // namespace
 
+// rrcb::transfer would bring the same points in the same order, but behind a plan: it takes three
+// collective calls more and, with the rows as its column, 1.4 to 1.9 times the instructions. What
+// steps exchange are sums at nodes, which rrcb::ghosts, of points, has none of.
 std::size_t migrate(Particles& particles, const Leavers& leavers, Reach reach,
                     std::span<const int> neighbours, MPI_Comm comm) {
     if (reach == Reach::nowhere) return 0;

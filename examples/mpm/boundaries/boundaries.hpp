@@ -7,10 +7,16 @@ namespace mpm {
 /// Adds the kernels that hold the nodes on the sides of the domain: `walls` before they move,
 /// `friction` after. Open sides need none.
 ///
-/// Shape functions may reach beyond a roller or fixed wall. The sums of nodes there go to their
-/// mirror images inside, with the signs that leave the wall at rest.
+/// Shape functions may reach beyond a wall. At rollers and fixed walls the sums of nodes there go
+/// to their mirror images inside, with the signs that leave the wall at rest. At frictional walls
+/// they meet the wall together with these.
 template <int D>
 void add_walls(const Scene& scene, Stages<D>& stages);
+
+/// Nodes of a patch, and those beyond frictional walls whose mirror images it has: they meet the
+/// wall together.
+template <int D>
+NodeRange<D> with_images(const Scene& scene, NodeRange<D> nodes);
 
 /// Adds the kernels that hold the nodes with mass on the planes and behind them, after they have
 /// moved. A direction that a wall holds stays held.

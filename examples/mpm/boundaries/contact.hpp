@@ -2,6 +2,7 @@
 
 #include "grid/grid.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace mpm {
@@ -35,6 +36,26 @@ inline Components<D> after_contact(const Surface<D>& surface, const Components<D
     return along;
 }
 
+/// Velocities of a node beyond a surface and of its mirror image inside, after the surface has kept
+/// their mean out of it, with equal impulses on both.
+///
+/// The surface lies where shape functions read the mean of the two. Equal impulses do no work where
+/// it is at rest.
+template <int D>
+inline std::array<Components<D>, 2> after_contact(const Surface<D>& surface,
+                                                  std::array<Components<D>, 2> velocities,
+                                                  const std::array<double, 2>& masses) {
+    Components<D> sum;
+    for (std::size_t a = 0; a < D; ++a) sum[a] = velocities[0][a] + velocities[1][a];
+    const Components<D> left = after_contact<D>(surface, sum);
+    for (std::size_t a = 0; a < D; ++a) {
+        const double change = left[a] - sum[a];
+        velocities[0][a] += masses[1] / (masses[0] + masses[1]) * change;
+        velocities[1][a] += masses[0] / (masses[0] + masses[1]) * change;
+    }
+    return velocities;
+}
+
 /// Corrects all velocities of a node that has moved by `left(velocity)`, so that points are
 /// strained, moved and pushed by what it leaves.
 template <int D, typename Left>
@@ -44,13 +65,6 @@ inline void correct(NodeMotion<D>& motion, Left left) {
         motion.velocity_change[a] += velocity[a] - motion.velocity[a];
     motion.velocity = velocity;
     motion.strain_velocity = left(motion.strain_velocity);
-}
-
-/// Lets a node that has moved meet a surface.
-template <int D>
-inline void meet(const Surface<D>& surface, NodeMotion<D>& motion) {
-    correct<D>(motion,
-               [&](const Components<D>& velocity) { return after_contact<D>(surface, velocity); });
 }
 
 }  // namespace mpm

@@ -41,6 +41,12 @@ void visit_sides(const GridPatch<D>& patch, const Walls& walls, Visit visit) {
         }
 }
 
+/// Number along an axis of the nodes on a side, which lies inward from what is beyond.
+template <int D>
+int side_of(const GridPatch<D>& patch, std::size_t axis, double inward) {
+    return inward > 0 ? 0 : patch.shape.num_cells[axis];
+}
+
 bool has(const Walls& walls, Wall::Kind kind) {
     for (const Wall* wall :
          {&walls.left, &walls.right, &walls.bottom, &walls.top, &walls.back, &walls.front})
@@ -54,7 +60,7 @@ template <int D, typename Visit>
 void visit_images(const GridPatch<D>& patch, const Walls& walls, Visit visit) {
     visit_sides(patch, walls,
                 [&](std::array<int, D> node, const Wall& wall, std::size_t axis, double inward) {
-                    const int side = inward > 0 ? 0 : patch.shape.num_cells[axis];
+                    const int side = side_of(patch, axis, inward);
                     if (node[axis] == side || wall.kind == Wall::frictional) return;
                     const std::size_t beyond = patch.index(node);
                     node[axis] = 2 * side - node[axis];
@@ -74,20 +80,67 @@ Surface<D> surface_of(const Wall& wall, std::size_t axis, double inward) {
     return surface;
 }
 
+/// One of the velocities of a node.
+template <int D>
+using Velocity = Components<D> NodeMotion<D>::*;
+
+template <int D>
+void set_velocity(NodeMotion<D>& motion, Velocity<D> which, const Components<D>& velocity) {
+    for (std::size_t a = 0; which == &NodeMotion<D>::velocity && a < D; ++a)
+        motion.velocity_change[a] += velocity[a] - motion.velocity[a];
+    motion.*which = velocity;
+}
+
+/// Lets nodes beyond a frictional wall meet it together with their mirror images.
+template <int D>
+void meet_by_image(const Surface<D>& surface, std::size_t beyond, std::size_t image,
+                   Velocity<D> which, GridPatch<D>& patch) {
+    const std::array masses{patch.sums[beyond].mass, patch.sums[image].mass};
+    if (!(masses[0] > 0)) return;
+    const auto left = after_contact<D>(
+        surface, {patch.motion[beyond].*which, patch.motion[image].*which}, masses);
+    set_velocity<D>(patch.motion[beyond], which, left[0]);
+    set_velocity<D>(patch.motion[image], which, left[1]);
+}
+
+/// Lets the nodes on frictional walls and beyond meet them.
+template <int D>
+void meet_walls(const Walls& walls, bool with_friction, Velocity<D> which, GridPatch<D>& patch) {
+    visit_sides(patch, walls,
+                [&](std::array<int, D> node, const Wall& wall, std::size_t axis, double inward) {
+                    if (wall.kind != Wall::frictional) return;
+                    Surface<D> surface = surface_of<D>(wall, axis, inward);
+                    if (!with_friction) surface.friction = 0;
+                    const std::size_t n = patch.index(node);
+                    const int side = side_of(patch, axis, inward);
+                    if (node[axis] == side)
+                        return set_velocity<D>(patch.motion[n], which,
+                                               after_contact<D>(surface, patch.motion[n].*which));
+                    node[axis] = 2 * side - node[axis];
+                    meet_by_image<D>(surface, n, patch.index(node), which, patch);
+                });
+}
+
+/// Lets nodes meet all frictional walls. What friction at one wall pushes into another, as in a
+/// corner, is stopped by a second round without friction.
+template <int D>
+void meet_walls(const Walls& walls, Velocity<D> which, GridPatch<D>& patch) {
+    meet_walls<D>(walls, true, which, patch);
+    if (patch.margin > 0) meet_walls<D>(walls, false, which, patch);
+}
+
 /// Holds the strain velocities once they are mapped back to the nodes.
 template <int D>
 void hold_strain(const Walls& walls, GridPatch<D>& patch) {
-    visit_sides(
-        patch, walls,
-        [&](const std::array<int, D>& node, const Wall& wall, std::size_t axis, double inward) {
-            Components<D>& velocity = patch.motion[patch.index(node)].strain_velocity;
-            if (wall.kind == Wall::frictional)
-                velocity = after_contact<D>(surface_of<D>(wall, axis, inward), velocity);
-            else if (wall.kind == Wall::fixed)
-                velocity = {};
-            else
-                velocity[axis] = 0;
-        });
+    visit_sides(patch, walls,
+                [&](const std::array<int, D>& node, const Wall& wall, std::size_t axis, double) {
+                    Components<D>& velocity = patch.motion[patch.index(node)].strain_velocity;
+                    if (wall.kind == Wall::fixed)
+                        velocity = {};
+                    else if (wall.kind == Wall::roller)
+                        velocity[axis] = 0;
+                });
+    meet_walls<D>(walls, &NodeMotion<D>::strain_velocity, patch);
 }
 
 /// Adds the sums of nodes beyond a wall to their images inside, and clears them.
@@ -175,14 +228,8 @@ void add_walls(const Scene& scene, Stages<D>& stages) {
              }});
     if (has(walls, Wall::frictional))
         stages.moved.push_back({"friction", [walls](GridPatch<D>& patch, const StepTime&) {
-                                    visit_sides(
-                                        patch, walls,
-                                        [&](const std::array<int, D>& node, const Wall& wall,
-                                            std::size_t axis, double inward) {
-                                            if (wall.kind != Wall::frictional) return;
-                                            meet<D>(surface_of<D>(wall, axis, inward),
-                                                    patch.motion[patch.index(node)]);
-                                        });
+                                    meet_walls<D>(walls, &NodeMotion<D>::velocity, patch);
+                                    meet_walls<D>(walls, &NodeMotion<D>::strain_velocity, patch);
                                 }});
     if (remaps_velocities(scene)) add_remapped_walls(scene, stages);
 }
@@ -204,6 +251,25 @@ void add_images(const Scene& scene, Stages<D>& stages) {
     if (remaps_velocities(scene)) stages.remapped_velocities.push_back(stages.moved.back());
 }
 
+template <int D>
+NodeRange<D> with_images(const Scene& scene, NodeRange<D> nodes) {
+    if (scene.shape_function == ShapeFunction::linear || nodes.empty()) return nodes;
+    const std::array<const Wall*, 3> lower{&scene.walls.left, &scene.walls.bottom,
+                                           &scene.walls.back};
+    const std::array<const Wall*, 3> upper{&scene.walls.right, &scene.walls.top,
+                                           &scene.walls.front};
+    for (std::size_t a = 0; a < D; ++a) {
+        const int last = scene.grid.num_cells[a] + 1;
+        int end = nodes.begin[a] + nodes.count[a];
+        if (upper[a]->kind == Wall::frictional && end >= last - 1) end = last + 1;
+        if (lower[a]->kind == Wall::frictional && nodes.begin[a] <= 1) nodes.begin[a] = -1;
+        nodes.count[a] = end - nodes.begin[a];
+    }
+    return nodes;
+}
+
+template NodeRange<2> with_images<2>(const Scene&, NodeRange<2>);
+template NodeRange<3> with_images<3>(const Scene&, NodeRange<3>);
 template void add_walls<2>(const Scene&, Stages<2>&);
 template void add_walls<3>(const Scene&, Stages<3>&);
 template void add_images<2>(const Scene&, Stages<2>&);

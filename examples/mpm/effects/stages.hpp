@@ -14,7 +14,8 @@ namespace mpm {
 struct NodeField {
     std::string name;
     Column column;
-    int axis = -1;  ///< weighted by the shape functions' derivatives along it; -1: by themselves
+    /// Weighted by the shape functions' derivatives along it; -1: by themselves; squared_slopes.
+    int axis = -1;
     int component = -1;  ///< of a vector, which the mirror image in a wall turns; -1: a scalar
 };
 

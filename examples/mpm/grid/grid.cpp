@@ -41,8 +41,11 @@ void resize(GridPatch<D>& patch, const NodeRange<D>& nodes) {
     for (std::vector<double>& field : patch.fields) field.resize(num_nodes);
 }
 
-template <int D>
-void move_nodes(GridPatch<D>& patch, double time_step, double least_mass) {
+namespace {
+
+/// Moves the nodes, whose masses strain the points as least(node) at least.
+template <int D, typename Least>
+void move_nodes_of(GridPatch<D>& patch, double time_step, Least least) {
     for (std::size_t n = 0; n < patch.sums.size(); ++n) {
         const NodeSums<D>& node = patch.sums[n];
         NodeMotion<D>& motion = patch.motion[n];
@@ -53,9 +56,21 @@ void move_nodes(GridPatch<D>& patch, double time_step, double least_mass) {
             const double impulse = time_step * node.force[a];
             motion.velocity_change[a] = impulse / node.mass;
             motion.velocity[a] = old_velocity + motion.velocity_change[a];
-            motion.strain_velocity[a] = old_velocity + impulse / std::max(node.mass, least_mass);
+            motion.strain_velocity[a] = old_velocity + impulse / std::max(node.mass, least(n));
         }
     }
+}
+
+}  // namespace
+
+template <int D>
+void move_nodes(GridPatch<D>& patch, double time_step, const LeastMass& least_mass) {
+    if (!least_mass.field)
+        return move_nodes_of(patch, time_step,
+                             [least = least_mass.everywhere](std::size_t) { return least; });
+    move_nodes_of(patch, time_step,
+                  [factor = least_mass.factor, field = patch.fields[*least_mass.field].data()](
+                      std::size_t n) { return factor * field[n]; });
 }
 
 template NodeRange<2> intersection<2>(const NodeRange<2>&, const NodeRange<2>&);
@@ -64,7 +79,7 @@ template NodeRange<2> nodes_of<2>(const GridShape&, const Box&, int);
 template NodeRange<3> nodes_of<3>(const GridShape&, const Box&, int);
 template void resize<2>(GridPatch<2>&, const NodeRange<2>&);
 template void resize<3>(GridPatch<3>&, const NodeRange<3>&);
-template void move_nodes<2>(GridPatch<2>&, double, double);
-template void move_nodes<3>(GridPatch<3>&, double, double);
+template void move_nodes<2>(GridPatch<2>&, double, const LeastMass&);
+template void move_nodes<3>(GridPatch<3>&, double, const LeastMass&);
 
 }  // namespace mpm

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace mpm {
@@ -124,12 +125,19 @@ void visit_nodes(const NodeRange<D>& range, Visit visit) {
 template <int D>
 void resize(GridPatch<D>& patch, const NodeRange<D>& nodes);
 
+/// The least mass of a node, kg: the same on all, or a factor of a field of the nodes.
+struct LeastMass {
+    double everywhere = 0;
+    double factor = 0;
+    std::optional<std::size_t> field = {};  ///< number in GridPatch::fields
+};
+
 /// Moves the nodes by the sums of a step.
 ///
 /// A node at the rim of a point's reach has next to no mass but a finite force. Its large
 /// acceleration does no harm where the same small shape function weights it. In the velocity
 /// gradient it does: there its mass counts as at least `least_mass`. Momentum stays exact.
 template <int D>
-void move_nodes(GridPatch<D>& patch, double time_step, double least_mass);
+void move_nodes(GridPatch<D>& patch, double time_step, const LeastMass& least_mass);
 
 }  // namespace mpm

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iomanip>
+#include <sstream>
 #include <stdexcept>
 
 namespace mpm {
@@ -43,7 +45,7 @@ bool are_inside(const Box& box, const std::array<const double*, 3>& at, std::siz
 }
 
 template <int D>
-void Ownership::find_outside(const Box& box, Positions positions) {
+void Ownership::find_outside(const Box& box, Positions positions, std::span<const double> ids) {
     constexpr std::size_t block = 256;
     const std::array<const double*, 3> at{positions.x.data(), positions.y.data(),
                                           positions.z.data()};
@@ -56,7 +58,11 @@ void Ownership::find_outside(const Box& box, Positions positions) {
         const std::size_t end = std::min(begin + block, positions.size());
         if (are_inside<D>(inner, at, begin, end)) continue;
         for (std::size_t p = begin; p < end; ++p) {
-            if (!is_inside<D>(grid_, at, p)) return report(Fault::left_grid);
+            if (!is_inside<D>(grid_, at, p)) {
+                lost_.id = ids[p];
+                lost_.at = positions[p];
+                return report(Fault::left_grid);
+            }
             if (is_inside<D>(box, at, p)) continue;
             leavers_.points.push_back(p);
             for (std::size_t a = 0; a < D; ++a) at_[a].push_back(at[a][p]);
@@ -65,14 +71,17 @@ void Ownership::find_outside(const Box& box, Positions positions) {
 }
 
 void Ownership::find_leavers(const Decomposition& decomposition, Positions positions,
+                             std::span<const double> ids, double now,
                              std::span<const int> neighbours) {
+    lost_.time = now;
     leavers_.points.clear();
     for (std::vector<double>& column : at_) column.clear();
     const Box& box = decomposition.boxes[static_cast<std::size_t>(rank_)];
-    if (positions.z.empty())
-        find_outside<2>(box, positions);
+    is_solid_ = !positions.z.empty();
+    if (!is_solid_)
+        find_outside<2>(box, positions, ids);
     else
-        find_outside<3>(box, positions);
+        find_outside<3>(box, positions, ids);
     leavers_.owners.resize(leavers_.points.size());
     if (leavers_.points.empty() || !ask_owners(decomposition, {at_[0], at_[1], at_[2]})) return;
     leavers_.owners.assign(owners_.begin(), owners_.end());
@@ -133,28 +142,37 @@ void Ownership::report(Fault fault) {
 Agreement Ownership::agree(double speed) {
     std::array<double, 3> worst{static_cast<double>(fault_), static_cast<double>(reach_), speed};
     MPI_Allreduce(MPI_IN_PLACE, worst.data(), 3, MPI_DOUBLE, MPI_MAX, comm_);
+    const auto fault = static_cast<Fault>(static_cast<int>(worst[0]));
+    const bool is_mine = fault_ == fault;
     fault_ = Fault::none;
     reach_ = Reach::nowhere;
-    throw_fault(static_cast<Fault>(static_cast<int>(worst[0])));
+    if (fault != Fault::none) throw_fault(fault, is_mine);
     return {static_cast<Reach>(static_cast<int>(worst[1])), worst[2]};
 }
 
-void Ownership::throw_fault(Fault fault) {
-    switch (fault) {
-        case Fault::none:
-            return;
-        case Fault::misplaced:
-            throw std::runtime_error(
-                "the decomposition gave a point to a rank whose box does not hold it");
-        case Fault::no_owner:
-            throw std::runtime_error(
-                "the decomposition named no owner of some point: it must give one box per rank "
-                "and a rank for every position in the grid");
-        case Fault::left_grid:
-            throw std::runtime_error(
-                "a point has left the grid: make the grid larger, give it walls, or lower the "
-                "Courant number");
-    }
+void Ownership::throw_fault(Fault fault, bool is_mine) {
+    if (fault == Fault::misplaced)
+        throw std::runtime_error(
+            "the decomposition gave a point to a rank whose box does not hold it");
+    if (fault == Fault::no_owner)
+        throw std::runtime_error(
+            "the decomposition named no owner of some point: it must give one box per rank and a "
+            "rank for every position in the grid");
+    throw_lost_point(is_mine);
+}
+
+/// Of several ranks that have lost a point, the lowest tells about it.
+void Ownership::throw_lost_point(bool is_mine) {
+    int teller = is_mine ? rank_ : static_cast<int>(num_ranks_);
+    MPI_Allreduce(MPI_IN_PLACE, &teller, 1, MPI_INT, MPI_MIN, comm_);
+    MPI_Bcast(&lost_, sizeof lost_ / sizeof(double), MPI_DOUBLE, teller, comm_);
+    std::ostringstream text;
+    text << "point " << std::setprecision(15) << lost_.id << std::setprecision(6)
+         << " has left the grid at x = " << lost_.at[0] << " m, y = " << lost_.at[1] << " m";
+    if (is_solid_) text << ", z = " << lost_.at[2] << " m";
+    text << ", time = " << lost_.time
+         << " s: make the grid larger, give it walls, or lower the Courant number";
+    throw std::runtime_error(text.str());
 }
 
 }  // namespace mpm

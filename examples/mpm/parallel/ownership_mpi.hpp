@@ -23,9 +23,10 @@ class Ownership {
   public:
     Ownership(const GridShape& grid, MPI_Comm comm);
 
-    /// Finds the points that have left this rank's box. Not collective.
+    /// Finds the points that have left this rank's box. `now` and the numbers of the points are for
+    /// the message about one that has left the grid. Not collective.
     void find_leavers(const Decomposition& decomposition, Positions positions,
-                      std::span<const int> neighbours);
+                      std::span<const double> ids, double now, std::span<const int> neighbours);
 
     /// Finds the points that a new decomposition gives to other ranks. Not collective.
     void find_reassigned(const Decomposition& next, Positions positions);
@@ -40,10 +41,17 @@ class Ownership {
     /// Faults of a rank, in ascending order of gravity.
     enum class Fault { none, misplaced, no_owner, left_grid };
 
-    static void throw_fault(Fault fault);
+    /// A point that has left the grid.
+    struct LostPoint {
+        double id = 0, time = 0;
+        Vector at{};
+    };
+
+    [[noreturn]] void throw_fault(Fault fault, bool is_mine);
+    [[noreturn]] void throw_lost_point(bool is_mine);
     void report(Fault fault);
     template <int D>
-    void find_outside(const Box& box, Positions positions);
+    void find_outside(const Box& box, Positions positions, std::span<const double> ids);
     bool ask_owners(const Decomposition& decomposition, Positions positions);
     bool check_owners(const Decomposition& decomposition, Positions positions);
 
@@ -56,6 +64,8 @@ class Ownership {
     std::vector<int> owners_;
     Reach reach_ = Reach::nowhere;
     Fault fault_ = Fault::none;
+    LostPoint lost_;
+    bool is_solid_ = false;  ///< in three dimensions
 };
 
 }  // namespace mpm

@@ -71,7 +71,8 @@ class Stepper final : public Simulation::Model {
     std::optional<Column> material_column_;  ///< where the scene has several materials
     Stages<D> stages_;
     std::unique_ptr<VelocityRemap<D>> velocity_remap_;  ///< where the scene asks for it
-    double wave_speed_ = 0, least_mass_ = 0;
+    double wave_speed_ = 0;
+    LeastMass least_mass_;
 
     Ownership ownership_;
     GridPatch<D> patch_;

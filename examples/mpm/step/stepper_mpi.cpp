@@ -2,6 +2,7 @@
 #include "parallel/carried_motion_mpi.hpp"
 #include "parallel/communicator_mpi.hpp"
 #include "particles/pair.hpp"
+#include "step/least_mass.hpp"
 #include "step/stepper.hpp"
 
 #include <algorithm>
@@ -33,32 +34,7 @@ double max_wave_speed(const Scene& scene) {
     return largest;
 }
 
-/// Scene::least_node_mass, or the least share that keeps layers of points stable.
-///
-/// A node that only the rim of a layer touches is as stiff as a full one, but light. In units of
-/// cell and wave speed, its frequency squared is 1 / (layers * share of mass). The frequency must
-/// stay near 1 per time step beside heavier neighbours and at a corner.
-double least_mass_share(const Scene& scene, const Body& body) {
-    constexpr double least = 0.01;
-    if (scene.least_node_mass > 0) return scene.least_node_mass;
-    const auto& per_cell = body.points_per_cell;
-    const double layers = *std::min_element(per_cell.begin(), per_cell.begin() + scene.dimension);
-    const double courant_number = scene.courant_number;
-    return std::max(least, courant_number * courant_number / layers);
-}
-
-double least_mass(const Scene& scene) {
-    double largest = 0;
-    for (const Body& body : scene.bodies) {
-        const Material& material = scene.materials[material_of(scene, body)];
-        double mass = values_of(material, scene.dimension).number("density");
-        for (int a = 0; a < scene.dimension; ++a) mass *= scene.grid.spacing;
-        largest = std::max(largest, least_mass_share(scene, body) * mass);
-    }
-    return largest;
-}
-
-/// Stages of a scene. Walls and planes enter them before effects, mirror images in walls last.
+/// Stages of a scene but for the mirror images in walls. Walls and planes enter before effects.
 template <int D>
 Stages<D> build_stages(const Scene& scene, Particles& particles) {
     Stages<D> stages;
@@ -73,7 +49,6 @@ Stages<D> build_stages(const Scene& scene, Particles& particles) {
         else
             effect_kinds()[k].build_3(builder);
     }
-    add_images<D>(scene, stages);
     return stages;
 }
 
@@ -85,10 +60,11 @@ Stepper<D>::Stepper(const Scene& scene, const Extent& extent, MPI_Comm comm)
       comm_(duplicate(comm)),
       transfers_(make_transfers<D>(scene_, particles)),
       wave_speed_(max_wave_speed(scene)),
-      least_mass_(least_mass(scene)),
       ownership_(scene.grid, comm_) {
     build_materials();
     stages_ = build_stages<D>(scene_, particles);
+    least_mass_ = add_least_mass<D>(scene_, motion_.mass, stages_);
+    add_images<D>(scene_, stages_);
     velocity_remap_ = make_velocity_remap<D>(scene_, particles);
     patch_.shape = scene.grid;
     patch_.margin = transfers_->margin();
@@ -115,7 +91,7 @@ void Stepper<D>::adopt(Decomposition next) {
     decomposition.local_owners.clear();
     std::vector<NodeRange<D>> patches;
     for (const Box& box : decomposition.boxes)
-        patches.push_back(nodes_of<D>(scene_.grid, box, patch_.margin));
+        patches.push_back(with_images(scene_, nodes_of<D>(scene_.grid, box, patch_.margin)));
     const bool carries = stages_.carries_motion && !patches_.empty();
     const GridPatch<D> last = carries ? patch_ : GridPatch<D>{};
     resize<D>(patch_, patches[static_cast<std::size_t>(rank_of(comm_))]);
@@ -244,7 +220,8 @@ void Stepper<D>::step() {
     ++num_steps;
     ++steps_since_sort_;
 
-    ownership_.find_leavers(decomposition, positions(), ghosts_->neighbours());
+    ownership_.find_leavers(decomposition, positions(), particles[motion_.id], time,
+                            ghosts_->neighbours());
     const Agreement agreement = ownership_.agree(fastest_point());
     num_sent += static_cast<std::int64_t>(ownership_.leavers().points.size());
     take_in(

@@ -83,7 +83,10 @@ class TransfersOf final : public Transfers<D> {
                         weights[a].value[i] = inverse_spacing * weights[a].slope[i];
                 }
                 unrolled<power(N, D)>([&](auto n) {
-                    field[run.node + offsets[n]] += weight_of<D, N, n>(weights) * values[p];
+                    const double weight = axis == squared_slopes
+                                              ? squared_slope_of<D, N, n>(weights)
+                                              : weight_of<D, N, n>(weights);
+                    field[run.node + offsets[n]] += weight * values[p];
                 });
             }
     }

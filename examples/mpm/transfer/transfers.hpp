@@ -86,6 +86,10 @@ struct TransferColumns {
     std::array<std::array<Column, D>, D> affine{};  ///< APIC only: velocity gradient, 1/s
 };
 
+/// In place of an axis: the weight of a point is the square of the shape function's gradient per
+/// cell.
+inline constexpr int squared_slopes = -2;
+
 /// The transfers between points and nodes, made for a dimension, shape function and kind.
 template <int D>
 class Transfers {
@@ -113,8 +117,8 @@ class Transfers {
                             const std::vector<CellRun<D>>& runs, std::size_t first_run,
                             const PointBlock<D>& block) const = 0;
 
-    /// Adds a column of the points to a field of the nodes, weighted by the shape functions, or by
-    /// their derivatives along `axis` where that is not -1.
+    /// Adds a column of the points to a field of the nodes, weighted by the shape functions, by
+    /// their derivatives along `axis` where that is not -1, or by squared_slopes.
     virtual void scatter(const Particles& particles, Column column, int axis,
                          const std::vector<CellRun<D>>& runs, const GridPatch<D>& patch,
                          std::vector<double>& field) const = 0;

@@ -119,7 +119,8 @@ struct Scene {
     TimeIntegration time_integration = TimeIntegration::update_stress_last;
     double courant_number = 0.5;  ///< time step * (wave speed + point speed) / grid spacing
     /// Share of a full node's mass below which a node's acceleration strains points less
-    /// (move_nodes). 0: the least at which the time step is stable, and at least 0.01.
+    /// (move_nodes). 0: the least at which the time step is stable, and at least 0.01; none with
+    /// quadratic functions.
     double least_node_mass = 0;
     double end_time = 0;  ///< s
 };

@@ -1,0 +1,60 @@
+#include "step/least_mass.hpp"
+
+#include "materials/material.hpp"
+
+#include <algorithm>
+
+namespace mpm {
+
+namespace {
+
+double layers_of(const Body& body, int dimension) {
+    const auto& per_cell = body.points_per_cell;
+    return *std::min_element(per_cell.begin(), per_cell.begin() + dimension);
+}
+
+/// Scene::least_node_mass, or the least share that keeps layers of points stable.
+///
+/// On linear functions a node that only the rim of a layer touches is as stiff as a full one, but
+/// light. In units of cell and wave speed, its frequency squared is 1 / (layers * share of mass).
+/// The frequency must stay near 1 per time step beside heavier neighbours and at a corner. GIMP
+/// functions come near to linear ones where points are small. The slopes of quadratic ones vanish
+/// at the rim as their values do, so that they need no share.
+double least_share(const Scene& scene, const Body& body) {
+    constexpr double least = 0.01;
+    if (scene.least_node_mass > 0) return scene.least_node_mass;
+    if (scene.shape_function == ShapeFunction::quadratic) return 0;
+    const double courant_number = scene.courant_number;
+    return std::max(least, courant_number * courant_number / layers_of(body, scene.dimension));
+}
+
+double density_of(const Scene& scene, const Body& body) {
+    const Material& material = scene.materials[material_of(scene, body)];
+    return values_of(material, scene.dimension).number("density");
+}
+
+}  // namespace
+
+template <int D>
+LeastMass add_least_mass(const Scene& scene, Column mass, Stages<D>& stages) {
+    LeastMass least;
+    bool differ = false;
+    for (const Body& body : scene.bodies) {
+        double full = density_of(scene, body);
+        differ |= full != density_of(scene, scene.bodies.front());
+        for (int a = 0; a < D; ++a) full *= scene.grid.spacing;
+        const double share = least_share(scene, body);
+        least.everywhere = std::max(least.everywhere, share * full);
+        // A layer of points across a cell has the mass full / layers, and slopes of 1 per cell.
+        least.factor = std::max(least.factor, share * layers_of(body, D));
+    }
+    if (!differ || least.everywhere == 0) return least;
+    least.field = stages.fields.size();
+    stages.fields.push_back({"least_mass", mass, squared_slopes});
+    return least;
+}
+
+template LeastMass add_least_mass<2>(const Scene&, Column, Stages<2>&);
+template LeastMass add_least_mass<3>(const Scene&, Column, Stages<3>&);
+
+}  // namespace mpm

@@ -1,0 +1,142 @@
+// Walls that points are thrown against, with all shape functions.
+#include "support.hpp"
+
+#include <gtest/gtest.h>
+
+namespace mpm::test {
+namespace {
+
+constexpr ShapeFunction all_shapes[] = {ShapeFunction::linear, ShapeFunction::quadratic,
+                                        ShapeFunction::gimp};
+
+/// Soil without strength in tension that fills a corner of the domain, thrown into it.
+Scene thrown_into_corner(ShapeFunction shape, double friction) {
+    const Wall wall{Wall::frictional, friction};
+    return {.name = "thrown",
+            .grid = {.lower = {0, 0}, .spacing = 0.1, .num_cells = {60, 24}},
+            .materials = {{"sand",
+                           "drucker_prager",
+                           {{"density", 1600.0},
+                            {"youngs_modulus", 1e6},
+                            {"poissons_ratio", 0.3},
+                            {"cohesion", 0.0},
+                            {"friction_angle", 31.0},
+                            {"most_expansion", 1.5}}}},
+            .bodies = {{.contains = box_region({{0.4, 0.3}, {1.2, 1.1}}),
+                        .material = "sand",
+                        .velocity = velocity_field({.constant = {-4, -3}})}},
+            .walls = {.left = wall, .right = wall, .bottom = wall, .top = wall},
+            .effects = {gravity_effect(9.81), {"energy_audit", {}}},
+            .shape_function = shape,
+            .courant_number = 0.4};
+}
+
+/// A column of that sand, which collapses on the bottom.
+Scene collapsing(ShapeFunction shape, double friction) {
+    Scene scene = thrown_into_corner(shape, friction);
+    scene.bodies.front().contains = box_region({{0, 0}, {1, 2}});
+    scene.bodies.front().points_per_cell = {3, 3, 1};
+    scene.bodies.front().velocity = {};
+    return scene;
+}
+
+TEST(FrictionalWall, lets_no_point_through) {
+    for (const ShapeFunction shape : all_shapes)
+        for (const double friction : {0.0, 0.5}) {
+            SCOPED_TRACE(friction);
+            Simulation simulation(collapsing(shape, friction), MPI_COMM_WORLD);
+            const Totals start = simulation.totals();
+            while (simulation.time() < 0.45) ASSERT_NO_THROW(simulation.step());
+            const Totals end = simulation.totals();
+            EXPECT_LT(end.kinetic_energy + end.potential_energy,
+                      start.kinetic_energy + start.potential_energy);
+        }
+}
+
+// Without friction a wall is one of rollers that bodies may leave, which ground does not that its
+// weight presses on the bottom. Under FLIP, points keep the momentum that they hand to rollers.
+TEST(FrictionalWall, without_friction_holds_as_rollers_do) {
+    for (const ShapeFunction shape : all_shapes) {
+        Scene by_rollers = thrown_into_corner(shape, 0);
+        by_rollers.materials = {elastic_material("sand", 1600, 1e6, 0)};
+        by_rollers.bodies.front().contains = box_region({{0, 0}, {6, 1}});
+        by_rollers.bodies.front().velocity = {};
+        by_rollers.flip_fraction = 0;
+        Scene by_friction = by_rollers;
+        by_rollers.walls = {.left = Wall::roller, .right = Wall::roller, .bottom = Wall::roller};
+        Simulation a(by_rollers, MPI_COMM_WORLD), b(by_friction, MPI_COMM_WORLD);
+        while (a.time() < 0.05) {
+            a.step();
+            b.step();
+        }
+        for (const char* column : {"y", "velocity_y", "stress_yy"})
+            EXPECT_LT(relative_difference(gathered(a, column, MPI_COMM_WORLD),
+                                          gathered(b, column, MPI_COMM_WORLD)),
+                      0.005)
+                << column;
+    }
+}
+
+/// Boxes between horizontal cuts, as near to the bottom as a cell.
+Decomposition layers(int num_ranks) {
+    Decomposition decomposition = between_cuts(std::vector<double>(num_ranks - 1, 0.0));
+    std::vector<double> cuts;
+    for (int k = 1; k < num_ranks; ++k) cuts.push_back(0.11 * k);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < decomposition.boxes.size(); ++k) {
+        Box& box = decomposition.boxes[k];
+        box.lower = {-infinity, k == 0 ? -infinity : cuts[k - 1], -infinity};
+        box.upper = {infinity, k < cuts.size() ? cuts[k] : infinity, infinity};
+    }
+    decomposition.owners = [cuts](Positions at, std::span<int> owners) {
+        for (std::size_t i = 0; i < owners.size(); ++i)
+            owners[i] = static_cast<int>(std::ranges::upper_bound(cuts, at.y[i]) - cuts.begin());
+    };
+    return decomposition;
+}
+
+// Nodes beyond a wall and their mirror images can lie on different ranks.
+TEST(FrictionalWall, acts_the_same_between_ranks_along_it) {
+    for (const ShapeFunction shape : all_shapes) {
+        const Scene scene = thrown_into_corner(shape, 0.5);
+        Simulation parallel(scene, MPI_COMM_WORLD), serial(scene, MPI_COMM_SELF);
+        const auto cut = [](Positions, MPI_Comm comm) { return layers(size_of(comm)); };
+        parallel.rebalance(cut);
+        while (serial.time() < 0.12) {
+            parallel.step();
+            serial.step();
+        }
+        for (const char* column : {"x", "y", "velocity_x", "velocity_y"})
+            EXPECT_LT(relative_difference(gathered(serial, column, MPI_COMM_SELF),
+                                          gathered(parallel, column, MPI_COMM_WORLD)),
+                      1e-11)
+                << column;
+    }
+}
+
+TEST(LostPoint, is_named_with_its_place_and_time) {
+    Scene scene = flying_disk();
+    scene.bodies.front().velocity = velocity_field({.constant = {-8, 0}});
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    try {
+        while (simulation.time() < 1) simulation.step();
+        ADD_FAILURE() << "the disk has left the grid";
+    } catch (const std::runtime_error& error) {
+        const std::string text = error.what();
+        double id = -1, x = 0, y = 0, time = 0;
+        ASSERT_EQ(std::sscanf(text.c_str(),
+                              "point %lf has left the grid at x = %lf m, y = %lf m, time = %lf s:",
+                              &id, &x, &y, &time),
+                  4)
+            << text;
+        EXPECT_GE(id, 0);
+        EXPECT_LT(id, static_cast<double>(simulation.num_points()));
+        EXPECT_LT(x, 0);
+        EXPECT_GT(x, -0.2);
+        EXPECT_NEAR(y, 4, 2);
+        EXPECT_NEAR(time, 0.25, 0.02) << "2 m at 8 m/s";
+    }
+}
+
+}  // namespace
+}  // namespace mpm::test

@@ -1,0 +1,121 @@
+// The least mass of nodes goes by the points that touch them, not by the heaviest body of a scene.
+#include "support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace mpm::test {
+namespace {
+
+/// A body of wave speed 10.
+Material of_density(const std::string& name, double density) {
+    return elastic_material(name, density, 100 * density, 0);
+}
+
+Body box_of(const std::string& material, double begin, double end) {
+    return {.contains = box_region({{begin, 0}, {end, 1}}), .material = material};
+}
+
+/// A wave in 40 m of one density that meets 40 m of another, density 1.
+Scene wave_into_other(double density, ShapeFunction shape) {
+    Scene scene{.name = "wave",
+                .grid = {.lower = {0, 0}, .spacing = 0.5, .num_cells = {164, 1}},
+                .materials = {of_density("first", density), of_density("second", 1)},
+                .bodies = {box_of("first", 0, 40), box_of("second", 40, 80)},
+                .walls = {.left = Wall::roller, .bottom = Wall::roller, .top = Wall::roller},
+                .shape_function = shape,
+                .flip_fraction = 1,
+                .courant_number = shape == ShapeFunction::linear ? 0.25 : 0.1};
+    scene.bodies.front().velocity = [](const Vector& at) {
+        const double away = (at[0] - 20) / 7;
+        return Vector{0.01 * std::exp(-away * away), 0, 0};
+    };
+    return scene;
+}
+
+/// Energies of two states with the strain energy at the time of the velocities, half a step back.
+double energy_between(const Totals& before, const Totals& after) {
+    return after.kinetic_energy + 0.5 * (before.strain_energy + after.strain_energy);
+}
+
+// The first wave has passed from one density to the other by then, and come back from the wall.
+TEST(LeastMass, keeps_the_energy_of_waves_between_densities) {
+    for (const ShapeFunction shape : {ShapeFunction::linear, ShapeFunction::quadratic})
+        for (const double density : {0.01, 0.05, 0.3, 1.0, 4.0, 20.0, 100.0}) {
+            SCOPED_TRACE(density);
+            Simulation simulation(wave_into_other(density, shape), MPI_COMM_WORLD);
+            const double start = simulation.totals().kinetic_energy;
+            Totals before = simulation.totals(), after = before;
+            while (simulation.time() < 5) {
+                simulation.step();
+                before = after;
+                after = simulation.totals();
+            }
+            EXPECT_NEAR(energy_between(before, after), start, 0.005 * start);
+        }
+}
+
+/// A bar of that density that vibrates in mode 1; on request with a block 20 m away.
+Scene bar_beside(double density, double density_of_block) {
+    Scene scene = axial_bar();
+    scene.grid.num_cells = {50, 1};
+    scene.materials = {of_density("rubber", density)};
+    scene.courant_number = 0.5;
+    if (density_of_block > 0) {
+        scene.materials.push_back(of_density("heavy", density_of_block));
+        scene.bodies.push_back(box_of("heavy", 45, 48));
+    }
+    return scene;
+}
+
+TEST(LeastMass, of_a_body_does_not_depend_on_one_that_it_never_touches) {
+    for (const double density : {0.01, 0.05, 20.0}) {
+        Simulation alone(bar_beside(density, 0), MPI_COMM_WORLD);
+        Simulation beside(bar_beside(density, 1), MPI_COMM_WORLD);
+        while (alone.time() < 20) {
+            alone.step();
+            beside.step();
+        }
+        const Totals a = alone.totals(), b = beside.totals();
+        const double energy = a.kinetic_energy + a.strain_energy;
+        EXPECT_NEAR(b.kinetic_energy + b.strain_energy, energy, 1e-9 * energy) << density;
+    }
+}
+
+TEST(LeastMass, is_the_same_on_any_number_of_ranks) {
+    const Scene scene = wave_into_other(0.05, ShapeFunction::linear);
+    Simulation parallel(scene, MPI_COMM_WORLD), serial(scene, MPI_COMM_SELF);
+    while (serial.time() < 2) {
+        parallel.step();
+        serial.step();
+    }
+    EXPECT_LT(relative_difference(gathered(serial, "stress_xx", MPI_COMM_SELF),
+                                  gathered(parallel, "stress_xx", MPI_COMM_WORLD)),
+              1e-12);
+}
+
+// A least mass of a quarter of C^2, as linear functions want it, multiplies the energy by 400.
+TEST(LeastMass, is_none_where_slopes_vanish_at_the_rim) {
+    const Body beam{.contains = box_region({{0, 1}, {10, 2}}),
+                    .material = "rubber",
+                    .velocity = [](const Vector& at) {
+                        return Vector{0, 0.5 * (1 - std::cos(std::numbers::pi * at[0] / 20)), 0};
+                    }};
+    const Scene scene{.name = "beam",
+                      .grid = {.lower = {0, 0}, .spacing = 0.25, .num_cells = {44, 12}},
+                      .materials = {elastic_material("rubber", 1000, 5e6, 0.2)},
+                      .bodies = {beam},
+                      .walls = {.left = Wall::fixed},
+                      .shape_function = ShapeFunction::quadratic,
+                      .transfer = Transfer::apic,
+                      .courant_number = 0.5};
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    const double start = total_energy(simulation);
+    while (simulation.time() < 1) simulation.step();
+    EXPECT_LT(total_energy(simulation), start);
+    EXPECT_GT(total_energy(simulation), 0.98 * start);
+}
+
+}  // namespace
+}  // namespace mpm::test

@@ -39,12 +39,18 @@ inline double summed(const Simulation& simulation, MPI_Comm comm,
     return total;
 }
 
+/// What a simulation has dissipated and its transfers have lost, where that is kept account of.
+inline double lost_energy(const Simulation& simulation) {
+    const Totals totals = simulation.totals();
+    return totals.dissipated_energy.value_or(0) + totals.transfer_loss.value_or(0);
+}
+
 /// Kinetic, strain and potential energy of all points, and what was lost where that is kept account
 /// of.
 inline double total_energy(const Simulation& simulation) {
     const Totals totals = simulation.totals();
     return totals.kinetic_energy + totals.strain_energy + totals.potential_energy +
-           totals.dissipated_energy.value_or(0);
+           lost_energy(simulation);
 }
 
 /// What an effect of a simulation tells by this name.

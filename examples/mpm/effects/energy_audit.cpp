@@ -13,7 +13,8 @@ struct Ledger {
     std::vector<Components<D>> jump;     ///< from the strain velocity of the last step to it
     std::vector<Components<D>> impulse;  ///< of all forces but stress and full weight
     std::vector<NodeSums<D>> before;     ///< a kernel of forces
-    double lost_on_nodes = 0;            ///< J
+    double lost_to_forces = 0;           ///< of all impulses, J
+    double lost_between_steps = 0;       ///< where stress works on other velocities than strain, J
     double gained_by_nodes = 0;          ///< kinetic energy over all steps, J
     double kinetic_at_start = 0;         ///< of the points, J
     bool has_begun = false;
@@ -78,8 +79,8 @@ void close_step(Ledger<D>& ledger, const GridPatch<D>& patch) {
         for (std::size_t a = 0; a < D; ++a) {
             const double before = ledger.start[n][a], after = patch.motion[n].velocity[a];
             const double of_stress = mass * (after - before) - ledger.impulse[n][a];
-            ledger.lost_on_nodes -=
-                0.5 * (before + after) * ledger.impulse[n][a] +
+            ledger.lost_to_forces -= 0.5 * (before + after) * ledger.impulse[n][a];
+            ledger.lost_between_steps -=
                 0.5 * of_stress * (ledger.jump[n][a] + after - patch.motion[n].strain_velocity[a]);
             ledger.gained_by_nodes += 0.5 * mass * (after * after - before * before);
         }
@@ -162,20 +163,21 @@ void build(const EffectBuilder<D>& builder) {
                                                motion.volume, *stages.internal_work);
     stages.before_materials.push_back({"energy_audit", work});
     stages.after_materials.push_back({"energy_audit", work});
+    stages.dissipated.push_back([ledger](const Particles&) { return ledger->lost_to_forces; });
     // The transfer between nodes and points takes the energy that only the nodes gained.
-    stages.dissipated.push_back([ledger, motion](const Particles& particles) {
+    stages.transfer_loss = [ledger, motion](const Particles& particles) {
         if (!ledger->has_begun) return 0.0;
-        return ledger->lost_on_nodes + ledger->gained_by_nodes -
+        return ledger->lost_between_steps + ledger->gained_by_nodes -
                (kinetic_energy<D>(particles, motion) - ledger->kinetic_at_start);
-    });
+    };
     stages.counts_nodes = true;
     stages.carries_motion = true;
 }
 
 }  // namespace
 
-/// Account of the energy lost in the materials, on the nodes (walls, damping, drag) and in the
-/// transfers between points and nodes.
+/// Account of the energy dissipated in the materials and on the nodes (walls, damping, drag), and
+/// apart from it of what the transfers between points and nodes lose.
 EffectKind energy_audit_effect() {
     return {"energy_audit", {}, build<2>, build<3>};
 }

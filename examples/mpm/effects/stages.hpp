@@ -59,6 +59,8 @@ struct Stages {
     std::vector<Named<StepKernel>> ends;                  ///< after all points have moved
     /// Energies that were lost on this rank since the start, J. Valid between steps.
     std::vector<std::function<double(const Particles&)>> dissipated;
+    /// Energy that the transfers have lost on this rank since the start, J; none: nobody asks.
+    std::function<double(const Particles&)> transfer_loss = {};
     std::vector<std::function<RigidEnergy()>> rigid_energies = {};  ///< added to the points'
     std::vector<Report> reports = {};                               ///< for the history
     std::optional<Column> internal_work = {};  ///< of the stress in each point since the start, J

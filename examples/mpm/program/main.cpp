@@ -15,6 +15,7 @@
 #include <mpm/simulation.hpp>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
@@ -103,6 +104,19 @@ void show_progress(const mpm::Simulation& simulation, double end_time, bool is_l
                  static_cast<long long>(simulation.num_points()), is_last ? "\n" : "");
 }
 
+/// Warns where the transfers have gained energy by a hundredth of what there is.
+void warn_of_gain(const mpm::Simulation& simulation, MPI_Comm comm) {
+    const mpm::Totals totals = simulation.totals();
+    const double energy = totals.kinetic_energy + totals.strain_energy +
+                          std::abs(totals.dissipated_energy.value_or(0));
+    if (mpm::rank_of(comm) == 0 && totals.transfer_loss.value_or(0) < -0.01 * energy)
+        std::fprintf(
+            stderr,
+            "warning: the transfers have gained %.3g J (transfer_loss in history.csv): the "
+            "run may be unstable; lower the courant_number\n",
+            -*totals.transfer_loss);
+}
+
 void simulate(mpm::Simulation& simulation, const mpm::Scene& scene, const Arguments& arguments,
               Recorder& recorder, MPI_Comm comm) {
     const std::optional<mpm::Balancer> balancer = make_balancer(arguments.balancer, scene);
@@ -114,6 +128,7 @@ void simulate(mpm::Simulation& simulation, const mpm::Scene& scene, const Argume
         if (mpm::rank_of(comm) == 0) show_progress(simulation, arguments.end_time, is_last);
         if (!is_last) simulation.step();
     }
+    warn_of_gain(simulation, comm);
 }
 
 void print_end(const mpm::Simulation& simulation, const Arguments& arguments, double seconds) {

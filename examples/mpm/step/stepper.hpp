@@ -66,12 +66,12 @@ class Stepper final : public Simulation::Model {
     Scene scene_;
     MPI_Comm comm_;
     MotionColumns motion_ = add_motion_columns(particles, D);
+    double wave_speed_;
     std::unique_ptr<Transfers<D>> transfers_;
     std::vector<MaterialModel<D>> materials_;
     std::optional<Column> material_column_;  ///< where the scene has several materials
     Stages<D> stages_;
     std::unique_ptr<VelocityRemap<D>> velocity_remap_;  ///< where the scene asks for it
-    double wave_speed_ = 0;
     LeastMass least_mass_;
 
     Ownership ownership_;

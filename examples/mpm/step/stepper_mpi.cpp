@@ -58,14 +58,14 @@ template <int D>
 Stepper<D>::Stepper(const Scene& scene, const Extent& extent, MPI_Comm comm)
     : scene_(scene),
       comm_(duplicate(comm)),
-      transfers_(make_transfers<D>(scene_, particles)),
       wave_speed_(max_wave_speed(scene)),
+      transfers_(make_transfers<D>(scene_, FlipShare(scene_, wave_speed_), particles)),
       ownership_(scene.grid, comm_) {
     build_materials();
     stages_ = build_stages<D>(scene_, particles);
     least_mass_ = add_least_mass<D>(scene_, motion_.mass, stages_);
     add_images<D>(scene_, stages_);
-    velocity_remap_ = make_velocity_remap<D>(scene_, particles);
+    velocity_remap_ = make_velocity_remap<D>(scene_, FlipShare(scene_, wave_speed_), particles);
     patch_.shape = scene.grid;
     patch_.margin = transfers_->margin();
     patch_.fields.resize(stages_.fields.size());
@@ -124,7 +124,7 @@ void Stepper<D>::advance_nodes() {
 
 template <int D>
 void Stepper<D>::remap_velocities() {
-    velocity_remap_->scatter(particles, runs_, patch_);
+    velocity_remap_->scatter(particles, runs_, time_step, patch_);
     for (const auto& effect : stages_.velocity_scatters) effect.kernel(particles, runs_, patch_);
     work.pause();
     ghosts_->sum_momentum(patch_);

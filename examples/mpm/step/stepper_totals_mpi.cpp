@@ -8,7 +8,8 @@ namespace {
 
 /// Sums of one rank, all of them doubles: one reduction adds them.
 struct Sums {
-    double mass = 0, kinetic_energy = 0, strain_energy = 0, dissipated_energy = 0, num_sent = 0;
+    double mass = 0, kinetic_energy = 0, strain_energy = 0, dissipated_energy = 0;
+    double transfer_loss = 0, num_sent = 0;
     double num_ghost_nodes = 0;
     Vector moment{}, momentum{};
 };
@@ -78,6 +79,7 @@ Totals Stepper<D>::totals() const {
     if (stages_.internal_work) sums.dissipated_energy -= sums.strain_energy;
     for (const auto& dissipated : stages_.dissipated)
         sums.dissipated_energy += dissipated(particles);
+    if (stages_.transfer_loss) sums.transfer_loss = stages_.transfer_loss(particles);
     sums.num_sent = static_cast<double>(num_sent);
     sums.num_ghost_nodes = static_cast<double>(ghosts_->num_shared());
     MPI_Allreduce(MPI_IN_PLACE, &sums, sizeof sums / sizeof(double), MPI_DOUBLE, MPI_SUM, comm_);
@@ -89,6 +91,7 @@ Totals Stepper<D>::totals() const {
                   .num_migrated = static_cast<std::int64_t>(sums.num_sent),
                   .num_ghost_nodes = static_cast<std::int64_t>(sums.num_ghost_nodes)};
     if (stages_.internal_work) totals.dissipated_energy = sums.dissipated_energy;
+    if (stages_.transfer_loss) totals.transfer_loss = sums.transfer_loss;
     for (std::size_t a = 0; a < D; ++a) {
         totals.center[a] = sums.moment[a] / sums.mass;
         if (stages_.gravity)

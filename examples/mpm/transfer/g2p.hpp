@@ -116,16 +116,16 @@ struct PointWriter {
     double* volume;
 };
 
-/// Velocity of a point after a step by FLIP: its own with the change of the grid's, and a share
-/// 1 - flip_fraction of the grid's in its place (Scene::flip_fraction).
-[[gnu::always_inline]] inline double flip_velocity(double flip_fraction, double velocity,
+/// Velocity of a point after a step: its own with the change of the grid's, and a share
+/// 1 - flip_share of the grid's in its place.
+[[gnu::always_inline]] inline double flip_velocity(double flip_share, double velocity,
                                                    double change, double of_grid) {
-    return flip_fraction * (velocity + change) + (1 - flip_fraction) * of_grid;
+    return flip_share * (velocity + change) + (1 - flip_share) * of_grid;
 }
 
 template <int D>
 struct G2pFactors {
-    double spacing, flip_fraction;
+    double spacing, flip_share;
 };
 
 template <int D, class Shape, bool is_affine>
@@ -135,7 +135,7 @@ template <int D, class Shape, bool is_affine>
                                             const G2pFactors<D>& factors,
                                             const PointBlock<D>& block) {
     constexpr std::size_t N = Shape::num_nodes;
-    const double inverse_spacing = 1 / factors.spacing, flip = factors.flip_fraction;
+    const double inverse_spacing = 1 / factors.spacing, flip = factors.flip_share;
     const double time_step = block.time_step;
     const StepGradients<D> gradients(block);
     const PointWriter<D, is_affine> points = to;
@@ -166,16 +166,14 @@ template <int D, class Shape, bool is_affine>
         const auto values = values_of<D, N>(weights);
         unrolled<D>([&](auto a) __attribute__((always_inline)) {
             const double of_grid = interpolated<D, N>(motion.velocity[a], values);
+            const double change = interpolated<D, N>(motion.change[a], values);
+            points.velocity[a][p] = flip_velocity(flip, points.velocity[a][p], change, of_grid);
             if constexpr (is_affine) {
-                points.velocity[a][p] = of_grid;
                 unrolled<D>([&](auto b) __attribute__((always_inline)) {
                     points.affine[a][b][p] =
                         inverse_spacing *
                         affine_at<D, N, b>(motion.velocity[a], motion.strain[a], weights, u[b]);
                 });
-            } else {
-                const double change = interpolated<D, N>(motion.change[a], values);
-                points.velocity[a][p] = flip_velocity(flip, points.velocity[a][p], change, of_grid);
             }
             points.position[a][p] += time_step * of_grid;
             points.displacement[a][p] += time_step * of_grid;
@@ -186,11 +184,11 @@ template <int D, class Shape, bool is_affine>
 template <int D, class Shape, bool is_affine>
 MPM_VECTOR_CLONES std::size_t grid_to_points(Particles& particles,
                                              const TransferColumns<D>& columns, const Shape& shape,
-                                             double flip_fraction, const GridPatch<D>& patch,
+                                             const FlipShare& flip, const GridPatch<D>& patch,
                                              const std::vector<CellRun<D>>& runs,
                                              std::size_t first_run, const PointBlock<D>& block) {
     const PointWriter<D, is_affine> target(particles, columns);
-    const G2pFactors<D> factors{patch.shape.spacing, flip_fraction};
+    const G2pFactors<D> factors{patch.shape.spacing, flip.over(block.time_step)};
     const auto offsets = node_offsets<D, Shape::num_nodes>(patch);
     std::size_t run = first_run;
     for (; run < runs.size() && runs[run].begin < block.end; ++run) {

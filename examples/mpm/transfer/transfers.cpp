@@ -10,8 +10,8 @@ namespace {
 template <int D, class Shape, bool is_affine>
 class TransfersOf final : public Transfers<D> {
   public:
-    TransfersOf(const Scene& scene, Particles& particles)
-        : shape_(scene), flip_fraction_(scene.flip_fraction) {
+    TransfersOf(const Scene& scene, const FlipShare& flip, Particles& particles)
+        : shape_(scene), flip_(flip) {
         columns_.motion = add_motion_columns(particles, D);
         columns_.stress = add_stress_columns<D>(particles);
         for (std::size_t a = 0; is_affine && a < D; ++a)
@@ -61,8 +61,8 @@ class TransfersOf final : public Transfers<D> {
     std::size_t g2p(Particles& particles, const GridPatch<D>& patch,
                     const std::vector<CellRun<D>>& runs, std::size_t first_run,
                     const PointBlock<D>& block) const override {
-        return grid_to_points<D, Shape, is_affine>(particles, columns_, shape_, flip_fraction_,
-                                                   patch, runs, first_run, block);
+        return grid_to_points<D, Shape, is_affine>(particles, columns_, shape_, flip_, patch, runs,
+                                                   first_run, block);
     }
 
     void scatter(const Particles& particles, Column column, int axis,
@@ -135,15 +135,16 @@ class TransfersOf final : public Transfers<D> {
     }
 
     Shape shape_;
-    double flip_fraction_;
+    FlipShare flip_;
     TransferColumns<D> columns_;
 };
 
 template <int D, class Shape>
-std::unique_ptr<Transfers<D>> make(const Scene& scene, Particles& particles) {
+std::unique_ptr<Transfers<D>> make(const Scene& scene, const FlipShare& flip,
+                                   Particles& particles) {
     if (scene.transfer == Transfer::apic)
-        return std::make_unique<TransfersOf<D, Shape, true>>(scene, particles);
-    return std::make_unique<TransfersOf<D, Shape, false>>(scene, particles);
+        return std::make_unique<TransfersOf<D, Shape, true>>(scene, flip, particles);
+    return std::make_unique<TransfersOf<D, Shape, false>>(scene, flip, particles);
 }
 
 }  // namespace
@@ -154,19 +155,22 @@ GimpShape::GimpShape(const Scene& scene) {
 }
 
 template <int D>
-std::unique_ptr<Transfers<D>> make_transfers(const Scene& scene, Particles& particles) {
+std::unique_ptr<Transfers<D>> make_transfers(const Scene& scene, const FlipShare& flip,
+                                             Particles& particles) {
     switch (scene.shape_function) {
         case ShapeFunction::linear:
-            return make<D, LinearShape>(scene, particles);
+            return make<D, LinearShape>(scene, flip, particles);
         case ShapeFunction::quadratic:
-            return make<D, QuadraticShape>(scene, particles);
+            return make<D, QuadraticShape>(scene, flip, particles);
         case ShapeFunction::gimp:
             break;
     }
-    return std::make_unique<TransfersOf<D, GimpShape, false>>(scene, particles);
+    return std::make_unique<TransfersOf<D, GimpShape, false>>(scene, flip, particles);
 }
 
-template std::unique_ptr<Transfers<2>> make_transfers<2>(const Scene&, Particles&);
-template std::unique_ptr<Transfers<3>> make_transfers<3>(const Scene&, Particles&);
+template std::unique_ptr<Transfers<2>> make_transfers<2>(const Scene&, const FlipShare&,
+                                                         Particles&);
+template std::unique_ptr<Transfers<3>> make_transfers<3>(const Scene&, const FlipShare&,
+                                                         Particles&);
 
 }  // namespace mpm

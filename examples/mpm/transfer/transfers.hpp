@@ -6,6 +6,7 @@
 #include <mpm/particles.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -90,6 +91,21 @@ struct TransferColumns {
 /// cell.
 inline constexpr int squared_slopes = -2;
 
+/// Share of the velocity that points carry over a step (Scene::flip_fraction).
+///
+/// What the grid cannot represent decays with time, however long the steps are.
+class FlipShare {
+  public:
+    FlipShare(const Scene& scene, double wave_speed)
+        : fraction_(scene.flip_fraction), time_(0.25 * scene.grid.spacing / wave_speed) {}
+
+    double over(double time_step) const { return std::pow(fraction_, time_step / time_); }
+
+  private:
+    double fraction_;
+    double time_;  ///< s
+};
+
 /// The transfers between points and nodes, made for a dimension, shape function and kind.
 template <int D>
 class Transfers {
@@ -126,6 +142,7 @@ class Transfers {
 
 /// Transfers of a scene; adds the columns they need.
 template <int D>
-std::unique_ptr<Transfers<D>> make_transfers(const Scene& scene, Particles& particles);
+std::unique_ptr<Transfers<D>> make_transfers(const Scene& scene, const FlipShare& flip,
+                                             Particles& particles);
 
 }  // namespace mpm

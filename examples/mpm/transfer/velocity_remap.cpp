@@ -9,16 +9,15 @@ namespace {
 template <int D, class Shape>
 class VelocityRemapOf final : public VelocityRemap<D> {
   public:
-    VelocityRemapOf(const Scene& scene, Particles& particles)
-        : shape_(scene),
-          flip_fraction_(scene.flip_fraction),
-          motion_(add_motion_columns(particles, D)) {}
+    VelocityRemapOf(const Scene& scene, const FlipShare& flip, Particles& particles)
+        : shape_(scene), flip_(flip), motion_(add_motion_columns(particles, D)) {}
 
-    void scatter(const Particles& particles, std::span<const CellRun<D>> runs,
+    void scatter(const Particles& particles, std::span<const CellRun<D>> runs, double time_step,
                  GridPatch<D>& patch) const override {
         for (NodeSums<D>& node : patch.sums) node.momentum = {};
         const auto offsets = node_offsets<D, Shape::num_nodes>(patch);
-        for (const CellRun<D>& run : runs) scatter_run(particles, run, offsets, patch);
+        const double flip_share = flip_.over(time_step);
+        for (const CellRun<D>& run : runs) scatter_run(particles, run, offsets, flip_share, patch);
     }
 
   private:
@@ -26,7 +25,7 @@ class VelocityRemapOf final : public VelocityRemap<D> {
     using Offsets = std::array<std::size_t, num_nodes>;
 
     void scatter_run(const Particles& particles, const CellRun<D>& run, const Offsets& offsets,
-                     GridPatch<D>& patch) const {
+                     double flip_share, GridPatch<D>& patch) const {
         std::array<Components<D>, num_nodes> sums{};
         for (std::size_t p = run.begin; p < run.end; ++p) {
             const std::array<double, num_nodes> weights =
@@ -39,8 +38,8 @@ class VelocityRemapOf final : public VelocityRemap<D> {
                     change += weights[n] * node.velocity_change[a];
                     of_grid += weights[n] * node.velocity[a];
                 }
-                const double velocity = flip_velocity(
-                    flip_fraction_, particles[motion_.velocity[a]][p], change, of_grid);
+                const double velocity =
+                    flip_velocity(flip_share, particles[motion_.velocity[a]][p], change, of_grid);
                 for (std::size_t n = 0; n < num_nodes; ++n)
                     sums[n][a] += weights[n] * mass * velocity;
             }
@@ -62,24 +61,25 @@ class VelocityRemapOf final : public VelocityRemap<D> {
     }
 
     Shape shape_;
-    double flip_fraction_;
+    FlipShare flip_;
     MotionColumns motion_;
 };
 
 }  // namespace
 
 template <int D>
-std::unique_ptr<VelocityRemap<D>> make_velocity_remap(const Scene& scene, Particles& particles) {
+std::unique_ptr<VelocityRemap<D>> make_velocity_remap(const Scene& scene, const FlipShare& flip,
+                                                      Particles& particles) {
     if (!remaps_velocities(scene)) return nullptr;
     switch (scene.shape_function) {
         case ShapeFunction::linear:
-            return std::make_unique<VelocityRemapOf<D, LinearShape>>(scene, particles);
+            return std::make_unique<VelocityRemapOf<D, LinearShape>>(scene, flip, particles);
         case ShapeFunction::quadratic:
-            return std::make_unique<VelocityRemapOf<D, QuadraticShape>>(scene, particles);
+            return std::make_unique<VelocityRemapOf<D, QuadraticShape>>(scene, flip, particles);
         case ShapeFunction::gimp:
             break;
     }
-    return std::make_unique<VelocityRemapOf<D, GimpShape>>(scene, particles);
+    return std::make_unique<VelocityRemapOf<D, GimpShape>>(scene, flip, particles);
 }
 
 template <int D>
@@ -91,8 +91,10 @@ void strain_by_momentum(GridPatch<D>& patch) {
     }
 }
 
-template std::unique_ptr<VelocityRemap<2>> make_velocity_remap<2>(const Scene&, Particles&);
-template std::unique_ptr<VelocityRemap<3>> make_velocity_remap<3>(const Scene&, Particles&);
+template std::unique_ptr<VelocityRemap<2>> make_velocity_remap<2>(const Scene&, const FlipShare&,
+                                                                  Particles&);
+template std::unique_ptr<VelocityRemap<3>> make_velocity_remap<3>(const Scene&, const FlipShare&,
+                                                                  Particles&);
 template void strain_by_momentum<2>(GridPatch<2>&);
 template void strain_by_momentum<3>(GridPatch<3>&);
 

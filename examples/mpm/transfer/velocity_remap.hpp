@@ -20,12 +20,13 @@ class VelocityRemap {
     /// Overwrites the momenta of a patch with those that this rank's points will have at the end of
     /// the step, by the shape functions of its start.
     virtual void scatter(const Particles& particles, std::span<const CellRun<D>> runs,
-                         GridPatch<D>& patch) const = 0;
+                         double time_step, GridPatch<D>& patch) const = 0;
 };
 
 /// Velocity remap of a scene, or none where it asks for none.
 template <int D>
-std::unique_ptr<VelocityRemap<D>> make_velocity_remap(const Scene& scene, Particles& particles);
+std::unique_ptr<VelocityRemap<D>> make_velocity_remap(const Scene& scene, const FlipShare& flip,
+                                                      Particles& particles);
 
 /// Sets the velocities that strain the points by the momenta of a patch, summed over the ranks.
 template <int D>

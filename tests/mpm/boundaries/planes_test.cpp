@@ -50,7 +50,7 @@ Slide slide(const Scene& scene, double end_time) {
     const double released = start.potential_energy - end.potential_energy;
     return {way[0] * cosine - way[1] * sine, way[0] * sine + way[1] * cosine,
             (total_energy(simulation) - start.potential_energy) / released,
-            end.dissipated_energy.value() / released};
+            lost_energy(simulation) / released};
 }
 
 constexpr double five_seconds = 5;
@@ -178,10 +178,11 @@ TEST(Plane, leaves_the_account_of_energy_closed_where_a_body_sticks) {
     scene.effects = {{"energy_audit", {}}};
     scene.shape_function = ShapeFunction::quadratic;
     scene.courant_number = 0.1;
+    scene.flip_fraction = 0.97;  // What vibrates sways the account within a step.
     Simulation simulation(scene, MPI_COMM_WORLD);
     const double initial = simulation.totals().kinetic_energy;
     while (simulation.time() < 0.6) simulation.step();
-    EXPECT_GT(simulation.totals().dissipated_energy.value(), 0.2 * initial);
+    EXPECT_GT(lost_energy(simulation), 0.2 * initial);
     EXPECT_NEAR(total_energy(simulation), initial, 0.002 * initial);
 }
 

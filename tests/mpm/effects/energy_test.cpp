@@ -42,7 +42,7 @@ struct Energies {
         : kinetic(totals.kinetic_energy),
           strain(totals.strain_energy),
           potential(totals.potential_energy),
-          dissipated(totals.dissipated_energy.value()) {}
+          dissipated(totals.dissipated_energy.value() + totals.transfer_loss.value()) {}
 
     double sum() const { return kinetic + strain + potential + dissipated; }
     /// The largest energy that has changed its form since the start, or is in motion.
@@ -81,6 +81,41 @@ TEST_P(SceneEnergy, is_accounted_for) {
 
 INSTANTIATE_TEST_SUITE_P(Shipped, SceneEnergy, testing::ValuesIn(accounts),
                          [](const auto& account) { return account.param.scene; });
+
+// A transfer that forgets (PIC) is told from friction and yielding, which elastic disks have none
+// of.
+TEST(TransferLoss, is_no_dissipation) {
+    Scene scene = read_scene(RRCB_SCENES "/two_disks.yaml", MPI_COMM_WORLD).scene;
+    scene.flip_fraction = 0;
+    if (find_effect(scene, "energy_audit") == nullptr)
+        scene.effects.push_back({"energy_audit", {}});
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    const double start = simulation.totals().kinetic_energy;
+    while (simulation.time() < scene.end_time) simulation.step();
+    const Totals end = simulation.totals();
+    EXPECT_GT(end.transfer_loss.value(), 0.3 * start);
+    EXPECT_NEAR(end.dissipated_energy.value(), 0, 0.01 * start);
+    EXPECT_NEAR(total_energy(simulation), start, 0.005 * start);
+}
+
+// A least mass of nodes that quadratic functions cannot bear makes a beam explode.
+TEST(TransferLoss, is_below_zero_where_a_run_is_unstable) {
+    Scene scene = read_scene(RRCB_SCENES "/elastic_structure.yaml", MPI_COMM_WORLD).scene;
+    scene.flip_fraction = 0;
+    scene.courant_number = 0.5;
+    scene.least_node_mass = 0.125;
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    const double start = simulation.totals().kinetic_energy;
+    double energy = start;
+    while (energy < 5 * start && simulation.time() < 2) {
+        simulation.step();
+        const Totals now = simulation.totals();
+        energy = now.kinetic_energy + now.strain_energy;
+    }
+    EXPECT_GE(energy, 5 * start);
+    EXPECT_LT(simulation.totals().transfer_loss.value(), -2 * start);
+    EXPECT_NEAR(simulation.totals().dissipated_energy.value(), 0, 0.1 * start);
+}
 
 TEST(SceneEnergies, leave_no_shipped_scene_out) {
     std::set<std::string> shipped, checked;

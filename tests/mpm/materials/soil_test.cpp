@@ -104,6 +104,7 @@ TEST(RotatingSquare, keeps_its_energy) {
 TEST(RotatingSquare, loses_energy_with_flip) {
     Scene scene = shipped("rotating_square");
     scene.transfer = Transfer::flip;
+    scene.flip_fraction = 0.99;
     Simulation simulation(scene, MPI_COMM_WORLD);
     const double initial = simulation.totals().kinetic_energy;
     while (simulation.time() < 5) simulation.step();

@@ -50,7 +50,7 @@ State state_of(const Simulation& simulation, MPI_Comm comm) {
         state.columns.push_back(gathered(simulation, name, comm));
     const Totals totals = simulation.totals();
     state.totals = {totals.kinetic_energy, totals.strain_energy, totals.potential_energy,
-                    totals.dissipated_energy.value_or(0)};
+                    totals.dissipated_energy.value_or(0), totals.transfer_loss.value_or(0)};
     for (const auto& [name, value] : simulation.reports()) state.reports.push_back(value);
     return state;
 }

@@ -132,6 +132,7 @@ Scene bumping_disk(ShapeFunction shape) {
     scene.shape_function = shape;
     scene.time_integration = TimeIntegration::modified;
     scene.courant_number = 0.1;
+    scene.flip_fraction = 0.97;  // On linear functions the impact feeds noise.
     return scene;
 }
 
@@ -145,7 +146,7 @@ TEST(VelocityRemap, is_the_same_on_any_number_of_ranks_and_accounts_for_energy) 
             serial.step();
         }
         const double kinetic = 0.5 * serial.totals().mass * 100;
-        EXPECT_GT(serial.totals().dissipated_energy.value(), 0.02 * kinetic) << "it has bumped";
+        EXPECT_GT(lost_energy(serial), 0.02 * kinetic) << "it has bumped";
         EXPECT_NEAR(total_energy(serial), initial, 0.005 * kinetic);
         for (const std::string column : {"displacement_x", "displacement_y", "velocity_x"})
             EXPECT_LT(relative_difference(gathered(serial, column, MPI_COMM_SELF),

@@ -87,7 +87,7 @@ enum class ShapeFunction {
 
 enum class Transfer {
     flip,  ///< points carry their velocity, see flip_fraction
-    apic   ///< points carry an affine velocity field
+    apic   ///< points carry an affine velocity field: its mean as with flip, its slope of the grid
 };
 
 enum class TimeIntegration {
@@ -111,10 +111,11 @@ struct Scene {
 
     ShapeFunction shape_function = ShapeFunction::linear;
     Transfer transfer = Transfer::flip;
-    /// Share of the velocity that the points carry (FLIP). They read the rest back from the grid
-    /// (PIC), which filters out all that the grid cannot represent. One per cent of PIC calms
-    /// cell-crossing noise within 0.2 s at the slope's step. It leaves waves longer than a few
-    /// cells alone.
+    /// Share of the velocity that the points carry (FLIP) through a quarter of the time in which a
+    /// wave crosses a cell; over a step, the power of it that is a step's share of that time. They
+    /// read the rest back from the grid (PIC), which filters out all that the grid cannot
+    /// represent. One per cent of PIC calms cell-crossing noise within 25 such crossings. It leaves
+    /// waves longer than a few cells alone. With 0 all is read back, at every step.
     double flip_fraction = 0.99;
     TimeIntegration time_integration = TimeIntegration::update_stress_last;
     double courant_number = 0.5;  ///< time step * (wave speed + point speed) / grid spacing

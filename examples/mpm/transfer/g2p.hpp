@@ -166,8 +166,13 @@ template <int D, class Shape, bool is_affine>
         const auto values = values_of<D, N>(weights);
         unrolled<D>([&](auto a) __attribute__((always_inline)) {
             const double of_grid = interpolated<D, N>(motion.velocity[a], values);
-            const double change = interpolated<D, N>(motion.change[a], values);
-            points.velocity[a][p] = flip_velocity(flip, points.velocity[a][p], change, of_grid);
+            // On linear functions, slopes that jump between cells would feed what points keep.
+            if constexpr (is_affine && N == 2) {
+                points.velocity[a][p] = of_grid;
+            } else {
+                const double change = interpolated<D, N>(motion.change[a], values);
+                points.velocity[a][p] = flip_velocity(flip, points.velocity[a][p], change, of_grid);
+            }
             if constexpr (is_affine) {
                 unrolled<D>([&](auto b) __attribute__((always_inline)) {
                     points.affine[a][b][p] =

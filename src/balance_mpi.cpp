@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -203,12 +204,13 @@ void assign_together(const Points& points, Work& work, Participant& self) {
 }
 
 /// Moves the cuts by what the ranks count, and assigns the points by them. Collective.
-void refine_together(Work& work, Participant& self) {
+void refine_together(const Points& points, const Bin& bin, Work& work, Participant& self) {
     const Options& options = work.options;
     const StageScope stage(options.observer, Stage::refinement);
     Balance& result = work.result;
     Report& report = result.report;
-    if (report.all_weights_zero) work.binned.points.weights = {};
+    Points counted = points;
+    if (report.all_weights_zero) counted.weights = work.binned.points.weights = {};
     const double weight =
         report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
     Decision& decision = work.decision;
@@ -222,7 +224,8 @@ void refine_together(Work& work, Participant& self) {
                       decision.reuses,
                       decision.box.empty() ? Box{} : decision.box[0],
                       std::move(decision.planned)};
-    Refined refined = work.refinement->refine(std::move(estimate), work.binned, result.parts, self);
+    Refined refined =
+        work.refinement->refine(std::move(estimate), counted, bin, result.parts, self);
     report_measured(refined.imbalance, work.sums.take(), options, report);
     report.rounds = refined.rounds;
     report.coincident_cuts = refined.coincident_cuts;
@@ -234,8 +237,14 @@ void refine_together(Work& work, Participant& self) {
 void search_from_earlier(const Points& points, const Box& box, const Box& whole, Work& work,
                          Participant& self) {
     bracket_earlier(work.result.cuts, whole, work.decision.bisection.brackets);
-    self.attempt([&] { work.binned = bin_by_options(points, box, work.options); });
-    refine_together(work, self);
+    // A correction of all cuts at once needs no cells.
+    const auto bin = [&]() -> const BinnedPoints& {
+        Points counted = points;
+        if (work.result.report.all_weights_zero) counted.weights = {};
+        if (work.binned.cells.empty()) work.binned = bin_by_options(counted, box, work.options);
+        return work.binned;
+    };
+    refine_together(points, std::ref(bin), work, self);
 }
 
 /// Moves earlier cuts to where limits let them lie, and searches them there. Collective.
@@ -293,7 +302,8 @@ void divide_together(const Points& points, Work& work, Participant& self) {
         return agree(self);
     }
     if (is_refined(work.options) && report.num_points > 0) {
-        refine_together(work, self);
+        const auto bin = [&]() -> const BinnedPoints& { return work.binned; };
+        refine_together(points, std::ref(bin), work, self);
     } else {
         assign_together(points, work, self);
     }

@@ -4,6 +4,8 @@
 #include "collective/communicator.hpp"
 #include "cuts/direct_assignment.hpp"
 
+#include <rrcb/quality.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,25 +33,30 @@ Refinement::Refinement(const Options& options, int dimension, bool is_root, Part
     nodes_.reserve(num_parts);
     children_.reserve(num_parts);
     lots_.reserve(num_parts / 2);
+    if (options.refine != Refine::exact && !are_cuts_limited(options))
+        correction_.emplace(options.num_parts, is_root);
 }
 
-Refined Refinement::refine(Estimate&& estimate, const BinnedPoints& binned, std::span<Part> parts,
-                           Participant& self) {
+Refined Refinement::refine(Estimate&& estimate, const Points& points, const Bin& bin,
+                           std::span<Part> parts, Participant& self) {
     start(std::move(estimate), self);
-    const bool is_limited = are_cuts_limited(options_);
-    const bool is_known = estimate_.is_counted || (rule_.is_exact && !is_limited);
-    const bool is_accepted = !is_known && accept_estimate(binned, parts, self);
-    if (rule_.is_exact || !is_accepted) {
-        if (is_limited) {
-            search_for_better(binned, parts, self);
-        } else {
-            search_all_levels(binned, parts, self);
-        }
-        const bool missed = refined_.imbalance > options_.imbalance_tolerance;
-        if (missed && !std::exchange(rule_.is_exact, true)) search_for_better(binned, parts, self);
-    }
+    const bool is_known = estimate_.is_counted || (rule_.is_exact && !are_cuts_limited(options_));
+    const bool is_accepted = !is_known && accept_estimate(points, parts, self);
+    if (rule_.is_exact || !(is_accepted || correct(points, parts, self))) search(bin, parts, self);
     refined_.cuts = std::move(estimate_.cuts);
     return std::move(refined_);
+}
+
+/// Searches the cuts level by level, and once more, exactly, where that misses a tolerance.
+/// Collective.
+void Refinement::search(const Bin& bin, std::span<Part> parts, Participant& self) {
+    if (limits_) {
+        search_for_better(bin, parts, self);
+    } else {
+        search_all_levels(bin, parts, self);
+    }
+    const bool missed = refined_.imbalance > options_.imbalance_tolerance;
+    if (missed && !std::exchange(rule_.is_exact, true)) search_for_better(bin, parts, self);
 }
 
 /// Takes an estimate, and derives from it what belongs below cuts and where they may lie.
@@ -73,22 +80,32 @@ void Refinement::start(Estimate&& estimate, Participant& self) {
         });
     if (estimate_.is_counted) {
         refined_.rounds = 1;
+        refined_.imbalance = imbalance(sums_.sums(), sizes);
         rule_.counted_weight = sum_of(sums_.sums());
     }
 }
 
 /// True when there is nothing to search: the estimated cuts are good enough as they are, and
 /// `parts` is complete, or the current parts are. Collective.
-bool Refinement::accept_estimate(const BinnedPoints& binned, std::span<Part> parts,
-                                 Participant& self) {
+bool Refinement::accept_estimate(const Points& points, std::span<Part> parts, Participant& self) {
     self.attempt([&] {
-        const PartTotals totals = assign_and_count(estimate_.cuts, binned.points, parts);
+        const PartTotals totals = assign_and_count(estimate_.cuts, points, parts);
         std::ranges::copy(totals.weights, sums_.here().begin());
     });
     measure(self);
     ++refined_.rounds;
     const double tolerance = options_.imbalance_tolerance;
     return refined_.imbalance <= tolerance || estimate_.current_imbalance <= tolerance;
+}
+
+/// True when counted cuts, corrected all at once, are good enough, and `parts` is complete.
+/// Otherwise the cuts are counted as they are now. Collective.
+bool Refinement::correct(const Points& points, std::span<Part> parts, Participant& self) {
+    if (!correction_) return false;
+    refined_.rounds += correction_->run(rule_, points, estimate_.brackets, estimate_.cuts, parts,
+                                        sums_, refined_.imbalance, self);
+    rule_.counted_weight = sum_of(sums_.sums());
+    return refined_.imbalance <= options_.imbalance_tolerance;
 }
 
 /// Adds up what the parts weigh on all ranks, on every rank. Collective; throws where one failed.
@@ -98,13 +115,12 @@ void Refinement::measure(const Participant& self) {
 }
 
 /// Finds the cuts of one level after the other, and the parts at the end. Collective.
-void Refinement::search_all_levels(const BinnedPoints& binned, std::span<Part> parts,
-                                   Participant& self) {
+void Refinement::search_all_levels(const Bin& bin, std::span<Part> parts, Participant& self) {
     const bool is_counted = !rule_.is_exact && !limits_;
     nodes_.push_back({root_of(estimate_.cuts), {}, estimate_.total_weight, is_counted});
     if (limits_) nodes_[0].region = limits_->region();
     self.attempt([&] {
-        points_ = sort_by_cell(binned);
+        points_ = sort_by_cell(bin());
         nodes_[0].fragments = cell_fragments(points_);
     });
     depth_ = 0;
@@ -285,8 +301,7 @@ void Refinement::descend(Participant& self) {
 }
 
 /// Searches all cuts, and keeps them where they are better than those before. Collective.
-void Refinement::search_for_better(const BinnedPoints& binned, std::span<Part> parts,
-                                   Participant& self) {
+void Refinement::search_for_better(const Bin& bin, std::span<Part> parts, Participant& self) {
     struct {
         std::vector<Cut> tree;
         std::vector<Part> parts;
@@ -300,7 +315,7 @@ void Refinement::search_for_better(const BinnedPoints& binned, std::span<Part> p
                   std::exchange(refined_.coincident_cuts, 0)};
     });
     const double imbalance_before = refined_.imbalance;
-    search_all_levels(binned, parts, self);
+    search_all_levels(bin, parts, self);
     if (refined_.imbalance < imbalance_before) return;
     refined_.imbalance = imbalance_before;
     refined_.coincident_cuts = before.coincident_cuts;

@@ -3,12 +3,14 @@
 #include "cells/sorted_points.hpp"
 #include "collective/participant.hpp"
 #include "cuts/cut_limits.hpp"
+#include "refinement/correction_mpi.hpp"
 #include "refinement/level_search_mpi.hpp"
 #include "refinement/part_sums_mpi.hpp"
 
 #include <rrcb/bisection.hpp>
 #include <rrcb/options.hpp>
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -33,6 +35,9 @@ struct Estimate {
     std::vector<double> planned{};
 };
 
+/// The points by cells, for a search by levels. May throw. Made of a std::ref, it takes no memory.
+using Bin = std::function<const BinnedPoints&()>;
+
 /// Refined cuts and how even the parts really are; the same on every rank. The weights of the parts
 /// are in the PartSums.
 struct Refined {
@@ -44,7 +49,8 @@ struct Refined {
 
 /// Moves estimated cuts until the parts of the real points are as even as asked.
 ///
-/// The cuts of a level are searched all at once, one level after the other from the root of the
+/// To a tolerance, all cuts are first corrected at once, see Correction. Where that does not serve,
+/// the cuts of a level are searched all at once, one level after the other from the root of the
 /// tree. What the messages need is made before the first of them, see LevelSearch.
 class Refinement {
   public:
@@ -55,7 +61,8 @@ class Refinement {
     /// Refines the cuts of `estimate`, once.
     ///
     /// Collective. Writes the part of each point into `parts`; where the estimate is not good
-    /// enough, and the current parts neither, it works on a sorted copy of the points. To a
+    /// enough, and the current parts neither, and can't be corrected, it works on a sorted copy of
+    /// the points. To a
     /// tolerance, cuts that divide well enough stay, with what lies below them. Where earlier cuts
     /// move, the parts below are counted anew, as most cuts there stay. Where a tolerance is missed
     /// because slack was spent on upper levels that lower ones need, it searches once more,
@@ -63,14 +70,16 @@ class Refinement {
     /// axes of the estimate, and the estimate is kept where it is better. Without weight anywhere
     /// the cuts stay. What fails on one rank, before or here, is thrown on all, see
     /// LevelSearch::run.
-    Refined refine(Estimate&& estimate, const BinnedPoints& binned, std::span<Part> parts,
+    Refined refine(Estimate&& estimate, const Points& points, const Bin& bin, std::span<Part> parts,
                    Participant& self);
 
   private:
     void start(Estimate&& estimate, Participant& self);
-    bool accept_estimate(const BinnedPoints& binned, std::span<Part> parts, Participant& self);
-    void search_all_levels(const BinnedPoints& binned, std::span<Part> parts, Participant& self);
-    void search_for_better(const BinnedPoints& binned, std::span<Part> parts, Participant& self);
+    bool accept_estimate(const Points& points, std::span<Part> parts, Participant& self);
+    bool correct(const Points& points, std::span<Part> parts, Participant& self);
+    void search(const Bin& bin, std::span<Part> parts, Participant& self);
+    void search_all_levels(const Bin& bin, std::span<Part> parts, Participant& self);
+    void search_for_better(const Bin& bin, std::span<Part> parts, Participant& self);
     void measure(const Participant& self);
     bool needs_search(const Node& node) const;
     void write_parts(std::span<Part> parts);
@@ -88,10 +97,11 @@ class Refinement {
     Estimate estimate_;
     std::optional<CutLimits> limits_;  ///< nothing where cuts may lie anywhere
     TargetRule rule_;
-    SortedPoints points_;         ///< where cuts are searched
-    int depth_ = 0;               ///< cuts above the current level
-    std::vector<Node> nodes_;     ///< of the current level; capacity for any
-    std::vector<Node> children_;  ///< of the next one
+    std::optional<Correction> correction_;  ///< to a tolerance, where cuts may lie anywhere
+    SortedPoints points_;                   ///< where cuts are searched
+    int depth_ = 0;                         ///< cuts above the current level
+    std::vector<Node> nodes_;               ///< of the current level; capacity for any
+    std::vector<Node> children_;            ///< of the next one
     LevelSearch level_;
     std::vector<double> lots_;  ///< for each cut that divides a lot, what of it is on lower ranks
     Refined refined_;

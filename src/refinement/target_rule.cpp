@@ -12,13 +12,19 @@ namespace rrcb {
 
 namespace {
 
+/// What the smallest of the parts is to weigh.
+double smallest_weight(std::span<const double> sizes, const TargetRule& rule) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const double size : sizes)
+        if (size > 0) smallest = std::min(smallest, size * rule.weight_per_size);
+    return smallest;
+}
+
 /// The tolerance with which the smallest of the parts still holds whole points, where all of them
 /// weigh the same: where 16.16 points are allowed it can have no more than 16.
 double attainable_tolerance(std::span<const double> sizes, const TargetRule& rule) {
     if (rule.common_weight == 0) return rule.tolerance;
-    double smallest = std::numeric_limits<double>::infinity();
-    for (const double size : sizes)
-        if (size > 0) smallest = std::min(smallest, size * rule.weight_per_size);
+    const double smallest = smallest_weight(sizes, rule);
     const double points = std::floor(rule.tolerance * smallest / rule.common_weight);
     return std::max(1.0, points * rule.common_weight / smallest);
 }
@@ -49,6 +55,11 @@ bool TargetRule::are_within(const Descent& at, std::span<const double> part_weig
             return false;
     }
     return true;
+}
+
+bool TargetRule::are_points_light() const {
+    constexpr double several = 4;
+    return several * heaviest <= (tolerance - 1) * smallest_weight(part_sizes, *this);
 }
 
 bool TargetRule::may_stay(const Descent& at, std::span<const double> part_weights) const {

@@ -38,6 +38,10 @@ struct TargetRule {
     /// entry per part of the whole tree.
     bool are_within(const Descent& at, std::span<const double> part_weights) const;
 
+    /// Whether the tolerance leaves the smallest part room for several of the heaviest points, so
+    /// that cuts can be told by weights in bins.
+    bool are_points_light() const;
+
     /// Whether a cut may stay where it is: each side either is within the tolerance or weighs so
     /// little that cuts below can bring it there.
     bool may_stay(const Descent& at, std::span<const double> part_weights) const;

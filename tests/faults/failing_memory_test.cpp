@@ -91,6 +91,19 @@ TEST(FailingMemory, in_cuts_from_an_earlier_call) {
     }
 }
 
+TEST(FailingMemory, in_a_correction_of_all_cuts) {
+    Options options;
+    options.num_parts = 2;
+    options.imbalance_tolerance = 1.1;
+    const std::vector<double> coordinates = cloud_here(2);
+    const Points points = interleaved_points(coordinates, 2);
+    Cuts moved = balance(points, options, MPI_COMM_WORLD).cuts;
+    moved.tree[0].at[static_cast<std::size_t>(moved.tree[0].axis)] += 0.12;
+    // A look at the cuts, one at what lies about them, one at them as they were moved.
+    ASSERT_EQ(balance(points, options, MPI_COMM_WORLD, moved).report.rounds, 3);
+    fail_in_balance(options, &moved, coordinates);
+}
+
 /// The cloud in slabs, one for each rank, but for a share of it, which the first one has as well.
 std::vector<double> slab_here(std::size_t surplus) {
     std::vector<double> coordinates = cloud_here(2);

@@ -94,7 +94,8 @@ TEST_P(ManyRanks, send_the_root_a_bounded_number_of_cells_and_are_balanced_all_t
     Estimate estimate{decision.bisection.cuts, decision.bisection.brackets,
                       static_cast<double>(points.count), decision.verdict.common_weight};
     Participant self{MPI_COMM_SELF};
-    const Refined refined = refinement.refine(std::move(estimate), binned, parts, self);
+    const auto bin = [&]() -> const BinnedPoints& { return binned; };
+    const Refined refined = refinement.refine(std::move(estimate), points, bin, parts, self);
 
     std::vector<double> weights(ranks.options.part_sizes.size());
     for (const Part part : parts) weights[static_cast<std::size_t>(part)] += 1;

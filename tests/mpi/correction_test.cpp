@@ -1,0 +1,134 @@
+// Cuts that miss a tolerance are corrected all at once: on any number of ranks, within the
+// tolerance as counted point by point, and searched level by level where that does not serve.
+#include "held_points.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/quality.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+using test::HeldPoints;
+using test::num_ranks;
+using test::Share;
+
+/// Clusters, the same for any number of ranks; every third rank holds none of them.
+HeldPoints clusters(int dimension, unsigned seed, std::size_t count = 12000) {
+    constexpr std::size_t num_clusters = 7;
+    const auto d = static_cast<std::size_t>(dimension);
+    const std::vector<double> centres = test::uniform_cloud(num_clusters, dimension, seed);
+    std::mt19937_64 engine(seed + 50);
+    HeldPoints all{dimension, {}};
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t centre = engine() % num_clusters;
+        const double width = std::exp2(-1.0 * static_cast<double>(centre));
+        for (std::size_t a = 0; a < d; ++a)
+            all.coordinates.push_back(centres[centre * d + a] +
+                                      width * (test::uniform(engine) + test::uniform(engine)));
+        if (seed % 2 == 0) all.weights.push_back(std::exp2(test::uniform(engine, -10, 0)));
+    }
+    all.scatter();
+    for (Part& owner : all.owners)
+        if (owner % 3 == 2) owner = 0;
+    return all;
+}
+
+/// What each part weighs, by looking up all points of all ranks.
+std::vector<double> weights_by_look_up(const HeldPoints& all, const Cuts& cuts) {
+    const Points points = interleaved_points(all.coordinates, all.dimension, all.weights);
+    std::vector<double> weights(static_cast<std::size_t>(cuts.num_parts));
+    for (std::size_t i = 0; i < points.count; ++i)
+        weights[static_cast<std::size_t>(part_of(cuts, points.position(i)))] += points.weight(i);
+    return weights;
+}
+
+void expect_as_looked_up(const HeldPoints& all, const Points& mine, const Balance& result,
+                         const std::vector<double>& sizes) {
+    for (std::size_t i = 0; i < mine.count; ++i)
+        ASSERT_EQ(result.parts[i], part_of(result.cuts, mine.position(i)));
+    const std::vector<double> weights = weights_by_look_up(all, result.cuts);
+    for (std::size_t p = 0; p < weights.size(); ++p)
+        EXPECT_NEAR(result.report.part_weights[p], weights[p], 1e-9 * weights[p]);
+    EXPECT_NEAR(result.report.measured_imbalance, imbalance(weights, sizes), 1e-9);
+}
+
+Options with_parts(int num_parts, double tolerance) {
+    Options options;
+    options.num_parts = num_parts;
+    options.imbalance_tolerance = tolerance;
+    return options;
+}
+
+bool same_bits(const Balance& a, const Balance& b) {
+    return a.parts == b.parts && a.report.part_weights == b.report.part_weights &&
+           std::ranges::equal(a.cuts.tree, b.cuts.tree, [](const Cut& one, const Cut& other) {
+               return one.axis == other.axis && one.at == other.at;
+           });
+}
+
+/// A look at the cuts, one at their slabs, and one at the cuts as corrected.
+constexpr int rounds_of_one_correction = 3;
+
+TEST(Correction, of_estimates_that_miss_takes_one_round_more_in_most_clouds) {
+    int num_missed = 0;
+    int num_corrected_once = 0;
+    for (unsigned seed = 1; seed <= 12; ++seed) {
+        const HeldPoints all = clusters(2 + static_cast<int>(seed % 2), seed);
+        const Share mine(all);
+        Options options = with_parts(3 + static_cast<int>(seed % 6), 1.01);
+        if (seed % 3 == 0)
+            options.part_sizes.assign(static_cast<std::size_t>(options.num_parts), 1);
+        if (seed % 3 == 0) options.part_sizes[1] = 3;
+        const Balance result = balance(mine.points(), options, MPI_COMM_WORLD);
+        const Balance again = balance(mine.points(), options, MPI_COMM_WORLD);
+        EXPECT_TRUE(same_bits(result, again));
+        EXPECT_LE(result.report.measured_imbalance, 1.01);
+        expect_as_looked_up(all, mine.points(), result, options.part_sizes);
+        num_missed += result.report.rounds > 1 ? 1 : 0;
+        num_corrected_once += result.report.rounds == rounds_of_one_correction ? 1 : 0;
+    }
+    EXPECT_GE(num_missed, 3);
+    EXPECT_GE(num_corrected_once, (num_missed + 1) / 2);
+}
+
+TEST(Correction, of_earlier_cuts_moves_them_along) {
+    for (unsigned seed = 1; seed <= 6; ++seed) {
+        HeldPoints all = clusters(2 + static_cast<int>(seed % 2), seed);
+        const Options options = with_parts(2 + static_cast<int>(seed), 1.02);
+        const Share before(all);
+        const Cuts first = balance(before.points(), options, MPI_COMM_WORLD).cuts;
+        for (double& x : all.coordinates) x = std::pow(x + 1, 1.05);
+        const Share mine(all);
+        const Balance second = balance(mine.points(), options, MPI_COMM_WORLD, first);
+        EXPECT_LE(second.report.measured_imbalance, 1.02);
+        expect_as_looked_up(all, mine.points(), second, options.part_sizes);
+        EXPECT_TRUE(same_bits(second, balance(mine.points(), options, MPI_COMM_WORLD, first)));
+    }
+}
+
+TEST(Correction, leaves_points_that_share_coordinates_to_the_search) {
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+        HeldPoints all = clusters(2, seed);
+        all.weights.clear();
+        for (std::size_t i = 0; i < all.coordinates.size(); ++i)
+            if (i % 2 == 0) all.coordinates[i] = std::round(4 * all.coordinates[i]);
+        const Share mine(all);
+        Options options = with_parts(7, 1.01);
+        const Balance result = balance(mine.points(), options, MPI_COMM_WORLD);
+        EXPECT_LE(result.report.measured_imbalance, 1.01);
+        expect_as_looked_up(all, mine.points(), result, options.part_sizes);
+        options.plain_cuts = true;
+        const Balance plain = balance(mine.points(), options, MPI_COMM_WORLD);
+        expect_as_looked_up(all, mine.points(), plain, options.part_sizes);
+        for (const Cut& cut : plain.cuts.tree) EXPECT_EQ(cut.at[1 - cut.axis], -INFINITY);
+    }
+}
+
+}  // namespace
+}  // namespace rrcb

@@ -1,28 +1,47 @@
 # Installs the libraries, so that find_package(rrcb) gives rrcb::rrcb and, where Zoltan and Teuchos
 # are found, rrcb::zoltan and rrcb::teuchos. These have export files of their own: users without
-# Trilinos never read them.
+# Trilinos never read them. The components are the packages of rrcb_packages.cmake.
 set(RRCB_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/rrcb)
 
-install(TARGETS rrcb EXPORT rrcbTargets)
-install(EXPORT rrcbTargets NAMESPACE rrcb:: DESTINATION ${RRCB_CONFIG_DIR})
+# Installs targets with what belongs to them, all of it as one component, but for libraries that
+# programs load, which are another.
+function(rrcb_install_targets export component runtime)
+  install(
+    TARGETS ${ARGN}
+    EXPORT ${export}
+    LIBRARY COMPONENT ${runtime} NAMELINK_COMPONENT ${component}
+    ARCHIVE COMPONENT ${component})
+  install(EXPORT ${export} NAMESPACE rrcb:: DESTINATION ${RRCB_CONFIG_DIR}
+          COMPONENT ${component})
+endfunction()
+
+rrcb_install_targets(rrcbTargets development runtime rrcb rrcb_static rrcb_shared)
 install(
-  DIRECTORY ${PROJECT_SOURCE_DIR}/include/rrcb ${PROJECT_BINARY_DIR}/src/include/rrcb
+  DIRECTORY ${PROJECT_SOURCE_DIR}/include/rrcb
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  COMPONENT development
   PATTERN zoltan EXCLUDE
   PATTERN teuchos EXCLUDE)
+install(FILES ${PROJECT_BINARY_DIR}/src/include/rrcb/version.h
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rrcb COMPONENT development)
 
 if(RRCB_ZOLTAN)
-  install(TARGETS rrcb_zoltan rrcb_zoltan_static EXPORT rrcbZoltanTargets)
-  install(EXPORT rrcbZoltanTargets NAMESPACE rrcb:: DESTINATION ${RRCB_CONFIG_DIR})
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/rrcb/zoltan
-                    ${PROJECT_BINARY_DIR}/src/zoltan/include/rrcb/zoltan
-          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rrcb)
+  rrcb_install_targets(rrcbZoltanTargets zoltan zoltan rrcb_zoltan rrcb_zoltan_static)
+  install(
+    DIRECTORY ${PROJECT_SOURCE_DIR}/include/rrcb/zoltan
+              ${PROJECT_BINARY_DIR}/src/zoltan/include/rrcb/zoltan
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rrcb
+    COMPONENT zoltan)
 endif()
 if(RRCB_TEUCHOS)
-  install(TARGETS rrcb_teuchos EXPORT rrcbTeuchosTargets)
-  install(EXPORT rrcbTeuchosTargets NAMESPACE rrcb:: DESTINATION ${RRCB_CONFIG_DIR})
+  rrcb_install_targets(rrcbTeuchosTargets teuchos teuchos rrcb_teuchos)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/rrcb/teuchos
-          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rrcb)
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rrcb COMPONENT teuchos)
+endif()
+if(RRCB_FORTRAN)
+  rrcb_install_targets(rrcbFortranTargets development development rrcb_fortran)
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/src/fortran/modules/ DESTINATION ${RRCB_MODULE_DIR}
+          COMPONENT development)
 endif()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rrcbConfig.cmake.in rrcbConfig.cmake
@@ -31,4 +50,6 @@ write_basic_package_version_file(rrcbConfigVersion.cmake COMPATIBILITY SameMinor
 install(
   FILES ${PROJECT_BINARY_DIR}/rrcbConfig.cmake ${PROJECT_BINARY_DIR}/rrcbConfigVersion.cmake
         ${CMAKE_CURRENT_LIST_DIR}/rrcb_trilinos.cmake
-  DESTINATION ${RRCB_CONFIG_DIR})
+  DESTINATION ${RRCB_CONFIG_DIR}
+  COMPONENT development)
+include(${CMAKE_CURRENT_LIST_DIR}/rrcb_pkg_config.cmake)

@@ -4,3 +4,17 @@ function(rrcb_set_warnings target)
     ${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion
                       -Wno-sign-conversion> $<$<BOOL:${RRCB_WERROR}>:-Werror>)
 endfunction()
+
+# While the first number of the version is 0, a new second one may change the interface.
+function(rrcb_set_soname target)
+  set_target_properties(
+    ${target} PROPERTIES VERSION ${PROJECT_VERSION}
+                         SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+endfunction()
+
+# Leaves a shared library no symbols but those of a version script; the compiler's own for
+# templates of the standard library would show otherwise.
+function(rrcb_show_only target map)
+  target_link_options(${target} PRIVATE LINKER:--version-script=${map})
+  set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${map})
+endfunction()

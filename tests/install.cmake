@@ -30,6 +30,27 @@ add_test(
     ${CMAKE_CURRENT_BINARY_DIR}/asked_for -G ${CMAKE_GENERATOR} -DRRCB_ZOLTAN=ON
     -DCMAKE_DISABLE_FIND_PACKAGE_Zoltan=ON)
 
+find_program(RRCB_PKG_CONFIG pkg-config)
+if(RRCB_PKG_CONFIG)
+  add_test(NAME install.pkg_config
+           COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/install/pkg_config ${prefix} ${PROJECT_SOURCE_DIR}
+                   ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} 3 ${RRCB_MPIEXEC_FLAGS})
+  set_tests_properties(install.pkg_config PROPERTIES FIXTURES_REQUIRED installed LABELS install
+                                                     TIMEOUT 120 PROCESSORS 3)
+else()
+  message(STATUS "Test of the files for pkg-config: left out, because it was not found"
+                 " (Debian package pkg-config)")
+endif()
+find_package(Python3 COMPONENTS Interpreter QUIET)
+if(Python3_FOUND)
+  file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/rrcb/*.h
+       ${PROJECT_SOURCE_DIR}/include/rrcb/*.hpp)
+  add_test(NAME install.symbols
+           COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/symbols.py
+                   $<TARGET_FILE:rrcb_shared> ${headers})
+  set_tests_properties(install.symbols PROPERTIES LABELS install TIMEOUT 60)
+endif()
+
 set_tests_properties(install.clean PROPERTIES FIXTURES_SETUP clean_prefix)
 set_tests_properties(install.install PROPERTIES FIXTURES_REQUIRED clean_prefix FIXTURES_SETUP
                                                 installed)

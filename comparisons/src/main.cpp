@@ -40,7 +40,7 @@ std::string versions() {
     int length = 0;
     MPI_Get_library_version(mpi, &length);
     std::ostringstream text;
-    text << "rrcb " << rrcb::version << " (" << git_hash << ")\n"
+    text << "rrcb " << rrcb::version() << " (" << git_hash << ")\n"
          << "Zoltan " << ZOLTAN_VERSION_NUMBER << '\n'
          << trim(mpi) << '\n';
     return text.str();

@@ -67,7 +67,7 @@ struct Balance {
 /// weights, arrays of inconsistent length, options out of range or different between ranks, limits
 /// of cuts that leave no room for so many parts (it tells for how many), grids that coordinates
 /// can't tell apart, ranks that round differently or treat subnormal numbers differently.
-Balance balance(const Points& points, const Options& options, MPI_Comm comm);
+RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm comm);
 
 /// The same, from the cuts of an earlier call in place of statistics, for points that moved little
 /// since.
@@ -90,6 +90,7 @@ Balance balance(const Points& points, const Options& options, MPI_Comm comm);
 /// dimension and number of parts asked for. Points in one place that it divides are counted on the
 /// side where the look-up finds them. Report::kept, estimated_imbalance and num_records tell
 /// nothing here. Without any points the cuts stay, and the report is that of a call from nothing.
-Balance balance(const Points& points, const Options& options, MPI_Comm comm, const Cuts& previous);
+RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm comm,
+                         const Cuts& previous);
 
 }  // namespace rrcb

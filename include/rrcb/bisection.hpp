@@ -28,7 +28,7 @@ struct Bisection {
 /// in the ratio of the sizes below and above; those by weight exactly for the piecewise-linear
 /// cumulative weight of the patches. Patches that lie on the plane are divided along the other
 /// axes. Parts of size 0 get an empty region. Not collective.
-Bisection bisect(StatisticalDomain domain, int num_parts, std::span<const double> part_sizes,
-                 CutRule rule);
+RRCB_API Bisection bisect(StatisticalDomain domain, int num_parts,
+                          std::span<const double> part_sizes, CutRule rule);
 
 }  // namespace rrcb

@@ -33,12 +33,12 @@ class Controller {
   public:
     /// Collective over `comm`, which may be freed before the controller. Throws Error on every
     /// rank for MPI_COMM_NULL and intercommunicators.
-    explicit Controller(MPI_Comm comm);
+    RRCB_API explicit Controller(MPI_Comm comm);
 
     /// Collective. After MPI_Finalize, which does it as well, nothing is left to do.
-    ~Controller();
-    Controller(Controller&&) noexcept;
-    Controller& operator=(Controller&&) noexcept;
+    RRCB_API ~Controller();
+    RRCB_API Controller(Controller&&) noexcept;
+    RRCB_API Controller& operator=(Controller&&) noexcept;
 
     /// Whether to rebalance now, after step `number`, which has loaded this rank by `load`.
     ///
@@ -47,7 +47,7 @@ class Controller {
     /// negative. Throws Error on every rank alike, at the call after, where one gave another
     /// number, such a load or cost, or reported another number of rebalances; from then on each
     /// call throws it, and a new controller is needed. An error of MPI is thrown where it occurs.
-    bool step(std::int64_t number, double load);
+    RRCB_API bool step(std::int64_t number, double load);
 
     /// Says that the ranks have rebalanced since the last step, asked to or not.
     ///
@@ -55,10 +55,10 @@ class Controller {
     /// On all ranks, without communication. `cost` is what it took on this rank with the migration
     /// of the points; the largest of all ranks counts. Of `report` the least imbalance does: where
     /// the heaviest load is no more above the mean than that, no rebalance is due.
-    void rebalanced(const Report& report, double cost);
+    RRCB_API void rebalanced(const Report& report, double cost);
 
     /// The same for balancers that know no least imbalance.
-    void rebalanced(double cost);
+    RRCB_API void rebalanced(double cost);
 
   private:
     struct State;

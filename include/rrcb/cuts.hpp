@@ -21,7 +21,7 @@ struct Cut {
 };
 
 /// True when `position` is not below the cut: the one test behind every look-up.
-bool is_above(const Cut& cut, const Vector& position, int dimension);
+RRCB_API bool is_above(const Cut& cut, const Vector& position, int dimension);
 
 /// The tree of a recursive bisection into `num_parts` parts.
 ///
@@ -39,18 +39,18 @@ constexpr int lower_parts(int num_parts) {
 }
 
 /// Part of a position. Not collective; O(depth).
-Part part_of(const Cuts& cuts, const Vector& position);
+RRCB_API Part part_of(const Cuts& cuts, const Vector& position);
 
 /// Part of every point, into `parts` (length points.count). Not collective.
-void assign(const Cuts& cuts, const Points& points, std::span<Part> parts);
+RRCB_API void assign(const Cuts& cuts, const Points& points, std::span<Part> parts);
 
 /// Region of a part; open sides are +-infinity. Lower faces belong to it, upper faces do not,
 /// but for ties (see Cut). Not collective.
-Box box_of(const Cuts& cuts, Part part);
+RRCB_API Box box_of(const Cuts& cuts, Part part);
 
 /// Parts whose region a closed box touches, ascending; none for an empty box. Not collective.
 ///
 /// Where the box holds the place of points that a cut divides, both sides of it are touched.
-std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
+RRCB_API std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
 
 }  // namespace rrcb

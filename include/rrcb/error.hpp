@@ -1,5 +1,7 @@
 #pragma once
 
+#include <rrcb/export.h>
+
 #include <stdexcept>
 #include <string>
 
@@ -15,7 +17,7 @@ enum class ErrorCode {
 /// What every function of the library throws; the text names the place and the fix.
 ///
 /// From a collective function the same code and text reach every rank of the communicator.
-class Error : public std::runtime_error {
+class RRCB_API Error : public std::runtime_error {
   public:
     Error(ErrorCode code, const std::string& what) : std::runtime_error(what), code_(code) {}
     /// Without a text, where there is no memory for one.

@@ -34,17 +34,17 @@ struct GhostPlan {
 ///
 /// Throws Error on every rank alike where one has unusable points, another radius or other cuts
 /// than the others, cuts of another dimension than its points, or no memory.
-GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius, MPI_Comm comm);
+RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius, MPI_Comm comm);
 
 /// The same where the parts lie on other ranks, as after a remap(): part p on ranks_of_parts[p],
 /// the same on every rank.
-GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
-                 std::span<const RankRange> ranks_of_parts, MPI_Comm comm);
+RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
+                          std::span<const RankRange> ranks_of_parts, MPI_Comm comm);
 
 namespace detail {
 
-void move(const GhostPlan& plan, std::span<const ByteColumn> columns, const TransferLimits& limits,
-          TransferReport* report, MPI_Comm comm);
+RRCB_API void move(const GhostPlan& plan, std::span<const ByteColumn> columns,
+                   const TransferLimits& limits, TransferReport* report, MPI_Comm comm);
 
 }  // namespace detail
 

@@ -29,7 +29,7 @@ struct CellMoments {
 /// Chan, Golub, LeVeque: Updating formulae and a pairwise algorithm for computing sample
 /// variances (1979), equations 2.1, with weights in place of counts; with counts, under weight 0,
 /// where neither set has weight.
-Moments merge(const Moments& a, const Moments& b);
+RRCB_API Moments merge(const Moments& a, const Moments& b);
 
 /// Moments of every cell that holds weight, in the order of the cells. Not collective.
 ///
@@ -40,6 +40,6 @@ Moments merge(const Moments& a, const Moments& b);
 /// lies more than four standard deviations off: neither the offset of the cloud nor the spread of
 /// the weights costs more than a digit. When all points weigh 0 their moments are those of the same
 /// points with weight 1, under weight 0.
-std::vector<CellMoments> cell_moments(const Points& points, const SupportMesh& mesh);
+RRCB_API std::vector<CellMoments> cell_moments(const Points& points, const SupportMesh& mesh);
 
 }  // namespace rrcb

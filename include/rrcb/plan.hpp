@@ -20,7 +20,7 @@ struct RankRange {
 /// num_parts / num_ranks parts each, the remainder one more each on the last ranks; with fewer
 /// parts than ranks a part spreads over consecutive ranks, the ranks left over one more each for
 /// the parts before the last.
-RankRange ranks_of_part(Part part, int num_parts, int num_ranks);
+RRCB_API RankRange ranks_of_part(Part part, int num_parts, int num_ranks);
 
 /// So many points, to or from one rank.
 struct RankCount {
@@ -44,6 +44,6 @@ struct Plan {
 ///
 /// Collective over `comm`. `parts` has one entry in 0 ... num_parts - 1 per local point. Throws
 /// Error on every rank when some rank names a part outside that range, or another num_parts.
-Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm comm);
+RRCB_API Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm comm);
 
 }  // namespace rrcb

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <rrcb/export.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -53,18 +55,18 @@ struct Points {
 /// View of `coordinates` as points stored one after another. Not collective.
 ///
 /// Their length is a multiple of `dimension` (1 to 3); `weights` is empty or holds one per point.
-Points interleaved_points(std::span<const double> coordinates, int dimension,
-                          std::span<const double> weights = {});
+RRCB_API Points interleaved_points(std::span<const double> coordinates, int dimension,
+                                   std::span<const double> weights = {});
 
 /// View of one array per axis. Not collective.
 ///
 /// 1 to 3 `columns` of the same length; `weights` is empty or as long as they are.
-Points column_points(std::span<const std::span<const double>> columns,
-                     std::span<const double> weights = {});
+RRCB_API Points column_points(std::span<const std::span<const double>> columns,
+                              std::span<const double> weights = {});
 
 /// Smallest box that holds all points; the empty box when there are none. Not collective.
 ///
 /// NaN on the axes on which a coordinate is NaN or infinite.
-Box bounding_box(const Points& points);
+RRCB_API Box bounding_box(const Points& points);
 
 }  // namespace rrcb

@@ -14,31 +14,32 @@ namespace rrcb {
 ///
 /// `part_sizes` are relative, one per part, or empty for equal parts; parts of size 0 are left out
 /// unless they hold weight, then the imbalance is infinite. 1 when there is no weight at all.
-double imbalance(std::span<const double> part_weights, std::span<const double> part_sizes = {});
+RRCB_API double imbalance(std::span<const double> part_weights,
+                          std::span<const double> part_sizes = {});
 
 /// Load unbalance of each part in percent: (ideal - actual) / ideal * 100. Not collective.
 ///
 /// One entry per part; sizes as above. The Lu of the CILAMCE 2020 paper: negative when a part holds
 /// too much; 0 for a part of size 0.
-std::vector<double> load_unbalance_percent(std::span<const double> part_weights,
-                                           std::span<const double> part_sizes = {});
+RRCB_API std::vector<double> load_unbalance_percent(std::span<const double> part_weights,
+                                                    std::span<const double> part_sizes = {});
 
 /// Largest absolute value of load_unbalance_percent.
-double worst_load_unbalance_percent(std::span<const double> part_weights,
-                                    std::span<const double> part_sizes = {});
+RRCB_API double worst_load_unbalance_percent(std::span<const double> part_weights,
+                                             std::span<const double> part_sizes = {});
 
 /// Weight of every part over all ranks, length num_parts, on every rank.
 ///
 /// Collective over `comm`: two reductions. `parts` holds one entry in 0 ... num_parts - 1 per local
 /// point; throws Error on all ranks where one holds others, has weights of another length or names
 /// another num_parts.
-std::vector<double> part_weights(const Points& points, std::span<const Part> parts, int num_parts,
-                                 MPI_Comm comm);
+RRCB_API std::vector<double> part_weights(const Points& points, std::span<const Part> parts,
+                                          int num_parts, MPI_Comm comm);
 
 /// Share of the weight, 0 ... 1, whose rank is not among the ranks of its new part.
 ///
 /// Collective over `comm`: two reductions. `parts` and errors as above. NaN where weights are.
-double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
-                      MPI_Comm comm);
+RRCB_API double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
+                               MPI_Comm comm);
 
 }  // namespace rrcb

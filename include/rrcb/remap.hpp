@@ -30,14 +30,15 @@ struct Remap {
 /// parts by the Hungarian method (Kuhn 1955, Munkres 1957), beyond that greedily, which keeps at
 /// least half of the most. Where nothing is gained the numbers stay as they are. Meant for parts of
 /// equal size: sizes are not looked at.
-Remap remap(std::span<const Part> parts, std::span<const RankRange> ranks_of_parts, MPI_Comm comm);
+RRCB_API Remap remap(std::span<const Part> parts, std::span<const RankRange> ranks_of_parts,
+                     MPI_Comm comm);
 
 /// The same, so that few points change the number of their part.
 ///
 /// `previous` is the part each local point was in, as long as `parts`; numbers that are no part any
 /// more count nothing. Up to 128 parts the root is told all overlaps, by a reduction of parts^2
 /// numbers in place of the gather, and no permutation keeps more.
-Remap remap(std::span<const Part> parts, std::span<const Part> previous,
-            std::span<const RankRange> ranks_of_parts, MPI_Comm comm);
+RRCB_API Remap remap(std::span<const Part> parts, std::span<const Part> previous,
+                     std::span<const RankRange> ranks_of_parts, MPI_Comm comm);
 
 }  // namespace rrcb

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <rrcb/export.h>
+
 #include <array>
 
 namespace rrcb {
@@ -19,14 +21,14 @@ inline constexpr std::array stages = {Stage::moments,   Stage::gather,     Stage
                                       Stage::broadcast, Stage::refinement, Stage::assignment};
 
 /// "moments", "gather", ...
-const char* name_of(Stage stage);
+RRCB_API const char* name_of(Stage stage);
 
 /// Told, on its own rank, when a stage of `balance` begins and when it ends.
 ///
 /// Every stage that begins also ends, in failing calls too; each does so at most once a call. The
 /// functions may not communicate over the communicator of the call, nor throw, since no rank may
 /// fail alone.
-class StageObserver {
+class RRCB_API StageObserver {
   public:
     virtual ~StageObserver() = default;
     virtual void begin(Stage stage) noexcept = 0;

@@ -35,18 +35,18 @@ struct StatisticalDomain {
 /// by more than a quarter of the way from the mean to the nearer face: one ends at that face, both
 /// at the mean. Where no such two inside the cell have that sigma, they may fill `box`; where none
 /// inside `box` have, sigma becomes less. Where all weights are 0 the counts take their place.
-StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension,
-                                  const Box& box);
+RRCB_API StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension,
+                                           const Box& box);
 
 /// Pseudo-random points of equal weight, uniform in mean +- multiplier * sigma of each cell.
 ///
 /// `sample_fraction` times the number of real points in all, shared out over the cells in
 /// proportion to their weight by largest remainder, at least one point in all. The same cells,
 /// options and seed give the same points on every machine. Not collective.
-StatisticalDomain sampled_domain(std::span<const CellMoments> cells, int dimension,
-                                 const Options& options);
+RRCB_API StatisticalDomain sampled_domain(std::span<const CellMoments> cells, int dimension,
+                                          const Options& options);
 
 /// The points themselves. Not collective.
-StatisticalDomain point_domain(const Points& points);
+RRCB_API StatisticalDomain point_domain(const Points& points);
 
 }  // namespace rrcb

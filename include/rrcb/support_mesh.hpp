@@ -16,14 +16,14 @@ struct SupportMesh {
 };
 
 /// Lays `cells_per_axis` (>= 1) cells over each axis of `box`. Not collective.
-SupportMesh make_support_mesh(const Box& box, int dimension, int cells_per_axis);
+RRCB_API SupportMesh make_support_mesh(const Box& box, int dimension, int cells_per_axis);
 
-LocalIndex num_cells(const SupportMesh& mesh);
+RRCB_API LocalIndex num_cells(const SupportMesh& mesh);
 
 /// Cell of a position inside the box of the mesh; positions outside go to the nearest cell.
-LocalIndex cell_of(const SupportMesh& mesh, const Vector& position);
+RRCB_API LocalIndex cell_of(const SupportMesh& mesh, const Vector& position);
 
 /// Box of a cell; neighbouring cells share their faces to the bit.
-Box cell_box(const SupportMesh& mesh, LocalIndex cell);
+RRCB_API Box cell_box(const SupportMesh& mesh, LocalIndex cell);
 
 }  // namespace rrcb

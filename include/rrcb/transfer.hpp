@@ -84,8 +84,8 @@ ByteColumn byte_column(const Column<T>& column, std::vector<T>& result) {
             }};
 }
 
-void move(const Plan& plan, std::span<const ByteColumn> columns, const TransferLimits& limits,
-          TransferReport* report, MPI_Comm comm);
+RRCB_API void move(const Plan& plan, std::span<const ByteColumn> columns,
+                   const TransferLimits& limits, TransferReport* report, MPI_Comm comm);
 
 /// Moves columns by a plan for which there is a `move` as above. Collective.
 template <class AnyPlan, class... T>

@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
 
     const bool even = weights == std::vector<double>{100, 100, 100};
     if (rank == 0)
-        std::printf("rrcb %s: parts of 100 points: %s\n", rrcb::version, even ? "yes" : "no");
+        std::printf("rrcb %s: parts of 100 points: %s\n", rrcb::version(), even ? "yes" : "no");
     MPI_Finalize();
     return even ? 0 : 1;
 }

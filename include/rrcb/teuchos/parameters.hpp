@@ -13,24 +13,25 @@ namespace rrcb::teuchos {
 
 /// All parameters under their names in the Zoltan plug-in, with defaults, documentation and
 /// validators; print it with `print(out, PrintOptions().showDoc(true))`. Not collective.
-Teuchos::RCP<const Teuchos::ParameterList> valid_parameters();
+RRCB_API Teuchos::RCP<const Teuchos::ParameterList> valid_parameters();
 
 /// Reads a list from a file whose name ends in .xml, .yaml or .yml, as Teuchos writes them.
 ///
 /// Not collective. Throws Error that names the file when it cannot be read; what is in the list is
 /// checked where the list is used.
-Teuchos::ParameterList read_parameters(const std::string& file);
+RRCB_API Teuchos::ParameterList read_parameters(const std::string& file);
 
 /// The options that a list asks for; what it does not name keeps its default.
 ///
 /// RRCB_SKIP_WITHIN, RRCB_DUMP and RRCB_DUMP_WHEN concern the plug-in alone and are checked only. A
 /// whole number is taken where a real one is due. Not collective; `balance` checks that ranks
 /// agree. Throws Error for an unknown name, a wrong type or a value out of range.
-Options options_from(const Teuchos::ParameterList& list);
+RRCB_API Options options_from(const Teuchos::ParameterList& list);
 
 /// Names and values of what a list sets, as Zoltan_Set_Param wants them; see zoltan_parameters.hpp.
 ///
 /// Throws Error as options_from does.
-std::vector<std::pair<std::string, std::string>> zoltan_strings(const Teuchos::ParameterList& list);
+RRCB_API std::vector<std::pair<std::string, std::string>> zoltan_strings(
+    const Teuchos::ParameterList& list);
 
 }  // namespace rrcb::teuchos

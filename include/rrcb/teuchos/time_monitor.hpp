@@ -15,7 +15,7 @@ namespace rrcb::teuchos {
 /// Set Options::observer to it. Observers of one prefix share their timers, which every rank has
 /// from the constructor on, so that Teuchos::TimeMonitor::summarize finds them everywhere. One
 /// observer watches one call at a time.
-class TimeMonitorObserver : public StageObserver {
+class RRCB_API TimeMonitorObserver : public StageObserver {
   public:
     explicit TimeMonitorObserver(const std::string& prefix = "RRCB: ");
     void begin(Stage stage) noexcept override;

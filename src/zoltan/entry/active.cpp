@@ -22,5 +22,5 @@ RRCB_EXPORT int RRCB_Zoltan_Active(void) {
 }
 
 RRCB_EXPORT const char* RRCB_Version(void) {
-    return rrcb::version;
+    return rrcb::version();
 }

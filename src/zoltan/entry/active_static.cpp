@@ -13,7 +13,7 @@ int RRCB_Zoltan_Renamed_Active(void) {
 }
 
 const char* RRCB_Version(void) {
-    return rrcb::version;
+    return rrcb::version();
 }
 
 }  // extern "C"

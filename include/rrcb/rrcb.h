@@ -1,0 +1,149 @@
+#ifndef RRCB_H
+#define RRCB_H
+
+#include <rrcb/export.h>
+#include <rrcb/version.h>
+
+#include <mpi.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The library in C: a balancer holds what rrcb/balance.hpp, options.hpp, cuts.hpp, plan.hpp and
+ * transfer.hpp take and give; these headers are the manual of what is only named here.
+ *
+ * Every function that can fail returns RRCB_OK or another rrcb_code. From a collective function all
+ * ranks of the communicator get the same code and text; a null balancer alone is an error of its
+ * rank. No exception leaves a function. A balancer is used by one thread at a time. */
+
+typedef enum rrcb_code {
+    RRCB_OK = 0,
+    RRCB_INVALID_ARGUMENT = 1, /**< the caller's mistake: points, weights or options */
+    RRCB_OUT_OF_MEMORY = 2,    /**< an allocation failed on some rank */
+    RRCB_MPI_ERROR = 3,        /**< an MPI call returned an error */
+    RRCB_INTERNAL_ERROR = 4    /**< an invariant does not hold */
+} rrcb_code;
+
+/** Communicator, options, cuts and plan. */
+typedef struct rrcb_balancer rrcb_balancer;
+
+/** One cut, as rrcb::Cut. */
+typedef struct rrcb_cut {
+    int32_t axis;
+    int32_t divides;
+    double at[3];
+} rrcb_cut;
+
+/** The tree of cuts, as rrcb::Cuts: num_parts - 1 of them in preorder. */
+typedef struct rrcb_cuts {
+    int dimension;
+    int num_parts;
+    const rrcb_cut* tree;
+} rrcb_cuts;
+
+/** Of the last balance, as rrcb::Report. */
+typedef struct rrcb_report {
+    int64_t num_points;        /**< over all ranks */
+    double total_weight;       /**< over all ranks */
+    double measured_imbalance; /**< heaviest part / mean part, counted; NaN where it was not */
+    double least_imbalance;    /**< no partition is better */
+    int within_tolerance;      /**< 1: measured to be within the tolerance */
+    int kept;                  /**< 1: the points stay as they lie */
+    int rounds;                /**< of counting, for the refinement */
+} rrcb_report;
+
+/** Lists of the points whose rank changes, as rrcb::Plan; indices count from 0. */
+typedef struct rrcb_plan {
+    size_t num_points; /**< that this rank holds before */
+    size_t num_points_after;
+    size_t num_exports;
+    const size_t* export_indices;
+    const int* export_ranks;
+    const int32_t* export_parts;
+    size_t num_imports;
+    const int* import_ranks;
+    const size_t* import_indices;
+    const int32_t* import_parts;
+} rrcb_plan;
+
+/** Version of the library, as "major.minor.patch". Not collective; the string is static. */
+RRCB_API const char* rrcb_version(void);
+
+/** What the library was built from and with, as rrcb::build_info. Not collective; static. */
+RRCB_API const char* rrcb_build_info(void);
+
+/** What the last function that failed on this thread has to say: the place and the fix. Not
+ *  collective; valid until the next one fails, empty where none did. */
+RRCB_API const char* rrcb_last_error(void);
+
+/** Makes a balancer with the default options and no cuts, which belongs to the caller.
+ *
+ *  Collective over `comm`, which must outlive it. Where it fails, `*balancer` stays. */
+RRCB_API int rrcb_create(MPI_Comm comm, rrcb_balancer** balancer);
+
+/** The same from a communicator as Fortran holds it. */
+RRCB_API int rrcb_create_fortran(MPI_Fint comm, rrcb_balancer** balancer);
+
+/** Frees a balancer, which may be null, and what it has given. Not collective. */
+RRCB_API void rrcb_free(rrcb_balancer* balancer);
+
+/** Sets an option by its name in rrcb::Options, to a text as docs/zoltan.md lists them:
+ *  ("refine", "EXACT"), ("imbalance_tolerance", "1.05"), ("num_parts", "12").
+ *
+ *  Not collective, yet all ranks set the same, which rrcb_balance checks. */
+RRCB_API int rrcb_set(rrcb_balancer* balancer, const char* option, const char* value);
+
+/** Sets the relative weights of the parts; none for equal ones. Not collective, as rrcb_set. */
+RRCB_API int rrcb_set_part_sizes(rrcb_balancer* balancer, size_t count, const double* sizes);
+
+/** Gives each of `count` points of this rank its part, and keeps the cuts; as rrcb::balance.
+ *
+ *  Collective. `coordinates` has length count * dimension, point after point; `weights` length
+ *  count, or null: every point weighs 1; `parts` has room for count. All may be null on a rank
+ *  without points, which states the dimension. */
+RRCB_API int rrcb_balance(rrcb_balancer* balancer, int dimension, size_t count,
+                          const double* coordinates, const double* weights, int32_t* parts);
+
+/** The same from the cuts that the balancer has, for points that moved little since. Collective. */
+RRCB_API int rrcb_rebalance(rrcb_balancer* balancer, int dimension, size_t count,
+                            const double* coordinates, const double* weights, int32_t* parts);
+
+/** Reads the report of the last balance. Not collective. */
+RRCB_API int rrcb_get_report(const rrcb_balancer* balancer, rrcb_report* report);
+
+/** Shows the cuts, which belong to the balancer until it gets others. Not collective. */
+RRCB_API int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts);
+
+/** Gives the balancer cuts, as of an earlier run; they are copied. Not collective, yet all ranks
+ *  give the same, which rrcb_rebalance checks. */
+RRCB_API int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts);
+
+/** Parts of any positions by the cuts, arrays as for rrcb_balance. Not collective. */
+RRCB_API int rrcb_assign(const rrcb_balancer* balancer, size_t count, const double* coordinates,
+                         int32_t* parts);
+
+/** Region of a part by the cuts: `lower` and `upper` of length 3. Not collective. */
+RRCB_API int rrcb_box_of(const rrcb_balancer* balancer, int32_t part, double* lower, double* upper);
+
+/** Makes and keeps the plan that brings `count` points to the ranks of their parts, as rrcb::plan;
+ *  the parts are those of the cuts. Collective. */
+RRCB_API int rrcb_make_plan(rrcb_balancer* balancer, size_t count, const int32_t* parts);
+
+/** Shows the plan, which belongs to the balancer until it makes another. Not collective. */
+RRCB_API int rrcb_get_plan(const rrcb_balancer* balancer, rrcb_plan* plan);
+
+/** Moves a column along the plan, as rrcb::transfer: first the points that stay, then those that
+ *  come.
+ *
+ *  Collective. A point has `bytes` of them, the same on every rank; `from` holds
+ *  plan.num_points * bytes, `to` has room for plan.num_points_after * bytes elsewhere. */
+RRCB_API int rrcb_transfer(rrcb_balancer* balancer, size_t bytes, const void* from, void* to);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,155 @@
+#include "c/balancer.hpp"
+
+#include "options/option_table.hpp"
+#include "options/validation.hpp"
+
+#include <rrcb/version.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace rrcb::c {
+
+namespace {
+
+thread_local Failure last_failure;
+
+void set_option(const char* name, const char* value, Options& options) {
+    require(name, "option");
+    require(value, "value");
+    const Option* option = find_option(name);
+    if (option == nullptr)
+        throw Error(ErrorCode::invalid_argument,
+                    "there is no option \"" + std::string(name) + "\"; rrcb/options.hpp has them");
+    if (!read_option(*option, value, options))
+        throw Error(
+            ErrorCode::invalid_argument,
+            std::string(name) + " takes " + legal_values(*option) + ", not \"" + value + '"');
+}
+
+Cuts copy_of(const rrcb_cuts& given) {
+    const auto size = static_cast<std::size_t>(std::max(given.num_parts, 1) - 1);
+    if (size > 0) require(given.tree, "tree");
+    Cuts cuts{given.dimension, given.num_parts, std::vector<Cut>(size)};
+    std::ranges::transform(std::span(given.tree, size), cuts.tree.begin(), [](const rrcb_cut& cut) {
+        return Cut{cut.axis, cut.divides, std::to_array(cut.at)};
+    });
+    check_cuts(cuts, given.dimension);
+    return cuts;
+}
+
+}  // namespace
+
+int code_of(const Failure& failure) noexcept {
+    if (!failure.failed) return RRCB_OK;
+    last_failure = failure;
+    switch (failure.code) {
+        case ErrorCode::invalid_argument:
+            return RRCB_INVALID_ARGUMENT;
+        case ErrorCode::out_of_memory:
+            return RRCB_OUT_OF_MEMORY;
+        case ErrorCode::mpi:
+            return RRCB_MPI_ERROR;
+        case ErrorCode::internal:
+            return RRCB_INTERNAL_ERROR;
+    }
+    return RRCB_INTERNAL_ERROR;
+}
+
+void require(const void* pointer, const char* name) {
+    if (pointer == nullptr)
+        throw Error(ErrorCode::invalid_argument, std::string(name) + " is null");
+}
+
+}  // namespace rrcb::c
+
+using rrcb::c::guarded;
+using rrcb::c::require;
+
+const char* rrcb_version(void) {
+    return rrcb::version();
+}
+
+const char* rrcb_build_info(void) {
+    return rrcb::build_info();
+}
+
+const char* rrcb_last_error(void) {
+    return rrcb::c::last_failure.text.data();
+}
+
+void rrcb_free(rrcb_balancer* balancer) {
+    delete balancer;
+}
+
+int rrcb_set(rrcb_balancer* balancer, const char* option, const char* value) {
+    return guarded(balancer, [&](auto& own) { rrcb::c::set_option(option, value, own.options); });
+}
+
+int rrcb_set_part_sizes(rrcb_balancer* balancer, size_t count, const double* sizes) {
+    return guarded(balancer, [&](auto& own) {
+        if (count > 0) require(sizes, "sizes");
+        own.options.part_sizes.assign(sizes, sizes + count);
+    });
+}
+
+int rrcb_get_report(const rrcb_balancer* balancer, rrcb_report* report) {
+    return guarded(balancer, [&](const auto& own) {
+        require(report, "report");
+        const rrcb::Report& from = own.report;
+        *report = {from.num_points,
+                   from.total_weight,
+                   from.measured_imbalance,
+                   from.least_imbalance,
+                   from.within_tolerance ? 1 : 0,
+                   from.kept ? 1 : 0,
+                   from.rounds};
+    });
+}
+
+int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts) {
+    // Both are an axis, a flag and three numbers.
+    static_assert(sizeof(rrcb_cut) == sizeof(rrcb::Cut) &&
+                  offsetof(rrcb_cut, at) == offsetof(rrcb::Cut, at));
+    return guarded(balancer, [&](const auto& own) {
+        require(cuts, "cuts");
+        *cuts = {own.cuts.dimension, own.cuts.num_parts,
+                 reinterpret_cast<const rrcb_cut*>(own.cuts.tree.data())};
+    });
+}
+
+int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts) {
+    return guarded(balancer, [&](auto& own) {
+        require(cuts, "cuts");
+        own.cuts = rrcb::c::copy_of(*cuts);
+    });
+}
+
+int rrcb_box_of(const rrcb_balancer* balancer, int32_t part, double* lower, double* upper) {
+    return guarded(balancer, [&](const auto& own) {
+        require(lower, "lower");
+        require(upper, "upper");
+        const rrcb::Box box = rrcb::box_of(own.cuts, part);
+        std::ranges::copy(box.lower, lower);
+        std::ranges::copy(box.upper, upper);
+    });
+}
+
+int rrcb_get_plan(const rrcb_balancer* balancer, rrcb_plan* plan) {
+    return guarded(balancer, [&](const auto& own) {
+        require(plan, "plan");
+        const rrcb::Plan& from = own.plan;
+        *plan = {from.num_points,
+                 from.num_points - from.export_indices.size() + from.import_indices.size(),
+                 from.export_indices.size(),
+                 from.export_indices.data(),
+                 from.export_ranks.data(),
+                 from.export_parts.data(),
+                 from.import_indices.size(),
+                 from.import_ranks.data(),
+                 from.import_indices.data(),
+                 from.import_parts.data()};
+    });
+}

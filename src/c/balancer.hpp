@@ -1,0 +1,43 @@
+#pragma once
+
+#include "collective/failure.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/plan.hpp>
+#include <rrcb/rrcb.h>
+
+#include <mpi.h>
+
+/// What a program in C holds by a pointer.
+struct rrcb_balancer {
+    MPI_Comm comm = MPI_COMM_NULL;
+    rrcb::Options options{};
+    rrcb::Cuts cuts{};
+    rrcb::Report report{};
+    rrcb::Plan plan{};
+};
+
+namespace rrcb::c {
+
+/// Keeps what the last function that failed on this thread has to say.
+int code_of(const Failure& failure) noexcept;
+
+/// Runs the body of a function; no exception leaves it.
+template <class Body>
+int guarded(Body&& body) noexcept {
+    return code_of(attempt(body));
+}
+
+/// Throws the Error of a null pointer.
+void require(const void* pointer, const char* name);
+
+/// The same for functions of a balancer.
+template <class Balancer, class Body>
+int guarded(Balancer* balancer, Body&& body) noexcept {
+    return guarded([&] {
+        require(balancer, "balancer");
+        body(*balancer);
+    });
+}
+
+}  // namespace rrcb::c

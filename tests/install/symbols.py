@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+"""symbols.py LIBRARY HEADER...: compares what a shared library shows with what headers declare.
+
+Fails unless each function that a header declares, and no other, is shown; methods count for their
+class. Of classes no more is shown than their type information and tables.
+"""
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+TYPE_DATA = re.compile(r"(typeinfo|typeinfo name|vtable) for rrcb::(\w+)$")
+
+# What has no body in the library.
+ELSEWHERE = re.compile(r"(template|using|typedef|static_assert|constexpr|inline|virtual)\b"
+                       r"|.*=\s*(0|default|delete)$", re.S)
+
+
+def shown_by(library):
+    """Names without arguments, and classes whose type information is shown."""
+    text = subprocess.run(["nm", "--dynamic", "--demangle", "--defined-only", library],
+                          check=True, capture_output=True, text=True).stdout
+    names, classes = set(), set()
+    for line in text.splitlines():
+        symbol = line.split(maxsplit=2)[2]
+        if match := TYPE_DATA.match(symbol):
+            classes.add(match[2])
+        else:
+            names.add(re.sub(r"\(.*", "", symbol).replace("[abi:cxx11]", ""))
+    return names, classes
+
+
+def bare(text):
+    """Text of a header without comments, directives and empty defaults."""
+    text = re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.S)
+    text = re.sub(r"^#.*?[^\\]$", "", text, flags=re.M)
+    return re.sub(r"=\s*\{\}", "", text).replace('extern "C" {', "")
+
+
+def statements(text):
+    """(scope, statement) for each declaration that ends with a semicolon, scope "rrcb::Class"."""
+    scopes, start, depth_inside = [], 0, 0
+    for at, letter in enumerate(text):
+        if depth_inside:
+            depth_inside += {"{": 1, "}": -1}.get(letter, 0)
+            if depth_inside == 0:
+                start = at + 1
+        elif letter == "{":
+            head = text[start:at].strip()
+            scope = re.match(r"(?:namespace|class|struct)\s+(?:\w+_API\s+)?([\w:]+)", head)
+            if scope:
+                scopes.append(scope[1])
+                start = at + 1
+            else:
+                depth_inside = 1
+        elif letter == "}":
+            if scopes:
+                scopes.pop()
+            start = at + 1
+        elif letter == ";":
+            yield "::".join(scopes), text[start:at].strip()
+            start = at + 1
+
+
+def declared_in(headers):
+    """Names of functions with a body elsewhere, and of classes."""
+    functions, classes = set(), set()
+    for header in headers:
+        text = bare(Path(header).read_text())
+        classes |= set(re.findall(r"\bclass\s+(?:\w+_API\s+)?(\w+)", text))
+        for scope, statement in statements(text):
+            statement = re.sub(r"\b(public|private|protected):", "", statement).strip()
+            if scope and not scope.startswith("rrcb"):
+                continue
+            match = re.match(r"[\w:&*<>,\s]*?(operator=|~?\w+)\s*\(", statement)
+            if not match or ELSEWHERE.match(statement):
+                continue
+            functions.add(f"{scope}::{match[1]}" if scope else match[1])
+    return functions, classes
+
+
+def main():
+    library, *headers = sys.argv[1:]
+    shown, shown_classes = shown_by(library)
+    declared, classes = declared_in(headers)
+    problems = [f"declared, but not shown: {name}" for name in sorted(declared - shown)]
+    problems += [f"shown, but in no header: {name}" for name in sorted(shown - declared)]
+    problems += [f"shown, but no class of a header: {name}" for name in shown_classes - classes]
+    print("\n".join(sorted(problems)) or f"{len(declared)} functions are declared and shown")
+    return 1 if problems or not declared else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,247 @@
+// The interface in C beside the one in C++, which is the reference.
+#include "../support/ranks.hpp"
+
+#include <rrcb/rrcb.h>
+#include <rrcb/rrcb.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+using test::is_last_rank;
+using test::num_ranks;
+using test::rank;
+
+/// A cloud that lies unevenly on the ranks; the second of them holds nothing.
+struct Cloud {
+    int dimension;
+    std::vector<double> coordinates;
+    std::vector<double> weights;
+
+    explicit Cloud(int axes) : dimension(axes) {
+        std::mt19937_64 random(static_cast<unsigned>(rank() + 1));
+        std::uniform_real_distribution<double> uniform(0.1, 1.1);
+        const int count = rank() == 1 ? 0 : 300 * (rank() + 1);
+        for (int i = 0; i < count * dimension; ++i)
+            coordinates.push_back(std::pow(uniform(random), 2));
+        for (int i = 0; i < count; ++i) weights.push_back(uniform(random));
+    }
+    std::size_t count() const { return weights.size(); }
+    Points points() const { return interleaved_points(coordinates, dimension, weights); }
+};
+
+class CInterface : public testing::Test {
+  protected:
+    void SetUp() override { ASSERT_EQ(rrcb_create(MPI_COMM_WORLD, &balancer), RRCB_OK); }
+    void TearDown() override { rrcb_free(balancer); }
+
+    int balance(const Cloud& cloud) {
+        parts.assign(cloud.count(), -1);
+        return rrcb_balance(balancer, cloud.dimension, cloud.count(), cloud.coordinates.data(),
+                            cloud.weights.data(), parts.data());
+    }
+
+    rrcb_balancer* balancer = nullptr;
+    std::vector<std::int32_t> parts;
+};
+
+/// Fails unless all ranks have an error of this code, and the same text, which names `word`.
+void expect_error_everywhere(int code, int expected, const std::string& word) {
+    EXPECT_EQ(code, expected);
+    std::array<char, 512> first{};
+    std::strncpy(first.data(), rrcb_last_error(), first.size() - 1);
+    MPI_Bcast(first.data(), static_cast<int>(first.size()), MPI_CHAR, 0, MPI_COMM_WORLD);
+    EXPECT_STREQ(rrcb_last_error(), first.data());
+    EXPECT_NE(std::string(rrcb_last_error()).find(word), std::string::npos) << rrcb_last_error();
+}
+
+void expect_same_cuts(const rrcb_cuts& cuts, const Cuts& expected) {
+    EXPECT_EQ(cuts.dimension, expected.dimension);
+    ASSERT_EQ(cuts.num_parts, expected.num_parts);
+    for (std::size_t k = 0; k < expected.tree.size(); ++k) {
+        EXPECT_EQ(cuts.tree[k].axis, expected.tree[k].axis);
+        EXPECT_EQ(cuts.tree[k].divides, expected.tree[k].divides);
+        EXPECT_TRUE(std::ranges::equal(cuts.tree[k].at, expected.tree[k].at));
+    }
+}
+
+TEST_F(CInterface, gives_the_parts_cuts_and_report_of_a_call_in_cpp) {
+    for (int dimension = 1; dimension <= 3; ++dimension) {
+        const Cloud cloud(dimension);
+        Options options;
+        options.num_parts = 5;
+        options.refine = Refine::exact;
+        options.part_sizes = {1, 2, 1, 1, 3};
+        ASSERT_EQ(rrcb_set(balancer, "num_parts", "5"), RRCB_OK);
+        ASSERT_EQ(rrcb_set(balancer, "refine", "exact"), RRCB_OK);
+        ASSERT_EQ(rrcb_set_part_sizes(balancer, 5, options.part_sizes.data()), RRCB_OK);
+        ASSERT_EQ(balance(cloud), RRCB_OK) << rrcb_last_error();
+
+        const Balance expected = rrcb::balance(cloud.points(), options, MPI_COMM_WORLD);
+        EXPECT_EQ(parts, expected.parts);
+        rrcb_cuts cuts;
+        ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
+        expect_same_cuts(cuts, expected.cuts);
+        rrcb_report report;
+        ASSERT_EQ(rrcb_get_report(balancer, &report), RRCB_OK);
+        EXPECT_EQ(report.num_points, expected.report.num_points);
+        EXPECT_EQ(report.total_weight, expected.report.total_weight);
+        EXPECT_EQ(report.measured_imbalance, expected.report.measured_imbalance);
+        EXPECT_EQ(report.least_imbalance, expected.report.least_imbalance);
+        EXPECT_EQ(report.within_tolerance, expected.report.within_tolerance ? 1 : 0);
+        EXPECT_EQ(report.kept, expected.report.kept ? 1 : 0);
+        EXPECT_EQ(report.rounds, expected.report.rounds);
+        EXPECT_GT(report.rounds, 0);
+    }
+}
+
+TEST_F(CInterface, starts_from_cuts_that_it_is_given) {
+    const Cloud cloud(2);
+    ASSERT_EQ(balance(cloud), RRCB_OK);
+    const std::vector<std::int32_t> first = parts;
+    rrcb_cuts cuts;
+    ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
+
+    rrcb_balancer* other = nullptr;
+    ASSERT_EQ(rrcb_create(MPI_COMM_WORLD, &other), RRCB_OK);
+    ASSERT_EQ(rrcb_set_cuts(other, &cuts), RRCB_OK);
+    parts.assign(cloud.count(), -1);
+    ASSERT_EQ(rrcb_assign(other, cloud.count(), cloud.coordinates.data(), parts.data()), RRCB_OK);
+    EXPECT_EQ(parts, first);
+    parts.assign(cloud.count(), -1);
+    ASSERT_EQ(rrcb_rebalance(other, 2, cloud.count(), cloud.coordinates.data(),
+                             cloud.weights.data(), parts.data()),
+              RRCB_OK);
+    EXPECT_EQ(parts, first);
+
+    const Vector middle{0.5, 0.5};
+    std::int32_t part = -1;
+    ASSERT_EQ(rrcb_assign(other, 1, middle.data(), &part), RRCB_OK);
+    Box box;
+    ASSERT_EQ(rrcb_box_of(other, part, box.lower.data(), box.upper.data()), RRCB_OK);
+    for (std::size_t a = 0; a < 2; ++a) {
+        EXPECT_LE(box.lower[a], middle[a]);
+        EXPECT_GE(box.upper[a], middle[a]);
+    }
+    rrcb_free(other);
+}
+
+TEST_F(CInterface, moves_points_along_the_plan_of_a_call_in_cpp) {
+    const Cloud cloud(3);
+    ASSERT_EQ(balance(cloud), RRCB_OK);
+    ASSERT_EQ(rrcb_make_plan(balancer, cloud.count(), parts.data()), RRCB_OK);
+    rrcb_plan shown;
+    ASSERT_EQ(rrcb_get_plan(balancer, &shown), RRCB_OK);
+
+    const Plan expected = plan(parts, num_ranks(), MPI_COMM_WORLD);
+    const auto equal = [](const auto* from, std::size_t count, const auto& list) {
+        return std::equal(from, from + count, list.begin(), list.end());
+    };
+    EXPECT_EQ(shown.num_points, cloud.count());
+    EXPECT_TRUE(equal(shown.export_indices, shown.num_exports, expected.export_indices));
+    EXPECT_TRUE(equal(shown.export_ranks, shown.num_exports, expected.export_ranks));
+    EXPECT_TRUE(equal(shown.export_parts, shown.num_exports, expected.export_parts));
+    EXPECT_TRUE(equal(shown.import_ranks, shown.num_imports, expected.import_ranks));
+    EXPECT_TRUE(equal(shown.import_indices, shown.num_imports, expected.import_indices));
+    EXPECT_TRUE(equal(shown.import_parts, shown.num_imports, expected.import_parts));
+
+    std::vector<double> here(3 * shown.num_points_after);
+    ASSERT_EQ(rrcb_transfer(balancer, 3 * sizeof(double), cloud.coordinates.data(), here.data()),
+              RRCB_OK);
+    EXPECT_EQ(here, transfer(expected, column(cloud.coordinates, 3), MPI_COMM_WORLD));
+}
+
+TEST_F(CInterface, what_is_wrong_on_one_rank_fails_on_all) {
+    Cloud cloud(2);
+    cloud.coordinates.insert(cloud.coordinates.end(), {0.5, 0.5});
+    cloud.weights.push_back(1);
+    parts.resize(cloud.count());
+    const auto call = [&](int dimension, const double* coordinates, std::int32_t* out) {
+        return rrcb_balance(balancer, dimension, cloud.count(), coordinates, nullptr, out);
+    };
+    const double* coordinates = cloud.coordinates.data();
+    const int invalid = RRCB_INVALID_ARGUMENT;
+    expect_error_everywhere(call(2, is_last_rank() ? nullptr : coordinates, parts.data()), invalid,
+                            "");
+    expect_error_everywhere(call(2, coordinates, is_last_rank() ? nullptr : parts.data()), invalid,
+                            "");
+    expect_error_everywhere(call(is_last_rank() ? 4 : 2, coordinates, parts.data()), invalid,
+                            "dimension");
+    if (is_last_rank()) cloud.coordinates.back() = std::numeric_limits<double>::quiet_NaN();
+    expect_error_everywhere(call(2, coordinates, parts.data()), invalid, "NaN");
+
+    if (is_last_rank()) cloud.coordinates.back() = 0.5;
+    ASSERT_EQ(call(2, coordinates, parts.data()), RRCB_OK) << rrcb_last_error();
+    const std::int32_t* given = is_last_rank() ? nullptr : parts.data();
+    expect_error_everywhere(rrcb_make_plan(balancer, cloud.count(), given), invalid, "part");
+    ASSERT_EQ(rrcb_make_plan(balancer, cloud.count(), parts.data()), RRCB_OK);
+    rrcb_plan plan;
+    ASSERT_EQ(rrcb_get_plan(balancer, &plan), RRCB_OK);
+    std::vector<double> here(plan.num_points_after);
+    const double* weights = cloud.weights.data();
+    expect_error_everywhere(
+        rrcb_transfer(balancer, sizeof(double), is_last_rank() ? nullptr : weights, here.data()),
+        invalid, "column");
+    const std::size_t bytes = is_last_rank() ? 4 : 8;
+    if (num_ranks() > 1)
+        expect_error_everywhere(rrcb_transfer(balancer, bytes, weights, here.data()), invalid, "");
+    ASSERT_EQ(rrcb_transfer(balancer, 8, weights, here.data()), RRCB_OK);
+}
+
+TEST_F(CInterface, rank_without_room_fails_on_all) {
+    // Every rank holds a point of each part, so that points come to all.
+    std::vector<double> x(static_cast<std::size_t>(num_ranks()));
+    std::iota(x.begin(), x.end(), 0.0);
+    parts.resize(x.size());
+    ASSERT_EQ(rrcb_balance(balancer, 1, x.size(), x.data(), nullptr, parts.data()), RRCB_OK);
+    ASSERT_EQ(rrcb_make_plan(balancer, x.size(), parts.data()), RRCB_OK);
+    std::vector<double> here(x.size());
+    expect_error_everywhere(
+        rrcb_transfer(balancer, sizeof(double), x.data(), is_last_rank() ? nullptr : here.data()),
+        RRCB_INVALID_ARGUMENT, "to is null");
+}
+
+TEST_F(CInterface, options_that_differ_fail_on_all) {
+    if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
+    ASSERT_EQ(rrcb_set(balancer, "imbalance_tolerance", is_last_rank() ? "1.1" : "1.2"), RRCB_OK);
+    expect_error_everywhere(balance(Cloud(2)), RRCB_INVALID_ARGUMENT, "imbalance_tolerance");
+    rrcb_cuts cuts{2, 1, nullptr};
+    rrcb_balancer* none = nullptr;
+    expect_error_everywhere(rrcb_create(MPI_COMM_NULL, &none), RRCB_INVALID_ARGUMENT, "COMM_NULL");
+    EXPECT_EQ(none, nullptr);
+    rrcb_balancer** const room = is_last_rank() ? nullptr : &none;
+    expect_error_everywhere(rrcb_create(MPI_COMM_WORLD, room), RRCB_INVALID_ARGUMENT, "null");
+    EXPECT_EQ(none, nullptr);
+    EXPECT_EQ(rrcb_set_cuts(balancer, &cuts), RRCB_OK);
+}
+
+TEST_F(CInterface, names_what_it_does_not_know) {
+    EXPECT_EQ(rrcb_set(balancer, "colour", "blue"), RRCB_INVALID_ARGUMENT);
+    EXPECT_NE(std::strstr(rrcb_last_error(), "colour"), nullptr);
+    EXPECT_EQ(rrcb_set(balancer, "refine", "twice"), RRCB_INVALID_ARGUMENT);
+    EXPECT_NE(std::strstr(rrcb_last_error(), "EXACT"), nullptr) << rrcb_last_error();
+    EXPECT_EQ(rrcb_set(nullptr, "refine", "NONE"), RRCB_INVALID_ARGUMENT);
+    EXPECT_STREQ(rrcb_last_error(), "balancer is null");
+    const rrcb_cuts no_tree{2, 3, nullptr};
+    EXPECT_EQ(rrcb_set_cuts(balancer, &no_tree), RRCB_INVALID_ARGUMENT);
+    const rrcb_cuts no_parts{2, 0, nullptr};
+    EXPECT_EQ(rrcb_set_cuts(balancer, &no_parts), RRCB_INVALID_ARGUMENT);
+    std::int32_t part = 0;
+    const double x = 0;
+    EXPECT_EQ(rrcb_assign(balancer, 1, &x, &part), RRCB_INVALID_ARGUMENT);
+    EXPECT_NE(std::strstr(rrcb_last_error(), "no cuts"), nullptr) << rrcb_last_error();
+    rrcb_free(nullptr);
+}
+
+}  // namespace
+}  // namespace rrcb

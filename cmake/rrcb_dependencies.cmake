@@ -1,4 +1,5 @@
 # Finds what the enabled parts stand on.
+include(rrcb_left_out)
 include(rrcb_trilinos)
 
 # rrcb_part(<option> <default> <help>)
@@ -9,18 +10,18 @@ function(rrcb_part option default help)
   set_property(CACHE ${option} PROPERTY STRINGS AUTO ON OFF)
 endfunction()
 
-# rrcb_needs(<option> <found> <what> <where from>)
+# rrcb_needs(<option> <found> <what> [Debian packages that have it...])
 #
-# Where a part lacks what it needs, AUTO leaves it out with a message; ON fails.
-function(rrcb_needs option found what origin)
+# Where a part lacks what it needs, AUTO leaves it out; ON fails.
+function(rrcb_needs option found what)
   if(NOT ${option} OR ${found})
     return()
   endif()
   if(NOT ${option} STREQUAL "AUTO")
-    message(FATAL_ERROR "${option}=${${option}} needs ${what}, not found (${origin});"
+    message(FATAL_ERROR "${option}=${${option}} needs ${what}, not found (Debian packages: ${ARGN});"
                         " or leave it out: ${option}=OFF")
   endif()
-  message(STATUS "${option}: left out, because ${what} was not found (${origin})")
+  rrcb_left_out(${option} "${what} was not found" ${ARGN})
   set(${option} OFF PARENT_SCOPE)
 endfunction()
 
@@ -43,7 +44,7 @@ rrcb_part(RRCB_BENCHMARKS ${top_level_parts} "The benchmarks (need Google Benchm
 if(RRCB_FORTRAN)
   include(CheckLanguage)
   check_language(Fortran)
-  rrcb_needs(RRCB_FORTRAN CMAKE_Fortran_COMPILER "a Fortran compiler" "Debian package gfortran")
+  rrcb_needs(RRCB_FORTRAN CMAKE_Fortran_COMPILER "a Fortran compiler" gfortran)
 endif()
 if(RRCB_FORTRAN)
   enable_language(Fortran)
@@ -53,22 +54,21 @@ find_package(MPI REQUIRED COMPONENTS C CXX)
 
 if(RRCB_ZOLTAN)
   rrcb_find_trilinos(Zoltan)
-  rrcb_needs(RRCB_ZOLTAN "TARGET;Zoltan::zoltan" "Zoltan of Trilinos"
-             "Debian package libtrilinos-zoltan-dev")
+  rrcb_needs(RRCB_ZOLTAN "TARGET;Zoltan::zoltan" "Zoltan of Trilinos" libtrilinos-zoltan-dev)
 endif()
 if(RRCB_TEUCHOS OR RRCB_MPM)
   rrcb_find_trilinos(Teuchos)
   foreach(option IN ITEMS RRCB_TEUCHOS RRCB_MPM)
-    rrcb_needs(${option} "TARGET;Teuchos::teuchos" "Teuchos of Trilinos"
-               "Debian package libtrilinos-teuchos-dev")
+    rrcb_needs(${option} "TARGET;Teuchos::teuchos" "Teuchos of Trilinos" libtrilinos-teuchos-dev
+               libtrilinos-kokkos-dev)
   endforeach()
 endif()
 if(RRCB_MPM)
   find_package(muParser MODULE QUIET)
-  rrcb_needs(RRCB_MPM muParser_FOUND muParser "Debian package libmuparser-dev")
+  rrcb_needs(RRCB_MPM muParser_FOUND muParser libmuparser-dev)
 endif()
 foreach(option IN ITEMS RRCB_ZOLTAN RRCB_MPM)
-  rrcb_needs(RRCB_COMPARISONS ${option} ${option} "it compares RRCB with Zoltan on the slope")
+  rrcb_needs(RRCB_COMPARISONS ${option} ${option})
 endforeach()
 
 # The plug-in and the example solve for eigenvalues; the library has no more than a header for it.
@@ -78,5 +78,5 @@ endif()
 
 if(RRCB_BENCHMARKS)
   find_package(benchmark QUIET)
-  rrcb_needs(RRCB_BENCHMARKS benchmark_FOUND "Google Benchmark" "Debian package libbenchmark-dev")
+  rrcb_needs(RRCB_BENCHMARKS benchmark_FOUND "Google Benchmark" libbenchmark-dev)
 endif()

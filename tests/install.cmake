@@ -23,6 +23,13 @@ add_test(
     --build-options -DCMAKE_BUILD_TYPE=Debug -DCMAKE_DISABLE_FIND_PACKAGE_Zoltan=ON
     -DCMAKE_DISABLE_FIND_PACKAGE_Teuchos=ON -DRRCB_TESTS=OFF -DRRCB_WERROR=${RRCB_WERROR})
 add_test(
+  NAME install.left_out
+  COMMAND
+    ${CMAKE_COMMAND} -D
+    "OUTPUT=RRCB_ZOLTAN: Zoltan of Trilinos was not found.*tools/set_up .*libtrilinos-zoltan-dev" -P
+    ${CMAKE_CURRENT_SOURCE_DIR}/cmake/expect.cmake -- ${CMAKE_COMMAND} -E cat
+    ${CMAKE_CURRENT_BINARY_DIR}/without_trilinos/left_out.txt)
+add_test(
   NAME install.asked_for_but_missing
   COMMAND
     ${CMAKE_COMMAND} -D FAILS=TRUE -D "OUTPUT=RRCB_ZOLTAN=ON needs Zoltan of Trilinos" -P
@@ -38,8 +45,7 @@ if(RRCB_PKG_CONFIG)
   set_tests_properties(install.pkg_config PROPERTIES FIXTURES_REQUIRED installed LABELS install
                                                      TIMEOUT 120 PROCESSORS 3)
 else()
-  message(STATUS "Test of the files for pkg-config: left out, because it was not found"
-                 " (Debian package pkg-config)")
+  rrcb_left_out("test of the files for pkg-config" "pkg-config was not found" pkg-config)
 endif()
 find_package(Python3 COMPONENTS Interpreter QUIET)
 if(Python3_FOUND)
@@ -48,13 +54,20 @@ if(Python3_FOUND)
   add_test(NAME install.symbols
            COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/symbols.py
                    $<TARGET_FILE:rrcb_shared> ${headers})
-  set_tests_properties(install.symbols PROPERTIES LABELS install TIMEOUT 60)
+  add_test(NAME install.spack
+           COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/spack.py
+                   ${PROJECT_SOURCE_DIR}/packaging/spack/package.py
+                   ${PROJECT_BINARY_DIR}/CMakeCache.txt ${PROJECT_SOURCE_DIR})
+  set_tests_properties(install.symbols install.spack PROPERTIES LABELS install TIMEOUT 60)
 endif()
 
 set_tests_properties(install.clean PROPERTIES FIXTURES_SETUP clean_prefix)
 set_tests_properties(install.install PROPERTIES FIXTURES_REQUIRED clean_prefix FIXTURES_SETUP
                                                 installed)
 set_tests_properties(install.consumer PROPERTIES FIXTURES_REQUIRED installed)
+set_tests_properties(install.builds_without_trilinos PROPERTIES FIXTURES_SETUP without_trilinos)
+set_tests_properties(install.left_out PROPERTIES FIXTURES_REQUIRED without_trilinos LABELS install
+                                                 TIMEOUT 60)
 set_tests_properties(
   install.clean install.install install.consumer install.builds_without_trilinos
   install.asked_for_but_missing PROPERTIES LABELS install TIMEOUT 300 PROCESSORS 2)

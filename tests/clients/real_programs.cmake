@@ -59,8 +59,7 @@ if(TARGET zoltan2_plain_client)
 endif()
 if(left_out_clients)
   list(JOIN left_out_clients ", " left_out_clients)
-  message(STATUS "${left_out_clients}: left out, because what they need is not installed"
-                 " (tests/clients/real_programs installs it)")
+  rrcb_left_out("${left_out_clients}" "tests/clients/real_programs installs what they need")
 endif()
 
 # Those that are not installed are skipped with the reason. PySPH's first run compiles for a while.

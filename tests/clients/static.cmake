@@ -1,6 +1,6 @@
 # Zoltan as a static archive: the tests of the plug-in, compiled through the renaming header.
 if(NOT CMAKE_C_COMPILER_ID STREQUAL "GNU")
-  message(STATUS "Test of a static Zoltan: left out, because its archive needs gcc")
+  rrcb_left_out("test of a static Zoltan" "its archive needs gcc")
   return()
 endif()
 

@@ -1,0 +1,30 @@
+# rrcb_left_out(<what> <reason> [Debian packages that add it...])
+#
+# Notes a part of the project that this build does without.
+function(rrcb_left_out what reason)
+  set_property(GLOBAL APPEND PROPERTY RRCB_LEFT_OUT "  ${what}: ${reason}")
+  set_property(GLOBAL APPEND PROPERTY RRCB_MISSING_PACKAGES ${ARGN})
+endfunction()
+
+# Lists once, in left_out.txt, which tools/build shows in the end, what is left out, and the command
+# that adds what packages bring.
+function(rrcb_report_left_out)
+  get_property(parts GLOBAL PROPERTY RRCB_LEFT_OUT)
+  get_property(packages GLOBAL PROPERTY RRCB_MISSING_PACKAGES)
+  set(text "")
+  if(parts)
+    list(REMOVE_DUPLICATES parts)
+    list(JOIN parts "\n" parts)
+    set(text "Left out:\n${parts}\n")
+  endif()
+  if(packages)
+    list(REMOVE_DUPLICATES packages)
+    list(SORT packages)
+    list(JOIN packages " " packages)
+    string(APPEND text "What packages add, this installs:\n  tools/set_up ${packages}\n")
+  endif()
+  file(WRITE ${PROJECT_BINARY_DIR}/left_out.txt "${text}")
+  if(text)
+    message(STATUS "${text}")
+  endif()
+endfunction()

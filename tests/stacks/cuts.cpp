@@ -1,6 +1,6 @@
 // Prints a line for each of a set of clouds: what the bits of its cuts and parts add up to. The
-// same on every compiler and MPI, which tests/stacks/run compares. With an argument, prints what the
-// library is built with.
+// same on every compiler and MPI, which tests/stacks/run compares. With an argument, prints what
+// the library is built with.
 #include <rrcb/rrcb.hpp>
 
 #include <mpi.h>

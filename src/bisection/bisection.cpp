@@ -67,9 +67,11 @@ void bisect_node(StatisticalDomain domain, std::span<const double> sizes, int de
 
 /// Brings the points below a plane to the front; returns how many they are.
 std::size_t divide_by(const Cut& cut, int dimension, std::span<MassPoint> points) {
-    const auto above = std::ranges::partition(
-        points, [&](const MassPoint& point) { return !is_above(cut, point.position, dimension); });
-    return points.size() - above.size();
+    // Clang 14 can't read the library's partition of ranges.
+    const auto above = std::partition(points.begin(), points.end(), [&](const MassPoint& point) {
+        return !is_above(cut, point.position, dimension);
+    });
+    return static_cast<std::size_t>(above - points.begin());
 }
 
 /// Cuts a node of points and divides them in place; returns how many lie below.

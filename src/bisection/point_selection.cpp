@@ -56,11 +56,14 @@ Ties gather_ties(std::span<MassPoint> points, const PositionOrder& before, const
     const Vector selected = points[place.index].position;
     const auto lower = points.first(place.index);
     const auto upper = points.subspan(place.index);
-    const auto first = std::ranges::partition(
-        lower, [&](const MassPoint& point) { return before(point.position, selected); });
-    const auto behind = std::ranges::partition(
-        upper, [&](const MassPoint& point) { return !before(selected, point.position); });
-    Ties ties{place.index - first.size(), points.size() - behind.size(), place.below, 0};
+    const auto first = std::partition(lower.begin(), lower.end(), [&](const MassPoint& point) {
+        return before(point.position, selected);
+    });
+    const auto behind = std::partition(upper.begin(), upper.end(), [&](const MassPoint& point) {
+        return !before(selected, point.position);
+    });
+    Ties ties{static_cast<std::size_t>(first - lower.begin()),
+              place.index + static_cast<std::size_t>(behind - upper.begin()), place.below, 0};
     ties.below -= weight_of(points.subspan(ties.begin, place.index - ties.begin));
     ties.weight = weight_of(points.subspan(ties.begin, ties.end - ties.begin));
     return ties;

@@ -8,11 +8,17 @@
 
 namespace rrcb {
 
-/// Weight spread evenly over a box; a point where `lower` equals `upper`.
+/// Weight spread over a box, along each axis for itself; in one place where `lower` equals `upper`.
+///
+/// Along an axis the density, relative to its mean, is 1 + slope u + bow (3 u^2 - 1) / 2 >= 0 with
+/// u from -1 at `lower` to 1 at `upper`: the first Legendre polynomials. So slope / 3 is the mean
+/// of u, and the variance of u is 1/3 + 2/15 bow - slope^2 / 9.
 struct Patch {
     Vector lower{};
     Vector upper{};
     double weight = 0;
+    Vector slope{};
+    Vector bow{};
 };
 
 /// Weight in one place.
@@ -28,13 +34,14 @@ struct StatisticalDomain {
     std::vector<MassPoint> points{};  ///< in place of patches
 };
 
-/// A uniform patch per cell, or a few, with the cell's mean and standard deviation. Not collective.
+/// A patch per cell, or a few, with the cell's mean and standard deviation. Not collective.
 ///
-/// A patch reaches sqrt(3) sigma, the half-width of a uniform density, to both sides of the mean.
-/// Two take its place along an axis where it would leave `box`, which holds all points, or the cell
-/// by more than a quarter of the way from the mean to the nearer face: one ends at that face, both
-/// at the mean. Where no such two inside the cell have that sigma, they may fill `box`; where none
-/// inside `box` have, sigma becomes less. Where all weights are 0 the counts take their place.
+/// Along an axis the density is quadratic on the longest interval inside the cell on which it is
+/// nowhere negative: to second order the one of greatest entropy. Where there is none, two uniform
+/// densities: between the mean and both faces, or, where sigma is greater yet, at both faces. The
+/// cell counts as far as it lies in `box`, which holds all points; a mean outside comes to its
+/// face, and sigma is at most what points at both faces have. Where all weights are 0 the counts
+/// take their place.
 RRCB_API StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension,
                                            const Box& box);
 

@@ -8,14 +8,14 @@ namespace rrcb {
 
 namespace {
 
-StatisticalDomain build_analytic(std::span<const CellMoments> cells, int dimension, const Box& box,
+StatisticalDomain build_analytic(const CellSet& set, int dimension, const Box& box,
                                  const Options&) {
-    return analytic_domain(cells, dimension, box);
+    return analytic_domain(set.cells, dimension, box);
 }
 
-StatisticalDomain build_sampled(std::span<const CellMoments> cells, int dimension, const Box&,
+StatisticalDomain build_sampled(const CellSet& set, int dimension, const Box&,
                                 const Options& options) {
-    return sampled_domain(cells, dimension, options);
+    return sampled_domain(set.cells, dimension, options);
 }
 
 // Extents of an analytic domain are estimates. The sampled domain stands for the paper's method,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "cells/cell_set.hpp"
+
 #include <rrcb/options.hpp>
 #include <rrcb/statistical_domain.hpp>
 
@@ -17,7 +19,7 @@ struct DomainTraits {
     double share_of_longest;  ///< axes of at least this share of the longest extent count as equal
     /// Makes the domain from the cells of all ranks and the box of their points; null where points
     /// are sent.
-    StatisticalDomain (*build)(std::span<const CellMoments> cells, int dimension, const Box& box,
+    StatisticalDomain (*build)(const CellSet& cells, int dimension, const Box& box,
                                const Options& options);
 };
 

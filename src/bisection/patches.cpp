@@ -1,6 +1,7 @@
 #include "bisection/patches.hpp"
 
 #include "bisection/bisection.hpp"
+#include "bisection/slice.hpp"
 #include "bisection/weighted_quantile.hpp"
 
 #include <algorithm>
@@ -72,11 +73,7 @@ Halves split_domain(const StatisticalDomain& domain, const Cut& cut) {
         } else if (patch.upper[axis] <= value) {
             halves.lower.patches.push_back(patch);
         } else {
-            Patch below = patch;
-            Patch above = patch;
-            below.upper[axis] = above.lower[axis] = value;
-            below.weight *= fraction_below(patch.lower[axis], value, patch.upper[axis]);
-            above.weight -= below.weight;
+            const auto [below, above] = divide(patch, axis, value);
             halves.lower.patches.push_back(below);
             halves.upper.patches.push_back(above);
         }

@@ -2,6 +2,7 @@
 
 #include "bisection/bisection.hpp"
 #include "bisection/patches.hpp"
+#include "bisection/slice.hpp"
 #include "bisection/weighted_quantile.hpp"
 
 #include <algorithm>
@@ -24,12 +25,8 @@ constexpr int most_trials = 8;
 double weight_below(const StatisticalDomain& domain, const Cut& plane) {
     const auto a = static_cast<std::size_t>(plane.axis);
     double weight = 0;
-    for (const Patch& patch : domain.patches) {
-        if (patch.lower[a] >= plane.at[a]) continue;
-        weight += patch.upper[a] <= plane.at[a]
-                      ? patch.weight
-                      : patch.weight * fraction_below(patch.lower[a], plane.at[a], patch.upper[a]);
-    }
+    for (const Patch& patch : domain.patches)
+        weight += weight_below(slice_of(patch, a), plane.at[a]);
     return weight;
 }
 

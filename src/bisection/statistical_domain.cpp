@@ -1,3 +1,5 @@
+#include "bisection/cell_density.hpp"
+
 #include <rrcb/statistical_domain.hpp>
 
 #include <algorithm>
@@ -57,68 +59,6 @@ Box around(const Moments& moments, double multiplier) {
     return box;
 }
 
-/// Distances that weight reaches to both sides of a mean; half of them, which no coordinates
-/// overflow.
-struct Reach {
-    double below = 0;
-    double above = 0;
-
-    double shorter() const { return std::min(below, above); }
-    double longer() const { return std::max(below, above); }
-};
-
-Reach reach_to(const Box& box, std::size_t axis, double mean) {
-    return {std::max(0.0, mean / 2 - box.lower[axis] / 2),
-            std::max(0.0, box.upper[axis] / 2 - mean / 2)};
-}
-
-Reach shorter_of(const Reach& one, const Reach& other) {
-    return {std::min(one.below, other.below), std::min(one.above, other.above)};
-}
-
-/// Two uniform densities that meet at the mean, one reaching b below it with the share a / (a + b),
-/// one a above it with the rest, have this mean and the variance a b / 3. So where one can't reach
-/// as far as the half-width of a single uniform density, the other has to reach this far.
-double opposite(double half_width, double shorter) {
-    return half_width * (half_width / shorter);
-}
-
-Reach reach_of(const CellMoments& cell, std::size_t axis, const Box& box) {
-    // Chance alone moves the mean of even points: to divide what leaves its cell a little would
-    // cost time and gain nothing.
-    constexpr double bearable = 1.25;
-    const double mean = cell.moments.mean[axis];
-    const double half_width = std::sqrt(3.0) / 2 * cell.moments.deviation[axis];
-    const Reach to_box = reach_to(box, axis, mean);
-    Reach reach = shorter_of(reach_to(cell.box, axis, mean), to_box);
-    if (!(opposite(half_width, reach.shorter()) <= reach.longer())) reach = to_box;
-    const double shorter = reach.shorter();
-    if (half_width <= std::min(bearable * shorter, to_box.shorter()))
-        return {half_width, half_width};
-    if (shorter == 0) return {};
-    const double longer = std::min(opposite(half_width, shorter), reach.longer());
-    return reach.below < reach.above ? Reach{shorter, longer} : Reach{longer, shorter};
-}
-
-/// Gives the patches from `first` on, all of one cell, their extent along an axis. Where it reaches
-/// farther to one side than to the other each becomes two.
-void spread(std::vector<Patch>& patches, std::size_t first, std::size_t axis, double mean,
-            const Reach& reach, const Box& box) {
-    const std::size_t last = patches.size();
-    for (std::size_t i = first; i < last; ++i) {
-        patches[i].lower[axis] =
-            std::clamp(mean - 2 * reach.below, box.lower[axis], box.upper[axis]);
-        patches[i].upper[axis] =
-            std::clamp(mean + 2 * reach.above, box.lower[axis], box.upper[axis]);
-        if (reach.below == reach.above) continue;
-        Patch above = patches[i];
-        patches[i].upper[axis] = above.lower[axis] = mean;
-        patches[i].weight *= reach.above / (reach.below + reach.above);
-        above.weight -= patches[i].weight;
-        patches.push_back(above);
-    }
-}
-
 }  // namespace
 
 StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension,
@@ -126,13 +66,8 @@ StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimens
     const std::vector<double> weights = weights_of(cells);
     StatisticalDomain domain{dimension};
     domain.patches.reserve(cells.size());
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        const std::size_t first = domain.patches.size();
-        domain.patches.push_back({{}, {}, weights[i]});
-        for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
-            spread(domain.patches, first, a, cells[i].moments.mean[a], reach_of(cells[i], a, box),
-                   box);
-    }
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        append_patches(cells[i], weights[i], box, domain);
     return domain;
 }
 

@@ -1,5 +1,7 @@
 #include "bisection/weighted_quantile.hpp"
 
+#include "bisection/slice.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,14 +17,9 @@ double negligible(double weight) {
     return 1e-12 * weight;
 }
 
-/// Extent of a patch along one axis.
-struct Interval {
-    double lower;
-    double upper;
-    double weight;
+/// Weight of one of the patches along the axis.
+struct Interval : Slice {
     std::size_t patch;
-
-    bool is_jump() const { return lower == upper; }
 };
 
 /// Range in which the cumulative weight passes the target, in the end between two neighbouring
@@ -33,13 +30,6 @@ struct Crossing {
     double below = 0;              ///< weight of the intervals that end at or before `left`
     std::vector<Interval> active;  ///< jumps at `left`, and intervals that span it
 };
-
-double weight_below(const Interval& interval, double value) {
-    if (interval.upper < value || (interval.upper == value && !interval.is_jump()))
-        return interval.weight;
-    if (interval.lower >= value) return 0;
-    return interval.weight * fraction_below(interval.lower, value, interval.upper);
-}
 
 /// A breakpoint near the median of those left: the median of a few, evenly picked.
 double pivot_of(std::span<const double> breakpoints) {
@@ -69,9 +59,38 @@ void narrow(Crossing& crossing, double pivot, double target) {
     });
 }
 
+/// Drops most of many intervals in a few passes: those away from where a histogram of their middles
+/// passes the target.
+void narrow_by_histogram(Crossing& crossing, double target) {
+    constexpr std::size_t num_bins = 128;
+    constexpr std::size_t few = 256;
+    if (crossing.active.size() < few) return;
+    double lower = infinity;
+    double upper = -infinity;
+    for (const Interval& interval : crossing.active) {
+        lower = std::min(lower, interval.lower);
+        upper = std::max(upper, interval.upper);
+    }
+    const double bins_per_length = num_bins / (upper / 2 - lower / 2) / 2;
+    if (!(bins_per_length > 0 && std::isfinite(bins_per_length))) return;
+    std::array<double, num_bins> weights{};
+    for (const Interval& interval : crossing.active) {
+        const double middle = interval.lower / 2 + interval.upper / 2;
+        const double bin = (middle / 2 - lower / 2) * bins_per_length * 2;
+        weights[std::min(num_bins - 1, static_cast<std::size_t>(bin))] += interval.weight;
+    }
+    double below = 0;
+    std::size_t bin = 0;
+    while (bin + 1 < num_bins && below + weights[bin] < target) below += weights[bin++];
+    for (const std::size_t edge : {std::max<std::size_t>(bin, 1) - 1, bin + 2})
+        if (edge > 0 && edge < num_bins)
+            narrow(crossing, std::lerp(lower, upper, static_cast<double>(edge) / num_bins), target);
+}
+
 Crossing find_crossing(std::vector<Interval> intervals, double target) {
     Crossing crossing;
     crossing.active = std::move(intervals);
+    narrow_by_histogram(crossing, target);
     std::vector<double> breakpoints;
     for (const Interval& interval : crossing.active) {
         breakpoints.push_back(interval.lower);
@@ -107,6 +126,42 @@ double middle_of_gap(std::span<const Interval> intervals, double value) {
     return next == infinity ? value : value / 2 + next / 2;
 }
 
+/// Weight of the crossing below a value inside it.
+double weight_below(const Crossing& crossing, double value) {
+    double below = crossing.below;
+    for (const Interval& interval : crossing.active) below += weight_below(interval, value);
+    return below;
+}
+
+/// Value inside the crossing with the target below it, by the Illinois variant of false position
+/// (Dowell, Jarratt: A modified regula falsi method, 1971): at once where the weight is spread
+/// evenly. `from` is the weight below right behind the left end, `to` that below the right one.
+double pass(const Crossing& crossing, double target, double from, double to) {
+    constexpr int most_steps = 64;
+    double left = crossing.left;
+    double right = crossing.right;
+    double short_of = target - from;
+    double beyond = to - target;
+    if (!(short_of > 0)) return left;
+    double value = std::lerp(left, right, short_of / (short_of + beyond));
+    // The value sought lies between left and right; both differences are above 0.
+    int side = 0;
+    for (int step = 0; step < most_steps; ++step) {
+        const double error = weight_below(crossing, value) - target;
+        if (std::abs(error) <= negligible(to)) break;
+        const bool is_left = error < 0;
+        (is_left ? left : right) = value;
+        (is_left ? short_of : beyond) = std::abs(error);
+        if (side == (is_left ? -1 : 1)) (is_left ? beyond : short_of) /= 2;
+        side = is_left ? -1 : 1;
+        double next = std::lerp(left, right, short_of / (short_of + beyond));
+        if (!(next > left && next < right)) next = left / 2 + right / 2;
+        if (!(next > left && next < right)) break;
+        value = next;
+    }
+    return value;
+}
+
 /// Share of the patches that lies below a cut.
 enum class Below { none, some, all };
 
@@ -115,8 +170,7 @@ std::vector<Interval> intervals_of(const StatisticalDomain& domain,
     std::vector<Interval> intervals;
     intervals.reserve(patches.size());
     for (const std::size_t p : patches) {
-        const Patch& patch = domain.patches[p];
-        intervals.push_back({patch.lower[axis], patch.upper[axis], patch.weight, p});
+        intervals.push_back({slice_of(domain.patches[p], axis), p});
     }
     return intervals;
 }
@@ -166,7 +220,7 @@ Below divide(const StatisticalDomain& domain, std::span<const std::size_t> patch
         if (of_jump == Below::none && below == 0) return Below::none;
     } else if (slope > 0) {
         const double rest = target - below - jump;
-        const double inside = std::lerp(crossing.left, crossing.right, rest / slope);
+        const double inside = pass(crossing, target, below + jump, below + jump + slope);
         at[axis] =
             slope - rest > negligible(target) ? inside : middle_of_gap(intervals, crossing.right);
         if (jump > 0) at[axis] = std::max(at[axis], std::nextafter(crossing.left, infinity));
@@ -177,12 +231,6 @@ Below divide(const StatisticalDomain& domain, std::span<const std::size_t> patch
 }
 
 }  // namespace
-
-double fraction_below(double lower, double value, double upper) {
-    const double extent = upper - lower;
-    if (std::isinf(extent)) return (value / 2 - lower / 2) / (upper / 2 - lower / 2);
-    return (value - lower) / extent;
-}
 
 Cut weighted_quantile(const StatisticalDomain& domain, int axis, double target, bool plain) {
     std::vector<int> axes{axis};

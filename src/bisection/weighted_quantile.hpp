@@ -5,12 +5,9 @@
 
 namespace rrcb {
 
-/// Share of [lower, upper] that lies below `value`, which must be inside; lower < upper.
-double fraction_below(double lower, double value, double upper);
-
 /// Cut across `axis` with the weight `target` below it, in a domain of some weight > target >= 0.
 ///
-/// The cumulative weight along an axis is piecewise linear with jumps where patches have no
+/// The cumulative weight along an axis is piecewise cubic with jumps where patches have no
 /// extent; where the target falls into a jump the patches of that jump are divided along the other
 /// axes unless the cut is to be `plain`. Patches that can't be told apart go to the side that is
 /// nearer to the target. Expected cost linear in the number of patches.

@@ -72,11 +72,18 @@ CellMoments take_cell(std::span<const double>& records, int dimension) {
     return cell;
 }
 
-Box box_of_cube(const Vector& cube, int exponent) {
+/// The cube of a mean, or what a uniform density with the moments fills where that is more: the
+/// cells that were merged may reach far out of the cube.
+Box box_of_merged(const Moments& moments, int dimension, int exponent) {
+    constexpr double largest = std::numeric_limits<double>::max();
+    const Vector cube = cube_of(moments.mean, dimension, exponent);
     Box box;
     for (std::size_t a = 0; a < cube.size(); ++a) {
-        box.lower[a] = std::ldexp(cube[a], exponent);
-        box.upper[a] = std::ldexp(cube[a] + 1, exponent);
+        const double half_width = std::sqrt(3.0) * moments.deviation[a];
+        box.lower[a] = std::max(
+            -largest, std::min(std::ldexp(cube[a], exponent), moments.mean[a] - half_width));
+        box.upper[a] = std::min(
+            largest, std::max(std::ldexp(cube[a] + 1, exponent), moments.mean[a] + half_width));
     }
     return box;
 }
@@ -119,14 +126,15 @@ CellSet read_cells(std::span<const double> records, int dimension) {
             box.lower = take_vector(records, dimension);
             box.upper = take_vector(records, dimension);
             mesh = make_support_mesh(box, dimension, static_cast<int>(block.cells_per_axis));
+            const std::size_t begin = all.cells.size();
+            all.blocks.push_back({begin, begin + static_cast<std::size_t>(block.num_cells), mesh});
         } else {
             all.exponent = std::max(all.exponent, exponent);
         }
         for (double k = 0; k < block.num_cells; ++k) {
             CellMoments cell = take_cell(records, dimension);
-            cell.box = on_mesh
-                           ? cell_box(mesh, cell.cell)
-                           : box_of_cube(cube_of(cell.moments.mean, dimension, exponent), exponent);
+            cell.box = on_mesh ? cell_box(mesh, cell.cell)
+                               : box_of_merged(cell.moments, dimension, exponent);
             all.cells.push_back(cell);
         }
     }

@@ -1,24 +1,13 @@
 #pragma once
 
-#include <rrcb/moments.hpp>
+#include "cells/cell_set.hpp"
+
 #include <rrcb/statistical_domain.hpp>
 
-#include <limits>
 #include <span>
 #include <vector>
 
 namespace rrcb {
-
-/// Cells of several ranks, of their support meshes or of a lattice.
-///
-/// The lattice of an exponent e divides all of space into cubes with edges of 2^e and corners at
-/// multiples of 2^e, so that the cubes of a greater exponent are unions of those of a smaller one.
-struct CellSet {
-    std::vector<CellMoments> cells;
-    int exponent = no_lattice;  ///< the greatest of those that cells were merged on
-
-    static constexpr int no_lattice = std::numeric_limits<int>::min();
-};
 
 /// Appends the cells of a support mesh to what travels to the root, as plain doubles.
 void append_cells(std::span<const CellMoments> cells, const SupportMesh& mesh,
@@ -27,7 +16,8 @@ void append_cells(std::span<const CellMoments> cells, const SupportMesh& mesh,
 /// Appends cells that were merged on the lattice of their exponent.
 void append_cells(const CellSet& merged, int dimension, std::vector<double>& records);
 
-/// Cells in the order appended. A cell of a lattice gets the cube of its mean as its box.
+/// Cells in the order appended. A cell of a lattice gets the cube of its mean as its box, or along
+/// an axis mean +- sqrt(3) sigma where that reaches farther.
 CellSet read_cells(std::span<const double> records, int dimension);
 
 /// Appends the points themselves.

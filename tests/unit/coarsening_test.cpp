@@ -147,6 +147,10 @@ TEST(CellRecords, come_back_with_their_boxes) {
     const CellSet read = read_cells(records, 2);
     ASSERT_EQ(read.cells.size(), cells.size() + merged.cells.size());
     EXPECT_EQ(read.exponent, merged.exponent);
+    ASSERT_EQ(read.blocks.size(), 1u);
+    EXPECT_EQ(read.blocks[0].begin, 0u);
+    EXPECT_EQ(read.blocks[0].end, cells.size());
+    EXPECT_EQ(read.blocks[0].mesh.cells, mesh.cells);
     for (std::size_t i = 0; i < cells.size(); ++i) {
         EXPECT_EQ(read.cells[i].moments.mean, cells[i].moments.mean);
         EXPECT_EQ(read.cells[i].box.lower, cells[i].box.lower);
@@ -157,7 +161,11 @@ TEST(CellRecords, come_back_with_their_boxes) {
         for (std::size_t a = 0; a < 2; ++a) {
             EXPECT_LE(cell.box.lower[a], cell.moments.mean[a]);
             EXPECT_GT(cell.box.upper[a], cell.moments.mean[a]);
-            EXPECT_EQ(cell.box.upper[a] - cell.box.lower[a], std::ldexp(1.0, merged.exponent));
+            const double edge = std::ldexp(1.0, merged.exponent);
+            const double cube = std::floor(cell.moments.mean[a] / edge) * edge;
+            const double reach = std::sqrt(3.0) * cell.moments.deviation[a];
+            EXPECT_EQ(cell.box.lower[a], std::min(cube, cell.moments.mean[a] - reach));
+            EXPECT_EQ(cell.box.upper[a], std::max(cube + edge, cell.moments.mean[a] + reach));
         }
     }
 }

@@ -1,6 +1,7 @@
 #include "bisection/weighted_quantile.hpp"
 
 #include "../support/clouds.hpp"
+#include "bisection/slice.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,138 @@
+#include "bisection/cell_density.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rrcb {
+
+namespace {
+
+// Within this file u runs from -1 to 1 across a cell.
+
+/// Mean and variance of u.
+struct Spread {
+    double mean;
+    double variance;
+};
+
+/// Part of the interval in u, and the density there, see Patch.
+struct Piece {
+    double lower;
+    double upper;
+    double share;
+    double slope = 0;
+    double bow = 0;
+};
+
+/// The quadratic density on all of an interval, in units of half its length, that has a spread: the
+/// Legendre polynomials P1 and P2 have the squared norms 2/3 and 2/5.
+Piece quadratic(const Spread& spread) {
+    const double square = spread.variance + spread.mean * spread.mean;
+    return {-1, 1, 1, 3 * spread.mean, 2.5 * (3 * square - 1)};
+}
+
+bool is_nowhere_negative(const Piece& density) {
+    const double slope = std::abs(density.slope);
+    if (1 - slope + density.bow < 0) return false;
+    const bool has_inner_minimum = slope < 3 * density.bow;
+    return !has_inner_minimum || 1 - density.bow / 2 - slope * slope / (6 * density.bow) >= 0;
+}
+
+Piece quadratic_on(double lower, double upper, const Spread& spread) {
+    const double middle = lower / 2 + upper / 2;
+    const double half = upper / 2 - lower / 2;
+    Piece piece = quadratic({(spread.mean - middle) / half, spread.variance / (half * half)});
+    piece.lower = lower;
+    piece.upper = upper;
+    return piece;
+}
+
+/// The density of a spread with mean <= 0, as one or two pieces.
+std::array<Piece, 2> pieces_of(const Spread& spread) {
+    const auto [mean, variance] = spread;
+    const Piece whole = quadratic(spread);
+    if (is_nowhere_negative(whole)) return {whole, Piece{0, 0, 0}};
+    // A parabola that is 0 at both ends has the variance half^2 / 5.
+    const double half = std::sqrt(5 * variance);
+    if (mean - half >= -1) return {quadratic_on(mean - half, mean + half, spread), Piece{0, 0, 0}};
+    // On [-1, -1 + 2 w] it is 0 at the upper end for w^2 - 4 r w + 5/2 (r^2 + variance) = 0.
+    const double reach = 1 + mean;
+    const double root = 1.5 * reach * reach - 2.5 * variance;
+    if (root >= 0) {
+        const double upper = std::min(1.0, -1 + 2 * (2 * reach - std::sqrt(root)));
+        return {quadratic_on(-1, upper, spread), Piece{0, 0, 0}};
+    }
+    // Two uniform densities that meet at the mean, one reaching b below it with the share
+    // a / (a + b), one a above it with the rest, have the variance a b / 3.
+    const double above = 3 * variance / reach;
+    if (above <= 1 - mean)
+        return {Piece{-1, mean, above / (reach + above)},
+                Piece{mean, mean + above, reach / (reach + above)}};
+    // Two of the length 2 (1 - c) at the ends, about -c and c, have the mean square
+    // c^2 + (1 - c)^2 / 3.
+    const double square = std::min(1.0, mean * mean + variance);
+    const double c = std::max(-mean, (1 + std::sqrt(std::max(0.0, 12 * square - 3))) / 4);
+    const double upper_share = (1 + mean / c) / 2;
+    return {Piece{-1, 1 - 2 * c, 1 - upper_share}, Piece{2 * c - 1, 1, upper_share}};
+}
+
+DensityPiece mirrored(const DensityPiece& piece) {
+    return {-piece.upper, -piece.lower, piece.share, -piece.slope, piece.bow};
+}
+
+}  // namespace
+
+AxisDensity density_of(double mean, double deviation, double lower, double upper) {
+    mean = std::clamp(mean, lower, upper);
+    const double below = mean / 2 - lower / 2;
+    const double above = upper / 2 - mean / 2;
+    const double half = below + above;
+    if (!(half > 0 && deviation > 0)) return {DensityPiece{mean, mean, 1}, DensityPiece{}};
+    if (above < below) {
+        const AxisDensity density = density_of(-mean, deviation, -upper, -lower);
+        return {mirrored(density[0]), mirrored(density[1])};
+    }
+    const double u = (below - above) / half;
+    const double most = std::sqrt((1 - u) * (1 + u));
+    const double sigma = std::min(deviation / half, most);
+    AxisDensity density;
+    const auto pieces = pieces_of({u, sigma * sigma});
+    for (std::size_t k = 0; k < 2; ++k) {
+        const Piece& piece = pieces[k];
+        const double from = std::lerp(lower, upper, piece.lower / 2 + 0.5);
+        const double to = std::lerp(lower, upper, piece.upper / 2 + 0.5);
+        density[k] = {from, std::max(from, to), piece.share, piece.slope, piece.bow};
+    }
+    return density;
+}
+
+void append_patches(const CellMoments& cell, double weight, const Box& box,
+                    StatisticalDomain& domain) {
+    std::vector<Patch>& patches = domain.patches;
+    const std::size_t first = patches.size();
+    patches.push_back({{}, {}, weight, {}, {}});
+    for (std::size_t a = 0; a < static_cast<std::size_t>(domain.dimension); ++a) {
+        const double lower = std::clamp(cell.box.lower[a], box.lower[a], box.upper[a]);
+        const double upper = std::clamp(cell.box.upper[a], box.lower[a], box.upper[a]);
+        const AxisDensity density =
+            density_of(cell.moments.mean[a], cell.moments.deviation[a], lower, upper);
+        const std::size_t last = patches.size();
+        for (std::size_t i = first; i < last; ++i) {
+            const double all = patches[i].weight;
+            double left = all;
+            for (std::size_t k = 0; k < 2 && (k == 0 || density[k].share > 0); ++k) {
+                const DensityPiece& piece = density[k];
+                if (k > 0) patches.push_back(patches[i]);
+                Patch& patch = k > 0 ? patches.back() : patches[i];
+                patch.lower[a] = piece.lower;
+                patch.upper[a] = piece.upper;
+                patch.slope[a] = piece.slope;
+                patch.bow[a] = piece.bow;
+                patch.weight = k > 0 ? left : all * piece.share;
+                left -= patch.weight;
+            }
+        }
+    }
+}
+
+}  // namespace rrcb

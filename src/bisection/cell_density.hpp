@@ -1,0 +1,29 @@
+#pragma once
+
+#include <rrcb/statistical_domain.hpp>
+
+#include <array>
+
+namespace rrcb {
+
+/// Part of a density along one axis, see Patch.
+struct DensityPiece {
+    double lower = 0;
+    double upper = 0;
+    double share = 0;  ///< of the weight
+    double slope = 0;
+    double bow = 0;
+};
+
+/// A density along one axis: one piece, or two, the second then has a share above 0.
+using AxisDensity = std::array<DensityPiece, 2>;
+
+/// Density on [lower, upper] that has this mean and this deviation; of what moments it has where
+/// no points in there have these, see analytic_domain().
+AxisDensity density_of(double mean, double deviation, double lower, double upper);
+
+/// Appends the patches of a cell, of this weight, as analytic_domain() makes them.
+void append_patches(const CellMoments& cell, double weight, const Box& box,
+                    StatisticalDomain& domain);
+
+}  // namespace rrcb

@@ -1,0 +1,54 @@
+#include "bisection/slice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rrcb {
+
+namespace {
+
+/// Restricts a density to its first share `t` of the interval. The mean of the rest of it, which
+/// may vanish where there is no weight, is the unit of the new one.
+void restrict_to_first(double t, double& slope, double& bow) {
+    const double mean = 1 - (1 - t) * (slope + bow * (2 * t - 1));
+    const double least = 1e-12 * (1 + std::abs(slope) + std::abs(bow));
+    if (!(mean > least)) {
+        slope = bow = 0;
+        return;
+    }
+    slope = t * (slope - 3 * bow * (1 - t)) / mean;
+    bow = t * t * bow / mean;
+}
+
+}  // namespace
+
+double fraction_below(double lower, double value, double upper) {
+    const double extent = upper - lower;
+    if (std::isinf(extent)) return (value / 2 - lower / 2) / (upper / 2 - lower / 2);
+    return (value - lower) / extent;
+}
+
+double weight_below(const Slice& slice, double value) {
+    if (slice.upper < value || (slice.upper == value && !slice.is_jump())) return slice.weight;
+    if (slice.lower >= value) return 0;
+    const double t = fraction_below(slice.lower, value, slice.upper);
+    const double mean = 1 - (1 - t) * (slice.slope + slice.bow * (2 * t - 1));
+    return slice.weight * std::clamp(t * mean, 0.0, 1.0);
+}
+
+std::pair<Patch, Patch> divide(const Patch& patch, std::size_t axis, double value) {
+    Patch below = patch;
+    Patch above = patch;
+    below.upper[axis] = above.lower[axis] = value;
+    below.weight = weight_below(slice_of(patch, axis), value);
+    above.weight -= below.weight;
+    const double t = fraction_below(patch.lower[axis], value, patch.upper[axis]);
+    restrict_to_first(t, below.slope[axis], below.bow[axis]);
+    // The upper part is the first of the mirror image.
+    above.slope[axis] = -above.slope[axis];
+    restrict_to_first(1 - t, above.slope[axis], above.bow[axis]);
+    above.slope[axis] = -above.slope[axis];
+    return {below, above};
+}
+
+}  // namespace rrcb

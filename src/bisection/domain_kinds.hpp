@@ -12,6 +12,7 @@ struct DomainTraits {
     DomainKind kind;
     bool sends_points;        ///< the root gets the points themselves, not moments of cells;
                               ///< then there is nothing left to refine
+    bool has_lean_cells;      ///< the root gets the moments of cells rounded, see LeanCells
     bool builds_on_last;      ///< a call may keep the parts points lie in, or refine the cuts
                               ///< before; others begin anew
     bool is_random;           ///< the seed decides, too

@@ -1,19 +1,27 @@
 #include "gather/cell_records.hpp"
 
+#include "gather/lean_cells.hpp"
+
 #include <rrcb/support_mesh.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rrcb {
 
 namespace {
 
+/// What a block of records is made of: cells of a mesh, with a head of its own, or of a lattice.
+enum class Form { lattice, mesh, lean };
+
 /// Head of a block of records.
 struct BlockOfCells {
     double num_cells = 0;
-    double cells_per_axis = 0;  ///< of the mesh; 0 for a lattice
-    double exponent = 0;        ///< of the lattice
+    double form = 0;
+    double exponent = 0;    ///< of the lattice, or of lean weights
+    double are_counts = 0;  ///< in place of lean weights
+    double num_packed = 0;  ///< doubles of lean cells
 };
 
 struct BlockOfPoints {
@@ -88,6 +96,34 @@ Box box_of_merged(const Moments& moments, int dimension, int exponent) {
     return box;
 }
 
+void append_mesh(const SupportMesh& mesh, std::vector<double>& records) {
+    append(mesh.box.lower, mesh.dimension, records);
+    append(mesh.box.upper, mesh.dimension, records);
+    records.insert(records.end(), mesh.cells.begin(), mesh.cells.begin() + mesh.dimension);
+}
+
+/// The mesh, as far as the boxes of its cells tell of it.
+SupportMesh take_mesh(std::span<const double>& records, int dimension) {
+    Box box;
+    box.lower = take_vector(records, dimension);
+    box.upper = take_vector(records, dimension);
+    SupportMesh mesh = make_support_mesh(box, dimension, 1);
+    const auto cells = take(records, static_cast<std::size_t>(dimension));
+    std::ranges::transform(cells, mesh.cells.begin(),
+                           [](double number) { return static_cast<int>(number); });
+    return mesh;
+}
+
+void take_lattice(std::span<const double>& records, std::size_t count, int dimension, int exponent,
+                  CellSet& all) {
+    all.exponent = std::max(all.exponent, exponent);
+    for (std::size_t k = 0; k < count; ++k) {
+        CellMoments cell = take_cell(records, dimension);
+        cell.box = box_of_merged(cell.moments, dimension, exponent);
+        all.cells.push_back(cell);
+    }
+}
+
 }  // namespace
 
 Vector cube_of(const Vector& position, int dimension, int exponent) {
@@ -99,16 +135,27 @@ Vector cube_of(const Vector& position, int dimension, int exponent) {
 
 void append_cells(std::span<const CellMoments> cells, const SupportMesh& mesh,
                   std::vector<double>& records) {
-    const int cells_per_axis = *std::max_element(mesh.cells.begin(), mesh.cells.end());
-    append(BlockOfCells{static_cast<double>(cells.size()), static_cast<double>(cells_per_axis), 0},
-           records);
-    append(mesh.box.lower, mesh.dimension, records);
-    append(mesh.box.upper, mesh.dimension, records);
+    append(BlockOfCells{static_cast<double>(cells.size()), double(Form::mesh)}, records);
+    append_mesh(mesh, records);
     for (const CellMoments& cell : cells) append_cell(cell, mesh.dimension, records);
 }
 
+void append_lean_cells(std::span<const CellMoments> cells, const SupportMesh& mesh,
+                       std::vector<double>& records) {
+    const LeanCells lean = pack_cells(cells, mesh);
+    const std::size_t num_packed = (lean.bytes.size() + sizeof(double) - 1) / sizeof(double);
+    append(BlockOfCells{static_cast<double>(cells.size()), double(Form::lean),
+                        static_cast<double>(lean.exponent), lean.are_counts ? 1.0 : 0.0,
+                        static_cast<double>(num_packed)},
+           records);
+    append_mesh(mesh, records);
+    records.resize(records.size() + num_packed);
+    std::ranges::copy(lean.bytes,
+                      std::as_writable_bytes(std::span(records).last(num_packed)).begin());
+}
+
 void append_cells(const CellSet& merged, int dimension, std::vector<double>& records) {
-    append(BlockOfCells{static_cast<double>(merged.cells.size()), 0,
+    append(BlockOfCells{static_cast<double>(merged.cells.size()), double(Form::lattice),
                         static_cast<double>(merged.exponent)},
            records);
     for (const CellMoments& cell : merged.cells) append_cell(cell, dimension, records);
@@ -118,24 +165,24 @@ CellSet read_cells(std::span<const double> records, int dimension) {
     CellSet all;
     while (!records.empty()) {
         const auto block = take_block<BlockOfCells>(records);
-        const bool on_mesh = block.cells_per_axis > 0;
-        const int exponent = static_cast<int>(block.exponent);
-        SupportMesh mesh;
-        if (on_mesh) {
-            Box box;
-            box.lower = take_vector(records, dimension);
-            box.upper = take_vector(records, dimension);
-            mesh = make_support_mesh(box, dimension, static_cast<int>(block.cells_per_axis));
-            const std::size_t begin = all.cells.size();
-            all.blocks.push_back({begin, begin + static_cast<std::size_t>(block.num_cells), mesh});
-        } else {
-            all.exponent = std::max(all.exponent, exponent);
+        const auto form = static_cast<Form>(block.form);
+        const auto count = static_cast<std::size_t>(block.num_cells);
+        if (form == Form::lattice) {
+            take_lattice(records, count, dimension, static_cast<int>(block.exponent), all);
+            continue;
         }
-        for (double k = 0; k < block.num_cells; ++k) {
-            CellMoments cell = take_cell(records, dimension);
-            cell.box = on_mesh ? cell_box(mesh, cell.cell)
-                               : box_of_merged(cell.moments, dimension, exponent);
-            all.cells.push_back(cell);
+        const std::size_t begin = all.cells.size();
+        const SupportMesh mesh = take_mesh(records, dimension);
+        all.blocks.push_back({begin, begin + count, mesh});
+        if (form == Form::lean) {
+            const auto packed = take(records, static_cast<std::size_t>(block.num_packed));
+            unpack_cells({block.are_counts != 0, static_cast<int>(block.exponent)},
+                         std::as_bytes(packed), count, mesh, all.cells);
+        } else {
+            for (std::size_t k = 0; k < count; ++k) {
+                all.cells.push_back(take_cell(records, dimension));
+                all.cells.back().box = cell_box(mesh, all.cells.back().cell);
+            }
         }
     }
     return all;

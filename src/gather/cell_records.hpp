@@ -13,6 +13,10 @@ namespace rrcb {
 void append_cells(std::span<const CellMoments> cells, const SupportMesh& mesh,
                   std::vector<double>& records);
 
+/// The same as LeanCells: a guess of the moments in an eighth of the doubles.
+void append_lean_cells(std::span<const CellMoments> cells, const SupportMesh& mesh,
+                       std::vector<double>& records);
+
 /// Appends cells that were merged on the lattice of their exponent.
 void append_cells(const CellSet& merged, int dimension, std::vector<double>& records);
 

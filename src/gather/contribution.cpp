@@ -117,7 +117,11 @@ void add_records(const Points& points, const BinnedPoints& binned, const Options
         mine.summary.num_cells = mine.summary.num_points;
     } else {
         const std::vector<CellMoments> cells = cell_moments(binned);
-        append_cells(cells, binned.mesh, mine.records);
+        if (traits_of(options.domain).has_lean_cells) {
+            append_lean_cells(cells, binned.mesh, mine.records);
+        } else {
+            append_cells(cells, binned.mesh, mine.records);
+        }
         mine.summary.num_cells = static_cast<std::int64_t>(cells.size());
     }
 }

@@ -1,0 +1,144 @@
+#include "gather/lean_cells.hpp"
+
+#include <rrcb/support_mesh.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+namespace rrcb {
+
+namespace {
+
+constexpr double steps = 255;
+
+std::byte code_of(double share) {
+    return static_cast<std::byte>(std::lround(std::clamp(share, 0.0, 1.0) * steps));
+}
+
+double share_of(std::byte code) {
+    return std::to_integer<int>(code) / steps;
+}
+
+/// Both in half extents, which no coordinates let overflow.
+std::byte code_of_mean(double mean, double lower, double upper) {
+    const double half = upper / 2 - lower / 2;
+    return half > 0 ? code_of((mean / 2 - lower / 2) / half) : std::byte{0};
+}
+
+std::byte code_of_deviation(double deviation, double lower, double upper) {
+    const double half = upper / 2 - lower / 2;
+    if (!(half > 0 && deviation > 0)) return std::byte{0};
+    return std::max(std::byte{1}, code_of(std::sqrt(std::min(1.0, deviation / half))));
+}
+
+double deviation_of(std::byte code, double lower, double upper) {
+    const double root = share_of(code);
+    return root * root * (upper / 2 - lower / 2);
+}
+
+/// Seven digits of the base 128 in each byte, the last without the upper bit.
+void append_number(std::size_t number, std::vector<std::byte>& bytes) {
+    for (; number >= 128; number /= 128) bytes.push_back(std::byte(number % 128 + 128));
+    bytes.push_back(std::byte(number));
+}
+
+std::size_t take_number(std::span<const std::byte>& bytes) {
+    std::size_t number = 0;
+    int shift = 0;
+    bool has_more = true;
+    while (has_more) {
+        const auto digit = std::to_integer<std::size_t>(bytes.front());
+        bytes = bytes.subspan(1);
+        number += digit % 128 << shift;
+        shift += 7;
+        has_more = digit >= 128;
+    }
+    return number;
+}
+
+/// The numbers as runs: cells left out, cells in the run, and so on.
+void append_numbers(std::span<const CellMoments> cells, std::vector<std::byte>& bytes) {
+    LocalIndex next = 0;
+    for (std::size_t first = 0; first < cells.size();) {
+        std::size_t last = first + 1;
+        while (last < cells.size() && cells[last].cell == cells[last - 1].cell + 1) ++last;
+        append_number(cells[first].cell - next, bytes);
+        append_number(last - first, bytes);
+        next = cells[last - 1].cell + 1;
+        first = last;
+    }
+}
+
+/// A weight in units of 2^exponent.
+float lean_weight(double weight, int exponent) {
+    const auto lean = static_cast<float>(std::ldexp(weight, -exponent));
+    return weight > 0 ? std::max(lean, std::numeric_limits<float>::denorm_min()) : 0.0F;
+}
+
+double number_in(const CellMoments& cell, bool are_counts) {
+    return are_counts ? static_cast<double>(cell.moments.count) : cell.moments.weight;
+}
+
+int exponent_of(std::span<const CellMoments> cells, bool are_counts) {
+    double greatest = 0;
+    for (const CellMoments& cell : cells)
+        greatest = std::max(greatest, number_in(cell, are_counts));
+    return greatest > 0 ? std::ilogb(greatest) : 0;
+}
+
+}  // namespace
+
+LeanCells pack_cells(std::span<const CellMoments> cells, const SupportMesh& mesh) {
+    LeanCells lean;
+    lean.are_counts = std::ranges::none_of(
+        cells, [](const CellMoments& cell) { return cell.moments.weight > 0; });
+    lean.exponent = exponent_of(cells, lean.are_counts);
+    const auto dimension = static_cast<std::size_t>(mesh.dimension);
+    lean.bytes.reserve(cells.size() * (sizeof(float) + 2 * dimension + 2));
+    append_numbers(cells, lean.bytes);
+    for (const CellMoments& cell : cells) {
+        std::array<std::byte, sizeof(float)> weight;
+        const float number = lean_weight(number_in(cell, lean.are_counts), lean.exponent);
+        std::memcpy(weight.data(), &number, sizeof number);
+        lean.bytes.insert(lean.bytes.end(), weight.begin(), weight.end());
+        for (std::size_t a = 0; a < dimension; ++a) {
+            const auto [lower, upper] = std::pair(cell.box.lower[a], cell.box.upper[a]);
+            lean.bytes.push_back(code_of_mean(cell.moments.mean[a], lower, upper));
+            lean.bytes.push_back(code_of_deviation(cell.moments.deviation[a], lower, upper));
+        }
+    }
+    return lean;
+}
+
+void unpack_cells(const LeanCells& head, std::span<const std::byte> packed, std::size_t count,
+                  const SupportMesh& mesh, std::vector<CellMoments>& cells) {
+    const std::size_t first = cells.size();
+    cells.resize(first + count);
+    LocalIndex number = 0;
+    for (std::size_t i = first; i < first + count;) {
+        number += take_number(packed);
+        for (std::size_t left = take_number(packed); left > 0; --left) cells[i++].cell = number++;
+    }
+    const auto dimension = static_cast<std::size_t>(mesh.dimension);
+    for (CellMoments& cell : std::span(cells).subspan(first)) {
+        float lean;
+        std::memcpy(&lean, packed.data(), sizeof lean);
+        const double full = std::ldexp(static_cast<double>(lean), head.exponent);
+        if (head.are_counts) cell.moments.count = std::llround(full);
+        if (!head.are_counts) cell.moments.weight = full;
+        packed = packed.subspan(sizeof lean);
+        cell.box = cell_box(mesh, cell.cell);
+        for (std::size_t a = 0; a < dimension; ++a) {
+            const auto [lower, upper] = std::pair(cell.box.lower[a], cell.box.upper[a]);
+            cell.moments.mean[a] = std::lerp(lower, upper, share_of(packed[2 * a]));
+            cell.moments.deviation[a] = deviation_of(packed[2 * a + 1], lower, upper);
+        }
+        packed = packed.subspan(2 * dimension);
+    }
+}
+
+}  // namespace rrcb

@@ -106,33 +106,4 @@ AxisDensity density_of(double mean, double deviation, double lower, double upper
     return density;
 }
 
-void append_patches(const CellMoments& cell, double weight, const Box& box,
-                    StatisticalDomain& domain) {
-    std::vector<Patch>& patches = domain.patches;
-    const std::size_t first = patches.size();
-    patches.push_back({{}, {}, weight, {}, {}});
-    for (std::size_t a = 0; a < static_cast<std::size_t>(domain.dimension); ++a) {
-        const double lower = std::clamp(cell.box.lower[a], box.lower[a], box.upper[a]);
-        const double upper = std::clamp(cell.box.upper[a], box.lower[a], box.upper[a]);
-        const AxisDensity density =
-            density_of(cell.moments.mean[a], cell.moments.deviation[a], lower, upper);
-        const std::size_t last = patches.size();
-        for (std::size_t i = first; i < last; ++i) {
-            const double all = patches[i].weight;
-            double left = all;
-            for (std::size_t k = 0; k < 2 && (k == 0 || density[k].share > 0); ++k) {
-                const DensityPiece& piece = density[k];
-                if (k > 0) patches.push_back(patches[i]);
-                Patch& patch = k > 0 ? patches.back() : patches[i];
-                patch.lower[a] = piece.lower;
-                patch.upper[a] = piece.upper;
-                patch.slope[a] = piece.slope;
-                patch.bow[a] = piece.bow;
-                patch.weight = k > 0 ? left : all * piece.share;
-                left -= patch.weight;
-            }
-        }
-    }
-}
-
 }  // namespace rrcb

@@ -22,8 +22,4 @@ using AxisDensity = std::array<DensityPiece, 2>;
 /// no points in there have these, see analytic_domain().
 AxisDensity density_of(double mean, double deviation, double lower, double upper);
 
-/// Appends the patches of a cell, of this weight, as analytic_domain() makes them.
-void append_patches(const CellMoments& cell, double weight, const Box& box,
-                    StatisticalDomain& domain);
-
 }  // namespace rrcb

@@ -1,4 +1,4 @@
-#include "bisection/cell_density.hpp"
+#include "bisection/cell_patches.hpp"
 
 #include <rrcb/statistical_domain.hpp>
 
@@ -64,10 +64,11 @@ Box around(const Moments& moments, double multiplier) {
 StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension,
                                   const Box& box) {
     const std::vector<double> weights = weights_of(cells);
+    const double heavy = least_heavy_weight(weights);
     StatisticalDomain domain{dimension};
     domain.patches.reserve(cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i)
-        append_patches(cells[i], weights[i], box, domain);
+        append_patches(cells[i], weights[i], weights[i] >= heavy, box, domain);
     return domain;
 }
 

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <rrcb/statistical_domain.hpp>
+
+#include <span>
+
+namespace rrcb {
+
+/// Weight from which a cell counts as heavy among cells of these weights: few do, and cuts may
+/// divide one more than once.
+double least_heavy_weight(std::span<const double> weights);
+
+/// Appends the patches of a cell, of this weight, as analytic_domain() makes them; `box` holds all
+/// points.
+void append_patches(const CellMoments& cell, double weight, bool is_heavy, const Box& box,
+                    StatisticalDomain& domain);
+
+}  // namespace rrcb

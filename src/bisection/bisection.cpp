@@ -46,7 +46,7 @@ Cut choose_cut(const StatisticalDomain& domain, double below, int depth, const T
     if (below <= 0 || !(weight > 0)) return plane(axis, -infinity);
     if (task.options.cut_rule == CutRule::midpoint)
         return plane(axis, std::lerp(box.lower[a], box.upper[a], below));
-    return weighted_quantile(domain, axis, below * weight, task.options.plain_cuts);
+    return weighted_quantile(Profile(domain, axis), below * weight, task.options.plain_cuts);
 }
 
 void bisect_node(StatisticalDomain domain, std::span<const double> sizes, int depth, Task& task) {

@@ -47,11 +47,10 @@ Piece quadratic_on(double lower, double upper, const Spread& spread) {
     return piece;
 }
 
-/// The density of a spread with mean <= 0, as one or two pieces.
+/// The density of a spread with mean <= 0 that is not quadratic on all of the cell, as one or two
+/// pieces.
 std::array<Piece, 2> pieces_of(const Spread& spread) {
     const auto [mean, variance] = spread;
-    const Piece whole = quadratic(spread);
-    if (is_nowhere_negative(whole)) return {whole, Piece{0, 0, 0}};
     // A parabola that is 0 at both ends has the variance half^2 / 5.
     const double half = std::sqrt(5 * variance);
     if (mean - half >= -1) return {quadratic_on(mean - half, mean + half, spread), Piece{0, 0, 0}};
@@ -76,8 +75,14 @@ std::array<Piece, 2> pieces_of(const Spread& spread) {
     return {Piece{-1, 1 - 2 * c, 1 - upper_share}, Piece{2 * c - 1, 1, upper_share}};
 }
 
-DensityPiece mirrored(const DensityPiece& piece) {
+Piece mirrored(const Piece& piece) {
     return {-piece.upper, -piece.lower, piece.share, -piece.slope, piece.bow};
+}
+
+DensityPiece in_cell(const Piece& piece, double lower, double upper) {
+    const double from = std::lerp(lower, upper, piece.lower / 2 + 0.5);
+    const double to = std::lerp(lower, upper, piece.upper / 2 + 0.5);
+    return {from, std::max(from, to), piece.share, piece.slope, piece.bow};
 }
 
 }  // namespace
@@ -88,21 +93,17 @@ AxisDensity density_of(double mean, double deviation, double lower, double upper
     const double above = upper / 2 - mean / 2;
     const double half = below + above;
     if (!(half > 0 && deviation > 0)) return {DensityPiece{mean, mean, 1}, DensityPiece{}};
-    if (above < below) {
-        const AxisDensity density = density_of(-mean, deviation, -upper, -lower);
-        return {mirrored(density[0]), mirrored(density[1])};
-    }
     const double u = (below - above) / half;
-    const double most = std::sqrt((1 - u) * (1 + u));
-    const double sigma = std::min(deviation / half, most);
+    const double sigma = deviation / half;
+    const double variance = std::min(sigma * sigma, (1 - u) * (1 + u));
+    const Piece whole = quadratic({u, variance});
+    if (is_nowhere_negative(whole))
+        return {DensityPiece{lower, upper, 1, whole.slope, whole.bow}, DensityPiece{}};
+    const bool is_mirrored = u > 0;
+    const auto pieces = pieces_of({-std::abs(u), variance});
     AxisDensity density;
-    const auto pieces = pieces_of({u, sigma * sigma});
-    for (std::size_t k = 0; k < 2; ++k) {
-        const Piece& piece = pieces[k];
-        const double from = std::lerp(lower, upper, piece.lower / 2 + 0.5);
-        const double to = std::lerp(lower, upper, piece.upper / 2 + 0.5);
-        density[k] = {from, std::max(from, to), piece.share, piece.slope, piece.bow};
-    }
+    for (std::size_t k = 0; k < 2; ++k)
+        density[k] = in_cell(is_mirrored ? mirrored(pieces[k]) : pieces[k], lower, upper);
     return density;
 }
 

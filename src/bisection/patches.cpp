@@ -49,9 +49,10 @@ Bracket bracket_of(const StatisticalDomain& domain, const Cut& cut, double below
     const double weight = weight_of(domain);
     const auto axis = static_cast<std::size_t>(cut.axis);
     const Box box = extent_of(domain);
+    const Profile profile(domain, cut.axis);
     const auto quantile = [&](double share, double end) {
         if (!(share > 0 && share < 1 && weight > 0)) return end;
-        return weighted_quantile(domain, cut.axis, share * weight, true).at[axis];
+        return weighted_quantile(profile, share * weight, true).at[axis];
     };
     if (domain.patches.empty()) return {};
     const double margin = expected_error(depth);

@@ -151,7 +151,7 @@ PlaceSearch::Trial PlaceSearch::trial_in(const Piece& piece, int axis, double pl
 /// The cut in the places of `way` with about the weight `target` below it.
 PlaceSearch::Trial PlaceSearch::trial_at(const Piece& piece, const Way& way, double target) const {
     const AxisLimits& limits = limits_.across(way.axis);
-    const Cut cut = weighted_quantile(piece.domain, way.axis, target, options_.plain_cuts);
+    const Cut cut = weighted_quantile({piece.domain, way.axis}, target, options_.plain_cuts);
     const double value = cut.at[static_cast<std::size_t>(way.axis)];
     const double place = limits.nearest(value, way.places.first, way.places.last);
     if (place == value && !options_.plain_cuts) return {cut, target};

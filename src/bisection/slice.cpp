@@ -22,20 +22,6 @@ void restrict_to_first(double t, double& slope, double& bow) {
 
 }  // namespace
 
-double fraction_below(double lower, double value, double upper) {
-    const double extent = upper - lower;
-    if (std::isinf(extent)) return (value / 2 - lower / 2) / (upper / 2 - lower / 2);
-    return (value - lower) / extent;
-}
-
-double weight_below(const Slice& slice, double value) {
-    if (slice.upper < value || (slice.upper == value && !slice.is_jump())) return slice.weight;
-    if (slice.lower >= value) return 0;
-    const double t = fraction_below(slice.lower, value, slice.upper);
-    const double mean = 1 - (1 - t) * (slice.slope + slice.bow * (2 * t - 1));
-    return slice.weight * std::clamp(t * mean, 0.0, 1.0);
-}
-
 std::pair<Patch, Patch> divide(const Patch& patch, std::size_t axis, double value) {
     Patch below = patch;
     Patch above = patch;

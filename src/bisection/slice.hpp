@@ -2,6 +2,8 @@
 
 #include <rrcb/statistical_domain.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace rrcb {
@@ -22,10 +24,20 @@ inline Slice slice_of(const Patch& patch, std::size_t axis) {
 }
 
 /// Share of [lower, upper] that lies below `value`, which must be inside; lower < upper.
-double fraction_below(double lower, double value, double upper);
+inline double fraction_below(double lower, double value, double upper) {
+    const double extent = upper - lower;
+    if (std::isinf(extent)) return (value / 2 - lower / 2) / (upper / 2 - lower / 2);
+    return (value - lower) / extent;
+}
 
 /// Weight below `value`, which may lie outside: none to all of it.
-double weight_below(const Slice& slice, double value);
+inline double weight_below(const Slice& slice, double value) {
+    if (slice.upper < value || (slice.upper == value && !slice.is_jump())) return slice.weight;
+    if (slice.lower >= value) return 0;
+    const double t = fraction_below(slice.lower, value, slice.upper);
+    const double mean = 1 - (1 - t) * (slice.slope + slice.bow * (2 * t - 1));
+    return slice.weight * std::clamp(t * mean, 0.0, 1.0);
+}
 
 /// Cuts a patch in two at a value between its ends along an axis; the weights add up.
 std::pair<Patch, Patch> divide(const Patch& patch, std::size_t axis, double value);

@@ -59,38 +59,56 @@ void narrow(Crossing& crossing, double pivot, double target) {
     });
 }
 
-/// Drops most of many intervals in a few passes: those away from where a histogram of their middles
-/// passes the target.
-void narrow_by_histogram(Crossing& crossing, double target) {
-    constexpr std::size_t num_bins = 128;
-    constexpr std::size_t few = 256;
-    if (crossing.active.size() < few) return;
-    double lower = infinity;
-    double upper = -infinity;
-    for (const Interval& interval : crossing.active) {
-        lower = std::min(lower, interval.lower);
-        upper = std::max(upper, interval.upper);
+/// Some patches of a domain along an axis, or all: those with weight.
+struct Subset {
+    const StatisticalDomain& domain;
+    std::size_t axis;
+    const std::vector<std::size_t>* patches = nullptr;  ///< null: all
+
+    template <class Visit>
+    void for_each(Visit&& visit) const {
+        const std::size_t count = patches ? patches->size() : domain.patches.size();
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t p = patches ? (*patches)[k] : k;
+            if (domain.patches[p].weight > 0) visit(Interval{slice_of(domain.patches[p], axis), p});
+        }
     }
-    const double bins_per_length = num_bins / (upper / 2 - lower / 2) / 2;
-    if (!(bins_per_length > 0 && std::isfinite(bins_per_length))) return;
-    std::array<double, num_bins> weights{};
-    for (const Interval& interval : crossing.active) {
-        const double middle = interval.lower / 2 + interval.upper / 2;
-        const double bin = (middle / 2 - lower / 2) * bins_per_length * 2;
-        weights[std::min(num_bins - 1, static_cast<std::size_t>(bin))] += interval.weight;
-    }
-    double below = 0;
-    std::size_t bin = 0;
-    while (bin + 1 < num_bins && below + weights[bin] < target) below += weights[bin++];
-    for (const std::size_t edge : {std::max<std::size_t>(bin, 1) - 1, bin + 2})
-        if (edge > 0 && edge < num_bins)
-            narrow(crossing, std::lerp(lower, upper, static_cast<double>(edge) / num_bins), target);
+};
+
+bool ends_before(const Slice& slice, double value) {
+    return slice.upper < value || (slice.upper == value && !slice.is_jump());
 }
 
-Crossing find_crossing(std::vector<Interval> intervals, double target) {
-    Crossing crossing;
-    crossing.active = std::move(intervals);
-    narrow_by_histogram(crossing, target);
+/// Weight of the crossing below a value inside it.
+double weight_below(const Crossing& crossing, double value) {
+    double below = crossing.below;
+    for (const Interval& interval : crossing.active) below += weight_below(interval, value);
+    return below;
+}
+
+bool passes(double below, double target) {
+    return below > target - negligible(target);
+}
+
+/// The whole range of a crossing; nothing of one that does not hold it.
+Crossing crossing_in(const Subset& subset, const Profile::Range& range, double target) {
+    Crossing crossing{range.lower, range.upper, 0, {}};
+    subset.for_each([&](const Interval& interval) {
+        if (ends_before(interval, range.lower)) {
+            crossing.below += interval.weight;
+        } else if (interval.lower < range.upper) {
+            crossing.active.push_back(interval);
+        }
+    });
+    const bool is_held =
+        !range.is_limited() ||
+        (!passes(weight_below(crossing, range.lower), target) &&
+         (range.upper == infinity || passes(weight_below(crossing, range.upper), target)));
+    return is_held ? crossing : crossing_in(subset, {}, target);
+}
+
+Crossing find_crossing(const Subset& subset, const Profile::Range& range, double target) {
+    Crossing crossing = crossing_in(subset, range, target);
     std::vector<double> breakpoints;
     for (const Interval& interval : crossing.active) {
         breakpoints.push_back(interval.lower);
@@ -99,38 +117,31 @@ Crossing find_crossing(std::vector<Interval> intervals, double target) {
     // The weight below `left` is less than the target, that below `right` is not. `below` and the
     // active intervals tell the weight below any value between, where all breakpoints left lie.
     // Each round takes one of them at least, half of them as a rule.
-    while (!breakpoints.empty()) {
-        narrow(crossing, pivot_of(breakpoints), target);
+    const auto drop_outside = [&] {
         std::erase_if(breakpoints,
                       [&](double b) { return b <= crossing.left || b >= crossing.right; });
-    }
+    };
+    for (drop_outside(); !breakpoints.empty(); drop_outside())
+        narrow(crossing, pivot_of(breakpoints), target);
     return crossing;
 }
 
 /// Value with the jump at the left end of the crossing below it, and as little else as possible.
-double after_jump(const Crossing& crossing) {
-    const bool spanned = std::any_of(crossing.active.begin(), crossing.active.end(),
-                                     [](const Interval& interval) { return !interval.is_jump(); });
-    const double next = std::nextafter(crossing.left, infinity);
-    if (spanned || crossing.right == infinity) return spanned ? next : infinity;
-    return std::max(next, crossing.left / 2 + crossing.right / 2);
+double after_jump(const Subset& subset, double jump) {
+    double next = infinity;
+    subset.for_each([&](const Interval& interval) {
+        if (interval.upper > jump) next = std::min(next, std::max(interval.lower, jump));
+    });
+    return next == infinity ? next : std::max(std::nextafter(jump, infinity), jump / 2 + next / 2);
 }
 
 /// Middle of the gap that begins at `value`, or `value` where weight begins at once.
-double middle_of_gap(std::span<const Interval> intervals, double value) {
+double middle_of_gap(const Subset& subset, double value) {
     double next = infinity;
-    for (const Interval& interval : intervals) {
-        if (interval.upper < value || (interval.upper == value && !interval.is_jump())) continue;
-        next = std::min(next, std::max(interval.lower, value));
-    }
+    subset.for_each([&](const Interval& interval) {
+        if (!ends_before(interval, value)) next = std::min(next, std::max(interval.lower, value));
+    });
     return next == infinity ? value : value / 2 + next / 2;
-}
-
-/// Weight of the crossing below a value inside it.
-double weight_below(const Crossing& crossing, double value) {
-    double below = crossing.below;
-    for (const Interval& interval : crossing.active) below += weight_below(interval, value);
-    return below;
 }
 
 /// Value inside the crossing with the target below it, by the Illinois variant of false position
@@ -165,43 +176,34 @@ double pass(const Crossing& crossing, double target, double from, double to) {
 /// Share of the patches that lies below a cut.
 enum class Below { none, some, all };
 
-std::vector<Interval> intervals_of(const StatisticalDomain& domain,
-                                   std::span<const std::size_t> patches, std::size_t axis) {
-    std::vector<Interval> intervals;
-    intervals.reserve(patches.size());
-    for (const std::size_t p : patches) {
-        intervals.push_back({slice_of(domain.patches[p], axis), p});
-    }
-    return intervals;
-}
-
-Below divide(const StatisticalDomain& domain, std::span<const std::size_t> patches,
-             std::span<const int> axes, double target, Vector& at);
+Below divide(const Subset& subset, const Profile::Range& range, std::span<const int> axes,
+             double target, Vector& at);
 
 /// Divides the patches that have no extent and lie at the left end of the crossing.
-Below divide_jump(const StatisticalDomain& domain, const Crossing& crossing,
-                  std::span<const int> axes, double target, Vector& at) {
+Below divide_jump(const Subset& subset, const Crossing& crossing, std::span<const int> axes,
+                  double target, Vector& at) {
     std::vector<std::size_t> tied;
     for (const Interval& interval : crossing.active)
         if (interval.is_jump()) tied.push_back(interval.patch);
-    const Below below = divide(domain, tied, axes.subspan(1), target, at);
-    const auto axis = static_cast<std::size_t>(axes[0]);
+    Below below;
+    if (axes.empty()) {
+        double weight = 0;
+        for (const std::size_t p : tied) weight += subset.domain.patches[p].weight;
+        below = target < weight / 2 ? Below::none : Below::all;
+    } else {
+        const auto next = static_cast<std::size_t>(axes[0]);
+        below = divide({subset.domain, next, &tied}, {}, axes.subspan(1), target, at);
+    }
     if (below != Below::some) at.fill(-infinity);
-    at[axis] = below == Below::all ? after_jump(crossing) : crossing.left;
+    at[subset.axis] = below == Below::all ? after_jump(subset, crossing.left) : crossing.left;
     return below;
 }
 
-/// Cuts `patches` across axes[0], ties along the axes after it; `at` comes in at -infinity.
-Below divide(const StatisticalDomain& domain, std::span<const std::size_t> patches,
-             std::span<const int> axes, double target, Vector& at) {
-    if (axes.empty()) {
-        double weight = 0;
-        for (const std::size_t p : patches) weight += domain.patches[p].weight;
-        return target < weight / 2 ? Below::none : Below::all;
-    }
-    const auto axis = static_cast<std::size_t>(axes[0]);
-    const std::vector<Interval> intervals = intervals_of(domain, patches, axis);
-    const Crossing crossing = find_crossing(intervals, target);
+/// Cuts the patches across their axis, ties along `axes`; `at` comes in at -infinity.
+Below divide(const Subset& subset, const Profile::Range& range, std::span<const int> axes,
+             double target, Vector& at) {
+    const Crossing crossing = find_crossing(subset, range, target);
+    double& cut = at[subset.axis];
     // The target lies in the jump at `left`, on the slope from there to `right`, or, by round-off,
     // behind a jump with nothing on the slope.
     double below = crossing.below;
@@ -216,32 +218,30 @@ Below divide(const StatisticalDomain& domain, std::span<const std::size_t> patch
             slope += weight_below(interval, crossing.right) - start;
     }
     if (target - below < jump) {
-        const Below of_jump = divide_jump(domain, crossing, axes, target - below, at);
+        const Below of_jump = divide_jump(subset, crossing, axes, target - below, at);
         if (of_jump == Below::none && below == 0) return Below::none;
     } else if (slope > 0) {
         const double rest = target - below - jump;
         const double inside = pass(crossing, target, below + jump, below + jump + slope);
-        at[axis] =
-            slope - rest > negligible(target) ? inside : middle_of_gap(intervals, crossing.right);
-        if (jump > 0) at[axis] = std::max(at[axis], std::nextafter(crossing.left, infinity));
+        cut = slope - rest > negligible(target) ? inside : middle_of_gap(subset, crossing.right);
+        if (jump > 0) cut = std::max(cut, std::nextafter(crossing.left, infinity));
     } else {
-        at[axis] = after_jump(crossing);
+        cut = after_jump(subset, crossing.left);
     }
-    return at[axis] == infinity ? Below::all : Below::some;
+    return cut == infinity ? Below::all : Below::some;
 }
 
 }  // namespace
 
-Cut weighted_quantile(const StatisticalDomain& domain, int axis, double target, bool plain) {
-    std::vector<int> axes{axis};
+Cut weighted_quantile(const Profile& profile, double target, bool plain) {
+    const StatisticalDomain& domain = profile.domain();
+    std::vector<int> axes;
     for (int a = 0; a < domain.dimension && !plain; ++a)
-        if (a != axis) axes.push_back(a);
-    std::vector<std::size_t> patches;
-    for (std::size_t p = 0; p < domain.patches.size(); ++p)
-        if (domain.patches[p].weight > 0) patches.push_back(p);
-    Cut cut{axis, {}};
+        if (a != profile.axis()) axes.push_back(a);
+    Cut cut{profile.axis(), {}};
     cut.at.fill(-infinity);
-    divide(domain, patches, axes, target, cut.at);
+    divide({domain, static_cast<std::size_t>(profile.axis())}, profile.range_of(target), axes,
+           target, cut.at);
     return cut;
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr double steps = 255;
 
 std::byte code_of(double share) {
-    return static_cast<std::byte>(std::lround(std::clamp(share, 0.0, 1.0) * steps));
+    return static_cast<std::byte>(static_cast<int>(std::clamp(share, 0.0, 1.0) * steps + 0.5));
 }
 
 double share_of(std::byte code) {

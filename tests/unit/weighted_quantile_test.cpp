@@ -19,7 +19,8 @@ StatisticalDomain domain_of(const std::vector<Patch>& patches, int dimension = 1
 }
 
 double quantile(const std::vector<Patch>& patches, double target) {
-    return weighted_quantile(domain_of(patches), 0, target, false).at[0];
+    const StatisticalDomain domain = domain_of(patches);
+    return weighted_quantile({domain, 0}, target, false).at[0];
 }
 
 TEST(WeightedQuantile, divides_a_patch_in_the_ratio_of_the_weights) {
@@ -41,10 +42,10 @@ TEST(WeightedQuantile, leaves_a_jump_on_the_nearer_side) {
 
 TEST(WeightedQuantile, divides_a_jump_along_the_other_axes_unless_it_is_to_be_plain) {
     const StatisticalDomain domain = domain_of({{{2, 0}, {2, 4}, 8}}, 2);
-    const Cut cut = weighted_quantile(domain, 0, 2, false);
+    const Cut cut = weighted_quantile({domain, 0}, 2, false);
     EXPECT_EQ(cut.at[0], 2);
     EXPECT_EQ(cut.at[1], 1);
-    const Cut plain = weighted_quantile(domain, 0, 2, true);
+    const Cut plain = weighted_quantile({domain, 0}, 2, true);
     EXPECT_EQ(plain.at[1], -infinity);
 }
 
@@ -97,7 +98,8 @@ TEST(WeightedQuantile, has_the_target_below_it_but_for_patches_in_one_place) {
         for (const Patch& patch : patches) total += patch.weight;
         const double target = total * test::uniform(engine);
         const int axis = static_cast<int>(engine() % static_cast<unsigned>(dimension));
-        const Cut cut = weighted_quantile(domain_of(patches, dimension), axis, target, false);
+        const StatisticalDomain domain = domain_of(patches, dimension);
+        const Cut cut = weighted_quantile({domain, axis}, target, false);
         double below = 0;
         for (const Patch& patch : patches)
             below += patch.weight * share_below(patch, cut, dimension);
@@ -120,8 +122,8 @@ TEST(WeightedQuantile, has_the_target_below_it_but_for_patches_in_one_place) {
 TEST(WeightedQuantile, that_is_plain_leaves_a_plane_of_patches_on_one_side) {
     const StatisticalDomain domain =
         domain_of({{{1, 0}, {1, 4}, 3}, {{1, 4}, {1, 8}, 3}, {{2, 0}, {3, 8}, 6}}, 2);
-    EXPECT_EQ(weighted_quantile(domain, 0, 2, true).at[0], 1) << "0 is nearer than 6";
-    EXPECT_EQ(weighted_quantile(domain, 0, 5, true).at[0], 1.5) << "in the gap behind the plane";
+    EXPECT_EQ(weighted_quantile({domain, 0}, 2, true).at[0], 1) << "0 is nearer than 6";
+    EXPECT_EQ(weighted_quantile({domain, 0}, 5, true).at[0], 1.5) << "in the gap behind the plane";
 }
 
 TEST(WeightedQuantile, keeps_a_jump_below_that_was_passed_by_nothing) {

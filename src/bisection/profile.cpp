@@ -1,0 +1,57 @@
+#include "bisection/profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace rrcb {
+
+namespace {
+
+constexpr std::size_t num_bins = 64;
+constexpr std::size_t few_patches = 256;
+
+}  // namespace
+
+bool Profile::Range::is_limited() const {
+    return std::isfinite(lower) || std::isfinite(upper);
+}
+
+Profile::Profile(const StatisticalDomain& domain, int axis) : domain_(&domain), axis_(axis) {
+    if (domain.patches.size() < few_patches) return;
+    const auto a = static_cast<std::size_t>(axis);
+    const double infinity = std::numeric_limits<double>::infinity();
+    lower_ = infinity;
+    upper_ = -infinity;
+    for (const Patch& patch : domain.patches) {
+        lower_ = std::min(lower_, patch.lower[a]);
+        upper_ = std::max(upper_, patch.upper[a]);
+    }
+    const double bins_per_half = num_bins / (upper_ / 2 - lower_ / 2);
+    if (!(bins_per_half > 0 && std::isfinite(bins_per_half))) return;
+    weights_below_.resize(num_bins + 1);
+    const auto edge_behind = [&](double value) {
+        const double bin = std::max(0.0, (value / 2 - lower_ / 2) * bins_per_half);
+        return 1 + std::min(num_bins - 1, static_cast<std::size_t>(bin));
+    };
+    for (const Patch& patch : domain.patches) {
+        weights_below_[edge_behind(patch.lower[a])] += patch.weight / 2;
+        weights_below_[edge_behind(patch.upper[a])] += patch.weight / 2;
+    }
+    std::partial_sum(weights_below_.begin(), weights_below_.end(), weights_below_.begin());
+}
+
+Profile::Range Profile::range_of(double target) const {
+    constexpr std::ptrdiff_t margin = 1;  // bins
+    if (weights_below_.empty()) return {};
+    const auto passed = std::ranges::lower_bound(weights_below_, target) - weights_below_.begin();
+    const auto edge = [&](std::ptrdiff_t k) {
+        return std::lerp(lower_, upper_, static_cast<double>(k) / num_bins);
+    };
+    Range range;
+    if (passed - 1 - margin > 0) range.lower = edge(passed - 1 - margin);
+    if (passed + margin < std::ssize(weights_below_) - 1) range.upper = edge(passed + margin);
+    return range;
+}
+
+}  // namespace rrcb

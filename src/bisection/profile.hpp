@@ -1,0 +1,39 @@
+#pragma once
+
+#include <rrcb/statistical_domain.hpp>
+
+#include <limits>
+#include <vector>
+
+namespace rrcb {
+
+/// Where about the weight of a domain lies along an axis: a histogram, to which each patch gives
+/// half its weight at both ends. It saves a search for the place of a cut most of the patches.
+class Profile {
+  public:
+    /// The domain is borrowed.
+    Profile(const StatisticalDomain& domain, int axis);
+
+    const StatisticalDomain& domain() const { return *domain_; }
+    int axis() const { return axis_; }
+
+    struct Range {
+        double lower = -std::numeric_limits<double>::infinity();
+        double upper = std::numeric_limits<double>::infinity();
+
+        bool is_limited() const;
+    };
+
+    /// Range in which the weight below a value is likely to pass the target.
+    Range range_of(double target) const;
+
+  private:
+    const StatisticalDomain* domain_;
+    int axis_;
+    double lower_ = 0;
+    double upper_ = 0;
+    std::vector<double>
+        weights_below_;  ///< each edge of the bins; empty where there are few patches
+};
+
+}  // namespace rrcb

@@ -66,6 +66,9 @@ Bracket bracket_of(const StatisticalDomain& domain, const Cut& cut, double below
 
 Halves split_domain(const StatisticalDomain& domain, const Cut& cut) {
     Halves halves{{domain.dimension, {}}, {domain.dimension, {}}};
+    const std::size_t about_half = domain.patches.size() / 2 + domain.patches.size() / 8;
+    halves.lower.patches.reserve(about_half);
+    halves.upper.patches.reserve(about_half);
     for (const Patch& patch : domain.patches) {
         const auto axis = static_cast<std::size_t>(deciding_axis(cut, patch, domain.dimension));
         const double value = cut.at[axis];

@@ -8,7 +8,7 @@ namespace rrcb {
 
 namespace {
 
-constexpr std::size_t num_bins = 64;
+constexpr std::size_t num_bins = 128;
 constexpr std::size_t few_patches = 256;
 
 }  // namespace
@@ -29,22 +29,29 @@ Profile::Profile(const StatisticalDomain& domain, int axis) : domain_(&domain), 
     }
     const double bins_per_half = num_bins / (upper_ / 2 - lower_ / 2);
     if (!(bins_per_half > 0 && std::isfinite(bins_per_half))) return;
-    weights_below_.resize(num_bins + 1);
-    const auto edge_behind = [&](double value) {
+    const auto bin_of = [&](double value) {
         const double bin = std::max(0.0, (value / 2 - lower_ / 2) * bins_per_half);
-        return 1 + std::min(num_bins - 1, static_cast<std::size_t>(bin));
+        return std::min(num_bins - 1, static_cast<std::size_t>(bin));
     };
+    // First by how much more each bin has than the one before, at index bin + 1.
+    weights_below_.resize(num_bins + 2);
     for (const Patch& patch : domain.patches) {
-        weights_below_[edge_behind(patch.lower[a])] += patch.weight / 2;
-        weights_below_[edge_behind(patch.upper[a])] += patch.weight / 2;
+        const std::size_t first = bin_of(patch.lower[a]);
+        const std::size_t last = bin_of(patch.upper[a]);
+        const double each = patch.weight / static_cast<double>(last - first + 1);
+        weights_below_[first + 1] += each;
+        weights_below_[last + 2] -= each;
     }
-    std::partial_sum(weights_below_.begin(), weights_below_.end(), weights_below_.begin());
+    weights_below_.pop_back();
+    for (int k = 0; k < 2; ++k)
+        std::partial_sum(weights_below_.begin(), weights_below_.end(), weights_below_.begin());
 }
 
 Profile::Range Profile::range_of(double target) const {
     constexpr std::ptrdiff_t margin = 1;  // bins
     if (weights_below_.empty()) return {};
-    const auto passed = std::ranges::lower_bound(weights_below_, target) - weights_below_.begin();
+    const auto passes = [&](double below) { return below >= target; };
+    const auto passed = std::ranges::find_if(weights_below_, passes) - weights_below_.begin();
     const auto edge = [&](std::ptrdiff_t k) {
         return std::lerp(lower_, upper_, static_cast<double>(k) / num_bins);
     };

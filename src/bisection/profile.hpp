@@ -8,7 +8,7 @@
 namespace rrcb {
 
 /// Where about the weight of a domain lies along an axis: a histogram, to which each patch gives
-/// half its weight at both ends. It saves a search for the place of a cut most of the patches.
+/// its weight evenly. It saves a search for the place of a cut most of the patches.
 class Profile {
   public:
     /// The domain is borrowed.

@@ -65,19 +65,21 @@ struct Subset {
     std::size_t axis;
     const std::vector<std::size_t>* patches = nullptr;  ///< null: all
 
+    /// Calls `visit` with each patch and its number.
     template <class Visit>
     void for_each(Visit&& visit) const {
         const std::size_t count = patches ? patches->size() : domain.patches.size();
         for (std::size_t k = 0; k < count; ++k) {
             const std::size_t p = patches ? (*patches)[k] : k;
-            if (domain.patches[p].weight > 0) visit(Interval{slice_of(domain.patches[p], axis), p});
+            if (domain.patches[p].weight > 0) visit(domain.patches[p], p);
         }
     }
-};
 
-bool ends_before(const Slice& slice, double value) {
-    return slice.upper < value || (slice.upper == value && !slice.is_jump());
-}
+    bool ends_before(const Patch& patch, double value) const {
+        const double upper = patch.upper[axis];
+        return upper < value || (upper == value && patch.lower[axis] < upper);
+    }
+};
 
 /// Weight of the crossing below a value inside it.
 double weight_below(const Crossing& crossing, double value) {
@@ -93,11 +95,11 @@ bool passes(double below, double target) {
 /// The whole range of a crossing; nothing of one that does not hold it.
 Crossing crossing_in(const Subset& subset, const Profile::Range& range, double target) {
     Crossing crossing{range.lower, range.upper, 0, {}};
-    subset.for_each([&](const Interval& interval) {
-        if (ends_before(interval, range.lower)) {
-            crossing.below += interval.weight;
-        } else if (interval.lower < range.upper) {
-            crossing.active.push_back(interval);
+    subset.for_each([&](const Patch& patch, std::size_t number) {
+        if (subset.ends_before(patch, range.lower)) {
+            crossing.below += patch.weight;
+        } else if (patch.lower[subset.axis] < range.upper) {
+            crossing.active.push_back({slice_of(patch, subset.axis), number});
         }
     });
     const bool is_held =
@@ -129,8 +131,9 @@ Crossing find_crossing(const Subset& subset, const Profile::Range& range, double
 /// Value with the jump at the left end of the crossing below it, and as little else as possible.
 double after_jump(const Subset& subset, double jump) {
     double next = infinity;
-    subset.for_each([&](const Interval& interval) {
-        if (interval.upper > jump) next = std::min(next, std::max(interval.lower, jump));
+    subset.for_each([&](const Patch& patch, std::size_t) {
+        if (patch.upper[subset.axis] > jump)
+            next = std::min(next, std::max(patch.lower[subset.axis], jump));
     });
     return next == infinity ? next : std::max(std::nextafter(jump, infinity), jump / 2 + next / 2);
 }
@@ -138,8 +141,9 @@ double after_jump(const Subset& subset, double jump) {
 /// Middle of the gap that begins at `value`, or `value` where weight begins at once.
 double middle_of_gap(const Subset& subset, double value) {
     double next = infinity;
-    subset.for_each([&](const Interval& interval) {
-        if (!ends_before(interval, value)) next = std::min(next, std::max(interval.lower, value));
+    subset.for_each([&](const Patch& patch, std::size_t) {
+        if (!subset.ends_before(patch, value))
+            next = std::min(next, std::max(patch.lower[subset.axis], value));
     });
     return next == infinity ? value : value / 2 + next / 2;
 }

@@ -90,6 +90,39 @@ int exponent_of(std::span<const CellMoments> cells, bool are_counts) {
     return greatest > 0 ? std::ilogb(greatest) : 0;
 }
 
+/// Places of the faces of a mesh across each axis, as cell_box() has them.
+class Faces {
+  public:
+    explicit Faces(const SupportMesh& mesh) : mesh_(mesh) {
+        LocalIndex stride = 1;
+        for (std::size_t a = 0; a < static_cast<std::size_t>(mesh.dimension); ++a) {
+            const auto count = static_cast<LocalIndex>(mesh.cells[a]);
+            for (LocalIndex k = 0; k < count; ++k) {
+                const Box box = cell_box(mesh, k * stride);
+                faces_[a].push_back(box.lower[a]);
+                if (k + 1 == count) faces_[a].push_back(box.upper[a]);
+            }
+            stride *= count;
+        }
+    }
+
+    Box box(LocalIndex cell) const {
+        Box box;
+        for (std::size_t a = 0; a < static_cast<std::size_t>(mesh_.dimension); ++a) {
+            const auto count = static_cast<LocalIndex>(mesh_.cells[a]);
+            const double* face = &faces_[a][cell % count];
+            box.lower[a] = face[0];
+            box.upper[a] = face[1];
+            cell /= count;
+        }
+        return box;
+    }
+
+  private:
+    const SupportMesh& mesh_;
+    std::array<std::vector<double>, max_dimension> faces_;
+};
+
 }  // namespace
 
 LeanCells pack_cells(std::span<const CellMoments> cells, const SupportMesh& mesh) {
@@ -124,6 +157,7 @@ void unpack_cells(const LeanCells& head, std::span<const std::byte> packed, std:
         for (std::size_t left = take_number(packed); left > 0; --left) cells[i++].cell = number++;
     }
     const auto dimension = static_cast<std::size_t>(mesh.dimension);
+    const Faces faces(mesh);
     for (CellMoments& cell : std::span(cells).subspan(first)) {
         float lean;
         std::memcpy(&lean, packed.data(), sizeof lean);
@@ -131,7 +165,7 @@ void unpack_cells(const LeanCells& head, std::span<const std::byte> packed, std:
         if (head.are_counts) cell.moments.count = std::llround(full);
         if (!head.are_counts) cell.moments.weight = full;
         packed = packed.subspan(sizeof lean);
-        cell.box = cell_box(mesh, cell.cell);
+        cell.box = faces.box(cell.cell);
         for (std::size_t a = 0; a < dimension; ++a) {
             const auto [lower, upper] = std::pair(cell.box.lower[a], cell.box.upper[a]);
             cell.moments.mean[a] = std::lerp(lower, upper, share_of(packed[2 * a]));

@@ -45,8 +45,30 @@ void coarsen_records(Contribution& all, int dimension, std::size_t most) {
     all.summary.num_cells = static_cast<std::int64_t>(merged.cells.size());
 }
 
-double most_automatic_cells(int dimension) {
-    return dimension == 1 ? 64 : dimension == 2 ? 16 : 8;
+/// Cells per axis of a smooth cloud: about a percent of error among a few hundred parts, for what
+/// cells cost the root.
+double usual_cells(int dimension) {
+    return dimension == 1 ? 128 : dimension == 2 ? 22 : 10;
+}
+
+/// Cells per axis that are worth it where a few of fewer would hold many of the points.
+double most_cells_per_axis(int dimension) {
+    return dimension == 1 ? 400 : dimension == 2 ? 42 : 15;
+}
+
+/// True where cells of many times the usual number of points hold a good share of them.
+bool is_uneven(const BinnedPoints& binned) {
+    constexpr double many = 8;
+    constexpr double good_share = 0.05;
+    const auto num_filled = static_cast<double>(
+        std::ranges::count_if(binned.counts, [](LocalIndex count) { return count > 0; }));
+    const auto num_points = static_cast<double>(binned.points.count);
+    double crowded = 0;
+    for (const LocalIndex count : binned.counts) {
+        const auto number = static_cast<double>(count);
+        if (number * num_filled > many * num_points) crowded += number;
+    }
+    return crowded > good_share * num_points;
 }
 
 /// A mesh whose cells are one or more cells of the grid that limits the cuts, so that it is known
@@ -59,7 +81,7 @@ std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, const Op
             return {};
         const double first = limits[a].line_below(box.lower[a]);
         const double num_lines = limits[a].line_below(box.upper[a]) + 1 - first;
-        const double together = std::ceil(num_lines / most_automatic_cells(dimension));
+        const double together = std::ceil(num_lines / usual_cells(dimension));
         const double cells = std::ceil(num_lines / together);
         mesh.box.lower[a] = limits[a].line(first);
         mesh.box.upper[a] = limits[a].line(first + cells * together);
@@ -74,11 +96,16 @@ std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, const Op
 
 }  // namespace
 
-int automatic_cells_per_axis(int dimension, LocalIndex num_points) {
-    constexpr double points_per_cell = 16;
-    const double most = most_automatic_cells(dimension);
-    const double cells = static_cast<double>(num_points) / points_per_cell;
-    return static_cast<int>(std::clamp(std::floor(std::pow(cells, 1.0 / dimension)), 1.0, most));
+int automatic_cells_per_axis(int dimension, LocalIndex num_points, bool is_uneven) {
+    constexpr double least_points_per_cell = 16;
+    constexpr double points_per_cell = 200;
+    const auto count = static_cast<double>(num_points);
+    const auto per_axis = [&](double cells) { return std::pow(cells, 1.0 / dimension); };
+    const double most = most_cells_per_axis(dimension);
+    const double usual =
+        is_uneven ? most : std::max(usual_cells(dimension), per_axis(count / points_per_cell));
+    const double filled = per_axis(count / least_points_per_cell);
+    return static_cast<int>(std::max(1.0, std::floor(std::min({most, usual, filled}))));
 }
 
 BinnedPoints bin_by_options(const Points& points, const Box& box, const Options& options) {
@@ -86,10 +113,17 @@ BinnedPoints bin_by_options(const Points& points, const Box& box, const Options&
     if (!options.grid.empty() && options.support_mesh == 0 && points.count > 0)
         if (const auto mesh = mesh_on_lines(box, points.dimension, options))
             return bin_by_cell(points, *mesh);
-    const int cells_per_axis = options.support_mesh > 0
-                                   ? options.support_mesh
-                                   : automatic_cells_per_axis(points.dimension, points.count);
-    return bin_by_cell(points, make_support_mesh(box, points.dimension, cells_per_axis));
+    const int dimension = points.dimension;
+    const auto binned_in = [&](int cells_per_axis) {
+        return bin_by_cell(points, make_support_mesh(box, dimension, cells_per_axis));
+    };
+    if (options.support_mesh > 0) return binned_in(options.support_mesh);
+    const int usual = automatic_cells_per_axis(dimension, points.count, false);
+    const int most = automatic_cells_per_axis(dimension, points.count, true);
+    BinnedPoints binned = binned_in(usual);
+    const bool may_be_finer = traits_of(options.domain).has_lean_cells && most > usual;
+    if (may_be_finer && is_uneven(binned)) binned = binned_in(most);
+    return binned;
 }
 
 Summary summarize(const Points& points, const Box& box) {
@@ -155,7 +189,9 @@ void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t 
     mine.records.erase(first_place, mine.records.end());
     join(mine.summary, next);
     if (!mine.summary.is_usable()) mine.records.clear();
-    const bool too_many = static_cast<std::size_t>(mine.summary.num_cells) > most;
+    const auto num_cells = static_cast<std::size_t>(mine.summary.num_cells);
+    const std::size_t full_doubles = 3 + 2 * static_cast<std::size_t>(dimension);
+    const bool too_many = num_cells / 2 > most || mine.records.size() / full_doubles > most;
     if (too_many && mine.summary.is_usable()) coarsen_records(mine, dimension, most);
 }
 

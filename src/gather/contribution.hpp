@@ -45,12 +45,12 @@ struct Contribution {
     std::vector<double> points{};  ///< of one rank, in place of cells, until the root wants them
 };
 
-/// Cells per axis of a rank's mesh where the options leave it open: enough for about a percent of
-/// error on a smooth cloud, not so many that cells are nearly empty.
-int automatic_cells_per_axis(int dimension, LocalIndex num_points);
+/// Cells per axis of a rank's mesh where the options leave it open: as many as cost little beside
+/// the points, not so many that cells are nearly empty; more where the points are uneven.
+int automatic_cells_per_axis(int dimension, LocalIndex num_points, bool is_uneven);
 
 /// Finds the cells of checked points in the support mesh that the options ask for; nothing where
-/// no cells are needed.
+/// no cells are needed. Uneven points, most of them in few of the cells, are looked at twice.
 BinnedPoints bin_by_options(const Points& points, const Box& box, const Options& options);
 
 /// Totals of checked points.
@@ -60,16 +60,16 @@ Summary summarize(const Points& points, const Box& box);
 void add_records(const Points& points, const BinnedPoints& binned, const Options& options,
                  Contribution& mine);
 
-/// Most cells that the options let a subtree hand on: a fixed number, whatever the number of
-/// ranks, unless the mesh was asked for.
+/// Cells that the options let a merging leave: a fixed number, whatever the number of ranks, unless
+/// the mesh was asked for. Twice as many lean ones may be handed on as they are.
 std::size_t most_cells(const Options& options);
 
 /// Adds the totals of the ranks that follow, and what stands in their way.
 void join(Summary& mine, const Summary& next);
 
 /// Takes in the records, places and part totals of the ranks that follow, already at the end of
-/// `mine.records`: joins the summaries, adds the totals up, and coarsens where there are too many
-/// cells. Not collective.
+/// `mine.records`: joins the summaries, adds the totals up, and coarsens to `most` cells where
+/// there are more than twice as many. Not collective.
 void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t most);
 
 /// Domain that the root bisects, from the contributions of all ranks.

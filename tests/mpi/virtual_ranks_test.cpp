@@ -78,7 +78,7 @@ TEST_P(ManyRanks, send_the_root_a_bounded_number_of_cells_and_are_balanced_all_t
     const Contribution all = ranks.contribution_of(0);
     const std::size_t most = most_cells(ranks.options);
     const std::size_t doubles_per_cell = 3 + 2 * 2;
-    EXPECT_LE(all.summary.num_cells, static_cast<std::int64_t>(most));
+    EXPECT_LE(all.summary.num_cells, static_cast<std::int64_t>(2 * most));
     EXPECT_LE(ranks.longest_message, most * doubles_per_cell + 100);
     // Seven children in each of the six levels that the tree of 8^6 ranks has.
     EXPECT_LE(ranks.root_in, 6 * 7 * most * doubles_per_cell);

@@ -119,6 +119,38 @@ TEST(WeightedQuantile, has_the_target_below_it_but_for_patches_in_one_place) {
     EXPECT_GT(num_exact, 1000) << "most clouds have patches in one place";
 }
 
+/// Patches of many sizes about a few places, many more than a search looks at in turn.
+std::vector<Patch> many_patches(std::mt19937_64& engine) {
+    std::vector<Patch> patches;
+    for (int i = 0; i < 2000; ++i) {
+        const double place = std::pow(10.0, static_cast<double>(engine() % 6));
+        const double lower = place * (1 + test::uniform(engine));
+        const double extent = place * std::pow(test::uniform(engine, 0.05), 4);
+        const double slope = 2 * test::uniform(engine) - 1;
+        const double bow = (1 - std::abs(slope)) * (2 * test::uniform(engine) - 1);
+        patches.push_back({{lower}, {lower + extent}, test::uniform(engine), {slope}, {bow}});
+    }
+    return patches;
+}
+
+TEST(WeightedQuantile, has_the_target_below_it_among_many_patches) {
+    std::mt19937_64 engine(9);
+    for (int round = 0; round < 50; ++round) {
+        const StatisticalDomain domain = domain_of(many_patches(engine));
+        double total = 0;
+        for (const Patch& patch : domain.patches) total += patch.weight;
+        const Profile profile(domain, 0);
+        for (int k = 0; k <= 20; ++k) {
+            const double target = total * k / 20.5;
+            const double value = weighted_quantile(profile, target, false).at[0];
+            double below = 0;
+            for (const Patch& patch : domain.patches)
+                below += weight_below(slice_of(patch, 0), value);
+            EXPECT_NEAR(below, target, 1e-9 * total);
+        }
+    }
+}
+
 TEST(WeightedQuantile, that_is_plain_leaves_a_plane_of_patches_on_one_side) {
     const StatisticalDomain domain =
         domain_of({{{1, 0}, {1, 4}, 3}, {{1, 4}, {1, 8}, 3}, {{2, 0}, {3, 8}, 6}}, 2);

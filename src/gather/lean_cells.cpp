@@ -29,15 +29,36 @@ std::byte code_of_mean(double mean, double lower, double upper) {
     return half > 0 ? code_of((mean / 2 - lower / 2) / half) : std::byte{0};
 }
 
+/// Codes from here on are in proportion to the root of a deviation, those below to its logarithm.
+constexpr int first_root = 64;
+constexpr double logarithm_step = 0.6;  // base 2
+
+double share_of_deviation(int code) {
+    constexpr double steps_below = first_root / steps;
+    if (code >= first_root) return (code / steps) * (code / steps);
+    if (code == 0) return 0;
+    return steps_below * steps_below * std::exp2((code - first_root) * logarithm_step);
+}
+
 std::byte code_of_deviation(double deviation, double lower, double upper) {
     const double half = upper / 2 - lower / 2;
     if (!(half > 0 && deviation > 0)) return std::byte{0};
-    return std::max(std::byte{1}, code_of(std::sqrt(std::min(1.0, deviation / half))));
+    const double share = std::min(1.0, deviation / half);
+    const std::byte root = code_of(std::sqrt(share));
+    if (root >= std::byte{first_root}) return root;
+    const double steps_down = std::log2(share / share_of_deviation(first_root)) / logarithm_step;
+    return static_cast<std::byte>(
+        static_cast<int>(std::max(1.0, std::round(first_root + steps_down))));
 }
 
-double deviation_of(std::byte code, double lower, double upper) {
-    const double root = share_of(code);
-    return root * root * (upper / 2 - lower / 2);
+/// Mean of a cell of this deviation. One that came out on a face, where the deviation tells that
+/// not all points lie there, stands where that of an even density beside the face would.
+double mean_of(std::byte code, double deviation, double lower, double upper) {
+    const double share = share_of(code);
+    if (share > 0 && share < 1) return std::lerp(lower, upper, share);
+    const double half = upper / 2 - lower / 2;
+    const double inside = std::min(std::sqrt(3.0) * deviation, half / (2 * steps));
+    return share > 0 ? upper - inside : lower + inside;
 }
 
 /// Seven digits of the base 128 in each byte, the last without the upper bit.
@@ -158,6 +179,9 @@ void unpack_cells(const LeanCells& head, std::span<const std::byte> packed, std:
     }
     const auto dimension = static_cast<std::size_t>(mesh.dimension);
     const Faces faces(mesh);
+    std::array<double, 256> shares;
+    for (int code = 0; code < 256; ++code)
+        shares[static_cast<std::size_t>(code)] = share_of_deviation(code);
     for (CellMoments& cell : std::span(cells).subspan(first)) {
         float lean;
         std::memcpy(&lean, packed.data(), sizeof lean);
@@ -168,8 +192,10 @@ void unpack_cells(const LeanCells& head, std::span<const std::byte> packed, std:
         cell.box = faces.box(cell.cell);
         for (std::size_t a = 0; a < dimension; ++a) {
             const auto [lower, upper] = std::pair(cell.box.lower[a], cell.box.upper[a]);
-            cell.moments.mean[a] = std::lerp(lower, upper, share_of(packed[2 * a]));
-            cell.moments.deviation[a] = deviation_of(packed[2 * a + 1], lower, upper);
+            const auto code = std::to_integer<std::size_t>(packed[2 * a + 1]);
+            const double deviation = shares[code] * (upper / 2 - lower / 2);
+            cell.moments.deviation[a] = deviation;
+            cell.moments.mean[a] = mean_of(packed[2 * a], deviation, lower, upper);
         }
         packed = packed.subspan(2 * dimension);
     }

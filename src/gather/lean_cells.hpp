@@ -11,10 +11,11 @@ namespace rrcb {
 /// Packs the cells of a support mesh, in the order of their numbers: 8 bytes each in 2-D, and a few
 /// for every gap in the numbers.
 ///
-/// Along each axis the mean in 255ths of the cell and the root of the deviation, in half extents of
-/// the cell, in 255ths: one byte each. A mean on a face stays there, a deviation is 0 only where it
-/// was. Weights are floats in units of 2^exponent, of 24 digits down to 1e-38 of the heaviest, and
-/// not 0 where they were not. Where none has weight the counts are packed in their place.
+/// Along each axis one byte for the mean, in 255ths of the cell, and one for the deviation, in half
+/// extents of the cell: its root in 255ths, or below 1/16 its logarithm, down to 3e-13. A
+/// deviation is 0 only where it was; then a mean on a face stays there. Weights are floats in units
+/// of 2^exponent, of 24 digits down to 1e-38 of the heaviest, and not 0 where they were not. Where
+/// none has weight the counts are packed in their place.
 struct LeanCells {
     bool are_counts = false;
     int exponent = 0;

@@ -26,7 +26,9 @@ TEST(CallbackPositions, that_moments_cannot_tell_are_refined) {
     // As in Positions: two clumps in the one cell of each rank's mesh.
     Cloud cloud = find_cloud("coincident");
     cloud.position = [](int i) {
-        return Vector{uniform(i, 0) < 0.7 ? 0.1 * uniform(i, 1) : 1 - 0.1 * uniform(i, 1),
+        const double where = uniform(i, 0);
+        const double clump = where < 0.45 ? 0.19 : 0.77;
+        return Vector{where < 0.9 ? clump + 0.04 * uniform(i, 1) : uniform(i, 1),
                       0.01 * uniform(i, 2)};
     };
     const Share share = scattered_share(cloud);

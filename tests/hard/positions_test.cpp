@@ -29,10 +29,12 @@ TEST(Positions, that_coincide_are_told_in_the_report) {
 }
 
 TEST(Positions, that_moments_cannot_tell_are_measured_and_refined) {
-    // Two equal clumps per cell look like a density that is even between them.
+    // Two clumps as far from the middle as the deviation of an even density look like that one.
     Cloud cloud = find_cloud("coincident");
     cloud.position = [](int i) {
-        return Vector{uniform(i, 0) < 0.7 ? 0.1 * uniform(i, 1) : 1 - 0.1 * uniform(i, 1),
+        const double where = uniform(i, 0);
+        const double clump = where < 0.45 ? 0.19 : 0.77;
+        return Vector{where < 0.9 ? clump + 0.04 * uniform(i, 1) : uniform(i, 1),
                       0.01 * uniform(i, 2)};
     };
     const Share share = scattered_share(cloud);

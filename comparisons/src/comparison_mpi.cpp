@@ -52,6 +52,7 @@ Row table_row(Row key, const Measurement& measurement, const std::vector<double>
         .add_interval("imbalance_", interval_of_seeds(measurement.imbalances))
         .add("seeds", measurement.imbalances.size())
         .add("lu_worst_percent", measurement.worst_unbalance_percent)
+        .add("rounds", measurement.rounds)
         .add_error(measurement.error);
 }
 

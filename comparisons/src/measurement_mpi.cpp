@@ -5,6 +5,7 @@
 #include "partitioner_mpi.hpp"
 #include "statistics.hpp"
 
+#include <rrcb/balance.hpp>
 #include <rrcb/quality.hpp>
 
 #include <zoltan.h>
@@ -29,7 +30,8 @@ struct Judgement {
 /// A method under measurement; without a partitioner once it has failed.
 struct Candidate {
     std::unique_ptr<Partitioner> partitioner;
-    std::vector<std::uint64_t> seeds;  ///< to be used in turn; none where there is no choice
+    std::optional<rrcb::Options> options{};  ///< of our own methods
+    std::vector<std::uint64_t> seeds;        ///< to be used in turn; none where there is no choice
     Measurement measurement;
     std::vector<Judgement> judgements;  ///< one per seed
     std::vector<rrcb::Part> before;     ///< parts of the points before they moved last
@@ -47,6 +49,7 @@ std::vector<std::uint64_t> seeds_of(const Method& method) {
 Candidate make_candidate(const Workload& workload, const Method& method, Lists lists,
                          MPI_Comm comm) {
     Candidate candidate;
+    candidate.options = method.options;
     candidate.seeds = seeds_of(method);
     candidate.measurement.method = method.label;
     try {
@@ -191,6 +194,9 @@ void judge_all(std::span<Candidate> candidates, const Workload& workload, bool d
             count_and_judge(candidate, workload, drifts, comm);
             if (candidate.partitioner) candidate.partitioner->free_lists();
         }
+        if (candidate.partitioner && candidate.options)
+            candidate.measurement.rounds =
+                rrcb::balance(workload.points(), *candidate.options, comm).report.rounds;
     }
 }
 

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,6 +26,8 @@ struct Measurement {
     double moved_fraction = 0;           ///< median over the seeds
     Traffic traffic;                     ///< of one call: messages and bytes of all ranks, the most
                                          ///< collectives and communicators of any rank
+    std::optional<int> rounds;  ///< of counting in a call of our own methods, by the interface: 1
+                                ///< where the estimate was accepted, 0 where none was refined
     std::map<std::string, CallCount> calls;  ///< the same call by MPI function, over all ranks
     std::vector<rrcb::Part> parts;  ///< of this rank's points, as the counted call made them
 };

@@ -17,6 +17,8 @@ Measurement measured(const std::string& method, std::vector<double> times) {
 }
 
 Comparison comparison() {
+    Measurement ours = measured("rrcb", {2, 1, 6});
+    ours.rounds = 1;
     Measurement failed;
     failed.method = "rrcb-sampled[mesh=4,k=2]";
     failed.error = "it said \"no\"";
@@ -26,7 +28,7 @@ Comparison comparison() {
             1000,
             4,
             {Lists::all, 3},
-            {measured("zoltan-rcb", {4, 9, 8}), measured("rrcb", {2, 1, 6}), failed}};
+            {measured("zoltan-rcb", {4, 9, 8}), ours, failed}};
 }
 
 TEST(Table, writes_the_columns_of_the_contract) {
@@ -36,13 +38,13 @@ TEST(Table, writes_the_columns_of_the_contract) {
         "time_ms_min,time_ms_max,imbalance,lu_max_percent,messages,bytes,root_bytes_in,"
         "collectives,communicators,moved_fraction,time_vs_zoltan_rcb,time_ms_low,time_ms_high,"
         "time_vs_zoltan_rcb_low,time_vs_zoltan_rcb_high,imbalance_low,imbalance_high,seeds,"
-        "lu_worst_percent,error\n"
+        "lu_worst_percent,rounds,error\n"
         "zoltan-rcb,4,4,1000,2,slope,sorted,ALL,3,8,4,9,1.25,25,3,400,50,6,7,0.5,1,"
-        ",,,,1.25,1.25,1,-25,\n"
+        ",,,,1.25,1.25,1,-25,,\n"
         "rrcb,4,4,1000,2,slope,sorted,ALL,3,2,1,6,1.25,25,3,400,50,6,7,0.5,0.25,"
-        ",,,,1.25,1.25,1,-25,\n"
+        ",,,,1.25,1.25,1,-25,1,\n"
         "\"rrcb-sampled[mesh=4,k=2]\",4,4,1000,2,slope,sorted,ALL,3,,,,,,,,,,,,,"
-        ",,,,,,,,"
+        ",,,,,,,,,"
         "\"it said \"\"no\"\"\"\n");
 }
 

@@ -97,7 +97,8 @@ class CloudPoints : public MovingPoints {
                 at[i] += is_moving[i] * (after[axis] - before[axis]);
             }
         }
-        ownership_.find_leavers(decomposition_, positions(), {});
+        ownership_.find_leavers(decomposition_, positions(), particles_[motion_.id], steps_done_,
+                                {});
         migrate();
     }
 

@@ -9,8 +9,7 @@ namespace rrcb {
 
 /// What the root bisects in place of the points.
 enum class DomainKind {
-    analytic,  ///< each cell a uniform density on a box with the cell's moments: no points, no
-               ///< noise
+    analytic,  ///< each cell a smooth density with the cell's moments: no points, no noise
     sampled,  ///< pseudo-random points in mean +- multiplier * sigma of each cell: the paper's RRCB
     points    ///< the points themselves, all gathered at the root: the paper's RCB, for reference
 };

@@ -36,8 +36,8 @@ void spread(std::vector<Patch>& patches, std::size_t first, std::size_t axis,
 
 }  // namespace
 
-double least_heavy_weight(std::span<const double> weights) {
-    constexpr double many = 8;
+double least_heavy_weight(std::span<const double> weights, int dimension) {
+    const double many = dimension == 3 ? 64 : 8;
     const auto count = static_cast<double>(weights.size());
     double mean = 0;
     for (const double weight : weights) mean += weight / count;

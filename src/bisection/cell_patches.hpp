@@ -6,9 +6,9 @@
 
 namespace rrcb {
 
-/// Weight from which a cell counts as heavy among cells of these weights: few do, and cuts may
-/// divide one more than once.
-double least_heavy_weight(std::span<const double> weights);
+/// Weight from which a cell counts as heavy among cells of these weights: cuts may divide one more
+/// than once, and so few do that their patches are not many more than those of the others.
+double least_heavy_weight(std::span<const double> weights, int dimension);
 
 /// Appends the patches of a cell, of this weight, as analytic_domain() makes them; `box` holds all
 /// points.

@@ -64,7 +64,7 @@ Box around(const Moments& moments, double multiplier) {
 StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension,
                                   const Box& box) {
     const std::vector<double> weights = weights_of(cells);
-    const double heavy = least_heavy_weight(weights);
+    const double heavy = least_heavy_weight(weights, dimension);
     StatisticalDomain domain{dimension};
     domain.patches.reserve(cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i)

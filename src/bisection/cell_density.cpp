@@ -38,28 +38,21 @@ bool is_nowhere_negative(const Piece& density) {
     return !has_inner_minimum || 1 - density.bow / 2 - slope * slope / (6 * density.bow) >= 0;
 }
 
-Piece quadratic_on(double lower, double upper, const Spread& spread) {
-    const double middle = lower / 2 + upper / 2;
-    const double half = upper / 2 - lower / 2;
-    Piece piece = quadratic({(spread.mean - middle) / half, spread.variance / (half * half)});
-    piece.lower = lower;
-    piece.upper = upper;
-    return piece;
-}
-
 /// The density of a spread with mean <= 0 that is not quadratic on all of the cell, as one or two
 /// pieces.
 std::array<Piece, 2> pieces_of(const Spread& spread) {
     const auto [mean, variance] = spread;
     // A parabola that is 0 at both ends has the variance half^2 / 5.
     const double half = std::sqrt(5 * variance);
-    if (mean - half >= -1) return {quadratic_on(mean - half, mean + half, spread), Piece{0, 0, 0}};
+    if (mean - half >= -1) return {Piece{mean - half, mean + half, 1, 0, -1}, Piece{0, 0, 0}};
     // On [-1, -1 + 2 w] it is 0 at the upper end for w^2 - 4 r w + 5/2 (r^2 + variance) = 0.
     const double reach = 1 + mean;
     const double root = 1.5 * reach * reach - 2.5 * variance;
     if (root >= 0) {
-        const double upper = std::min(1.0, -1 + 2 * (2 * reach - std::sqrt(root)));
-        return {quadratic_on(-1, upper, spread), Piece{0, 0, 0}};
+        const double w = 2 * reach - std::sqrt(root);
+        Piece piece = quadratic({reach / w - 1, variance / (w * w)});
+        piece.upper = std::min(1.0, 2 * w - 1);
+        return {piece, Piece{0, 0, 0}};
     }
     // Two uniform densities that meet at the mean, one reaching b below it with the share
     // a / (a + b), one a above it with the rest, have the variance a b / 3.
@@ -96,6 +89,7 @@ AxisDensity density_of(double mean, double deviation, double lower, double upper
     const double u = (below - above) / half;
     const double sigma = deviation / half;
     const double variance = std::min(sigma * sigma, (1 - u) * (1 + u));
+    if (!(variance > 0)) return {DensityPiece{mean, mean, 1}, DensityPiece{}};
     const Piece whole = quadratic({u, variance});
     if (is_nowhere_negative(whole))
         return {DensityPiece{lower, upper, 1, whole.slope, whole.bow}, DensityPiece{}};

@@ -27,7 +27,7 @@ TEST(CallbackPositions, that_moments_cannot_tell_are_refined) {
     Cloud cloud = find_cloud("coincident");
     cloud.position = [](int i) {
         const double where = uniform(i, 0);
-        const double clump = where < 0.45 ? 0.19 : 0.77;
+        const double clump = where < 0.7 ? 0.28 : 0.88;
         return Vector{where < 0.9 ? clump + 0.04 * uniform(i, 1) : uniform(i, 1),
                       0.01 * uniform(i, 2)};
     };

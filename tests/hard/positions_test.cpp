@@ -29,11 +29,11 @@ TEST(Positions, that_coincide_are_told_in_the_report) {
 }
 
 TEST(Positions, that_moments_cannot_tell_are_measured_and_refined) {
-    // Two clumps as far from the middle as the deviation of an even density look like that one.
+    // An uneven pair of clumps looks like a density that falls from one side to the other.
     Cloud cloud = find_cloud("coincident");
     cloud.position = [](int i) {
         const double where = uniform(i, 0);
-        const double clump = where < 0.45 ? 0.19 : 0.77;
+        const double clump = where < 0.7 ? 0.28 : 0.88;
         return Vector{where < 0.9 ? clump + 0.04 * uniform(i, 1) : uniform(i, 1),
                       0.01 * uniform(i, 2)};
     };

@@ -12,6 +12,10 @@ template <int D>
 void build(const EffectBuilder<D>& builder) {
     if (!builder.stages.gravity)
         throw std::invalid_argument("effects / geostatic: needs the effect gravity");
+    if (builder.stages.gravity->ramp > 0)
+        throw std::invalid_argument(
+            "effects / geostatic: stresses of the full weight are there from the start, so gravity "
+            "must be, too; leave out its 'ramp'");
     for (const Material& material : builder.scene.materials)
         if (material.model == "neo_hookean")
             throw std::invalid_argument("effects / geostatic: the material '" + material.name +

@@ -1,3 +1,4 @@
+#include "boundaries/contact.hpp"
 #include "effects/effect.hpp"
 
 #include <cmath>
@@ -6,26 +7,39 @@ namespace mpm {
 
 namespace {
 
+/// Takes a share of the change of each component of the velocity against it, to rest at most.
+template <int D>
+void damp(double fraction, NodeMotion<D>& motion) {
+    Components<D> left;
+    for (std::size_t a = 0; a < D; ++a) {
+        const double before = motion.velocity[a] - motion.velocity_change[a];
+        const double speed = std::abs(motion.velocity[a]);
+        const double lost = before == 0 ? 0 : fraction * std::abs(motion.velocity_change[a]);
+        left[a] = speed > lost ? 1 - lost / speed : 0;
+    }
+    correct<D>(motion, [&](Components<D> velocity) {
+        for (std::size_t a = 0; a < D; ++a) velocity[a] *= left[a];
+        return velocity;
+    });
+}
+
 template <int D>
 void build(const EffectBuilder<D>& builder) {
     const double fraction = builder.values.number("fraction");
     const double until = builder.values.number("until");
-    builder.stages.forces.push_back(
+    // After walls and planes: what they give balances, and a node that they hold has no velocity.
+    builder.stages.moved.push_back(
         {"local_damping", [=](GridPatch<D>& patch, const StepTime& step) {
              if (step.time >= until) return;
-             for (NodeSums<D>& node : patch.sums)
-                 for (std::size_t a = 0; a < D; ++a) {
-                     const double resistance = fraction * std::abs(node.force[a]);
-                     if (node.momentum[a] != 0)
-                         node.force[a] -= std::copysign(resistance, node.momentum[a]);
-                 }
+             for (NodeMotion<D>& motion : patch.motion) damp<D>(fraction, motion);
          }});
 }
 
 }  // namespace
 
-/// A share of each unbalanced force acts against the motion until a time (Cundall 1987). Where
-/// forces balance it holds nothing back, so points soon rest under their weight.
+/// A share of each unbalanced force acts against the motion until a time (Cundall 1987), as far as
+/// it stops it. The force is that which stress, weight, walls and planes leave together. Where they
+/// balance it holds nothing back, so points soon rest under their weight.
 EffectKind local_damping_effect() {
     return {"local_damping",
             {within("fraction", "", 0, 0.99), not_negative("until", "s")},

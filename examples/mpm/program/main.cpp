@@ -1,6 +1,7 @@
 #include "balancers/balancers_mpi.hpp"
 #include "parallel/communicator_mpi.hpp"
 #include "program/arguments.hpp"
+#include "scene/body_reports.hpp"
 #include "scene_file/scene_file_mpi.hpp"
 #ifdef RRCB_MPM_ZOLTAN
 #include <zoltan.h>
@@ -39,6 +40,16 @@ void list_kernels(const mpm::Simulation& simulation) {
     std::printf("%zu bytes per point\n%zu bytes per migrated point\n%zu doubles per ghost node\n",
                 columns.size() * sizeof(double), columns.size() * sizeof(double),
                 simulation.doubles_per_ghost_node());
+}
+
+/// Tells the mass of each body, and what a user may not have meant.
+void report_scene(const mpm::Scene& scene) {
+    for (const mpm::BodyReport& body : mpm::report_on_bodies(scene)) {
+        std::printf("body %s: %lld points, mass got / asked: %.6g / %.6g kg\n", body.name.c_str(),
+                    static_cast<long long>(body.num_points), body.mass, body.asked_mass);
+        if (!body.warning.empty())
+            std::fprintf(stderr, "rrcb_mpm: warning: %s\n", body.warning.c_str());
+    }
 }
 
 /// Files that the output plan asks for, in a folder that rank 0 makes.
@@ -159,6 +170,7 @@ void run(Arguments arguments, MPI_Comm comm) {
         if (mpm::rank_of(comm) == 0) list_kernels(simulation);
         return;
     }
+    if (mpm::rank_of(comm) == 0) report_scene(file.scene);
     Recorder recorder(arguments.out, file, comm);
     const double start_time = MPI_Wtime();
     simulate(simulation, file.scene, arguments, recorder, comm);

@@ -77,6 +77,18 @@ void check_velocity(const Scene& scene, const Body& body, const Vector& at) {
     }
 }
 
+/// Refuses a point of a body that lies in another one, too: its mass would be there twice.
+void check_alone(const Scene& scene, const Body& body, const Vector& at) {
+    for (const Body& other : scene.bodies) {
+        if (&other == &body || !contains(other.bounds, at) || !other.contains(at)) continue;
+        std::ostringstream text;
+        text << "bodies / " << body.name << ": overlaps the body '" << other.name
+             << "' at x = " << at[0] << ", y = " << at[1] << ", z = " << at[2]
+             << " m; subtract the shape of one from the other";
+        throw std::invalid_argument(text.str());
+    }
+}
+
 /// Writes one point of a body into a row of columns.
 class RowWriter {
   public:
@@ -139,16 +151,35 @@ class RowWriter {
 Extent extent_of(const Scene& scene) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Extent extent{0, {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}}};
-    for (const Body& body : scene.bodies)
+    for (const Body& body : scene.bodies) {
+        const std::int64_t num_before = extent.num_points;
         visit_body(scene, body, [&](const Vector& at) {
             check_velocity(scene, body, at);
+            check_alone(scene, body, at);
             ++extent.num_points;
             for (std::size_t a = 0; a < 3; ++a) {
                 extent.box.lower[a] = std::min(extent.box.lower[a], at[a]);
                 extent.box.upper[a] = std::max(extent.box.upper[a], at[a]);
             }
         });
+        if (extent.num_points == num_before)
+            throw std::invalid_argument("bodies / " + body.name +
+                                        ": holds no point; it must lie in the domain, and be no "
+                                        "smaller than the distance of points in a cell");
+    }
     return extent;
+}
+
+std::vector<BodyPoints> points_of_bodies(const Scene& scene) {
+    std::vector<BodyPoints> all;
+    for (const Body& body : scene.bodies) {
+        BodyPoints& points = all.emplace_back();
+        visit_body(scene, body, [&](const Vector&) { ++points.num_points; });
+        points.spacing = lattice_spacing(scene, body);
+        for (const double along : points.spacing) points.volume *= along;
+        points.volume *= static_cast<double>(points.num_points);
+    }
+    return all;
 }
 
 void place_points(const Scene& scene, const Decomposition& decomposition, int rank,

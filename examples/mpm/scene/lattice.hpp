@@ -5,6 +5,7 @@
 #include <mpm/scene.hpp>
 
 #include <cstdint>
+#include <vector>
 
 namespace mpm {
 
@@ -14,8 +15,19 @@ struct Extent {
     Box box;  ///< empty without points
 };
 
-/// Extent of a scene. Throws std::invalid_argument that names a point whose velocity is not finite.
+/// Extent of a scene. Throws std::invalid_argument that names a body without points, or a point
+/// whose velocity is not finite or that lies in two bodies.
 Extent extent_of(const Scene& scene);
+
+/// The points of one body on the lattice.
+struct BodyPoints {
+    std::int64_t num_points = 0;
+    double volume = 1;  ///< of all, m^3; in two dimensions per metre of depth
+    Vector spacing{};   ///< distance of neighbours along the axes, m
+};
+
+/// The points of each body of a scene, in their order.
+std::vector<BodyPoints> points_of_bodies(const Scene& scene);
 
 /// Appends the scene's points that `rank` owns. Columns other than those of motion and `material`
 /// start with their initial values.

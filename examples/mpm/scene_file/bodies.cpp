@@ -4,18 +4,21 @@
 
 #include <mpm/region.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace mpm {
 
 namespace {
 
+const Rule shape_rule{
+    .name = "shape", .kind = Rule::Kind::word, .choices = {"box", "polygon", "ball", "half_space"}};
+
 /// Rules of a shape, `shape` and `operation` among them.
 std::vector<Rule> shape_rules(const std::string& shape) {
-    std::vector<Rule> rules{{.name = "shape",
-                             .kind = Rule::Kind::word,
-                             .choices = {"box", "polygon", "ball", "half_space"}},
-                            choice("operation", {"add", "subtract", "intersect"})};
+    std::vector<Rule> rules{shape_rule, choice("operation", {"add", "subtract", "intersect"})};
     const auto add = [&](std::vector<Rule> more) {
         rules.insert(rules.end(), more.begin(), more.end());
     };
@@ -25,50 +28,104 @@ std::vector<Rule> shape_rules(const std::string& shape) {
     return rules;
 }
 
-std::string word_of(const List& list, const std::string& name) {
+/// The word that tells the shape. It is checked first: the other keys depend on it.
+std::string read_kind(const List& list, int dimension) {
     const Parameters parameters = list.parameters();
-    const auto found = parameters.find(name);
-    if (found == parameters.end() || !std::holds_alternative<std::string>(found->second)) return "";
-    return std::get<std::string>(found->second);
+    Parameters given;
+    if (const auto found = parameters.find(shape_rule.name); found != parameters.end())
+        given.insert(*found);
+    return Values(given, {&shape_rule, 1}, list.place(), dimension).word(shape_rule.name);
 }
 
-Region make_region(const Values& values, const std::vector<Vector>& corners, int dimension) {
-    const std::string& shape = values.word("shape");
-    if (shape == "polygon") return polygon_region(corners);
-    if (shape == "ball")
-        return ball_region(vector_of(values.list("centre")), values.number("radius"));
-    if (shape == "half_space")
-        return half_space_region(vector_of(values.list("point")), vector_of(values.list("normal")));
+/// Refuses a box that would hold nothing.
+void check_corners(const List& list, const Values& values) {
+    const std::vector<double>&lower = values.list("lower"), &upper = values.list("upper");
+    for (std::size_t a = 0; a < lower.size(); ++a)
+        if (!(lower[a] < upper[a]))
+            list.refuse("upper", std::string("must lie above 'lower' along ") + "xyz"[a]);
+}
+
+/// A shape and a box around it.
+struct Shape {
+    Region region;
+    Box bounds = everywhere;
+};
+
+Shape box_shape(const Values& values, int dimension) {
     Box box{vector_of(values.list("lower")), vector_of(values.list("upper"))};
     for (auto a = static_cast<std::size_t>(dimension); a < 3; ++a) box.upper[a] = box.lower[a];
-    return box_region(box);
+    return {box_region(box), box};
 }
 
-Region combined(Region whole, const std::string& operation, Region part) {
-    if (operation == "subtract") return without(std::move(whole), std::move(part));
-    if (operation == "intersect") return common_to(std::move(whole), std::move(part));
-    return both_of(std::move(whole), std::move(part));
+Shape ball_shape(const Values& values) {
+    const Vector centre = vector_of(values.list("centre"));
+    const double radius = values.number("radius");
+    Shape ball{ball_region(centre, radius), {centre, centre}};
+    for (std::size_t a = 0; a < 3; ++a) {
+        ball.bounds.lower[a] -= radius;
+        ball.bounds.upper[a] += radius;
+    }
+    return ball;
+}
+
+Shape polygon_shape(const std::vector<Vector>& corners) {
+    Shape polygon{polygon_region(corners)};
+    for (std::size_t a = 0; a < 2; ++a) {
+        const auto along = [a](const Vector& corner) { return corner[a]; };
+        polygon.bounds.lower[a] = std::ranges::min(corners, {}, along)[a];
+        polygon.bounds.upper[a] = std::ranges::max(corners, {}, along)[a];
+    }
+    return polygon;
+}
+
+Shape make_shape(const Values& values, const std::vector<Vector>& corners, int dimension) {
+    const std::string& shape = values.word(shape_rule.name);
+    if (shape == "polygon") return polygon_shape(corners);
+    if (shape == "ball") return ball_shape(values);
+    if (shape == "box") return box_shape(values, dimension);
+    return {half_space_region(vector_of(values.list("point")), vector_of(values.list("normal")))};
+}
+
+Shape combined(Shape whole, const std::string& operation, Shape part) {
+    if (operation == "subtract")
+        return {without(std::move(whole.region), std::move(part.region)), whole.bounds};
+    const bool is_common = operation == "intersect";
+    Box& box = whole.bounds;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const double lower = part.bounds.lower[a], upper = part.bounds.upper[a];
+        box.lower[a] = is_common ? std::max(box.lower[a], lower) : std::min(box.lower[a], lower);
+        box.upper[a] = is_common ? std::min(box.upper[a], upper) : std::max(box.upper[a], upper);
+    }
+    const auto combine = is_common ? common_to : both_of;
+    whole.region = combine(std::move(whole.region), std::move(part.region));
+    return whole;
+}
+
+/// One shape of a list, and the operation that it is combined by.
+std::pair<Shape, std::string> read_shape(List list, int dimension) {
+    std::vector<Vector> corners;
+    // Corners are rows of x and y, in three dimensions too. All else is plain parameters.
+    if (list.has("corners")) corners = list.take_rows("corners", 2);
+    const std::string shape = read_kind(list, dimension);
+    const Values values = list.values(shape_rules(shape), dimension);
+    if (shape == "polygon" ? corners.size() < 3 : !corners.empty())
+        list.refuse("corners",
+                    "must be the 3 or more rows (x, y) of a polygon, and of nothing else");
+    if (shape == "box") check_corners(list, values);
+    return {make_shape(values, corners, dimension), values.word("operation")};
 }
 
 /// The shapes of a body, combined in their order.
-Region read_region(List shapes, int dimension) {
-    Region whole = [](const Vector&) { return false; };
+Shape read_shapes(List shapes, int dimension) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Shape whole{[](const Vector&) { return false; },
+                {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}}};
     const std::vector<std::string> names = shapes.sublist_names();
     if (names.empty())
         throw std::invalid_argument(shapes.place() + " is missing; it must be named shapes");
     for (const std::string& name : names) {
-        List list = shapes.take_list(name);
-        std::vector<Vector> corners;
-        // Corners are rows of x and y, in three dimensions too. All else is plain parameters.
-        if (list.has("corners")) corners = list.take_rows("corners", 2);
-        const std::string shape = word_of(list, "shape");
-        const Values values = list.values(shape_rules(shape), dimension);
-        if (shape == "polygon" ? corners.size() < 3 : !corners.empty())
-            list.refuse("corners",
-                        "must be the 3 or more rows (x, y) of a polygon, and of nothing "
-                        "else");
-        whole = combined(std::move(whole), values.word("operation"),
-                         make_region(values, corners, dimension));
+        auto [part, operation] = read_shape(shapes.take_list(name), dimension);
+        whole = combined(std::move(whole), operation, std::move(part));
     }
     return whole;
 }
@@ -131,18 +188,19 @@ std::array<int, 3> whole_numbers(const List& list, const std::string& name,
 }
 
 Body read_body(List list, const std::string& name, int dimension) {
-    const Region region = read_region(list.take_list("shapes"), dimension);
+    const Shape shape = read_shapes(list.take_list("shapes"), dimension);
     const VelocityField velocity = read_velocity(list.take_list("velocity"), dimension);
     const std::vector<double> two(static_cast<std::size_t>(dimension), 2.0);
     const Values values = list.values(
         {vector("points_per_cell", "", two), {.name = "material", .kind = Rule::Kind::word}},
         dimension);
     return {
-        .contains = region,
+        .contains = shape.region,
         .points_per_cell = whole_numbers(list, "points_per_cell", values.list("points_per_cell")),
         .material = values.word("material"),
         .velocity = velocity,
-        .name = name};
+        .name = name,
+        .bounds = shape.bounds};
 }
 
 }  // namespace mpm

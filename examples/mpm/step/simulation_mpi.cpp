@@ -1,14 +1,10 @@
 #include "step/stepper.hpp"
 
-#include <stdexcept>
-
 namespace mpm {
 
 Simulation::Simulation(const Scene& scene, MPI_Comm comm) {
     validate(scene);
     const Extent extent = extent_of(scene);
-    if (extent.num_points == 0)
-        throw std::invalid_argument("scene: no body holds a point of the grid's lattice");
     if (scene.dimension == 2)
         model_ = std::make_unique<Stepper<2>>(scene, extent, comm);
     else

@@ -1,7 +1,5 @@
 #include "step/stepper.hpp"
 
-#include <algorithm>
-
 namespace mpm {
 
 namespace {
@@ -16,8 +14,7 @@ struct Sums {
 
 template <typename Kernels>
 void append_names(const Kernels& kernels, std::vector<std::string>& names) {
-    for (const auto& kernel : kernels)
-        if (std::ranges::find(names, kernel.name) == names.end()) names.push_back(kernel.name);
+    for (const auto& kernel : kernels) names.push_back(kernel.name);
 }
 
 }  // namespace

@@ -67,6 +67,9 @@ TEST(SceneFile, names_the_file_the_place_the_key_and_what_is_allowed) {
     expect_names(error_with("dimension: 2", "dimension: 4"), {"'dimension'", "whole number"});
     expect_names(error_with("shape: polygon", "shape: star"),
                  {"bodies / ground / shapes / outline", "'shape'", "half_space"});
+    // Told before the keys that only another shape knows.
+    expect_names(error_with("shape: polygon", "shape: cylinder\n          lower: [0, 0]"),
+                 {"'shape'", "box, polygon, ball"});
     expect_names(error_with("shape: polygon", "operation: add"), {"'shape'", "missing", "ball"});
     expect_names(error_with("bottom: fixed", "bottom: frictional"), {"'bottom_friction'"});
     expect_names(error_with("    gravity:", "    levity:"), {"'levity'", "possible", "gravity"});

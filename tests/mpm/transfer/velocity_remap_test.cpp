@@ -160,8 +160,8 @@ TEST(VelocityRemap, is_there_where_it_is_named_only) {
     Scene scene = bar(ShapeFunction::linear);
     const Simulation modified(scene, MPI_COMM_WORLD);
     EXPECT_EQ(modified.kernels(),
-              (std::vector<std::string>{"p2g", "ghost_nodes", "walls", "move_nodes", "remap", "g2p",
-                                        "elastic", "migrate"}));
+              (std::vector<std::string>{"p2g", "ghost_nodes", "walls", "move_nodes", "remap",
+                                        "walls", "g2p", "elastic", "migrate"}));
     EXPECT_EQ(modified.doubles_per_ghost_node(), 7u);
     scene.time_integration = TimeIntegration::update_stress_last;
     const Simulation plain(scene, MPI_COMM_WORLD);

@@ -35,6 +35,7 @@ struct Body {
     std::string material;
     VelocityField velocity = {};  ///< at the start
     std::string name = {};        ///< for errors
+    Box bounds = everywhere;      ///< around what it fills; open where that is not known
 };
 
 /// A model of a material by name, with its parameters; see material.hpp.

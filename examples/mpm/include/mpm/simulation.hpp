@@ -74,7 +74,8 @@ class Simulation {
     Positions positions() const;  ///< of this rank's points
     const Decomposition& decomposition() const;
 
-    /// Names of the kernels of a step in their order, communication included.
+    /// Names of the kernels of a step in their order, communication included, each as often as it
+    /// is called on all nodes or a block of points.
     std::vector<std::string> kernels() const;
     /// Doubles in a message per shared node.
     std::size_t doubles_per_ghost_node() const;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 namespace mpm {
@@ -14,6 +15,13 @@ struct Box {
     Vector lower{};
     Vector upper{};
 };
+
+/// The box with all sides open.
+inline constexpr Box everywhere{
+    {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+     -std::numeric_limits<double>::infinity()},
+    {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+     std::numeric_limits<double>::infinity()}};
 
 inline bool contains(const Box& box, const Vector& at) {
     return at[0] >= box.lower[0] && at[0] <= box.upper[0] && at[1] >= box.lower[1] &&

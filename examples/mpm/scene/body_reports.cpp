@@ -1,0 +1,104 @@
+#include "scene/body_reports.hpp"
+
+#include "materials/material.hpp"
+#include "scene/lattice.hpp"
+
+#include <cmath>
+#include <sstream>
+
+namespace mpm {
+
+namespace {
+
+/// Difference of the masses by that asked for, from which on there is a warning.
+constexpr double tolerated_difference = 0.02;
+
+std::size_t num_axes(const Scene& scene) {
+    return static_cast<std::size_t>(scene.dimension);
+}
+
+/// Bounds of a body, those of the grid where they are open.
+Box closed_bounds(const Scene& scene, const Body& body) {
+    Box box = body.bounds;
+    const Vector upper = scene.grid.upper();
+    for (std::size_t a = 0; a < num_axes(scene); ++a) {
+        if (!std::isfinite(box.lower[a])) box.lower[a] = scene.grid.lower[a];
+        if (!std::isfinite(box.upper[a])) box.upper[a] = upper[a];
+    }
+    return box;
+}
+
+/// Volume of a body's shapes, by the middles of equal parts of its bounds, m^3; in two dimensions
+/// per metre of depth.
+double volume_of(const Scene& scene, const Body& body) {
+    const int along = scene.dimension == 2 ? 500 : 60;
+    const Box box = closed_bounds(scene, body);
+    Vector part{1, 1, 1};
+    for (std::size_t a = 0; a < num_axes(scene); ++a)
+        part[a] = (box.upper[a] - box.lower[a]) / along;
+    std::int64_t num_inside = 0;
+    for (int k = 0; k < (scene.dimension == 3 ? along : 1); ++k)
+        for (int j = 0; j < along; ++j)
+            for (int i = 0; i < along; ++i) {
+                Vector at{box.lower[0] + (i + 0.5) * part[0], box.lower[1] + (j + 0.5) * part[1],
+                          0};
+                if (scene.dimension == 3) at[2] = box.lower[2] + (k + 0.5) * part[2];
+                num_inside += body.contains(at) ? 1 : 0;
+            }
+    return static_cast<double>(num_inside) * part[0] * part[1] * part[2];
+}
+
+/// Tells a side of the grid that a body reaches beyond; empty where there is none.
+std::string side_beyond(const Scene& scene, const Body& body) {
+    const Box box = closed_bounds(scene, body);
+    const Vector upper = scene.grid.upper();
+    const double tolerance = 1e-9 * scene.grid.spacing;
+    std::ostringstream text;
+    for (std::size_t a = 0; a < num_axes(scene); ++a) {
+        if (box.lower[a] < scene.grid.lower[a] - tolerance)
+            text << "it reaches down to "
+                 << "xyz"[a] << " = " << box.lower[a] << " m, the domain to " << scene.grid.lower[a]
+                 << " m";
+        else if (box.upper[a] > upper[a] + tolerance)
+            text << "it reaches up to "
+                 << "xyz"[a] << " = " << box.upper[a] << " m, the domain to " << upper[a] << " m";
+        else
+            continue;
+        break;
+    }
+    return text.str();
+}
+
+std::string warning_of(const Scene& scene, const Body& body, const BodyPoints& points) {
+    const std::string place = "bodies / " + body.name + ": ";
+    const std::string beyond = side_beyond(scene, body);
+    if (!beyond.empty()) return place + beyond + "; make the domain larger or cut the body";
+    std::ostringstream text;
+    text << place << "its sides cut the lattice of points; put them at multiples of the points' "
+         << "distance from the domain's lower corner, which is";
+    for (std::size_t a = 0; a < num_axes(scene); ++a)
+        text << (a > 0 ? "," : "") << " " << points.spacing[a] << " m along "
+             << "xyz"[a];
+    text << ", or take smaller cells";
+    return text.str();
+}
+
+}  // namespace
+
+std::vector<BodyReport> report_on_bodies(const Scene& scene) {
+    std::vector<BodyReport> reports;
+    const std::vector<BodyPoints> points = points_of_bodies(scene);
+    for (std::size_t b = 0; b < points.size(); ++b) {
+        const Body& body = scene.bodies[b];
+        const Material& material = scene.materials[material_of(scene, body)];
+        const double density = values_of(material, scene.dimension).number("density");
+        BodyReport report{body.name, points[b].num_points, density * points[b].volume,
+                          density * volume_of(scene, body), ""};
+        if (std::abs(report.mass - report.asked_mass) > tolerated_difference * report.asked_mass)
+            report.warning = warning_of(scene, body, points[b]);
+        reports.push_back(report);
+    }
+    return reports;
+}
+
+}  // namespace mpm

@@ -170,6 +170,21 @@ void build(const EffectBuilder<D>& builder) {
         return ledger->lost_between_steps + ledger->gained_by_nodes -
                (kinetic_energy<D>(particles, motion) - ledger->kinetic_at_start);
     };
+    stages.states.push_back({[ledger] {
+                                 return std::vector<double>{
+                                     ledger->lost_to_forces, ledger->lost_between_steps,
+                                     ledger->gained_by_nodes, ledger->kinetic_at_start};
+                             },
+                             [ledger](std::span<const double> state) {
+                                 ledger->lost_to_forces = state[0];
+                                 ledger->lost_between_steps = state[1];
+                                 ledger->gained_by_nodes = state[2];
+                                 ledger->kinetic_at_start = state[3];
+                             },
+                             true});
+    stages.states.push_back(
+        {[ledger] { return std::vector<double>{ledger->has_begun ? 1.0 : 0.0}; },
+         [ledger](std::span<const double> state) { ledger->has_begun = state[0] > 0; }, false});
     stages.counts_nodes = true;
     stages.carries_motion = true;
 }

@@ -109,6 +109,36 @@ void report(const std::shared_ptr<RigidContact<D>>& contact,
     });
 }
 
+/// Lets a written state hold the body and the means of its friction.
+template <int D>
+void keep_state(const std::shared_ptr<RigidContact<D>>& contact,
+                const std::shared_ptr<Motion<D>>& motion, Stages<D>& stages) {
+    const auto save = [=] {
+        std::vector<double> state{contact->body.tip[vertical], contact->body.velocity,
+                                  motion->potential, motion->force};
+        if (!contact->bands) return state;
+        const auto means = contact->bands->means();
+        state.insert(state.end(), means.begin(), means.end());
+        return state;
+    };
+    const auto load = [=](std::span<const double> state) {
+        contact->body.tip[vertical] = state[0];
+        contact->body.velocity = state[1];
+        motion->potential = state[2];
+        motion->force = state[3];
+        if (contact->bands) contact->bands->resume(state.subspan(4));
+    };
+    stages.states.push_back({save, load, false});
+    const auto save_own = [=] {
+        return std::vector<double>{contact->force, motion->is_counting_rank ? 1.0 : 0.0};
+    };
+    const auto load_own = [=](std::span<const double> state) {
+        contact->force = state[0];
+        motion->is_counting_rank = state[1] > 0;
+    };
+    stages.states.push_back({save_own, load_own, true});
+}
+
 template <int D>
 void build(const EffectBuilder<D>& builder) {
     Stages<D>& stages = builder.stages;
@@ -123,6 +153,7 @@ void build(const EffectBuilder<D>& builder) {
                                move_body(*contact, *motion, step, comm);
                            }});
     report(contact, motion, stages);
+    keep_state(contact, motion, stages);
 }
 
 std::vector<Rule> rules() {

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,13 @@ struct RigidEnergy {
     double potential;  ///< 0 at the start
 };
 
+/// Numbers that an effect keeps between steps beside columns; a written state holds them.
+struct EffectState {
+    std::function<std::vector<double>()> save;
+    std::function<void(std::span<const double>)> load;  ///< as many as save gives
+    bool is_sum;  ///< whether the ranks' numbers add up; otherwise they are the same on all
+};
+
 /// Places of kernels in a step, in its order. An empty stage is a loop over nothing.
 template <int D>
 struct Stages {
@@ -63,6 +71,7 @@ struct Stages {
     std::function<double(const Particles&)> transfer_loss = {};
     std::vector<std::function<RigidEnergy()>> rigid_energies = {};  ///< added to the points'
     std::vector<Report> reports = {};                               ///< for the history
+    std::vector<EffectState> states = {};
     std::optional<Column> internal_work = {};  ///< of the stress in each point since the start, J
     std::optional<Gravity<D>> gravity = {};    ///< for the potential energy
     bool counts_nodes = false;                 ///< asks for GridPatch::is_counted

@@ -26,6 +26,15 @@ DruckerPrager cone_of(const MohrCoulomb& strength, double factor, double dilatio
     return cone;
 }
 
+/// Cone through the edges of triaxial extension, `sign` +1, or compression, -1.
+DruckerPrager triaxial_cone(const MohrCoulomb& strength, double sign) {
+    const auto factor = [sign](double angle) {
+        return 6 / (std::numbers::sqrt3 * (3 + sign * sine_of(angle)));
+    };
+    return cone_of(strength, factor(strength.friction_angle),
+                   factor(strength.dilation_angle) * sine_of(strength.dilation_angle));
+}
+
 template <int D>
 MPM_VECTOR_CLONES void return_to(const DruckerPrager& cone, const StressPointers<D>& stresses,
                                  std::size_t begin, std::size_t end) {
@@ -75,7 +84,9 @@ DruckerPrager cone_of(const Values& values) {
         throw std::invalid_argument(
             "materials: the 'dilation_angle' of a drucker_prager must be at most its "
             "'friction_angle'");
-    return values.word("match") == "inner" ? inner_cone(strength) : matched_cone(strength);
+    const std::string& match = values.word("match");
+    if (match == "inner") return inner_cone(strength);
+    return match == "outer" ? outer_cone(strength) : matched_cone(strength);
 }
 
 template <int D>
@@ -96,11 +107,12 @@ MaterialModel<D> build(const Values& values, Particles& particles) {
 }
 
 std::vector<Rule> rules() {
-    return elastic_rules(
-        {not_negative("cohesion", "Pa"), within("friction_angle", "degrees", 0, 89),
-         within("dilation_angle", "degrees", 0, 89, 0.0),
-         not_negative("tension_cut_off", "Pa", 0.0), choice("match", {"plane_strain", "inner"}),
-         optional(within("most_expansion", "", 1, 1e6))});
+    return elastic_rules({not_negative("cohesion", "Pa"),
+                          within("friction_angle", "degrees", 0, 89),
+                          within("dilation_angle", "degrees", 0, 89, 0.0),
+                          not_negative("tension_cut_off", "Pa", 0.0),
+                          choice("match", {"plane_strain", "inner", "outer"}),
+                          optional(within("most_expansion", "", 1, 1e6))});
 }
 
 }  // namespace
@@ -114,11 +126,11 @@ DruckerPrager matched_cone(const MohrCoulomb& strength) {
 }
 
 DruckerPrager inner_cone(const MohrCoulomb& strength) {
-    const auto factor = [](double angle) {
-        return 6 / (std::numbers::sqrt3 * (3 + sine_of(angle)));
-    };
-    return cone_of(strength, factor(strength.friction_angle),
-                   factor(strength.dilation_angle) * sine_of(strength.dilation_angle));
+    return triaxial_cone(strength, 1);
+}
+
+DruckerPrager outer_cone(const MohrCoulomb& strength) {
+    return triaxial_cone(strength, -1);
 }
 
 MaterialKind drucker_prager_material() {

@@ -37,6 +37,10 @@ DruckerPrager matched_cone(const MohrCoulomb& strength);
 /// with psi.
 DruckerPrager inner_cone(const MohrCoulomb& strength);
 
+/// The cone around the pyramid, through the edges of triaxial compression: the same with
+/// 3 - sin(phi). It is stronger than Mohr-Coulomb anywhere else.
+DruckerPrager outer_cone(const MohrCoulomb& strength);
+
 /// Admissible stress that a trial stress returns to where dilation is 0.
 ///
 /// The shear return then keeps the mean stress. Beyond the tension limit it would end outside, so

@@ -28,7 +28,7 @@ Number number(const std::string& option, const std::string& text, Number none, N
 
 /// Numbers of options as texts: Teuchos would report a wrong one on rank 0 alone.
 struct Texts {
-    std::string every, vtk_every, end_time, cell_size;
+    std::string every, vtk_every, every_time, state_every, end_time, cell_size;
 };
 
 void set_options(Teuchos::CommandLineProcessor& parser, Arguments& arguments, Texts& texts) {
@@ -39,6 +39,12 @@ void set_options(Teuchos::CommandLineProcessor& parser, Arguments& arguments, Te
     parser.setOption("end-time", &texts.end_time, "simulated seconds, in place of the scene's");
     parser.setOption("cell-size", &texts.cell_size, "m, in place of the scene's");
     parser.setOption("vtk-every", &texts.vtk_every, "steps between VTK files; 0: none");
+    parser.setOption("every-time", &texts.every_time,
+                     "simulated seconds between rows of history.csv and probes.csv, and VTK files "
+                     "where there are any, in place of steps");
+    parser.setOption("state-every", &texts.state_every,
+                     "steps between states to restart from; 0: none");
+    parser.setOption("restart", &arguments.restart, "go on from a file that --state-every wrote");
     parser.setOption("out", &arguments.out, "folder for history.csv and VTK files");
     parser.setOption("list-kernels", "no-list-kernels", &arguments.list_kernels,
                      "tell what a step does, owns and sends, and stop");
@@ -63,6 +69,8 @@ std::optional<Arguments> read_arguments(int argc, char** argv) {
     if (arguments.out.empty()) throw std::invalid_argument("--out: must name a folder");
     if (texts.every != "auto") arguments.every = number("every", texts.every, 0, 1, " or auto");
     arguments.vtk_every = number("vtk-every", texts.vtk_every, -1, 0);
+    arguments.every_time = number("every-time", texts.every_time, -1.0, 1e-300);
+    arguments.state_every = number("state-every", texts.state_every, 0, 0);
     arguments.end_time = number("end-time", texts.end_time, 0.0, 1e-300);
     arguments.cell_size = number("cell-size", texts.cell_size, 0.0, 1e-300);
     return arguments;

@@ -8,6 +8,7 @@
 #endif
 
 #include "output/history_mpi.hpp"
+#include "output/probe_table_mpi.hpp"
 #include "output/vtk_mpi.hpp"
 
 #include <rrcb/controller.hpp>
@@ -55,41 +56,71 @@ void report_scene(const mpm::Scene& scene) {
 /// Files that the output plan asks for, in a folder that rank 0 makes.
 class Recorder {
   public:
-    Recorder(const std::string& folder, const mpm::SceneFile& file, MPI_Comm comm)
-        : plan_(file.output) {
+    /// Collective over `comm`. `state_every` is as in Arguments.
+    Recorder(const std::string& folder, const mpm::SceneFile& file, int state_every, MPI_Comm comm)
+        : plan_(file.output), state_every_(state_every), folder_(folder) {
         std::error_code error;
         if (mpm::rank_of(comm) == 0) std::filesystem::create_directories(folder, error);
         mpm::fail_together(error ? folder + ": " + error.message() : "", comm);
         history_.emplace(folder + "/history.csv", file.scene, comm);
+        if (!file.scene.probes.empty()) probes_.emplace(folder + "/probes.csv", file.scene, comm);
         vtk_.emplace(folder, file.scene, comm);
     }
 
     void record(const mpm::Simulation& simulation, bool is_last) {
-        if (is_due(plan_.history_every, simulation, is_last)) history_->write(simulation);
-        if (is_due(plan_.vtk_every, simulation, is_last)) vtk_->write(simulation);
+        const bool is_time = passes(simulation.time());
+        if (is_due(plan_.history_every, is_time, simulation, is_last)) {
+            history_->write(simulation);
+            if (probes_) probes_->write(simulation);
+        }
+        if (is_due(plan_.vtk_every, is_time, simulation, is_last)) vtk_->write(simulation);
+        if (is_due_by_steps(state_every_, simulation, is_last))
+            simulation.write_state(folder_ + "/state_" + std::to_string(simulation.step_count()) +
+                                   ".mpm");
     }
 
   private:
-    static bool is_due(int every, const mpm::Simulation& simulation, bool is_last) {
+    static bool is_due_by_steps(int every, const mpm::Simulation& simulation, bool is_last) {
         return every > 0 && (is_last || simulation.step_count() % every == 0);
     }
 
+    bool is_due(int every, bool is_time, const mpm::Simulation& simulation, bool is_last) const {
+        if (!(plan_.every_time > 0)) return is_due_by_steps(every, simulation, is_last);
+        return every > 0 && (is_last || is_time);
+    }
+
+    /// Whether this is the first step at or after a multiple of the time between outputs.
+    bool passes(double time) {
+        if (!(plan_.every_time > 0) || time < next_time_) return false;
+        // A hair more, so that round-off does not find the multiple that has just been passed.
+        const double multiple = std::floor(time / plan_.every_time * (1 + 1e-12)) + 1;
+        next_time_ = multiple * plan_.every_time;
+        return true;
+    }
+
     mpm::OutputPlan plan_;
+    int state_every_;
+    std::string folder_;
+    double next_time_ = 0;
     std::optional<mpm::History> history_;
+    std::optional<mpm::ProbeTable> probes_;
     std::optional<mpm::VtkSeries> vtk_;
 };
 
-/// When to rebalance: before the first step, and then each so many steps or when it pays.
+/// When to rebalance: before the first step, and then each so many steps or when it pays. A restart
+/// keeps the division that it finds.
 class Schedule {
   public:
     /// Collective over `comm`. `every` is as in Arguments.
-    Schedule(int every, MPI_Comm comm) : every_(every) {
+    Schedule(int every, std::int64_t first_step, MPI_Comm comm)
+        : every_(every), first_step_(first_step) {
         if (every == 0) controller_.emplace(comm);
     }
 
     /// Collective; once before each step.
     void rebalance_if_due(mpm::Simulation& simulation, const mpm::Balancer& balancer) {
         const std::int64_t step = simulation.step_count();
+        if (step == first_step_ && step > 0) return;
         bool is_due = step == 0;
         if (!controller_) {
             is_due = step % every_ == 0;
@@ -105,6 +136,7 @@ class Schedule {
 
   private:
     int every_;
+    std::int64_t first_step_;
     std::optional<rrcb::Controller> controller_;
 };
 
@@ -131,7 +163,7 @@ void warn_of_gain(const mpm::Simulation& simulation, MPI_Comm comm) {
 void simulate(mpm::Simulation& simulation, const mpm::Scene& scene, const Arguments& arguments,
               Recorder& recorder, MPI_Comm comm) {
     const std::optional<mpm::Balancer> balancer = make_balancer(arguments.balancer, scene);
-    Schedule schedule(arguments.every, comm);
+    Schedule schedule(arguments.every, simulation.step_count(), comm);
     for (bool is_last = false; !is_last;) {
         is_last = !(simulation.time() < arguments.end_time);
         if (balancer && !is_last) schedule.rebalance_if_due(simulation, *balancer);
@@ -152,26 +184,28 @@ void print_end(const mpm::Simulation& simulation, const Arguments& arguments, do
 }
 
 /// A simulation whose errors name the file.
-mpm::Simulation start(const std::string& path, const mpm::Scene& scene, MPI_Comm comm) {
+mpm::Simulation start(const Arguments& arguments, const mpm::Scene& scene, MPI_Comm comm) {
     try {
-        return mpm::Simulation(scene, comm);
+        if (!arguments.restart.empty()) return {scene, arguments.restart, comm};
+        return {scene, comm};
     } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument(path + ": " + error.what());
+        throw std::invalid_argument(arguments.scene + ": " + error.what());
     }
 }
 
 void run(Arguments arguments, MPI_Comm comm) {
     mpm::SceneFile file = mpm::read_scene(arguments.scene, comm);
     if (arguments.cell_size > 0) mpm::resize_cells(file.scene, arguments.cell_size);
+    if (arguments.every_time > 0) file.output.every_time = arguments.every_time;
     if (arguments.vtk_every >= 0) file.output.vtk_every = arguments.vtk_every;
     if (!(arguments.end_time > 0)) arguments.end_time = file.scene.end_time;
-    mpm::Simulation simulation = start(arguments.scene, file.scene, comm);
+    mpm::Simulation simulation = start(arguments, file.scene, comm);
     if (arguments.list_kernels) {
         if (mpm::rank_of(comm) == 0) list_kernels(simulation);
         return;
     }
     if (mpm::rank_of(comm) == 0) report_scene(file.scene);
-    Recorder recorder(arguments.out, file, comm);
+    Recorder recorder(arguments.out, file, arguments.state_every, comm);
     const double start_time = MPI_Wtime();
     simulate(simulation, file.scene, arguments, recorder, comm);
     if (mpm::rank_of(comm) == 0) print_end(simulation, arguments, MPI_Wtime() - start_time);

@@ -10,6 +10,13 @@
 
 namespace mpm {
 
+Vector lattice_spacing(const Scene& scene, const Body& body) {
+    Vector step{1, 1, 1};
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
+        step[a] = scene.grid.spacing / body.points_per_cell[a];
+    return step;
+}
+
 namespace {
 
 std::array<int, 3> num_points_along(const Scene& scene, const Body& body) {
@@ -17,14 +24,6 @@ std::array<int, 3> num_points_along(const Scene& scene, const Body& body) {
     for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
         count[a] = scene.grid.num_cells[a] * body.points_per_cell[a];
     return count;
-}
-
-/// Distance of neighbouring points along the axes, m; in two dimensions 1 along z.
-Vector lattice_spacing(const Scene& scene, const Body& body) {
-    Vector step{1, 1, 1};
-    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
-        step[a] = scene.grid.spacing / body.points_per_cell[a];
-    return step;
 }
 
 template <typename Visit>
@@ -180,6 +179,21 @@ std::vector<BodyPoints> points_of_bodies(const Scene& scene) {
         points.volume *= static_cast<double>(points.num_points);
     }
     return all;
+}
+
+Vector nearest_point(const Scene& scene, const Vector& position) {
+    Vector nearest{};
+    double least = std::numeric_limits<double>::infinity();
+    for (const Body& body : scene.bodies)
+        visit_body(scene, body, [&](const Vector& at) {
+            double square = 0;
+            for (std::size_t a = 0; a < 3; ++a)
+                square += (at[a] - position[a]) * (at[a] - position[a]);
+            if (!(square < least)) return;
+            least = square;
+            nearest = at;
+        });
+    return nearest;
 }
 
 void place_points(const Scene& scene, const Decomposition& decomposition, int rank,

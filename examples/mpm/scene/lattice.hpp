@@ -29,6 +29,12 @@ struct BodyPoints {
 /// The points of each body of a scene, in their order.
 std::vector<BodyPoints> points_of_bodies(const Scene& scene);
 
+/// Distance of a body's neighbouring points along the axes, m; in two dimensions 1 along z.
+Vector lattice_spacing(const Scene& scene, const Body& body);
+
+/// The place of the point of a scene that is nearest to a position, the first of equals.
+Vector nearest_point(const Scene& scene, const Vector& position);
+
 /// Appends the scene's points that `rank` owns. Columns other than those of motion and `material`
 /// start with their initial values.
 void place_points(const Scene& scene, const Decomposition& decomposition, int rank,

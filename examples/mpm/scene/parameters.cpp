@@ -37,7 +37,8 @@ std::string wish_of(const Rule& rule, int dimension) {
         case Kind::number:
             return range_of(rule);
         case Kind::list:
-            return "a list of " + std::to_string(dimension) + " numbers, each " + range_of(rule);
+            return "a list of " + (rule.has_any_length ? "" : std::to_string(dimension) + " ") +
+                   "numbers, each " + range_of(rule);
         case Kind::word:
             return rule.choices.empty() ? "a word" : "one of: " + joined(rule.choices);
     }
@@ -57,7 +58,9 @@ bool keeps(const Rule& rule, const Value& value, int dimension) {
         return rule.choices.empty() ||
                std::ranges::find(rule.choices, std::get<std::string>(value)) != rule.choices.end();
     const auto& list = std::get<std::vector<double>>(value);
-    return list.size() == static_cast<std::size_t>(dimension) &&
+    const std::size_t wanted = rule.has_any_length ? std::max<std::size_t>(list.size(), 1)
+                                                   : static_cast<std::size_t>(dimension);
+    return list.size() == wanted &&
            std::ranges::all_of(list, [&](double entry) { return keeps(rule, entry); });
 }
 
@@ -112,6 +115,12 @@ Rule whole(std::string name, std::string unit, double least, double most,
 Rule vector(std::string name, std::string unit, std::optional<std::vector<double>> fallback) {
     Rule rule{.name = std::move(name), .kind = Kind::list, .unit = std::move(unit)};
     if (fallback) rule.fallback = *fallback;
+    return rule;
+}
+
+Rule numbers(std::string name, std::string unit, std::optional<std::vector<double>> fallback) {
+    Rule rule = vector(std::move(name), std::move(unit), std::move(fallback));
+    rule.has_any_length = true;
     return rule;
 }
 

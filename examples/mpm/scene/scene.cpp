@@ -55,6 +55,13 @@ void check_planes(const Scene& scene) {
     }
 }
 
+void check_probes(const Scene& scene) {
+    for (const Probe& probe : scene.probes)
+        for (const double coordinate : probe.position)
+            require(std::isfinite(coordinate),
+                    "probe '" + probe.name + "' must have a finite position");
+}
+
 void check_transfer(const Scene& scene) {
     require(scene.flip_fraction >= 0 && scene.flip_fraction <= 1,
             "the FLIP fraction must lie in 0 ... 1");
@@ -83,6 +90,7 @@ void validate(const Scene& scene) {
     for (const Body& body : scene.bodies) check_body(scene, body);
     check_walls(scene.walls);
     check_planes(scene);
+    check_probes(scene);
     check_transfer(scene);
     effect_values(scene);
 }

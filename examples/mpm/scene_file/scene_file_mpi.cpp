@@ -103,19 +103,22 @@ void read_method(const List& list, int dimension, Scene& scene) {
 }
 
 OutputPlan read_output(const List& list, int dimension) {
-    const Values values = list.values({whole("history_every", "steps", 0, most_steps, 10.0),
-                                       whole("vtk_every", "steps", 0, most_steps, 0.0)},
-                                      dimension);
+    const Values values = list.values(
+        {whole("history_every", "steps", 0, most_steps, 10.0),
+         whole("vtk_every", "steps", 0, most_steps, 0.0), not_negative("every_time", "s", 0.0)},
+        dimension);
     return {static_cast<int>(values.number("history_every")),
-            static_cast<int>(values.number("vtk_every"))};
+            static_cast<int>(values.number("vtk_every")), values.number("every_time")};
 }
 
 SceneFile read_list(List list, const std::string& name) {
     List materials = list.take_list("materials"), bodies = list.take_list("bodies");
     List effects = list.take_list("effects"), planes = list.take_list("planes");
+    List probes = list.take_list("probes");
     const List domain = list.take_list("domain"), walls = list.take_list("walls");
     const List method = list.take_list("method"), output = list.take_list("output");
-    list.refuse_other_lists("domain, walls, planes, materials, bodies, effects, method, output");
+    list.refuse_other_lists(
+        "domain, walls, planes, materials, bodies, effects, probes, method, output");
     const std::vector<Rule> rules{whole("dimension", "", 2, 3), positive("end_time", "s")};
     const int dimension = static_cast<int>(list.values(rules, 2).number("dimension"));
 
@@ -139,6 +142,10 @@ SceneFile read_list(List list, const std::string& name) {
         scene.bodies.push_back(read_body(bodies.take_list(key), key, dimension));
     for (const std::string& key : effects.sublist_names())
         scene.effects.push_back({key, effects.take_list(key).parameters()});
+    for (const std::string& key : probes.sublist_names())
+        scene.probes.push_back({key, vector_of(probes.take_list(key)
+                                                   .values({vector("position", "m")}, dimension)
+                                                   .list("position"))});
     read_method(method, dimension, scene);
     file.output = read_output(output, dimension);
     validate(scene);

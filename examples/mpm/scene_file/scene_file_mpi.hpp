@@ -11,6 +11,7 @@ namespace mpm {
 struct OutputPlan {
     int history_every = 10;
     int vtk_every = 0;
+    double every_time = 0;  ///< s, in place of the steps of both that are not 0; 0: by steps
 };
 
 /// A scene file: the scene, and its output.

@@ -11,7 +11,16 @@ Simulation::Simulation(const Scene& scene, MPI_Comm comm) {
         model_ = std::make_unique<Stepper<3>>(scene, extent, comm);
 }
 
+Simulation::Simulation(const Scene& scene, const std::string& state, MPI_Comm comm)
+    : Simulation(scene, comm) {
+    model_->read_state(state);
+}
+
 Simulation::~Simulation() = default;
+
+void Simulation::write_state(const std::string& path) const {
+    model_->write_state(path);
+}
 
 void Simulation::step() {
     model_->step();

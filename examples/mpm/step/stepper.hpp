@@ -5,6 +5,7 @@
 #include "parallel/ghost_nodes_mpi.hpp"
 #include "parallel/ownership_mpi.hpp"
 #include "scene/lattice.hpp"
+#include "step/state_file_mpi.hpp"
 #include "step/work_clock.hpp"
 #include "transfer/velocity_remap.hpp"
 
@@ -26,6 +27,8 @@ class Simulation::Model {
     virtual Totals totals() const = 0;
     virtual std::vector<std::pair<std::string, double>> reports() const = 0;
     virtual Positions positions() const = 0;
+    virtual void write_state(const std::string& path) const = 0;
+    virtual void read_state(const std::string& path) = 0;
 
     Particles particles;
     Decomposition decomposition;
@@ -48,10 +51,17 @@ class Stepper final : public Simulation::Model {
     std::size_t doubles_per_ghost_node() const override;
     Totals totals() const override;
     std::vector<std::pair<std::string, double>> reports() const override;
+    void write_state(const std::string& path) const override;
+    void read_state(const std::string& path) override;
     Positions positions() const override { return positions_of(particles, motion_, D); }
 
   private:
     void build_materials();
+    StateHead state_head() const;
+    std::vector<double> state_section() const;
+    void take_section(StateSection section, bool is_mine, bool is_divided_anew);
+    void take_motion(StateSection& section);
+    void take_points(std::span<const double> rows);
     void start_points();
     double strain_energy(std::size_t point) const;
     void adopt(Decomposition next);

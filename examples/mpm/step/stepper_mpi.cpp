@@ -1,4 +1,5 @@
 #include "boundaries/boundaries.hpp"
+#include "effects/probes.hpp"
 #include "parallel/carried_motion_mpi.hpp"
 #include "parallel/communicator_mpi.hpp"
 #include "particles/pair.hpp"
@@ -49,6 +50,7 @@ Stages<D> build_stages(const Scene& scene, Particles& particles) {
         else
             effect_kinds()[k].build_3(builder);
     }
+    if (!scene.probes.empty()) add_probes<D>(scene, particles, stages);
     return stages;
 }
 

@@ -32,6 +32,7 @@ const std::vector<Account> accounts{
     {"hydrostatic_column", 0.0125, 0.05, 0.001},
     {"incline_block", 0.25, 2, 0.001},
     {"falling_body", 0.25, 1, 0.001},
+    {"piston", 0.5, 2, 0.001},
 };
 
 /// Energies at one time, J.

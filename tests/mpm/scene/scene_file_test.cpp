@@ -198,6 +198,21 @@ TEST(SceneFile, may_be_xml_and_takes_shapes_away) {
     EXPECT_EQ(extent_of(file.scene).num_points, 63);
 }
 
+TEST(SceneFile, is_the_same_in_xml_and_yaml) {
+    const SceneFile yaml = read_scene(RRCB_SCENES "/piston.yaml", MPI_COMM_WORLD);
+    const SceneFile xml_file = read_scene(RRCB_SCENES "/piston.xml", MPI_COMM_WORLD);
+    EXPECT_EQ(yaml.output.every_time, xml_file.output.every_time);
+    EXPECT_EQ(yaml.scene.end_time, xml_file.scene.end_time);
+    EXPECT_EQ(yaml.scene.probes.back().position, xml_file.scene.probes.back().position);
+    Simulation a(yaml.scene, MPI_COMM_WORLD), b(xml_file.scene, MPI_COMM_WORLD);
+    for (int step = 0; step < 30; ++step) {
+        a.step();
+        b.step();
+    }
+    for (const std::string& column : a.particles().column_names())
+        EXPECT_TRUE(std::ranges::equal(a.particles()[column], b.particles()[column])) << column;
+}
+
 TEST(SceneFile, can_be_given_other_cells) {
     Scene scene = parse_scene(xml, SceneFormat::xml, "block.xml").scene;
     resize_cells(scene, 0.25);

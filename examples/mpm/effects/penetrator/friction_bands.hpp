@@ -51,6 +51,10 @@ class FrictionBands {
         }
     }
 
+    /// Means between steps, and the same taken up again.
+    std::span<const double> means() const { return means_; }
+    void resume(std::span<const double> means) { means_.assign(means.begin(), means.end()); }
+
   private:
     double edge(std::size_t k) const {
         return length_ * static_cast<double>(k) / static_cast<double>(areas_.size());

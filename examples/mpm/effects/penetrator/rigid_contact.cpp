@@ -1,11 +1,10 @@
 #include "effects/penetrator/rigid_contact.hpp"
 
+#include "effects/point_contact.hpp"
+
 namespace mpm {
 
 namespace {
-
-/// Share of an overlap that a step takes back.
-constexpr double recovery = 0.5;
 
 template <int D>
 struct ContactColumns {
@@ -13,28 +12,6 @@ struct ContactColumns {
     std::array<Column, D> force{};
     double largest = 0;  ///< half the width of a point, m
 };
-
-/// Velocity of a point relative to the body: into its surface and along it, m/s.
-template <int D>
-struct Slip {
-    double inward = 0;
-    Components<D> along{};
-    double speed = 0;  ///< along
-};
-
-template <int D>
-Slip<D> slip_of(const Components<D>& velocity, double body_velocity, const Components<D>& normal) {
-    Slip<D> slip{.inward = body_velocity * normal[1], .along = velocity};
-    slip.along[1] -= body_velocity;
-    for (std::size_t a = 0; a < D; ++a) slip.inward -= velocity[a] * normal[a];
-    double square = 0;
-    for (std::size_t a = 0; a < D; ++a) {
-        slip.along[a] += slip.inward * normal[a];
-        square += slip.along[a] * slip.along[a];
-    }
-    slip.speed = std::sqrt(square);
-    return slip;
-}
 
 /// The forces of one step.
 template <int D>
@@ -60,26 +37,17 @@ class Pusher {
         Components<D> velocity;
         for (std::size_t a = 0; a < D; ++a)
             velocity[a] = particles_[columns_.motion.velocity[a]][p];
-        const Slip<D> slip = slip_of<D>(velocity, body_.velocity, touch->normal);
+        velocity[1] -= body_.velocity;
+        const Slip<D> slip = slip_of<D>(velocity, touch->normal);
         const double mass_rate = particles_[columns_.motion.mass][p] / block_.time_step;
         const double normal_force =
-            mass_rate *
-            std::max(0.0, slip.inward + recovered(touch->depth - ahead_) / block_.time_step);
+            mass_rate * lost_speed<D>(slip, touch->depth - ahead_, block_.time_step);
         const double most =
             std::min(friction_on(p, at[1] - body_.tip[1], normal_force), mass_rate * slip.speed);
-        Components<D> force;
-        for (std::size_t a = 0; a < D; ++a) {
-            force[a] = normal_force * touch->normal[a];
-            if (slip.speed > 0) force[a] -= most * slip.along[a] / slip.speed;
-        }
-        return force;
+        return contact_force<D>(slip, touch->normal, normal_force, most);
     }
 
   private:
-    /// Distance that a point moves out in a step. A gap, below 0, may close within it; an overlap
-    /// takes some steps.
-    static double recovered(double overlap) { return overlap < 0 ? overlap : recovery * overlap; }
-
     Vector position(std::size_t p) const {
         Vector at{};
         for (std::size_t a = 0; a < D; ++a) at[a] = particles_[columns_.motion.position[a]][p];

@@ -31,6 +31,7 @@ struct Rule {
     bool is_whole = false;
     bool without_ends = false;              ///< strictly between least and most
     std::vector<std::string> choices = {};  ///< of a word; empty: any
+    bool has_any_length = false;  ///< of a list; otherwise it has one number for each axis
 };
 
 /// A number above 0.
@@ -47,6 +48,8 @@ Rule whole(std::string name, std::string unit, double least, double most,
            std::optional<double> fallback = {});
 /// Numbers along the axes, as many as the scene has dimensions.
 Rule vector(std::string name, std::string unit, std::optional<std::vector<double>> fallback = {});
+/// At least one number, with as many as the scene likes.
+Rule numbers(std::string name, std::string unit, std::optional<std::vector<double>> fallback = {});
 /// One of some words. The first is the fallback.
 Rule choice(std::string name, std::vector<std::string> choices);
 /// Rule for a parameter that may be left out altogether.

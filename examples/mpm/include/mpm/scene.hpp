@@ -80,6 +80,12 @@ struct Effect {
     Parameters parameters;
 };
 
+/// The point nearest to a position at the start, whose motion, stress and strain are recorded.
+struct Probe {
+    std::string name;
+    Vector position{};  ///< m
+};
+
 enum class ShapeFunction {
     linear,     ///< 2 nodes along an axis
     quadratic,  ///< B-spline, 3 nodes
@@ -109,6 +115,7 @@ struct Scene {
     Walls walls = {};
     std::vector<Plane> planes = {};
     std::vector<Effect> effects = {};
+    std::vector<Probe> probes = {};
 
     ShapeFunction shape_function = ShapeFunction::linear;
     Transfer transfer = Transfer::flip;

@@ -48,6 +48,11 @@ class Simulation {
   public:
     /// Places the points of the scene; the first decomposition is `slabs` of their extent.
     Simulation(const Scene& scene, MPI_Comm comm);
+    /// Goes on from a file that write_state has written of the same scene. Rank 0 reads.
+    ///
+    /// On as many ranks as wrote it the points are divided as there, and what follows has the same
+    /// bits as without the stop; on others they start in `slabs`. Migrations count from here on.
+    Simulation(const Scene& scene, const std::string& state, MPI_Comm comm);
     ~Simulation();
     Simulation(const Simulation&) = delete;
     Simulation& operator=(const Simulation&) = delete;
@@ -59,6 +64,10 @@ class Simulation {
     ///
     /// Throws where it has not one box per rank or a box does not hold the points given to it.
     RebalanceReport rebalance(const Balancer& balancer);
+
+    /// Writes all that the next steps depend on to a file. Collective; rank 0 writes. Doubles are
+    /// in the byte order of the machine.
+    void write_state(const std::string& path) const;
 
     double time() const;       ///< s
     double time_step() const;  ///< of the next step, s

@@ -1,0 +1,93 @@
+#include "effects/effect.hpp"
+#include "effects/time_function.hpp"
+#include "scene/lattice.hpp"
+
+#include <algorithm>
+
+namespace mpm {
+
+namespace {
+
+/// Sides in the order of the axes, the lower before the upper one.
+const std::vector<std::string> sides{"left", "right", "bottom", "top", "back", "front"};
+
+/// The face that a traction acts on.
+struct Face {
+    std::size_t axis;
+    double outward;  ///< +1 on an upper side, -1 on a lower one
+    Box box;         ///< around its points at the start
+};
+
+template <int D>
+Face read_face(const Values& values) {
+    const std::size_t side =
+        static_cast<std::size_t>(std::ranges::find(sides, values.word("side")) - sides.begin());
+    if (side >= 2 * D)
+        throw std::invalid_argument(
+            "effects / traction: 'side' must be left, right, bottom or top in two dimensions");
+    Face face{side / 2, side % 2 == 0 ? -1.0 : 1.0, everywhere};
+    for (std::size_t a = 0; a < D; ++a) {
+        if (values.has("lower")) face.box.lower[a] = values.list("lower")[a];
+        if (values.has("upper")) face.box.upper[a] = values.list("upper")[a];
+    }
+    return face;
+}
+
+/// Area that the point at a position stands for on the face; 0 where it is not on it.
+template <int D>
+double area_at(const Scene& scene, const Face& face, const Vector& at) {
+    if (!contains(face.box, at)) return 0;
+    for (const Body& body : scene.bodies) {
+        if (!body.contains(at)) continue;
+        const Vector spacing = lattice_spacing(scene, body);
+        Vector beyond = at;
+        beyond[face.axis] += face.outward * spacing[face.axis];
+        for (const Body& other : scene.bodies)
+            if (other.contains(beyond)) return 0;
+        return spacing[0] * spacing[1] * spacing[2] / spacing[face.axis];
+    }
+    return 0;
+}
+
+template <int D>
+void build(const EffectBuilder<D>& builder) {
+    const Values& values = builder.values;
+    Stages<D>& stages = builder.stages;
+    const Face face = read_face<D>(values);
+    const MotionColumns motion = add_motion_columns(builder.particles, D);
+    const Column area = builder.particles.add_column("traction_area");
+    stages.starts.push_back([=, scene = builder.scene](Particles& particles) {
+        const Positions positions = positions_of(particles, motion, D);
+        for (std::size_t p = 0; p < particles.size(); ++p)
+            particles.data(area)[p] = area_at<D>(scene, face, positions[p]);
+    });
+    const std::size_t field = stages.fields.size();
+    stages.fields.push_back({"traction_area", area});
+    Components<D> traction;
+    std::copy_n(values.list("traction").begin(), D, traction.begin());
+    const TimeFunction share(values.list("times"), values.list("shares"), "effects / traction");
+    stages.forces.push_back({"traction", [=](GridPatch<D>& patch, const StepTime& step) {
+                                 Components<D> now = traction;
+                                 for (double& component : now) component *= share.at(step.time);
+                                 for (std::size_t n = 0; n < patch.sums.size(); ++n)
+                                     for (std::size_t a = 0; a < D; ++a)
+                                         patch.sums[n].force[a] += patch.fields[field][n] * now[a];
+                             }});
+}
+
+}  // namespace
+
+/// A force by area on the points of a face, the outermost of their bodies on one side at the start.
+///
+/// It keeps its direction, and the area that it acts on is that of the start.
+EffectKind traction_effect() {
+    Rule side{.name = "side", .kind = Rule::Kind::word, .choices = sides};
+    return {"traction",
+            {std::move(side), vector("traction", "Pa"), optional(vector("lower", "m")),
+             optional(vector("upper", "m")), numbers("times", "s", std::vector<double>{0}),
+             numbers("shares", "", std::vector<double>{1})},
+            build<2>,
+            build<3>};
+}
+
+}  // namespace mpm

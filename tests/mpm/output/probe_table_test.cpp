@@ -1,0 +1,93 @@
+#include "output/probe_table_mpi.hpp"
+#include "support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <sstream>
+
+namespace mpm::test {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+Rows rows_of(const std::string& path) {
+    std::ifstream file(path);
+    Rows rows;
+    for (std::string line, entry; std::getline(file, line);) {
+        std::istringstream text(line);
+        for (rows.emplace_back(); std::getline(text, entry, ',');) rows.back().push_back(entry);
+    }
+    return rows;
+}
+
+/// Rows that probes of a scene give, at its start and after some steps; on rank 0.
+Rows recorded(const Scene& scene, double end_time) {
+    const std::string path = (std::filesystem::temp_directory_path() /
+                              ("probes_" + std::to_string(size_of(MPI_COMM_WORLD)) + ".csv"))
+                                 .string();
+    {
+        Simulation simulation(scene, MPI_COMM_WORLD);
+        ProbeTable table(path, scene, MPI_COMM_WORLD);
+        table.write(simulation);
+        while (simulation.time() < end_time) simulation.step();
+        table.write(simulation);
+    }
+    const Rows rows = rank_of(MPI_COMM_WORLD) == 0 ? rows_of(path) : Rows{};
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (rank_of(MPI_COMM_WORLD) == 0) std::filesystem::remove(path);
+    return rows;
+}
+
+double number(const Rows& rows, std::size_t row, const std::string& column) {
+    const auto at = std::ranges::find(rows.front(), column) - rows.front().begin();
+    return std::stod(rows[row][static_cast<std::size_t>(at)]);
+}
+
+// Free motion with a uniform rate of strain: position grows by x exp(rate t), strain by rate t, and
+// stress by E rate t, as nu is 0.
+TEST(ProbeTable, follows_points_through_a_uniform_strain) {
+    constexpr double rate = 1e-3, modulus = 1e-6;
+    Scene scene = axial_bar();
+    scene.materials = {elastic_material("rubber", 1, modulus, 0)};
+    scene.bodies[0].velocity = [](const Vector& at) { return Vector{rate * at[0], 0, 0}; };
+    scene.probes = {{"middle", {10.1, 0.4}}, {"end", {99, 0}}, {"again", {10.3, 0.3}}};
+    const double t = 2;
+    const Rows rows = recorded(scene, t);
+    if (rank_of(MPI_COMM_WORLD) != 0) return;
+    ASSERT_EQ(rows.size(), 7u);
+    EXPECT_EQ(rows[1][2], "middle");
+    EXPECT_EQ(rows[6][2], "again");
+    EXPECT_EQ(number(rows, 1, "x"), 10.25);
+    EXPECT_EQ(number(rows, 1, "y"), 0.25);
+    EXPECT_EQ(number(rows, 2, "x"), 24.75);
+    EXPECT_EQ(number(rows, 1, "displacement_x"), 0);
+    const double time = number(rows, 4, "time");
+    EXPECT_GE(time, t);
+    for (const std::size_t row : {4u, 5u, 6u}) {
+        const double start = row == 5 ? 24.75 : 10.25;
+        EXPECT_NEAR(number(rows, row, "displacement_x"), start * rate * time, 1e-4 * start);
+        // The last nodes know of no points beyond the end, whose strain is less.
+        if (row == 5) continue;
+        EXPECT_NEAR(number(rows, row, "strain_xx"), rate * time, 1e-2 * rate * time);
+        EXPECT_NEAR(number(rows, row, "stress_xx"), modulus * rate * time,
+                    1e-2 * modulus * rate * time);
+        EXPECT_NEAR(number(rows, row, "strain_yy"), 0, 1e-12);
+        EXPECT_EQ(number(rows, row, "strain_zx"), 0);
+    }
+}
+
+TEST(ProbeTable, costs_a_scene_without_probes_nothing) {
+    const Simulation simulation(axial_bar(), MPI_COMM_WORLD);
+    EXPECT_FALSE(simulation.particles().has_column("probe"));
+    EXPECT_FALSE(simulation.particles().has_column("strain_xx"));
+    EXPECT_EQ(std::ranges::count(simulation.kernels(), "probes"), 0);
+}
+
+TEST(ProbeTable, tells_on_all_ranks_that_it_cannot_be_written) {
+    EXPECT_THROW(ProbeTable("/nowhere/probes.csv", axial_bar(), MPI_COMM_WORLD),
+                 std::runtime_error);
+}
+
+}  // namespace
+}  // namespace mpm::test

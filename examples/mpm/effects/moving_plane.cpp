@@ -59,13 +59,14 @@ template <int D>
 struct PlaneColumns {
     MotionColumns motion;
     std::array<Column, D> force{};
+    Column push = 0;     ///< mean of the last steps, N
     double largest = 0;  ///< half the width of a point, m
 };
 
 /// Force of the next step on a point by the plane, where it will be by the end of that step.
 template <int D>
 Components<D> force_on(const MovingPlane<D>& plane, const PlaneColumns<D>& columns,
-                       const Particles& particles, std::size_t p, const PointBlock<D>& block) {
+                       Particles& particles, std::size_t p, const PointBlock<D>& block) {
     const double end = block.time + 2 * block.time_step;
     double height = -plane.level_at(end);
     Components<D> relative;
@@ -75,13 +76,20 @@ Components<D> force_on(const MovingPlane<D>& plane, const PlaneColumns<D>& colum
         relative[a] = particles[columns.motion.velocity[a]][p] - of_plane[a];
     }
     // Most points are far away: a point is at most as large as a cell.
-    if (height > 2 * columns.largest) return {};
+    if (height > 2 * columns.largest) {
+        particles.data(columns.push)[p] = 0;
+        return {};
+    }
     const double width = std::pow(particles[columns.motion.volume][p], 1.0 / D);
     const Slip<D> slip = slip_of<D>(relative, plane.normal);
     const double mass_rate = particles[columns.motion.mass][p] / block.time_step;
-    const double push =
-        mass_rate *
-        lost_speed<D>(slip, std::min(0.5 * width, columns.largest) - height, block.time_step);
+    // The mean bears what presses the point against the plane; overlaps would have to, without it.
+    constexpr double weight = 0.05;
+    double& mean = particles.data(columns.push)[p];
+    const double push = std::max(
+        0.0, mean + mass_rate * lost_speed<D>(slip, std::min(0.5 * width, columns.largest) - height,
+                                              block.time_step));
+    mean += weight * (push - mean);
     return contact_force<D>(slip, plane.normal, push,
                             std::min(plane.friction * push, mass_rate * slip.speed));
 }
@@ -91,6 +99,7 @@ void build(const EffectBuilder<D>& builder) {
     Stages<D>& stages = builder.stages;
     const auto plane = std::make_shared<const MovingPlane<D>>(read_plane<D>(builder.values));
     PlaneColumns<D> columns{.motion = add_motion_columns(builder.particles, D),
+                            .push = builder.particles.add_column("plane_push"),
                             .largest = 0.5 * builder.scene.grid.spacing};
     const std::size_t first = stages.fields.size();
     for (std::size_t a = 0; a < D; ++a) {

@@ -2,7 +2,6 @@
 
 #include "grid/grid.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace mpm {
@@ -28,13 +27,13 @@ Slip<D> slip_of(const Components<D>& relative_velocity, const Components<D>& nor
     return slip;
 }
 
-/// Speed that a point loses in a step to a body that it overlaps, m/s: that into the body, and half
-/// of the overlap. A gap, an overlap below 0, may close within the step.
+/// Speed that a body takes from a point in a step, m/s: that into the body, and half of an overlap.
+/// A gap, an overlap below 0, may close within the step; what is left of it counts below 0.
 template <int D>
 double lost_speed(const Slip<D>& slip, double overlap, double time_step) {
     constexpr double recovery = 0.5;
     const double recovered = overlap < 0 ? overlap : recovery * overlap;
-    return std::max(0.0, slip.inward + recovered / time_step);
+    return slip.inward + recovered / time_step;
 }
 
 /// Force of a body on a point: `push` out of it, N, and at most `friction` against the slip.

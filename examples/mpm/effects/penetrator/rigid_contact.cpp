@@ -41,7 +41,7 @@ class Pusher {
         const Slip<D> slip = slip_of<D>(velocity, touch->normal);
         const double mass_rate = particles_[columns_.motion.mass][p] / block_.time_step;
         const double normal_force =
-            mass_rate * lost_speed<D>(slip, touch->depth - ahead_, block_.time_step);
+            mass_rate * std::max(0.0, lost_speed<D>(slip, touch->depth - ahead_, block_.time_step));
         const double most =
             std::min(friction_on(p, at[1] - body_.tip[1], normal_force), mass_rate * slip.speed);
         return contact_force<D>(slip, touch->normal, normal_force, most);

@@ -1,6 +1,7 @@
 """Draws displacement, stress and strain of a run's probes over time: probes.py FOLDER PICTURE
 
-FOLDER has the probes.csv of rrcb_mpm. Components that stay 0 are left out."""
+FOLDER has the probes.csv of rrcb_mpm. Components that stay 0, but for
+round-off, are left out."""
 
 from __future__ import annotations
 
@@ -21,6 +22,7 @@ PANELS = [
     ("stress", "stress, Pa (tension positive)", ["xx", "yy", "zz", "xy", "yz", "zx"]),
     ("strain", "strain", ["xx", "yy", "zz", "xy", "yz", "zx"]),
 ]
+ROUND_OFF = 1e-9
 STYLES = ["-", "--", ":", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 3))]
 
 
@@ -42,10 +44,15 @@ def draw(folder: Path, picture: Path) -> None:
     probes = read_probes(folder / "probes.csv")
     figure, panels = plt.subplots(3, 1, figsize=(7, 8), sharex=True, layout="constrained")
     for axes, (prefix, label, components) in zip(panels, PANELS):
+        largest = max(
+            np.abs(columns[f"{prefix}_{component}"]).max()
+            for columns in probes.values()
+            for component in components
+        )
         for number, (name, columns) in enumerate(probes.items()):
             for style, component in zip(STYLES, components):
                 values = columns[f"{prefix}_{component}"]
-                if np.any(values != 0):
+                if np.abs(values).max() > ROUND_OFF * largest:
                     axes.plot(
                         columns["time"],
                         values,

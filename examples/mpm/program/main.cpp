@@ -1,7 +1,7 @@
 #include "balancers/balancers_mpi.hpp"
 #include "parallel/communicator_mpi.hpp"
 #include "program/arguments.hpp"
-#include "scene/body_reports.hpp"
+#include "scene/scene_reports.hpp"
 #include "scene_file/scene_file_mpi.hpp"
 #ifdef RRCB_MPM_ZOLTAN
 #include <zoltan.h>
@@ -43,14 +43,19 @@ void list_kernels(const mpm::Simulation& simulation) {
                 simulation.doubles_per_ghost_node());
 }
 
+void warn(const std::string& path, const std::string& warning) {
+    if (warning.empty()) return;
+    std::fprintf(stderr, "rrcb_mpm: warning: %s: %s\n", path.c_str(), warning.c_str());
+}
+
 /// Tells the mass of each body, and what a user may not have meant.
-void report_scene(const mpm::Scene& scene) {
+void report_scene(const std::string& path, const mpm::Scene& scene) {
     for (const mpm::BodyReport& body : mpm::report_on_bodies(scene)) {
         std::printf("body %s: %lld points, mass got / asked: %.6g / %.6g kg\n", body.name.c_str(),
                     static_cast<long long>(body.num_points), body.mass, body.asked_mass);
-        if (!body.warning.empty())
-            std::fprintf(stderr, "rrcb_mpm: warning: %s\n", body.warning.c_str());
+        warn(path, body.warning);
     }
+    warn(path, mpm::courant_warning(scene));
 }
 
 /// Files that the output plan asks for, in a folder that rank 0 makes.
@@ -204,7 +209,7 @@ void run(Arguments arguments, MPI_Comm comm) {
         if (mpm::rank_of(comm) == 0) list_kernels(simulation);
         return;
     }
-    if (mpm::rank_of(comm) == 0) report_scene(file.scene);
+    if (mpm::rank_of(comm) == 0) report_scene(arguments.scene, file.scene);
     Recorder recorder(arguments.out, file, arguments.state_every, comm);
     const double start_time = MPI_Wtime();
     simulate(simulation, file.scene, arguments, recorder, comm);

@@ -1,4 +1,4 @@
-#include "scene/body_reports.hpp"
+#include "scene/scene_reports.hpp"
 
 #include "materials/material.hpp"
 #include "scene/lattice.hpp"
@@ -99,6 +99,30 @@ std::vector<BodyReport> report_on_bodies(const Scene& scene) {
         reports.push_back(report);
     }
     return reports;
+}
+
+double stable_courant_number(const Scene& scene) {
+    const bool is_affine = scene.transfer == Transfer::apic;
+    if (remaps_velocities(scene)) return 1;
+    switch (scene.shape_function) {
+        case ShapeFunction::linear:
+            return is_affine ? 0.3 : 0.6;
+        case ShapeFunction::quadratic:
+            return is_affine ? 0.8 : 0.7;
+        case ShapeFunction::gimp:
+            return 0.7;
+    }
+    return 0;
+}
+
+std::string courant_warning(const Scene& scene) {
+    const double stable = stable_courant_number(scene);
+    if (scene.courant_number <= stable) return "";
+    std::ostringstream text;
+    text << "method: the courant_number " << scene.courant_number << " is above " << stable
+         << ", up to which these shape functions, transfer and time integration were found stable; "
+         << "lower it";
+    return text.str();
 }
 
 }  // namespace mpm

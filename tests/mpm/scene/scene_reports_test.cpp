@@ -1,4 +1,4 @@
-#include "scene/body_reports.hpp"
+#include "scene/scene_reports.hpp"
 
 #include "scene_file/scene_file_mpi.hpp"
 #include "support.hpp"
@@ -47,7 +47,7 @@ void expect_names(const std::string& error, const std::vector<std::string>& word
 }
 
 // Points lie at odd multiples of 0.125 m and stand for 62.5 kg each.
-TEST(BodyReports, tell_the_mass_of_points_and_shapes) {
+TEST(SceneReports, tell_the_mass_of_points_and_shapes) {
     const auto reports =
         report_on_bodies(scene_of(blocks({box("0, 0", "1, 1"), box("2, 0", "3.1, 1"),
                                           "shape: half_space, point: [0, 3], normal: [0, -1]"})));
@@ -64,7 +64,7 @@ TEST(BodyReports, tell_the_mass_of_points_and_shapes) {
     EXPECT_EQ(reports[2].warning, "");
 }
 
-TEST(BodyReports, warn_of_what_lies_outside_the_grid) {
+TEST(SceneReports, warn_of_what_lies_outside_the_grid) {
     const auto reports = report_on_bodies(
         scene_of(blocks({box("3, 0", "5, 1"), "shape: ball, centre: [0, 3], radius: 0.5"})));
     EXPECT_NEAR(reports[0].asked_mass, 2 * reports[0].mass, 1e-6);
@@ -73,13 +73,41 @@ TEST(BodyReports, warn_of_what_lies_outside_the_grid) {
     expect_names(reports[1].warning, {"block1", "down to x = -0.5 m", "domain to 0 m"});
 }
 
-TEST(BodyReports, of_combined_shapes_ask_for_what_is_left) {
+TEST(SceneReports, of_combined_shapes_ask_for_what_is_left) {
     const std::string two = blocks(
         {box("0, 0", "2, 2") + "}\n        hole: {operation: subtract, " + box("0, 0", "1, 1") +
          "}\n        half: {operation: intersect, " + box("0, 0", "2, 1.5")});
     const auto reports = report_on_bodies(scene_of(two));
     EXPECT_NEAR(reports[0].asked_mass, 2000, 10);
     EXPECT_DOUBLE_EQ(reports[0].mass, 2000);
+}
+
+TEST(SceneReports, warn_of_a_courant_number_beyond_the_stable_one) {
+    Scene scene = scene_of(blocks({box("0, 0", "1, 1")}));
+    EXPECT_EQ(courant_warning(scene), "");
+    scene.courant_number = 1;
+    expect_names(courant_warning(scene), {"method", "courant_number 1 ", "lower it"});
+    scene.time_integration = TimeIntegration::modified;
+    EXPECT_EQ(courant_warning(scene), "");
+}
+
+// A cantilever: what is called stable gains no energy.
+TEST(SceneReports, call_stable_what_gains_no_energy) {
+    for (const auto shape : {ShapeFunction::linear, ShapeFunction::quadratic, ShapeFunction::gimp})
+        for (const auto transfer : {Transfer::flip, Transfer::apic}) {
+            if (shape == ShapeFunction::gimp && transfer == Transfer::apic) continue;
+            Scene scene = read_scene(RRCB_SCENES "/elastic_structure.yaml", MPI_COMM_WORLD).scene;
+            resize_cells(scene, 0.5);
+            scene.shape_function = shape;
+            scene.transfer = transfer;
+            scene.courant_number = stable_courant_number(scene);
+            Simulation simulation(scene, MPI_COMM_WORLD);
+            const double start = simulation.totals().kinetic_energy;
+            while (simulation.time() < 1) simulation.step();
+            const Totals end = simulation.totals();
+            EXPECT_LT(end.kinetic_energy + end.strain_energy, 1.05 * start)
+                << static_cast<int>(shape) << static_cast<int>(transfer);
+        }
 }
 
 TEST(Scene, with_bodies_that_cannot_be_meant_is_refused_on_all_ranks) {

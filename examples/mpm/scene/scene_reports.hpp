@@ -22,4 +22,13 @@ struct BodyReport {
 /// Where the bounds of a body are open, only what lies in the grid is asked for.
 std::vector<BodyReport> report_on_bodies(const Scene& scene);
 
+/// Largest Courant number at which an elastic beam of 2 or 3 points along a side of a cell vibrates
+/// without gaining energy, by the shape function, transfer and time integration of a scene.
+///
+/// From the sweep of examples/mpm/courant, in steps of 0.1.
+double stable_courant_number(const Scene& scene);
+
+/// Tells that the Courant number of a scene is beyond the stable one; empty where it is not.
+std::string courant_warning(const Scene& scene);
+
 }  // namespace mpm

@@ -71,10 +71,7 @@ foreach(option IN ITEMS RRCB_ZOLTAN RRCB_MPM)
   rrcb_needs(RRCB_COMPARISONS ${option} ${option})
 endforeach()
 
-# The plug-in and the example solve for eigenvalues; the library has no more than a header for it.
-if(RRCB_ZOLTAN OR RRCB_MPM OR RRCB_TESTS)
-  find_package(Eigen3 3.3 REQUIRED NO_MODULE)
-endif()
+find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 
 if(RRCB_BENCHMARKS)
   find_package(benchmark QUIET)

@@ -11,7 +11,9 @@ namespace rrcb {
 enum class DomainKind {
     analytic,  ///< each cell a smooth density with the cell's moments: no points, no noise
     sampled,  ///< pseudo-random points in mean +- multiplier * sigma of each cell: the paper's RRCB
-    points    ///< the points themselves, all gathered at the root: the paper's RCB, for reference
+    points,   ///< the points themselves, all gathered at the root: the paper's RCB, for reference
+    learned   ///< as analytic, but where the cells around a cell tell more of how its points lie, a
+              ///< learned density with the cell's moments: at free surfaces, in 2-D
 };
 
 /// Where a box is cut across its longest axis.
@@ -22,7 +24,8 @@ enum class CutRule {
 
 /// Accuracy to which the estimated cuts are moved by what the ranks really hold.
 enum class Refine {
-    automatic,  ///< tolerance for the analytic domain; none for sampled, the method of the paper
+    automatic,  ///< tolerance for analytic and learned domains; none for sampled, the paper's
+                ///< method
     none,       ///< not at all: the estimate from the statistics stands
     tolerance,  ///< until the measured imbalance is within `imbalance_tolerance`
     exact       ///< to the weighted median: each cut within the weight of one object

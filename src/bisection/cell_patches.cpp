@@ -36,6 +36,17 @@ void spread(std::vector<Patch>& patches, std::size_t first, std::size_t axis,
 
 }  // namespace
 
+std::vector<double> weights_of(std::span<const CellMoments> cells) {
+    std::vector<double> weights;
+    weights.reserve(cells.size());
+    for (const CellMoments& cell : cells) weights.push_back(cell.moments.weight);
+    if (std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 0; })) {
+        for (std::size_t i = 0; i < cells.size(); ++i)
+            weights[i] = static_cast<double>(cells[i].moments.count);
+    }
+    return weights;
+}
+
 double least_heavy_weight(std::span<const double> weights, int dimension) {
     const double many = dimension == 3 ? 64 : 8;
     const auto count = static_cast<double>(weights.size());

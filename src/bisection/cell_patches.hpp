@@ -3,8 +3,12 @@
 #include <rrcb/statistical_domain.hpp>
 
 #include <span>
+#include <vector>
 
 namespace rrcb {
+
+/// Weight of each cell, or its count where no cell has weight.
+std::vector<double> weights_of(std::span<const CellMoments> cells);
 
 /// Weight from which a cell counts as heavy among cells of these weights: cuts may divide one more
 /// than once, and so few do that their patches are not many more than those of the others.

@@ -11,18 +11,6 @@ namespace rrcb {
 
 namespace {
 
-/// Weight of each cell, or its count where no cell has weight.
-std::vector<double> weights_of(std::span<const CellMoments> cells) {
-    std::vector<double> weights;
-    weights.reserve(cells.size());
-    for (const CellMoments& cell : cells) weights.push_back(cell.moments.weight);
-    if (std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 0; })) {
-        for (std::size_t i = 0; i < cells.size(); ++i)
-            weights[i] = static_cast<double>(cells[i].moments.count);
-    }
-    return weights;
-}
-
 /// Shares `total` items in proportion to the weights by largest remainder, ties to the earlier.
 std::vector<GlobalCount> apportion(std::span<const double> weights, GlobalCount total) {
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);

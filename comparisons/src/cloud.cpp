@@ -73,6 +73,58 @@ Vector cluster_point(const Cloud&, GlobalCount, CounterRandom& random) {
     return x;
 }
 
+/// A heap that ran out to 100 m, evenly full below a face that grows flatter.
+Vector run_out_point(const Cloud& cloud, GlobalCount, CounterRandom& random) {
+    constexpr double length = 25;
+    const double x = -length * std::log(1 - random.uniform() * (1 - std::exp(-side / length)));
+    const double z = random.uniform() * side / 4 * std::exp(-x / length);
+    return cloud.dimension == 2 ? Vector{x, z, 0} : Vector{x, random.uniform(0, 40), z};
+}
+
+bool is_in_polygon(double x, double y) {
+    constexpr double corners[][2] = {{5, 10},  {50, 0},  {95, 20}, {80, 55},
+                                     {90, 95}, {45, 75}, {10, 90}, {25, 45}};
+    bool inside = false;
+    const double* last = std::end(corners)[-1];
+    for (const auto& corner : corners) {
+        const bool crosses = (corner[1] > y) != (last[1] > y);
+        const double share = (y - corner[1]) / (last[1] - corner[1]);
+        inside = inside != (crosses && x < corner[0] + share * (last[0] - corner[0]));
+        last = corner;
+    }
+    return inside;
+}
+
+/// Star-shaped; five times as dense to the right as to the left.
+Vector polygon_point(const Cloud& cloud, GlobalCount, CounterRandom& random) {
+    for (;;) {
+        const double x = random.uniform(0, side);
+        const double y = random.uniform(0, side);
+        if (is_in_polygon(x, y) && random.uniform(0, side) < 20 + 0.8 * x)
+            return cloud.dimension == 2 ? Vector{x, y, 0} : Vector{x, random.uniform(0, 40), y};
+    }
+}
+
+/// Between two circles or spheres, of 40 and 50 m.
+Vector shell_point(const Cloud& cloud, GlobalCount, CounterRandom& random) {
+    const double inner = std::pow(0.8, cloud.dimension);
+    const double radius = 50 * std::pow(random.uniform(inner, 1), 1.0 / cloud.dimension);
+    const double angle = 2 * std::numbers::pi * random.uniform();
+    const double height = cloud.dimension == 2 ? 0 : random.uniform(-1, 1);
+    const double flat = radius * std::sqrt(1 - height * height);
+    return {flat * std::cos(angle), flat * std::sin(angle), radius * height};
+}
+
+/// Two turns of an arm with a normal profile; in 3-D it rises by 100 m.
+Vector spiral_point(const Cloud&, GlobalCount, CounterRandom& random) {
+    const double along = std::sqrt(random.uniform());
+    const double angle = 4 * std::numbers::pi * along;
+    constexpr double width = 1;
+    return {50 * along * std::cos(angle) + width * normal(random),
+            50 * along * std::sin(angle) + width * normal(random),
+            100 * along + width * normal(random)};
+}
+
 GlobalCount lattice_side(const Cloud& cloud) {
     const auto full = [&](GlobalCount n) { return cloud.dimension == 2 ? n * n : n * n * n; };
     const double estimate = std::pow(static_cast<double>(cloud.num_points), 1.0 / cloud.dimension);
@@ -97,10 +149,9 @@ struct Generator {
 };
 
 constexpr Generator generators[] = {
-    {"uniform", uniform_point},
-    {"slope", slope_point},
-    {"clusters", cluster_point},
-    {"lattice", lattice_point},
+    {"uniform", uniform_point}, {"slope", slope_point},     {"clusters", cluster_point},
+    {"lattice", lattice_point}, {"run_out", run_out_point}, {"polygon", polygon_point},
+    {"shell", shell_point},     {"spiral", spiral_point},
 };
 
 }  // namespace

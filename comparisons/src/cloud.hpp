@@ -10,7 +10,7 @@ namespace comparisons {
 
 /// A generated set of points; the same numbers give the same points whatever the number of ranks.
 struct Cloud {
-    std::string name;  ///< uniform, slope, clusters or lattice
+    std::string name;  ///< one of cloud_names()
     rrcb::GlobalCount num_points = 0;
     int dimension = 2;  ///< 2 or 3
     std::uint64_t seed = 1;

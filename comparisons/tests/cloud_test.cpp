@@ -45,7 +45,8 @@ TEST(Cloud, numbers_the_lattice_along_the_first_axis) {
 }
 
 TEST(Cloud, gives_a_point_by_its_number_alone) {
-    for (const char* name : {"uniform", "slope", "clusters", "lattice"}) {
+    for (const char* name :
+         {"uniform", "slope", "clusters", "lattice", "run_out", "polygon", "shell", "spiral"}) {
         const Cloud cloud{name, 100, 3, 7};
         const std::vector<double> all = cloud_points(cloud, 0, 100);
         const std::vector<double> piece = cloud_points(cloud, 40, 60);
@@ -63,9 +64,10 @@ TEST(Cloud, names_the_choice_for_an_unknown_cloud) {
         cloud_points({"fog", 10, 2, 1}, 0, 10);
         FAIL() << "no error";
     } catch (const Failure& failure) {
-        EXPECT_STREQ(
-            failure.what(),
-            "--cloud: unknown cloud 'fog'; choose from: uniform, slope, clusters, lattice");
+        EXPECT_STREQ(failure.what(),
+                     "--cloud: unknown cloud 'fog'; choose from: uniform, slope, clusters, "
+                     "lattice, run_out, "
+                     "polygon, shell, spiral");
     }
 }
 

@@ -37,6 +37,7 @@ constexpr DomainTraits domain_kinds[] = {
      .build = build_analytic},
     {.kind = DomainKind::learned,
      .sends_points = false,
+     .has_lean_cells = true,
      .builds_on_last = true,
      .is_random = false,
      .automatic_refine = Refine::tolerance,

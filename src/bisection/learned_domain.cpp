@@ -2,8 +2,8 @@
 
 #include "bisection/cell_density.hpp"
 #include "bisection/learned_prior.hpp"
+#include "bisection/slice.hpp"
 #include "bisection/sub_cell_tilt.hpp"
-#include "bisection/weighted_quantile.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,12 +18,20 @@ struct MeshCells {
     const SupportMesh& mesh;
     std::span<const CellMoments> cells;
     std::span<const double> weights;
+    double heaviest = 0;  ///< weight of a point, where the counts are not known
 
     /// Index of the cell of this number; nothing where it holds no weight.
     std::optional<std::size_t> find(LocalIndex number) const {
         const auto at = std::ranges::lower_bound(cells, number, {}, &CellMoments::cell);
         if (at == cells.end() || at->cell != number) return std::nullopt;
         return static_cast<std::size_t>(at - cells.begin());
+    }
+
+    /// Number of points in a cell, or how many there are at least.
+    double count(std::size_t cell) const {
+        const GlobalCount known = cells[cell].moments.count;
+        if (known > 0) return static_cast<double>(known);
+        return heaviest > 0 ? weights[cell] / heaviest : 0;
     }
 };
 
@@ -67,7 +75,7 @@ Neighbourhood around(const MeshCells& all, std::size_t middle) {
                 inputs = inputs_of(all.cells[*at], all.weights[*at], all.weights[middle]);
         }
     }
-    result.count = static_cast<double>(all.cells[middle].moments.count);
+    result.count = all.count(middle);
     return result;
 }
 
@@ -95,8 +103,8 @@ std::optional<SubCells> learned_shares(const MeshCells& all, std::size_t cell) {
     constexpr double least_information = 16;
     // A lump with next to nothing around: its neighbours tell nothing of it.
     constexpr double largest_share = 0.75;
-    constexpr GlobalCount fewest_points = 16;
-    if (all.cells[cell].moments.count < fewest_points) return std::nullopt;
+    constexpr double fewest_points = 16;
+    if (!(all.count(cell) >= fewest_points)) return std::nullopt;
     const Neighbourhood neighbourhood = around(all, cell);
     if (share_of_middle(neighbourhood) > largest_share) return std::nullopt;
     const CellSpread spread = spread_in_cell(all.cells[cell]);
@@ -143,7 +151,8 @@ void append_mesh(const MeshCells& all, const Box& box, StatisticalDomain& domain
 StatisticalDomain learned_domain(std::span<const CellMoments> cells, const SupportMesh& mesh,
                                  const Box& box) {
     StatisticalDomain domain{mesh.dimension};
-    append_mesh({mesh, cells, weights_of(cells)}, box, domain);
+    const std::vector<double> weights = weights_of(cells);
+    append_mesh({mesh, cells, weights}, box, domain);
     return domain;
 }
 
@@ -155,9 +164,9 @@ StatisticalDomain learned_domain(const CellSet& set, int dimension, const Box& b
     for (const MeshBlock& block : set.blocks) {
         for (; next < block.begin; ++next) append_patches(cells[next], weights[next], box, domain);
         const std::size_t count = block.end - block.begin;
-        append_mesh(
-            {block.mesh, cells.subspan(next, count), std::span(weights).subspan(next, count)}, box,
-            domain);
+        append_mesh({block.mesh, cells.subspan(next, count),
+                     std::span(weights).subspan(next, count), set.heaviest},
+                    box, domain);
         next = block.end;
     }
     for (; next < cells.size(); ++next) append_patches(cells[next], weights[next], box, domain);

@@ -22,6 +22,7 @@ struct MeshBlock {
 struct CellSet {
     std::vector<CellMoments> cells;
     int exponent = no_lattice;        ///< the greatest of those that cells were merged on
+    double heaviest = 0;              ///< weight of a point, where the cells' counts are not known
     std::vector<MeshBlock> blocks{};  ///< of the cells that were not merged, in their order
 
     static constexpr int no_lattice = std::numeric_limits<int>::min();

@@ -64,7 +64,7 @@ Options refining(Refine refine) {
 
 TEST(FailingMemory, in_estimated_cuts) {
     for (const DomainKind domain :
-         {DomainKind::analytic, DomainKind::sampled, DomainKind::points}) {
+         {DomainKind::analytic, DomainKind::sampled, DomainKind::points, DomainKind::learned}) {
         Options options = refining(Refine::none);
         options.domain = domain;
         fail_in_balance(options);

@@ -19,7 +19,7 @@ struct Session {
 rrcb::Options take_options(rrcb::fuzz::Input& input) {
     rrcb::Options options;
     options.num_parts = 1 + input.take_below(40);
-    options.domain = static_cast<rrcb::DomainKind>(input.take_below(3));
+    options.domain = static_cast<rrcb::DomainKind>(input.take_below(4));
     options.refine = static_cast<rrcb::Refine>(input.take_below(4));
     options.cut_rule = static_cast<rrcb::CutRule>(input.take_below(2));
     options.support_mesh = input.take_below(12);

@@ -10,9 +10,10 @@ Array = np.ndarray
 
 HIDDEN = (64, 64)
 BATCH = 1024
-RATE = 2e-3
+RATE = 1.5e-3
 DECAY = (0.9, 0.999)
 PULL_TO_EVEN = 1e-3  # prior exponents that nothing speaks for stay 0
+FOUND = 1e-3  # a tilt that is farther off has not come to its end and says nothing
 NUM_SYMMETRIES = 8
 
 
@@ -73,9 +74,10 @@ def train(
         loss = 0.0
         for batch in np.split(order[: num_batches * BATCH], num_batches):
             prior = network(x[batch])
-            found, _ = tilted(prior, aims[batch], rounds=5)
+            found, off = tilted(prior, aims[batch], rounds=6)
             loss += cross_entropy(found, truth[batch]) / num_batches
-            slopes = network.gradients((found - truth[batch] + PULL_TO_EVEN * prior) / BATCH)
+            misfit = np.where(off[:, None] < FOUND, found - truth[batch], 0)
+            slopes = network.gradients((misfit + PULL_TO_EVEN * prior) / BATCH)
             step += 1
             rate = RATE * min(1, step / 200) * (1 + np.cos(np.pi * step / num_steps)) / 2
             for p, m, v, slope in zip(parameters, first, second, slopes):

@@ -34,8 +34,8 @@ static_assert(learned_layout == LearnedLayout{{{layout}}},
 def main() -> None:
     options = argparse.ArgumentParser(description=__doc__)
     options.add_argument("output", type=Path)
-    options.add_argument("--clouds", type=int, default=3000)
-    options.add_argument("--epochs", type=int, default=24)
+    options.add_argument("--clouds", type=int, default=2000)
+    options.add_argument("--epochs", type=int, default=16)
     arguments = options.parse_args()
     inputs, shares, moments = sample_cells(TRAINING_SEED, arguments.clouds)
     say(f"{len(inputs)} cells of {arguments.clouds} clouds")

@@ -180,7 +180,7 @@ std::vector<Method> default_methods() {
             for (const char* setting : {"[tol=1.1]", "[tol=1.05]", "", "[tol=1.001]"}) {
                 methods.push_back(read_method(name + setting));
             }
-        } else {
+        } else if (name != "rrcb-learned") {  // in which little would differ from rrcb
             methods.push_back(read_method(name));
         }
     }

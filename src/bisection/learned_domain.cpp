@@ -1,6 +1,6 @@
 #include "bisection/learned_domain.hpp"
 
-#include "bisection/cell_density.hpp"
+#include "bisection/cell_patches.hpp"
 #include "bisection/learned_prior.hpp"
 #include "bisection/slice.hpp"
 #include "bisection/sub_cell_tilt.hpp"
@@ -18,6 +18,7 @@ struct MeshCells {
     const SupportMesh& mesh;
     std::span<const CellMoments> cells;
     std::span<const double> weights;
+    double heavy = 0;     ///< weight of a heavy cell, see least_heavy_weight()
     double heaviest = 0;  ///< weight of a point, where the counts are not known
 
     /// Index of the cell of this number; nothing where it holds no weight.
@@ -137,12 +138,12 @@ void append_mesh(const MeshCells& all, const Box& box, StatisticalDomain& domain
     const bool is_plane = domain.dimension == 2 && all.mesh.cells_per_length[0] > 0 &&
                           all.mesh.cells_per_length[1] > 0;
     for (std::size_t i = 0; i < all.cells.size(); ++i) {
-        const bool may_learn = is_plane && all.weights[i] > 0;
-        const auto shares = may_learn ? learned_shares(all, i) : std::nullopt;
+        const double weight = all.weights[i];
+        const auto shares = is_plane && weight > 0 ? learned_shares(all, i) : std::nullopt;
         if (shares)
-            append_sub_cells(all.cells[i], all.weights[i], *shares, box, domain);
+            append_sub_cells(all.cells[i], weight, *shares, box, domain);
         else
-            append_patches(all.cells[i], all.weights[i], box, domain);
+            append_patches(all.cells[i], weight, weight >= all.heavy, box, domain);
     }
 }
 
@@ -150,26 +151,30 @@ void append_mesh(const MeshCells& all, const Box& box, StatisticalDomain& domain
 
 StatisticalDomain learned_domain(std::span<const CellMoments> cells, const SupportMesh& mesh,
                                  const Box& box) {
-    StatisticalDomain domain{mesh.dimension};
     const std::vector<double> weights = weights_of(cells);
-    append_mesh({mesh, cells, weights}, box, domain);
+    StatisticalDomain domain{mesh.dimension};
+    append_mesh({mesh, cells, weights, least_heavy_weight(weights)}, box, domain);
     return domain;
 }
 
 StatisticalDomain learned_domain(const CellSet& set, int dimension, const Box& box) {
     const std::vector<double> weights = weights_of(set.cells);
+    const double heavy = least_heavy_weight(weights);
     StatisticalDomain domain{dimension};
-    const std::span<const CellMoments> cells = set.cells;
     std::size_t next = 0;
+    const auto append_merged = [&](std::size_t end) {
+        for (; next < end; ++next)
+            append_patches(set.cells[next], weights[next], weights[next] >= heavy, box, domain);
+    };
     for (const MeshBlock& block : set.blocks) {
-        for (; next < block.begin; ++next) append_patches(cells[next], weights[next], box, domain);
+        append_merged(block.begin);
         const std::size_t count = block.end - block.begin;
-        append_mesh({block.mesh, cells.subspan(next, count),
-                     std::span(weights).subspan(next, count), set.heaviest},
+        append_mesh({block.mesh, std::span(set.cells).subspan(next, count),
+                     std::span(weights).subspan(next, count), heavy, set.heaviest},
                     box, domain);
         next = block.end;
     }
-    for (; next < cells.size(); ++next) append_patches(cells[next], weights[next], box, domain);
+    append_merged(set.cells.size());
     return domain;
 }
 

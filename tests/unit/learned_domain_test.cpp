@@ -171,6 +171,9 @@ Errors errors_below_a_line(int symmetry) {
         const StatisticalDomain inside = patches_in(domain, cell.box);
         if (inside.patches.size() < num_sub * num_sub) continue;
         ++errors.num_cells;
+        std::vector<Vector> here;
+        for (LocalIndex i = 0; i < points.count; ++i)
+            if (cell_of(mesh, points.position(i)) == cell.cell) here.push_back(points.position(i));
         CellSpread spread;
         Vector extent{};
         for (std::size_t a = 0; a < 2; ++a) {
@@ -182,11 +185,8 @@ Errors errors_below_a_line(int symmetry) {
         for (int k = 0; k < num_sub * num_sub; ++k) {
             const Vector corner{cell.box.lower[0] + extent[0] * (k / num_sub + 1) / num_sub,
                                 cell.box.lower[1] + extent[1] * (k % num_sub + 1) / num_sub, 0};
-            double truth = 0;
-            for (LocalIndex i = 0; i < points.count; ++i) {
-                const Vector x = points.position(i);
-                truth += cell_of(mesh, x) == cell.cell && x[0] < corner[0] && x[1] < corner[1];
-            }
+            const auto truth = static_cast<double>(std::ranges::count_if(
+                here, [&](const Vector& x) { return x[0] < corner[0] && x[1] < corner[1]; }));
             double of_even = 0;
             for (int l = 0; l < num_sub * num_sub; ++l)
                 if (l / num_sub <= k / num_sub && l % num_sub <= k % num_sub)

@@ -10,7 +10,7 @@ Array = np.ndarray
 
 def random_cloud(random: Generator) -> tuple[Array, Array]:
     """Points in the unit square or so, and the weight of each."""
-    num_points = int(np.exp(random.uniform(np.log(4e3), np.log(2e5))))
+    num_points = int(np.exp(random.uniform(np.log(4e3), np.log(3e5))))
     shape = SHAPES[random.integers(len(SHAPES))]
     candidates = _lattice(random, num_points) if random.uniform() < 0.4 else None
     if shape in (mixture, strokes):
@@ -108,6 +108,14 @@ def free_surface(random: Generator, points: Array) -> Array:
     return (points[:, 1] < height) * _gradient(random, points)
 
 
+def heap(random: Generator, points: Array) -> Array:
+    """A heap on level ground whose height falls to nothing, as of what has run out."""
+    height, length = random.uniform(0.1, 0.9, 2)
+    fall = np.exp(random.uniform(np.log(0.6), np.log(5)))
+    profile = height * np.clip(1 - points[:, 0] / length, 0, 1) ** fall
+    return (points[:, 1] < profile) * _gradient(random, points)
+
+
 def discs(random: Generator, points: Array) -> Array:
     """One to six ellipses, each of its own density."""
     density = np.zeros(len(points))
@@ -170,7 +178,7 @@ SHAPES = (
     polygon,
     free_surface,
     free_surface,
-    free_surface,
+    heap,
     discs,
     boxes,
     halves,

@@ -29,7 +29,7 @@ def _cells_of_cloud(key: tuple[int, int]) -> tuple[Array, Array, Array] | None:
     points, weights = random_cloud(random)
     if len(points) < 500:
         return None
-    per_axis = np.exp(random.uniform(np.log(6), np.log(40)))
+    per_axis = np.exp(random.uniform(np.log(5), np.log(40)))
     stretch = np.exp(random.normal(0, 0.4, 2)) if random.uniform() < 0.3 else np.ones(2)
     across, up = (max(2, int(n)) for n in per_axis * stretch)
     mesh = bin_points(points, weights, (across, up))

@@ -1,0 +1,143 @@
+"""What kinds of statistical domain leave of the imbalance, at equal bytes into the root.
+
+domain_error.py DIRECTORY with the domains.csv of rrcb_domains
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import libraries  # noqa: F401, before what it looks for
+import numpy as np
+import pandas as pd
+import plot
+from document import markdown_table
+from intervals import Value
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from results import read_all
+
+CASE = ["cloud", "dim", "parts", "kind"]
+LEAST_ERROR = 1e-6  # of what is divided exactly
+LATTICE = "lattice"  # no density helps there
+LEARNED, ANALYTIC = "learned", "analytic"
+FREE_SURFACES = ("slope", "run_out", "polygon", "scene")
+KINDS = {  # the method whose look the kind has, and its line
+    "box": ("zoltan-rib", (0, (5, 1, 1, 1))),
+    ANALYTIC: ("rrcb", "-"),
+    LEARNED: ("rrcb-learned", "-"),
+    "counts": ("zoltan-hsfc", "--"),
+    "samples": ("rrcb-sampled", "-."),
+    "floor": ("zoltan-rcb", ":"),
+}
+
+
+def errors_of(rows: pd.DataFrame) -> pd.DataFrame:
+    """The logarithm of imbalance - 1; `level` numbers the meshes of a kind, coarsest first,
+    `repeat` the seeds of a cloud or the moments of a scene."""
+    level = rows.groupby(CASE)["cells"].rank("dense").astype(int)
+    return rows.assign(
+        log_error=np.log((rows["imbalance"] - 1).clip(lower=LEAST_ERROR)),
+        level=level,
+        repeat=rows.groupby([*CASE, "cells"]).cumcount(),
+    )
+
+
+def mean_errors(errors: pd.DataFrame) -> pd.DataFrame:
+    """Geometric means over the clouds but the lattice: of all repeats, and the least and the most
+    of one."""
+    rows = errors[errors["cloud"] != LATTICE]
+    keys = ["dim", "parts", "kind", "level"]
+    of_repeat = np.exp(rows.groupby([*keys, "repeat"])["log_error"].mean()).groupby(keys)
+    return pd.DataFrame(
+        {
+            "bytes": rows.groupby(keys)["root_bytes_in"].mean(),
+            "number": np.exp(rows.groupby(keys)["log_error"].mean()),
+            "low": of_repeat.min(),
+            "high": of_repeat.max(),
+        }
+    ).reset_index()
+
+
+def ratios(errors: pd.DataFrame, kind: str, other: str = ANALYTIC) -> pd.Series:
+    """Logarithm of the error of a kind over another's, by cloud, dimension, parts, level and
+    repeat."""
+    keys = ["cloud", "dim", "parts", "level", "repeat"]
+    by_kind = errors.pivot_table(index=keys, columns="kind", values="log_error")
+    return by_kind[kind] - by_kind[other]
+
+
+def spread_of(logs: pd.Series) -> Value:
+    """Geometric mean of ratios, with the least and the most of one repeat."""
+    of_repeat = np.exp(logs.groupby("repeat").mean())
+    return Value(float(np.exp(logs.mean())), float(of_repeat.min()), float(of_repeat.max()))
+
+
+def table_of(errors: pd.DataFrame) -> str:
+    """Markdown: by cloud and dimension, the error of each kind over the analytic domain's."""
+    others = [kind for kind in KINDS if kind != ANALYTIC]
+    all_ratios = {kind: ratios(errors, kind) for kind in others}
+    lines = [["cloud", "dim", *others]]
+    for case, _ in errors.groupby(["cloud", "dim"], sort=False):
+        lines.append([case[0], str(case[1]), *(_text(all_ratios[kind], case) for kind in others)])
+    return markdown_table(lines)
+
+
+def _text(logs: pd.Series, case: tuple) -> str:
+    return spread_of(logs.loc[case]).text(2)
+
+
+def verdict(errors: pd.DataFrame) -> str:
+    """The learned domain beside the analytic one, in 2-D."""
+    logs = ratios(errors[errors["dim"] == 2], LEARNED)
+    clouds = logs.index.get_level_values("cloud")
+    is_free = np.array([cloud.startswith(FREE_SURFACES) for cloud in clouds])
+    worst = np.exp(logs.groupby("cloud").mean()).idxmax()
+    return (
+        f"learned / analytic in 2-D: {spread_of(logs[is_free]).text(3)} at free surfaces,"
+        f" {spread_of(logs).text(3)} on all clouds, at most"
+        f" {spread_of(logs.xs(worst, level='cloud')).text(3)} ({worst})."
+    )
+
+
+def draw_errors(means: pd.DataFrame) -> Figure:
+    """A panel per dimension and number of parts."""
+    dimensions, parts = (sorted(means[name].unique()) for name in ("dim", "parts"))
+    figure, grid = plot.panels(
+        len(dimensions), len(parts), 0.8 + 3.4 * len(parts), 1 + 2.8 * len(dimensions),
+        sharex="row", sharey=True,
+    )  # fmt: skip
+    for line, dimension in zip(grid, dimensions):
+        for axes, number in zip(line, parts):
+            here = means[(means["dim"] == dimension) & (means["parts"] == number)]
+            _draw_case(axes, here)
+            axes.set_title(f"{dimension}-D, {number} parts")
+    plot.label_edges(grid, ["bytes into the root"] * len(parts), ["imbalance − 1"] * 2)
+    return plot.legend_above(figure, grid[0, 0], inches=1.2)
+
+
+def _draw_case(axes: Axes, rows: pd.DataFrame) -> None:
+    for kind, (method, line) in KINDS.items():
+        points = rows[rows["kind"] == kind].sort_values("bytes")
+        values = [Value(*row) for row in points[["number", "low", "high"]].itertuples(index=False)]
+        if values:
+            look = {"color": plot.method_style(method).colour, "linestyle": line, "marker": "."}
+            plot.draw_line(axes, points["bytes"], values, label=kind, **look)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.grid(True)
+
+
+def main() -> None:
+    directory = Path(sys.argv[1])
+    errors = errors_of(read_all(directory / "domains.csv"))
+    plot.use_style()
+    plot.save(draw_errors(mean_errors(errors)), directory / "domains.png")
+    text = f"{verdict(errors)}\n\n{table_of(errors)}\n"
+    (directory / "domains.md").write_text(text)
+    print(text)
+
+
+if __name__ == "__main__":
+    main()

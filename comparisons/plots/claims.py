@@ -199,7 +199,7 @@ def _literal_midpoint(evidence: Evidence) -> Iterator[Claim]:
 
 def _learned(evidence: Evidence) -> Iterator[Claim]:
     found = lasting(evidence.results.cycle)
-    text = "no learned domain here"
+    text = "comparisons/run --domains compares a learned one"
     analytic, sampled = found.get("rrcb[refine=none]"), found.get(STANDARD)
     if analytic and sampled:
         text += f"; the analytic one, without random points, leaves {analytic['most'].number:.4f}"

@@ -153,13 +153,13 @@ StatisticalDomain learned_domain(std::span<const CellMoments> cells, const Suppo
                                  const Box& box) {
     const std::vector<double> weights = weights_of(cells);
     StatisticalDomain domain{mesh.dimension};
-    append_mesh({mesh, cells, weights, least_heavy_weight(weights)}, box, domain);
+    append_mesh({mesh, cells, weights, least_heavy_weight(weights, mesh.dimension)}, box, domain);
     return domain;
 }
 
 StatisticalDomain learned_domain(const CellSet& set, int dimension, const Box& box) {
     const std::vector<double> weights = weights_of(set.cells);
-    const double heavy = least_heavy_weight(weights);
+    const double heavy = least_heavy_weight(weights, dimension);
     StatisticalDomain domain{dimension};
     std::size_t next = 0;
     const auto append_merged = [&](std::size_t end) {

@@ -1,0 +1,36 @@
+# Runs COMMAND, rrcb_domains --quick, and expects its table: of each cloud, dimension, kind and number
+# of parts one row, with about as many bytes of every kind but the floor.
+execute_process(COMMAND ${COMMAND} RESULT_VARIABLE code OUTPUT_VARIABLE table)
+if(NOT code EQUAL 0)
+  message(FATAL_ERROR "exit code ${code}")
+endif()
+string(REPLACE "\n" ";" lines "${table}")
+list(POP_FRONT lines header)
+if(NOT header STREQUAL "cloud,dim,parts,kind,bytes_per_cell,cells,root_bytes_in,imbalance")
+  message(FATAL_ERROR "header: ${header}")
+endif()
+
+# expect(pattern count): so many lines match.
+function(expect pattern count)
+  set(found 0)
+  foreach(line IN LISTS lines)
+    if(line MATCHES "${pattern}")
+      math(EXPR found "${found} + 1")
+    endif()
+  endforeach()
+  if(NOT found EQUAL count)
+    message(FATAL_ERROR "${found} lines match ${pattern}, not ${count}")
+  endif()
+endfunction()
+
+foreach(cloud slope run_out polygon clusters shell spiral layers uniform lattice)
+  foreach(parts 8 64 256)
+    expect("^${cloud},2,${parts},(box|samples),56,36,2016,[1-9][0-9.]*$" 2)
+    expect("^${cloud},2,${parts},(analytic|learned),8,256,2048,[1-9][0-9.]*$" 2)
+    expect("^${cloud},2,${parts},counts,4,529,2116,[1-9][0-9.]*$" 1)
+    expect("^${cloud},2,${parts},floor,256,256,65536,[1-9][0-9.]*$" 1)
+    expect("^${cloud},3,${parts},(analytic|learned),10,216,2160,[1-9][0-9.]*$" 2)
+  endforeach()
+endforeach()
+# A scene at five of its moments.
+expect("^scene slope,2,64,learned,8,256,2048,[1-9][0-9.]*$" 5)

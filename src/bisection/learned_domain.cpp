@@ -139,7 +139,8 @@ void append_mesh(const MeshCells& all, const Box& box, StatisticalDomain& domain
                           all.mesh.cells_per_length[1] > 0;
     for (std::size_t i = 0; i < all.cells.size(); ++i) {
         const double weight = all.weights[i];
-        const auto shares = is_plane && weight > 0 ? learned_shares(all, i) : std::nullopt;
+        const bool may_learn = is_plane && weight > 0 && weight < all.heavy;
+        const auto shares = may_learn ? learned_shares(all, i) : std::nullopt;
         if (shares)
             append_sub_cells(all.cells[i], weight, *shares, box, domain);
         else

@@ -89,7 +89,8 @@ inline constexpr Word cut_rule_words[] = {
     {"MIDPOINT", static_cast<int>(CutRule::midpoint), "at that share of the extent"}};
 
 inline constexpr Word refine_words[] = {
-    {"AUTO", static_cast<int>(Refine::automatic), "TOLERANCE with ANALYTIC and LEARNED, NONE with SAMPLED"},
+    {"AUTO", static_cast<int>(Refine::automatic),
+     "TOLERANCE with ANALYTIC and LEARNED, NONE with SAMPLED"},
     {"NONE", static_cast<int>(Refine::none), "the estimate stands"},
     {"TOLERANCE", static_cast<int>(Refine::tolerance),
      "until the imbalance is within IMBALANCE_TOL"},

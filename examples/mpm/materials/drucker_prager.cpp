@@ -36,6 +36,11 @@ DruckerPrager triaxial_cone(const MohrCoulomb& strength, double sign) {
 }
 
 template <int D>
+double shear_of(const Stress<D>& stress) {
+    return std::sqrt(second_invariant(deviator(stress, mean(stress))));
+}
+
+template <int D>
 MPM_VECTOR_CLONES void return_to(const DruckerPrager& cone, const StressPointers<D>& stresses,
                                  std::size_t begin, std::size_t end) {
     const StressPointers<D> columns = stresses;
@@ -61,6 +66,40 @@ PointKernel<D> dilating_kernel(const DruckerPrager& cone, const Elastic& elastic
         for (std::size_t p = block.begin; p < block.end; ++p)
             store<D>(returned<D>(cone, bulk, shear, load<D>(stresses, p)), stresses, p);
     };
+}
+
+/// Kernel of a return that adds up the plastic shear strain, 2 sqrt(J2) of its deviator: what the
+/// return takes from sqrt(J2) of the stress, by the shear modulus.
+template <int D, typename Return>
+PointKernel<D> keeping_kernel(Return back, double shear_modulus, const StressColumns<D>& columns,
+                              Column plastic_strain) {
+    return [=](Particles& particles, const PointBlock<D>& block) {
+        const StressPointers<D> stresses = stress_pointers<D>(particles, columns);
+        double* const plastic = particles.data(plastic_strain);
+        for (std::size_t p = block.begin; p < block.end; ++p) {
+            const Stress<D> trial = load<D>(stresses, p), stress = back(trial);
+            plastic[p] += std::max(shear_of<D>(trial) - shear_of<D>(stress), 0.0) / shear_modulus;
+            store<D>(stress, stresses, p);
+        }
+    };
+}
+
+/// The return, with or without dilation and the plastic strain: each costs where it is asked for.
+template <int D>
+PointKernel<D> make_kernel(const Values& values, const DruckerPrager& cone, Particles& particles) {
+    const StressColumns<D> columns = add_stress_columns<D>(particles);
+    const Elastic elastic = elastic_of(values);
+    if (!keeps_plastic_strain(values))
+        return cone.dilation > 0 ? dilating_kernel<D>(cone, elastic, columns)
+                                 : return_kernel<D>(cone, columns);
+    const Column plastic = particles.add_column("plastic_strain");
+    const double bulk = elastic.bulk_modulus(), shear = elastic.shear_modulus();
+    if (cone.dilation > 0)
+        return keeping_kernel<D>(
+            [=](const Stress<D>& trial) { return returned<D>(cone, bulk, shear, trial); }, shear,
+            columns, plastic);
+    return keeping_kernel<D>([=](const Stress<D>& trial) { return returned<D>(cone, trial); },
+                             shear, columns, plastic);
 }
 
 /// Kernel that bounds the volume of points parted by tension.
@@ -92,11 +131,7 @@ DruckerPrager cone_of(const Values& values) {
 template <int D>
 MaterialModel<D> build(const Values& values, Particles& particles) {
     MaterialModel<D> model = elastic_model<D>(values, particles);
-    const DruckerPrager cone = cone_of(values);
-    const StressColumns<D> columns = add_stress_columns<D>(particles);
-    model.kernels.push_back(
-        {"drucker_prager", cone.dilation > 0 ? dilating_kernel<D>(cone, elastic_of(values), columns)
-                                             : return_kernel<D>(cone, columns)});
+    model.kernels.push_back({"drucker_prager", make_kernel<D>(values, cone_of(values), particles)});
     if (values.has("most_expansion")) {
         const double largest = values.number("most_expansion") / values.number("density");
         model.kernels.push_back(
@@ -112,7 +147,7 @@ std::vector<Rule> rules() {
                           within("dilation_angle", "degrees", 0, 89, 0.0),
                           not_negative("tension_cut_off", "Pa", 0.0),
                           choice("match", {"plane_strain", "inner", "outer"}),
-                          optional(within("most_expansion", "", 1, 1e6))});
+                          plastic_strain_rule(), optional(within("most_expansion", "", 1, 1e6))});
 }
 
 }  // namespace

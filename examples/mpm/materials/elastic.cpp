@@ -22,6 +22,14 @@ std::vector<Rule> elastic_rules(std::vector<Rule> more) {
     return rules;
 }
 
+Rule plastic_strain_rule() {
+    return choice("plastic_strain", {"none", "kept"});
+}
+
+bool keeps_plastic_strain(const Values& values) {
+    return values.word("plastic_strain") == "kept";
+}
+
 Elastic elastic_of(const Values& values) {
     return {values.number("youngs_modulus"), values.number("poissons_ratio")};
 }

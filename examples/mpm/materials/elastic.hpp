@@ -23,6 +23,11 @@ struct Elastic {
 std::vector<Rule> elastic_rules();
 /// Rules of elasticity, and more that a model adds.
 std::vector<Rule> elastic_rules(std::vector<Rule> more);
+/// Rule of whether a model that yields keeps the plastic shear strain of its points:
+/// `plastic_strain`, `none` or `kept`.
+Rule plastic_strain_rule();
+/// Whether it does.
+bool keeps_plastic_strain(const Values& values);
 Elastic elastic_of(const Values& values);
 double elastic_wave_speed(const Values& values);
 

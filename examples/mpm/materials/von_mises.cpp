@@ -13,7 +13,7 @@ template <int D>
 struct Columns {
     StressColumns<D> stress;
     Column y, displacement_y;
-    std::optional<Column> plastic_strain;  ///< where the clay softens
+    std::optional<Column> plastic_strain;  ///< where the clay softens, or the scene asks for it
 };
 
 /// Criteria of yield: the shear of a stress that reaches the strength, and the return to it.
@@ -87,7 +87,7 @@ MaterialModel<D> build(const Values& values, Particles& particles) {
                        particles.add_column("y"),
                        particles.add_column("displacement_y"),
                        {}};
-    if (values.has("residual_ratio"))
+    if (values.has("residual_ratio") || keeps_plastic_strain(values))
         columns.plastic_strain = particles.add_column("plastic_strain");
     model.kernels.push_back(values.word("criterion") == "tresca"
                                 ? make_kernel<D, Tresca>(values, columns)
@@ -98,14 +98,14 @@ MaterialModel<D> build(const Values& values, Particles& particles) {
 }  // namespace
 
 MaterialKind von_mises_material() {
-    return {
-        "von_mises",
-        elastic_rules(
-            {not_negative("strength", "Pa"), not_negative("strength_gradient", "Pa/m", 0.0),
-             number("surface", "m", 0.0), optional(within("residual_ratio", "", 0, 1)),
-             positive("softening_strain", "", 1.0), optional(not_negative("rate_factor", "")),
-             positive("reference_rate", "1/s", 1.0), choice("criterion", {"von_mises", "tresca"})}),
-        elastic_wave_speed, build<2>, build<3>};
+    return {"von_mises",
+            elastic_rules(
+                {not_negative("strength", "Pa"), not_negative("strength_gradient", "Pa/m", 0.0),
+                 number("surface", "m", 0.0), optional(within("residual_ratio", "", 0, 1)),
+                 positive("softening_strain", "", 1.0), optional(not_negative("rate_factor", "")),
+                 positive("reference_rate", "1/s", 1.0),
+                 choice("criterion", {"von_mises", "tresca"}), plastic_strain_rule()}),
+            elastic_wave_speed, build<2>, build<3>};
 }
 
 }  // namespace mpm

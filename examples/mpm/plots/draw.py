@@ -1,11 +1,13 @@
-"""Draws the start, the middle and the end of a run: draw.py FOLDER PICTURE
+"""Draws the start, the middle and the end of a run: draw.py FOLDER PICTURE [SCENE]
 
-FOLDER has the VTK files of rrcb_mpm. Points are coloured by how far they have moved; lines are the
-boxes of the ranks. In three dimensions the layer of points at the smallest z is shown."""
+FOLDER has the VTK files of rrcb_mpm. SCENE is the scene file, whose name tells how it is shown
+(views.py). Without one points are coloured by how far they have moved. In three dimensions the layer
+of points at the smallest z is shown."""
 
 from __future__ import annotations
 
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
@@ -14,20 +16,57 @@ matplotlib.use("Agg")
 
 import numpy as np  # noqa: E402
 from matplotlib import pyplot as plt  # noqa: E402
+from matplotlib.axes import Axes  # noqa: E402
+from matplotlib.lines import Line2D  # noqa: E402
+from matplotlib.patches import Patch  # noqa: E402
 
+from views import VIEWS, Moment, View  # noqa: E402
 from vtk_files import arrays_in, frames_of, points_of  # noqa: E402
 
+POINTS_PER_INCH = 72
+MARGIN = 0.015  # of the larger side
+BOX = {"color": "black", "lw": 0.6}
+START = {"color": "black", "lw": 0.8, "ls": "--"}
 
-def points_in(path: Path) -> tuple[np.ndarray, np.ndarray, float]:
-    """Positions and distances moved of the points of all ranks, and how far points are apart."""
-    points = points_of(path)
+
+@dataclass(frozen=True)
+class Frame:
+    time: float
+    position: np.ndarray  # rows of x and y of the points shown
+    value: np.ndarray  # that colours them
+    spacing: float  # of points at the start, m
+    boxes: list[tuple[float, float, float, float]]  # left, low, right, high, of the ranks
+
+
+def with_image(left: float, low: float, right: float, high: float) -> list[tuple]:
+    """A box and its image in x = 0; one, where it stands there."""
+    if left <= 0:
+        return [(-right, low, right, high)]
+    return [(left, low, right, high), (-right, low, -left, high)]
+
+
+def read_frame(time: float, points_file: Path, boxes_file: Path, view: View) -> Frame:
+    points = points_of(points_file)
     position, displacement = points["position"], points["displacement"]
-    moved = np.linalg.norm(displacement, axis=1)
+    value = points[view.column] if view.column else np.linalg.norm(displacement, axis=1)
     start_z = position[:, 2] - displacement[:, 2]
     layer = start_z <= start_z.min() + 1e-9
     volume = np.median(points["volume"])
     spacing = np.cbrt(volume) if np.ptp(start_z) > 0 else np.sqrt(volume)
-    return position[layer], moved[layer], spacing
+    shown, value = position[layer, :2], value[layer]
+    if view.is_mirrored:
+        shown, value = np.concatenate([shown, shown * (-1, 1)]), np.concatenate([value, value])
+    arrays = arrays_in(boxes_file)
+    corners = arrays["corner"].reshape(arrays["part"].size, -1, 3)[:, :, :2]
+    boxes = [(*box.min(axis=0), *box.max(axis=0)) for box in corners]
+    if view.is_mirrored:
+        boxes = [side for box in boxes for side in with_image(*box)]
+    return Frame(time, shown, value, spacing, boxes)
+
+
+def read_frames(folder: Path, view: View) -> list[Frame]:
+    pairs = zip(frames_of(folder, "points"), frames_of(folder, "boxes"))
+    return [read_frame(time, points, boxes, view) for (time, points), (_, boxes) in pairs]
 
 
 def three_of(frames: list[tuple[float, Path]]) -> list[int]:
@@ -37,57 +76,113 @@ def three_of(frames: list[tuple[float, Path]]) -> list[int]:
     return [0, middle, len(frames) - 1]
 
 
-def draw_boxes(axes: plt.Axes, path: Path) -> None:
-    arrays = arrays_in(path)
-    corners = arrays["corner"].reshape(arrays["part"].size, -1, 3)
-    for box in corners:
-        (left, low), (right, high) = box[:, :2].min(axis=0), box[:, :2].max(axis=0)
-        axes.plot(
-            [left, right, right, left, left], [low, low, high, high, low], color="black", lw=0.6
-        )
+def surface_of(frame: Frame) -> tuple[np.ndarray, np.ndarray]:
+    """The highest points along x."""
+    x, y = frame.position.T
+    column = np.round(x / frame.spacing).astype(int)
+    tops = np.full(np.ptp(column) + 1, -np.inf)
+    np.maximum.at(tops, column - column.min(), y + 0.5 * frame.spacing)
+    filled = np.isfinite(tops)
+    return (np.arange(tops.size)[filled] + column.min()) * frame.spacing, tops[filled]
 
 
-def size_of(width: float, height: float, is_wide: bool) -> tuple[float, float]:
-    """Inches of three panels, below one another or side by side, and a bar of colours."""
-    if is_wide:
-        least_height = 3.5  # room for the labels of three flat panels
-        return 7, max(17 * height / width + 1, least_height)
-    across = min(2.5, 7 * width / height)
-    return 3 * (across + 0.4) + 1.3, across * height / width + 1
+class Painter:
+    """Draws frames of a run into axes of one extent and one scale of colours."""
 
+    def __init__(self, frames: list[Frame], view: View, scene: str, folder: Path):
+        self.first, self.view, self.scene, self.folder = frames[0], view, scene, folder
+        extent = np.concatenate([frame.position for frame in frames])
+        margin = MARGIN * np.ptp(extent, axis=0).max()
+        self.low, self.high = extent.min(axis=0) - margin, extent.max(axis=0) + margin
+        self.high = self.high + (0, view.space)
+        self.most = view.most or max(frame.value.max() for frame in frames) or 1
 
-def draw(folder: Path, picture: Path) -> None:
-    points, boxes = frames_of(folder, "points"), frames_of(folder, "boxes")
-    chosen = [(points[i][0], *points_in(points[i][1]), boxes[i][1]) for i in three_of(points)]
-    farthest = max(moved.max() for _, _, moved, _, _ in chosen)
-    extent = np.concatenate([position for _, position, _, _, _ in chosen])[:, :2]
-    width, height = np.ptp(extent, axis=0)
-    is_wide = width > 1.5 * height
-    figure, panels = plt.subplots(
-        3 if is_wide else 1,
-        1 if is_wide else 3,
-        figsize=size_of(width, height, is_wide),
-        layout="constrained",
-        squeeze=False,
-    )
-    margin = 0.03 * max(width, height)
-    inches_per_metre = (5.6 if is_wide else 2.2) / (width + 2 * margin)
-    for axes, (time, position, moved, spacing, box_file) in zip(panels.flat, chosen):
-        draw_boxes(axes, box_file)
-        side = 1.25 * 72 * inches_per_metre * spacing
-        shown = axes.scatter(
-            *position[:, :2].T, c=moved, s=side**2, marker="s", lw=0, vmin=0, vmax=farthest or 1
-        )
-        axes.set_title(f"{time:.3g} s", fontsize=9)
+    @property
+    def size(self) -> np.ndarray:
+        return self.high - self.low
+
+    def draw(self, axes: Axes, frame: Frame, inches_per_metre: float) -> list[Patch | Line2D]:
+        """Returns what the key must explain."""
         axes.set_aspect("equal")
-        axes.set_xlim(extent[:, 0].min() - margin, extent[:, 0].max() + margin)
-        axes.set_ylim(extent[:, 1].min() - margin, extent[:, 1].max() + margin)
+        axes.set_xlim(self.low[0], self.high[0])
+        axes.set_ylim(self.low[1], self.high[1])
+        key = self.view.backdrop(axes, Moment(self.scene, self.folder, frame.time))
+        side = 1.3 * POINTS_PER_INCH * inches_per_metre * frame.spacing
+        self.shown = axes.scatter(
+            *frame.position.T,
+            c=frame.value,
+            s=side**2,
+            marker="s",
+            lw=0,
+            vmin=0,
+            vmax=self.most,
+            cmap=self.view.colours,
+        )
+        for left, low, right, high in frame.boxes:
+            axes.plot([left, right, right, left, left], [low, low, high, high, low], **BOX)
+        key.append(Line2D([], [], **BOX, label="box of a rank"))
+        if self.view.shows_start:
+            axes.plot(*surface_of(self.first), **START)
+            key.append(Line2D([], [], **START, label="surface at the start"))
+        axes.set_title(f"{frame.time:.3g} s", fontsize=9)
         axes.tick_params(labelsize=7)
-    figure.colorbar(shown, ax=panels, label="moved, m", shrink=0.8)
-    figure.savefig(picture, dpi=80, metadata={"Software": None})
+        axes.set_xlabel("x, m", fontsize=8)
+        axes.set_ylabel("y, m", fontsize=8)
+        return key
+
+    def finish(self, figure: plt.Figure, panels, key: list[Patch | Line2D]) -> None:
+        """Adds the bar of colours and the key below all."""
+        bar = figure.colorbar(
+            self.shown, ax=panels, extend="max" if self.view.most else "neither", aspect=30, pad=0.02
+        )
+        bar.set_label(self.view.label, fontsize=8)
+        bar.ax.tick_params(labelsize=7)
+        figure.legend(
+            handles=key,
+            loc="upper center",
+            bbox_to_anchor=(0.5, 0),
+            ncols=len(key),
+            fontsize=7,
+            frameon=False,
+        )
+
+
+def layout_of(size: np.ndarray) -> tuple[bool, tuple[float, float], float]:
+    """Whether panels are stacked, inches of the figure, and inches per metre."""
+    is_wide = size[0] > 1.5 * size[1]
+    if is_wide:
+        across = 6.0
+        return True, (7.2, 3 * (across * size[1] / size[0] + 0.45) + 0.35), across / size[0]
+    high = min(5.5, 2.2 * size[1] / size[0])
+    across = high * size[0] / size[1]
+    return False, (3 * (across + 0.55) + 0.9, high + 0.95), high / size[1]
+
+
+def draw(folder: Path, picture: Path, scene_file: Path | None) -> None:
+    view = VIEWS.get(scene_file.stem, View()) if scene_file else View()
+    scene = scene_file.read_text() if scene_file else ""
+    points, boxes = frames_of(folder, "points"), frames_of(folder, "boxes")
+    frames = [read_frame(*points[i], boxes[i][1], view) for i in three_of(points)]
+    painter = Painter(frames, view, scene, folder)
+    is_wide, inches, inches_per_metre = layout_of(painter.size)
+    figure, panels = plt.subplots(
+        *((3, 1) if is_wide else (1, 3)),
+        figsize=inches,
+        layout="constrained",
+        sharex=True,
+        sharey=True,
+    )
+    for axes, frame in zip(panels, frames):
+        key = painter.draw(axes, frame, inches_per_metre)
+        axes.label_outer()
+    painter.finish(figure, panels, key)
+    figure.savefig(
+        picture, dpi=150, bbox_inches="tight", pad_inches=0.05, metadata={"Software": None}
+    )
+    plt.close(figure)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
-        sys.exit("draw.py FOLDER PICTURE")
-    draw(Path(sys.argv[1]), Path(sys.argv[2]))
+    if len(sys.argv) not in (3, 4):
+        sys.exit("draw.py FOLDER PICTURE [SCENE]")
+    draw(Path(sys.argv[1]), Path(sys.argv[2]), Path(sys.argv[3]) if sys.argv[3:] else None)

@@ -96,7 +96,7 @@ TEST(SceneReports, call_stable_what_gains_no_energy) {
     for (const auto shape : {ShapeFunction::linear, ShapeFunction::quadratic, ShapeFunction::gimp})
         for (const auto transfer : {Transfer::flip, Transfer::apic}) {
             if (shape == ShapeFunction::gimp && transfer == Transfer::apic) continue;
-            Scene scene = read_scene(RRCB_SCENES "/elastic_structure.yaml", MPI_COMM_WORLD).scene;
+            Scene scene = read_scene(RRCB_SCENES "/cantilever.yaml", MPI_COMM_WORLD).scene;
             resize_cells(scene, 0.5);
             scene.shape_function = shape;
             scene.transfer = transfer;

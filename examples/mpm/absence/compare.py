@@ -21,7 +21,7 @@ from pathlib import Path
 CELL_SIZES = {
     "slope": 5,
     "submarine_slide": 2.5,
-    "torpedo_anchor": 0.6,
+    "torpedo_anchor": 0.375,
     "elastic_structure": 0.25,
     "axial_bar": 0.5,
 }

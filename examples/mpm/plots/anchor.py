@@ -23,11 +23,13 @@ matplotlib.use("Agg")
 import numpy as np  # noqa: E402
 from matplotlib import pyplot as plt  # noqa: E402
 
+from scene_text import number_in  # noqa: E402
+
 GRAVITY = 9.81
-SLOW, DEEPEST, WINDOW = 1.5, 5.5, 0.25  # m/s, m, m
+SLOW, DEEPEST, WINDOW = 5, 10, 0.25  # m/s, m, m
 SLOWING = 1.5 * GRAVITY
 DEPTHS = np.arange(0, DEEPEST - WINDOW, 0.05)
-PUSHED = {"mass": 1e12, "weight_share": 0}
+PUSHED = {"mass": 1e12, "weight_share": 0, "fluid_density": None}
 NO_RATE = {"rate_factor": None, "reference_rate": None}
 SMOOTH = {"friction": 0, "adhesion_factor": None}
 
@@ -42,10 +44,6 @@ def with_keys(scene: str, keys: dict) -> str:
         else:
             scene = scene.replace("    penetrator:\n", f"    penetrator:\n      {key}: {value}\n")
     return scene + "  output:\n    history_every: 1\n"
-
-
-def number_in(scene: str, key: str) -> float:
-    return float(re.search(rf"^ +{key}: (\S+)$", scene, re.M)[1])
 
 
 @dataclass
@@ -99,16 +97,22 @@ class Anchor:
             number("length"),
         )
         self.density, self.strength = number("density"), number("strength")
+        self.water = number("fluid_density")
         self.gradient = number("strength_gradient")
         self.rate_factor, self.reference_rate = number("rate_factor"), number("reference_rate")
         self.start = -float(re.search(r"tip: \[[^,]+, ([^,]+),", scene)[1])
         self.section = np.pi * self.radius**2 / 4
 
+    def weight(self) -> float:
+        """In water, which is above the clay and in the hole, too."""
+        volume = self.section * (self.length - 2 * self.cone / 3)
+        return (self.mass - self.water * volume) * GRAVITY
+
     def buoyancy(self, depth):
-        """Weight of the clay that the anchor and the hole above it take the place of."""
+        """What the clay that the anchor and the hole above it take the place of weighs in water."""
         in_cone = np.clip(depth, 0, self.cone)
         volume = in_cone**3 / self.cone**2 / 3 + np.clip(depth - self.cone, 0, None)
-        return self.density * GRAVITY * self.section * volume
+        return (self.density - self.water) * GRAVITY * self.section * volume
 
     def strength_at_cone(self, depth):
         return self.strength + self.gradient * np.clip(depth - self.cone / 2, 0, None)
@@ -158,7 +162,7 @@ def integrate(anchor: Anchor, measured: Measured) -> Fall:
         if depth < 0:
             resistance = drag = 0
         inertia = anchor.mass + measured.added_mass * np.clip(depth / anchor.cone, 0, 1)
-        force = anchor.mass * GRAVITY - anchor.buoyancy(depth) - rate * resistance - drag
+        force = anchor.weight() - anchor.buoyancy(depth) - rate * resistance - drag
         return force / inertia
 
     step, states = 5e-4, [np.array([anchor.start, anchor.speed])]

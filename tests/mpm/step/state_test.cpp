@@ -85,7 +85,7 @@ Scene shipped(const std::string& name, double cell_size) {
 
 TEST(State, goes_on_with_the_same_bits) {
     expect_same_bits_with_a_stop(coarse_slope());
-    expect_same_bits_with_a_stop(shipped("torpedo_anchor", 0.6));
+    expect_same_bits_with_a_stop(shipped("torpedo_anchor", 0.375));
     expect_same_bits_with_a_stop(shipped("submarine_slide", 2.5));
     Scene disk = flying_disk();
     disk.shape_function = ShapeFunction::quadratic;
@@ -119,7 +119,7 @@ void expect_same_on_other_ranks(const Scene& scene, const std::string& column) {
 TEST(State, goes_on_on_another_number_of_ranks) {
     expect_same_on_other_ranks(flying_disk(), "x");
     expect_same_on_other_ranks(coarse_slope(), "y");
-    expect_same_on_other_ranks(shipped("torpedo_anchor", 0.6), "y");
+    expect_same_on_other_ranks(shipped("torpedo_anchor", 0.375), "y");
     expect_same_on_other_ranks(shipped("submarine_slide", 2.5), "y");
 }
 

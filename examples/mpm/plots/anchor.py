@@ -184,23 +184,29 @@ def print_constants(anchor: Anchor, measured: Measured, smooth: np.ndarray) -> N
     side = (measured.resistance - bearing)[1:] / anchor.strength_on_side(DEPTHS)[1:]
     drag = measured.drag / (0.5 * anchor.density * anchor.section)
     print("| depth, m | Nc | alpha | Cd |\n|---|---|---|---|")
-    for depth in (1.5, 2.5, 3.5, 4.5):
+    for depth in (2, 4, 6, 8):
         i = int(np.argmin(abs(DEPTHS - depth)))
         print(f"| {depth} | {factor[i]:.1f} | {side[i - 1]:.2f} | {drag[i]:.2f} |")
     print(f"\nrate factor: {measured.rate_share:.2f} of the gain at speed / diameter")
     print(f"added mass: {measured.added_mass:.0f} kg\n")
 
 
-def draw(runs: dict[str, Fall], picture: str) -> None:
-    figure, panels = plt.subplots(1, 2, figsize=(9, 3.2), layout="constrained")
-    for (name, run), style in zip(runs.items(), ("-", "--", ":")):
+def draw(runs: dict[str, Fall], other_cells: dict[str, Fall], picture: str) -> None:
+    figure, panels = plt.subplots(1, 2, figsize=(9, 3.4), layout="constrained")
+    styles = [{"lw": 1.5}, {"ls": "--"}, {"ls": ":"}]
+    greys = [{"color": str(0.75 - 0.2 * i), "lw": 0.9} for i in range(len(other_cells))]
+    for (name, run), style in zip((runs | other_cells).items(), styles + greys):
         last = int(np.argmax(run.speed <= 0)) or len(run.speed)
-        panels[0].plot(run.time[:last], -run.depth[:last], style, label=name)
-        panels[1].plot(run.time[:last], run.speed[:last], style, label=name)
+        panels[0].plot(run.time[:last], -run.depth[:last], **style, label=name)
+        panels[1].plot(run.time[:last], run.speed[:last], **style, label=name)
     panels[0].set(xlabel="time, s", ylabel="tip, m")
     panels[1].set(xlabel="time, s", ylabel="speed, m/s")
-    panels[1].legend(fontsize=8)
-    figure.savefig(picture, dpi=80, metadata={"Software": None})
+    for axes in panels:
+        axes.grid(lw=0.3)
+    panels[0].legend(fontsize=7, frameon=False)
+    figure.savefig(
+        picture, dpi=150, bbox_inches="tight", pad_inches=0.05, metadata={"Software": None}
+    )
 
 
 def main(program: str, scene_file: str, picture: str) -> None:
@@ -209,7 +215,6 @@ def main(program: str, scene_file: str, picture: str) -> None:
     slow = PUSHED | NO_RATE | {"velocity": -SLOW, "end_time": DEEPEST / SLOW}
     fast = PUSHED | {"end_time": DEEPEST / anchor.speed}
     slowed = {"weight_share": -SLOWING / GRAVITY, "end_time": anchor.speed / SLOWING}
-    depth = re.search(r"lower: \[0, ([^,]+), 0\]", scene)[1]
     plan = {
         "slow": (slow,),
         "smooth": (slow | SMOOTH,),
@@ -217,10 +222,10 @@ def main(program: str, scene_file: str, picture: str) -> None:
         "fast, rate": (fast,),
         "slowed": (PUSHED | NO_RATE | slowed,),
         "as shipped": ({},),
-        "4.5 m wide": ({"cells": "[15, 38, 15]"},),
-        "15 m deep": ({"lower": "[0, -15, 0]", "cells": "[10, 52, 10]"},),
-        "cells of 0.6 m": ({}, 0.6),
+        "2.33 m wide": ({"cells": "[14, 81, 14]"},),
+        "cells of 0.25 m": ({}, 0.25),
         "cells of 0.2 m": ({}, 0.2),
+        "cells of 0.125 m": ({}, 0.125),
     }
     with ThreadPoolExecutor(2) as pool:
         done = dict(zip(plan, pool.map(lambda run: simulate(program, scene, *run), plan.values())))
@@ -232,12 +237,11 @@ def main(program: str, scene_file: str, picture: str) -> None:
         "equation, all measured": integrate(anchor, measured),
         "equation, rate at speed / diameter": integrate(anchor, at_diameter),
     }
-    falls = runs | {name: done[name] for name in list(plan)[6:]}
+    others = {name: done[name] for name in list(plan)[6:]}
     print("| | depth, m | at rest after, s |\n|---|---|---|")
-    for name, run in falls.items():
+    for name, run in (runs | others).items():
         print("| {} | {:.2f} | {:.2f} |".format(name, *run.arrest()))
-    print(f"\nThe simulation's floor is at {depth} m.")
-    draw(runs, picture)
+    draw(runs, {name: run for name, run in others.items() if name.startswith("cells")}, picture)
 
 
 if __name__ == "__main__":

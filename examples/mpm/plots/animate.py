@@ -14,36 +14,40 @@ matplotlib.use("Agg")
 
 import numpy as np  # noqa: E402
 from matplotlib import pyplot as plt  # noqa: E402
+from matplotlib.axes import Axes  # noqa: E402
 from PIL import Image  # noqa: E402
 
-from draw import Painter, read_frames  # noqa: E402
-from views import VIEWS, read_fall  # noqa: E402
+from draw import Frame, Painter, read_frames  # noqa: E402
+from views import STEEL, VIEWS, read_fall  # noqa: E402
 
 FRAME_MS, LAST_MS = 80, 2000
 NUM_COLOURS = 48
 
 
-def image_of(painter: Painter, frame) -> Image.Image:
+def draw_fall(axes: Axes, folder: Path, now: float) -> None:
+    time, tip = read_fall(folder)
+    axes.plot(time, tip, color="#999999")
+    axes.plot(now, np.interp(now, time, tip), "o", color=STEEL)
+    axes.set_xlabel("time, s", fontsize=8)
+    axes.set_ylabel("tip, m", fontsize=8)
+    axes.tick_params(labelsize=7)
+    axes.grid(lw=0.3)
+
+
+def image_of(painter: Painter, frame: Frame) -> Image.Image:
     """One frame, as large as all others."""
     falls = painter.view.is_mirrored
     width, height = painter.size
-    inches = (5.6, 6.0) if falls else (7.0, 6.2 * height / width + 0.9)
+    inches = (5.2, 5.6) if falls else (7.0, 6.2 * height / width + 0.9)
     figure = plt.figure(figsize=inches, dpi=100, layout="constrained")
-    axes = figure.add_subplot(1, 2, 1) if falls else figure.add_subplot()
-    painter.draw(axes, frame, 4.9 / height if falls else 5.6 / width)
+    columns = figure.add_gridspec(1, 2 if falls else 1, width_ratios=[1, 1.4] if falls else [1])
+    axes = figure.add_subplot(columns[0])
+    painter.draw(axes, frame, 4.6 / height if falls else 5.6 / width)
     if falls:
-        time, tip = read_fall(painter.folder)
-        beside = figure.add_subplot(1, 2, 2)
-        beside.plot(time, tip, color="#999999")
-        beside.plot(frame.time, np.interp(frame.time, time, tip), "o", color="#3B4A5A")
-        beside.set_xlabel("time, s", fontsize=8)
-        beside.set_ylabel("tip, m", fontsize=8)
-        beside.tick_params(labelsize=7)
-        beside.grid(lw=0.3)
-    else:
-        bar = figure.colorbar(painter.shown, ax=axes, extend="max", aspect=18, pad=0.02)
-        bar.set_label(painter.view.label, fontsize=8)
-        bar.ax.tick_params(labelsize=7)
+        draw_fall(figure.add_subplot(columns[1]), painter.folder, frame.time)
+    bar = figure.colorbar(painter.shown, ax=axes, extend="max", aspect=18, pad=0.02)
+    bar.set_label(painter.view.label, fontsize=8)
+    bar.ax.tick_params(labelsize=7)
     figure.canvas.draw()
     image = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
     plt.close(figure)

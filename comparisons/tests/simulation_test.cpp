@@ -68,6 +68,7 @@ TEST(Simulation, tells_how_far_points_have_come) {
     scene.effects.clear();
     scene.walls = {};
     scene.grid.lower = {-1.2, -3, -1.2};
+    scene.grid.spacing = 0.6;
     scene.grid.num_cells = {12, 8, 8};
     scene.bodies.front().velocity = [](const mpm::Vector&) { return mpm::Vector{3000, 0, 4000}; };
     scene.bodies.front().contains = [](const mpm::Vector& at) {

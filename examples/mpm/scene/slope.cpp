@@ -37,7 +37,6 @@ Scene slope_scene(int cells_across) {
             .bodies = {soil},
             .walls = {.left = Wall::roller, .right = Wall::roller, .bottom = Wall::fixed},
             .effects = {{"gravity", {{"acceleration", std::vector<double>{0, -9.81}}}}},
-            .least_node_mass = 0.01,
             .end_time = 8};
 }
 

@@ -123,20 +123,30 @@ def read_sizes(directory: Path, counted: dict[tuple[str, int], Counted]) -> Size
 
 
 def read_rounds(row: Counted, sizes: Sizes) -> Rounds:
-    """What the refinement did; fractions would mean that the formula does not hold."""
+    """What the refinement did; fractions would mean that the formula does not hold.
+
+    Corrections have messages as long as the cuts near the points ask for: to a tolerance, bytes of
+    counts and answers are taken as they came.
+    """
     traffic, ranks = row.traffic, row.ranks
     looks = model.LOOKS["refined" if row.method == REFINED else "exact"]
     rest = model.beyond_head(ranks, "exact", sizes.parts)
     once = sizes.broadcasts + 8 * ranks + rest + looks * model.answer_bytes(ranks, sizes.parts)
     reduced = traffic["Reduce"].sent - looks * ranks * model.look_bytes(ranks, sizes.parts)
     broadcasts = _whole(traffic["Bcast"].calls, ranks)
-    return Rounds(
+    rounds = Rounds(
         rounds=broadcasts - sizes.num_broadcasts - (rest > 0) - looks,
-        searches=_whole(traffic["Bcast"].sent - once, sizes.search),
         counts=_whole(traffic["Reduce"].calls, ranks) - looks,
-        histograms=_whole(reduced, ranks * sizes.histogram),
         gathers=_whole(traffic["Gather"].calls, ranks) - 1,
         candidate_bytes=traffic["Gatherv"].sent,
+    )
+    if row.method == REFINED:
+        return rounds._replace(
+            answer_bytes=traffic["Bcast"].sent - once, bin_bytes=_whole(reduced, ranks)
+        )
+    return rounds._replace(
+        searches=_whole(traffic["Bcast"].sent - once, sizes.search),
+        histograms=_whole(reduced, ranks * sizes.histogram),
     )
 
 

@@ -99,6 +99,8 @@ class Rounds(NamedTuple):
     histograms: int = 0
     gathers: int = 0  # rounds with candidates
     candidate_bytes: int = 0
+    answer_bytes: int = 0  # broadcast, where corrections of all cuts at once go before searches
+    bin_bytes: int = 0  # of a rank, reduced there
 
 
 def children(rank: int, ranks: int) -> list[int]:
@@ -179,9 +181,9 @@ def rrcb(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> Tr
 
 
 def _refine(traffic: Traffic, ranks: int, sizes: Sizes, rounds: Rounds) -> None:
-    searches = rounds.searches * sizes.search
+    searches = rounds.searches * sizes.search + rounds.answer_bytes
     traffic.add("Bcast", ranks * rounds.rounds, searches, (ranks - 1) * searches)
-    histograms = rounds.histograms * sizes.histogram
+    histograms = rounds.histograms * sizes.histogram + rounds.bin_bytes
     traffic.add("Reduce", ranks * rounds.counts, ranks * histograms, histograms)
     counts = 4 * rounds.gathers * ranks
     traffic.add("Gather", ranks * rounds.gathers, counts, counts)
@@ -196,7 +198,7 @@ def rrcb_root_bytes(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Roun
     into += LOOKS[refine] * look_bytes(ranks, sizes.parts)
     if refine in ("refined", "exact"):
         into += rounds.histograms * sizes.histogram + 4 * rounds.gathers * ranks
-        into += rounds.candidate_bytes
+        into += rounds.candidate_bytes + rounds.bin_bytes
     return into
 
 

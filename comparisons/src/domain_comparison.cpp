@@ -2,7 +2,6 @@
 
 #include "bisection/learned_domain.hpp"
 #include "error_sources_mpi.hpp"
-#include "gather/lean_cells.hpp"
 
 #include <rrcb/bisection.hpp>
 #include <rrcb/quality.hpp>
@@ -23,15 +22,13 @@ SupportMesh mesh_over(const Points& points, int cells_per_axis) {
     return rrcb::make_support_mesh(rrcb::bounding_box(points), points.dimension, cells_per_axis);
 }
 
-/// The cells as they travel to the root.
-rrcb::CellSet lean_cells(const Points& points, int cells_per_axis) {
+/// The cells as the root gets them.
+rrcb::CellSet cells_at_root(const Points& points, int cells_per_axis) {
     rrcb::CellSet set;
     const SupportMesh mesh = mesh_over(points, cells_per_axis);
-    const std::vector<CellMoments> cells = rrcb::cell_moments(points, mesh);
-    const rrcb::LeanCells packed = rrcb::pack_cells(cells, mesh);
-    rrcb::unpack_cells(packed, packed.bytes, cells.size(), mesh, set.cells);
+    set.cells = lean_cells(points, mesh);
     set.heaviest = points.weights.empty() ? 1 : std::ranges::max(points.weights);
-    set.blocks = {{0, cells.size(), mesh}};
+    set.blocks = {{0, set.cells.size(), mesh}};
     return set;
 }
 
@@ -41,12 +38,12 @@ StatisticalDomain boxes(const Points& points, int cells_per_axis) {
 }
 
 StatisticalDomain analytic(const Points& points, int cells_per_axis) {
-    return rrcb::analytic_domain(lean_cells(points, cells_per_axis).cells, points.dimension,
+    return rrcb::analytic_domain(cells_at_root(points, cells_per_axis).cells, points.dimension,
                                  rrcb::bounding_box(points));
 }
 
 StatisticalDomain learned(const Points& points, int cells_per_axis) {
-    return rrcb::learned_domain(lean_cells(points, cells_per_axis), points.dimension,
+    return rrcb::learned_domain(cells_at_root(points, cells_per_axis), points.dimension,
                                 rrcb::bounding_box(points));
 }
 

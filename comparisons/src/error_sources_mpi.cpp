@@ -1,6 +1,7 @@
 #include "error_sources_mpi.hpp"
 
 #include "failure_mpi.hpp"
+#include "gather/lean_cells.hpp"
 #include "gather_mpi.hpp"
 
 #include <rrcb/balance.hpp>
@@ -14,11 +15,13 @@ namespace comparisons {
 
 namespace {
 
-/// Moments of the cells of this rank's support mesh.
-std::vector<rrcb::CellMoments> cells_of(const rrcb::Points& points, int mesh) {
+/// Moments of the cells of this rank's support mesh, as they reach the root.
+std::vector<rrcb::CellMoments> cells_of(const SourceSetting& setting, const rrcb::Points& points) {
     if (points.count == 0) return {};
-    return rrcb::cell_moments(
-        points, rrcb::make_support_mesh(rrcb::bounding_box(points), points.dimension, mesh));
+    const rrcb::SupportMesh mesh =
+        rrcb::make_support_mesh(rrcb::bounding_box(points), points.dimension, setting.mesh);
+    if (setting.source == Source::cells) return lean_cells(points, mesh);
+    return rrcb::cell_moments(points, mesh);
 }
 
 /// The box of all cells, which is that of all points: its faces are those of the ranks' meshes.
@@ -67,8 +70,7 @@ rrcb::StatisticalDomain domain_of(const SourceSetting& setting,
 rrcb::Cuts cut_cells(const SourceSetting& setting, const rrcb::Points& points, MPI_Comm comm) {
     const int rank = rank_of(comm);
     const int num_parts = size_of(comm);
-    const std::vector<rrcb::CellMoments> cells =
-        gather_on_root(cells_of(points, setting.mesh), comm);
+    const std::vector<rrcb::CellMoments> cells = gather_on_root(cells_of(setting, points), comm);
     rrcb::Cuts cuts{points.dimension, num_parts, {}};
     if (rank == 0) {
         cuts = rrcb::bisect(domain_of(setting, cells, points.dimension), num_parts, {},
@@ -109,6 +111,15 @@ Row source_row(Row key, std::span<const double> part_weights) {
 }
 
 }  // namespace
+
+std::vector<rrcb::CellMoments> lean_cells(const rrcb::Points& points,
+                                          const rrcb::SupportMesh& mesh) {
+    const std::vector<rrcb::CellMoments> cells = rrcb::cell_moments(points, mesh);
+    const rrcb::LeanCells packed = rrcb::pack_cells(cells, mesh);
+    std::vector<rrcb::CellMoments> lean;
+    rrcb::unpack_cells(packed, packed.bytes, cells.size(), mesh, lean);
+    return lean;
+}
 
 rrcb::StatisticalDomain box_domain(std::span<const rrcb::CellMoments> cells, int dimension,
                                    double k) {

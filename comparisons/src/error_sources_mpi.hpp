@@ -4,13 +4,14 @@
 
 #include <rrcb/moments.hpp>
 #include <rrcb/statistical_domain.hpp>
+#include <rrcb/support_mesh.hpp>
 
 namespace comparisons {
 
 /// What the root bisects, stage by stage further from the points.
 enum class Source {
     points,    ///< all of them: what the bisection itself leaves
-    cells,     ///< uniform patches with the moments of the cells: what the support mesh adds
+    cells,     ///< densities of the moments, as the root gets them: what the support mesh adds
     boxes,     ///< one patch in mean +- k sigma: what another half-width than sqrt(3) sigma adds
     in_cells,  ///< these boxes, cut off at their cells: what the shift of the means adds
     in_all,    ///< these boxes, cut off at the box of all points
@@ -25,6 +26,10 @@ struct SourceSetting {
     double fraction = 0;  ///< of sampled; may be above 1
     std::uint64_t seed = 0;
 };
+
+/// Moments of the cells of a mesh as lean records bring them to the root. Not collective.
+std::vector<rrcb::CellMoments> lean_cells(const rrcb::Points& points,
+                                          const rrcb::SupportMesh& mesh);
 
 /// A uniform patch in mean +- k sigma per cell, unlike in analytic_domain whatever lies there: what
 /// sampled_domain becomes with ever more points. Not collective.

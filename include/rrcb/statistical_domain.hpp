@@ -53,8 +53,8 @@ RRCB_API StatisticalDomain analytic_domain(std::span<const CellMoments> cells, i
 /// and deviation are those of the cell. It is taken only where it tells so much more than an even
 /// prior that as many points as the cell has would show it. In 3-D, and along a mesh of no extent,
 /// all cells are analytic.
-StatisticalDomain learned_domain(std::span<const CellMoments> cells, const SupportMesh& mesh,
-                                 const Box& box);
+RRCB_API StatisticalDomain learned_domain(std::span<const CellMoments> cells,
+                                          const SupportMesh& mesh, const Box& box);
 
 /// Pseudo-random points of equal weight, uniform in mean +- multiplier * sigma of each cell.
 ///

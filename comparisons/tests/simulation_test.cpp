@@ -19,10 +19,10 @@ namespace comparisons {
 namespace {
 
 SimulationRun run(const std::optional<mpm::Balancer>& balancer,
-                  const mpm::Scene& scene = mpm::slope_scene(22)) {
+                  const mpm::Scene& scene = mpm::slope_scene(22), int every = 2) {
     float version = 0;
     Zoltan_Initialize(0, nullptr, &version);
-    const SimulationPlan plan{.scene = scene, .num_steps = 6, .every = 2, .record_every = 2};
+    const SimulationPlan plan{.scene = scene, .num_steps = 6, .every = every, .record_every = 2};
     TimedSimulation simulation(
         plan, balancer, [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
     simulation.advance(4);
@@ -109,7 +109,8 @@ TEST(Simulation, a_scene_file_that_cannot_be_read_is_told_on_every_rank) {
 TEST(Simulation, exact_methods_share_the_points_out_to_one_a_level) {
     constexpr double levels = 2;  // of the bisection, up to 4 parts
     for (const char* name : {"zoltan-rcb", "root-rcb", "rrcb-exact"}) {
-        const SimulationRun result = run(make_balancer(read_method(name)));
+        // At every step: from one to the next points cross cuts.
+        const SimulationRun result = run(make_balancer(read_method(name)), mpm::slope_scene(22), 1);
         ASSERT_EQ(result.error, "") << name;
         const double mean = static_cast<double>(result.num_points) / num_ranks();
         for (const LoadRecord& record : result.history) {

@@ -1,8 +1,7 @@
 // Calls that start from the cuts of an earlier one: these stay while they are good enough, at the
 // cost of one assignment and one count.
-#include "held_points.hpp"
+#include "reuse_cases.hpp"
 
-#include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
 #include <rrcb/quality.hpp>
 
@@ -58,43 +57,14 @@ int MPI_Allreduce(const void* in, void* out, int count, MPI_Datatype type, MPI_O
 namespace rrcb {
 namespace {
 
+using test::cloud;
 using test::HeldPoints;
 using test::num_ranks;
 using test::rank;
+using test::same_cuts;
 using test::Share;
-
-/// The same points on every rank: a lattice, on whose cuts many of them lie, or at random.
-HeldPoints cloud(int dimension, std::size_t count, bool is_lattice) {
-    HeldPoints all{dimension, test::uniform_cloud(count, dimension, 21)};
-    if (is_lattice)
-        for (double& x : all.coordinates) x = std::floor(12 * x);
-    all.scatter();
-    return all;
-}
-
-/// What each part weighs over all ranks, by looking up every point; by count without weight.
-std::vector<double> weights_by_look_up(const HeldPoints& all, const Cuts& cuts) {
-    const bool by_count = std::ranges::all_of(all.weights, [](double w) { return w == 0; });
-    const Points points = interleaved_points(all.coordinates, all.dimension);
-    std::vector<double> weights(static_cast<std::size_t>(cuts.num_parts));
-    for (std::size_t i = 0; i < points.count; ++i)
-        weights[static_cast<std::size_t>(part_of(cuts, points.position(i)))] +=
-            by_count ? 1 : all.weights[i];
-    return weights;
-}
-
-bool same_cuts(const Cuts& a, const Cuts& b) {
-    return std::ranges::equal(a.tree, b.tree, [](const Cut& one, const Cut& other) {
-        return one.axis == other.axis && one.at == other.at;
-    });
-}
-
-Options with_parts(int num_parts, double tolerance) {
-    Options options;
-    options.num_parts = num_parts;
-    options.imbalance_tolerance = tolerance;
-    return options;
-}
+using test::weights_by_look_up;
+using test::with_parts;
 
 TEST(Reuse, keeps_cuts_within_the_tolerance_and_tells_what_their_parts_weigh) {
     for (const bool is_lattice : {false, true})
@@ -167,116 +137,6 @@ TEST(Reuse, moves_cuts_beyond_the_tolerance) {
         for (std::size_t k = 0; k < first.tree.size(); ++k)
             EXPECT_EQ(second.cuts.tree[k].axis, first.tree[k].axis);
     }
-}
-
-/// Weight of the points that two sets of cuts put into different parts.
-double weight_moved(const HeldPoints& all, const Cuts& before, const Cuts& after) {
-    const Points points = interleaved_points(all.coordinates, all.dimension, all.weights);
-    double moved = 0;
-    for (std::size_t i = 0; i < points.count; ++i) {
-        const Vector x = points.position(i);
-        if (part_of(before, x) != part_of(after, x)) moved += points.weight(i);
-    }
-    return moved;
-}
-
-/// The least weight that any cut of points on a line between two parts has to move from `before`,
-/// so that both are within the tolerance: all cuts are tried.
-double least_moved(const HeldPoints& all, const Cuts& before, double tolerance) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const double x : all.coordinates) {
-        const Cuts tried{1, 2, {Cut{0, 0, {x, -INFINITY, -INFINITY}}}};
-        if (imbalance(weights_by_look_up(all, tried)) > tolerance) continue;
-        least = std::min(least, weight_moved(all, before, tried));
-    }
-    return least;
-}
-
-TEST(Reuse, moves_a_cut_no_further_than_the_tolerance_asks_for) {
-    for (unsigned seed = 1; seed <= 6; ++seed) {
-        HeldPoints all{1, test::uniform_cloud(300, 1, seed)};
-        std::mt19937_64 engine(seed);
-        for (std::size_t i = 0; i < all.count(); ++i)
-            all.weights.push_back(seed % 3 == 0 ? 1 : test::uniform(engine, 0.5, 1.5));
-        all.scatter();
-        const Share mine(all);
-        for (const double tolerance : {1.02, 1.1}) {
-            for (const double at : {0.1, 0.43, 0.61, 0.95}) {
-                const Cuts before{1, 2, {Cut{0, 0, {at, -INFINITY, -INFINITY}}}};
-                const Balance result =
-                    balance(mine.points(), with_parts(2, tolerance), MPI_COMM_WORLD, before);
-                EXPECT_LE(imbalance(weights_by_look_up(all, result.cuts)), tolerance);
-                const double total = result.report.total_weight;
-                // An eighth of what is allowed is room for the search, and points are whole.
-                const double room = total * (tolerance - 1) / 8 + 3;
-                const double least = least_moved(all, before, tolerance);
-                EXPECT_LE(weight_moved(all, before, result.cuts), least + room)
-                    << "from " << at << ", tolerance " << tolerance;
-            }
-        }
-    }
-}
-
-bool same_below(const Cuts& a, const Cuts& b, std::size_t node, int num_parts) {
-    for (std::size_t k = node; k + 1 < node + static_cast<std::size_t>(num_parts); ++k)
-        if (a.tree[k].at != b.tree[k].at) return false;
-    return true;
-}
-
-TEST(Reuse, leaves_cuts_alone_whose_parts_are_good) {
-    // Points leave the first quarter of a square for the second, which are one subtree of four.
-    HeldPoints all = cloud(2, 20000, false);
-    const Options options = with_parts(16, 1.05);
-    const Cuts before = balance(Share(all).points(), options, MPI_COMM_WORLD).cuts;
-    std::mt19937_64 engine(8);
-    for (std::size_t i = 0; i < all.count(); ++i) {
-        double* x = &all.coordinates[2 * i];
-        const bool in_first = part_of(before, {x[0], x[1], 0}) == 0;
-        if (in_first && engine() % 2 == 0) x[1] *= 0.9;
-        if (in_first && engine() % 4 == 0) all.coordinates[2 * i] = x[0] * 0.5;
-    }
-    for (std::size_t i = 0; i < 150; ++i)
-        all.coordinates.insert(all.coordinates.end(), {0.01 + 1e-4 * static_cast<double>(i), 0.01});
-    all.scatter();
-    const Share mine(all);
-    const Balance result = balance(mine.points(), options, MPI_COMM_WORLD, before);
-    EXPECT_LE(imbalance(weights_by_look_up(all, result.cuts)), 1.05);
-    EXPECT_EQ(result.cuts.tree[0].at, before.tree[0].at);
-    EXPECT_TRUE(same_below(before, result.cuts, 8, 8)) << "the upper half";
-    EXPECT_FALSE(same_below(before, result.cuts, 0, 16));
-    EXPECT_LT(weight_moved(all, before, result.cuts), 400);
-    for (std::size_t i = 0; i < result.parts.size(); ++i)
-        ASSERT_EQ(result.parts[i], part_of(result.cuts, mine.points().position(i)));
-}
-
-TEST(Reuse, of_a_drifting_cloud_moves_half_of_what_exact_cuts_do_at_most) {
-    HeldPoints all = cloud(2, 20000, false);
-    Options options = with_parts(8, 1.05);
-    Options exact = options;
-    exact.refine = Refine::exact;
-    Cuts cuts = balance(Share(all).points(), exact, MPI_COMM_WORLD).cuts;
-    double moved = 0;
-    double moved_by_exact = 0;
-    int num_moves = 0;
-    for (int call = 0; call < 20; ++call) {
-        for (std::size_t i = 0; i < all.count(); ++i) {
-            double* x = &all.coordinates[2 * i];
-            x[0] += 0.01 * x[1] * (1 - x[0]);
-        }
-        const Share mine(all);
-        const Balance next = balance(mine.points(), options, MPI_COMM_WORLD, cuts);
-        EXPECT_LE(imbalance(weights_by_look_up(all, next.cuts)), 1.05);
-        if (!same_cuts(next.cuts, cuts)) {
-            ++num_moves;
-            moved += weight_moved(all, cuts, next.cuts);
-            const Balance other = balance(mine.points(), exact, MPI_COMM_WORLD, cuts);
-            moved_by_exact += weight_moved(all, cuts, other.cuts);
-        }
-        cuts = next.cuts;
-    }
-    EXPECT_GT(num_moves, 0);
-    EXPECT_LE(moved, moved_by_exact / 2) << num_moves;
-    RecordProperty("moved_share_of_exact", std::to_string(moved / moved_by_exact));
 }
 
 /// Expects the same error on every rank, which names `what`.

@@ -11,7 +11,7 @@ namespace mpm {
 /// to their mirror images inside, with the signs that leave the wall at rest. At frictional walls
 /// they meet the wall together with these.
 template <int D>
-void add_walls(const Scene& scene, Stages<D>& stages);
+void add_walls(const Scene& scene, double wave_speed, Stages<D>& stages);
 
 /// Nodes of a patch, and those beyond frictional walls whose mirror images it has: they meet the
 /// wall together.

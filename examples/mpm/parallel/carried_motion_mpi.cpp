@@ -12,34 +12,37 @@ struct Message {
     std::vector<int> counts, offsets;
 };
 
+/// Doubles of a node in a message.
 template <int D>
-constexpr std::size_t width = sizeof(NodeMotion<D>) / sizeof(double);
+std::size_t width(const GridPatch<D>& patch) {
+    return sizeof(NodeMotion<D>) / sizeof(double) + patch.carried.size();
+}
 
 /// Message with room for the nodes that a range shares with that of each rank.
 template <int D>
-Message room(const NodeRange<D>& mine, std::span<const NodeRange<D>> others) {
+Message room(const GridPatch<D>& patch, std::span<const NodeRange<D>> others) {
     Message message;
     int end = 0;
     for (const NodeRange<D>& other : others) {
         std::size_t num_nodes = 0;
-        visit_rows<D>(intersection<D>(mine, other),
+        visit_rows<D>(intersection<D>(patch.nodes, other),
                       [&](const std::array<int, D>&, std::size_t length) { num_nodes += length; });
         message.offsets.push_back(end);
-        message.counts.push_back(static_cast<int>(num_nodes * width<D>));
+        message.counts.push_back(static_cast<int>(num_nodes * width(patch)));
         end += message.counts.back();
     }
     message.values.resize(static_cast<std::size_t>(end));
     return message;
 }
 
-/// Calls visit(motion of a node of the patch, its place in the message) for each shared node.
-template <int D, typename Patch, typename Visit>
-void visit_motion(Patch& patch, std::span<const NodeRange<D>> others, Visit visit) {
+/// Calls visit(number in the patch, place in the message) for each shared node.
+template <int D, typename Visit>
+void visit_shared(const GridPatch<D>& patch, std::span<const NodeRange<D>> others, Visit visit) {
     std::size_t at = 0;
     for (const NodeRange<D>& other : others)
         visit_nodes<D>(intersection<D>(patch.nodes, other), [&](const std::array<int, D>& node) {
-            visit(patch.motion[patch.index(node)], at);
-            at += width<D>;
+            visit(patch.index(node), at);
+            at += width(patch);
         });
 }
 
@@ -49,21 +52,26 @@ template <int D>
 void carry_motion(std::span<const NodeRange<D>> before, std::span<const NodeRange<D>> after,
                   const GridPatch<D>& from, GridPatch<D>& to, MPI_Comm comm) {
     static_assert(sizeof(NodeMotion<D>) == 3 * D * sizeof(double));
-    Message sent = room<D>(from.nodes, after), received = room<D>(to.nodes, before);
-    visit_motion<D>(from, after, [&](const NodeMotion<D>& motion, std::size_t at) {
+    Message sent = room<D>(from, after), received = room<D>(to, before);
+    visit_shared<D>(from, after, [&](std::size_t n, std::size_t at) {
+        const NodeMotion<D>& motion = from.motion[n];
         double* place = sent.values.data() + at;
         for (const auto& velocity :
              {motion.velocity, motion.velocity_change, motion.strain_velocity})
             place = std::ranges::copy(velocity, place).out;
+        for (const std::vector<double>& field : from.carried) *place++ = field[n];
     });
     MPI_Alltoallv(sent.values.data(), sent.counts.data(), sent.offsets.data(), MPI_DOUBLE,
                   received.values.data(), received.counts.data(), received.offsets.data(),
                   MPI_DOUBLE, comm);
     std::ranges::fill(to.motion, NodeMotion<D>{});
-    visit_motion<D>(to, before, [&](NodeMotion<D>& motion, std::size_t at) {
+    for (std::vector<double>& field : to.carried) std::ranges::fill(field, 0.0);
+    visit_shared<D>(to, before, [&](std::size_t n, std::size_t at) {
+        NodeMotion<D>& motion = to.motion[n];
         const double* place = received.values.data() + at;
         for (auto* velocity : {&motion.velocity, &motion.velocity_change, &motion.strain_velocity})
             place = std::ranges::copy_n(place, D, velocity->begin()).in;
+        for (std::vector<double>& field : to.carried) field[n] = *place++;
     });
 }
 

@@ -15,10 +15,11 @@ namespace mpm {
 /// What a written state holds for all ranks.
 struct StateHead {
     std::vector<std::string> columns;  ///< of the points
-    std::vector<double> scene;         ///< dimension, grid and number of points, which must agree
-    std::vector<double> numbers;       ///< time and such
-    std::vector<double> effects;       ///< EffectState that is the same on all ranks
-    std::vector<Box> boxes;            ///< of the ranks
+    /// Dimension, grid, number of points and of GridPatch::carried, which must agree.
+    std::vector<double> scene;
+    std::vector<double> numbers;  ///< time and such
+    std::vector<double> effects;  ///< EffectState that is the same on all ranks
+    std::vector<Box> boxes;       ///< of the ranks
 };
 
 /// Takes numbers from the front of a section. Throws std::runtime_error where it has no more.

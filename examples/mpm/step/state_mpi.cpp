@@ -45,7 +45,8 @@ void load(const std::vector<EffectState>& states, bool is_sum, std::span<const d
 template <int D>
 StateHead Stepper<D>::state_head() const {
     StateHead head{.columns = particles.column_names(),
-                   .scene = {D, scene_.grid.spacing, static_cast<double>(num_points)},
+                   .scene = {D, scene_.grid.spacing, static_cast<double>(num_points),
+                             static_cast<double>(stages_.num_carried)},
                    .numbers = {time, time_step, max_speed, static_cast<double>(num_steps)},
                    .effects = saved(stages_.states, false),
                    .boxes = decomposition.boxes};
@@ -64,9 +65,12 @@ std::vector<double> Stepper<D>::state_section() const {
     if (stages_.carries_motion) {
         append(patch_.nodes.begin, section);
         append(patch_.nodes.count, section);
-        for (const NodeMotion<D>& node : patch_.motion)
+        for (std::size_t n = 0; n < patch_.motion.size(); ++n) {
+            const NodeMotion<D>& node = patch_.motion[n];
             for (const auto& part : {node.velocity, node.velocity_change, node.strain_velocity})
                 append(part, section);
+            for (const std::vector<double>& field : patch_.carried) section.push_back(field[n]);
+        }
     }
     const std::size_t begin = section.size(), width = particles.column_names().size();
     section.resize(begin + particles.size() * width);
@@ -80,7 +84,7 @@ void Stepper<D>::write_state(const std::string& path) const {
     write_state_file(path, state_head(), state_section(), comm_);
 }
 
-/// Takes the motion of the nodes of a section that this rank has, too.
+/// Takes the motion of the nodes of a section that this rank has, too, and what else they carry.
 template <int D>
 void Stepper<D>::take_motion(StateSection& section) {
     NodeRange<D> nodes;
@@ -88,15 +92,18 @@ void Stepper<D>::take_motion(StateSection& section) {
     for (int& count : nodes.count) count = static_cast<int>(section.next());
     visit_nodes<D>(nodes, [&](const std::array<int, D>& node) {
         const std::span<const double> motion = section.take(3 * D);
+        const std::span<const double> carried = section.take(patch_.carried.size());
         bool is_here = !patch_.nodes.empty();
         for (std::size_t a = 0; a < D; ++a)
             is_here &= node[a] >= patch_.nodes.begin[a] &&
                        node[a] < patch_.nodes.begin[a] + patch_.nodes.count[a];
         if (!is_here) return;
-        NodeMotion<D>& mine = patch_.motion[patch_.index(node)];
+        const std::size_t n = patch_.index(node);
+        NodeMotion<D>& mine = patch_.motion[n];
         std::ranges::copy(motion.first(D), mine.velocity.begin());
         std::ranges::copy(motion.subspan(D, D), mine.velocity_change.begin());
         std::ranges::copy(motion.last(D), mine.strain_velocity.begin());
+        for (std::size_t f = 0; f < carried.size(); ++f) patch_.carried[f][n] = carried[f];
     });
 }
 

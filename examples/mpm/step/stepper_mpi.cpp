@@ -37,9 +37,9 @@ double max_wave_speed(const Scene& scene) {
 
 /// Stages of a scene but for the mirror images in walls. Walls and planes enter before effects.
 template <int D>
-Stages<D> build_stages(const Scene& scene, Particles& particles) {
+Stages<D> build_stages(const Scene& scene, double wave_speed, Particles& particles) {
     Stages<D> stages;
-    add_walls<D>(scene, stages);
+    add_walls<D>(scene, wave_speed, stages);
     add_planes<D>(scene, stages);
     const std::vector<std::optional<Values>> values = effect_values(scene);
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -64,13 +64,14 @@ Stepper<D>::Stepper(const Scene& scene, const Extent& extent, MPI_Comm comm)
       transfers_(make_transfers<D>(scene_, FlipShare(scene_, wave_speed_), particles)),
       ownership_(scene.grid, comm_) {
     build_materials();
-    stages_ = build_stages<D>(scene_, particles);
+    stages_ = build_stages<D>(scene_, wave_speed_, particles);
     least_mass_ = add_least_mass<D>(scene_, motion_.mass, stages_);
     add_images<D>(scene_, stages_);
     velocity_remap_ = make_velocity_remap<D>(scene_, FlipShare(scene_, wave_speed_), particles);
     patch_.shape = scene.grid;
     patch_.margin = transfers_->margin();
     patch_.fields.resize(stages_.fields.size());
+    patch_.carried.resize(stages_.num_carried);
     num_points = extent.num_points;
     adopt(slabs(extent.box, size_of(comm_)));
     place_points(scene_, decomposition, rank_of(comm_), motion_, particles);

@@ -93,25 +93,41 @@ TEST(Plane, holds_a_block_when_friction_is_above_the_slope) {
     EXPECT_LT(slide(scene, 2).along, 0.05);
 }
 
-// A plane along the bottom is the bottom, to the bit.
+/// A block on the bottom that gravity pulls along: on a wall, and on a plane there.
+std::array<Scene, 2> on_wall_and_plane(const Wall& ground) {
+    Scene by_wall = incline(ground, 0.5);
+    by_wall.planes.clear();
+    by_wall.walls.bottom = ground;
+    by_wall.bodies.front().contains = box_region({{1, 0}, {3, 1}});
+    (*find_effect(by_wall, "gravity"))["acceleration"] = std::vector<double>{3, -g};
+    Scene by_plane = by_wall;
+    by_plane.walls.bottom = Wall::open;
+    by_plane.planes = {{"bottom", {7, 0}, {0, 3}, ground}};
+    return {by_wall, by_plane};
+}
+
+// Without friction a plane along the bottom is the bottom, to the bit.
 TEST(Plane, on_a_side_of_the_domain_is_that_wall) {
-    for (const Wall ground : {Wall(Wall::frictional, 0.2), Wall(Wall::frictional, 0)}) {
-        Scene by_wall = incline(ground, 0.5);
-        by_wall.planes.clear();
-        by_wall.walls.bottom = ground;
-        by_wall.bodies.front().contains = box_region({{1, 0}, {3, 1}});
-        (*find_effect(by_wall, "gravity"))["acceleration"] = std::vector<double>{3, -g};
-        Scene by_plane = by_wall;
-        by_plane.walls.bottom = Wall::open;
-        by_plane.planes = {{"bottom", {7, 0}, {0, 3}, ground}};
-        Simulation a(by_wall, MPI_COMM_WORLD), b(by_plane, MPI_COMM_WORLD);
-        for (int step = 0; step < 100; ++step) {
-            a.step();
-            b.step();
-        }
-        EXPECT_EQ(gathered(a, "x", MPI_COMM_WORLD), gathered(b, "x", MPI_COMM_WORLD));
-        EXPECT_EQ(gathered(a, "stress_yy", MPI_COMM_WORLD),
-                  gathered(b, "stress_yy", MPI_COMM_WORLD));
+    const auto [by_wall, by_plane] = on_wall_and_plane({Wall::frictional, 0});
+    Simulation a(by_wall, MPI_COMM_WORLD), b(by_plane, MPI_COMM_WORLD);
+    for (int step = 0; step < 100; ++step) {
+        a.step();
+        b.step();
+    }
+    for (const char* column : {"x", "stress_yy"})
+        EXPECT_EQ(gathered(a, column, MPI_COMM_WORLD), gathered(b, column, MPI_COMM_WORLD))
+            << column;
+}
+
+// With friction the wall gives way and the plane does not. On both a = g_x - mu g; gravity grows
+// until T.
+TEST(Plane, on_a_side_of_the_domain_slows_a_body_as_that_wall) {
+    for (const Scene& scene : on_wall_and_plane({Wall::frictional, 0.2})) {
+        Simulation simulation(scene, MPI_COMM_WORLD);
+        while (simulation.time() < 1.5) simulation.step();
+        const Totals end = simulation.totals();
+        const double speed = (3 - 0.2 * g) * (simulation.time() - ramp / 2);
+        EXPECT_NEAR(end.momentum[0] / end.mass, speed, 0.01 * speed);
     }
 }
 

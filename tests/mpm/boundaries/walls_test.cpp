@@ -114,6 +114,91 @@ TEST(FrictionalWall, acts_the_same_between_ranks_along_it) {
     }
 }
 
+constexpr double steep = 24 * std::numbers::pi / 180, ramp = 1, g = 9.81;
+
+/// A block of 2 x 1 m on the bottom, whose weight pulls it along as on a slope of 24 degrees and
+/// grows in a second.
+Scene sliding(ShapeFunction shape, double friction, double cell_size) {
+    const auto cells = [&](double metres) { return static_cast<int>(metres / cell_size); };
+    return {.name = "sliding",
+            .grid = {.lower = {0, 0}, .spacing = cell_size, .num_cells = {cells(10), cells(2)}},
+            .materials = {elastic_material("block", 1000, 1e6, 0.3)},
+            .bodies = {{.contains = box_region({{1, 0}, {3, 1}}), .material = "block"}},
+            .walls = {.bottom = {Wall::frictional, friction}},
+            .effects = {{"gravity",
+                         {{"acceleration",
+                           std::vector<double>{g * std::sin(steep), -g * std::cos(steep)}},
+                          {"ramp", ramp}}}},
+            .shape_function = shape};
+}
+
+/// Way along the wall in a time, as far as the mean velocity tells between two steps.
+double way(const Scene& scene, double end_time) {
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    const double start = simulation.totals().center[0];
+    while (simulation.time() < end_time) simulation.step();
+    const Totals end = simulation.totals();
+    return end.center[0] - start - end.momentum[0] / end.mass * (simulation.time() - end_time);
+}
+
+// Rigid ground makes the elastic block flutter, and slide up to 2.5 times as far as it should.
+// With gravity growing until T: a (t^2 / 2 - T t / 2 + T^2 / 6).
+TEST(FrictionalWall, lets_a_block_slide_right_near_the_limit) {
+    constexpr double t = 3;
+    for (const ShapeFunction shape : {ShapeFunction::linear, ShapeFunction::quadratic})
+        for (const double angle : {22, 23})
+            for (const double cell_size : {0.5, 0.25, 0.125}) {
+                const double friction = std::tan(angle * std::numbers::pi / 180);
+                const double expected = g * (std::sin(steep) - friction * std::cos(steep)) *
+                                        (t * t - ramp * t + ramp * ramp / 3) / 2;
+                EXPECT_NEAR(way(sliding(shape, friction, cell_size), t), expected, 0.05 * expected)
+                    << angle << " degrees, cells of " << cell_size << " m";
+            }
+}
+
+TEST(FrictionalWall, holds_a_block_near_the_limit) {
+    const double friction = std::tan(25 * std::numbers::pi / 180);
+    for (const ShapeFunction shape : all_shapes)
+        for (const double cell_size : {0.5, 0.25, 0.125}) {
+            const Scene scene = sliding(shape, friction, cell_size);
+            const double at_first = way(scene, 3), later = way(scene, 4);
+            EXPECT_LT(at_first, 0.03) << "it leans, and settles";
+            EXPECT_NEAR(later, at_first, 0.001);
+        }
+}
+
+// The nearer to a wall points begin, the less it gives way.
+TEST(FrictionalWall, that_gives_way_keeps_points_in_the_grid) {
+    for (const ShapeFunction shape : {ShapeFunction::linear, ShapeFunction::quadratic}) {
+        Scene scene = sliding(shape, 0.6, 0.5);
+        scene.materials = {elastic_material("block", 1000, 2e5, 0.3)};
+        scene.bodies.front().points_per_cell = {6, 6, 1};
+        Simulation simulation(scene, MPI_COMM_WORLD);
+        EXPECT_NO_THROW(while (simulation.time() < 2) simulation.step());
+    }
+}
+
+// How far a wall has given way goes with its nodes to their next ranks.
+TEST(FrictionalWall, acts_the_same_with_a_rebalance_at_every_step) {
+    for (const ShapeFunction shape : {ShapeFunction::linear, ShapeFunction::quadratic}) {
+        const Scene scene = sliding(shape, 0.3, 0.25);
+        Simulation parallel(scene, MPI_COMM_WORLD), serial(scene, MPI_COMM_SELF);
+        for (int step = 0; step < 200; ++step) {
+            std::vector<double> cuts;
+            for (int k = 1; k < size_of(MPI_COMM_WORLD); ++k)
+                cuts.push_back(0.7 + 0.6 * k + 0.15 * (step % 5));
+            parallel.rebalance([&](Positions, MPI_Comm) { return between_cuts(cuts); });
+            parallel.step();
+            serial.step();
+        }
+        for (const char* column : {"x", "y", "velocity_x", "velocity_y"})
+            EXPECT_LT(relative_difference(gathered(serial, column, MPI_COMM_SELF),
+                                          gathered(parallel, column, MPI_COMM_WORLD)),
+                      1e-11)
+                << column;
+    }
+}
+
 TEST(LostPoint, is_named_with_its_place_and_time) {
     Scene scene = flying_disk();
     scene.bodies.front().velocity = velocity_field({.constant = {-8, 0}});

@@ -83,6 +83,17 @@ Scene shipped(const std::string& name, double cell_size) {
     return scene;
 }
 
+/// An elastic block that slides on a wall, which gives way to it.
+Scene sliding_block(ShapeFunction shape) {
+    Scene scene = flying_disk();
+    scene.bodies.front().contains = box_region({{2, 0}, {6, 2}});
+    scene.bodies.front().velocity = velocity_field({.constant = {8, 0}});
+    scene.shape_function = shape;
+    scene.walls.bottom = {Wall::frictional, 0.3};
+    scene.effects = {gravity_effect(9.81)};
+    return scene;
+}
+
 TEST(State, goes_on_with_the_same_bits) {
     expect_same_bits_with_a_stop(coarse_slope());
     expect_same_bits_with_a_stop(shipped("torpedo_anchor", 0.375));
@@ -91,6 +102,8 @@ TEST(State, goes_on_with_the_same_bits) {
     disk.shape_function = ShapeFunction::quadratic;
     disk.transfer = Transfer::apic;
     expect_same_bits_with_a_stop(disk);
+    for (const ShapeFunction shape : {ShapeFunction::linear, ShapeFunction::quadratic})
+        expect_same_bits_with_a_stop(sliding_block(shape));
 }
 
 /// The same scene on this rank alone, without a stop, beside a state of one number of ranks that
@@ -118,6 +131,7 @@ void expect_same_on_other_ranks(const Scene& scene, const std::string& column) {
 
 TEST(State, goes_on_on_another_number_of_ranks) {
     expect_same_on_other_ranks(flying_disk(), "x");
+    expect_same_on_other_ranks(sliding_block(ShapeFunction::quadratic), "x");
     expect_same_on_other_ranks(coarse_slope(), "y");
     expect_same_on_other_ranks(shipped("torpedo_anchor", 0.375), "y");
     expect_same_on_other_ranks(shipped("submarine_slide", 2.5), "y");
@@ -139,6 +153,11 @@ TEST(State, that_does_not_fit_is_refused_on_all_ranks) {
     EXPECT_EQ(error_of(scene, file.path()), "");
     EXPECT_NE(error_of(coarse_slope(), file.path()).find("another scene"), std::string::npos);
     EXPECT_NE(error_of(scene, "nowhere.mpm").find("no state"), std::string::npos);
+    Simulation(sliding_block(ShapeFunction::gimp), MPI_COMM_WORLD).write_state(file.path());
+    EXPECT_NE(error_of(sliding_block(ShapeFunction::linear), file.path()).find("another scene"),
+              std::string::npos)
+        << "with GIMP walls do not give way";
+    Simulation(scene, MPI_COMM_WORLD).write_state(file.path());
     EXPECT_THROW(Simulation(scene, MPI_COMM_WORLD).write_state("/nowhere/state.mpm"),
                  std::runtime_error);
     MPI_Barrier(MPI_COMM_WORLD);

@@ -3,15 +3,16 @@
 //   mpirun -n RANKS rrcb_intervals DIRECTORY [--quick]     adds to intervals.csv,
 //       intervals_optimum.csv and intervals_steps.csv; with --quick: two small scenes
 #include "failure.hpp"
+#include "gather_mpi.hpp"
 #include "interval_recording_mpi.hpp"
 #include "machine_load_mpi.hpp"
+#include "recorder_main_mpi.hpp"
 #include "results_folder_mpi.hpp"
 #include "row.hpp"
 
 #include <rrcb/zoltan/rrcb_zoltan.h>
 
 #include <mpi.h>
-#include <zoltan.h>
 
 #include <iostream>
 #include <string>
@@ -54,34 +55,15 @@ void map_all(const ResultsFolder& folder, bool quick, MPI_Comm comm) {
     }
 }
 
-int run(int argc, char** argv, MPI_Comm comm) {
-    int rank = 0;
-    MPI_Comm_rank(comm, &rank);
-    const bool quick = argc == 3 && std::string(argv[2]) == "--quick";
-    if (argc < 2 || (argc > 2 && !quick)) {
-        if (rank == 0) std::cerr << "usage: mpirun -n RANKS rrcb_intervals DIRECTORY [--quick]\n";
-        return 2;
-    }
-    try {
-        const MachineWatch watch(comm);
-        map_all({argv[1], comm}, quick, comm);
-        const MachineUse use = watch.use();
-        if (rank == 0) print_warning(std::cout, use);
-        return 0;
-    } catch (const std::exception& error) {
-        std::cerr << "rrcb_intervals: rank " << rank << ": " << error.what() << std::endl;
-        MPI_Abort(comm, 1);
-    }
-    return 1;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    MPI_Init(&argc, &argv);
-    float zoltan_version = 0;
-    Zoltan_Initialize(argc, argv, &zoltan_version);
-    const int code = run(argc, argv, MPI_COMM_WORLD);
-    MPI_Finalize();
-    return code;
+    return comparisons::run_recorder(argc, argv, "rrcb_intervals",
+                                     [](const std::string& directory, bool quick, MPI_Comm comm) {
+                                         const comparisons::MachineWatch watch(comm);
+                                         map_all({directory, comm}, quick, comm);
+                                         const comparisons::MachineUse use = watch.use();
+                                         if (comparisons::rank_of(comm) == 0)
+                                             comparisons::print_warning(std::cout, use);
+                                     });
 }

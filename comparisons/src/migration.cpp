@@ -6,6 +6,7 @@
 #include "failure.hpp"
 #include "migration_replay_mpi.hpp"
 #include "partitioner_mpi.hpp"
+#include "recorder_main_mpi.hpp"
 #include "results_folder_mpi.hpp"
 #include "text.hpp"
 #include "zoltan_balancer_mpi.hpp"
@@ -13,9 +14,7 @@
 #include <rrcb/zoltan/rrcb_zoltan.h>
 
 #include <mpi.h>
-#include <zoltan.h>
 
-#include <iostream>
 #include <string>
 #include <vector>
 
@@ -116,31 +115,11 @@ void replay_all(const ResultsFolder& folder, bool quick, MPI_Comm comm) {
     }
 }
 
-int run(int argc, char** argv, MPI_Comm comm) {
-    int rank = 0;
-    MPI_Comm_rank(comm, &rank);
-    const bool quick = argc == 3 && std::string(argv[2]) == "--quick";
-    if (argc < 2 || (argc > 2 && !quick)) {
-        if (rank == 0) std::cerr << "usage: mpirun -n RANKS rrcb_migration DIRECTORY [--quick]\n";
-        return 2;
-    }
-    try {
-        replay_all({argv[1], comm}, quick, comm);
-        return 0;
-    } catch (const std::exception& error) {
-        std::cerr << "rrcb_migration: rank " << rank << ": " << error.what() << std::endl;
-        MPI_Abort(comm, 1);
-    }
-    return 1;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    MPI_Init(&argc, &argv);
-    float zoltan_version = 0;
-    Zoltan_Initialize(argc, argv, &zoltan_version);
-    const int code = run(argc, argv, MPI_COMM_WORLD);
-    MPI_Finalize();
-    return code;
+    return comparisons::run_recorder(argc, argv, "rrcb_migration",
+                                     [](const std::string& directory, bool quick, MPI_Comm comm) {
+                                         replay_all({directory, comm}, quick, comm);
+                                     });
 }

@@ -95,6 +95,14 @@ Decomposition layers(int num_ranks) {
     return decomposition;
 }
 
+void expect_same_motion(const Simulation& serial, const Simulation& parallel) {
+    for (const char* column : {"x", "y", "velocity_x", "velocity_y"})
+        EXPECT_LT(relative_difference(gathered(serial, column, MPI_COMM_SELF),
+                                      gathered(parallel, column, MPI_COMM_WORLD)),
+                  1e-11)
+            << column;
+}
+
 // Nodes beyond a wall and their mirror images can lie on different ranks.
 TEST(FrictionalWall, acts_the_same_between_ranks_along_it) {
     for (const ShapeFunction shape : all_shapes) {
@@ -106,11 +114,7 @@ TEST(FrictionalWall, acts_the_same_between_ranks_along_it) {
             parallel.step();
             serial.step();
         }
-        for (const char* column : {"x", "y", "velocity_x", "velocity_y"})
-            EXPECT_LT(relative_difference(gathered(serial, column, MPI_COMM_SELF),
-                                          gathered(parallel, column, MPI_COMM_WORLD)),
-                      1e-11)
-                << column;
+        expect_same_motion(serial, parallel);
     }
 }
 
@@ -191,11 +195,7 @@ TEST(FrictionalWall, acts_the_same_with_a_rebalance_at_every_step) {
             parallel.step();
             serial.step();
         }
-        for (const char* column : {"x", "y", "velocity_x", "velocity_y"})
-            EXPECT_LT(relative_difference(gathered(serial, column, MPI_COMM_SELF),
-                                          gathered(parallel, column, MPI_COMM_WORLD)),
-                      1e-11)
-                << column;
+        expect_same_motion(serial, parallel);
     }
 }
 

@@ -2,6 +2,7 @@
 #include "scene_file/expression.hpp"
 #include "scene_file/scene_file_mpi.hpp"
 #include "support.hpp"
+#include "words.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,11 +35,6 @@ std::string error_with(const std::string& from, const std::string& to) {
         return error.what();
     }
     return "";
-}
-
-void expect_names(const std::string& error, const std::vector<std::string>& words) {
-    for (const std::string& word : words)
-        EXPECT_NE(error.find(word), std::string::npos) << word << " is not in: " << error;
 }
 
 TEST(SceneFile, of_the_slope_is_the_slope_to_the_bit) {

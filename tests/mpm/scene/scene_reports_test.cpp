@@ -2,6 +2,7 @@
 
 #include "scene_file/scene_file_mpi.hpp"
 #include "support.hpp"
+#include "words.hpp"
 
 #include <gtest/gtest.h>
 
@@ -39,11 +40,6 @@ std::string error_of(const std::string& text) {
         return error.what();
     }
     return "";
-}
-
-void expect_names(const std::string& error, const std::vector<std::string>& words) {
-    for (const std::string& word : words)
-        EXPECT_NE(error.find(word), std::string::npos) << word << " is not in: " << error;
 }
 
 // Points lie at odd multiples of 0.125 m and stand for 62.5 kg each.

@@ -45,30 +45,14 @@ void coarsen_records(Contribution& all, int dimension, std::size_t most) {
     all.summary.num_cells = static_cast<std::int64_t>(merged.cells.size());
 }
 
-/// Cells per axis of a smooth cloud: about a percent of error among a few hundred parts, for what
-/// cells cost the root.
-double usual_cells(int dimension) {
+/// Cells per axis at which an estimate errs by about a percent among a few hundred parts.
+double fine_cells(int dimension) {
     return dimension == 1 ? 128 : dimension == 2 ? 22 : 10;
 }
 
-/// Cells per axis that are worth it where a few of fewer would hold many of the points.
+/// Cells per axis beyond which more of them cost more than they tell, however many the points.
 double most_cells_per_axis(int dimension) {
     return dimension == 1 ? 400 : dimension == 2 ? 42 : 15;
-}
-
-/// True where cells of many times the usual number of points hold a good share of them.
-bool is_uneven(const BinnedPoints& binned) {
-    constexpr double many = 8;
-    constexpr double good_share = 0.05;
-    const auto num_filled = static_cast<double>(
-        std::ranges::count_if(binned.counts, [](LocalIndex count) { return count > 0; }));
-    const auto num_points = static_cast<double>(binned.points.count);
-    double crowded = 0;
-    for (const LocalIndex count : binned.counts) {
-        const auto number = static_cast<double>(count);
-        if (number * num_filled > many * num_points) crowded += number;
-    }
-    return crowded > good_share * num_points;
 }
 
 /// A mesh whose cells are one or more cells of the grid that limits the cuts, so that it is known
@@ -81,7 +65,7 @@ std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, const Op
             return {};
         const double first = limits[a].line_below(box.lower[a]);
         const double num_lines = limits[a].line_below(box.upper[a]) + 1 - first;
-        const double together = std::ceil(num_lines / usual_cells(dimension));
+        const double together = std::ceil(num_lines / fine_cells(dimension));
         const double cells = std::ceil(num_lines / together);
         mesh.box.lower[a] = limits[a].line(first);
         mesh.box.upper[a] = limits[a].line(first + cells * together);
@@ -96,34 +80,36 @@ std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, const Op
 
 }  // namespace
 
-int automatic_cells_per_axis(int dimension, LocalIndex num_points, bool is_uneven) {
+int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options& options) {
     constexpr double least_points_per_cell = 16;
-    constexpr double points_per_cell = 200;
+    constexpr double points_per_cell = 800;
+    constexpr double least_cells = 64;
+    constexpr double cells_per_part = 16;
     const auto count = static_cast<double>(num_points);
     const auto per_axis = [&](double cells) { return std::pow(cells, 1.0 / dimension); };
-    const double most = most_cells_per_axis(dimension);
-    const double usual =
-        is_uneven ? most : std::max(usual_cells(dimension), per_axis(count / points_per_cell));
+    const double by_parts = per_axis(std::max(least_cells, cells_per_part * options.num_parts));
+    const double by_points = per_axis(count / points_per_cell);
+    const bool is_smooth = traits_of(options.domain).has_lean_cells;
+    const double fine = fine_cells(dimension);
+    const double usual = std::max(by_points, is_smooth ? std::min(by_parts, fine) : fine);
     const double filled = per_axis(count / least_points_per_cell);
-    return static_cast<int>(std::max(1.0, std::floor(std::min({most, usual, filled}))));
+    const double cells = std::min({most_cells_per_axis(dimension), usual, filled});
+    // The root of a cube may come out a bit below the whole number.
+    constexpr double above_rounding = 1 + 1e-12;
+    return static_cast<int>(std::max(1.0, std::floor(cells * above_rounding)));
 }
 
 BinnedPoints bin_by_options(const Points& points, const Box& box, const Options& options) {
     if (traits_of(options.domain).sends_points) return {};
-    if (!options.grid.empty() && options.support_mesh == 0 && points.count > 0)
-        if (const auto mesh = mesh_on_lines(box, points.dimension, options))
-            return bin_by_cell(points, *mesh);
     const int dimension = points.dimension;
-    const auto binned_in = [&](int cells_per_axis) {
-        return bin_by_cell(points, make_support_mesh(box, dimension, cells_per_axis));
-    };
-    if (options.support_mesh > 0) return binned_in(options.support_mesh);
-    const int usual = automatic_cells_per_axis(dimension, points.count, false);
-    const int most = automatic_cells_per_axis(dimension, points.count, true);
-    BinnedPoints binned = binned_in(usual);
-    const bool may_be_finer = traits_of(options.domain).has_lean_cells && most > usual;
-    if (may_be_finer && is_uneven(binned)) binned = binned_in(most);
-    return binned;
+    const bool is_automatic = options.support_mesh == 0;
+    if (is_automatic && !options.grid.empty() && points.count > 0)
+        if (const auto mesh = mesh_on_lines(box, dimension, options))
+            return bin_by_cell(points, *mesh);
+    const int cells = is_automatic
+                          ? automatic_cells_per_axis(dimension, points.count, options)
+                          : options.support_mesh;
+    return bin_by_cell(points, make_support_mesh(box, dimension, cells));
 }
 
 Summary summarize(const Points& points, const Box& box) {

@@ -45,12 +45,12 @@ struct Contribution {
     std::vector<double> points{};  ///< of one rank, in place of cells, until the root wants them
 };
 
-/// Cells per axis of a rank's mesh where the options leave it open: as many as cost little beside
-/// the points, not so many that cells are nearly empty; more where the points are uneven.
-int automatic_cells_per_axis(int dimension, LocalIndex num_points, bool is_uneven);
+/// Cells per axis of a rank's mesh where the options leave it open: some for each part, as many as
+/// cost little beside the points, not so many that cells are nearly empty.
+int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options& options);
 
 /// Finds the cells of checked points in the support mesh that the options ask for; nothing where
-/// no cells are needed. Uneven points, most of them in few of the cells, are looked at twice.
+/// no cells are needed.
 BinnedPoints bin_by_options(const Points& points, const Box& box, const Options& options);
 
 /// Totals of checked points.

@@ -7,22 +7,35 @@
 namespace rrcb {
 namespace {
 
+int cells_for(int dimension, LocalIndex num_points, int num_parts,
+              DomainKind domain = DomainKind::analytic) {
+    Options options;
+    options.num_parts = num_parts;
+    options.domain = domain;
+    return automatic_cells_per_axis(dimension, num_points, options);
+}
+
 TEST(AutomaticMesh, has_a_cell_for_every_sixteen_points_up_to_a_limit) {
-    for (const bool is_uneven : {false, true}) {
-        EXPECT_EQ(automatic_cells_per_axis(2, 0, is_uneven), 1);
-        EXPECT_EQ(automatic_cells_per_axis(2, 15, is_uneven), 1);
-        EXPECT_EQ(automatic_cells_per_axis(2, 16 * 49, is_uneven), 7);
-        EXPECT_EQ(automatic_cells_per_axis(3, 16 * 27, is_uneven), 3);
-        EXPECT_EQ(automatic_cells_per_axis(1, 100'000'000, is_uneven), 400);
-        EXPECT_EQ(automatic_cells_per_axis(2, 100'000'000, is_uneven), 42);
-        EXPECT_EQ(automatic_cells_per_axis(3, 100'000'000, is_uneven), 15);
+    for (const int num_parts : {1, 4, 1 << 20}) {
+        EXPECT_EQ(cells_for(2, 0, num_parts), 1);
+        EXPECT_EQ(cells_for(2, 15, num_parts), 1);
+        EXPECT_EQ(cells_for(2, 16 * 49, num_parts), 7);
+        EXPECT_EQ(cells_for(3, 16 * 27, num_parts), 3);
+        EXPECT_EQ(cells_for(1, 100'000'000, num_parts), 400);
+        EXPECT_EQ(cells_for(2, 100'000'000, num_parts), 42);
+        EXPECT_EQ(cells_for(3, 100'000'000, num_parts), 15);
     }
-    EXPECT_EQ(automatic_cells_per_axis(1, 20'000, false), 128);
-    EXPECT_EQ(automatic_cells_per_axis(2, 50'000, false), 22);
-    EXPECT_EQ(automatic_cells_per_axis(2, 200 * 31 * 31, false), 31);
-    EXPECT_EQ(automatic_cells_per_axis(2, 50'000, true), 42);
-    EXPECT_EQ(automatic_cells_per_axis(3, 50'000, false), 10);
-    EXPECT_EQ(automatic_cells_per_axis(3, 50'000, true), 14);
+}
+
+TEST(AutomaticMesh, has_sixty_four_cells_or_sixteen_for_each_part) {
+    EXPECT_EQ(cells_for(1, 50'000, 4), 64);
+    EXPECT_EQ(cells_for(2, 50'000, 4), 8);
+    EXPECT_EQ(cells_for(3, 50'000, 4), 4);
+    EXPECT_EQ(cells_for(2, 50'000, 16), 16);
+    EXPECT_EQ(cells_for(2, 50'000, 1 << 20), 22) << "no more where there are many ranks";
+    EXPECT_EQ(cells_for(3, 50'000, 1 << 20), 10);
+    EXPECT_EQ(cells_for(2, 800 * 31 * 31, 4), 31) << "where cells cost little beside the points";
+    EXPECT_EQ(cells_for(2, 50'000, 4, DomainKind::sampled), 22) << "the paper's cells are boxes";
 }
 
 Options asking_for_mesh(int cells) {
@@ -63,25 +76,6 @@ TEST(Summaries, add_up) {
     EXPECT_EQ(all.weight, 5);
     EXPECT_EQ(all.box.lower, (Vector{-1, 2, 0}));
     EXPECT_EQ(all.box.upper, (Vector{3, 5, 0}));
-}
-
-TEST(BinnedByOptions, is_finer_where_few_cells_hold_many_points) {
-    // 16 points in each of 22 x 22 places, and a crowd at one of them.
-    std::vector<double> x;
-    for (int i = 0; i < 22 * 22 * 16; ++i) {
-        x.push_back(i % 22 + 0.01 * (i % 7));
-        x.push_back(i / 22 % 22 + 0.01 * (i % 5));
-    }
-    const auto cells_per_axis = [&](DomainKind kind) {
-        const Points points = interleaved_points(x, 2);
-        Options options;
-        options.domain = kind;
-        return bin_by_options(points, bounding_box(points), options).mesh.cells[0];
-    };
-    EXPECT_EQ(cells_per_axis(DomainKind::analytic), 22);
-    for (int i = 0; i < 1000; ++i) x.insert(x.end(), {11 + 1e-4 * i, 11 + 1e-4 * (i % 100)});
-    EXPECT_EQ(cells_per_axis(DomainKind::analytic), 23) << "of 8744 points, 16 in each cell";
-    EXPECT_EQ(cells_per_axis(DomainKind::sampled), 22);
 }
 
 TEST(Summaries, keep_the_first_rank_that_fails) {

@@ -75,7 +75,7 @@ struct Option {
 
 inline constexpr Word domain_words[] = {
     {"ANALYTIC", static_cast<int>(DomainKind::analytic),
-     "each cell a uniform density with the cell's moments"},
+     "each cell a smooth density with the cell's moments"},
     {"SAMPLED", static_cast<int>(DomainKind::sampled),
      "pseudo-random points with the cell's moments, the paper's RRCB"},
     {"POINTS", static_cast<int>(DomainKind::points),

@@ -106,9 +106,8 @@ BinnedPoints bin_by_options(const Points& points, const Box& box, const Options&
     if (is_automatic && !options.grid.empty() && points.count > 0)
         if (const auto mesh = mesh_on_lines(box, dimension, options))
             return bin_by_cell(points, *mesh);
-    const int cells = is_automatic
-                          ? automatic_cells_per_axis(dimension, points.count, options)
-                          : options.support_mesh;
+    const int cells = is_automatic ? automatic_cells_per_axis(dimension, points.count, options)
+                                   : options.support_mesh;
     return bin_by_cell(points, make_support_mesh(box, dimension, cells));
 }
 

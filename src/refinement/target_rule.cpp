@@ -108,6 +108,8 @@ CutTarget TargetRule::target_of(const Descent& at, double weight, double below) 
     CutTarget target;
     target.target = (planned.empty() ? share_below(at) : planned[at.node]) * weight;
     target.slack = common_weight / 2;
+    // Less by a hair: an odd point goes above the cut, wherever the search began.
+    if (is_exact) target.target = std::max(0.0, target.target - std::ldexp(common_weight, -12));
     if (is_exact || !(weight > 0)) return target;
     if (is_earlier && below >= 0) return nearest_target(at, weight, below);
     // A part may end up too heavy by the tolerance in all. What is left of it at this node is

@@ -82,6 +82,7 @@ TEST(Correction, of_estimates_that_miss_takes_one_round_more_in_most_clouds) {
         const HeldPoints all = clusters(2 + static_cast<int>(seed % 2), seed);
         const Share mine(all);
         Options options = with_parts(3 + static_cast<int>(seed % 6), 1.01);
+        options.support_mesh = 16;
         if (seed % 3 == 0)
             options.part_sizes.assign(static_cast<std::size_t>(options.num_parts), 1);
         if (seed % 3 == 0) options.part_sizes[1] = 3;

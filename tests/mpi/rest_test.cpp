@@ -56,7 +56,8 @@ void expect_rest(HeldPoints all, const Options& options, int most_moves) {
     }
 }
 
-TEST(PointsAtRest, of_a_slope_move_no_more_from_the_third_call_on) {
+// Exact cuts are found at once; estimated ones may gain from the second estimate, of sorted points.
+TEST(PointsAtRest, of_a_slope_move_in_two_calls_more_at_most) {
     for (const HeldPoints& slope : {test::lattice_slope(0.2121), test::random_slope(54464)})
         for (const int mesh : {0, 4, 8})
             for (const Refine refine :
@@ -64,7 +65,7 @@ TEST(PointsAtRest, of_a_slope_move_no_more_from_the_third_call_on) {
                 SCOPED_TRACE(std::to_string(slope.count()) + " points, mesh " +
                              std::to_string(mesh) + ", refine " +
                              std::to_string(static_cast<int>(refine)));
-                expect_rest(slope, with(refine, mesh), 2);
+                expect_rest(slope, with(refine, mesh), refine == Refine::exact ? 2 : 3);
             }
 }
 

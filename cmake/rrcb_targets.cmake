@@ -1,8 +1,11 @@
-# Warnings for the project's own code; private, so that users of the library never see them.
+# Warnings for the project's own code; private, so that users of the library never see them. Pragmas
+# for GCC are nothing to Clang.
 function(rrcb_set_warnings target)
   target_compile_options(
-    ${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion
-                      -Wno-sign-conversion> $<$<BOOL:${RRCB_WERROR}>:-Werror>)
+    ${target}
+    PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion
+            -Wno-sign-conversion> $<$<CXX_COMPILER_ID:Clang>:-Wno-unknown-pragmas>
+            $<$<BOOL:${RRCB_WERROR}>:-Werror>)
 endfunction()
 
 # While the first number of the version is 0, a new second one may change the interface.

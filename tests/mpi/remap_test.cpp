@@ -132,7 +132,7 @@ TEST(Remap, undoes_a_rotation_of_few_and_of_many_parts) {
         std::vector<Part> previous(static_cast<std::size_t>(num_parts));
         std::iota(previous.begin(), previous.end(), 0);
         std::vector<Part> parts = previous;
-        std::ranges::rotate(parts, parts.begin() + 1 % num_parts);
+        std::rotate(parts.begin(), parts.begin() + 1 % num_parts, parts.end());
         // One origin each for a part of the ranks, so that every overlap can be told.
         for (Part part = 0; part < num_parts; ++part)
             if (part % num_ranks() != rank()) previous[static_cast<std::size_t>(part)] = -1;

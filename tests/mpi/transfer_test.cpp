@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -108,9 +109,7 @@ TEST(Transfer, moves_columns_of_any_type_and_width_in_one_message_for_each_pair)
         EXPECT_EQ(first[i].number, expected[i]);
         EXPECT_EQ(first[i].rest.back(), letter[i]);
     }
-    std::vector<int> receivers = lists.export_ranks;
-    std::ranges::sort(receivers);
-    receivers.erase(std::ranges::unique(receivers).begin(), receivers.end());
+    const std::set<int> receivers(lists.export_ranks.begin(), lists.export_ranks.end());
     EXPECT_EQ(report.num_messages, receivers.size());
     EXPECT_EQ(report.bytes_sent, lists.export_ranks.size() * (24 + 1 + sizeof(Large) + 8));
 }

@@ -64,11 +64,11 @@ struct Example {
         brackets[at.node] = {coordinate(moved - margin),
                              std::nextafter(coordinate(moved + margin), infinity)};
         cut = plane(axis, coordinate(moved));
-        const auto middle = std::ranges::partition(members, [&](std::size_t i) {
+        const auto middle = std::partition(members.begin(), members.end(), [&](std::size_t i) {
             return !is_above(cut, points().position(i), dimension);
         });
-        const std::vector<std::size_t> upper(middle.begin(), middle.end());
-        members.erase(middle.begin(), middle.end());
+        const std::vector<std::size_t> upper(middle, members.end());
+        members.erase(middle, members.end());
         displace(at.lower(), std::move(members), depth + 1, error, engine);
         displace(at.upper(), upper, depth + 1, error, engine);
     }

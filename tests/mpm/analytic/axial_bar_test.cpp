@@ -7,7 +7,7 @@
 namespace mpm::test {
 namespace {
 
-constexpr double length = 25, modulus = 100, amplitude = 0.1;
+constexpr double length = 25, modulus = 100;
 
 double mean_velocity(const Simulation& simulation) {
     const auto mass = simulation.particles()["mass"];

@@ -5,7 +5,7 @@
 namespace mpm::test {
 namespace {
 
-constexpr double width = 0.2, height = 0.1, density = 1800, gravity = 9.81, modulus = 1e6;
+constexpr double height = 0.1, density = 1800, gravity = 9.81, modulus = 1e6;
 
 /// A column under its weight between rollers, damped near its critical rate, 2 * pi c / (2 H),
 /// so that the oscillation that sudden gravity starts is gone after a tenth of a second.

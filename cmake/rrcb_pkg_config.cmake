@@ -1,13 +1,24 @@
-# Files for pkg-config: rrcb.pc, and rrcb_zoltan.pc where there is the plug-in.
+# Files for pkg-config: rrcb.pc, and rrcb_zoltan.pc and rrcb_fortran.pc where there are the plug-in and
+# the module.
 file(RELATIVE_PATH RRCB_PREFIX_ABOVE /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" RRCB_PREFIX_ABOVE "${RRCB_PREFIX_ABOVE}")
 
-# Puts a flag before each word of a list.
+# Puts a flag before each word of a list, which may be empty.
 function(rrcb_flags result flag)
-  list(REMOVE_DUPLICATES ARGN)
-  list(TRANSFORM ARGN PREPEND "${flag}")
-  list(JOIN ARGN " " text)
+  set(text "")
+  if(ARGN)
+    list(REMOVE_DUPLICATES ARGN)
+    list(TRANSFORM ARGN PREPEND "${flag}")
+    list(JOIN ARGN " " text)
+  endif()
   set(${result} "${text}" PARENT_SCOPE)
+endfunction()
+
+# Configures and installs a file for pkg-config with a component.
+function(rrcb_install_pc name component)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/${name}.pc.in ${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+          COMPONENT ${component})
 endfunction()
 
 set(private ${MPI_CXX_LIBRARIES})
@@ -18,15 +29,19 @@ foreach(library IN LISTS CMAKE_CXX_IMPLICIT_LINK_LIBRARIES)
 endforeach()
 rrcb_flags(RRCB_PC_PRIVATE "" ${private})
 rrcb_flags(RRCB_PC_MPI_FLAGS -I ${MPI_CXX_INCLUDE_DIRS})
-configure_file(${CMAKE_CURRENT_LIST_DIR}/rrcb.pc.in rrcb.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/rrcb.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
-        COMPONENT development)
+rrcb_install_pc(rrcb development)
 
 if(RRCB_ZOLTAN)
   find_package(Zoltan QUIET)
   rrcb_flags(RRCB_PC_ZOLTAN_FLAGS -I ${Zoltan_INCLUDE_DIRS})
   rrcb_flags(RRCB_PC_ZOLTAN -l ${Zoltan_LIBRARIES})
-  configure_file(${CMAKE_CURRENT_LIST_DIR}/rrcb_zoltan.pc.in rrcb_zoltan.pc @ONLY)
-  install(FILES ${PROJECT_BINARY_DIR}/rrcb_zoltan.pc
-          DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT zoltan)
+  rrcb_install_pc(rrcb_zoltan zoltan)
+endif()
+
+# A program in Fortran calls MPI by MPI's own module; where there is none, its compiler has to know.
+if(RRCB_FORTRAN)
+  find_package(MPI QUIET COMPONENTS Fortran)
+  rrcb_flags(RRCB_PC_FORTRAN_FLAGS -I ${MPI_Fortran_INCLUDE_DIRS})
+  rrcb_flags(RRCB_PC_FORTRAN_PRIVATE "" ${MPI_Fortran_LIBRARIES})
+  rrcb_install_pc(rrcb_fortran development)
 endif()

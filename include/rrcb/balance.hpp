@@ -30,9 +30,9 @@ struct Report {
 
 /// The new partition; every rank gets the same cuts and the parts of its own points.
 struct Balance {
-    Cuts cuts;
+    Cuts cuts;                ///< between the parts, for look-ups
     std::vector<Part> parts;  ///< length points.count
-    Report report;
+    Report report;            ///< how even the parts are
 };
 
 /// Divides the points of all ranks into parts of equal (or given relative) weight.

@@ -10,13 +10,13 @@ namespace rrcb {
 
 /// Range in which the cut of the real points is expected, across its axis.
 struct Bracket {
-    double lower = 0;
-    double upper = 0;
+    double lower = 0;  ///< least coordinate of the range
+    double upper = 0;  ///< greatest coordinate of the range
 };
 
 /// Cuts of a domain and the weight they leave in each part of it.
 struct Bisection {
-    Cuts cuts;
+    Cuts cuts;                         ///< of the domain
     std::vector<Bracket> brackets;     ///< of each cut; empty where they were not asked for
     std::vector<double> part_weights;  ///< length num_parts, as the domain sees it
 };

@@ -37,7 +37,9 @@ class Controller {
 
     /// Collective. After MPI_Finalize, which does it as well, nothing is left to do.
     RRCB_API ~Controller();
+    /// Takes over; the other may only be destroyed or assigned to. Not collective.
     RRCB_API Controller(Controller&&) noexcept;
+    /// The same; collective where this one still had a communicator.
     RRCB_API Controller& operator=(Controller&&) noexcept;
 
     /// Whether to rebalance now, after step `number`, which has loaded this rank by `load`.

@@ -15,9 +15,9 @@ namespace rrcb {
 /// plane, of which every point on it is above. A cut at -infinity has nothing below, one at
 /// +infinity nothing above.
 struct Cut {
-    std::int32_t axis = 0;
+    std::int32_t axis = 0;     ///< that the cut is across
     std::int32_t divides = 0;  ///< 1: of the points exactly at it some lie below, see Coincident
-    Vector at{};
+    Vector at{};               ///< where, as told above
 };
 
 /// True when `position` is not below the cut: the one test behind every look-up.
@@ -28,9 +28,9 @@ RRCB_API bool is_above(const Cut& cut, const Vector& position, int dimension);
 /// `tree` holds num_parts - 1 cuts in preorder. A node of n parts leaves `lower_parts(n)` of them,
 /// the lower numbers, below its cut. Same bits on every rank after `balance`.
 struct Cuts {
-    int dimension = 0;
-    int num_parts = 1;
-    std::vector<Cut> tree;
+    int dimension = 0;      ///< of the points
+    int num_parts = 1;      ///< of the whole tree
+    std::vector<Cut> tree;  ///< in preorder
 };
 
 /// Number of a node's parts that lie below its cut; `num_parts` >= 2.

@@ -7,6 +7,7 @@
 
 namespace rrcb {
 
+/// Whose fault it is.
 enum class ErrorCode {
     invalid_argument,  ///< the caller's mistake: points, weights or options
     out_of_memory,     ///< an allocation failed on some rank
@@ -19,9 +20,11 @@ enum class ErrorCode {
 /// From a collective function the same code and text reach every rank of the communicator.
 class RRCB_API Error : public std::runtime_error {
   public:
+    /// With a text.
     Error(ErrorCode code, const std::string& what) : std::runtime_error(what), code_(code) {}
     /// Without a text, where there is no memory for one.
     explicit Error(ErrorCode code) noexcept : std::runtime_error(""), code_(code) {}
+    /// The kind of error. Not collective.
     ErrorCode code() const noexcept { return code_; }
 
   private:

@@ -11,17 +11,17 @@ namespace rrcb {
 /// `mean[a]` is sum(w x) / sum(w) and `deviation[a]` is sqrt(sum(w (x - mean)^2) / sum(w)): lengths
 /// rather than squares, so that no coordinate a double can hold overflows or vanishes.
 struct Moments {
-    GlobalCount count = 0;
-    double weight = 0;
-    Vector mean{};
-    Vector deviation{};
+    GlobalCount count = 0;  ///< of the points
+    double weight = 0;      ///< sum of their weights
+    Vector mean{};          ///< centroid
+    Vector deviation{};     ///< standard deviation per axis
 };
 
 /// The moments of the points in one cell of a support mesh.
 struct CellMoments {
     LocalIndex cell = 0;  ///< number in the mesh
     Box box;              ///< of the cell
-    Moments moments;
+    Moments moments;      ///< of the points in it
 };
 
 /// Moments of the union of two disjoint sets of points.

@@ -40,7 +40,7 @@ enum class Coincident {
 /// Lines of a grid across an axis: at origin + k * spacing for whole numbers k, as doubles compute
 /// it, the product first.
 struct GridLines {
-    double origin = 0;
+    double origin = 0;   ///< of line 0
     double spacing = 0;  ///< > 0 and finite
 };
 
@@ -51,8 +51,8 @@ struct Options {
 
     int support_mesh = 0;  ///< cells per axis of each rank's support mesh, up to 4096, in
                            ///< 3-D 256; 0: by its points
-    DomainKind domain = DomainKind::analytic;
-    CutRule cut_rule = CutRule::weighted_fraction;
+    DomainKind domain = DomainKind::analytic;       ///< what the root bisects
+    CutRule cut_rule = CutRule::weighted_fraction;  ///< where boxes are cut
 
     Refine refine = Refine::automatic;  ///< no effect on DomainKind::points, CutRule::midpoint
     double imbalance_tolerance = 1.01;  ///< tolerance: heaviest part / mean part to reach, >= 1

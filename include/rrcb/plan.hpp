@@ -11,8 +11,8 @@ namespace rrcb {
 
 /// Consecutive ranks that hold a part.
 struct RankRange {
-    int first_rank = 0;
-    int count = 1;
+    int first_rank = 0;  ///< the lowest of them
+    int count = 1;       ///< of ranks
 };
 
 /// Ranks of a part, as Zoltan 13.2 lays them out. Not collective.
@@ -24,8 +24,8 @@ RRCB_API RankRange ranks_of_part(Part part, int num_parts, int num_ranks);
 
 /// So many points, to or from one rank.
 struct RankCount {
-    int rank = 0;
-    LocalIndex count = 0;
+    int rank = 0;          ///< of the communicator
+    LocalIndex count = 0;  ///< of points
 };
 
 /// Who sends what to whom, which transfer() does; entry k of each list on this side describes one
@@ -34,10 +34,10 @@ struct Plan {
     LocalIndex num_points = 0;               ///< that this rank holds before
     std::vector<LocalIndex> export_indices;  ///< of my points that leave, ascending
     std::vector<int> export_ranks;           ///< where they go
-    std::vector<Part> export_parts;
+    std::vector<Part> export_parts;          ///< their new parts
     std::vector<int> import_ranks;           ///< where my new points come from, ascending
     std::vector<LocalIndex> import_indices;  ///< their index there, ascending per rank
-    std::vector<Part> import_parts;
+    std::vector<Part> import_parts;          ///< their new parts
 };
 
 /// Export and import lists of the points whose rank changes.

@@ -10,19 +10,21 @@
 
 namespace rrcb {
 
-using LocalIndex = std::size_t;    ///< counts objects of one rank
-using GlobalCount = std::int64_t;  ///< counts objects over all ranks
-using Part = std::int32_t;         ///< number of a part, 0 ... parts - 1
-using Vector = std::array<double, 3>;
+using LocalIndex = std::size_t;        ///< counts objects of one rank
+using GlobalCount = std::int64_t;      ///< counts objects over all ranks
+using Part = std::int32_t;             ///< number of a part, 0 ... parts - 1
+using Vector = std::array<double, 3>;  ///< a position or lengths, an entry per axis
 
-inline constexpr int max_dimension = 3;
+inline constexpr int max_dimension = 3;  ///< axes that points may have
 
 /// Axis-aligned closed box; axes beyond the dimension of the points are ignored.
 ///
 /// The default is the empty box: lower above upper, neutral when boxes are joined.
 struct Box {
+    /// Least coordinates.
     Vector lower{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
                  std::numeric_limits<double>::infinity()};
+    /// Greatest coordinates.
     Vector upper{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
                  -std::numeric_limits<double>::infinity()};
 };
@@ -35,16 +37,19 @@ struct Box {
 /// holds one finite, non-negative weight per point. The arrays must outlive the view. Nothing is
 /// checked here: `balance` checks on all ranks together, so that no rank fails alone.
 struct Points {
-    int dimension = 0;
-    LocalIndex count = 0;
-    std::size_t stride = 1;
-    std::array<std::span<const double>, max_dimension> axes{};
-    std::span<const double> weights{};
+    int dimension = 0;       ///< 1 to 3, on every rank the same
+    LocalIndex count = 0;    ///< points of this rank
+    std::size_t stride = 1;  ///< from a point to the next, in doubles
+    std::array<std::span<const double>, max_dimension> axes{};  ///< from the first point on
+    std::span<const double> weights{};                          ///< one per point, or none
 
+    /// Coordinate of point `i` along `axis`. Not collective, as all of these.
     double coordinate(LocalIndex i, int axis) const {
         return axes[static_cast<std::size_t>(axis)][i * stride];
     }
+    /// Weight of point `i`.
     double weight(LocalIndex i) const { return weights.empty() ? 1.0 : weights[i]; }
+    /// Coordinates of point `i`; 0 beyond the dimension.
     Vector position(LocalIndex i) const {
         Vector x{};
         for (int a = 0; a < dimension; ++a) x[static_cast<std::size_t>(a)] = coordinate(i, a);

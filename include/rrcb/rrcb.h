@@ -12,15 +12,17 @@
 extern "C" {
 #endif
 
-/* The library in C: a balancer holds what rrcb/balance.hpp, options.hpp, cuts.hpp, plan.hpp and
+/** @file
+ * The library in C: a balancer holds what rrcb/balance.hpp, options.hpp, cuts.hpp, plan.hpp and
  * transfer.hpp take and give; these headers are the manual of what is only named here.
  *
  * Every function that can fail returns RRCB_OK or another rrcb_code. From a collective function all
  * ranks of the communicator get the same code and text; a null balancer alone is an error of its
  * rank. No exception leaves a function. A balancer is used by one thread at a time. */
 
+/** What a function returns. */
 typedef enum rrcb_code {
-    RRCB_OK = 0,
+    RRCB_OK = 0,               /**< it did what was asked for */
     RRCB_INVALID_ARGUMENT = 1, /**< the caller's mistake: points, weights or options */
     RRCB_OUT_OF_MEMORY = 2,    /**< an allocation failed on some rank */
     RRCB_MPI_ERROR = 3,        /**< an MPI call returned an error */
@@ -32,16 +34,16 @@ typedef struct rrcb_balancer rrcb_balancer;
 
 /** One cut, as rrcb::Cut. */
 typedef struct rrcb_cut {
-    int32_t axis;
-    int32_t divides;
-    double at[3];
+    int32_t axis;    /**< that the cut is across */
+    int32_t divides; /**< 1: of the points exactly at it some lie below */
+    double at[3];    /**< a plane at at[axis]; ties are broken by the others */
 } rrcb_cut;
 
 /** The tree of cuts, as rrcb::Cuts: num_parts - 1 of them in preorder. */
 typedef struct rrcb_cuts {
-    int dimension;
-    int num_parts;
-    const rrcb_cut* tree;
+    int dimension;        /**< of the points */
+    int num_parts;        /**< of the whole tree */
+    const rrcb_cut* tree; /**< num_parts - 1 cuts, borrowed */
 } rrcb_cuts;
 
 /** Of the last balance, as rrcb::Report. */
@@ -57,16 +59,16 @@ typedef struct rrcb_report {
 
 /** Lists of the points whose rank changes, as rrcb::Plan; indices count from 0. */
 typedef struct rrcb_plan {
-    size_t num_points; /**< that this rank holds before */
-    size_t num_points_after;
-    size_t num_exports;
-    const size_t* export_indices;
-    const int* export_ranks;
-    const int32_t* export_parts;
-    size_t num_imports;
-    const int* import_ranks;
-    const size_t* import_indices;
-    const int32_t* import_parts;
+    size_t num_points;            /**< that this rank holds before */
+    size_t num_points_after;      /**< that it holds then */
+    size_t num_exports;           /**< length of the lists of exports */
+    const size_t* export_indices; /**< of my points that leave, ascending */
+    const int* export_ranks;      /**< where they go */
+    const int32_t* export_parts;  /**< their new parts */
+    size_t num_imports;           /**< length of the lists of imports */
+    const int* import_ranks;      /**< where my new points come from, ascending */
+    const size_t* import_indices; /**< their index there, ascending per rank */
+    const int32_t* import_parts;  /**< their new parts */
 } rrcb_plan;
 
 /** Version of the library, as "major.minor.patch". Not collective; the string is static. */

@@ -17,6 +17,7 @@ enum class Stage {
                  ///< earlier cuts before the gather
 };
 
+/// All stages in their order.
 inline constexpr std::array stages = {Stage::moments,   Stage::gather,     Stage::bisection,
                                       Stage::broadcast, Stage::refinement, Stage::assignment};
 
@@ -30,8 +31,11 @@ RRCB_API const char* name_of(Stage stage);
 /// fail alone.
 class RRCB_API StageObserver {
   public:
+    /// An observer outlives the calls that it observes.
     virtual ~StageObserver() = default;
+    /// The stage begins now.
     virtual void begin(Stage stage) noexcept = 0;
+    /// The stage ends now.
     virtual void end(Stage stage) noexcept = 0;
 };
 

@@ -14,23 +14,23 @@ namespace rrcb {
 /// u from -1 at `lower` to 1 at `upper`: the first Legendre polynomials. So slope / 3 is the mean
 /// of u, and the variance of u is 1/3 + 2/15 bow - slope^2 / 9.
 struct Patch {
-    Vector lower{};
-    Vector upper{};
-    double weight = 0;
-    Vector slope{};
-    Vector bow{};
+    Vector lower{};     ///< least coordinates
+    Vector upper{};     ///< greatest coordinates
+    double weight = 0;  ///< of all points in it
+    Vector slope{};     ///< of the density, per axis
+    Vector bow{};       ///< of the density, per axis
 };
 
 /// Weight in one place.
 struct MassPoint {
-    Vector position{};
-    double weight = 0;
+    Vector position{};  ///< of the place
+    double weight = 0;  ///< that lies there
 };
 
 /// What the root bisects: an approximation of all points, made of patches or of points.
 struct StatisticalDomain {
-    int dimension = 0;
-    std::vector<Patch> patches{};
+    int dimension = 0;                ///< of the points
+    std::vector<Patch> patches{};     ///< in any order; they may overlap
     std::vector<MassPoint> points{};  ///< in place of patches
 };
 

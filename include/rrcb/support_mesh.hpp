@@ -8,8 +8,8 @@ namespace rrcb {
 ///
 /// An axis of zero extent has a single layer of cells. Cell numbers run fastest along axis 0.
 struct SupportMesh {
-    int dimension = 0;
-    Box box;
+    int dimension = 0;                              ///< of the points
+    Box box;                                        ///< of the points, covered by the cells
     std::array<int, max_dimension> cells{1, 1, 1};  ///< per axis
     Vector scale{1, 1, 1};      ///< power of two that keeps squares of coordinates in range
     Vector cells_per_length{};  ///< of scaled length; 0 on an axis of zero extent
@@ -18,6 +18,7 @@ struct SupportMesh {
 /// Lays `cells_per_axis` (>= 1) cells over each axis of `box`. Not collective.
 RRCB_API SupportMesh make_support_mesh(const Box& box, int dimension, int cells_per_axis);
 
+/// Cells of a mesh, the product over the axes. Not collective.
 RRCB_API LocalIndex num_cells(const SupportMesh& mesh);
 
 /// Cell of a position inside the box of the mesh; positions outside go to the nearest cell.

@@ -23,8 +23,8 @@ template <class T>
 struct Column {
     static_assert(std::is_trivially_copyable_v<T> && !std::is_same_v<T, bool>);
 
-    std::span<const T> values;  ///< length: points * components
-    std::size_t components = 1;
+    std::span<const T> values;   ///< length: points * components
+    std::size_t components = 1;  ///< values of a point, >= 1
 };
 
 /// View of a vector or an array of any kind. Not collective.
@@ -33,6 +33,7 @@ auto column(const Values& values, std::size_t components = 1) {
     return Column<std::ranges::range_value_t<Values>>{values, components};
 }
 
+/// The same view. Not collective.
 template <class T>
 Column<T> column(const Column<T>& same) {
     return same;

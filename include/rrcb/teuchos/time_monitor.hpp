@@ -17,6 +17,7 @@ namespace rrcb::teuchos {
 /// observer watches one call at a time.
 class RRCB_API TimeMonitorObserver : public StageObserver {
   public:
+    /// Makes the timers, whose names begin with `prefix`. Not collective.
     explicit TimeMonitorObserver(const std::string& prefix = "RRCB: ");
     void begin(Stage stage) noexcept override;
     void end(Stage stage) noexcept override;

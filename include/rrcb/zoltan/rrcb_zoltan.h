@@ -1,6 +1,9 @@
 #ifndef RRCB_ZOLTAN_H
 #define RRCB_ZOLTAN_H
 
+/** @file
+ * What the plug-in tells of itself. */
+
 #ifdef __cplusplus
 extern "C" {
 #endif

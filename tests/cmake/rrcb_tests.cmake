@@ -5,22 +5,37 @@
 function(rrcb_set_test_options target)
   rrcb_set_warnings(${target})
   target_compile_options(
-    ${target} PRIVATE $<$<CONFIG:Release>:-O1 -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow>)
+    ${target}
+    PRIVATE $<$<CONFIG:Release>:-O1>
+            $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-Wno-array-bounds -Wno-restrict
+            -Wno-stringop-overflow>)
   if(TARGET rrcb_mpi_test_main AND NOT target STREQUAL rrcb_mpi_test_main)
     target_precompile_headers(${target} REUSE_FROM rrcb_mpi_test_main)
   endif()
 endfunction()
+
+# rrcb_choose_mpiexec_flags(result)
+#
+# What the launcher needs to start more ranks than there are cores. Ranks that spin while they wait
+# would wait long for each other on a busy machine.
+function(rrcb_choose_mpiexec_flags result)
+  execute_process(COMMAND ${MPIEXEC_EXECUTABLE} --version OUTPUT_VARIABLE version ERROR_QUIET)
+  set(flags)
+  if(version MATCHES "Open MPI|OpenRTE|PRRTE")
+    set(flags --oversubscribe --allow-run-as-root --bind-to none --mca mpi_yield_when_idle 1)
+  elseif(version MATCHES "HYDRA")
+    set(flags -genv MPIR_CVAR_POLLS_BEFORE_YIELD 1)
+  endif()
+  set(${result} "${flags}" PARENT_SCOPE)
+endfunction()
+rrcb_choose_mpiexec_flags(flags)
+set(RRCB_MPIEXEC_FLAGS "${flags}" CACHE STRING "Flags for mpiexec, as the MPI at hand needs them")
 
 # rrcb_add_test(NAME name SOURCES files... [LIBRARIES targets...] [RANKS counts...] [LABELS ...]
 #               [TIMEOUT seconds])
 #
 # A GoogleTest program; with RANKS it runs once under mpirun for every rank count, and links the
 # main function that initialises MPI and fails on all ranks when it fails on one.
-# Ranks that spin while they wait would wait long for each other on a busy machine.
-set(RRCB_MPIEXEC_FLAGS
-    "--oversubscribe;--allow-run-as-root;--bind-to;none;--mca;mpi_yield_when_idle;1"
-    CACHE STRING "Flags for mpiexec, as Open MPI needs them")
-
 function(rrcb_add_mpi_run)
   cmake_parse_arguments(ARG "" "NAME;RANKS;TIMEOUT" "COMMAND;LABELS;ENVIRONMENT" ${ARGN})
   if(NOT ARG_TIMEOUT)

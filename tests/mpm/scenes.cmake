@@ -1,0 +1,178 @@
+# Tests that read scene files, and of the program that runs them.
+rrcb_add_test(NAME mpm_soil_test SOURCES materials/soil_test.cpp
+              LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
+rrcb_add_test(NAME mpm_balancers_test SOURCES parallel/balancers_test.cpp
+              LIBRARIES mpm_test_support mpm_balancers mpm_scene RANKS 1 2 3 4 7 LABELS mpm)
+rrcb_add_test(NAME mpm_anchor_test SOURCES effects/anchor_test.cpp
+              LIBRARIES mpm_test_support mpm_scene RANKS 1 2 LABELS mpm hard)
+rrcb_add_test(NAME mpm_energy_test SOURCES effects/energy_test.cpp
+              LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
+rrcb_add_test(NAME mpm_scene_file_test SOURCES scene/scene_file_test.cpp
+              LIBRARIES mpm_test_support mpm_scene RANKS 1 3 LABELS mpm)
+rrcb_add_test(NAME mpm_scene_reports_test SOURCES scene/scene_reports_test.cpp
+              LIBRARIES mpm_test_support mpm_scene RANKS 1 3 LABELS mpm)
+rrcb_add_test(NAME mpm_state_test SOURCES step/state_test.cpp LIBRARIES mpm_test_support mpm_scene
+              RANKS 1 2 3 4 7 LABELS mpm)
+rrcb_add_test(NAME mpm_reference_test SOURCES analytic/reference_test.cpp
+              LIBRARIES mpm_test_support mpm_scene RANKS 1 2 LABELS mpm)
+rrcb_add_test(NAME mpm_time_step_test SOURCES analytic/time_step_test.cpp
+              LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
+rrcb_add_test(NAME mpm_two_disks_test SOURCES analytic/two_disks_test.cpp
+              LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
+rrcb_add_test(NAME mpm_dam_break_test SOURCES analytic/dam_break_test.cpp
+              LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
+foreach(test mpm_balancers_test mpm_scene_file_test mpm_reference_test mpm_soil_test
+             mpm_two_disks_test mpm_dam_break_test mpm_anchor_test mpm_energy_test
+             mpm_time_step_test mpm_state_test mpm_scene_reports_test)
+  target_compile_definitions(${test}
+                             PRIVATE RRCB_SCENES="${PROJECT_SOURCE_DIR}/examples/mpm/scenes")
+endforeach()
+
+# The system's Python, as examples/mpm/pictures uses it, and what it has.
+find_program(RRCB_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
+find_program(RRCB_PYTHON python3)
+foreach(module vtkmodules.vtkIOXML matplotlib)
+  set(has_${module} FALSE)
+  if(RRCB_PYTHON)
+    execute_process(COMMAND ${RRCB_PYTHON} -c "import ${module}" RESULT_VARIABLE failed OUTPUT_QUIET
+                    ERROR_QUIET)
+    if(NOT failed)
+      set(has_${module} TRUE)
+    endif()
+  endif()
+endforeach()
+set(with_vtk)
+if(has_vtkmodules.vtkIOXML)
+  set(with_vtk --with-vtk)
+else()
+  rrcb_left_out("check of the VTK files by VTK's own readers" "no Python with VTK was found"
+                python3-vtk9)
+endif()
+
+# mpm_add_scene(scene RANKS count BALANCER name CELL_SIZE m END_TIME s VTK_EVERY steps POINTS count)
+#
+# Runs a shipped scene in a small size and checks what the program writes.
+function(mpm_add_scene scene)
+  cmake_parse_arguments(ARG "" "RANKS;BALANCER;CELL_SIZE;END_TIME;VTK_EVERY;POINTS" "" ${ARGN})
+  set(out ${CMAKE_CURRENT_BINARY_DIR}/${scene})
+  rrcb_add_mpi_run(
+    NAME mpm_scene_${scene} RANKS ${ARG_RANKS} LABELS mpm
+    COMMAND
+      $<TARGET_FILE:rrcb_mpm> --scene=${PROJECT_SOURCE_DIR}/examples/mpm/scenes/${scene}.yaml
+      --balancer=${ARG_BALANCER} --cell-size=${ARG_CELL_SIZE} --end-time=${ARG_END_TIME}
+      --vtk-every=${ARG_VTK_EVERY} --out=${out})
+  set_tests_properties(mpm_scene_${scene} PROPERTIES FIXTURES_SETUP mpm_scene_${scene})
+  if(RRCB_PYTHON)
+    add_test(NAME mpm_scene_${scene}.output
+             COMMAND ${RRCB_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/check_output.py ${out} ${ARG_POINTS}
+                     ${with_vtk})
+    set_tests_properties(mpm_scene_${scene}.output PROPERTIES FIXTURES_REQUIRED mpm_scene_${scene}
+                                                              TIMEOUT 60 LABELS mpm)
+  endif()
+endfunction()
+
+# What a scene does not name leaves no kernel, no column, no double in a message.
+add_test(NAME mpm_list_kernels
+         COMMAND rrcb_mpm --list-kernels
+                 --scene=${PROJECT_SOURCE_DIR}/examples/mpm/scenes/axial_bar.yaml)
+string(CONCAT kernels "kernels: p2g ghost_nodes walls move_nodes g2p elastic migrate\n"
+              "columns: x y velocity_x velocity_y displacement_x displacement_y mass volume id "
+              "stress_xx stress_yy stress_zz stress_xy\n"
+              "104 bytes per point\n104 bytes per migrated point\n5 doubles per ghost node\n")
+set_tests_properties(mpm_list_kernels PROPERTIES TIMEOUT 60 LABELS mpm PASS_REGULAR_EXPRESSION
+                                                 "^${kernels}$")
+
+# Nor a bit in the results, nor an instruction in a step, whether the program has it or not. Valgrind
+# cannot run what the sanitizers instrument.
+find_program(RRCB_VALGRIND valgrind)
+if(RRCB_PYTHON)
+  set(compare ${RRCB_PYTHON} ${PROJECT_SOURCE_DIR}/examples/mpm/absence/compare.py
+              ${PROJECT_BINARY_DIR}/examples/mpm/absence ${PROJECT_SOURCE_DIR}/examples/mpm/scenes)
+  add_test(NAME mpm_absence_bits COMMAND ${compare} --bits-only)
+  if(RRCB_VALGRIND AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+    add_test(NAME mpm_absence_counts COMMAND ${compare} axial_bar)
+    set_tests_properties(mpm_absence_counts PROPERTIES TIMEOUT 60 LABELS mpm)
+  endif()
+  set_tests_properties(mpm_absence_bits PROPERTIES TIMEOUT 60 LABELS mpm)
+endif()
+
+# A run that goes on from a state of another ends with its bits, rebalances included.
+set(restart_scene --scene=${PROJECT_SOURCE_DIR}/examples/mpm/scenes/slope.yaml --cell-size=5
+                  --end-time=0.6 --every=15 --state-every=20)
+set(restart_out ${CMAKE_CURRENT_BINARY_DIR}/restart)
+rrcb_add_mpi_run(NAME mpm_restart.whole RANKS 3 LABELS mpm COMMAND $<TARGET_FILE:rrcb_mpm>
+                 ${restart_scene} --out=${restart_out}/whole)
+rrcb_add_mpi_run(NAME mpm_restart.continued RANKS 3 LABELS mpm COMMAND $<TARGET_FILE:rrcb_mpm>
+                 ${restart_scene} --restart=${restart_out}/whole/state_20.mpm
+                 --out=${restart_out}/continued)
+add_test(NAME mpm_restart.bits
+         COMMAND ${CMAKE_COMMAND} -E compare_files ${restart_out}/whole/state_40.mpm
+                 ${restart_out}/continued/state_40.mpm)
+set_tests_properties(mpm_restart.whole PROPERTIES FIXTURES_SETUP mpm_restart_whole)
+set_tests_properties(
+  mpm_restart.continued PROPERTIES FIXTURES_REQUIRED mpm_restart_whole
+                                   FIXTURES_SETUP mpm_restart_continued)
+set_tests_properties(mpm_restart.bits PROPERTIES FIXTURES_REQUIRED mpm_restart_continued TIMEOUT 60
+                                                 LABELS mpm)
+
+# What is accepted, but may not be meant, is told; what cannot be, ends with an error.
+set(column ${PROJECT_SOURCE_DIR}/examples/mpm/scenes/hydrostatic_column.yaml)
+add_test(NAME mpm_warning COMMAND rrcb_mpm --scene=${column} --cell-size=0.06 --end-time=1e-6
+                                  --out=${CMAKE_CURRENT_BINARY_DIR}/warning)
+set_tests_properties(mpm_warning PROPERTIES TIMEOUT 60 LABELS mpm PASS_REGULAR_EXPRESSION
+                                            "warning: .*hydrostatic_column.yaml: bodies / column: .*cut")
+
+mpm_add_scene(slope RANKS 3 BALANCER rrcb CELL_SIZE 5 END_TIME 1 VTK_EVERY 40 POINTS 1960)
+mpm_add_scene(elastic_structure RANKS 2 BALANCER rrcb-exact CELL_SIZE 0.25 END_TIME 0.2 VTK_EVERY 10
+              POINTS 384)
+mpm_add_scene(cantilever RANKS 2 BALANCER rrcb CELL_SIZE 0.5 END_TIME 0.2 VTK_EVERY 10 POINTS 160)
+mpm_add_scene(submarine_slide RANKS 3 BALANCER rrcb CELL_SIZE 2.5 END_TIME 1 VTK_EVERY 50 POINTS 4096)
+mpm_add_scene(torpedo_anchor RANKS 3 BALANCER rrcb CELL_SIZE 0.375 END_TIME 0.1 VTK_EVERY 20 POINTS 4288)
+mpm_add_scene(anchor_plate RANKS 4 BALANCER rrcb-exact CELL_SIZE 0.5 END_TIME 0.2 VTK_EVERY 40
+              POINTS 3888)
+mpm_add_scene(axial_bar RANKS 2 BALANCER none CELL_SIZE 1 END_TIME 0.5 VTK_EVERY 40 POINTS 100)
+mpm_add_scene(piston RANKS 3 BALANCER rrcb CELL_SIZE 0.5 END_TIME 1 VTK_EVERY 40 POINTS 160)
+mpm_add_scene(granular_column RANKS 2 BALANCER zoltan-rcb CELL_SIZE 0.2 END_TIME 0.3 VTK_EVERY 40
+              POINTS 450)
+mpm_add_scene(vertical_cut RANKS 3 BALANCER rrcb CELL_SIZE 0.5 END_TIME 0.2 VTK_EVERY 40 POINTS 864)
+mpm_add_scene(rotating_square RANKS 4 BALANCER rrcb CELL_SIZE 0.25 END_TIME 0.2 VTK_EVERY 40
+              POINTS 256)
+mpm_add_scene(two_disks RANKS 4 BALANCER rrcb CELL_SIZE 0.05 END_TIME 0.2 VTK_EVERY 40 POINTS 1624)
+mpm_add_scene(hydrostatic_column RANKS 2 BALANCER root-rcb CELL_SIZE 0.0125 END_TIME 0.02 VTK_EVERY 40
+              POINTS 512)
+mpm_add_scene(infinite_slope RANKS 2 BALANCER rrcb CELL_SIZE 1 END_TIME 0.3 VTK_EVERY 40 POINTS 2048)
+mpm_add_scene(falling_body RANKS 2 BALANCER rrcb CELL_SIZE 0.25 END_TIME 0.3 VTK_EVERY 40 POINTS 64)
+mpm_add_scene(dam_break RANKS 4 BALANCER rrcb CELL_SIZE 0.2 END_TIME 1.4 VTK_EVERY 200 POINTS 800)
+mpm_add_scene(incline_block RANKS 3 BALANCER rrcb-sampled CELL_SIZE 0.25 END_TIME 0.5 VTK_EVERY 40
+              POINTS 128)
+
+if(has_matplotlib)
+  add_test(NAME mpm_draw
+           COMMAND ${RRCB_PYTHON} ${PROJECT_SOURCE_DIR}/examples/mpm/plots/draw.py
+                   ${CMAKE_CURRENT_BINARY_DIR}/two_disks ${CMAKE_CURRENT_BINARY_DIR}/disks.png)
+  set_tests_properties(mpm_draw PROPERTIES FIXTURES_REQUIRED mpm_scene_two_disks TIMEOUT 60
+                                           LABELS mpm)
+  set(ending_of_draw png)
+  set(ending_of_animate gif)
+  foreach(kind draw animate)
+    add_test(NAME mpm_${kind}_anchor
+             COMMAND ${RRCB_PYTHON} ${PROJECT_SOURCE_DIR}/examples/mpm/plots/${kind}.py
+                     ${CMAKE_CURRENT_BINARY_DIR}/torpedo_anchor
+                     ${CMAKE_CURRENT_BINARY_DIR}/anchor_${kind}.${ending_of_${kind}}
+                     ${PROJECT_SOURCE_DIR}/examples/mpm/scenes/torpedo_anchor.yaml)
+    set_tests_properties(mpm_${kind}_anchor PROPERTIES FIXTURES_REQUIRED mpm_scene_torpedo_anchor
+                                                       TIMEOUT 60 LABELS mpm)
+  endforeach()
+  add_test(NAME mpm_beams_test COMMAND ${RRCB_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/beams_test.py)
+  add_test(NAME mpm_ladder_test COMMAND ${RRCB_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/ladder_test.py)
+  add_test(NAME mpm_ladder
+           COMMAND
+             ${RRCB_PYTHON} ${PROJECT_SOURCE_DIR}/examples/mpm/plots/ladder.py
+             $<TARGET_FILE:rrcb_mpm> ${PROJECT_SOURCE_DIR}/examples/mpm/scenes
+             ${CMAKE_CURRENT_BINARY_DIR}/ladder --small incline_block hydrostatic_column)
+  # Of linear functions, h / 4 H. A ladder that fails on the way does not come to its tables.
+  set_tests_properties(
+    mpm_ladder PROPERTIES PASS_REGULAR_EXPRESSION
+                          "column . linear . flip . 2 . 0.025 . 6.25e-02 . 24192.*Tables: ")
+  set_tests_properties(mpm_beams_test mpm_ladder_test mpm_ladder PROPERTIES TIMEOUT 60 LABELS mpm)
+endif()

@@ -92,7 +92,7 @@ RRCB_API int rrcb_create_fortran(MPI_Fint comm, rrcb_balancer** balancer);
 /** Frees a balancer, which may be null, and what it has given. Not collective. */
 RRCB_API void rrcb_free(rrcb_balancer* balancer);
 
-/** Sets an option by its name in rrcb::Options, to a text as docs/zoltan.md lists them:
+/** Sets an option by its name in rrcb::Options, to a text as docs/parameters.md lists them:
  *  ("refine", "EXACT"), ("imbalance_tolerance", "1.05"), ("num_parts", "12").
  *
  *  Not collective, yet all ranks set the same, which rrcb_balance checks. */

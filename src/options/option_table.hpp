@@ -11,7 +11,7 @@
 #include <vector>
 
 // What there is to know of each option stands here once. The checks, the comparison between ranks,
-// the parameters of the plug-in, the list for Teuchos and the table of docs/zoltan.md are made of
+// the parameters of the plug-in, the list for Teuchos and the table of docs/parameters.md are made of
 // it. C++17, as the header of Teuchos' validators is no C++20.
 
 namespace rrcb {

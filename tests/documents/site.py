@@ -2,7 +2,7 @@
 """site.py FOLDER: checks the links of a site in HTML.
 
 Fails unless each link, picture and script of each page leads to a file of the site, and its mark to a
-mark there. Links to other sites are only counted.
+mark there, and no link is left as text. Links to other sites are only counted.
 """
 import re
 import sys
@@ -16,7 +16,7 @@ class Page(HTMLParser):
 
     def __init__(self, path):
         super().__init__()
-        self.links, self.marks = [], set()
+        self.links, self.marks, self.texts = [], set(), []
         self.feed(path.read_text())
 
     def handle_starttag(self, tag, attrs):
@@ -25,6 +25,9 @@ class Page(HTMLParser):
                 self.links.append(value)
             elif name == "id" or (name == "name" and tag == "a"):
                 self.marks.add(value)
+
+    def handle_data(self, data):
+        self.texts += re.findall(r"@ref \S+.*", data)
 
 
 def links_of_menu(folder):
@@ -51,6 +54,7 @@ def main():
     inside = [(page, link) for page, link in found if not re.match(r"\w+:|//", link)]
     problems = sorted({f"{page.name}: {link} leads nowhere" for page, link in inside
                        if broken(folder, page, link, pages)})
+    problems += [f"{page.name}: {text} is no link" for page in pages for text in pages[page].texts]
     print("\n".join(problems) or f"{len(pages)} pages, {len(inside)} links within the site, "
           f"{len(found) - len(inside)} to others")
     return 1 if problems or not inside else 0

@@ -158,9 +158,10 @@ void build(const EffectBuilder<D>& builder) {
     last.push_back({"energy_audit", [ledger](GridPatch<D>& patch, const StepTime&) {
                         close_step(*ledger, patch);
                     }});
-    stages.internal_work = builder.particles.add_column("internal_work");
+    stages.work = {builder.particles.add_column("internal_work"),
+                   builder.particles.add_column("plastic_work")};
     const PointKernel<D> work = work_kernel<D>(add_stress_columns<D>(builder.particles),
-                                               motion.volume, *stages.internal_work);
+                                               motion.volume, stages.work->internal);
     stages.before_materials.push_back({"energy_audit", work});
     stages.after_materials.push_back({"energy_audit", work});
     stages.dissipated.push_back([ledger](const Particles&) { return ledger->lost_to_forces; });
@@ -191,7 +192,7 @@ void build(const EffectBuilder<D>& builder) {
 
 }  // namespace
 
-/// Account of the energy dissipated in the materials and on the nodes (walls, damping, drag), and
+/// Account of the energy dissipated by plastic strain and on the nodes (walls, damping, drag), and
 /// apart from it of what the transfers between points and nodes lose.
 EffectKind energy_audit_effect() {
     return {"energy_audit", {}, build<2>, build<3>};

@@ -48,6 +48,12 @@ struct EffectState {
     bool is_sum;  ///< whether the ranks' numbers add up; otherwise they are the same on all
 };
 
+/// Work of the stress in each point since the start, J.
+struct WorkColumns {
+    Column internal;  ///< on all strain
+    Column plastic;   ///< on plastic strain
+};
+
 /// Places of kernels in a step, in its order. An empty stage is a loop over nothing.
 template <int D>
 struct Stages {
@@ -68,14 +74,15 @@ struct Stages {
     /// Energies that were lost on this rank since the start, J. Valid between steps.
     std::vector<std::function<double(const Particles&)>> dissipated;
     /// Energy that the transfers have lost on this rank since the start, J; none: nobody asks.
+    /// What internal work neither is plastic nor stored comes on top.
     std::function<double(const Particles&)> transfer_loss = {};
     std::vector<std::function<RigidEnergy()>> rigid_energies = {};  ///< added to the points'
     std::vector<Report> reports = {};                               ///< for the history
     std::vector<EffectState> states = {};
-    std::optional<Column> internal_work = {};  ///< of the stress in each point since the start, J
-    std::optional<Gravity<D>> gravity = {};    ///< for the potential energy
-    bool counts_nodes = false;                 ///< asks for GridPatch::is_counted
-    std::size_t num_carried = 0;               ///< number of GridPatch::carried
+    std::optional<WorkColumns> work = {};
+    std::optional<Gravity<D>> gravity = {};  ///< for the potential energy
+    bool counts_nodes = false;               ///< asks for GridPatch::is_counted
+    std::size_t num_carried = 0;             ///< number of GridPatch::carried
     bool carries_motion = false;  ///< asks for the last step's GridPatch::motion after a rebalance
 };
 

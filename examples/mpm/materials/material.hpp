@@ -12,6 +12,8 @@ namespace mpm {
 /// Kernels and energy of a material.
 template <int D>
 struct MaterialModel {
+    /// Where there are several, the first strains elastically, and those after it return what
+    /// stress is too much.
     std::vector<Named<PointKernel<D>>> kernels;
     /// Elastic energy stored in a point, J; per metre of depth in two dimensions.
     std::function<double(const Particles&, std::size_t point)> strain_energy;

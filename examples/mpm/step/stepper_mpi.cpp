@@ -1,5 +1,6 @@
 #include "boundaries/boundaries.hpp"
 #include "effects/probes.hpp"
+#include "materials/plastic_work.hpp"
 #include "parallel/carried_motion_mpi.hpp"
 #include "parallel/communicator_mpi.hpp"
 #include "particles/pair.hpp"
@@ -65,6 +66,8 @@ Stepper<D>::Stepper(const Scene& scene, const Extent& extent, MPI_Comm comm)
       ownership_(scene.grid, comm_) {
     build_materials();
     stages_ = build_stages<D>(scene_, wave_speed_, particles);
+    for (std::size_t k = 0; stages_.work && k < materials_.size(); ++k)
+        add_plastic_work<D>(scene_.materials[k], particles, stages_.work->plastic, materials_[k]);
     least_mass_ = add_least_mass<D>(scene_, motion_.mass, stages_);
     add_images<D>(scene_, stages_);
     velocity_remap_ = make_velocity_remap<D>(scene_, FlipShare(scene_, wave_speed_), particles);

@@ -52,9 +52,9 @@ double Stepper<D>::strain_energy(std::size_t point) const {
 template <int D>
 void Stepper<D>::start_points() {
     for (const auto& start : stages_.starts) start(particles);
-    if (stages_.starts.empty() || !stages_.internal_work) return;
+    if (stages_.starts.empty() || !stages_.work) return;
     for (std::size_t p = 0; p < particles.size(); ++p)
-        particles.data(*stages_.internal_work)[p] = strain_energy(p);
+        particles.data(stages_.work->internal)[p] = strain_energy(p);
 }
 
 template <int D>
@@ -71,12 +71,15 @@ Totals Stepper<D>::totals() const {
         }
         sums.strain_energy += strain_energy(p);
     }
-    for (std::size_t p = 0; stages_.internal_work && p < particles.size(); ++p)
-        sums.dissipated_energy += particles[*stages_.internal_work][p];
-    if (stages_.internal_work) sums.dissipated_energy -= sums.strain_energy;
+    for (std::size_t p = 0; stages_.work && p < particles.size(); ++p) {
+        const double plastic = particles[stages_.work->plastic][p];
+        sums.dissipated_energy += plastic;
+        sums.transfer_loss += particles[stages_.work->internal][p] - plastic;
+    }
+    if (stages_.work) sums.transfer_loss -= sums.strain_energy;
     for (const auto& dissipated : stages_.dissipated)
         sums.dissipated_energy += dissipated(particles);
-    if (stages_.transfer_loss) sums.transfer_loss = stages_.transfer_loss(particles);
+    if (stages_.transfer_loss) sums.transfer_loss += stages_.transfer_loss(particles);
     sums.num_sent = static_cast<double>(num_sent);
     sums.num_ghost_nodes = static_cast<double>(ghosts_->num_shared());
     MPI_Allreduce(MPI_IN_PLACE, &sums, sizeof sums / sizeof(double), MPI_DOUBLE, MPI_SUM, comm_);
@@ -87,7 +90,7 @@ Totals Stepper<D>::totals() const {
                   .strain_energy = sums.strain_energy,
                   .num_migrated = static_cast<std::int64_t>(sums.num_sent),
                   .num_ghost_nodes = static_cast<std::int64_t>(sums.num_ghost_nodes)};
-    if (stages_.internal_work) totals.dissipated_energy = sums.dissipated_energy;
+    if (stages_.work) totals.dissipated_energy = sums.dissipated_energy;
     if (stages_.transfer_loss) totals.transfer_loss = sums.transfer_loss;
     for (std::size_t a = 0; a < D; ++a) {
         totals.center[a] = sums.moment[a] / sums.mass;

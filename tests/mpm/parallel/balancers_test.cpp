@@ -69,8 +69,10 @@ State run(const Scene& scene, const char* name, MPI_Comm comm) {
     return state_of(simulation, comm);
 }
 
-/// The name of a tensor or vector, of which a column is a component.
+/// The name of a tensor or vector, of which a column is a component. Plastic work is part of the
+/// internal work.
 std::string stem(const std::string& name) {
+    if (name.ends_with("_work")) return "work";
     return name.substr(0, name.rfind('_'));
 }
 

@@ -29,10 +29,11 @@ struct Totals {
     double kinetic_energy = 0;    ///< J
     double strain_energy = 0;     ///< elastic, J
     double potential_energy = 0;  ///< of gravity at its full strength, J; 0 at the origin
-    /// By materials, walls, damping and drag, J, where an effect keeps account of it.
+    /// By plastic strain, walls, damping and drag, J, where an effect keeps account of it.
     std::optional<double> dissipated_energy = {};
-    /// Energy that the transfers between points and nodes have lost, J, where an effect keeps
-    /// account of it. Negative: the run feeds on it, as an unstable one does.
+    /// Energy that is lost beside that, J, where an effect keeps account of it: by the transfers
+    /// between points and nodes, and by stress that follows strain in steps. Negative: the run
+    /// feeds on it, as an unstable one does.
     std::optional<double> transfer_loss = {};
     std::int64_t num_migrated = 0;     ///< changes of rank since the start, rebalances included
     std::int64_t num_ghost_nodes = 0;  ///< nodes that a rank shares with others, of all ranks

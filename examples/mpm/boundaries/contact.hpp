@@ -15,6 +15,27 @@ inline double along_normal(const Components<D>& normal, const Components<D>& vel
     return across;
 }
 
+/// Solid ground behind a plane.
+template <int D>
+struct Ground {
+    Components<D> normal;  ///< outward, of unit length
+    double level;          ///< of the plane along the normal, m
+
+    double height(const Components<D>& at) const { return along_normal<D>(normal, at) - level; }
+};
+
+template <int D>
+Ground<D> ground_of(const Plane& plane) {
+    double square = 0;
+    for (std::size_t a = 0; a < D; ++a) square += plane.normal[a] * plane.normal[a];
+    Ground<D> ground{};
+    for (std::size_t a = 0; a < D; ++a) {
+        ground.normal[a] = plane.normal[a] / std::sqrt(square);
+        ground.level += ground.normal[a] * plane.point[a];
+    }
+    return ground;
+}
+
 /// A surface as a node meets it.
 template <int D>
 struct Surface {

@@ -42,6 +42,7 @@ Stages<D> build_stages(const Scene& scene, double wave_speed, Particles& particl
     Stages<D> stages;
     add_walls<D>(scene, wave_speed, stages);
     add_planes<D>(scene, stages);
+    add_plane_friction<D>(scene, wave_speed, particles, stages);
     const std::vector<std::optional<Values>> values = effect_values(scene);
     for (std::size_t k = 0; k < values.size(); ++k) {
         if (!values[k]) continue;

@@ -1,0 +1,168 @@
+#include "boundaries/boundaries.hpp"
+#include "boundaries/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mpm {
+
+namespace {
+
+/// Columns of the points for one plane.
+template <int D>
+struct PlaneColumns {
+    MotionColumns motion;
+    std::array<Column, D> force{};   ///< in the next step, N; 0 where they do not touch
+    std::array<Column, D> anchor{};  ///< of the spring along the plane, m
+    Column reach = 0;                ///< height above the plane below which they touch it, m
+};
+
+/// A plane that meets points through a layer of springs and dashpots.
+///
+/// The nodes behind an inclined plane are no plane: they shake a body that slides across them,
+/// which then sticks and slips by turns. So the plane meets the points. A dashpot with the
+/// impedance of the body takes its vibrations (Lysmer and Kuhlemeyer 1969), a spring bears it, and
+/// a spring along the plane holds it up to the friction (Cundall and Strack 1979).
+template <int D>
+class RubbingPlane {
+  public:
+    RubbingPlane(const Plane& plane, double wave_speed, double spacing,
+                 const PlaneColumns<D>& columns)
+        : ground_(ground_of<D>(plane)),
+          friction_(plane.wall.friction),
+          spacing_(spacing),
+          rate_(wave_speed / spacing),
+          columns_(columns) {}
+
+    /// Points that begin within their width of the plane touch it there. Otherwise a body would
+    /// fall until enough of its lowest points have come to the plane.
+    void start(Particles& particles) const {
+        for (std::size_t p = 0; p < particles.size(); ++p)
+            particles.data(columns_.reach)[p] =
+                std::min(ground_.height(position_of(particles, p)), width_of(particles, p));
+    }
+
+    /// Finds the forces of the next step on a block of points.
+    void push(Particles& particles, const PointBlock<D>& block) const {
+        for (std::size_t p = block.begin; p < block.end; ++p) {
+            const Components<D> at = position_of(particles, p);
+            const double depth = particles[columns_.reach][p] - ground_.height(at);
+            const double push = depth > 0 ? push_of(particles, p, depth, block.time_step) : 0;
+            const Components<D> held =
+                push > 0 ? hold(particles, p, at, push, block.time_step) : Components<D>{};
+            for (std::size_t a = 0; a < D; ++a)
+                particles.data(columns_.force[a])[p] = push * ground_.normal[a] + held[a];
+        }
+    }
+
+  private:
+    Components<D> position_of(const Particles& particles, std::size_t p) const {
+        Components<D> at;
+        for (std::size_t a = 0; a < D; ++a) at[a] = particles[columns_.motion.position[a]][p];
+        return at;
+    }
+
+    double width_of(const Particles& particles, std::size_t p) const {
+        return std::pow(particles[columns_.motion.volume][p], 1.0 / D);
+    }
+
+    /// Mass of a cell's height above the area that a point stands for, kg.
+    double mass_above(const Particles& particles, std::size_t p) const {
+        return particles[columns_.motion.mass][p] * spacing_ / width_of(particles, p);
+    }
+
+    /// Force out of the plane, N. The deeper, the stiffer: some tenths of a cell are the most.
+    double push_of(const Particles& particles, std::size_t p, double depth,
+                   double time_step) const {
+        constexpr double softness = 10;
+        const double relative = softness * depth / spacing_;
+        const double stiffness = rate_ * rate_ / softness * (1 + relative * relative);
+        double across = 0;
+        for (std::size_t a = 0; a < D; ++a)
+            across += particles[columns_.motion.velocity[a]][p] * ground_.normal[a];
+        // A dashpot does no more in a step than stop the point.
+        const double damping =
+            particles[columns_.motion.mass][p] * std::min(2 * rate_, 1 / time_step);
+        return std::max(mass_above(particles, p) * stiffness * depth - damping * across, 0.0);
+    }
+
+    /// Force along the plane, N. Where the spring is at the friction, the anchor is dragged along.
+    Components<D> hold(Particles& particles, std::size_t p, const Components<D>& at, double push,
+                       double time_step) const {
+        const double stiffness =
+            std::min(mass_above(particles, p) * rate_ * rate_,
+                     particles[columns_.motion.mass][p] / (time_step * time_step));
+        if (!touched(particles, p))
+            for (std::size_t a = 0; a < D; ++a) particles.data(columns_.anchor[a])[p] = at[a];
+        Components<D> stretch;
+        for (std::size_t a = 0; a < D; ++a) stretch[a] = at[a] - particles[columns_.anchor[a]][p];
+        const double across = along_normal<D>(ground_.normal, stretch);
+        double square = 0;
+        for (std::size_t a = 0; a < D; ++a) {
+            stretch[a] -= across * ground_.normal[a];
+            square += stretch[a] * stretch[a];
+        }
+        const double force = stiffness * std::sqrt(square), most = friction_ * push;
+        const double share = force > most ? most / force : 1;
+        Components<D> held;
+        for (std::size_t a = 0; a < D; ++a) {
+            held[a] = -share * stiffness * stretch[a];
+            particles.data(columns_.anchor[a])[p] = at[a] - share * stretch[a];
+        }
+        return held;
+    }
+
+    bool touched(const Particles& particles, std::size_t p) const {
+        for (std::size_t a = 0; a < D; ++a)
+            if (particles[columns_.force[a]][p] != 0) return true;
+        return false;
+    }
+
+    Ground<D> ground_;
+    double friction_;
+    double spacing_;
+    double rate_;  ///< of transits of a wave through a cell, 1/s
+    PlaneColumns<D> columns_;
+};
+
+/// Adds the columns of a plane, and their sums on the nodes.
+template <int D>
+PlaneColumns<D> add_columns(const std::string& plane, Particles& particles, Stages<D>& stages) {
+    PlaneColumns<D> columns{.motion = add_motion_columns(particles, D),
+                            .reach = particles.add_column(plane + "_reach")};
+    for (std::size_t a = 0; a < D; ++a) {
+        columns.force[a] = particles.add_column(plane + "_force_" + "xyz"[a]);
+        columns.anchor[a] = particles.add_column(plane + "_anchor_" + "xyz"[a]);
+        stages.fields.push_back({"plane_friction", columns.force[a], -1, static_cast<int>(a)});
+    }
+    return columns;
+}
+
+}  // namespace
+
+template <int D>
+void add_plane_friction(const Scene& scene, double wave_speed, Particles& particles,
+                        Stages<D>& stages) {
+    for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+        if (!has_friction(scene.planes[k])) continue;
+        const std::size_t first = stages.fields.size();
+        const RubbingPlane<D> plane(
+            scene.planes[k], wave_speed, scene.grid.spacing,
+            add_columns<D>("plane_" + std::to_string(k + 1), particles, stages));
+        stages.starts.push_back([plane](Particles& points) { plane.start(points); });
+        stages.forces.push_back({"plane_friction", [first](GridPatch<D>& patch, const StepTime&) {
+                                     for (std::size_t a = 0; a < D; ++a)
+                                         for (std::size_t n = 0; n < patch.sums.size(); ++n)
+                                             patch.sums[n].force[a] += patch.fields[first + a][n];
+                                 }});
+        stages.after_materials.push_back(
+            {"plane_friction", [plane](Particles& points, const PointBlock<D>& block) {
+                 plane.push(points, block);
+             }});
+    }
+}
+
+template void add_plane_friction<2>(const Scene&, double, Particles&, Stages<2>&);
+template void add_plane_friction<3>(const Scene&, double, Particles&, Stages<3>&);
+
+}  // namespace mpm

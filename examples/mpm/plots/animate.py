@@ -39,7 +39,7 @@ def image_of(painter: Painter, frame: Frame) -> Image.Image:
     falls = painter.view.is_mirrored
     width, height = painter.size
     inches = (5.2, 5.6) if falls else (7.0, 6.2 * height / width + 0.9)
-    figure = plt.figure(figsize=inches, dpi=100, layout="constrained")
+    figure = plt.figure(figsize=inches, dpi=150, layout="constrained")
     columns = figure.add_gridspec(1, 2 if falls else 1, width_ratios=[1, 1.4] if falls else [1])
     axes = figure.add_subplot(columns[0])
     painter.draw(axes, frame, 4.6 / height if falls else 5.6 / width)

@@ -1,10 +1,11 @@
 """Accuracy against cost of the methods on problems with an analytic answer.
 
-ladder.py PROGRAM SCENES OUT [--small] [PROBLEM ...]
+ladder.py PROGRAM SCENES OUT [--small] [--busy] [PROBLEM ...]
 
 Runs each problem with each shape function and transfer, in ever smaller cells with few or more points,
 and writes OUT/ladder.csv, OUT/ladder.md and a picture per problem: the error beside the point-steps
-and the seconds it took. --small takes the largest cells only."""
+and the seconds it took. --small takes the largest cells only, --busy draws no seconds, which a busy
+machine cannot tell."""
 
 from __future__ import annotations
 
@@ -17,7 +18,7 @@ import tempfile
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
-from ladder_picture import draw_all
+from ladder_picture import COSTS, draw_all
 from ladder_problems import PROBLEMS, Problem
 
 # Shape function and transfer, and whether velocities are mapped back to the nodes (modified).
@@ -105,7 +106,8 @@ def write_table(rungs: list[Rung], path: Path) -> None:
         writer.writerows({**asdict(rung), "point_steps": rung.point_steps} for rung in rungs)
 
 
-def main(program: str, scenes: Path, out: Path, names: list[str], small: bool) -> None:
+def main(program: str, scenes: Path, out: Path, names: list[str], options: list[str]) -> None:
+    small, busy = "--small" in options, "--busy" in options
     out.mkdir(parents=True, exist_ok=True)
     rungs = []
     for problem in (PROBLEMS[name] for name in names):
@@ -117,14 +119,15 @@ def main(program: str, scenes: Path, out: Path, names: list[str], small: bool) -
                     print(markdown(rungs[-1:]).splitlines()[-1], flush=True)
     write_table(rungs, out / "ladder.csv")
     (out / "ladder.md").write_text(markdown(rungs))
-    draw_all(rungs, out)
+    draw_all(rungs, out, [cost for cost in COSTS if cost != "seconds" or not busy])
     print(f"Tables: {out / 'ladder.csv'} {out / 'ladder.md'}")
 
 
 if __name__ == "__main__":
-    words = [word for word in sys.argv[1:] if word != "--small"]
+    options = [word for word in sys.argv[1:] if word in ("--small", "--busy")]
+    words = [word for word in sys.argv[1:] if word not in options]
     unknown = [name for name in words[3:] if name not in PROBLEMS]
     if len(words) < 3 or unknown:
-        sys.exit(f"ladder.py PROGRAM SCENES OUT [--small] [{'|'.join(PROBLEMS)} ...]")
+        sys.exit(f"ladder.py PROGRAM SCENES OUT [--small] [--busy] [{'|'.join(PROBLEMS)} ...]")
     program, scenes, out = words[:3]
-    main(program, Path(scenes), Path(out), words[3:] or list(PROBLEMS), "--small" in sys.argv)
+    main(program, Path(scenes), Path(out), words[3:] or list(PROBLEMS), options)

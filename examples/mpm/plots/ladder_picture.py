@@ -30,22 +30,27 @@ def front(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
     return best
 
 
-def draw_all(rungs: Sequence, folder: Path) -> None:
+def draw_all(rungs: Sequence, folder: Path, costs: Sequence[str]) -> None:
     for problem in dict.fromkeys(rung.problem for rung in rungs):
-        draw([rung for rung in rungs if rung.problem == problem], folder / f"ladder_{problem}.png")
+        of_problem = [rung for rung in rungs if rung.problem == problem]
+        draw(of_problem, folder / f"ladder_{problem}.png", costs)
 
 
-def draw(rungs: Sequence, picture: Path) -> None:
-    figure, panels = plt.subplots(1, 2, figsize=(9, 3.6), sharey=True, layout="constrained")
-    for axes, (cost, label) in zip(panels, COSTS.items()):
+def draw(rungs: Sequence, picture: Path, costs: Sequence[str]) -> None:
+    inches = (1.6 + 3.7 * len(costs), 3.6)
+    figure, axes_of = plt.subplots(
+        1, len(costs), figsize=inches, sharey=True, layout="constrained", squeeze=False
+    )
+    panels = axes_of[0]
+    for axes, (cost, label) in zip(panels, ((cost, COSTS[cost]) for cost in costs)):
         _draw_panel(axes, rungs, cost)
         axes.set_xlabel(label)
     panels[0].set_ylabel(PROBLEMS[rungs[0].problem].says)
     figure.suptitle(rungs[0].problem, fontsize=10)
-    panels[1].legend(
+    panels[-1].legend(
         handles=_legend(), loc="center left", bbox_to_anchor=(1, 0.5), fontsize=8, frameon=False
     )
-    figure.savefig(picture, dpi=80, metadata={"Software": None})
+    figure.savefig(picture, dpi=150, metadata={"Software": None})
     plt.close(figure)
 
 

@@ -45,26 +45,36 @@ def read_fall(folder: Path) -> tuple[np.ndarray, np.ndarray]:
     return tuple(np.transpose(rows))
 
 
-def anchor_in_water(axes: Axes, moment: Moment) -> list[Patch | Line2D]:
-    """The water, and the anchor at its place."""
+def anchor(axes: Axes, moment: Moment) -> list[Patch | Line2D]:
+    """The anchor at its place."""
     radius, cone, length = (
         number_in(moment.scene, key) for key in ("radius", "cone_height", "length")
     )
     tip = np.interp(moment.time, *read_fall(moment.folder))
     outline = [(0, 0), (radius, cone), (radius, length), (-radius, length), (-radius, cone)]
-    axes.set_facecolor(WATER)
     axes.add_patch(Polygon([(x, tip + y) for x, y in outline], facecolor=STEEL, zorder=3))
-    return [Patch(facecolor=STEEL, label="anchor"), Patch(facecolor=WATER, label="water")]
+    return [Patch(facecolor=STEEL, label="anchor")]
+
+
+def anchor_in_water(axes: Axes, moment: Moment) -> list[Patch | Line2D]:
+    axes.set_facecolor(WATER)
+    return [*anchor(axes, moment), Patch(facecolor=WATER, label="water")]
+
+
+def ground(axes: Axes, moment: Moment) -> list[Patch | Line2D]:
+    """The ground behind the plane of the scene."""
+    (x, y), (across, up) = list_in(moment.scene, "point"), list_in(moment.scene, "normal")
+    ends = np.array([-1e4, 1e4])
+    axes.fill_between(ends, y - (ends - x) * across / up, -1e4, color=ROCK, lw=0, zorder=0.5)
+    friction = number_in(moment.scene, "friction")
+    return [Patch(facecolor=ROCK, label=f"ground, friction {friction:.3g}")]
 
 
 def bank_in_water(axes: Axes, moment: Moment) -> list[Patch | Line2D]:
     """The sea and its surface, and the bed behind the plane of the scene."""
-    (x, y), (across, up) = list_in(moment.scene, "point"), list_in(moment.scene, "normal")
-    ends = np.array([-1e4, 1e4])
-    bed = y - (ends - x) * across / up
-    axes.fill_between(ends, bed, -1e4, color=ROCK, lw=0, zorder=0.5)
+    bed = ground(axes, moment)
     level = axes.get_ylim()[1] - 4
-    axes.fill_between(ends, -1e4, level, color=WATER, lw=0, zorder=0)
+    axes.axhspan(-1e4, level, color=WATER, lw=0, zorder=0)
     axes.axhline(level, color="#2A6F9E", lw=1.2)
     left, right = axes.get_xlim()
     for at in np.linspace(left, right, 12)[1:-1]:
@@ -76,7 +86,7 @@ def bank_in_water(axes: Axes, moment: Moment) -> list[Patch | Line2D]:
     return [
         Patch(facecolor=WATER, label=f"water, {water:.0f} kg/m³"),
         Line2D([], [], color="#2A6F9E", label="sea level; its load acts as buoyancy"),
-        Patch(facecolor=ROCK, label=f"bed, friction {number_in(moment.scene, 'friction'):g}"),
+        *bed,
     ]
 
 
@@ -96,4 +106,6 @@ VIEWS = {
         **STRAIN, most=2, is_mirrored=True, space=6.2, backdrop=anchor_in_water
     ),
     "elastic_structure": View(backdrop=clamped_feet),
+    "anchor_plate": View(space=4.2, backdrop=anchor),
+    "incline_block": View(backdrop=ground),
 }

@@ -9,15 +9,16 @@ namespace mpm {
 
 namespace {
 
+/// Stress a + factor * b.
 template <int D>
-Stress<D> difference(Stress<D> a, const Stress<D>& b) {
-    a.xx -= b.xx;
-    a.yy -= b.yy;
-    a.zz -= b.zz;
-    a.xy -= b.xy;
+Stress<D> sum(Stress<D> a, double factor, const Stress<D>& b) {
+    a.xx += factor * b.xx;
+    a.yy += factor * b.yy;
+    a.zz += factor * b.zz;
+    a.xy += factor * b.xy;
     if constexpr (D == 3) {
-        a.yz -= b.yz;
-        a.zx -= b.zx;
+        a.yz += factor * b.yz;
+        a.zx += factor * b.zx;
     }
     return a;
 }
@@ -60,14 +61,14 @@ PointKernel<D> sum_kernel(const Elastic& elastic, const StressColumns<D>& column
                Particles& particles, const PointBlock<D>& block) {
         const StressPointers<D> stresses = stress_pointers<D>(particles, columns);
         const StepGradients<D> gradients(block);
+        const double* const volumes = particles.data(volume);
+        double* const works = particles.data(work);
         for (std::size_t k = 0; k < block.size(); ++k) {
             const std::size_t p = block.begin + k;
             const Stress<D> trial = (*trials)[k], end = load<D>(stresses, p);
             const Stress<D> start = strained(trial, gradients[k], -bulk, -shear);
-            const Stress<D> lost = difference(trial, end);
-            particles.data(work)[p] += 0.5 * particles[volume][p] *
-                                       (work_on_strain_of(lost, start, bulk, shear) +
-                                        work_on_strain_of(lost, end, bulk, shear));
+            works[p] += 0.5 * volumes[p] *
+                        work_on_strain_of(sum(trial, -1, end), sum(start, 1, end), bulk, shear);
         }
     };
 }

@@ -75,6 +75,7 @@ class TransfersOf final : public Transfers<D> {
         const double inverse_spacing = 1 / patch.shape.spacing;
         for (const CellRun<D>& run : runs)
             for (std::size_t p = run.begin; p < run.end; ++p) {
+                if (values[p] == 0) continue;  // as forces on most points are
                 std::array<Weights<N>, D> weights;
                 for (std::size_t a = 0; a < D; ++a) {
                     weights[a] = shape_.at((at[a][p] - run.corner[a]) * inverse_spacing, a);

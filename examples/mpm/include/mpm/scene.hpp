@@ -71,7 +71,7 @@ struct Plane {
     std::string name;
     Vector point{};   ///< on the plane, m
     Vector normal{};  ///< out of the ground, of any length
-    Wall wall;        ///< its hold on the nodes on it and behind it; not open
+    Wall wall;        ///< its hold on nodes behind it, with friction on points; not open
 };
 
 /// An effect by name, with its parameters; see effect.hpp.

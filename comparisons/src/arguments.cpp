@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <ranges>
 #include <sstream>
 
 namespace comparisons {
@@ -109,7 +108,7 @@ void read_choice(const Texts& texts, const std::string& name, Value& value,
     const auto found = std::ranges::find(choices, texts[name], [](auto& c) { return c.first; });
     if (found == choices.end()) {
         throw Failure("--" + name + ": unknown value '" + texts[name] +
-                      "'; choose from: " + joined(choices | std::views::keys));
+                      "'; choose from: " + joined(choices, &std::pair<std::string, Value>::first));
     }
     value = found->second;
 }
@@ -194,7 +193,7 @@ Arguments read_arguments(int argc, char** argv) {
     arguments.replay = texts["replay"];
     check_cloud(arguments.cloud);
     read_integer(texts, "ranks", arguments.ranks, 1, many);
-    read_integer(texts, "points", arguments.points, {1}, {2'000'000'000});
+    read_integer<rrcb::GlobalCount>(texts, "points", arguments.points, 1, 2'000'000'000);
     read_integer(texts, "dim", arguments.dimension, 2, 3);
     read_choice<Layout>(texts, "layout", arguments.layout,
                         {{"sorted", Layout::sorted}, {"scattered", Layout::scattered}});

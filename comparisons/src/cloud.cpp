@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <ranges>
 
 namespace comparisons {
 
@@ -157,7 +156,7 @@ constexpr Generator generators[] = {
 }  // namespace
 
 std::string cloud_names() {
-    return joined(generators | std::views::transform(&Generator::name));
+    return joined(generators, &Generator::name);
 }
 
 std::vector<double> cloud_points(const Cloud& cloud, GlobalCount first, GlobalCount last) {

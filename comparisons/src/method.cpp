@@ -6,7 +6,6 @@
 #include "text.hpp"
 
 #include <algorithm>
-#include <ranges>
 
 namespace comparisons {
 
@@ -133,7 +132,7 @@ void add_options(ZoltanParameters& parameters, const Options& options) {
 }  // namespace
 
 std::string method_names() {
-    return joined(entries() | std::views::transform(&Entry::name));
+    return joined(entries(), &Entry::name);
 }
 
 Method read_method(std::string_view text) {

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <ranges>
 #include <stdexcept>
 #include <string_view>
 
@@ -57,7 +56,7 @@ mpm::Scene read_shipped(const SceneRow& row, MPI_Comm comm) {
 }  // namespace
 
 std::string scene_names() {
-    return joined(rows | std::views::transform(&SceneRow::name));
+    return joined(rows, &SceneRow::name);
 }
 
 void check_scene(const std::string& name_or_file) {

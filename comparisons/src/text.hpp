@@ -1,6 +1,7 @@
 #pragma once
 
 #include <charconv>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,11 +29,12 @@ std::string write_number(Number number) {
 /// Pieces of `text` between separators that stand outside square brackets.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
-/// Names as in "a, b, c".
-template <typename Names>
-std::string joined(const Names& names) {
+/// Names as in "a, b, c", of things of which `name_of` tells them.
+template <typename Things, typename NameOf = std::identity>
+std::string joined(const Things& things, NameOf name_of = {}) {
     std::string text;
-    for (const auto& name : names) text.append(text.empty() ? "" : ", ").append(name);
+    for (const auto& thing : things)
+        text.append(text.empty() ? "" : ", ").append(std::invoke(name_of, thing));
     return text;
 }
 

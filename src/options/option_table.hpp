@@ -11,8 +11,8 @@
 #include <vector>
 
 // What there is to know of each option stands here once. The checks, the comparison between ranks,
-// the parameters of the plug-in, the list for Teuchos and the table of docs/parameters.md are made of
-// it. C++17, as the header of Teuchos' validators is no C++20.
+// the parameters of the plug-in, the list for Teuchos and the table of docs/parameters.md are made
+// of it. C++17, as the header of Teuchos' validators is no C++20.
 
 namespace rrcb {
 

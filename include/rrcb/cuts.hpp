@@ -27,11 +27,22 @@ RRCB_API bool is_above(const Cut& cut, const Vector& position, int dimension);
 ///
 /// `tree` holds num_parts - 1 cuts in preorder. A node of n parts leaves `lower_parts(n)` of them,
 /// the lower numbers, below its cut. Same bits on every rank after `balance`.
+///
+/// Cuts may hold a part of the tree, see Options::central_parts: then `tree` holds the cuts that
+/// this rank knows, and `nodes` tells which these are.
 struct Cuts {
     int dimension = 0;      ///< of the points
     int num_parts = 1;      ///< of the whole tree
     std::vector<Cut> tree;  ///< in preorder
+    /// Number in preorder of each cut of `tree`, ascending, where it holds some of them only;
+    /// empty: all.
+    std::vector<std::int32_t> nodes{};
 };
+
+/// True when cuts hold the whole tree. Not collective.
+inline bool is_whole(const Cuts& cuts) {
+    return cuts.nodes.empty();
+}
 
 /// Number of a node's parts that lie below its cut; `num_parts` >= 2.
 constexpr int lower_parts(int num_parts) {

@@ -16,7 +16,7 @@ namespace rrcb::mpi {
 /// rules hold. A call receives every message that is sent to it, and names the sender:
 /// MPI keeps those in order. Only an Exchange receives from any rank: none sends in it before all
 /// have entered it, and none enters it that has not received all of the one before.
-enum Tag : int { contribution_tag = 1, points_tag, exchange_tag, stream_tag };
+enum Tag : int { contribution_tag = 1, points_tag, exchange_tag, stream_tag, butterfly_tag };
 
 /// Throws Error with the text of an MPI error code that is not MPI_SUCCESS.
 void check(int code, const char* call);

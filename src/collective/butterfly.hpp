@@ -1,0 +1,151 @@
+#pragma once
+
+#include "collective/failure.hpp"
+#include "collective/records.hpp"
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <tuple>
+#include <vector>
+
+namespace rrcb {
+
+/// Numbers that all ranks know after a pass: the largest of any rank.
+///
+/// The first is the number of ranks less that of a failing one, so that the lowest of these is
+/// told; 0 for none. What the others say is up to the caller.
+using Flags = std::array<double, 4>;
+
+inline void mark_failed(Flags& flags, int rank, int num_ranks) {
+    flags[0] = num_ranks - rank;
+}
+
+/// The lowest rank that has failed, or no_rank.
+inline int failing_rank(const Flags& flags, int num_ranks) {
+    return flags[0] > 0 ? num_ranks - static_cast<int>(flags[0]) : no_rank;
+}
+
+/// Records of all ranks on their way to the owners of their keys, and answers on their way back:
+/// one rank's part in it, without the messages.
+///
+/// The ranks are halved again and again, the lower half the larger one, until each is alone. In
+/// the step of a halving a rank hands one of the other half all records whose owner is there:
+/// ceil(log2 R) steps for R ranks, as in the crystal router (G. C. Fox et al.: Solving Problems on
+/// Concurrent Processors, volume 1, 1988). Records of one key are joined where they meet. Answers
+/// go back the same ways, step by step in reverse order, to all that handed on a record of the key.
+///
+/// Flags are joined in every step. After a pass to the owners each rank knows the largest of all
+/// ranks, which follows by induction over the halves: what is known together in a half after the
+/// step is what both halves knew before it, as every rank hands its flags to one of the other half.
+/// On the way back the flags go the same ways in reverse order, and so from any rank to any other.
+/// This holds whatever fails on a rank on the way, if it goes on with pack_nothing(). So what fails
+/// during a pass is told by the flags of the next one, and to all alike.
+class Butterfly {
+  public:
+    /// Appends what the payloads `a` and `b` of one key make together. Null where records of one
+    /// key stay apart; then nothing is answered.
+    using Join = void (*)(std::span<const double> a, std::span<const double> b,
+                          std::vector<double>& joined);
+
+    enum Direction { to_owners, back };
+
+    /// Whom a rank exchanges messages with in a step, in this order.
+    struct Link {
+        int rank;
+        bool sends;     ///< to that rank
+        bool receives;  ///< from that rank
+    };
+    struct Links {
+        std::array<Link, 2> links;
+        std::size_t count;
+
+        const Link* begin() const { return links.data(); }
+        const Link* end() const { return links.data() + count; }
+    };
+
+    /// Not collective. Throws std::bad_alloc.
+    Butterfly(int rank, int num_ranks, Join join);
+
+    int rank() const { return rank_; }
+    int num_ranks() const { return num_ranks_; }
+
+    /// Steps that this rank takes part in: in those numbered from 0 on the way to the owners, in
+    /// reverse order on the way back.
+    int num_steps() const;
+
+    /// The same step means the same halving on all ranks in it.
+    Links links(int step, Direction direction) const;
+
+    /// Forgets all records and answers.
+    void clear();
+
+    /// Adds a record of this rank before a pass to the owners; keys ascend. Throws std::bad_alloc.
+    void add(Key key, int owner, std::span<const double> payload) {
+        held_.append({key, owner, payload});
+    }
+
+    /// The records of the keys that this rank owns, joined, after a pass to the owners.
+    const Records& owned() const { return held_; }
+
+    /// Adds the answer to a key that this rank owns before a pass back; keys ascend. Throws
+    /// std::bad_alloc.
+    void answer(Key key, std::span<const double> payload) {
+        answers_.append({key, rank_, payload});
+    }
+
+    /// After a pass back the answers to the records of this rank, and to those that went through
+    /// it; ascending by key.
+    const Records& answers() const { return answers_; }
+
+    /// Begins a pass. From here on flags() are joined.
+    void start(const Flags& mine) { flags_ = mine; }
+    const Flags& flags() const { return flags_; }
+
+    /// Makes the message for a link that sends. Throws std::bad_alloc; then pack_nothing() is due.
+    void pack(int step, Direction direction, const Link& link);
+
+    /// Makes a message without records. Never throws.
+    void pack_nothing();
+
+    /// The message that was made: how many doubles it has, the flags, and records.
+    std::span<const double> message() const { return message_; }
+    static constexpr std::size_t head_length = 1 + std::tuple_size_v<Flags>;
+
+    /// Takes in the flags of a message. Never throws.
+    void hear(std::span<const double> message);
+
+    /// Takes in the records of a message that came by a link. Throws std::bad_alloc.
+    void take(int step, Direction direction, const Link& link, std::span<const double> message);
+
+  private:
+    /// The ranks from `begin` to `end` as they are halved in a step.
+    struct Halves {
+        int begin;
+        int middle;
+        int end;
+    };
+
+    /// Keys of which the records came from a rank.
+    struct Asked {
+        int step;
+        int rank;
+        std::vector<Key> keys;
+    };
+
+    Halves halves_at(int step) const;
+    void hand_over(const Halves& halves);
+    void reply(int step, int rank);
+    Records merged(const Records& records, RecordReader others) const;
+
+    int rank_;
+    int num_ranks_;
+    Join join_;
+    Flags flags_{};
+    Records held_;
+    Records answers_;
+    std::vector<Asked> asked_;
+    std::vector<double> message_;
+};
+
+}  // namespace rrcb

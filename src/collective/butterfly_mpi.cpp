@@ -1,0 +1,88 @@
+#include "collective/butterfly_mpi.hpp"
+
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
+
+#include <algorithm>
+
+namespace rrcb {
+
+namespace {
+
+/// Doubles in one MPI message.
+constexpr std::size_t most_in_piece = 8192;
+
+std::size_t num_pieces(std::size_t length) {
+    return (length + most_in_piece - 1) / most_in_piece;
+}
+
+std::span<const double> piece_of(std::span<const double> message, std::size_t number) {
+    const std::size_t first = number * most_in_piece;
+    return message.subspan(first, std::min(most_in_piece, message.size() - first));
+}
+
+void begin_to_send(std::span<const double> piece, int to, MPI_Request& request, Participant& self) {
+    self.check(MPI_Isend(piece.data(), static_cast<int>(piece.size()), MPI_DOUBLE, to,
+                         mpi::butterfly_tag, self.comm, &request),
+               "MPI_Isend");
+}
+
+}  // namespace
+
+ButterflyMessages::ButterflyMessages() : piece_(most_in_piece) {}
+
+void ButterflyMessages::run(Butterfly& butterfly, Butterfly::Direction direction, Flags flags,
+                            Participant& self) {
+    if (self.failed()) mark_failed(flags, butterfly.rank(), butterfly.num_ranks());
+    butterfly.start(flags);
+    const int num_steps = butterfly.num_steps();
+    for (int k = 0; k < num_steps; ++k) {
+        const int step = direction == Butterfly::to_owners ? k : num_steps - 1 - k;
+        for (const Butterfly::Link& link : butterfly.links(step, direction))
+            exchange(butterfly, step, direction, link, self);
+    }
+    fail_together(failing_rank(butterfly.flags(), butterfly.num_ranks()), self);
+}
+
+/// Sends and receives what a link carries, piece by piece at once in both directions, so that two
+/// ranks never wait for each other.
+void ButterflyMessages::exchange(Butterfly& butterfly, int step, Butterfly::Direction direction,
+                                 const Butterfly::Link& link, Participant& self) {
+    butterfly.pack_nothing();
+    if (link.sends) self.attempt([&] { butterfly.pack(step, direction, link); });
+    if (self.failed()) butterfly.pack_nothing();
+    const std::span<const double> sent = butterfly.message();
+    const std::size_t num_sent = link.sends ? num_pieces(sent.size()) : 0;
+    std::size_t num_received = link.receives ? 1 : 0;
+    for (std::size_t k = 0; k < num_sent || k < num_received; ++k) {
+        MPI_Request request = MPI_REQUEST_NULL;
+        if (k < num_sent) begin_to_send(piece_of(sent, k), link.rank, request, self);
+        if (k < num_received) num_received = receive(k, link.rank, self);
+        self.check(MPI_Wait(&request, MPI_STATUS_IGNORE), "MPI_Wait");
+    }
+    if (!link.receives) return;
+    butterfly.hear(head_);
+    self.attempt([&] { butterfly.take(step, direction, link, arrived_); });
+}
+
+/// Receives a piece of a message; returns how many it has. Without memory it still receives them.
+std::size_t ButterflyMessages::receive(std::size_t number, int from, Participant& self) {
+    std::fill_n(piece_.begin(), head_.size(), 0.0);
+    self.check(MPI_Recv(piece_.data(), static_cast<int>(most_in_piece), MPI_DOUBLE, from,
+                        mpi::butterfly_tag, self.comm, MPI_STATUS_IGNORE),
+               "MPI_Recv");
+    if (number == 0) {
+        std::copy_n(piece_.begin(), head_.size(), head_.begin());
+        arrived_.clear();
+    }
+    const auto length = std::max(static_cast<std::size_t>(head_[0]), head_.size());
+    self.attempt([&] {
+        if (number == 0) arrived_.reserve(length);
+        const std::size_t size = std::min(most_in_piece, length - number * most_in_piece);
+        arrived_.insert(arrived_.end(), piece_.begin(),
+                        piece_.begin() + static_cast<std::ptrdiff_t>(size));
+    });
+    return num_pieces(length);
+}
+
+}  // namespace rrcb

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "collective/butterfly.hpp"
+#include "collective/participant.hpp"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace rrcb {
+
+/// Carries the messages of butterflies.
+class ButterflyMessages {
+  public:
+    /// Not collective. Throws std::bad_alloc.
+    ButterflyMessages();
+
+    /// Runs a pass of records to their owners, or of answers back; `flags` of this rank are joined
+    /// to those of all ranks in `butterfly`.
+    ///
+    /// Collective: ceil(log2 R) messages from each of R ranks, one more at most from some; a
+    /// message beyond 64 kB takes more of at most as many bytes. Throws on every rank what failed
+    /// on one before the pass. A rank that fails in it goes on without records, which then are
+    /// missing elsewhere as well, until the next pass or agreement tells all ranks.
+    void run(Butterfly& butterfly, Butterfly::Direction direction, Flags flags, Participant& self);
+
+  private:
+    void exchange(Butterfly& butterfly, int step, Butterfly::Direction direction,
+                  const Butterfly::Link& link, Participant& self);
+
+    std::size_t receive(std::size_t number, int from, Participant& self);
+
+    std::vector<double> piece_;                          ///< what came last
+    std::vector<double> arrived_;                        ///< the message that it belongs to
+    std::array<double, Butterfly::head_length> head_{};  ///< of this
+};
+
+}  // namespace rrcb

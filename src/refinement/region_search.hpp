@@ -1,0 +1,151 @@
+#pragma once
+
+#include "cells/sorted_points.hpp"
+#include "collective/butterfly.hpp"
+#include "refinement/fragments.hpp"
+#include "refinement/local_search.hpp"
+#include "refinement/target_rule.hpp"
+
+#include <rrcb/cuts.hpp>
+
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace rrcb {
+
+/// What the parts below the regions are to be; the same on every rank.
+struct RegionTree {
+    int num_parts = 1;
+    int num_ranks = 1;
+    double weight = 0;                     ///< of all points
+    std::span<const double> part_sizes{};  ///< one per part; empty: equal
+    TargetRule rule{};                     ///< but for the sizes, and the weight per size
+    double share_of_longest = 1;           ///< see longest_axis()
+    bool plain_cuts = false;
+
+    /// The rank that decides on the cut of a node: the first that holds its first part.
+    int owner_of(const Descent& at) const;
+};
+
+/// Regions that a tree begins with, their number a power of two; the same on every rank.
+struct Regions {
+    Cuts cuts{};                        ///< between them
+    std::span<const double> weights{};  ///< over all ranks
+    Box box{};                          ///< of all points
+};
+
+/// One rank's part in the search for the cuts below the regions.
+///
+/// It takes part in a node of the tree in which it has points, or where one of its own parts lies.
+/// The owner of the node decides, by what those ranks tell it, and answers them: these alone know
+/// the cut. Nodes do not wait for others on their level. In a round each rank asks, the butterfly
+/// carries that to the owners, they decide, it carries their answers back, and each rank follows.
+/// All rounds of all ranks are over once none is_searching().
+///
+/// Memory and messages follow from the nodes that a rank takes part in, about 1.2 kB a node, and
+/// at the owner up to 1024 positions and weights. Not collective.
+class RegionSearch {
+  public:
+    /// Starts below the regions; `parts` and what `tree` refers to are borrowed. Throws
+    /// std::bad_alloc.
+    RegionSearch(const RegionTree& tree, int rank, const Regions& regions, SortedPoints&& points,
+                 std::span<Part> parts);
+    RegionSearch(const RegionSearch&) = delete;
+    RegionSearch& operator=(const RegionSearch&) = delete;
+
+    bool is_searching() const { return !nodes_.empty(); }
+
+    /// Adds what this rank has in the nodes that are searched. Throws std::bad_alloc.
+    void ask(Butterfly& butterfly) const;
+
+    /// Decides on the nodes that this rank owns. Throws std::bad_alloc.
+    void decide(Butterfly& butterfly);
+
+    /// Follows the decisions, and writes the parts that are complete. A node without an answer,
+    /// which a failure has lost, stays as it is. Throws std::bad_alloc.
+    void follow(const Butterfly& butterfly);
+
+    /// What records of a node make together; see Butterfly::Join.
+    static void join(std::span<const double> a, std::span<const double> b,
+                     std::vector<double>& joined);
+
+    /// The cuts that this rank knows. Throws std::bad_alloc.
+    Cuts cuts() const;
+
+    /// Of the parts that this rank owns; 0 where these are empty.
+    double imbalance() const { return imbalance_; }
+
+    /// Cuts that this rank decided on with points in one place that the target divides.
+    int num_coincident() const { return num_coincident_; }
+
+    /// The points, for another search; this one is over. They are in the order of their cells.
+    SortedPoints take_points() { return std::move(points_); }
+
+  private:
+    /// What ranks tell of a node, where they have any of its points, begins with a mark: a
+    /// histogram, or each of the candidates.
+    static constexpr double mark_of_histogram = 0;
+    static constexpr double mark_of_candidate = 1;
+
+    /// Node that is searched.
+    struct Node {
+        Descent at;
+        std::vector<Fragment> fragments;
+        Box box;            ///< that holds its points on all ranks
+        double weight = 0;  ///< over all ranks
+        CutSearch search;
+        LocalSearch local;
+        CutTarget target{};  ///< at the owner only
+    };
+
+    struct KnownCut {
+        std::size_t node;
+        Cut cut;
+    };
+
+    /// What an owner tells of a node; where the search was sampling, the sample follows.
+    struct Answer {
+        CutSearch search;
+        Box box;
+        double weight = 0;
+
+        static constexpr std::size_t length() { return sizeof(Answer) / sizeof(double); }
+    };
+
+    TargetRule rule_for(const Descent& at) const;
+    bool holds_own_parts(const Descent& at) const;
+    void enter_region(const Regions& regions, const Descent& region, const Descent& at,
+                      std::vector<Fragment>&& fragments, const Box& box);
+    void enter(const Descent& at, std::vector<Fragment>&& fragments, const Box& box, double weight);
+    void divide(const Descent& at, const std::vector<Fragment>& fragments, const Box& box,
+                const Cut& cut, double weight, double below);
+    std::pair<std::vector<Fragment>, std::vector<Fragment>> split_tightly(
+        const std::vector<Fragment>& fragments, const Cut& cut);
+    void end_at_part(const Descent& at, const std::vector<Fragment>& fragments, double weight);
+    CutSearch first_search(const Box& box, double weight) const;
+    std::vector<double> answer_to(const Record& record, Node& node);
+    void count(const Node& node, std::vector<double>& payload) const;
+    CutSearch decide_on(Node& node, std::span<const double> payload);
+    void decide_among_candidates(const Node& node, std::span<const double> payload,
+                                 CutSearch& search) const;
+    void decide_by_first_count(Node& node, std::span<const double> histogram, CutSearch& search);
+    void follow(Node&& node, std::span<const double> payload);
+
+    RegionTree tree_;
+    int rank_;
+    int dimension_;
+    Part first_own_ = 0;        ///< of the parts that this rank holds ...
+    Part end_own_ = 0;          ///< ... the first, and the one behind the last
+    double all_sizes_ = 0;      ///< sum of the sizes of all parts
+    std::vector<double> ones_;  ///< sizes of the parts of a region where all are equal
+    HistogramLayout layout_;
+    SortedPoints points_;
+    std::span<Part> parts_;
+    std::vector<Node> nodes_;  ///< ascending
+    std::vector<KnownCut> known_;
+    double imbalance_ = 0;
+    int num_coincident_ = 0;
+};
+
+}  // namespace rrcb

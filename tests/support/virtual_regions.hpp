@@ -1,0 +1,50 @@
+// The search for the cuts below regions by many ranks in one process, through the code that ranks
+// run.
+#pragma once
+
+#include "refinement/region_search.hpp"
+#include "virtual_butterfly.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+namespace rrcb::test {
+
+/// What a search of all ranks amounted to.
+struct SearchCounts {
+    int rounds = 0;
+    std::size_t longest = 0;        ///< message, in bytes
+    std::size_t most_bytes_in = 0;  ///< into one rank in a round, there and back
+};
+
+/// Ends the searches of all ranks.
+inline SearchCounts run_searches(std::vector<std::unique_ptr<RegionSearch>>& searches) {
+    const auto none_fails = [](int, int) { return false; };
+    std::vector<Butterfly> butterflies;
+    for (std::size_t rank = 0; rank < searches.size(); ++rank)
+        butterflies.emplace_back(static_cast<int>(rank), static_cast<int>(searches.size()),
+                                 RegionSearch::join);
+    const std::vector<Flags> flags(searches.size());
+    SearchCounts counts;
+    const auto is_searching = [](const auto& search) { return search->is_searching(); };
+    while (std::ranges::any_of(searches, is_searching)) {
+        for (std::size_t rank = 0; rank < searches.size(); ++rank) {
+            butterflies[rank].clear();
+            searches[rank]->ask(butterflies[rank]);
+        }
+        const auto there = run_pass(butterflies, Butterfly::to_owners, flags, none_fails);
+        for (std::size_t rank = 0; rank < searches.size(); ++rank)
+            searches[rank]->decide(butterflies[rank]);
+        const auto back = run_pass(butterflies, Butterfly::back, flags, none_fails);
+        for (std::size_t rank = 0; rank < searches.size(); ++rank)
+            searches[rank]->follow(butterflies[rank]);
+        ++counts.rounds;
+        counts.longest = std::max({counts.longest, there.longest, back.longest});
+        counts.most_bytes_in =
+            std::max(counts.most_bytes_in, there.most_bytes_in + back.most_bytes_in);
+    }
+    return counts;
+}
+
+}  // namespace rrcb::test

@@ -1,0 +1,475 @@
+// Cuts below regions, found by the ranks that own them, against all points in one place.
+#include "refinement/region_search.hpp"
+
+#include "../support/clouds.hpp"
+#include "../support/virtual_regions.hpp"
+#include "cells/binned_points.hpp"
+#include "cuts/cut_limits.hpp"
+
+#include <rrcb/plan.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <random>
+#include <string>
+
+namespace rrcb {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double share_of_longest = 0.9;
+
+enum class Spread { sorted, scattered, on_few_ranks };
+
+struct Case {
+    int num_ranks = 4;
+    int num_regions = 2;
+    int num_parts = 4;
+    int dimension = 2;
+    Spread spread = Spread::sorted;
+    std::string cloud = "uniform";
+    std::string weights = "equal";
+    std::vector<double> part_sizes{};
+    bool is_exact = true;
+    bool plain_cuts = false;
+    std::size_t num_points = 600;
+};
+
+std::ostream& operator<<(std::ostream& out, const Case& one) {
+    return out << one.num_ranks << " ranks, " << one.num_regions << " regions, " << one.num_parts
+               << " parts, " << one.dimension << "-D, " << one.cloud << ", weights " << one.weights
+               << ", spread " << static_cast<int>(one.spread) << (one.is_exact ? ", exact" : "");
+}
+
+/// All points, and what the ranks make of them.
+class Global {
+  public:
+    explicit Global(const Case& one) : case_(one), d_(static_cast<std::size_t>(one.dimension)) {
+        make_points();
+        make_regions();
+        spread();
+    }
+
+    std::size_t size() const { return coordinates_.size() / d_; }
+    double x(std::size_t i, std::size_t a) const { return coordinates_[i * d_ + a]; }
+    double weight(std::size_t i) const { return weights_.empty() ? 1 : weights_[i]; }
+
+    test::SearchCounts run(double tolerance = 1) {
+        RegionTree tree;
+        tree.num_parts = case_.num_parts;
+        tree.num_ranks = case_.num_ranks;
+        tree.part_sizes = case_.part_sizes;
+        tree.weight = total();
+        tree.rule.tolerance = tolerance;
+        tree.rule.is_exact = case_.is_exact;
+        tree.rule.common_weight = case_.weights == "equal" ? 1 : 0;
+        tree.share_of_longest = share_of_longest;
+        tree.plain_cuts = case_.plain_cuts;
+        for (int rank = 0; rank < case_.num_ranks; ++rank) add_search(tree, rank);
+        const auto counts = test::run_searches(searches_);
+        collect();
+        return counts;
+    }
+
+    /// Every cut divides as well as any could, and every point is in the part where cuts put it.
+    void expect_best_cuts() const {
+        std::vector<std::size_t> all(size());
+        std::iota(all.begin(), all.end(), 0U);
+        descend({0, 0, case_.num_parts}, all, 0);
+    }
+
+    /// Ranks know the cuts of all nodes that they have points in, and on the way to their parts.
+    void expect_known_paths() const {
+        for (std::size_t rank = 0; rank < searches_.size(); ++rank) {
+            const auto known = known_by(static_cast<int>(rank));
+            const auto expect_path = [&](Part part) {
+                Descent at{0, 0, case_.num_parts};
+                while (!at.is_part()) {
+                    ASSERT_TRUE(known.contains(at.node)) << "rank " << rank << ", " << case_;
+                    at = part >= at.upper().first_part ? at.upper() : at.lower();
+                }
+            };
+            for (const std::size_t i : members_[rank]) expect_path(parts_[i]);
+            for (Part part = 0; part < case_.num_parts; ++part) {
+                const RankRange ranks = ranks_of_part(part, case_.num_parts, case_.num_ranks);
+                const int me = static_cast<int>(rank);
+                if (me >= ranks.first_rank && me < ranks.first_rank + ranks.count)
+                    expect_path(part);
+            }
+        }
+    }
+
+    const std::vector<Part>& parts() const { return parts_; }
+
+    double counted_imbalance() const {
+        std::vector<double> weights(static_cast<std::size_t>(case_.num_parts));
+        for (std::size_t i = 0; i < size(); ++i)
+            weights[static_cast<std::size_t>(parts_[i])] += weight(i);
+        double worst = 0;
+        for (std::size_t p = 0; p < weights.size(); ++p)
+            if (weights[p] > 0)
+                worst = std::max(worst, weights[p] / total() / (size_of(p) / all_sizes()));
+        return worst;
+    }
+
+    double told_imbalance() const {
+        double worst = 0;
+        for (const auto& search : searches_) worst = std::max(worst, search->imbalance());
+        return worst;
+    }
+
+    int num_coincident() const {
+        int sum = 0;
+        for (const auto& search : searches_) sum += search->num_coincident();
+        return sum;
+    }
+
+  private:
+    double total() const {
+        double sum = 0;
+        for (std::size_t i = 0; i < size(); ++i) sum += weight(i);
+        return sum;
+    }
+    double size_of(std::size_t p) const {
+        return case_.part_sizes.empty() ? 1 : case_.part_sizes[p];
+    }
+    double all_sizes() const {
+        return case_.part_sizes.empty()
+                   ? case_.num_parts
+                   : std::accumulate(case_.part_sizes.begin(), case_.part_sizes.end(), 0.0);
+    }
+    double sizes(const Descent& at) const {
+        double sum = 0;
+        for (int k = 0; k < at.num_parts; ++k)
+            sum += size_of(static_cast<std::size_t>(at.first_part + k));
+        return sum;
+    }
+
+    void make_points() {
+        coordinates_ = test::uniform_cloud(case_.num_points, case_.dimension, 3);
+        std::mt19937_64 random(5);
+        for (double& x : coordinates_) {
+            if (case_.cloud == "corner") x = x * x * x * 1e3;
+            if (case_.cloud == "lattice") x = std::floor(x * 7);
+            if (case_.cloud == "one place") x = 2.5;
+            if (case_.cloud == "decades") x = std::pow(10, 60 * x - 30);
+            if (case_.cloud == "next to 1" && x > 0.2) x = 1 + std::floor(x * 2e4) * 0x1p-52;
+        }
+        if (case_.cloud == "line")
+            for (std::size_t i = 0; i < coordinates_.size(); ++i)
+                if (i % d_ == 0) coordinates_[i] = 1;
+        if (case_.weights == "equal") return;
+        for (std::size_t i = 0; i < size(); ++i) {
+            const double u = test::uniform(random);
+            weights_.push_back(case_.weights == "decades" ? std::pow(10, 12 * u - 6)
+                               : case_.weights == "some"  ? (i % 3 == 0 ? u : 0)
+                                                          : 0.5 + u);
+        }
+    }
+
+    /// Halves the points along the first axis, again and again, by the sizes of the parts.
+    void make_regions() {
+        regions_.cuts.dimension = case_.dimension;
+        regions_.cuts.num_parts = case_.num_regions;
+        regions_.cuts.tree.resize(static_cast<std::size_t>(case_.num_regions - 1));
+        std::vector<std::size_t> all(size());
+        std::iota(all.begin(), all.end(), 0U);
+        for (std::size_t a = 0; a < d_; ++a)
+            for (std::size_t i = 0; i < size(); ++i) {
+                regions_.box.lower[a] = std::min(regions_.box.lower[a], x(i, a));
+                regions_.box.upper[a] = std::max(regions_.box.upper[a], x(i, a));
+            }
+        make_region(root_of(regions_.cuts), {0, 0, case_.num_parts}, all);
+        regions_.weights = region_weights_;
+    }
+
+    void make_region(const Descent& region, const Descent& at, std::vector<std::size_t>& members) {
+        double sum = 0;
+        for (const std::size_t i : members) sum += weight(i);
+        if (region.is_part()) {
+            region_weights_.push_back(sum);
+            return;
+        }
+        std::ranges::stable_sort(members, {}, [&](std::size_t i) { return x(i, 0); });
+        double below = 0;
+        std::size_t k = 0;
+        const double target = sizes(at) > 0 ? sum * sizes(at.lower()) / sizes(at) : 0;
+        while (k < members.size() && below < target) below += weight(members[k++]);
+        const double value = members.empty()      ? 0
+                             : k < members.size() ? x(members[k], 0)
+                                                  : std::nextafter(x(members.back(), 0), infinity);
+        const Cut cut = plane(0, value);
+        regions_.cuts.tree[region.node] = cut;
+        auto [lower, upper] = divided(members, cut);
+        make_region(region.lower(), at.lower(), lower);
+        make_region(region.upper(), at.upper(), upper);
+    }
+
+    /// By the definition of a cut, in words of its own.
+    bool is_on_upper_side(std::size_t i, const Cut& cut) const {
+        const auto axis = static_cast<std::size_t>(cut.axis);
+        if (x(i, axis) < cut.at[axis]) return false;
+        if (x(i, axis) > cut.at[axis]) return true;
+        for (std::size_t a = 0; a < d_; ++a) {
+            if (a == axis) continue;
+            if (x(i, a) < cut.at[a]) return false;
+            if (x(i, a) > cut.at[a]) return true;
+        }
+        return true;
+    }
+
+    std::pair<std::vector<std::size_t>, std::vector<std::size_t>> divided(
+        const std::vector<std::size_t>& members, const Cut& cut) const {
+        std::pair<std::vector<std::size_t>, std::vector<std::size_t>> halves;
+        for (const std::size_t i : members)
+            (is_on_upper_side(i, cut) ? halves.second : halves.first).push_back(i);
+        return halves;
+    }
+
+    void spread() {
+        std::vector<std::size_t> order(size());
+        std::iota(order.begin(), order.end(), 0U);
+        std::ranges::stable_sort(order, {}, [&](std::size_t i) { return x(i, 0); });
+        const auto num = static_cast<std::size_t>(case_.num_ranks);
+        members_.resize(num);
+        for (std::size_t k = 0; k < size(); ++k) {
+            const std::size_t rank = case_.spread == Spread::sorted      ? k * num / size()
+                                     : case_.spread == Spread::scattered ? k % num
+                                                                         : (k % 2) * (num - 1);
+            members_[rank].push_back(order[k]);
+        }
+    }
+
+    void add_search(const RegionTree& tree, int rank) {
+        const auto& mine = members_[static_cast<std::size_t>(rank)];
+        std::vector<double> coordinates;
+        std::vector<double> weights;
+        for (const std::size_t i : mine) {
+            for (std::size_t a = 0; a < d_; ++a) coordinates.push_back(x(i, a));
+            if (!weights_.empty()) weights.push_back(weights_[i]);
+        }
+        Points points = interleaved_points(coordinates, case_.dimension, weights);
+        const Box box = bounding_box(points);
+        const BinnedPoints binned = bin_by_cell(points, make_support_mesh(box, case_.dimension, 4));
+        local_parts_.emplace_back(mine.size(), -1);
+        searches_.push_back(std::make_unique<RegionSearch>(
+            tree, rank, regions_, sort_by_cell(binned), local_parts_.back()));
+    }
+
+    std::map<std::size_t, Cut> known_by(int rank) const {
+        const Cuts cuts = searches_[static_cast<std::size_t>(rank)]->cuts();
+        std::map<std::size_t, Cut> known;
+        for (std::size_t k = 0; k < cuts.tree.size(); ++k)
+            known[is_whole(cuts) ? k : static_cast<std::size_t>(cuts.nodes[k])] = cuts.tree[k];
+        return known;
+    }
+
+    void collect() {
+        parts_.assign(size(), -1);
+        for (std::size_t rank = 0; rank < members_.size(); ++rank) {
+            for (std::size_t k = 0; k < members_[rank].size(); ++k)
+                parts_[members_[rank][k]] = local_parts_[rank][k];
+            for (const auto& [node, cut] : known_by(static_cast<int>(rank))) {
+                const auto [at, is_new] = cuts_.emplace(node, cut);
+                EXPECT_TRUE(at->second.axis == cut.axis && at->second.at == cut.at)
+                    << "ranks differ";
+            }
+        }
+    }
+
+    void descend(const Descent& at, const std::vector<std::size_t>& members, int depth) const {
+        if (members.empty()) return;
+        if (at.is_part()) {
+            for (const std::size_t i : members) ASSERT_EQ(parts_[i], at.first_part) << case_;
+            return;
+        }
+        ASSERT_TRUE(cuts_.contains(at.node)) << case_;
+        const Cut& cut = cuts_.at(at.node);
+        const auto [lower, upper] = divided(members, cut);
+        if ((1 << depth) >= case_.num_regions) expect_best(at, members, lower, cut);
+        descend(at.lower(), lower, depth + 1);
+        descend(at.upper(), upper, depth + 1);
+    }
+
+    void expect_best(const Descent& at, const std::vector<std::size_t>& members,
+                     const std::vector<std::size_t>& lower, const Cut& cut) const {
+        const auto sum = [&](const auto& some) {
+            double result = 0;
+            for (const std::size_t i : some) result += weight(i);
+            return result;
+        };
+        const double all = sum(members);
+        const double target = sizes(at) > 0 ? all * sizes(at.lower()) / sizes(at) : 0;
+        if (!(target > 0) || !(target < all)) {
+            EXPECT_TRUE(!(all > 0) || sum(lower) == target) << case_;
+            return;
+        }
+        EXPECT_EQ(cut.axis, axis_of(members)) << case_;
+        const double error = std::abs(sum(lower) - target);
+        EXPECT_LE(error, best_error(members, target, cut.axis) + 1e-12 * all) << case_;
+    }
+
+    int axis_of(const std::vector<std::size_t>& members) const {
+        std::vector<double> extents;
+        for (std::size_t a = 0; a < d_; ++a) {
+            const auto [least, most] =
+                std::ranges::minmax(members, {}, [&](std::size_t i) { return x(i, a); });
+            extents.push_back(x(most, a) - x(least, a));
+        }
+        const double longest = *std::ranges::max_element(extents);
+        int axis = 0;
+        while (extents[static_cast<std::size_t>(axis)] < share_of_longest * longest) ++axis;
+        return axis;
+    }
+
+    double best_error(std::vector<std::size_t> members, double target, int axis) const {
+        const auto key = [&](std::size_t i) {
+            std::vector<double> numbers{x(i, static_cast<std::size_t>(axis))};
+            for (std::size_t a = 0; a < d_ && !case_.plain_cuts; ++a) numbers.push_back(x(i, a));
+            return numbers;
+        };
+        std::ranges::sort(members, {}, key);
+        double best = target;
+        double below = 0;
+        for (std::size_t k = 0; k < members.size(); ++k) {
+            below += weight(members[k]);
+            if (k + 1 < members.size() && key(members[k]) == key(members[k + 1])) continue;
+            best = std::min(best, std::abs(below - target));
+        }
+        return best;
+    }
+
+    Case case_;
+    std::size_t d_;
+    std::vector<double> coordinates_;
+    std::vector<double> weights_;
+    Regions regions_;
+    std::vector<double> region_weights_;
+    std::vector<std::vector<std::size_t>> members_;  ///< points of each rank
+    std::vector<std::vector<Part>> local_parts_;
+    std::vector<std::unique_ptr<RegionSearch>> searches_;
+    std::vector<Part> parts_;
+    std::map<std::size_t, Cut> cuts_;  ///< that any rank knows
+};
+
+void expect_exact(const Case& one) {
+    Global all(one);
+    all.run();
+    all.expect_best_cuts();
+    all.expect_known_paths();
+    EXPECT_NEAR(all.told_imbalance(), all.counted_imbalance(), 1e-12 * all.told_imbalance()) << one;
+}
+
+TEST(RegionSearch, cuts_exactly_on_any_number_of_ranks) {
+    for (const int ranks : {3, 4, 5, 6, 7, 9, 10, 12, 16})
+        for (const int regions : {2, 4, 8})
+            for (const Spread spread : {Spread::sorted, Spread::scattered, Spread::on_few_ranks})
+                if (ranks > regions)
+                    expect_exact({.num_ranks = ranks,
+                                  .num_regions = regions,
+                                  .num_parts = ranks,
+                                  .spread = spread,
+                                  .weights = ranks % 2 == 0 ? "equal" : "any"});
+}
+
+TEST(RegionSearch, makes_more_parts_than_ranks_and_fewer) {
+    for (const int parts : {3, 5, 8, 13, 40, 64})
+        for (const int ranks : {3, 4, 7, 10})
+            for (const Spread spread : {Spread::sorted, Spread::scattered})
+                expect_exact({.num_ranks = ranks,
+                              .num_regions = 2,
+                              .num_parts = parts,
+                              .spread = spread,
+                              .weights = "any"});
+}
+
+TEST(RegionSearch, cuts_clouds_of_any_kind) {
+    for (const int dimension : {1, 2, 3})
+        for (const char* cloud : {"uniform", "corner", "lattice", "one place", "decades", "line"})
+            for (const char* weights : {"equal", "any", "decades", "some"})
+                for (const bool plain : {false, true})
+                    expect_exact({.num_ranks = 7,
+                                  .num_regions = 4,
+                                  .num_parts = 11,
+                                  .dimension = dimension,
+                                  .spread = Spread::scattered,
+                                  .cloud = cloud,
+                                  .weights = weights,
+                                  .plain_cuts = plain});
+}
+
+TEST(RegionSearch, leaves_parts_of_no_size_empty) {
+    for (const auto& sizes : std::vector<std::vector<double>>{{0, 1, 0, 0, 2, 3, 0.5, 0, 1},
+                                                              {1, 0, 0, 0, 0, 0, 0, 0, 0},
+                                                              {0, 0, 0, 0, 0, 0, 0, 0, 2},
+                                                              {1, 2, 3, 4, 5, 6, 7, 8, 9}})
+        for (const int ranks : {3, 9, 14})
+            expect_exact({.num_ranks = ranks,
+                          .num_regions = 2,
+                          .num_parts = 9,
+                          .spread = Spread::scattered,
+                          .part_sizes = sizes});
+}
+
+TEST(RegionSearch, gathers_no_more_than_it_may_whatever_shares_a_coordinate) {
+    // More points in one bin, and in one place, than are gathered: bins by bits, ties, and next to
+    // 1 samples as well.
+    for (const char* cloud : {"decades", "lattice", "one place", "corner", "next to 1"})
+        expect_exact({.num_ranks = 5,
+                      .num_regions = 2,
+                      .num_parts = 7,
+                      .spread = Spread::scattered,
+                      .cloud = cloud,
+                      .weights = "any",
+                      .num_points = 30000});
+}
+
+TEST(RegionSearch, gives_the_same_parts_wherever_points_lie) {
+    for (const int dimension : {1, 2, 3}) {
+        std::vector<std::vector<Part>> parts;
+        for (const Spread spread : {Spread::sorted, Spread::scattered, Spread::on_few_ranks})
+            for (const int ranks : {5, 8, 16}) {
+                Global all({.num_ranks = ranks,
+                            .num_regions = 4,
+                            .num_parts = 12,
+                            .dimension = dimension,
+                            .spread = spread,
+                            .weights = "any"});
+                all.run();
+                parts.push_back(all.parts());
+            }
+        for (const auto& other : parts) EXPECT_EQ(other, parts[0]);
+    }
+}
+
+TEST(RegionSearch, counts_the_cuts_among_points_in_one_place) {
+    Global all({.num_ranks = 4, .num_regions = 2, .num_parts = 8, .cloud = "one place"});
+    all.run();
+    // All points are on one side of all cuts; each cut on the way to their part counts.
+    EXPECT_EQ(all.num_coincident(), 2);
+}
+
+TEST(RegionSearch, keeps_to_a_tolerance_in_two_rounds_a_level) {
+    for (const int ranks : {16, 64})
+        for (const Spread spread : {Spread::sorted, Spread::scattered}) {
+            Global all({.num_ranks = ranks,
+                        .num_regions = 4,
+                        .num_parts = ranks,
+                        .spread = spread,
+                        .is_exact = false,
+                        .num_points = 64000});
+            const auto counts = all.run(1.02);
+            EXPECT_LE(all.counted_imbalance(), 1.02);
+            EXPECT_EQ(all.told_imbalance(), all.counted_imbalance());
+            const int levels = ranks == 16 ? 2 : 4;
+            EXPECT_LE(counts.rounds, 3 * levels);
+            RecordProperty("rounds_" + std::to_string(ranks), counts.rounds);
+        }
+}
+
+}  // namespace
+}  // namespace rrcb

@@ -11,9 +11,10 @@
 #include "gather/merge_tree_mpi.hpp"
 #include "options/validation.hpp"
 #include "refinement/refinement_mpi.hpp"
+#include "stage_scope.hpp"
+#include "wide_mpi.hpp"
 
 #include <rrcb/balance.hpp>
-#include <rrcb/stages.hpp>
 
 #include <algorithm>
 #include <array>
@@ -27,23 +28,6 @@
 namespace rrcb {
 
 namespace {
-
-/// One stage, from here to the end of the scope; nothing at all without an observer.
-class StageScope {
-  public:
-    StageScope(StageObserver* observer, Stage stage) : observer_(observer), stage_(stage) {
-        if (observer_ != nullptr) observer_->begin(stage_);
-    }
-    ~StageScope() {
-        if (observer_ != nullptr) observer_->end(stage_);
-    }
-    StageScope(const StageScope&) = delete;
-    StageScope& operator=(const StageScope&) = delete;
-
-  private:
-    StageObserver* observer_;
-    Stage stage_;
-};
 
 /// Options with nothing left to default but the sizes of equal parts.
 Options complete(Options options, int num_ranks) {
@@ -61,18 +45,6 @@ void normalize(std::vector<double>& sizes, int num_parts) {
     if (sizes.empty()) sizes.assign(static_cast<std::size_t>(num_parts), 1.0);
     const int exponent = std::ilogb(std::accumulate(sizes.begin(), sizes.end(), 0.0));
     for (double& size : sizes) size = std::ldexp(size, -exponent);
-}
-
-/// Gathers the contributions of all ranks at the root. Collective.
-///
-/// The tree is that of every other call. Points have nothing to gain from a stop on the way, so
-/// they go straight to the root, as in the paper, once it has told all ranks that all ask for this.
-void gather(Contribution& mine, const Options& options, int dimension, Participant& self) {
-    const StageScope stage(options.observer, Stage::gather);
-    merge_up(mine, dimension, MergeTree{mpi::size_of(self.comm)}, most_cells(options), self);
-    if (!traits_of(options.domain).sends_points) return;
-    confirm(mine.summary, self);
-    gather_points(mine.points, self);
 }
 
 /// Brings the decision of the root to every rank, or throws on all what failed on one. Collective.
@@ -99,8 +71,27 @@ struct Work {
     PartTotals totals;  ///< of this rank, by earlier cuts
     PartSums sums;      ///< where parts are counted
     std::optional<Refinement> refinement;
+    /// Where many ranks make the parts, what was asked for: the options above are for regions.
+    std::optional<Options> whole;
+    std::optional<RegionRefinement> below_regions;
     Balance result;
 };
+
+/// Gathers the contributions of all ranks at the root. Collective.
+///
+/// The tree is that of every other call. Points have nothing to gain from a stop on the way, so
+/// they go straight to the root, as in the paper, once it has told all ranks that all ask for this.
+void gather(int dimension, Work& work, Participant& self) {
+    const Options& options = work.options;
+    Contribution& mine = work.mine;
+    const StageScope stage(options.observer, Stage::gather);
+    const std::size_t most = most_cells(options);
+    merge_up(mine, dimension, MergeTree{mpi::size_of(self.comm)},
+             work.whole ? std::min(most, most_cells_of_regions) : most, self);
+    if (!traits_of(options.domain).sends_points) return;
+    confirm(mine.summary, self);
+    gather_points(mine.points, self);
+}
 
 bool is_known(const Verdict& verdict) {
     return !std::isnan(verdict.current_imbalance);
@@ -116,6 +107,10 @@ void introduce(const Points& points, const Options& given, const Box& box, const
     work.mine.summary.request = request_of(options, points.dimension, previous);
     // Not before the ranks are compared by what they were given.
     if (previous) options.domain = DomainKind::analytic;
+    if (!previous && is_wide(options, mpi::size_of(self.comm))) {
+        if (!options.part_sizes.empty()) normalize(options.part_sizes, options.num_parts);
+        work.whole = std::exchange(options, region_options(options));
+    }
     normalize(options.part_sizes, options.num_parts);
 }
 
@@ -127,6 +122,7 @@ void make_room_for_parts(const Points& points, bool counts, Work& work, const Pa
     if (is_refined(options))
         work.refinement.emplace(options, points.dimension, mpi::rank_of(self.comm) == root,
                                 work.sums);
+    if (work.whole) work.below_regions.emplace(mpi::rank_of(self.comm), mpi::size_of(self.comm));
 }
 
 /// Everything before the first message. Not collective.
@@ -164,17 +160,6 @@ void prepare_to_reuse(const Points& points, const Options& given, const Cuts& pr
     work.mine.part_totals = totals.weights;
     work.mine.part_totals.insert(work.mine.part_totals.end(), totals.counts.begin(),
                                  totals.counts.end());
-}
-
-/// Smallest box that holds those of all ranks. Collective.
-Box box_together(Box box, const Participant& self) {
-    for (double& lower : box.lower) lower = -lower;
-    std::array ends{box.lower, box.upper};
-    mpi::check(
-        MPI_Allreduce(MPI_IN_PLACE, ends.data(), 2 * max_dimension, MPI_DOUBLE, MPI_MAX, self.comm),
-        "MPI_Allreduce");
-    for (double& lower : ends[0]) lower = -lower;
-    return {ends[0], ends[1]};
 }
 
 /// Tells what the parts weigh, as counted.
@@ -318,17 +303,24 @@ void divide_together(const Points& points, Work& work, Participant& self) {
 
 Balance balance(const Points& points, const Options& given, const Cuts* previous, bool may_stay,
                 Participant& self) {
+    // Cuts of which ranks know some only are made anew.
+    if (previous && !is_whole(*previous)) previous = nullptr;
     Work work;
     work.options.observer = given.observer;
     self.attempt([&] {
         previous ? prepare_to_reuse(points, given, *previous, work, self)
                  : prepare(points, given, may_stay, work, self);
     });
-    gather(work.mine, work.options, points.dimension, self);
+    gather(points.dimension, work, self);
     decide_together(work.mine, work.options, work.decision, self);
-    work.result.report = report_of(work.decision.verdict, work.options.num_parts);
+    const int num_parts = work.whole ? work.whole->num_parts : work.options.num_parts;
+    work.result.report = report_of(work.decision.verdict, num_parts);
     work.result.cuts = std::move(work.decision.bisection.cuts);
     previous ? reuse_together(points, work, self) : divide_together(points, work, self);
+    if (!work.whole) return std::move(work.result);
+    work.refinement.reset();
+    refine_regions(*work.whole, work.decision.verdict, work.mine.summary.box, work.binned,
+                   *work.below_regions, work.result, self);
     return std::move(work.result);
 }
 

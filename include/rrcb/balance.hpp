@@ -14,11 +14,13 @@ struct Report {
     GlobalCount num_points = 0;        ///< over all ranks
     GlobalCount num_records = 0;       ///< cells (or points, for DomainKind::points) bisected
     double total_weight = 0;           ///< over all ranks
-    double estimated_imbalance = 1;    ///< as the statistical domain sees it, see quality.hpp
+    double estimated_imbalance = 1;    ///< as the statistical domain sees it, see quality.hpp; of
+                                       ///< regions where many ranks make the parts
     double measured_imbalance = 1;     ///< of the points, counted; NaN where they were not
     bool within_tolerance = false;     ///< measured to be within Options::imbalance_tolerance
     std::vector<double> part_weights;  ///< over all ranks, counted, one per part, by count where
-                                       ///< all weights are 0; empty where they were not counted
+                                       ///< all weights are 0; empty where they were not counted,
+                                       ///< and where many ranks make the parts
     double least_imbalance = 1;  ///< no partition is better: of the heaviest point in a part alone
     int coincident_cuts = 0;  ///< that met points no allowed cut can tell apart, where the balance
                               ///< asked for divides them; counted by the refinement
@@ -28,7 +30,8 @@ struct Report {
     int surplus_parts = 0;          ///< parts that must stay empty: more parts than points
 };
 
-/// The new partition; every rank gets the same cuts and the parts of its own points.
+/// The new partition; every rank gets the same cuts, or those that it knows, and the parts of its
+/// own points.
 struct Balance {
     Cuts cuts;                ///< between the parts, for look-ups
     std::vector<Part> parts;  ///< length points.count
@@ -58,6 +61,15 @@ struct Balance {
 /// few dozen points: then what the ranks hold is no such bisection, and points may go to and fro.
 /// Part r goes to rank r where it lay there, as after the last call; to another where ranks were
 /// renumbered and none is empty.
+///
+/// Where there are more parts, and more ranks, than Options::central_parts, rank 0 makes regions in
+/// this way, and the cuts below them are made by many ranks. Each rank tells the owner of a node,
+/// the first rank of its first part, what it has there, along ceil(log2 R) messages on R ranks, in
+/// which records of one node are joined; the owner answers the same way. Nodes take about two such
+/// rounds a level to a tolerance, four exactly. Then no rank holds an array with an entry for each
+/// part or rank, but for `part_sizes`: beside the points and a sorted copy of them a rank has about
+/// 1.5 kB for each node of a level in which it has points, 64 kB for messages, and the owner of a
+/// node up to 1024 positions. Such points never stay as they lie.
 ///
 /// Cuts lie where Options::min_width and Options::grid let them, those of points that stay as well.
 /// The axes are then chosen with a look ahead at what the cuts below can do, and refined cuts are
@@ -90,6 +102,7 @@ RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm 
 /// dimension and number of parts asked for. Points in one place that it divides are counted on the
 /// side where the look-up finds them. Report::kept, estimated_imbalance and num_records tell
 /// nothing here. Without any points the cuts stay, and the report is that of a call from nothing.
+/// Cuts of which ranks know some only are made anew, see Options::central_parts.
 RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm comm,
                          const Cuts& previous);
 

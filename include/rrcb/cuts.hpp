@@ -28,8 +28,9 @@ RRCB_API bool is_above(const Cut& cut, const Vector& position, int dimension);
 /// `tree` holds num_parts - 1 cuts in preorder. A node of n parts leaves `lower_parts(n)` of them,
 /// the lower numbers, below its cut. Same bits on every rank after `balance`.
 ///
-/// Cuts may hold a part of the tree, see Options::central_parts: then `tree` holds the cuts that
-/// this rank knows, and `nodes` tells which these are.
+/// Where many ranks make the parts, see Options::central_parts, `tree` holds the cuts that this
+/// rank knows, and `nodes` tells which these are, on every rank: also on one that happens to know
+/// all.
 struct Cuts {
     int dimension = 0;      ///< of the points
     int num_parts = 1;      ///< of the whole tree
@@ -39,7 +40,7 @@ struct Cuts {
     std::vector<std::int32_t> nodes{};
 };
 
-/// True when cuts hold the whole tree. Not collective.
+/// True when cuts are the whole tree, the same on every rank. Not collective.
 inline bool is_whole(const Cuts& cuts) {
     return cuts.nodes.empty();
 }

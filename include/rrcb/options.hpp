@@ -74,6 +74,14 @@ struct Options {
     /// Only where cuts are refined and not plain.
     Coincident coincident = Coincident::together;
 
+    /// Parts that rank 0 makes alone, at least 2. Where there are more, and more ranks, it makes as
+    /// many regions, a power of two, and each cut below them is found by a rank of its parts. A
+    /// rank then gets the cuts between the regions, those of nodes in which it has points, and
+    /// those on the way to its own parts, see Cuts::nodes. No effect with domains other than
+    /// analytic and learned, with CutRule::midpoint, Refine::none, `min_width`, `grid`,
+    /// `grouped_axes`, `cut_axes`, or Coincident::divide unless cuts are plain.
+    int central_parts = 64;
+
     double sigma_multiplier = 1.5;  ///< sampled: half-width of a cell's sampling box in sigmas, > 0
     double sample_fraction = 1.0;   ///< sampled: points drawn per real point, in (0, 1]
     std::uint64_t seed = 1;         ///< sampled: the same seed gives the same points

@@ -243,6 +243,16 @@ void broadcast(Decision& decision, const Participant& self) {
     unpack(decision);
 }
 
+Box box_together(Box box, const Participant& self) {
+    for (double& lower : box.lower) lower = -lower;
+    std::array ends{box.lower, box.upper};
+    mpi::check(
+        MPI_Allreduce(MPI_IN_PLACE, ends.data(), 2 * max_dimension, MPI_DOUBLE, MPI_MAX, self.comm),
+        "MPI_Allreduce");
+    for (double& lower : ends[0]) lower = -lower;
+    return {ends[0], ends[1]};
+}
+
 void broadcast_current(Decision& decision, const Participant& self) {
     decision.verdict.stays = 1;
     if (mpi::rank_of(self.comm) == root) pack(decision);

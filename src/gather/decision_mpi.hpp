@@ -82,6 +82,9 @@ void confirm(const Summary& all, Participant& self);
 /// not know how many are coming.
 void broadcast(Decision& decision, const Participant& self);
 
+/// Smallest box that holds those of all ranks. Collective.
+Box box_together(Box box, const Participant& self);
+
 /// Gives everybody the current parts, which the root has read, after all: they stay. Collective.
 void broadcast_current(Decision& decision, const Participant& self);
 

@@ -240,10 +240,9 @@ Cuts RegionSearch::cuts() const {
     std::vector<KnownCut> known = known_;
     std::ranges::sort(known, {}, &KnownCut::node);
     Cuts cuts{dimension_, tree_.num_parts, {}, {}};
-    const bool is_whole = known.size() + 1 == static_cast<std::size_t>(tree_.num_parts);
     for (const KnownCut& one : known) {
         cuts.tree.push_back(one.cut);
-        if (!is_whole) cuts.nodes.push_back(static_cast<std::int32_t>(one.node));
+        cuts.nodes.push_back(static_cast<std::int32_t>(one.node));
     }
     return cuts;
 }

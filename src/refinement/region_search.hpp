@@ -70,7 +70,7 @@ class RegionSearch {
     static void join(std::span<const double> a, std::span<const double> b,
                      std::vector<double>& joined);
 
-    /// The cuts that this rank knows. Throws std::bad_alloc.
+    /// The cuts that this rank knows, with their numbers, which may be all. Throws std::bad_alloc.
     Cuts cuts() const;
 
     /// Of the parts that this rank owns; 0 where these are empty.

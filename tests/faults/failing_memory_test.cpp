@@ -79,6 +79,15 @@ TEST(FailingMemory, in_exact_cuts) {
     fail_in_balance(refining(Refine::exact));
 }
 
+TEST(FailingMemory, in_parts_that_many_ranks_make) {
+    if (test::num_ranks() < 3) return;
+    for (const Refine refine : {Refine::tolerance, Refine::exact}) {
+        Options options = refining(refine);
+        options.central_parts = 2;
+        fail_in_balance(options);
+    }
+}
+
 TEST(FailingMemory, in_cuts_from_an_earlier_call) {
     const std::vector<double> coordinates = cloud_here(2);
     const Cuts good =

@@ -173,10 +173,10 @@ TEST(FailingMpi, of_one_message_of_a_plan_is_that_ranks_alone_and_the_next_plan_
 }
 
 /// The error of a call of `balance` in which that message fails on that rank.
-void expect_error_of(int rank, long message, const Points& points) {
+void expect_error_of(int rank, long message, const Points& points, const Options& options) {
     mpi_layer::fail_message(rank == test::rank() ? message : 0);
     try {
-        balance(points, Options{}, MPI_COMM_WORLD);
+        balance(points, options, MPI_COMM_WORLD);
         ADD_FAILURE() << "nothing was thrown";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::mpi);
@@ -186,11 +186,12 @@ void expect_error_of(int rank, long message, const Points& points) {
     }
 }
 
-TEST(FailingMpi, of_one_rank_while_cells_travel_reaches_the_callers_of_all) {
+/// Fails each message of each rank, in calls by these options, of which every `step`-th is tried.
+void fail_each_message_of_each_rank(const Options& options, long step) {
     const Cloud cloud;
     const Points points = cloud.points();
     mpi_layer::fail_message(0);
-    balance(points, Options{}, MPI_COMM_WORLD);
+    balance(points, options, MPI_COMM_WORLD);
     const long mine = mpi_layer::counted_messages();
     for (int rank = 0; rank < test::num_ranks(); ++rank) {
         long num_messages = mine;
@@ -198,13 +199,35 @@ TEST(FailingMpi, of_one_rank_while_cells_travel_reaches_the_callers_of_all) {
         if (test::num_ranks() > 1) {
             EXPECT_GT(num_messages, 0);
         }
-        for (long message = 1; message <= num_messages; ++message) {
+        for (long message = 1; message <= num_messages; message += step) {
             SCOPED_TRACE("rank " + std::to_string(rank) + ", message " + std::to_string(message));
-            expect_error_of(rank, message, points);
+            expect_error_of(rank, message, points, options);
             mpi_layer::fail_message(0);
-            balance(points, Options{}, MPI_COMM_WORLD);
+            balance(points, options, MPI_COMM_WORLD);
         }
     }
+}
+
+TEST(FailingMpi, of_one_rank_while_cells_travel_reaches_the_callers_of_all) {
+    fail_each_message_of_each_rank({}, 1);
+}
+
+/// Options by which many ranks make the parts.
+Options wide() {
+    Options options;
+    options.refine = Refine::exact;
+    options.central_parts = 2;
+    return options;
+}
+
+TEST(FailingMpi, of_one_rank_while_many_make_the_parts_reaches_the_callers_of_all) {
+    if (test::num_ranks() > 2)
+        fail_each_message_of_each_rank(wide(), test::num_ranks() > 4 ? 7 : 1);
+}
+
+TEST(FailingMpi, of_all_ranks_while_many_make_the_parts_reaches_their_callers) {
+    const Cloud cloud;
+    expect_errors([&] { balance(cloud.points(), wide(), MPI_COMM_WORLD); });
 }
 
 TEST(FailingMpi, makes_zoltan_create_give_a_handle_that_refuses_rrcb) {

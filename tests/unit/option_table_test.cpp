@@ -56,6 +56,7 @@ TEST(OptionTable, writes_what_it_reads) {
         {"refine", {"AUTO", "NONE", "TOLERANCE", "EXACT"}},
         {"coincident", {"TOGETHER", "DIVIDE"}},
         {"imbalance_tolerance", {"1", "1.01", "1e+300"}},
+        {"central_parts", {"2", "64", "2147483647"}},
         {"sigma_multiplier", {"0.1", "5e-324", "1.7976931348623157e+308"}},
         {"sample_fraction", {"0.25", "1"}},
         {"seed", {"0", "18446744073709551615"}},
@@ -85,6 +86,8 @@ TEST(OptionTable, reads_words_in_any_case) {
 TEST(OptionTable, reads_no_number_beyond_its_range_and_leaves_the_value) {
     for (const char* text : {"0", "-1", "4097", "1.5", "8X", "", "99999999999"})
         EXPECT_FALSE(reads("support_mesh", text)) << text;
+    for (const char* text : {"0", "1", "-2", "2.5", "AUTO", "2147483648"})
+        EXPECT_FALSE(reads("central_parts", text)) << text;
     for (const char* text : {"0", "-2", "nan", "inf", "two"})
         EXPECT_FALSE(reads("sigma_multiplier", text)) << text;
     for (const char* text : {"0", "1.01", "-0.5", "nan"})
@@ -201,6 +204,7 @@ TEST(Request, differs_in_every_option_by_its_name) {
         {"refine", [](Options& o) { o.refine = Refine::none; }},
         {"coincident", [](Options& o) { o.coincident = Coincident::divide; }},
         {"imbalance_tolerance", [](Options& o) { o.imbalance_tolerance = 2; }},
+        {"central_parts", [](Options& o) { o.central_parts = 2; }},
         {"sigma_multiplier", [](Options& o) { o.sigma_multiplier = 2; }},
         {"sample_fraction", [](Options& o) { o.sample_fraction = 0.5; }},
         {"seed", [](Options& o) { o.seed = 2; }}};

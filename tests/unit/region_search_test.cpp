@@ -264,7 +264,7 @@ class Global {
         const Cuts cuts = searches_[static_cast<std::size_t>(rank)]->cuts();
         std::map<std::size_t, Cut> known;
         for (std::size_t k = 0; k < cuts.tree.size(); ++k)
-            known[is_whole(cuts) ? k : static_cast<std::size_t>(cuts.nodes[k])] = cuts.tree[k];
+            known[static_cast<std::size_t>(cuts.nodes[k])] = cuts.tree[k];
         return known;
     }
 

@@ -1,0 +1,111 @@
+#include "wide_mpi.hpp"
+
+#include "bisection/domain_kinds.hpp"
+#include "collective/communicator.hpp"
+#include "cuts/cut_limits.hpp"
+#include "cuts/tree.hpp"
+#include "stage_scope.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace rrcb {
+
+namespace {
+
+/// Calls visit(node) for each of the `num_regions` nodes, a power of two, that the tree of
+/// `num_parts` parts has on one level.
+template <class Visit>
+void for_each_region(const Descent& at, int num_regions, Visit&& visit) {
+    if (num_regions == 1) return visit(at);
+    for_each_region(at.lower(), num_regions / 2, visit);
+    for_each_region(at.upper(), num_regions / 2, visit);
+}
+
+double sum_of(std::span<const double> values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// Sum of the sizes of all parts, in those of the largest.
+double parts_in_all(const Options& options) {
+    if (options.part_sizes.empty()) return options.num_parts;
+    return sum_of(options.part_sizes) / *std::ranges::max_element(options.part_sizes);
+}
+
+RegionTree tree_of(const Options& options, const Verdict& verdict, double weight, int num_ranks) {
+    RegionTree tree;
+    tree.num_parts = options.num_parts;
+    tree.num_ranks = num_ranks;
+    tree.weight = weight;
+    tree.part_sizes = options.part_sizes;
+    tree.rule.tolerance = options.imbalance_tolerance;
+    tree.rule.common_weight = verdict.common_weight;
+    tree.rule.heaviest = verdict.heaviest;
+    tree.rule.is_exact = options.refine == Refine::exact;
+    tree.share_of_longest = traits_of(options.domain).share_of_longest;
+    tree.plain_cuts = options.plain_cuts;
+    return tree;
+}
+
+}  // namespace
+
+bool is_wide(const Options& options, int num_ranks) {
+    const bool has_statistics =
+        options.domain == DomainKind::analytic || options.domain == DomainKind::learned;
+    const bool are_axes_free = options.grouped_axes.empty() && options.cut_axes.empty();
+    return std::min(options.num_parts, num_ranks) > options.central_parts && has_statistics &&
+           is_refined(options) && are_axes_free && !are_cuts_limited(options) &&
+           (options.coincident == Coincident::together || options.plain_cuts);
+}
+
+Options region_options(const Options& options) {
+    Options regions = options;
+    regions.num_parts =
+        static_cast<int>(std::bit_floor(static_cast<unsigned>(options.central_parts)));
+    regions.part_sizes.clear();
+    for_each_region({0, 0, options.num_parts}, regions.num_parts, [&](const Descent& at) {
+        const auto first = static_cast<std::size_t>(at.first_part);
+        const auto count = static_cast<std::size_t>(at.num_parts);
+        regions.part_sizes.push_back(
+            options.part_sizes.empty()
+                ? at.num_parts
+                : sum_of(std::span(options.part_sizes).subspan(first, count)));
+    });
+    const auto levels = [](int num_parts) {
+        return static_cast<double>(std::bit_width(static_cast<unsigned>(num_parts - 1)));
+    };
+    regions.imbalance_tolerance = std::pow(options.imbalance_tolerance,
+                                           levels(regions.num_parts) / levels(options.num_parts));
+    return regions;
+}
+
+void refine_regions(const Options& options, const Verdict& verdict, const Box& box,
+                    const BinnedPoints& binned, RegionRefinement& refinement, Balance& result,
+                    Participant& self) {
+    const StageScope stage(options.observer, Stage::refinement);
+    Report& report = result.report;
+    // Without points nothing was counted.
+    std::vector<double> weights = std::exchange(report.part_weights, {});
+    self.attempt([&] { weights.resize(static_cast<std::size_t>(result.cuts.num_parts)); });
+    const double weight =
+        report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
+    const Regions regions{std::move(result.cuts), weights, box_together(box, self)};
+    Refined refined =
+        refinement.refine(regions, tree_of(options, verdict, weight, mpi::size_of(self.comm)),
+                          binned, result.parts, self);
+    agree(self);
+    result.cuts = std::move(refined.cuts);
+    report.least_imbalance =
+        weight > 0 ? std::max(1.0, verdict.heaviest / weight * parts_in_all(options)) : 1;
+    report.rounds += refined.rounds;
+    report.coincident_cuts += refined.coincident_cuts;
+    if (report.num_points == 0) return;
+    report.measured_imbalance = refined.imbalance;
+    report.within_tolerance = refined.imbalance <= options.imbalance_tolerance;
+}
+
+}  // namespace rrcb

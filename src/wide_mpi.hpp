@@ -1,0 +1,31 @@
+#pragma once
+
+#include "gather/decision_mpi.hpp"
+#include "refinement/region_refinement_mpi.hpp"
+
+#include <rrcb/balance.hpp>
+
+namespace rrcb {
+
+/// True when many ranks make the parts below regions, see Options::central_parts; by complete
+/// options.
+bool is_wide(const Options& options, int num_ranks);
+
+/// Options by which the regions are made in place of parts: as many as the largest power of two up
+/// to central_parts, and to a tolerance that leaves the levels below theirs. Sizes are normalized,
+/// or empty.
+Options region_options(const Options& options);
+
+/// Cells that a merging leaves for the regions at most, whatever the mesh: so few that no rank,
+/// which takes in those of seven others at once, receives more than 64 kB.
+inline constexpr std::size_t most_cells_of_regions = 112;
+
+/// Makes the parts below the regions that are the parts of `result`.
+///
+/// Collective. `options` are those of the call, complete. `verdict` tells of all points; `box`
+/// holds this rank's at least, and `binned` has them.
+void refine_regions(const Options& options, const Verdict& verdict, const Box& box,
+                    const BinnedPoints& binned, RegionRefinement& refinement, Balance& result,
+                    Participant& self);
+
+}  // namespace rrcb

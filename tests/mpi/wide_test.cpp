@@ -1,0 +1,339 @@
+// Parts that many ranks make, see Options::central_parts.
+#include "clouds_of_all_ranks.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/error.hpp>
+#include <rrcb/plan.hpp>
+#include <rrcb/quality.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+using test::num_ranks;
+using test::rank;
+using test::share_of_cloud;
+
+using Coordinate = std::function<double(std::size_t i, int axis, double u)>;
+
+double uniform(std::size_t, int, double u) {
+    return u;
+}
+
+Options wide_options(int central_parts, Refine refine = Refine::exact) {
+    Options options;
+    options.central_parts = central_parts;
+    options.refine = refine;
+    return options;
+}
+
+/// Node of a tree, as the documentation of Cuts describes it.
+struct Node {
+    int number;
+    int first_part;
+    int num_parts;
+
+    Node lower() const { return {number + 1, first_part, num_parts / 2}; }
+    Node upper() const {
+        const int below = num_parts / 2;
+        return {number + below, first_part + below, num_parts - below};
+    }
+};
+
+/// The cut of a node, or null where this rank does not know it.
+const Cut* find(const Cuts& cuts, const Node& node) {
+    const auto at = std::ranges::lower_bound(cuts.nodes, node.number);
+    if (at == cuts.nodes.end() || *at != node.number) return nullptr;
+    return &cuts.tree[static_cast<std::size_t>(at - cuts.nodes.begin())];
+}
+
+/// Every point is where the cuts that its rank knows put it.
+void expect_parts_of_cuts(const Points& points, const Balance& result) {
+    const Cuts& cuts = result.cuts;
+    ASSERT_EQ(cuts.nodes.size(), cuts.tree.size());
+    ASSERT_FALSE(is_whole(cuts));
+    ASSERT_TRUE(std::ranges::is_sorted(cuts.nodes));
+    for (LocalIndex i = 0; i < points.count; ++i) {
+        Node at{0, 0, cuts.num_parts};
+        while (at.num_parts > 1) {
+            const Cut* cut = find(cuts, at);
+            ASSERT_NE(cut, nullptr) << "node " << at.number;
+            at = is_above(*cut, points.position(i), points.dimension) ? at.upper() : at.lower();
+        }
+        ASSERT_EQ(result.parts[i], at.first_part);
+    }
+}
+
+/// The cuts on the way to the parts of this rank are known.
+void expect_own_paths(const Cuts& cuts) {
+    for (int part = 0; part < cuts.num_parts; ++part) {
+        const RankRange ranks = ranks_of_part(part, cuts.num_parts, num_ranks());
+        if (rank() < ranks.first_rank || rank() >= ranks.first_rank + ranks.count) continue;
+        Node at{0, 0, cuts.num_parts};
+        while (at.num_parts > 1) {
+            EXPECT_NE(find(cuts, at), nullptr);
+            at = part >= at.upper().first_part ? at.upper() : at.lower();
+        }
+    }
+}
+
+/// Ranks that know a cut know the same one. Collective.
+void expect_same_cuts_on_all_ranks(const Cuts& cuts) {
+    std::vector<double> mine(static_cast<std::size_t>(5 * (cuts.num_parts - 1)), -HUGE_VAL);
+    std::vector<double> most(mine.size());
+    std::vector<double> least(mine.size(), HUGE_VAL);
+    for (std::size_t k = 0; k < cuts.tree.size(); ++k) {
+        const auto at = static_cast<std::size_t>(5 * cuts.nodes[k]);
+        const Cut& cut = cuts.tree[k];
+        const double values[] = {1.0, 1.0 * cut.axis, cut.at[0], cut.at[1], cut.at[2]};
+        std::ranges::copy(values, mine.begin() + static_cast<std::ptrdiff_t>(at));
+        std::ranges::copy(values, least.begin() + static_cast<std::ptrdiff_t>(at));
+    }
+    const int length = static_cast<int>(mine.size());
+    MPI_Allreduce(mine.data(), most.data(), length, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    MPI_Allreduce(MPI_IN_PLACE, least.data(), length, MPI_DOUBLE, MPI_MIN, MPI_COMM_WORLD);
+    for (std::size_t k = 0; k < most.size(); k += 5) {
+        ASSERT_EQ(most[k], 1) << "node " << k / 5 << " is known to nobody";
+        for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(most[k + i], least[k + i]);
+    }
+}
+
+/// Checks all that holds for any wide call. Collective.
+std::vector<double> expect_consistent(const Points& points, const Balance& result) {
+    expect_parts_of_cuts(points, result);
+    expect_own_paths(result.cuts);
+    expect_same_cuts_on_all_ranks(result.cuts);
+    EXPECT_TRUE(result.report.part_weights.empty());
+    Points counted = points;
+    if (result.report.all_weights_zero) counted.weights = {};
+    return part_weights(counted, result.parts, result.cuts.num_parts, MPI_COMM_WORLD);
+}
+
+/// Numbers of parts that rank 0 makes, on so many ranks that others make parts as well.
+std::vector<int> central_parts() {
+    std::vector<int> numbers;
+    for (const int number : {2, 3, 4, 8})
+        if (number < num_ranks()) numbers.push_back(number);
+    return numbers;
+}
+
+TEST(Wide, exact_leaves_each_part_within_one_point_of_the_ideal) {
+    const std::vector<std::pair<std::string, Coordinate>> clouds{
+        {"uniform", uniform},
+        {"power law", [](std::size_t, int, double u) { return std::pow(u, 9); }},
+        {"far clusters",
+         [](std::size_t i, int, double u) { return 1e6 * static_cast<double>(i % 2) + 1e-6 * u; }},
+        {"whole range", [](std::size_t, int, double u) { return (2 * u - 1) * 1.7e308; }}};
+    for (const auto& [name, coordinate] : clouds)
+        for (const int dimension : {1, 2, 3})
+            for (const int central : central_parts()) {
+                const auto mine = share_of_cloud(2048, dimension, coordinate);
+                const Points points = interleaved_points(mine, dimension);
+                const Balance result = balance(points, wide_options(central), MPI_COMM_WORLD);
+                const auto weights = expect_consistent(points, result);
+                for (const double weight : weights)
+                    EXPECT_LE(std::abs(weight - 2048.0 / num_ranks()), 1)
+                        << name << ", " << dimension << "-D, " << central;
+                EXPECT_NEAR(result.report.measured_imbalance, imbalance(weights), 1e-12);
+            }
+}
+
+TEST(Wide, tolerance_is_met_and_measured) {
+    for (const double tolerance : {1.1, 1.02})
+        for (const int central : central_parts())
+            for (const int per_rank : {1, 3}) {
+                const auto mine =
+                    share_of_cloud(20000, 2, [](std::size_t, int, double u) { return u * u; });
+                const Points points = interleaved_points(mine, 2);
+                Options options = wide_options(central, Refine::tolerance);
+                options.imbalance_tolerance = tolerance;
+                options.num_parts = per_rank * num_ranks();
+                const Balance result = balance(points, options, MPI_COMM_WORLD);
+                const auto weights = expect_consistent(points, result);
+                EXPECT_LE(imbalance(weights), tolerance);
+                EXPECT_TRUE(result.report.within_tolerance);
+                EXPECT_NEAR(result.report.measured_imbalance, imbalance(weights), 1e-12);
+                EXPECT_EQ(result.report.num_points, 20000);
+            }
+}
+
+TEST(Wide, a_tolerance_that_exact_cuts_reach_is_not_missed) {
+    // 25 points a part, so that slack spent above leaves too little below.
+    const auto mine = share_of_cloud(static_cast<std::size_t>(25 * num_ranks()), 2, uniform);
+    const Points points = interleaved_points(mine, 2);
+    Options options = wide_options(2, Refine::tolerance);
+    options.imbalance_tolerance = 1.05;
+    const Balance result = balance(points, options, MPI_COMM_WORLD);
+    EXPECT_LE(imbalance(expect_consistent(points, result)), 1.05);
+}
+
+TEST(Wide, parts_have_the_sizes_asked_for_and_stay_empty_where_these_are_0) {
+    for (const int num_parts : {num_ranks(), 2 * num_ranks() + 1, 3}) {
+        if (num_parts < 3) continue;
+        const auto mine = share_of_cloud(3000, 2, uniform);
+        const Points points = interleaved_points(mine, 2);
+        Options options = wide_options(2);
+        options.num_parts = num_parts;
+        for (int part = 0; part < num_parts; ++part) options.part_sizes.push_back(part % 3);
+        const Balance result = balance(points, options, MPI_COMM_WORLD);
+        const auto weights = expect_consistent(points, result);
+        const double sizes =
+            std::accumulate(options.part_sizes.begin(), options.part_sizes.end(), 0.0);
+        for (std::size_t part = 0; part < weights.size(); ++part)
+            EXPECT_LE(std::abs(weights[part] - 3000 * options.part_sizes[part] / sizes),
+                      part % 3 == 0 ? 0 : 1.5);
+    }
+}
+
+TEST(Wide, points_without_weight_are_balanced_by_count) {
+    const auto mine = share_of_cloud(2000, 2, uniform);
+    const std::vector<double> weights(mine.size() / 2, 0.0);
+    const Points points = interleaved_points(mine, 2, weights);
+    const Balance result = balance(points, wide_options(2), MPI_COMM_WORLD);
+    EXPECT_TRUE(result.report.all_weights_zero);
+    for (const double count : expect_consistent(points, result))
+        EXPECT_LE(std::abs(count - 2000.0 / num_ranks()), 1);
+}
+
+TEST(Wide, weights_over_decades_are_halved_as_well_as_any_cut_can) {
+    const auto mine = share_of_cloud(3000, 3, uniform);
+    std::vector<double> weights;
+    for (std::size_t i = 0; i < mine.size(); i += 3) weights.push_back(std::pow(10, 3 * mine[i]));
+    const Points points = interleaved_points(mine, 3, weights);
+    const Balance result = balance(points, wide_options(2), MPI_COMM_WORLD);
+    const auto sums = expect_consistent(points, result);
+    const double mean = std::accumulate(sums.begin(), sums.end(), 0.0) / num_ranks();
+    const double heaviest = 1000;
+    for (const double sum : sums) EXPECT_LE(std::abs(sum - mean), heaviest);
+    EXPECT_EQ(result.report.least_imbalance, 1) << "the heaviest point is no part of its own";
+}
+
+TEST(Wide, points_in_one_place_stay_together) {
+    const auto mine = share_of_cloud(500, 2, [](std::size_t, int, double) { return 4.5; });
+    const Points points = interleaved_points(mine, 2);
+    const Balance result = balance(points, wide_options(2), MPI_COMM_WORLD);
+    const auto weights = expect_consistent(points, result);
+    EXPECT_EQ(std::ranges::count(weights, 500), 1);
+    EXPECT_GT(result.report.coincident_cuts, 0);
+    EXPECT_NEAR(result.report.measured_imbalance, num_ranks(), 1e-9);
+}
+
+TEST(Wide, ranks_may_be_empty_and_all_points_on_one) {
+    for (const int holder : {0, num_ranks() / 2, num_ranks() - 1}) {
+        std::vector<double> mine;
+        if (rank() == holder) mine = test::uniform_cloud(1000, 2, 7);
+        const Points points = interleaved_points(mine, 2);
+        const Balance result = balance(points, wide_options(2), MPI_COMM_WORLD);
+        for (const double weight : expect_consistent(points, result))
+            EXPECT_LE(std::abs(weight - 1000.0 / num_ranks()), 1);
+    }
+}
+
+TEST(Wide, there_may_be_fewer_points_than_parts_and_none_at_all) {
+    for (const std::size_t count : {0U, 1U, 3U}) {
+        const auto mine = share_of_cloud(count, 2, uniform);
+        const Points points = interleaved_points(mine, 2);
+        const Balance result = balance(points, wide_options(2), MPI_COMM_WORLD);
+        const auto weights = expect_consistent(points, result);
+        EXPECT_EQ(std::accumulate(weights.begin(), weights.end(), 0.0), count);
+        EXPECT_LE(*std::ranges::max_element(weights), count == 3 && num_ranks() == 3 ? 2 : 1);
+        EXPECT_EQ(result.report.surplus_parts, std::max(0, num_ranks() - static_cast<int>(count)));
+    }
+}
+
+TEST(Wide, the_same_call_gives_the_same_bits) {
+    const auto mine = share_of_cloud(3000, 2, uniform);
+    const Points points = interleaved_points(mine, 2);
+    for (const Refine refine : {Refine::exact, Refine::tolerance}) {
+        // One after the other, without a barrier.
+        const Balance a = balance(points, wide_options(2, refine), MPI_COMM_WORLD);
+        const Balance b = balance(points, wide_options(2, refine), MPI_COMM_WORLD);
+        EXPECT_EQ(a.parts, b.parts);
+        EXPECT_EQ(a.cuts.nodes, b.cuts.nodes);
+        for (std::size_t k = 0; k < a.cuts.tree.size(); ++k)
+            EXPECT_EQ(a.cuts.tree[k].at, b.cuts.tree[k].at);
+        EXPECT_EQ(a.report.measured_imbalance, b.report.measured_imbalance);
+    }
+}
+
+TEST(Wide, all_ranks_get_all_cuts_where_the_call_asks_for_something_else) {
+    const auto mine = share_of_cloud(1000, 2, uniform);
+    const Points points = interleaved_points(mine, 2);
+    const std::vector<std::function<void(Options&)>> changes{
+        [](Options& o) { o.central_parts = num_ranks(); },
+        [](Options& o) { o.num_parts = 2; },
+        [](Options& o) { o.refine = Refine::none; },
+        [](Options& o) { o.cut_rule = CutRule::midpoint; },
+        [](Options& o) { o.domain = DomainKind::points; },
+        [](Options& o) { o.domain = DomainKind::sampled; },
+        [](Options& o) {
+            o.grouped_axes = {1, 0};
+        },
+        [](Options& o) { o.cut_axes.assign(static_cast<std::size_t>(num_ranks() - 1), 0); },
+        [](Options& o) {
+            o.min_width = {1e-9, 1e-9};
+        },
+        [](Options& o) {
+            o.grid = {{0, 1e-6}, {0, 1e-6}};
+        },
+        [](Options& o) { o.coincident = Coincident::divide; }};
+    for (const auto& change : changes) {
+        Options options = wide_options(2);
+        change(options);
+        const Balance result = balance(points, options, MPI_COMM_WORLD);
+        EXPECT_TRUE(is_whole(result.cuts));
+        EXPECT_EQ(std::ssize(result.cuts.tree) + 1, result.cuts.num_parts);
+    }
+    Options planes = wide_options(2);
+    planes.plain_cuts = true;
+    planes.domain = DomainKind::learned;
+    planes.coincident = Coincident::divide;
+    EXPECT_FALSE(is_whole(balance(points, planes, MPI_COMM_WORLD).cuts));
+}
+
+TEST(Wide, cuts_of_which_ranks_know_some_only_are_made_anew) {
+    const auto mine = share_of_cloud(1000, 2, uniform);
+    const Points points = interleaved_points(mine, 2);
+    const Balance first = balance(points, wide_options(2), MPI_COMM_WORLD);
+    const Balance again = balance(points, wide_options(2), MPI_COMM_WORLD, first.cuts);
+    EXPECT_EQ(again.parts, first.parts);
+    expect_consistent(points, again);
+}
+
+TEST(Wide, what_is_wrong_on_one_rank_is_told_to_all) {
+    std::vector<double> mine = share_of_cloud(1000, 2, uniform);
+    const Points points = interleaved_points(mine, 2);
+    for (const int faulty : {0, num_ranks() - 1}) {
+        Options options = wide_options(2);
+        if (rank() == faulty) options.central_parts = 1;
+        try {
+            balance(points, options, MPI_COMM_WORLD);
+            ADD_FAILURE() << "expected an error";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.what(),
+                      "rank " + std::to_string(faulty) + ": central_parts must be at least 2");
+        }
+        options.central_parts = rank() == faulty ? 2 : 1000;
+        try {
+            balance(points, options, MPI_COMM_WORLD);
+            ADD_FAILURE() << "expected an error";
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find("central_parts differs between rank"),
+                      std::string::npos)
+                << error.what();
+        }
+    }
+    const std::vector<double> fine{0.5, 1.5};
+    EXPECT_EQ(balance(interleaved_points(fine, 1), {}, MPI_COMM_WORLD).parts.size(), 2u);
+}
+
+}  // namespace
+}  // namespace rrcb

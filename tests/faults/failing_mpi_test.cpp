@@ -222,7 +222,7 @@ Options wide() {
 
 TEST(FailingMpi, of_one_rank_while_many_make_the_parts_reaches_the_callers_of_all) {
     if (test::num_ranks() > 2)
-        fail_each_message_of_each_rank(wide(), test::num_ranks() > 4 ? 7 : 1);
+        fail_each_message_of_each_rank(wide(), test::num_ranks() > 4 ? 37 : 1);
 }
 
 TEST(FailingMpi, of_all_ranks_while_many_make_the_parts_reaches_their_callers) {

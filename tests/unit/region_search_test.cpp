@@ -75,6 +75,19 @@ class Global {
         return counts;
     }
 
+    /// Moves all points to where their parts are, and searches anew.
+    test::SearchCounts run_where_parts_lie(double tolerance) {
+        for (auto& members : members_) members.clear();
+        for (std::size_t i = 0; i < size(); ++i)
+            members_[static_cast<std::size_t>(
+                         ranks_of_part(parts_[i], case_.num_parts, case_.num_ranks).first_rank)]
+                .push_back(i);
+        searches_.clear();
+        local_parts_.clear();
+        cuts_.clear();
+        return run(tolerance);
+    }
+
     /// Every cut divides as well as any could, and every point is in the part where cuts put it.
     void expect_best_cuts() const {
         std::vector<std::size_t> all(size());
@@ -469,6 +482,23 @@ TEST(RegionSearch, keeps_to_a_tolerance_in_two_rounds_a_level) {
             EXPECT_LE(counts.rounds, 3 * levels);
             RecordProperty("rounds_" + std::to_string(ranks), counts.rounds);
         }
+}
+
+TEST(RegionSearch, sends_little_where_points_lie_in_their_parts) {
+    for (const bool is_exact : {false, true}) {
+        Global all({.num_ranks = 1000,
+                    .num_regions = 16,
+                    .num_parts = 1000,
+                    .dimension = 3,
+                    .spread = Spread::sorted,
+                    .is_exact = is_exact,
+                    .num_points = 16000});
+        all.run(1.1);
+        const auto counts = all.run_where_parts_lie(1.1);
+        EXPECT_LE(counts.most_bytes_in, 16384U);
+        EXPECT_LE(counts.rounds, is_exact ? 24 : 12) << "6 levels";
+        RecordProperty("bytes", static_cast<int>(counts.most_bytes_in));
+    }
 }
 
 }  // namespace

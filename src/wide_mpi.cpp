@@ -36,6 +36,14 @@ double parts_in_all(const Options& options) {
     return sum_of(options.part_sizes) / *std::ranges::max_element(options.part_sizes);
 }
 
+/// Gives points the number of the first part of their region, in place of its own.
+void number_as_in_tree(int num_parts, Balance& result) {
+    std::vector<Part> first_parts;
+    for_each_region({0, 0, num_parts}, result.cuts.num_parts,
+                    [&](const Descent& at) { first_parts.push_back(at.first_part); });
+    for (Part& part : result.parts) part = first_parts[static_cast<std::size_t>(part)];
+}
+
 RegionTree tree_of(const Options& options, const Verdict& verdict, double weight, int num_ranks) {
     RegionTree tree;
     tree.num_parts = options.num_parts;
@@ -48,6 +56,7 @@ RegionTree tree_of(const Options& options, const Verdict& verdict, double weight
     tree.rule.is_exact = options.refine == Refine::exact;
     tree.share_of_longest = traits_of(options.domain).share_of_longest;
     tree.plain_cuts = options.plain_cuts;
+    tree.divides_coincident = options.coincident == Coincident::divide;
     return tree;
 }
 
@@ -58,8 +67,7 @@ bool is_wide(const Options& options, int num_ranks) {
         options.domain == DomainKind::analytic || options.domain == DomainKind::learned;
     const bool are_axes_free = options.grouped_axes.empty() && options.cut_axes.empty();
     return std::min(options.num_parts, num_ranks) > options.central_parts && has_statistics &&
-           is_refined(options) && are_axes_free && !are_cuts_limited(options) &&
-           (options.coincident == Coincident::together || options.plain_cuts);
+           is_refined(options) && are_axes_free && !are_cuts_limited(options);
 }
 
 Options region_options(const Options& options) {
@@ -93,6 +101,7 @@ void refine_regions(const Options& options, const Verdict& verdict, const Box& b
     self.attempt([&] { weights.resize(static_cast<std::size_t>(result.cuts.num_parts)); });
     const double weight =
         report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
+    self.attempt([&] { number_as_in_tree(options.num_parts, result); });
     const Regions regions{std::move(result.cuts), weights, box_together(box, self)};
     Refined refined =
         refinement.refine(regions, tree_of(options, verdict, weight, mpi::size_of(self.comm)),

@@ -60,19 +60,35 @@ class Divider {
     const SortedPoints& points_;
 };
 
-/// Brings the entries below the cut to the front; returns where those above begin.
-LocalIndex partition(const Fragment& fragment, Divider& divider, SortedPoints& points) {
+/// Brings the entries below a cut to the front; returns where those above begin.
+template <class IsAbove>
+LocalIndex partition(const Fragment& fragment, IsAbove&& is_above, SortedPoints& points) {
     LocalIndex front = fragment.begin;
     LocalIndex back = fragment.end;
     // Every entry is asked for once: those in front of `front` and behind `back` were.
     while (front < back) {
-        if (!divider.is_above(front)) {
+        if (!is_above(front)) {
             ++front;
         } else {
             swap_entries(points, front, --back);
         }
     }
     return front;
+}
+
+/// Puts the entries on both sides of one where they belong; true when there are any on both.
+bool divide(const Fragment& fragment, LocalIndex middle, const SortedPoints& points,
+            std::vector<Fragment>& lower, std::vector<Fragment>& upper) {
+    if (middle == fragment.end || middle == fragment.begin) {
+        (middle == fragment.end ? lower : upper).push_back(fragment);
+        return false;
+    }
+    const auto share = [&](LocalIndex begin, LocalIndex end) {
+        return Fragment{begin, end, weight_of(points, begin, end), fragment.box};
+    };
+    lower.push_back(share(fragment.begin, middle));
+    upper.push_back(share(middle, fragment.end));
+    return true;
 }
 
 }  // namespace
@@ -112,22 +128,22 @@ std::pair<std::vector<Fragment>, std::vector<Fragment>> split(
             (above ? upper : lower).push_back(fragment);
             continue;
         }
-        const LocalIndex middle = partition(fragment, divider, points);
-        Fragment below = fragment;
-        Fragment above = fragment;
-        below.end = above.begin = middle;
-        if (middle == fragment.end) {
-            lower.push_back(fragment);
-        } else if (middle == fragment.begin) {
-            upper.push_back(fragment);
-        } else {
-            below.box.upper[axis] = above.box.lower[axis] = cut.at[axis];
-            below.weight = weight_of(points, below.begin, below.end);
-            above.weight = weight_of(points, above.begin, above.end);
-            lower.push_back(below);
-            upper.push_back(above);
-        }
+        const LocalIndex middle = partition(
+            fragment, [&](LocalIndex i) { return divider.is_above(i); }, points);
+        if (!divide(fragment, middle, points, lower, upper)) continue;
+        lower.back().box.upper[axis] = upper.back().box.lower[axis] = cut.at[axis];
     }
+    return {std::move(lower), std::move(upper)};
+}
+
+std::pair<std::vector<Fragment>, std::vector<Fragment>> split_by_parts(
+    const std::vector<Fragment>& fragments, Part first_above, std::span<const Part> parts,
+    SortedPoints& points) {
+    std::vector<Fragment> lower;
+    std::vector<Fragment> upper;
+    const auto is_above = [&](LocalIndex i) { return parts[points.original[i]] >= first_above; };
+    for (const Fragment& fragment : fragments)
+        divide(fragment, partition(fragment, is_above, points), points, lower, upper);
     return {std::move(lower), std::move(upper)};
 }
 

@@ -38,6 +38,12 @@ double weight_at(const Cut& cut, const std::vector<Fragment>& fragments,
 std::pair<std::vector<Fragment>, std::vector<Fragment>> split(
     const std::vector<Fragment>& fragments, const Cut& cut, const Lot& lot, SortedPoints& points);
 
+/// Fragments of the points in parts below `first_above`, and of the others, by `parts` of the
+/// original indices. Those with both are divided in place, and keep their boxes.
+std::pair<std::vector<Fragment>, std::vector<Fragment>> split_by_parts(
+    const std::vector<Fragment>& fragments, Part first_above, std::span<const Part> parts,
+    SortedPoints& points);
+
 /// Sets the part of every point of the fragments by the cuts at `at` and below, and writes what the
 /// parts there weigh into `weights`, which has one entry per part of the whole tree.
 void write_parts(const std::vector<Fragment>& fragments, const Cuts& cuts, const Descent& at,

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <numeric>
 #include <type_traits>
+#include <utility>
 
 namespace rrcb {
 
@@ -28,15 +29,17 @@ void RegionSearch::decide(Butterfly& butterfly) {
     // Both ascend, and an owner takes part in all nodes that it owns.
     butterfly.owned().for_each([&](const Record& record) {
         node = std::ranges::find(node, nodes_.end(), record.key,
-                                 [](const Node& one) { return one.at.node; });
+                                 [](const Node& one) { return key_of(one.at); });
         if (node != nodes_.end()) butterfly.answer(record.key, answer_to(record, *node));
     });
 }
 
 std::vector<double> RegionSearch::answer_to(const Record& record, Node& node) {
     static_assert(std::is_trivially_copyable_v<Answer> && sizeof(Answer) % sizeof(double) == 0);
-    const CutSearch search = decide_on(node, record.payload);
-    const Answer told{search, node.box, node.weight};
+    const bool is_searched = !node.divides_lot && !node.at.is_part();
+    const CutSearch search = is_searched ? decide_on(node, record.payload) : node.search;
+    Answer told{search, node.content.box, node.content.weight};
+    if (!is_searched) place_weights(node, record.payload, told);
     std::vector<double> answer(Answer::length());
     std::memcpy(answer.data(), &told, sizeof told);
     if (search.stage == CutSearch::over_splitters && node.search.stage == CutSearch::sampling) {
@@ -46,13 +49,36 @@ std::vector<double> RegionSearch::answer_to(const Record& record, Node& node) {
     return answer;
 }
 
+/// Weighs a part; or finds the rank that has points of a lot on both sides of its cut.
+void RegionSearch::place_weights(const Node& node, std::span<const double> payload,
+                                 Answer& answer) const {
+    constexpr std::size_t length = 3;
+    std::vector<std::pair<double, double>> weights;
+    for (; !payload.empty(); payload = payload.subspan(length))
+        weights.emplace_back(payload[1], payload[2]);
+    std::ranges::sort(weights);
+    if (node.at.is_part()) {
+        answer.weight = 0;
+        for (const auto& [rank, weight] : weights) answer.weight += weight;
+        return;
+    }
+    answer.dividing_rank = tree_.num_ranks;
+    for (const auto& [rank, weight] : weights) {
+        if (answer.lot_before + weight > node.search.lot_below) {
+            answer.dividing_rank = rank;
+            return;
+        }
+        answer.lot_before += weight;
+    }
+}
+
 /// Moves a search on by what all ranks have told, which is something once points are left to it.
 CutSearch RegionSearch::decide_on(Node& node, std::span<const double> payload) {
     CutSearch search = node.search;
     if (payload.empty()) {
         // The weight was round-off.
         search.stage = CutSearch::done;
-        node.weight = 0;
+        node.content.weight = 0;
         return search;
     }
     const auto histogram = payload.subspan(1);
@@ -92,14 +118,14 @@ void RegionSearch::decide_among_candidates(const Node& node, std::span<const dou
 void RegionSearch::decide_by_first_count(Node& node, std::span<const double> histogram,
                                          CutSearch& search) {
     const auto weights = histogram.subspan(layout_.num_extents, layout_.num_slots());
-    node.box = box_in(histogram);
-    node.weight = std::accumulate(weights.begin(), weights.end(), 0.0);
-    const CutSearch anew = first_search(node.box, node.weight);
+    node.content.box = box_in(histogram);
+    node.content.weight = std::accumulate(weights.begin(), weights.end(), 0.0);
+    const CutSearch anew = first_search(node.content.box, node.content.weight);
     if (anew.cut.axis != search.cut.axis) {
         search = anew;
         return;
     }
-    node.target = rule_for(node.at).target_of({0, 0, node.at.num_parts}, node.weight);
+    node.target = rule_for(node.at).target_of({0, 0, node.at.num_parts}, node.content.weight);
     decide_by_bins(search, node.target, layout_, histogram);
 }
 

@@ -31,6 +31,12 @@ std::pair<Part, Part> own_parts(int rank, int num_parts, int num_ranks) {
     return {static_cast<Part>(first - numbers.begin()), static_cast<Part>(end - numbers.begin())};
 }
 
+double weight_of(const std::vector<Fragment>& fragments) {
+    double weight = 0;
+    for (const Fragment& fragment : fragments) weight += fragment.weight;
+    return weight;
+}
+
 /// Box of the entries of a fragment.
 Box box_of(const Fragment& fragment, const SortedPoints& points) {
     Box box = fragment.box;
@@ -92,46 +98,49 @@ bool RegionSearch::holds_own_parts(const Descent& at) const {
 void RegionSearch::enter_region(const Regions& regions, const Descent& region, const Descent& at,
                                 std::vector<Fragment>&& fragments, const Box& box) {
     if (region.is_part())
-        return enter(at, std::move(fragments), box,
-                     regions.weights[static_cast<std::size_t>(region.first_part)]);
+        return enter(at, {std::move(fragments), box,
+                          regions.weights[static_cast<std::size_t>(region.first_part)]});
     const Cut& cut = regions.cuts.tree[region.node];
     known_.push_back({at.node, cut});
-    auto [lower, upper] = split_tightly(fragments, cut);
+    auto [lower, upper] = cut.divides != 0 ? split_by_parts(fragments, at.upper().first_part)
+                                           : split_tightly(fragments, cut, {});
     enter_region(regions, region.lower(), at.lower(), std::move(lower), box_below(box, cut));
     enter_region(regions, region.upper(), at.upper(), std::move(upper), box_above(box, cut));
 }
 
 /// Begins to search the cut of a node; goes on to its children where counting does not find it.
-void RegionSearch::enter(const Descent& at, std::vector<Fragment>&& fragments, const Box& box,
-                         double weight) {
-    if (fragments.empty() && !holds_own_parts(at)) return;
-    if (at.is_part()) return end_at_part(at, fragments, weight);
-    const double share = rule_for(at).share_below({0, 0, at.num_parts});
-    if (weight > 0 && share > 0 && share < 1) {
+void RegionSearch::enter(const Descent& at, Content&& content) {
+    if (content.fragments.empty() && !holds_own_parts(at)) return;
+    if (at.is_part() && content.is_counted) return end_at_part(at, content);
+    const double share = at.is_part() ? 1 : rule_for(at).share_below({0, 0, at.num_parts});
+    if (at.is_part() || (content.weight > 0 && share > 0 && share < 1)) {
         // A vector that is moved keeps its entries where they are.
-        const LocalSearch local(fragments, points_);
-        nodes_.push_back({at, std::move(fragments), box, weight, first_search(box, weight), local});
+        const LocalSearch local(content.fragments, points_);
+        const CutSearch search = first_search(content.box, content.weight);
+        nodes_.push_back({at, std::move(content), search, local});
         return;
     }
     // Nothing lies on a side without size, and what weighs nothing lies below.
     const bool is_below = share > 0;
-    divide(at, fragments, box, plane(0, is_below ? infinity : -infinity), weight,
-           is_below ? weight : 0);
+    divide(at, content, plane(0, is_below ? infinity : -infinity), {},
+           is_below ? content.weight : 0);
 }
 
 /// Goes on below a cut.
-void RegionSearch::divide(const Descent& at, const std::vector<Fragment>& fragments, const Box& box,
-                          const Cut& cut, double weight, double below) {
+void RegionSearch::divide(const Descent& at, const Content& content, const Cut& cut, const Lot& lot,
+                          double below) {
     known_.push_back({at.node, cut});
-    auto [lower, upper] = split_tightly(fragments, cut);
-    enter(at.lower(), std::move(lower), box_below(box, cut), below);
-    enter(at.upper(), std::move(upper), box_above(box, cut), weight - below);
+    auto [lower, upper] = split_tightly(content.fragments, cut, lot);
+    const bool is_counted = content.is_counted && !(lot.below > 0);
+    enter(at.lower(), {std::move(lower), box_below(content.box, cut), below, is_counted});
+    enter(at.upper(),
+          {std::move(upper), box_above(content.box, cut), content.weight - below, is_counted});
 }
 
 /// Splits fragments whose boxes touch their entries; so do those of the halves.
-std::pair<std::vector<Fragment>, std::vector<Fragment>> RegionSearch::split_tightly(
-    const std::vector<Fragment>& fragments, const Cut& cut) {
-    auto halves = split(fragments, cut, {}, points_);
+RegionSearch::Halves RegionSearch::split_tightly(const std::vector<Fragment>& fragments,
+                                                 const Cut& cut, const Lot& lot) {
+    Halves halves = split(fragments, cut, lot, points_);
     const auto axis = static_cast<std::size_t>(cut.axis);
     for (auto* half : {&halves.first, &halves.second})
         for (Fragment& fragment : *half)
@@ -141,12 +150,20 @@ std::pair<std::vector<Fragment>, std::vector<Fragment>> RegionSearch::split_tigh
     return halves;
 }
 
-void RegionSearch::end_at_part(const Descent& at, const std::vector<Fragment>& fragments,
-                               double weight) {
-    write_part(fragments, at.first_part, points_, parts_);
-    if (!(weight > 0) || tree_.owner_of(at) != rank_) return;
+/// The same by the parts that points are in.
+RegionSearch::Halves RegionSearch::split_by_parts(const std::vector<Fragment>& fragments,
+                                                  Part first_above) {
+    Halves halves = rrcb::split_by_parts(fragments, first_above, parts_, points_);
+    for (auto* half : {&halves.first, &halves.second})
+        for (Fragment& fragment : *half) fragment.box = box_of(fragment, points_);
+    return halves;
+}
+
+void RegionSearch::end_at_part(const Descent& at, const Content& content) {
+    write_part(content.fragments, at.first_part, points_, parts_);
+    if (!(content.weight > 0) || tree_.owner_of(at) != rank_) return;
     const double share = rule_for(at).part_sizes[0] / all_sizes_;
-    imbalance_ = std::max(imbalance_, weight / tree_.weight / share);
+    imbalance_ = std::max(imbalance_, content.weight / tree_.weight / share);
 }
 
 /// The search in a box before anything is counted.
@@ -154,6 +171,7 @@ CutSearch RegionSearch::first_search(const Box& box, double weight) const {
     CutSearch search;
     search.cut.axis = longest_axis(box, dimension_, tree_.share_of_longest);
     search.num_axes = tree_.plain_cuts ? 1 : dimension_;
+    search.divides = tree_.divides_coincident && !tree_.plain_cuts ? 1 : 0;
     search.cut.at.fill(-infinity);
     const auto axis = static_cast<std::size_t>(search.cut.axis);
     search.lower = box.lower[axis];
@@ -166,13 +184,22 @@ void RegionSearch::ask(Butterfly& butterfly) const {
     std::vector<double> payload;
     for (const Node& node : nodes_) {
         payload.clear();
-        if (!node.fragments.empty()) count(node, payload);
-        butterfly.add(node.at.node, tree_.owner_of(node.at), payload);
+        if (!node.content.fragments.empty()) count(node, payload);
+        butterfly.add(key_of(node.at), tree_.owner_of(node.at), payload);
     }
 }
 
 /// Appends what this rank has to tell of a node.
 void RegionSearch::count(const Node& node, std::vector<double>& payload) const {
+    if (node.divides_lot || node.at.is_part()) {
+        const auto& fragments = node.content.fragments;
+        const double weight = node.divides_lot ? weight_at(node.search.cut, fragments, points_)
+                                               : weight_of(fragments);
+        const double told[] = {mark_of_weight, 1.0 * rank_,
+                               rounded_to(node.search.quantum, weight)};
+        if (weight > 0) payload.assign(std::begin(told), std::end(told));
+        return;
+    }
     if (node.search.stage == CutSearch::gathering) {
         node.local.append_candidates(mark_of_candidate, payload);
         return;
@@ -191,7 +218,7 @@ void RegionSearch::count(const Node& node, std::vector<double>& payload) const {
 void RegionSearch::join(std::span<const double> a, std::span<const double> b,
                         std::vector<double>& joined) {
     joined.insert(joined.end(), a.begin(), a.end());
-    if (a.empty() || b.empty() || (a[0] == mark_of_candidate && b[0] == mark_of_candidate)) {
+    if (a.empty() || b.empty() || (a[0] == b[0] && a[0] != mark_of_histogram)) {
         joined.insert(joined.end(), b.begin(), b.end());
     } else if (a[0] == b[0]) {
         join_histograms(b.subspan(1), std::span(joined).last(a.size() - 1));
@@ -206,9 +233,9 @@ void RegionSearch::follow(const Butterfly& butterfly) {
     Record answer;
     // Both ascend. Answers to others may have gone through this rank.
     for (Node& node : before) {
-        while (!answers.at_end() && (answer.payload.empty() || answer.key < node.at.node))
+        while (!answers.at_end() && (answer.payload.empty() || answer.key < key_of(node.at)))
             answer = answers.next();
-        const bool is_answered = !answer.payload.empty() && answer.key == node.at.node;
+        const bool is_answered = !answer.payload.empty() && answer.key == key_of(node.at);
         if (is_answered) {
             follow(std::move(node), answer.payload);
         } else {
@@ -222,11 +249,14 @@ void RegionSearch::follow(Node&& node, std::span<const double> payload) {
     Answer answer;
     std::memcpy(static_cast<void*>(&answer), payload.data(), sizeof answer);
     const CutSearch search = std::exchange(node.search, answer.search);
-    node.box = answer.box;
-    node.weight = answer.weight;
-    if (node.search.stage == CutSearch::done)
-        return divide(node.at, node.fragments, node.box, node.search.cut, node.weight,
-                      node.search.below);
+    node.content.box = answer.box;
+    node.content.weight = answer.weight;
+    if (node.at.is_part()) return end_at_part(node.at, node.content);
+    if (search.stage == CutSearch::over_fragments) node.content.is_counted = true;
+    const bool is_done = node.search.stage == CutSearch::done;
+    const bool has_lot = is_done && node.search.lot_below > 0;
+    if (is_done && has_lot == node.divides_lot) return end_at_cut(node, answer);
+    node.divides_lot = has_lot;
     if (search.stage == CutSearch::sampling)
         node.local.take_splitters(
             splitters_of(positions_in(payload.subspan(Answer::length()), dimension_),
@@ -234,6 +264,20 @@ void RegionSearch::follow(Node&& node, std::span<const double> payload) {
     if (node.search.stage != CutSearch::over_fragments)
         node.local.keep_chosen(search, node.search, layout_);
     nodes_.push_back(std::move(node));
+}
+
+/// Goes on below the cut that was found. The points of a lot form one row over all ranks.
+void RegionSearch::end_at_cut(const Node& node, const Answer& answer) {
+    Cut cut = node.search.cut;
+    Lot lot;
+    if (node.divides_lot) {
+        cut.divides = 1;
+        lot.below = node.search.lot_below;
+        lot.before = rank_ < answer.dividing_rank   ? -infinity
+                     : rank_ > answer.dividing_rank ? infinity
+                                                    : answer.lot_before;
+    }
+    divide(node.at, node.content, cut, lot, node.search.below);
 }
 
 Cuts RegionSearch::cuts() const {

@@ -8,11 +8,20 @@
 
 #include <rrcb/cuts.hpp>
 
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace rrcb {
+
+/// Number of a node or a part, in preorder.
+inline Key key_of(const Descent& at) {
+    constexpr Key shift = 32;
+    return (static_cast<Key>(at.first_part) << shift) + std::numeric_limits<std::uint32_t>::max() -
+           static_cast<Key>(at.num_parts);
+}
 
 /// What the parts below the regions are to be; the same on every rank.
 struct RegionTree {
@@ -23,6 +32,7 @@ struct RegionTree {
     TargetRule rule{};                     ///< but for the sizes, and the weight per size
     double share_of_longest = 1;           ///< see longest_axis()
     bool plain_cuts = false;
+    bool divides_coincident = false;  ///< points that no cut tells apart, see Coincident
 
     /// The rank that decides on the cut of a node: the first that holds its first part.
     int owner_of(const Descent& at) const;
@@ -44,11 +54,13 @@ struct Regions {
 /// All rounds of all ranks are over once none is_searching().
 ///
 /// Memory and messages follow from the nodes that a rank takes part in, about 1.2 kB a node, and
-/// at the owner up to 1024 positions and weights. Not collective.
+/// at the owner up to 1024 positions and weights. Where points in one place are divided, a number
+/// and a weight of each rank that has some come to the owner. Not collective.
 class RegionSearch {
   public:
-    /// Starts below the regions; `parts` and what `tree` refers to are borrowed. Throws
-    /// std::bad_alloc.
+    /// Starts below the regions; `parts` and what `tree` refers to are borrowed. Where a cut
+    /// between regions divides points in one place, `parts` tells on which side they are, by the
+    /// numbers that parts there have in the whole tree. Throws std::bad_alloc.
     RegionSearch(const RegionTree& tree, int rank, const Regions& regions, SortedPoints&& points,
                  std::span<Part> parts);
     RegionSearch(const RegionSearch&) = delete;
@@ -84,20 +96,30 @@ class RegionSearch {
 
   private:
     /// What ranks tell of a node, where they have any of its points, begins with a mark: a
-    /// histogram, or each of the candidates.
+    /// histogram, each of the candidates, or what points at the cut weigh.
     static constexpr double mark_of_histogram = 0;
     static constexpr double mark_of_candidate = 1;
+    static constexpr double mark_of_weight = 2;
 
-    /// Node that is searched.
+    /// What is in a node.
+    struct Content {
+        std::vector<Fragment> fragments;
+        Box box;                 ///< that holds its points on all ranks
+        double weight = 0;       ///< over all ranks
+        bool is_counted = true;  ///< false where the weight is off by a part of a point's
+    };
+
+    /// Node that is searched, or a part that is weighed.
     struct Node {
         Descent at;
-        std::vector<Fragment> fragments;
-        Box box;            ///< that holds its points on all ranks
-        double weight = 0;  ///< over all ranks
+        Content content;
         CutSearch search;
         LocalSearch local;
-        CutTarget target{};  ///< at the owner only
+        CutTarget target{};        ///< at the owner only
+        bool divides_lot = false;  ///< the cut is known, and who has what of the lot at it is asked
     };
+
+    using Halves = std::pair<std::vector<Fragment>, std::vector<Fragment>>;
 
     struct KnownCut {
         std::size_t node;
@@ -109,6 +131,9 @@ class RegionSearch {
         CutSearch search;
         Box box;
         double weight = 0;
+        double dividing_rank =
+            0;                  ///< where a lot is divided: those before it have theirs below, ...
+        double lot_before = 0;  ///< ... which weighs this much, and those after it above
 
         static constexpr std::size_t length() { return sizeof(Answer) / sizeof(double); }
     };
@@ -117,14 +142,16 @@ class RegionSearch {
     bool holds_own_parts(const Descent& at) const;
     void enter_region(const Regions& regions, const Descent& region, const Descent& at,
                       std::vector<Fragment>&& fragments, const Box& box);
-    void enter(const Descent& at, std::vector<Fragment>&& fragments, const Box& box, double weight);
-    void divide(const Descent& at, const std::vector<Fragment>& fragments, const Box& box,
-                const Cut& cut, double weight, double below);
-    std::pair<std::vector<Fragment>, std::vector<Fragment>> split_tightly(
-        const std::vector<Fragment>& fragments, const Cut& cut);
-    void end_at_part(const Descent& at, const std::vector<Fragment>& fragments, double weight);
+    void enter(const Descent& at, Content&& content);
+    void divide(const Descent& at, const Content& content, const Cut& cut, const Lot& lot,
+                double below);
+    Halves split_tightly(const std::vector<Fragment>& fragments, const Cut& cut, const Lot& lot);
+    Halves split_by_parts(const std::vector<Fragment>& fragments, Part first_above);
+    void end_at_cut(const Node& node, const Answer& answer);
+    void end_at_part(const Descent& at, const Content& content);
     CutSearch first_search(const Box& box, double weight) const;
     std::vector<double> answer_to(const Record& record, Node& node);
+    void place_weights(const Node& node, std::span<const double> payload, Answer& answer) const;
     void count(const Node& node, std::vector<double>& payload) const;
     CutSearch decide_on(Node& node, std::span<const double> payload);
     void decide_among_candidates(const Node& node, std::span<const double> payload,

@@ -226,6 +226,41 @@ TEST(Wide, points_in_one_place_stay_together) {
     EXPECT_NEAR(result.report.measured_imbalance, num_ranks(), 1e-9);
 }
 
+TEST(Wide, points_in_one_place_are_divided_on_request_those_of_lower_ranks_below) {
+    // All in one place; or in so few that regions and cuts below them divide some.
+    for (const double places : {1.0, 3.0, 40.0})
+        for (const int central : central_parts()) {
+            const auto mine = share_of_cloud(
+                600, 2, [&](std::size_t, int, double u) { return std::floor(u * places); });
+            const Points points = interleaved_points(mine, 2);
+            Options options = wide_options(central);
+            options.coincident = Coincident::divide;
+            options.refine = Refine::tolerance;
+            options.imbalance_tolerance = 1.05;
+            const Balance good = balance(points, options, MPI_COMM_WORLD);
+            EXPECT_LE(imbalance(part_weights(points, good.parts, num_ranks(), MPI_COMM_WORLD)),
+                      1.05);
+            options.refine = Refine::exact;
+            const Balance result = balance(points, options, MPI_COMM_WORLD);
+            expect_own_paths(result.cuts);
+            expect_same_cuts_on_all_ranks(result.cuts);
+            const auto weights = part_weights(points, result.parts, num_ranks(), MPI_COMM_WORLD);
+            for (const double weight : weights)
+                EXPECT_LE(std::abs(weight - 600.0 / num_ranks()), 2.5);
+            EXPECT_NEAR(result.report.measured_imbalance, imbalance(weights), 1e-12);
+            if (places > 1) continue;
+            // One row of all points: parts ascend along it.
+            int ends[2] = {num_ranks(), -1};
+            for (const Part part : result.parts) {
+                ends[0] = std::min(ends[0], part);
+                ends[1] = std::max(ends[1], part);
+            }
+            std::vector<int> all(static_cast<std::size_t>(2 * num_ranks()));
+            MPI_Allgather(ends, 2, MPI_INT, all.data(), 2, MPI_INT, MPI_COMM_WORLD);
+            EXPECT_TRUE(std::ranges::is_sorted(all));
+        }
+}
+
 TEST(Wide, ranks_may_be_empty_and_all_points_on_one) {
     for (const int holder : {0, num_ranks() / 2, num_ranks() - 1}) {
         std::vector<double> mine;
@@ -283,8 +318,7 @@ TEST(Wide, all_ranks_get_all_cuts_where_the_call_asks_for_something_else) {
         },
         [](Options& o) {
             o.grid = {{0, 1e-6}, {0, 1e-6}};
-        },
-        [](Options& o) { o.coincident = Coincident::divide; }};
+        }};
     for (const auto& change : changes) {
         Options options = wide_options(2);
         change(options);
@@ -295,7 +329,6 @@ TEST(Wide, all_ranks_get_all_cuts_where_the_call_asks_for_something_else) {
     Options planes = wide_options(2);
     planes.plain_cuts = true;
     planes.domain = DomainKind::learned;
-    planes.coincident = Coincident::divide;
     EXPECT_FALSE(is_whole(balance(points, planes, MPI_COMM_WORLD).cuts));
 }
 

@@ -319,6 +319,7 @@ Balance balance(const Points& points, const Options& given, const Cuts* previous
     previous ? reuse_together(points, work, self) : divide_together(points, work, self);
     if (!work.whole) return std::move(work.result);
     work.refinement.reset();
+    if (work.result.report.all_weights_zero) work.binned.points.weights = {};
     refine_regions(*work.whole, work.decision.verdict, work.mine.summary.box, work.binned,
                    *work.below_regions, work.result, self);
     return std::move(work.result);

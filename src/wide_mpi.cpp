@@ -73,7 +73,10 @@ bool is_wide(const Options& options, int num_ranks) {
 Options region_options(const Options& options) {
     Options regions = options;
     regions.num_parts =
-        static_cast<int>(std::bit_floor(static_cast<unsigned>(options.central_parts)));
+        options.refine == Refine::exact
+            ? 1
+            : static_cast<int>(std::bit_floor(static_cast<unsigned>(options.central_parts)));
+    if (regions.num_parts == 1) regions.refine = Refine::none;
     regions.part_sizes.clear();
     for_each_region({0, 0, options.num_parts}, regions.num_parts, [&](const Descent& at) {
         const auto first = static_cast<std::size_t>(at.first_part);
@@ -96,11 +99,11 @@ void refine_regions(const Options& options, const Verdict& verdict, const Box& b
                     Participant& self) {
     const StageScope stage(options.observer, Stage::refinement);
     Report& report = result.report;
-    // Without points nothing was counted.
-    std::vector<double> weights = std::exchange(report.part_weights, {});
-    self.attempt([&] { weights.resize(static_cast<std::size_t>(result.cuts.num_parts)); });
     const double weight =
         report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
+    // Not counted without points, or for one region.
+    std::vector<double> weights = std::exchange(report.part_weights, {});
+    self.attempt([&] { weights.resize(static_cast<std::size_t>(result.cuts.num_parts), weight); });
     self.attempt([&] { number_as_in_tree(options.num_parts, result); });
     const Regions regions{std::move(result.cuts), weights, box_together(box, self)};
     Refined refined =

@@ -12,8 +12,9 @@ namespace rrcb {
 bool is_wide(const Options& options, int num_ranks);
 
 /// Options by which the regions are made in place of parts: as many as the largest power of two up
-/// to central_parts, and to a tolerance that leaves the levels below theirs. Sizes are normalized,
-/// or empty.
+/// to central_parts, and to a tolerance that leaves the levels below theirs. For exact cuts there
+/// is one region: rank 0 would gather a few points about each cut, and a number from each rank.
+/// Sizes are normalized, or empty.
 Options region_options(const Options& options);
 
 /// Cells that a merging leaves for the regions at most, whatever the mesh: so few that no rank,

@@ -125,7 +125,7 @@ void RegionSearch::decide_by_first_count(Node& node, std::span<const double> his
         search = anew;
         return;
     }
-    node.target = rule_for(node.at).target_of({0, 0, node.at.num_parts}, node.content.weight);
+    node.target = target_of(node.at, node.content.weight);
     decide_by_bins(search, node.target, layout_, histogram);
 }
 

@@ -1,11 +1,13 @@
 #include "refinement/region_search.hpp"
 
 #include "bisection/axis_choice.hpp"
+#include "bisection/bisection.hpp"
 #include "refinement/sample.hpp"
 
 #include <rrcb/plan.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -72,22 +74,34 @@ RegionSearch::RegionSearch(const RegionTree& tree, int rank, const Regions& regi
     tree_.rule.weight_per_size = tree.weight / all_sizes_;
     // A region has one part more than another at most.
     const auto most_parts = static_cast<std::size_t>(tree.num_parts / regions.cuts.num_parts) + 1;
-    if (tree.part_sizes.empty()) ones_.assign(most_parts, 1.0);
+    if (tree.part_sizes.empty() && !tree.rule.is_exact) ones_.assign(most_parts, 1.0);
     std::vector<Fragment> fragments = cell_fragments(points_);
     for (Fragment& fragment : fragments) fragment.box = box_of(fragment, points_);
     enter_region(regions, root_of(regions.cuts), {0, 0, tree.num_parts}, std::move(fragments),
                  regions.box);
 }
 
-/// The rule for a node that is the root of its own tree.
-TargetRule RegionSearch::rule_for(const Descent& at) const {
-    TargetRule rule = tree_.rule;
+double RegionSearch::share_below(const Descent& at) const {
+    if (tree_.part_sizes.empty()) return 1.0 * lower_parts(at.num_parts) / at.num_parts;
+    return rrcb::share_below(sizes_of(at));
+}
+
+/// Sizes of the parts of a node; of equal ones to a tolerance only.
+std::span<const double> RegionSearch::sizes_of(const Descent& at) const {
     const auto count = static_cast<std::size_t>(at.num_parts);
-    rule.part_sizes =
-        tree_.part_sizes.empty()
-            ? std::span<const double>(ones_).first(count)
-            : tree_.part_sizes.subspan(static_cast<std::size_t>(at.first_part), count);
-    return rule;
+    if (tree_.part_sizes.empty()) return std::span(ones_).first(count);
+    return tree_.part_sizes.subspan(static_cast<std::size_t>(at.first_part), count);
+}
+
+/// Target of the cut of a node, by the rule for a tree of its own.
+CutTarget RegionSearch::target_of(const Descent& at, double weight) const {
+    TargetRule rule = tree_.rule;
+    // Of equal parts an exact cut asks only for how many are on each side.
+    const int below = lower_parts(at.num_parts);
+    const std::array<double, 2> sides{1.0 * below, 1.0 * (at.num_parts - below)};
+    const bool by_sides = tree_.part_sizes.empty() && rule.is_exact;
+    rule.part_sizes = by_sides ? std::span<const double>(sides) : sizes_of(at);
+    return rule.target_of({0, 0, static_cast<int>(rule.part_sizes.size())}, weight);
 }
 
 bool RegionSearch::holds_own_parts(const Descent& at) const {
@@ -112,7 +126,7 @@ void RegionSearch::enter_region(const Regions& regions, const Descent& region, c
 void RegionSearch::enter(const Descent& at, Content&& content) {
     if (content.fragments.empty() && !holds_own_parts(at)) return;
     if (at.is_part() && content.is_counted) return end_at_part(at, content);
-    const double share = at.is_part() ? 1 : rule_for(at).share_below({0, 0, at.num_parts});
+    const double share = at.is_part() ? 1 : share_below(at);
     if (at.is_part() || (content.weight > 0 && share > 0 && share < 1)) {
         // A vector that is moved keeps its entries where they are.
         const LocalSearch local(content.fragments, points_);
@@ -162,7 +176,7 @@ RegionSearch::Halves RegionSearch::split_by_parts(const std::vector<Fragment>& f
 void RegionSearch::end_at_part(const Descent& at, const Content& content) {
     write_part(content.fragments, at.first_part, points_, parts_);
     if (!(content.weight > 0) || tree_.owner_of(at) != rank_) return;
-    const double share = rule_for(at).part_sizes[0] / all_sizes_;
+    const double share = (tree_.part_sizes.empty() ? 1.0 : sizes_of(at)[0]) / all_sizes_;
     imbalance_ = std::max(imbalance_, content.weight / tree_.weight / share);
 }
 

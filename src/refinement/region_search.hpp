@@ -138,7 +138,9 @@ class RegionSearch {
         static constexpr std::size_t length() { return sizeof(Answer) / sizeof(double); }
     };
 
-    TargetRule rule_for(const Descent& at) const;
+    double share_below(const Descent& at) const;
+    std::span<const double> sizes_of(const Descent& at) const;
+    CutTarget target_of(const Descent& at, double weight) const;
     bool holds_own_parts(const Descent& at) const;
     void enter_region(const Regions& regions, const Descent& region, const Descent& at,
                       std::vector<Fragment>&& fragments, const Box& box);
@@ -165,7 +167,7 @@ class RegionSearch {
     Part first_own_ = 0;        ///< of the parts that this rank holds ...
     Part end_own_ = 0;          ///< ... the first, and the one behind the last
     double all_sizes_ = 0;      ///< sum of the sizes of all parts
-    std::vector<double> ones_;  ///< sizes of the parts of a region where all are equal
+    std::vector<double> ones_;  ///< sizes of the parts of a region, see sizes_of()
     HistogramLayout layout_;
     SortedPoints points_;
     std::span<Part> parts_;

@@ -12,7 +12,6 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
-#include <ranges>
 #include <tuple>
 #include <utility>
 
@@ -22,15 +21,28 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The parts that a rank holds.
+/// The first part that is beyond, as all behind it are; num_parts where none is.
+template <class IsBeyond>
+Part first_beyond(int num_parts, IsBeyond&& is_beyond) {
+    Part first = 0;
+    int count = num_parts;
+    // No part before `first` is beyond, and all are from first + count on.
+    while (count > 0) {
+        const int half = count / 2;
+        const bool is_lower = is_beyond(first + half);
+        first += is_lower ? 0 : half + 1;
+        count = is_lower ? half : count - half - 1;
+    }
+    return first;
+}
+
+/// The parts that a rank holds: the first, and the one behind the last.
 std::pair<Part, Part> own_parts(int rank, int num_parts, int num_ranks) {
-    const auto numbers = std::views::iota(Part{0}, Part{num_parts});
     const auto ranks = [&](Part part) { return ranks_of_part(part, num_parts, num_ranks); };
-    const auto end_rank = [&](Part part) { return ranks(part).first_rank + ranks(part).count; };
-    const auto first_rank = [&](Part part) { return ranks(part).first_rank; };
-    const auto first = std::ranges::upper_bound(numbers, rank, {}, end_rank);
-    const auto end = std::ranges::upper_bound(numbers, rank, {}, first_rank);
-    return {static_cast<Part>(first - numbers.begin()), static_cast<Part>(end - numbers.begin())};
+    return {
+        first_beyond(num_parts,
+                     [&](Part part) { return ranks(part).first_rank + ranks(part).count > rank; }),
+        first_beyond(num_parts, [&](Part part) { return ranks(part).first_rank > rank; })};
 }
 
 double weight_of(const std::vector<Fragment>& fragments) {

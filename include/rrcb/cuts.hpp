@@ -29,8 +29,9 @@ RRCB_API bool is_above(const Cut& cut, const Vector& position, int dimension);
 /// the lower numbers, below its cut. Same bits on every rank after `balance`.
 ///
 /// Where many ranks make the parts, see Options::central_parts, `tree` holds the cuts that this
-/// rank knows, and `nodes` tells which these are, on every rank: also on one that happens to know
-/// all.
+/// rank knows, those above its points and above its parts, and `nodes` tells which these are, on
+/// every rank: also on one that happens to know all. Look-ups work wherever these tell;
+/// rrcb/locate.hpp has what else is needed.
 struct Cuts {
     int dimension = 0;      ///< of the points
     int num_parts = 1;      ///< of the whole tree
@@ -40,29 +41,39 @@ struct Cuts {
     std::vector<std::int32_t> nodes{};
 };
 
-/// True when cuts are the whole tree, the same on every rank. Not collective.
+/// True when cuts are the whole tree, the same on every rank, so that look-ups work everywhere. Not
+/// collective.
 inline bool is_whole(const Cuts& cuts) {
     return cuts.nodes.empty();
 }
+
+/// In place of a part that the cuts do not tell.
+inline constexpr Part no_part = -1;
 
 /// Number of a node's parts that lie below its cut; `num_parts` >= 2.
 constexpr int lower_parts(int num_parts) {
     return num_parts / 2;
 }
 
-/// Part of a position. Not collective; O(depth).
+/// Part of a position; no_part where the cuts that tell it are not known. Not collective; O(depth),
+/// by a logarithm more where the tree is not whole.
 RRCB_API Part part_of(const Cuts& cuts, const Vector& position);
 
 /// Part of every point, into `parts` (length points.count). Not collective.
+///
+/// Throws Error where the cuts that tell the part of a point are not known.
 RRCB_API void assign(const Cuts& cuts, const Points& points, std::span<Part> parts);
 
 /// Region of a part; open sides are +-infinity. Lower faces belong to it, upper faces do not,
 /// but for ties (see Cut). Not collective.
+///
+/// Throws Error where some of the cuts above the part are not known.
 RRCB_API Box box_of(const Cuts& cuts, Part part);
 
 /// Parts whose region a closed box touches, ascending; none for an empty box. Not collective.
 ///
-/// Where the box holds the place of points that a cut divides, both sides of it are touched.
+/// Where the box holds the place of points that a cut divides, both sides of it are touched. Throws
+/// Error where cuts that may cross the box are not known.
 RRCB_API std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
 
 }  // namespace rrcb

@@ -116,8 +116,14 @@ RRCB_API int rrcb_rebalance(rrcb_balancer* balancer, int dimension, size_t count
 /** Reads the report of the last balance. Not collective. */
 RRCB_API int rrcb_get_report(const rrcb_balancer* balancer, rrcb_report* report);
 
-/** Shows the cuts, which belong to the balancer until it gets others. Not collective. */
+/** Shows the cuts, which belong to the balancer until it gets others. Not collective.
+ *
+ *  An error where the balancer holds a part of them only, see rrcb::Cuts. */
 RRCB_API int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts);
+
+/** Gives each rank's balancer all cuts, where each holds a part of them, as rrcb::whole_cuts.
+ *  Collective. */
+RRCB_API int rrcb_gather_cuts(rrcb_balancer* balancer);
 
 /** Gives the balancer cuts, as of an earlier run; they are copied. Not collective, yet all ranks
  *  give the same, which rrcb_rebalance checks. */

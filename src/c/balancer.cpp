@@ -115,6 +115,10 @@ int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts) {
                   offsetof(rrcb_cut, at) == offsetof(rrcb::Cut, at));
     return guarded(balancer, [&](const auto& own) {
         require(cuts, "cuts");
+        if (!is_whole(own.cuts))
+            throw rrcb::Error(rrcb::ErrorCode::invalid_argument,
+                              "the balancer holds a part of the cuts; call rrcb_gather_cuts on all "
+                              "ranks");
         *cuts = {own.cuts.dimension, own.cuts.num_parts,
                  reinterpret_cast<const rrcb_cut*>(own.cuts.tree.data())};
     });

@@ -2,6 +2,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/duplicate.hpp"
 
+#include <rrcb/locate.hpp>
 #include <rrcb/transfer.hpp>
 
 #include <algorithm>
@@ -89,6 +90,10 @@ int rrcb_rebalance(rrcb_balancer* balancer, int dimension, size_t count, const d
             rrcb::c::points_of(dimension, count, coordinates, weights, parts);
         rrcb::c::keep(rrcb::balance(points, own.options, own.comm, own.cuts), {parts, count}, own);
     });
+}
+
+int rrcb_gather_cuts(rrcb_balancer* balancer) {
+    return guarded(balancer, [&](auto& own) { own.cuts = rrcb::whole_cuts(own.cuts, own.comm); });
 }
 
 int rrcb_assign(const rrcb_balancer* balancer, size_t count, const double* coordinates,

@@ -1,4 +1,5 @@
 #include "cuts/tree.hpp"
+#include "options/rejection.hpp"
 
 #include <rrcb/cuts.hpp>
 
@@ -11,12 +12,19 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// The cut of a node that the look-up can't do without.
+const Cut& known_cut(const Cuts& cuts, const Descent& at) {
+    const Cut* cut = find_cut(cuts, at.node);
+    if (cut == nullptr) reject_unknown();
+    return *cut;
+}
+
 void collect_touching(const Cuts& cuts, const Box& box, Descent at, std::vector<Part>& parts) {
     if (at.is_part()) {
         parts.push_back(at.first_part);
         return;
     }
-    const Cut& cut = cuts.tree[at.node];
+    const Cut& cut = known_cut(cuts, at);
     const Sides sides = sides_of(box, cut, cuts.dimension);
     if (sides.below || holds_divided_points(box, cut, cuts.dimension))
         collect_touching(cuts, box, at.lower(), parts);
@@ -39,8 +47,33 @@ bool is_above(const Cut& cut, const Vector& position, int dimension) {
     return true;
 }
 
+void reject_unknown() {
+    reject(
+        "a look-up needs cuts that this rank does not know; all ranks together call locate() for "
+        "the parts of points, or whole_cuts() for look-ups of any kind");
+}
+
+Descent descend(const Cuts& cuts, const Vector& position, Descent at) {
+    while (!at.is_part()) {
+        const Cut* cut = find_cut(cuts, at.node);
+        if (cut == nullptr) break;
+        at = is_above(*cut, position, cuts.dimension) ? at.upper() : at.lower();
+    }
+    return at;
+}
+
+Descent node_at(const Cuts& cuts, std::size_t node) {
+    Descent at = root_of(cuts);
+    while (at.node != node) at = node >= at.upper().node ? at.upper() : at.lower();
+    return at;
+}
+
 Part part_of(const Cuts& cuts, const Vector& position) {
     Descent at = root_of(cuts);
+    if (!is_whole(cuts)) [[unlikely]] {
+        at = descend(cuts, position, at);
+        return at.is_part() ? at.first_part : no_part;
+    }
     while (!at.is_part())
         at = is_above(cuts.tree[at.node], position, cuts.dimension) ? at.upper() : at.lower();
     return at.first_part;
@@ -52,7 +85,7 @@ Box box_of(const Cuts& cuts, Part part) {
     box.upper.fill(infinity);
     Descent at = root_of(cuts);
     while (!at.is_part()) {
-        const Cut& cut = cuts.tree[at.node];
+        const Cut& cut = known_cut(cuts, at);
         const auto axis = static_cast<std::size_t>(cut.axis);
         const bool above = part >= at.upper().first_part;
         if (above) box.lower[axis] = std::max(box.lower[axis], cut.at[axis]);

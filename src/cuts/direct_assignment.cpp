@@ -1,32 +1,22 @@
 #include "cuts/direct_assignment.hpp"
 
-#include "cells/point_layout.hpp"
 #include "cells/running_sums.hpp"
+#include "cuts/known_tree.hpp"
+#include "cuts/point_block.hpp"
 #include "cuts/tree.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-
-// Compiles a function for processors with longer vectors as well; the loader takes what fits. It
-// compares and selects alone, so the results are the same.
-#if defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define RRCB_VECTOR_CLONES [[gnu::target_clones("default", "avx2", "arch=x86-64-v4")]]
-#else
-#define RRCB_VECTOR_CLONES
-#endif
+#include <utility>
 
 namespace rrcb {
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
-constexpr LocalIndex block_length = 512;
 
 constexpr int top_levels = 3;
 constexpr std::size_t num_top_nodes = 7;
@@ -72,12 +62,6 @@ struct Heap {
         fill(cuts, at.upper(), 2 * k + 2);
     }
 };
-
-/// The coordinates of the points of a block, one array per axis.
-using Columns = std::array<std::array<double, block_length>, max_dimension>;
-
-/// Columns one behind the other, as one array.
-constexpr auto column_length = static_cast<std::int32_t>(block_length);
 
 /// The nodes of a heap below its top levels, or the parts where it is no deeper. As doubles, which
 /// vectors select as fast as they compare.
@@ -146,31 +130,58 @@ void mark_tied(double tie, const double* x, LocalIndex length, std::int32_t* tie
     for (LocalIndex i = 0; i < length; ++i) tied[i] |= x[i] == tie ? 1 : 0;
 }
 
-/// Copies a block of points; returns a number whose highest bit is 1 where a coordinate is not
-/// finite.
-template <class Layout>
-std::uint64_t copy_block(const Layout& x, LocalIndex first, LocalIndex length, Columns& columns) {
-    constexpr std::uint64_t magnitude = ~std::uint64_t{0} >> 1;
-    constexpr std::uint64_t lowest_of_exponent = std::uint64_t{1} << 52;
-    std::uint64_t carries = 0;
-    for (LocalIndex i = 0; i < length; ++i) {
-        for (int axis = 0; axis < Layout::dimension; ++axis) {
-            const double value = x(first + i, axis);
-            columns[static_cast<std::size_t>(axis)][i] = value;
-            // Only the largest exponent, that of infinities and NaN, carries into the sign.
-            carries |= (std::bit_cast<std::uint64_t>(value) & magnitude) + lowest_of_exponent;
+/// Look-up of the parts of a block by all cuts.
+class HeapLookUp {
+  public:
+    explicit HeapLookUp(const Cuts& cuts) : cuts_(cuts), heap_(cuts), exits_(exits_of(heap_)) {}
+
+    std::size_t num_bins() const { return static_cast<std::size_t>(cuts_.num_parts); }
+
+    void find(const Columns& columns, LocalIndex length, Part* parts) {
+        const double* values = columns[0].data();
+        descend_top(heap_, exits_, columns, length, parts);
+        if (!heap_.is_plain) mark_tied_at_top(columns, length);
+        for (int level = top_levels; level < heap_.depth; ++level)
+            heap_.is_plain ? descend_level(heap_, values, length, parts)
+                           : descend_tilted_level(heap_, values, length, parts, tied_.data());
+        if (heap_.depth > top_levels) {
+            const std::size_t first = heap_.planes.size();
+            for (LocalIndex i = 0; i < length; ++i)
+                parts[i] =
+                    static_cast<Part>(heap_.parts[static_cast<std::size_t>(parts[i]) - first]);
         }
+        if (heap_.is_plain) return;
+        for_each_tied(tied_, columns, length, cuts_.dimension,
+                      [&](LocalIndex i, const Vector& x) { parts[i] = part_of(cuts_, x); });
     }
-    return carries;
-}
+
+    /// Bins are parts.
+    void write_parts(std::span<Part>) const {}
+    std::vector<Part> parts_of_bins() const { return {}; }
+
+  private:
+    void mark_tied_at_top(const Columns& columns, LocalIndex length) {
+        tied_.fill(0);
+        for (std::size_t k = 0; k < num_top_nodes; ++k)
+            if (!std::isnan(heap_.ties[k]))
+                mark_tied(heap_.ties[k], columns[static_cast<std::size_t>(heap_.axes[k])].data(),
+                          length, tied_.data());
+    }
+
+    const Cuts& cuts_;
+    Heap heap_;
+    std::array<double, num_exits> exits_;
+    TiedPoints tied_{};
+};
 
 /// Finds the parts of points block by block.
+template <class LookUp>
 class Assigner {
   public:
-    explicit Assigner(const Cuts& cuts) : cuts_(cuts), heap_(cuts), exits_(exits_of(heap_)) {}
+    explicit Assigner(LookUp&& look_up) : look_up_(std::move(look_up)) {}
 
-    /// Calls `visit(first, length)` after each block whose parts were written. Returns whether all
-    /// coordinates are finite.
+    /// Calls `visit(first, length)` after each block whose bins were written in place of its parts.
+    /// Returns whether all coordinates are finite.
     template <class Visit>
     bool run(const Points& points, std::span<Part> parts, Visit&& visit) {
         std::uint64_t carries = 0;
@@ -178,58 +189,19 @@ class Assigner {
             in_ranges(points.count, block_length, [&](LocalIndex first, LocalIndex last) {
                 const LocalIndex length = last - first;
                 carries |= copy_block(x, first, length, columns_);
-                assign_block(length, &parts[first]);
+                look_up_.find(columns_, length, &parts[first]);
                 visit(first, length);
+                look_up_.write_parts(parts.subspan(first, length));
             });
         });
         return carries >> 63 == 0;
     }
 
+    const LookUp& look_up() const { return look_up_; }
+
   private:
-    void assign_block(LocalIndex length, Part* parts) {
-        const double* columns = columns_[0].data();
-        descend_top(heap_, exits_, columns_, length, parts);
-        if (!heap_.is_plain) mark_tied_at_top(length);
-        for (int level = top_levels; level < heap_.depth; ++level)
-            heap_.is_plain ? descend_level(heap_, columns, length, parts)
-                           : descend_tilted_level(heap_, columns, length, parts, tied_.data());
-        if (heap_.depth > top_levels) {
-            const std::size_t first = heap_.planes.size();
-            for (LocalIndex i = 0; i < length; ++i)
-                parts[i] =
-                    static_cast<Part>(heap_.parts[static_cast<std::size_t>(parts[i]) - first]);
-        }
-        if (!heap_.is_plain) look_up_tied(length, parts);
-    }
-
-    void mark_tied_at_top(LocalIndex length) {
-        tied_.fill(0);
-        for (std::size_t k = 0; k < num_top_nodes; ++k)
-            if (!std::isnan(heap_.ties[k]))
-                mark_tied(heap_.ties[k], columns_[static_cast<std::size_t>(heap_.axes[k])].data(),
-                          length, tied_.data());
-    }
-
-    void look_up_tied(LocalIndex length, Part* parts) const {
-        std::array<LocalIndex, block_length> left;
-        std::size_t num_left = 0;
-        for (LocalIndex i = 0; i < length; ++i) {
-            left[num_left] = i;
-            num_left += static_cast<std::size_t>(tied_[i]);
-        }
-        for (const LocalIndex i : std::span(left).first(num_left)) {
-            Vector position{};
-            for (std::size_t a = 0; a < static_cast<std::size_t>(cuts_.dimension); ++a)
-                position[a] = columns_[a][i];
-            parts[i] = part_of(cuts_, position);
-        }
-    }
-
-    const Cuts& cuts_;
-    Heap heap_;
-    std::array<double, num_exits> exits_;
+    LookUp look_up_;
     Columns columns_{};
-    std::array<std::int32_t, block_length> tied_{};  ///< 1: on a plane that position decides on
 };
 
 /// Counts in turns, as a number is read again no sooner than it was written.
@@ -257,20 +229,16 @@ class Counter {
     std::vector<std::array<LocalIndex, num_turns>> counts_;
 };
 
-}  // namespace
-
-void assign(const Cuts& cuts, const Points& points, std::span<Part> parts) {
-    if (points.count == 0) return;
-    Assigner(cuts).run(points, parts, [](LocalIndex, LocalIndex) {});
-}
-
-PartTotals assign_and_count(const Cuts& cuts, const Points& points, std::span<Part> parts) {
-    const auto num_parts = static_cast<std::size_t>(cuts.num_parts);
+/// See assign_and_count().
+template <class LookUp>
+PartTotals count_by(LookUp&& look_up, const Points& points, std::span<Part> parts) {
+    const std::size_t num_bins = look_up.num_bins();
     PartTotals totals;
-    Counter counter(num_parts);
-    RunningSums<double> weights(num_parts);
+    Counter counter(num_bins);
+    RunningSums<double> weights(num_bins);
     LocalIndex num_added = 0;
-    totals.all_finite = Assigner(cuts).run(points, parts, [&](LocalIndex first, LocalIndex length) {
+    Assigner assigner(std::move(look_up));
+    totals.all_finite = assigner.run(points, parts, [&](LocalIndex first, LocalIndex length) {
         counter.add(parts.subspan(first, length));
         if (points.weights.empty()) return;
         for (LocalIndex i = first; i < first + length; ++i)
@@ -283,7 +251,37 @@ PartTotals assign_and_count(const Cuts& cuts, const Points& points, std::span<Pa
     weights.empty();
     totals.counts = counter.totals();
     totals.weights = points.weights.empty() ? totals.counts : weights.totals();
+    totals.parts = assigner.look_up().parts_of_bins();
     return totals;
+}
+
+/// Box of points, without bounds where one is not finite.
+Box box_around(const Points& points) {
+    Box box = bounding_box(points);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a)
+        if (!(box.lower[a] <= box.upper[a])) {
+            box.lower.fill(-infinity);
+            box.upper.fill(infinity);
+        }
+    return box;
+}
+
+}  // namespace
+
+void assign(const Cuts& cuts, const Points& points, std::span<Part> parts) {
+    if (points.count == 0) return;
+    const auto look_at_nothing = [](LocalIndex, LocalIndex) {};
+    if (is_whole(cuts)) {
+        Assigner(HeapLookUp(cuts)).run(points, parts, look_at_nothing);
+        return;
+    }
+    Assigner(KnownTree(cuts, box_around(points))).run(points, parts, look_at_nothing);
+    if (std::ranges::any_of(parts, is_unknown)) reject_unknown();
+}
+
+PartTotals assign_and_count(const Cuts& cuts, const Points& points, std::span<Part> parts) {
+    return is_whole(cuts) ? count_by(HeapLookUp(cuts), points, parts)
+                          : count_by(KnownTree(cuts, box_around(points)), points, parts);
 }
 
 }  // namespace rrcb

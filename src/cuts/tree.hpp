@@ -2,6 +2,7 @@
 
 #include <rrcb/cuts.hpp>
 
+#include <algorithm>
 #include <vector>
 
 namespace rrcb {
@@ -23,6 +24,23 @@ struct Descent {
 inline Descent root_of(const Cuts& cuts) {
     return {0, 0, cuts.num_parts};
 }
+
+/// The cut of a node; null where the tree is not whole and does not hold it.
+inline const Cut* find_cut(const Cuts& cuts, std::size_t node) {
+    if (is_whole(cuts)) return &cuts.tree[node];
+    const auto found = std::ranges::lower_bound(cuts.nodes, static_cast<std::int32_t>(node));
+    if (found == cuts.nodes.end() || *found != static_cast<std::int32_t>(node)) return nullptr;
+    return &cuts.tree[static_cast<std::size_t>(found - cuts.nodes.begin())];
+}
+
+/// The part of a position at or below `at`, or the first node on the way to it that is not known.
+Descent descend(const Cuts& cuts, const Vector& position, Descent at);
+
+/// The node of this number in preorder.
+Descent node_at(const Cuts& cuts, std::size_t node);
+
+/// Throws the Error of a look-up that needs a cut which is not known.
+[[noreturn]] void reject_unknown();
 
 /// True when a cut is a plane, which breaks no ties by position.
 bool is_plane(const Cut& cut, int dimension);

@@ -34,6 +34,7 @@ module rrcb
     procedure :: rebalance => balancer_rebalance            !< collective
     procedure :: report => balancer_report
     procedure :: cuts => balancer_cuts
+    procedure :: gather_cuts => balancer_gather_cuts        !< collective
     procedure :: set_cuts => balancer_set_cuts
     procedure :: assign => balancer_assign
     procedure :: box_of => balancer_box_of
@@ -144,7 +145,8 @@ contains
     error = c_get_report(self%handle, report)
   end subroutine
 
-  !> The cuts belong to the balancer until it gets others; `dimension` is 0 before the first.
+  !> The cuts belong to the balancer until it gets others; `dimension` is 0 before the first. An
+  !> error where the balancer holds a part of them only.
   subroutine balancer_cuts(self, dimension, cuts, error)
     class(rrcb_balancer), intent(in) :: self
     integer, intent(out) :: dimension
@@ -154,6 +156,13 @@ contains
     error = c_get_cuts(self%handle, from)
     dimension = from%dimension
     call c_f_pointer(from%tree, cuts, [from%num_parts - 1])
+  end subroutine
+
+  !> Gives each rank's balancer all cuts, where each holds a part of them.
+  subroutine balancer_gather_cuts(self, error)
+    class(rrcb_balancer), intent(inout) :: self
+    integer, intent(out) :: error
+    error = c_gather_cuts(self%handle)
   end subroutine
 
   !> Copies cuts of an earlier run, one less than there are parts.

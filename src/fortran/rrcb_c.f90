@@ -105,6 +105,11 @@ module rrcb_c
       type(c_cuts), intent(inout) :: cuts
       integer(c_int) :: code
     end function
+    function c_gather_cuts(handle) bind(c, name="rrcb_gather_cuts") result(code)
+      import :: c_int, c_ptr
+      type(c_ptr), value :: handle
+      integer(c_int) :: code
+    end function
     function c_set_cuts(handle, cuts) bind(c, name="rrcb_set_cuts") result(code)
       import :: c_cuts, c_int, c_ptr
       type(c_ptr), value :: handle

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -103,10 +104,24 @@ void check_axes(const Options& options, int dimension) {
         require(axis >= 0 && axis < dimension, "cut_axes must be axes of the points");
 }
 
+void check_tree(const Cuts& cuts) {
+    const bool holds_all = cuts.tree.size() + 1 == static_cast<std::size_t>(cuts.num_parts);
+    const std::vector<std::int32_t>& nodes = cuts.nodes;
+    const bool holds_some = !nodes.empty() && nodes.size() == cuts.tree.size() &&
+                            nodes.front() >= 0 && nodes.back() < cuts.num_parts - 1 &&
+                            std::ranges::adjacent_find(nodes, std::greater_equal()) == nodes.end();
+    require(cuts.num_parts >= 1 && (is_whole(cuts) ? holds_all : holds_some),
+            "the tree must hold one cut less than there are parts, or the ascending number of each "
+            "one that it holds");
+    require(cross_axes_at_numbers(cuts), "cuts must cross axes of the points at numbers");
+}
+
 void check_cuts(const Cuts& cuts, int dimension) {
     require(cuts.dimension == dimension, "cuts must have the dimension of the points");
-    require(cuts.num_parts >= 1 && cuts.tree.size() + 1 == static_cast<std::size_t>(cuts.num_parts),
-            "the tree must hold one cut less than there are parts");
+    require(cuts.num_parts >= 1 && is_whole(cuts) &&
+                cuts.tree.size() + 1 == static_cast<std::size_t>(cuts.num_parts),
+            "the tree must hold one cut less than there are parts; whole_cuts() gathers them where "
+            "the ranks have a part of it each");
     require(cross_axes_at_numbers(cuts), "cuts must cross axes of the points at numbers");
 }
 

@@ -20,7 +20,10 @@ void check_arrays(const Points& points);
 /// unusable.
 Box check_points(const Points& points);
 
-/// Throws Error when cuts are no tree, or not one for points of this dimension.
+/// Throws Error when cuts are neither a tree nor a part of one.
+void check_tree(const Cuts& cuts);
+
+/// Throws Error when cuts are no whole tree, or not one for points of this dimension.
 void check_cuts(const Cuts& cuts, int dimension);
 
 /// Throws Error when the cuts of an earlier call don't fit these options.

@@ -39,6 +39,8 @@ program module_test
   call expect(report%num_points == 300 .and. report%total_weight == 600, "report")
   call expect(report%measured_imbalance == 1 .and. report%within_tolerance == 1, "imbalance")
 
+  call balancer%gather_cuts(error)
+  call expect(error == rrcb_ok, "gather_cuts")
   call balancer%cuts(dimension, cuts, error)
   call expect(error == rrcb_ok .and. dimension == 1 .and. size(cuts) == 2, "cuts")
   call expect(cuts(1)%axis == 0 .and. cuts(1)%at(1) > 50 .and. cuts(1)%at(1) <= 51, "first cut")

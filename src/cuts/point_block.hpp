@@ -1,0 +1,74 @@
+#pragma once
+
+#include "cells/point_layout.hpp"
+
+#include <rrcb/points.hpp>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+// Compiles a function for processors with longer vectors as well; the loader takes what fits. It
+// compares and selects alone, so the results are the same.
+#if defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define RRCB_VECTOR_CLONES [[gnu::target_clones("default", "avx2", "arch=x86-64-v4")]]
+#else
+#define RRCB_VECTOR_CLONES
+#endif
+
+namespace rrcb {
+
+inline constexpr LocalIndex block_length = 512;
+
+/// In place of a plane that no point lies on.
+inline constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+
+/// The coordinates of the points of a block, one array per axis.
+using Columns = std::array<std::array<double, block_length>, max_dimension>;
+
+/// Columns one behind the other, as one array.
+constexpr auto column_length = static_cast<std::int32_t>(block_length);
+
+/// 1 for points of a block that lie on a plane on which position decides.
+using TiedPoints = std::array<std::int32_t, block_length>;
+
+/// Copies a block of points; returns a number whose highest bit is 1 where a coordinate is not
+/// finite.
+template <class Layout>
+std::uint64_t copy_block(const Layout& x, LocalIndex first, LocalIndex length, Columns& columns) {
+    constexpr std::uint64_t magnitude = ~std::uint64_t{0} >> 1;
+    constexpr std::uint64_t lowest_of_exponent = std::uint64_t{1} << 52;
+    std::uint64_t carries = 0;
+    for (LocalIndex i = 0; i < length; ++i) {
+        for (int axis = 0; axis < Layout::dimension; ++axis) {
+            const double value = x(first + i, axis);
+            columns[static_cast<std::size_t>(axis)][i] = value;
+            // Only the largest exponent, that of infinities and NaN, carries into the sign.
+            carries |= (std::bit_cast<std::uint64_t>(value) & magnitude) + lowest_of_exponent;
+        }
+    }
+    return carries;
+}
+
+/// Calls look_up(i, position) for the points of a block that lie on such a plane.
+template <class LookUp>
+void for_each_tied(const TiedPoints& tied, const Columns& columns, LocalIndex length, int dimension,
+                   LookUp&& look_up) {
+    std::array<LocalIndex, block_length> left;
+    std::size_t num_left = 0;
+    for (LocalIndex i = 0; i < length; ++i) {
+        left[num_left] = i;
+        num_left += static_cast<std::size_t>(tied[i]);
+    }
+    for (const LocalIndex i : std::span(left).first(num_left)) {
+        Vector position{};
+        for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+            position[a] = columns[a][i];
+        look_up(i, position);
+    }
+}
+
+}  // namespace rrcb

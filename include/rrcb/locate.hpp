@@ -4,6 +4,8 @@
 
 #include <mpi.h>
 
+#include <vector>
+
 namespace rrcb {
 
 /// The whole tree of cuts of which each rank holds a part.
@@ -13,5 +15,17 @@ namespace rrcb {
 /// the ranks hold cuts of trees of other dimensions or numbers of parts, where one lacks a cut that
 /// a balance on this communicator would have left with it, or has no memory.
 RRCB_API Cuts whole_cuts(const Cuts& cuts, MPI_Comm comm);
+
+/// Part of each of any positions, by cuts of which each rank holds some.
+///
+/// Collective over `comm`, that of the balance; each rank gives positions of its own, or none, but
+/// states their dimension. The ranks share the cuts that they own in one pass through them, of
+/// ceil(log2 R) messages each, then ask the owners for those that they lack: in at most two
+/// questions one after the other in trees of up to 2^20 parts, with all of which a rank gets 5 kB
+/// for each 127 cuts that it asks for. Whole cuts are looked up in place.
+///
+/// Throws Error on every rank alike: for coordinates that are NaN or infinite, positions of another
+/// dimension than the cuts, cuts that whole_cuts() would refuse, or no memory.
+RRCB_API std::vector<Part> locate(const Cuts& cuts, const Points& positions, MPI_Comm comm);
 
 }  // namespace rrcb

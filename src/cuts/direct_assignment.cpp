@@ -268,15 +268,19 @@ Box box_around(const Points& points) {
 
 }  // namespace
 
-void assign(const Cuts& cuts, const Points& points, std::span<Part> parts) {
+void assign_known(const Cuts& cuts, const Points& points, std::span<Part> parts) {
     if (points.count == 0) return;
     const auto look_at_nothing = [](LocalIndex, LocalIndex) {};
     if (is_whole(cuts)) {
         Assigner(HeapLookUp(cuts)).run(points, parts, look_at_nothing);
-        return;
+    } else {
+        Assigner(KnownTree(cuts, box_around(points))).run(points, parts, look_at_nothing);
     }
-    Assigner(KnownTree(cuts, box_around(points))).run(points, parts, look_at_nothing);
-    if (std::ranges::any_of(parts, is_unknown)) reject_unknown();
+}
+
+void assign(const Cuts& cuts, const Points& points, std::span<Part> parts) {
+    assign_known(cuts, points, parts);
+    if (!is_whole(cuts) && std::ranges::any_of(parts, is_unknown)) reject_unknown();
 }
 
 PartTotals assign_and_count(const Cuts& cuts, const Points& points, std::span<Part> parts) {

@@ -4,7 +4,8 @@
 
 #include <rrcb/plan.hpp>
 
-#include <span>
+#include <cstddef>
+#include <functional>
 
 namespace rrcb {
 
@@ -13,8 +14,9 @@ inline int owner_of(const Descent& node, int num_parts, int num_ranks) {
     return ranks_of_part(node.first_part, num_parts, num_ranks).first_rank;
 }
 
-/// Writes the cuts that a rank owns to their places in the whole tree. Throws Error where it lacks
+/// Calls visit(node, cut) for each cut that a rank owns, in preorder. Throws Error where it lacks
 /// one.
-void write_owned(const Cuts& cuts, int rank, int num_ranks, std::span<Cut> tree);
+void for_each_owned(const Cuts& cuts, int rank, int num_ranks,
+                    const std::function<void(std::size_t node, const Cut& cut)>& visit);
 
 }  // namespace rrcb

@@ -1,0 +1,45 @@
+#include "cuts/owned_cuts.hpp"
+
+#include "options/rejection.hpp"
+
+namespace rrcb {
+
+namespace {
+
+/// The first part whose first rank is `rank` or a later one.
+Part first_part_from(int rank, int num_parts, int num_ranks) {
+    Part first = 0;
+    Part last = num_parts;
+    // Those below `first` begin on earlier ranks, those from `last` on do not.
+    while (first < last) {
+        const Part middle = first + (last - first) / 2;
+        if (ranks_of_part(middle, num_parts, num_ranks).first_rank < rank) {
+            first = middle + 1;
+        } else {
+            last = middle;
+        }
+    }
+    return first;
+}
+
+}  // namespace
+
+void for_each_owned(const Cuts& cuts, int rank, int num_ranks,
+                    const std::function<void(std::size_t node, const Cut& cut)>& visit) {
+    const Part end = first_part_from(rank + 1, cuts.num_parts, num_ranks);
+    for (Part part = first_part_from(rank, cuts.num_parts, num_ranks); part < end; ++part) {
+        Descent at = root_of(cuts);
+        while (!at.is_part()) {
+            const bool is_owned = at.first_part == part;
+            const Cut* cut = is_owned ? find_cut(cuts, at.node) : nullptr;
+            if (is_owned && cut == nullptr)
+                reject(
+                    "a cut is missing that this rank should know; give the cuts of a balance on "
+                    "this communicator");
+            if (is_owned) visit(at.node, *cut);
+            at = part >= at.upper().first_part ? at.upper() : at.lower();
+        }
+    }
+}
+
+}  // namespace rrcb

@@ -129,8 +129,14 @@ RRCB_API int rrcb_gather_cuts(rrcb_balancer* balancer);
  *  give the same, which rrcb_rebalance checks. */
 RRCB_API int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts);
 
-/** Parts of any positions by the cuts, arrays as for rrcb_balance. Not collective. */
+/** Parts of any positions by the cuts, arrays as for rrcb_balance. Not collective.
+ *
+ *  An error where the balancer does not hold the cuts that tell them. */
 RRCB_API int rrcb_assign(const rrcb_balancer* balancer, size_t count, const double* coordinates,
+                         int32_t* parts);
+
+/** The same wherever the cuts are held, as rrcb::locate. Collective. */
+RRCB_API int rrcb_locate(const rrcb_balancer* balancer, size_t count, const double* coordinates,
                          int32_t* parts);
 
 /** Region of a part by the cuts: `lower` and `upper` of length 3. Not collective. */

@@ -109,6 +109,15 @@ int rrcb_assign(const rrcb_balancer* balancer, size_t count, const double* coord
     });
 }
 
+int rrcb_locate(const rrcb_balancer* balancer, size_t count, const double* coordinates,
+                int32_t* parts) {
+    return guarded(balancer, [&](const auto& own) {
+        const rrcb::Points positions =
+            rrcb::c::points_of(own.cuts.dimension, count, coordinates, nullptr, parts);
+        std::ranges::copy(rrcb::locate(own.cuts, positions, own.comm), parts);
+    });
+}
+
 int rrcb_make_plan(rrcb_balancer* balancer, size_t count, const int32_t* parts) {
     return guarded(balancer, [&](auto& own) {
         own.plan = rrcb::plan(rrcb::c::parts_of(count, parts), own.cuts.num_parts, own.comm);

@@ -124,6 +124,14 @@ module rrcb_c
       integer(c_int32_t), intent(out) :: parts(*)
       integer(c_int) :: code
     end function
+    function c_locate(handle, count, coordinates, parts) bind(c, name="rrcb_locate") result(code)
+      import :: c_double, c_int, c_int32_t, c_ptr, c_size_t
+      type(c_ptr), value :: handle
+      integer(c_size_t), value :: count
+      real(c_double), intent(in) :: coordinates(*)
+      integer(c_int32_t), intent(out) :: parts(*)
+      integer(c_int) :: code
+    end function
     function c_box_of(handle, part, lower, upper) bind(c, name="rrcb_box_of") result(code)
       import :: c_double, c_int, c_int32_t, c_ptr
       type(c_ptr), value :: handle

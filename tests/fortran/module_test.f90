@@ -55,6 +55,9 @@ program module_test
   call other%assign(x, again, error)
   call expect(error == rrcb_ok .and. all(again == parts), "assign")
   again = -1
+  call other%locate(x, again, error)
+  call expect(error == rrcb_ok .and. all(again == parts), "locate")
+  again = -1
   call other%set("refine", "NONE", error)
   call other%rebalance(x, again, error)
   call expect(error == rrcb_ok .and. all(again == parts), "rebalance")

@@ -119,6 +119,10 @@ TEST_F(CInterface, starts_from_cuts_that_it_is_given) {
     ASSERT_EQ(rrcb_assign(other, cloud.count(), cloud.coordinates.data(), parts.data()), RRCB_OK);
     EXPECT_EQ(parts, first);
     parts.assign(cloud.count(), -1);
+    ASSERT_EQ(rrcb_gather_cuts(other), RRCB_OK);
+    ASSERT_EQ(rrcb_locate(other, cloud.count(), cloud.coordinates.data(), parts.data()), RRCB_OK);
+    EXPECT_EQ(parts, first);
+    parts.assign(cloud.count(), -1);
     ASSERT_EQ(rrcb_rebalance(other, 2, cloud.count(), cloud.coordinates.data(),
                              cloud.weights.data(), parts.data()),
               RRCB_OK);
@@ -182,6 +186,9 @@ TEST_F(CInterface, what_is_wrong_on_one_rank_fails_on_all) {
 
     if (is_last_rank()) cloud.coordinates.back() = 0.5;
     ASSERT_EQ(call(2, coordinates, parts.data()), RRCB_OK) << rrcb_last_error();
+    std::int32_t* none_there = is_last_rank() ? nullptr : parts.data();
+    expect_error_everywhere(rrcb_locate(balancer, cloud.count(), coordinates, none_there), invalid,
+                            "");
     const std::int32_t* given = is_last_rank() ? nullptr : parts.data();
     expect_error_everywhere(rrcb_make_plan(balancer, cloud.count(), given), invalid, "part");
     ASSERT_EQ(rrcb_make_plan(balancer, cloud.count(), parts.data()), RRCB_OK);

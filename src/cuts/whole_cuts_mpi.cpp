@@ -1,3 +1,5 @@
+#include "cuts/whole_cuts_mpi.hpp"
+
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
@@ -12,16 +14,13 @@
 
 namespace rrcb {
 
-namespace {
-
-/// Gives every rank all cuts, each of which one rank has and the others hold as zeros. Collective.
-void join(std::span<Cut> tree, MPI_Comm comm) {
+void join_cuts(std::span<Cut> tree, MPI_Comm comm, Participant& self) {
     static_assert(sizeof(Cut) % sizeof(std::uint64_t) == 0);
     auto* words = reinterpret_cast<std::uint64_t*>(tree.data());
     std::size_t left = tree.size_bytes() / sizeof(std::uint64_t);
     while (left > 0) {
         const std::size_t count = std::min(left, mpi::longest_message / sizeof(std::uint64_t));
-        mpi::check(MPI_Allreduce(MPI_IN_PLACE, words, static_cast<int>(count), MPI_UINT64_T,
+        self.check(MPI_Allreduce(MPI_IN_PLACE, words, static_cast<int>(count), MPI_UINT64_T,
                                  MPI_BOR, comm),
                    "MPI_Allreduce");
         words += count;
@@ -29,10 +28,7 @@ void join(std::span<Cut> tree, MPI_Comm comm) {
     }
 }
 
-}  // namespace
-
-Cuts whole_cuts(const Cuts& cuts, MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
+Cuts whole_cuts(const Cuts& cuts, Participant& self) {
     Cuts whole;
     self.attempt([&] {
         check_tree(cuts);
@@ -47,8 +43,14 @@ Cuts whole_cuts(const Cuts& cuts, MPI_Comm user) {
     agree(self, {{"the dimension of the cuts", static_cast<std::uint64_t>(cuts.dimension)},
                  {"the number of parts", static_cast<std::uint64_t>(cuts.num_parts)},
                  {"whether the tree is whole", is_whole(cuts) ? 1u : 0u}});
-    if (!is_whole(cuts)) join(whole.tree, self.comm);
+    if (!is_whole(cuts)) join_cuts(whole.tree, self.comm, self);
+    self.throw_alone();
     return whole;
+}
+
+Cuts whole_cuts(const Cuts& cuts, MPI_Comm user) {
+    Participant self{mpi::duplicate_of(user)};
+    return whole_cuts(cuts, self);
 }
 
 }  // namespace rrcb

@@ -19,18 +19,6 @@ const Cut& known_cut(const Cuts& cuts, const Descent& at) {
     return *cut;
 }
 
-void collect_touching(const Cuts& cuts, const Box& box, Descent at, std::vector<Part>& parts) {
-    if (at.is_part()) {
-        parts.push_back(at.first_part);
-        return;
-    }
-    const Cut& cut = known_cut(cuts, at);
-    const Sides sides = sides_of(box, cut, cuts.dimension);
-    if (sides.below || holds_divided_points(box, cut, cuts.dimension))
-        collect_touching(cuts, box, at.lower(), parts);
-    if (sides.above) collect_touching(cuts, box, at.upper(), parts);
-}
-
 }  // namespace
 
 bool is_plane(const Cut& cut, int dimension) {
@@ -80,26 +68,18 @@ Part part_of(const Cuts& cuts, const Vector& position) {
 }
 
 Box box_of(const Cuts& cuts, Part part) {
-    Box box;
-    box.lower.fill(-infinity);
-    box.upper.fill(infinity);
-    Descent at = root_of(cuts);
-    while (!at.is_part()) {
-        const Cut& cut = known_cut(cuts, at);
-        const auto axis = static_cast<std::size_t>(cut.axis);
-        const bool above = part >= at.upper().first_part;
-        if (above) box.lower[axis] = std::max(box.lower[axis], cut.at[axis]);
-        if (!above) box.upper[axis] = std::min(box.upper[axis], cut.at[axis]);
-        at = above ? at.upper() : at.lower();
-    }
-    return box;
+    return region_below(root_of(cuts), part,
+                        [&](const Descent& at) -> const Cut& { return known_cut(cuts, at); });
 }
 
 std::vector<Part> parts_touching(const Cuts& cuts, const Box& box) {
     std::vector<Part> parts;
     for (std::size_t a = 0; a < static_cast<std::size_t>(cuts.dimension); ++a)
         if (!(box.lower[a] <= box.upper[a])) return parts;
-    collect_touching(cuts, box, root_of(cuts), parts);
+    visit_touching(
+        root_of(cuts), box, cuts.dimension,
+        [&](const Descent& at) -> const Cut& { return known_cut(cuts, at); },
+        [&](Part part) { parts.push_back(part); });
     return parts;
 }
 

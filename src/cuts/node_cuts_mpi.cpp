@@ -10,26 +10,31 @@
 
 namespace rrcb {
 
-NodeCuts::NodeCuts(int num_parts, Participant& self) {
-    // What was made before a failure stays until MPI ends: to free it takes ranks that lack it.
+void NodeCuts::make_room(int num_parts, Participant& self) {
+    // What is made before a failure stays until MPI ends: to free it takes ranks that lack it.
     const int rank = mpi::rank_of(self.comm);
-    self.check(MPI_Comm_split_type(self.comm, MPI_COMM_TYPE_SHARED, rank, MPI_INFO_NULL, &node_),
+    MPI_Comm node = MPI_COMM_NULL;
+    MPI_Comm leaders = MPI_COMM_NULL;
+    MPI_Win window = MPI_WIN_NULL;
+    self.check(MPI_Comm_split_type(self.comm, MPI_COMM_TYPE_SHARED, rank, MPI_INFO_NULL, &node),
                "MPI_Comm_split_type");
     agree(self);
-    self.check(MPI_Comm_set_errhandler(node_, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
-    const bool leads = mpi::rank_of(node_) == 0;
-    self.check(MPI_Comm_split(self.comm, leads ? 0 : MPI_UNDEFINED, rank, &leaders_),
+    self.check(MPI_Comm_set_errhandler(node, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+    const bool leads = mpi::rank_of(node) == 0;
+    self.check(MPI_Comm_split(self.comm, leads ? 0 : MPI_UNDEFINED, rank, &leaders),
                "MPI_Comm_split");
     const auto num_cuts = static_cast<std::size_t>(num_parts) - 1;
     void* memory = nullptr;
-    const auto bytes = static_cast<MPI_Aint>(leads ? num_cuts * sizeof(Cut) : 0);
-    self.check(MPI_Win_allocate_shared(bytes, sizeof(Cut), MPI_INFO_NULL, node_, &memory, &window_),
+    auto bytes = static_cast<MPI_Aint>(leads ? num_cuts * sizeof(Cut) : 0);
+    self.check(MPI_Win_allocate_shared(bytes, sizeof(Cut), MPI_INFO_NULL, node, &memory, &window),
                "MPI_Win_allocate_shared");
     agree(self);
-    MPI_Aint size = 0;
     int unit = 0;
-    self.check(MPI_Win_shared_query(window_, 0, &size, &unit, &memory), "MPI_Win_shared_query");
+    self.check(MPI_Win_shared_query(window, 0, &bytes, &unit, &memory), "MPI_Win_shared_query");
     agree(self);
+    node_ = node;
+    leaders_ = leaders;
+    window_ = window;
     tree_ = {static_cast<Cut*>(memory), num_cuts};
 }
 

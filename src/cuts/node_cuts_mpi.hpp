@@ -11,13 +11,15 @@ namespace rrcb {
 /// All cuts of a tree, once in the memory of each machine, for all ranks that run on it.
 class NodeCuts {
   public:
-    /// Makes room for the cuts between so many parts. Collective; throws Error on every rank alike.
-    NodeCuts(int num_parts, Participant& self);
-
+    NodeCuts() = default;
     /// Collective.
     ~NodeCuts();
     NodeCuts(const NodeCuts&) = delete;
     NodeCuts& operator=(const NodeCuts&) = delete;
+
+    /// Makes room for the cuts between so many parts, once. Collective; throws Error on every rank
+    /// alike.
+    void make_room(int num_parts, Participant& self);
 
     /// Gathers the cuts of which each rank holds a part. Collective: one reduction between the
     /// machines. Throws Error on every rank alike where one lacks a cut that it owns.

@@ -3,6 +3,8 @@
 #include <rrcb/cuts.hpp>
 
 #include <algorithm>
+#include <limits>
+#include <span>
 #include <vector>
 
 namespace rrcb {
@@ -55,10 +57,10 @@ inline Sides sides_of(const Box& box, const Cut& cut, int dimension) {
     return {!is_above(cut, box.lower, dimension), is_above(cut, box.upper, dimension)};
 }
 
-/// Axis of each cut, in preorder.
-inline std::vector<int> axes_of(const Cuts& cuts) {
+/// Axis of each cut of a whole tree, in preorder.
+inline std::vector<int> axes_of(std::span<const Cut> tree) {
     std::vector<int> axes;
-    for (const Cut& cut : cuts.tree) axes.push_back(cut.axis);
+    for (const Cut& cut : tree) axes.push_back(cut.axis);
     return axes;
 }
 
@@ -72,12 +74,42 @@ inline Descent first_crossing(const Cuts& cuts, const Box& box, Descent at) {
     return at;
 }
 
+/// Region of a part at or below `at`, see box_of(); cut_of(node) gives each cut above it.
+template <class CutOf>
+Box region_below(Descent at, Part part, CutOf&& cut_of) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Box box;
+    box.lower.fill(-infinity);
+    box.upper.fill(infinity);
+    while (!at.is_part()) {
+        const Cut& cut = cut_of(at);
+        const auto axis = static_cast<std::size_t>(cut.axis);
+        const bool above = part >= at.upper().first_part;
+        if (above) box.lower[axis] = std::max(box.lower[axis], cut.at[axis]);
+        if (!above) box.upper[axis] = std::min(box.upper[axis], cut.at[axis]);
+        at = above ? at.upper() : at.lower();
+    }
+    return box;
+}
+
 /// True when a closed box holds the place of points that lie on both sides of a cut.
 inline bool holds_divided_points(const Box& box, const Cut& cut, int dimension) {
     if (cut.divides == 0) return false;
     for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
         if (!(box.lower[a] <= cut.at[a] && cut.at[a] <= box.upper[a])) return false;
     return true;
+}
+
+/// Calls visit(part) for the parts at or below `at` that a box touches, see parts_touching().
+template <class CutOf, class Visit>
+void visit_touching(const Descent& at, const Box& box, int dimension, CutOf&& cut_of,
+                    Visit&& visit) {
+    if (at.is_part()) return visit(at.first_part);
+    const Cut& cut = cut_of(at);
+    const Sides sides = sides_of(box, cut, dimension);
+    if (sides.below || holds_divided_points(box, cut, dimension))
+        visit_touching(at.lower(), box, dimension, cut_of, visit);
+    if (sides.above) visit_touching(at.upper(), box, dimension, cut_of, visit);
 }
 
 }  // namespace rrcb

@@ -90,7 +90,7 @@ class Reader {
     /// Moves the cuts into places within their gaps; false where these are not enough.
     bool move_into_places() {
         CutLimits limits(options_, joined(ranks_).box(), estimate_.dimension,
-                         {axes_of(current_.cuts), gaps_});
+                         {axes_of(current_.cuts.tree), gaps_});
         if (!limits.has_room()) return false;
         move_node(root_of(estimate_), limits.region(), limits);
         return true;

@@ -53,7 +53,8 @@ TEST(WholeCuts, are_held_once_by_the_ranks_of_each_machine) {
     Participant self{mpi::duplicate_of(MPI_COMM_WORLD)};
     const int num_parts = 3 * num_ranks() + 70;
     for (num_machines = 1; num_machines <= std::min(num_ranks(), 3); ++num_machines) {
-        NodeCuts node_cuts(num_parts, self);
+        NodeCuts node_cuts;
+        node_cuts.make_room(num_parts, self);
         for (const int dimension : {3, 1, 2}) {
             const Cuts whole = random_cuts(dimension, num_parts);
             node_cuts.gather(known_here(whole, {rank()}), self);
@@ -78,7 +79,8 @@ TEST(WholeCuts, once_for_a_machine_are_refused_on_all_ranks_where_one_lacks_some
         cuts.nodes.pop_back();
         cuts.tree.pop_back();
     }
-    NodeCuts node_cuts(whole.num_parts, self);
+    NodeCuts node_cuts;
+    node_cuts.make_room(whole.num_parts, self);
     EXPECT_THROW(node_cuts.gather(cuts, self), Error);
     Participant again{self.comm};
     node_cuts.gather(known_here(whole), again);

@@ -8,6 +8,7 @@
 #include "zoltan/call/frame_mpi.hpp"
 #include "zoltan/call/layout_mpi.hpp"
 #include "zoltan/call/lists_mpi.hpp"
+#include "zoltan/call/look_ups_mpi.hpp"
 #include "zoltan/call/notices.hpp"
 #include "zoltan/call/rcb_options.hpp"
 #include "zoltan/call/renumber_mpi.hpp"
@@ -154,7 +155,7 @@ Preparation prepare(const Call& call, const Layout& layout, const Objects& objec
     const bool locks = fits && call.previous->answers_look_ups();
     self.attempt([&] {
         made.options =
-            make_options(parameters, layout, dimension, locks ? &call.previous->cuts() : nullptr);
+            make_options(parameters, layout, dimension, locks ? &*call.previous : nullptr);
         made.per_rank.resize(static_cast<std::size_t>(call.state.communicator->size()));
         made.renumbering.emplace(parameters, layout, objects, *call.state.communicator);
         const auto num_parts = static_cast<std::size_t>(layout.map.num_parts());
@@ -219,6 +220,8 @@ int stay(const Call& call, Objects&& objects, Partition& result) {
         result.exports = list_in_place(std::move(objects), state.communicator->rank());
     Participant self{state.communicator->get()};
     serve_fortran(call, result, self);
+    if (!state.kept->shows_all())
+        show_all_cuts(call.outcome, state.kept->cuts(), state, *state.kept, self);
     state.kept->answer_look_ups(keeps_cuts(state.parameters));
     print_notices(state.rest->report, state.kept->map().num_parts(), Remap{}, state, call.function);
     return ZOLTAN_OK;
@@ -265,6 +268,7 @@ int balance_objects(const Call& call, Objects&& objects, Partition& result) {
     select_lists(parameters, result.changes, prepared.per_rank, self, result.imports,
                  result.exports);
     serve_fortran(call, result, self);
+    show_all_cuts(call.outcome, balanced.cuts, call.state, *prepared.kept, self);
     print_notices(balanced.report, layout.map.num_parts(), remap, call.state, call.function);
     keep(std::move(prepared), std::move(balanced), flat.frame, std::move(layout.map),
          std::move(remap.numbers), call.state);

@@ -47,7 +47,7 @@ void check_parameters(const State& state, bool one_part_per_rank) {
 }
 
 Options make_options(const Parameters& parameters, const Layout& layout, int dimension,
-                     const Cuts* previous) {
+                     const KeptPartition* previous) {
     Options options = parameters.options;
     options.num_parts = layout.map.num_parts();
     options.part_sizes = layout.part_sizes;
@@ -57,7 +57,7 @@ Options make_options(const Parameters& parameters, const Layout& layout, int dim
         options.refine = Refine::none;
     }
     if (parameters.lock_directions != 0 && previous != nullptr) {
-        options.cut_axes = axes_of(*previous);
+        options.cut_axes = axes_of(previous->tree());
     } else if (parameters.set_directions != 0) {
         options.grouped_axes = axis_order(parameters.set_directions, dimension);
     }

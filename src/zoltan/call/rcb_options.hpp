@@ -3,7 +3,6 @@
 #include "zoltan/call/layout_mpi.hpp"
 #include "zoltan/handle/state.hpp"
 
-#include <rrcb/cuts.hpp>
 #include <rrcb/options.hpp>
 
 #include <string>
@@ -16,11 +15,12 @@ namespace rrcb::zoltan {
 /// rank.
 void check_parameters(const State& state, bool one_part_per_rank);
 
-/// Options of the balancer for one call. `previous`: cuts of the last call, or null.
+/// Options of the balancer for one call. `previous`: the last partition, of which look-ups have all
+/// cuts, or null.
 ///
 /// RCB_LOCK_DIRECTIONS takes their axes; otherwise RCB_SET_DIRECTIONS names the order of axes.
 Options make_options(const Parameters& parameters, const Layout& layout, int dimension,
-                     const Cuts* previous);
+                     const KeptPartition* previous);
 
 /// Whether objects have several weights, of which a norm is balanced (RCB_MULTICRITERIA_NORM). The
 /// balancer then makes an estimate only.

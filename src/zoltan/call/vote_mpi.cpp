@@ -3,6 +3,7 @@
 #include "collective/communicator.hpp"
 #include "options/request.hpp"
 #include "zoltan/call/fortran_mpi.hpp"
+#include "zoltan/call/rcb_options.hpp"
 
 #include <algorithm>
 #include <array>
@@ -54,6 +55,7 @@ struct Ballot {
     int any_local_parts = 0;
     int any_part_sizes = 0;
     int any_fortran = 0;
+    int keeps_cuts = 0;
     int lacks_cuts = 0;
     int axes_changed = 0;
     int not_at_rest = 0;
@@ -75,6 +77,7 @@ Ballot ballot_of(const LocalStatus& local, const State& state) {
     ballot.any_local_parts = parameters.num_local_parts >= 0 ? 1 : 0;
     ballot.any_part_sizes = state.part_sizes.empty() ? 0 : 1;
     ballot.any_fortran = is_fortran_used() ? 1 : 0;
+    ballot.keeps_cuts = keeps_cuts(parameters) ? 1 : 0;
     ballot.lacks_cuts = state.kept ? 0 : 1;
     ballot.axes_changed = state.axes_changed ? 1 : 0;
     ballot.not_at_rest = local.at_rest ? 0 : 1;
@@ -106,6 +109,7 @@ Outcome vote(const LocalStatus& local, const State& state) {
     outcome.any_local_parts = ballot.any_local_parts != 0;
     outcome.any_part_sizes = ballot.any_part_sizes != 0;
     outcome.any_fortran = ballot.any_fortran != 0;
+    outcome.any_keeps_cuts = ballot.keeps_cuts != 0;
     outcome.all_kept_cuts = ballot.lacks_cuts == 0;
     outcome.axes_changed = ballot.axes_changed != 0;
     outcome.at_rest = ballot.not_at_rest == 0;

@@ -32,6 +32,7 @@ struct Outcome {
     bool any_local_parts = false;  ///< NUM_LOCAL_PARTS is set somewhere
     bool any_part_sizes = false;   ///< Zoltan_LB_Set_Part_Sizes was called somewhere
     bool any_fortran = false;      ///< Zoltan's Fortran interface is used somewhere
+    bool any_keeps_cuts = false;   ///< for look-ups
     bool all_kept_cuts = false;    ///< of the last call, on every rank
     bool axes_changed = false;  ///< a parameter that chooses axes was changed somewhere since then
     bool at_rest = false;       ///< nothing has changed since then on any rank

@@ -7,7 +7,7 @@
 
 namespace rrcb::zoltan {
 
-KeptPartition::KeptPartition(std::size_t num_parts) : boxes_(num_parts), tree_(num_parts) {
+KeptPartition::KeptPartition(std::size_t num_parts) : boxes_(num_parts) {
     nodes_.reserve(num_parts);
 }
 
@@ -19,30 +19,54 @@ void KeptPartition::keep(Cuts&& cuts, const Frame& frame, PartMap&& map,
     numbers_ = std::move(numbers);
     for (std::size_t box = 0; box < numbers_.size(); ++box)
         boxes_[static_cast<std::size_t>(numbers_[box])] = static_cast<Part>(box);
-    root_ = build(0, cuts_.num_parts, -1);
-    if (cuts_.num_parts > 1) tree_[0].upper = lower_parts(cuts_.num_parts);
+    if (is_whole(cuts_)) {
+        root_ = build(0, cuts_.num_parts);
+    } else {
+        nodes_ = {};
+    }
 }
 
-/// Builds the nodes of a subtree in preorder. Returns its first one as a child. `parent` as in
-/// TreeNode.
-std::int32_t KeptPartition::build(Part first_part, int num_parts, int parent) {
+void KeptPartition::show_all(std::vector<Cut>&& tree) noexcept {
+    all_ = std::move(tree);
+}
+
+void KeptPartition::keep_shared() {
+    if (shared_.empty()) return;
+    all_.assign(shared_.begin(), shared_.end());
+    shared_ = {};
+}
+
+std::span<const Cut> KeptPartition::tree() const {
+    if (is_whole(cuts_)) return cuts_.tree;
+    return all_.empty() ? shared_ : std::span<const Cut>(all_);
+}
+
+/// Builds the nodes of a subtree in preorder. Returns its first one as a child.
+std::int32_t KeptPartition::build(Part first_part, int num_parts) {
     if (num_parts == 1) return ~numbers_[static_cast<std::size_t>(first_part)];
     const auto index = nodes_.size();
     const Cut& cut = cuts_.tree[index];
     nodes_.push_back({cut.at[static_cast<std::size_t>(cut.axis)], cut.axis, {}});
-    // A node has the number of the first part above its cut.
     const int below = lower_parts(num_parts);
-    const int above = num_parts - below;
-    const Part middle = first_part + below;
-    const auto name = [](Part start, int size) {
-        return size == 1 ? -start : start + lower_parts(size);
-    };
-    tree_[static_cast<std::size_t>(middle)] = {parent, name(first_part, below),
-                                               name(middle, above)};
-    const std::int32_t lower = build(first_part, below, middle + 1);
-    const std::int32_t upper = build(middle, above, -(middle + 1));
+    const std::int32_t lower = build(first_part, below);
+    const std::int32_t upper = build(first_part + below, num_parts - below);
     nodes_[index].child = {lower, upper};
     return static_cast<std::int32_t>(index);
+}
+
+TreeNode KeptPartition::tree_node(int node) const {
+    Descent at = root_of(cuts_);
+    if (node == 0) return {0, 0, at.is_part() ? 0 : at.upper().first_part};
+    // A node has the number of the first part above its cut.
+    int parent = -1;
+    for (Part middle = 0; (middle = at.upper().first_part) != node;) {
+        at = node > middle ? at.upper() : at.lower();
+        parent = node > middle ? -(middle + 1) : middle + 1;
+    }
+    const auto name = [](const Descent& child) {
+        return child.is_part() ? -child.first_part : child.upper().first_part;
+    };
+    return {parent, name(at.lower()), name(at.upper())};
 }
 
 bool KeptPartition::is_above(std::size_t cut, const double* position) const {
@@ -61,7 +85,22 @@ Part KeptPartition::part_of(const double* coordinates) const {
     return descend(place(frame_, coordinates).data());
 }
 
+/// By all cuts, or no_part where those that this rank knows do not tell.
+Part KeptPartition::descend_spread(const double* position) const {
+    Vector exact{};
+    std::copy_n(position, cuts_.dimension, exact.begin());
+    Descent at = root_of(cuts_);
+    if (!shows_all()) at = rrcb::descend(cuts_, exact, at);
+    if (!shows_all() && !at.is_part()) return no_part;
+    const std::span<const Cut> all = tree();
+    while (!at.is_part())
+        at = rrcb::is_above(all[at.node], exact, cuts_.dimension) ? at.upper() : at.lower();
+    return numbers_[static_cast<std::size_t>(at.first_part)];
+}
+
 Part KeptPartition::descend(const double* position) const {
+    if (!is_whole(cuts_)) [[unlikely]]
+        return descend_spread(position);
     std::int32_t at = root_;
     while (at >= 0) {
         const auto cut = static_cast<std::size_t>(at);
@@ -75,7 +114,16 @@ int KeptPartition::parts_touching(const Box& box, Part* parts) const {
     for (std::size_t a = 0; a < static_cast<std::size_t>(dimension()); ++a) {
         if (!(box.lower[a] <= box.upper[a])) return 0;
     }
-    const int count = collect(root_, frame_.turns() ? place(frame_, box) : box, parts, 0);
+    const Box placed = frame_.turns() ? place(frame_, box) : box;
+    int count = 0;
+    if (is_whole(cuts_)) [[likely]] {
+        count = collect(root_, placed, parts, 0);
+    } else {
+        visit_touching(
+            root_of(cuts_), placed, cuts_.dimension,
+            [all = tree()](const Descent& at) -> const Cut& { return all[at.node]; },
+            [&](Part part) { parts[count++] = numbers_[static_cast<std::size_t>(part)]; });
+    }
     std::sort(parts, parts + count);
     return count;
 }
@@ -94,7 +142,10 @@ int KeptPartition::collect(std::int32_t at, const Box& box, Part* parts, int cou
 }
 
 Box KeptPartition::region_of(Part part) const {
-    return unshifted(frame_, box_of(cuts_, boxes_[static_cast<std::size_t>(part)]));
+    const Box region =
+        region_below(root_of(cuts_), boxes_[static_cast<std::size_t>(part)],
+                     [all = tree()](const Descent& at) -> const Cut& { return all[at.node]; });
+    return unshifted(frame_, region);
 }
 
 }  // namespace rrcb::zoltan

@@ -6,6 +6,7 @@
 #include <rrcb/cuts.hpp>
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace rrcb::zoltan {
@@ -25,15 +26,29 @@ class KeptPartition {
     explicit KeptPartition(std::size_t num_parts);
 
     /// Keeps the cuts, which cross the axes of `frame`, without asking for memory. `numbers` has
-    /// the new number of each part.
+    /// the new number of each part. Where the cuts are spread over the ranks, look-ups find what
+    /// this rank knows until they get all cuts.
     void keep(Cuts&& cuts, const Frame& frame, PartMap&& map, std::vector<Part>&& numbers) noexcept;
+
+    /// Gives look-ups all cuts in preorder, of their own or in memory that outlives them.
+    void show_all(std::vector<Cut>&& tree) noexcept;
+    void show_all(std::span<const Cut> shared) noexcept { shared_ = shared; }
+    bool shows_all() const { return tree().size() + 1 == numbers_.size(); }
+
+    /// Copies cuts that others share. Throws std::bad_alloc.
+    void keep_shared();
 
     /// Sets whether look-ups may use the cuts. Without KEEP_CUTS, or a parameter that implies it,
     /// they are for the next partition only.
     void answer_look_ups(bool answers) { answers_look_ups_ = answers; }
-    bool answers_look_ups() const { return answers_look_ups_; }
+    bool answers_look_ups() const { return answers_look_ups_ && shows_all(); }
 
+    /// Cuts for the next partition, which may be spread over the ranks.
     const Cuts& cuts() const { return cuts_; }
+
+    /// All cuts in preorder, where look-ups have them.
+    std::span<const Cut> tree() const;
+
     const Frame& frame() const { return frame_; }
     const PartMap& map() const { return map_; }
     const std::vector<Part>& numbers() const { return numbers_; }
@@ -53,7 +68,7 @@ class KeptPartition {
 
     /// Node 1 ... parts - 1 of the tree; node 0 stands above the root. Its numbers are those before
     /// REMAP, as in Zoltan.
-    const TreeNode& tree_node(int node) const { return tree_[static_cast<std::size_t>(node)]; }
+    TreeNode tree_node(int node) const;
 
   private:
     /// Index k is cut k; children below 0 are parts, the part p as ~p.
@@ -63,8 +78,9 @@ class KeptPartition {
         std::array<std::int32_t, 2> child{};  ///< below the cut, above it
     };
 
-    std::int32_t build(Part first_part, int num_parts, int parent);
+    std::int32_t build(Part first_part, int num_parts);
     Part descend(const double* position) const;
+    Part descend_spread(const double* position) const;
     bool is_above(std::size_t cut, const double* position) const;
     int collect(std::int32_t at, const Box& box, Part* parts, int count) const;
 
@@ -74,7 +90,8 @@ class KeptPartition {
     std::vector<Part> numbers_;
     std::vector<Part> boxes_;  ///< number of the box that each part has
     std::vector<Node> nodes_;
-    std::vector<TreeNode> tree_;
+    std::vector<Cut> all_;         ///< where the cuts are spread over the ranks, or
+    std::span<const Cut> shared_;  ///< where ranks share them
     std::int32_t root_ = 0;
     bool answers_look_ups_ = true;
 };

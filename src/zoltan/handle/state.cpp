@@ -82,6 +82,9 @@ void copy_contents(State& to, const State& from) {
     copy.deserialized = from.deserialized;
     copy.replacement_asked = from.replacement_asked;
     copy.inside_hier = from.inside_hier;
+    // Cuts are shared by the ranks of one handle.
+    if (copy.kept) copy.kept->keep_shared();
+    copy.node_cuts = std::move(to.node_cuts);
     copy.communicator = std::move(to.communicator);
     to = std::move(copy);
 }

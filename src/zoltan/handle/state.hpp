@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cuts/node_cuts_mpi.hpp"
 #include "zoltan/handle/kept_partition.hpp"
 #include "zoltan/handle/parameters.hpp"
 #include "zoltan/handle/workspace.hpp"
@@ -65,6 +66,7 @@ struct Rest {
 /// State of a Zoltan_Struct that the plug-in keeps.
 struct State {
     std::unique_ptr<Communicator> communicator;
+    std::unique_ptr<NodeCuts> node_cuts;  ///< that look-ups share
     Parameters parameters;
     std::vector<PartSize> part_sizes;
     std::optional<KeptPartition> kept;  ///< of the last partition
@@ -88,7 +90,8 @@ State& add_state(const Zoltan_Struct* zz, State&& state);
 void remove_state(const Zoltan_Struct* zz);  ///< collective, as it frees the communicator
 bool any_handle_made();                      ///< since the process began
 
-/// Copies all but the communicator. Throws std::bad_alloc; then `to` is unchanged.
+/// Copies all but the communicator and what is shared by it. Throws std::bad_alloc; then `to` is
+/// unchanged.
 void copy_contents(State& to, const State& from);
 
 }  // namespace rrcb::zoltan

@@ -6,6 +6,7 @@
 #include <rrcb/error.hpp>
 
 #include <memory>
+#include <utility>
 
 namespace rrcb::mpi {
 
@@ -49,7 +50,9 @@ void refuse_two_groups(MPI_Comm user) {
 
 void keep(std::unique_ptr<Duplicate>& duplicate, MPI_Comm user) {
     check(MPI_Comm_set_errhandler(duplicate->comm, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
-    duplicate->per_rank.resize(static_cast<std::size_t>(size_of(user)));
+    const int num_ranks = size_of(user);
+    if (num_ranks <= most_ranks_at_once)
+        duplicate->per_rank.resize(static_cast<std::size_t>(num_ranks));
     check(MPI_Comm_set_attr(user, key(), duplicate.get()), "MPI_Comm_set_attr");
     duplicate.release();
 }
@@ -82,6 +85,16 @@ Duplicate& duplicate_with(MPI_Comm user) {
         throw;
     }
     return *find(user);
+}
+
+std::span<std::int64_t> per_rank_of(Duplicate& kept) {
+    if (!kept.per_rank.empty()) return kept.per_rank;
+    std::vector<std::int64_t> made;
+    Participant self{kept.comm};
+    self.attempt([&] { made.resize(static_cast<std::size_t>(size_of(kept.comm))); });
+    agree(self);
+    kept.per_rank = std::move(made);
+    return kept.per_rank;
 }
 
 }  // namespace rrcb::mpi

@@ -144,7 +144,7 @@ GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
                  std::span<const RankRange> ranks_of_parts, MPI_Comm user) {
     mpi::Duplicate& kept = mpi::duplicate_with(user);
     Participant self{kept.comm};
-    return ghosts(cuts, points, radius, ranks_of_parts, kept.per_rank, self);
+    return ghosts(cuts, points, radius, ranks_of_parts, mpi::per_rank_of(kept), self);
 }
 
 GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius, MPI_Comm user) {
@@ -155,7 +155,7 @@ GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius, MPI_Comm
         for (Part part = 0; part < cuts.num_parts; ++part)
             ranks_of_parts.push_back(ranks_of_part(part, cuts.num_parts, mpi::size_of(self.comm)));
     });
-    return ghosts(cuts, points, radius, ranks_of_parts, kept.per_rank, self);
+    return ghosts(cuts, points, radius, ranks_of_parts, mpi::per_rank_of(kept), self);
 }
 
 void detail::move(const GhostPlan& plan, std::span<const ByteColumn> columns,
@@ -175,7 +175,7 @@ void detail::move(const GhostPlan& plan, std::span<const ByteColumn> columns,
         delivery.to = plan.send;
         delivery.from = plan.receive;
     });
-    deliver(delivery, columns, limits, report, kept.per_rank, self);
+    deliver(delivery, columns, limits, report, mpi::per_rank_of(kept), self);
 }
 
 }  // namespace rrcb

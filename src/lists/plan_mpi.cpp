@@ -99,7 +99,7 @@ RankRange ranks_of_part(Part part, int num_parts, int num_ranks) {
 Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm user) {
     mpi::Duplicate& kept = mpi::duplicate_with(user);
     const MPI_Comm comm = kept.comm;
-    std::vector<std::int64_t>& counts = kept.per_rank;
+    const std::span<std::int64_t> counts = mpi::per_rank_of(kept);
     Participant self{comm};
     Plan result;
     result.num_points = parts.size();

@@ -73,7 +73,7 @@ void detail::move(const Plan& plan, std::span<const ByteColumn> columns,
         sent = sort_by_rank(plan, delivery.to, num_ranks);
         delivery.sent = sent;
     });
-    deliver(delivery, columns, limits, report, kept.per_rank, self);
+    deliver(delivery, columns, limits, report, mpi::per_rank_of(kept), self);
 }
 
 }  // namespace rrcb

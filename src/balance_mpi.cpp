@@ -11,16 +11,15 @@
 #include "gather/merge_tree_mpi.hpp"
 #include "options/validation.hpp"
 #include "refinement/refinement_mpi.hpp"
+#include "spread_reuse_mpi.hpp"
 #include "stage_scope.hpp"
 #include "wide_mpi.hpp"
 
 #include <rrcb/balance.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -36,30 +35,6 @@ Options complete(Options options, int num_ranks) {
         options.refine = traits_of(options.domain).automatic_refine;
     if (!options.grid.empty()) options.plain_cuts = true;
     return options;
-}
-
-/// Scales checked sizes to a sum in [1, 2), so that weights over sizes stay in range; makes equal
-/// ones where there are none. A power of two keeps the bits of their ratios, but for sizes hundreds
-/// of decades below their sum.
-void normalize(std::vector<double>& sizes, int num_parts) {
-    if (sizes.empty()) sizes.assign(static_cast<std::size_t>(num_parts), 1.0);
-    const int exponent = std::ilogb(std::accumulate(sizes.begin(), sizes.end(), 0.0));
-    for (double& size : sizes) size = std::ldexp(size, -exponent);
-}
-
-/// Brings the decision of the root to every rank, or throws on all what failed on one. Collective.
-void decide_together(const Contribution& all, const Options& options, Decision& decision,
-                     Participant& self) {
-    if (mpi::rank_of(self.comm) == root) {
-        self.hear_of(all.summary.failing_rank);
-        self.attempt([&] {
-            const StageScope stage(options.observer, Stage::bisection);
-            decide(all, options, decision);
-        });
-        decision.verdict.failing_rank = self.failing_rank();
-    }
-    const StageScope stage(options.observer, Stage::broadcast);
-    broadcast(decision, self);
 }
 
 /// State of a call on one rank.
@@ -107,7 +82,7 @@ void introduce(const Points& points, const Options& given, const Box& box, const
     work.mine.summary.request = request_of(options, points.dimension, previous);
     // Not before the ranks are compared by what they were given.
     if (previous) options.domain = DomainKind::analytic;
-    if (!previous && is_wide(options, mpi::size_of(self.comm))) {
+    if ((!previous || !is_whole(*previous)) && is_wide(options, mpi::size_of(self.comm))) {
         if (!options.part_sizes.empty()) normalize(options.part_sizes, options.num_parts);
         work.whole = std::exchange(options, region_options(options));
     }
@@ -160,6 +135,21 @@ void prepare_to_reuse(const Points& points, const Options& given, const Cuts& pr
     work.mine.part_totals = totals.weights;
     work.mine.part_totals.insert(work.mine.part_totals.end(), totals.counts.begin(),
                                  totals.counts.end());
+}
+
+/// The same where ranks know some of the earlier cuts only. Not where the options leave nothing to
+/// reuse.
+void prepare_to_reuse_spread(const Points& points, const Options& given, const Cuts& previous,
+                             Work& work, std::optional<SpreadReuse>& reuse,
+                             const Participant& self) {
+    const StageScope stage(given.observer, Stage::assignment);
+    check_arrays(points);
+    introduce(points, given, Box{}, &previous, work, self);
+    if (!work.whole || work.whole->refine == Refine::exact) return;
+    work.decision.reuses = true;
+    work.result.parts.resize(points.count);
+    reuse.emplace(previous, work.options.plain_cuts, points, work.result.parts, self.comm);
+    if (!reuse->all_finite()) reject_coordinates(points);
 }
 
 /// Tells what the parts weigh, as counted.
@@ -299,12 +289,31 @@ void divide_together(const Points& points, Work& work, Participant& self) {
     stay(work, self);
 }
 
+/// Ends with earlier cuts of which ranks know some only, where their parts are even enough, or
+/// balances from nothing. Collective.
+Balance reuse_spread(const Points& points, const Options& given, const Cuts& previous,
+                     bool may_stay, Participant& self) {
+    Work work;
+    work.options.observer = given.observer;
+    std::optional<SpreadReuse> reuse;
+    self.attempt([&] { prepare_to_reuse_spread(points, given, previous, work, reuse, self); });
+    // Both begin with the same messages, so that ranks meet there where one has failed.
+    if (!self.failed() && !reuse) return balance(points, given, nullptr, may_stay, self);
+    gather(points.dimension, work, self);
+    decide_together(work.mine, work.options, work.decision, self);
+    const Verdict& verdict = work.decision.verdict;
+    work.result.report = report_of(verdict, work.whole->num_parts);
+    if (reuse->ends(*work.whole, verdict.heaviest, work.result, self))
+        return std::move(work.result);
+    return balance(points, given, nullptr, may_stay, self);
+}
+
 }  // namespace
 
 Balance balance(const Points& points, const Options& given, const Cuts* previous, bool may_stay,
                 Participant& self) {
-    // Cuts of which ranks know some only are made anew.
-    if (previous && !is_whole(*previous)) previous = nullptr;
+    if (previous && !is_whole(*previous))
+        return reuse_spread(points, given, *previous, may_stay, self);
     Work work;
     work.options.observer = given.observer;
     self.attempt([&] {

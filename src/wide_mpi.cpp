@@ -94,6 +94,15 @@ Options region_options(const Options& options) {
     return regions;
 }
 
+void report_parts(double imbalance, double heaviest, double weight, const Options& options,
+                  Report& report) {
+    report.least_imbalance =
+        weight > 0 ? std::max(1.0, heaviest / weight * parts_in_all(options)) : 1;
+    if (report.num_points == 0) return;
+    report.measured_imbalance = imbalance;
+    report.within_tolerance = imbalance <= options.imbalance_tolerance;
+}
+
 void refine_regions(const Options& options, const Verdict& verdict, const Box& box,
                     const BinnedPoints& binned, RegionRefinement& refinement, Balance& result,
                     Participant& self) {
@@ -111,13 +120,9 @@ void refine_regions(const Options& options, const Verdict& verdict, const Box& b
                           binned, result.parts, self);
     agree(self);
     result.cuts = std::move(refined.cuts);
-    report.least_imbalance =
-        weight > 0 ? std::max(1.0, verdict.heaviest / weight * parts_in_all(options)) : 1;
+    report_parts(refined.imbalance, verdict.heaviest, weight, options, report);
     report.rounds += refined.rounds;
     report.coincident_cuts += refined.coincident_cuts;
-    if (report.num_points == 0) return;
-    report.measured_imbalance = refined.imbalance;
-    report.within_tolerance = refined.imbalance <= options.imbalance_tolerance;
 }
 
 }  // namespace rrcb

@@ -21,6 +21,11 @@ Options region_options(const Options& options);
 /// which takes in those of seven others at once, receives more than 64 kB.
 inline constexpr std::size_t most_cells_of_regions = 112;
 
+/// Tells how even the parts of a call with these complete options are, where there are points, and
+/// could be at best.
+void report_parts(double imbalance, double heaviest, double weight, const Options& options,
+                  Report& report);
+
 /// Makes the parts below the regions that are the parts of `result`.
 ///
 /// Collective. `options` are those of the call, complete. `verdict` tells of all points; `box`

@@ -98,11 +98,16 @@ RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm 
 /// the nearest place, or across another axis where there is none. Then the points are counted, and
 /// beyond the tolerance all cuts are searched in their places, to the shares of the parts.
 ///
-/// The other axes of `previous` stay. `previous` must be the same on every rank and have the
-/// dimension and number of parts asked for. Points in one place that it divides are counted on the
-/// side where the look-up finds them. Report::kept, estimated_imbalance and num_records tell
-/// nothing here. Without any points the cuts stay, and the report is that of a call from nothing.
-/// Cuts of which ranks know some only are made anew, see Options::central_parts.
+/// Where `previous` is spread over the ranks, see Cuts::nodes, and the options ask for parts that
+/// many ranks make, the cuts stay while the parts are within the tolerance, and are made from
+/// nothing beyond it, with Refine::exact and with other options. Counts then go to the ranks of the
+/// parts, and memory follows from the parts that the points of a rank are in.
+///
+/// The other axes of `previous` stay. `previous` must be the same on every rank, or what each rank
+/// got by a balance on this communicator, and have the dimension and number of parts asked for.
+/// Points in one place that it divides are counted on the side where the look-up finds them.
+/// Report::kept, estimated_imbalance and num_records tell nothing here. Without any points the cuts
+/// stay, and the report is that of a call from nothing.
 RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm comm,
                          const Cuts& previous);
 

@@ -19,10 +19,11 @@ RRCB_API Cuts whole_cuts(const Cuts& cuts, MPI_Comm comm);
 /// Part of each of any positions, by cuts of which each rank holds some.
 ///
 /// Collective over `comm`, that of the balance; each rank gives positions of its own, or none, but
-/// states their dimension. The ranks share the cuts that they own in one pass through them, of
-/// ceil(log2 R) messages each, then ask the owners for those that they lack: in at most two
-/// questions one after the other in trees of up to 2^20 parts, with all of which a rank gets 5 kB
-/// for each 127 cuts that it asks for. Whole cuts are looked up in place.
+/// states their dimension. Where some rank lacks cuts, the ranks share those that they own in one
+/// pass through them, of ceil(log2 R) messages each, and ask the owners, with 5 kB in answer for
+/// each 127 cuts that a rank asks for. In trees of up to 2^20 parts that takes two questions, one
+/// after the other; three after exact cuts, of which not all ranks know the first ones. Whole cuts
+/// are looked up in place.
 ///
 /// Throws Error on every rank alike: for coordinates that are NaN or infinite, positions of another
 /// dimension than the cuts, cuts that whole_cuts() would refuse, or no memory.

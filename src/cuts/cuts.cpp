@@ -56,6 +56,13 @@ Descent node_at(const Cuts& cuts, std::size_t node) {
     return at;
 }
 
+int depth_of(const Cuts& cuts, std::size_t node) {
+    int depth = 0;
+    for (Descent at = root_of(cuts); at.node != node; ++depth)
+        at = node >= at.upper().node ? at.upper() : at.lower();
+    return depth;
+}
+
 Part part_of(const Cuts& cuts, const Vector& position) {
     Descent at = root_of(cuts);
     if (!is_whole(cuts)) [[unlikely]] {

@@ -23,8 +23,7 @@ PathSearchRoom::PathSearchRoom(const Cuts& known, const Points& points, std::spa
 }
 
 Cuts search_together(PathSearchRoom& room, Participant& self) {
-    room.messages.run(room.shared, Butterfly::to_owners, {}, self);
-    for (;;) {
+    for (bool is_shared = false;; is_shared = true) {
         bool asks = false;
         self.attempt([&] {
             room.asked.clear();
@@ -32,6 +31,7 @@ Cuts search_together(PathSearchRoom& room, Participant& self) {
         });
         room.messages.run(room.asked, Butterfly::to_owners, {0, asks ? 1.0 : 0.0}, self);
         if (room.asked.flags()[1] == 0) return room.search.take();
+        if (!is_shared) room.messages.run(room.shared, Butterfly::to_owners, {}, self);
         self.attempt([&] { room.search.answer(room.shared, room.asked); });
         room.messages.run(room.asked, Butterfly::back, {}, self);
         self.attempt([&] { room.search.learn(room.asked); });

@@ -18,8 +18,8 @@ struct PathSearchRoom {
 /// Finds the parts of points where the cuts that a rank knows do not tell them; gives these cuts
 /// and those that were needed.
 ///
-/// Collective: a pass through the ranks to share cuts, then two for each time that some rank asks,
-/// and one to end. All ranks have made their room and agreed on that.
+/// Collective: a pass through the ranks where none asks. Otherwise one to share cuts, two for each
+/// time that some rank asks, and one to end. All ranks have made their room and agreed on that.
 Cuts search_together(PathSearchRoom& room, Participant& self);
 
 }  // namespace rrcb

@@ -2,6 +2,8 @@
 
 #include "options/rejection.hpp"
 
+#include <algorithm>
+
 namespace rrcb {
 
 namespace {
@@ -23,6 +25,11 @@ Part first_part_from(int rank, int num_parts, int num_ranks) {
 }
 
 }  // namespace
+
+PartRange parts_on(int rank, int num_parts, int num_ranks) {
+    const Part end = first_part_from(rank + 1, num_parts, num_ranks);
+    return {std::min(first_part_from(rank, num_parts, num_ranks), end - 1), end};
+}
 
 void for_each_owned(const Cuts& cuts, int rank, int num_ranks,
                     const std::function<void(std::size_t node, const Cut& cut)>& visit) {

@@ -14,6 +14,13 @@ inline int owner_of(const Descent& node, int num_parts, int num_ranks) {
     return ranks_of_part(node.first_part, num_parts, num_ranks).first_rank;
 }
 
+/// Parts that a rank holds, alone or with others: from `first` to `end` - 1.
+struct PartRange {
+    Part first;
+    Part end;
+};
+PartRange parts_on(int rank, int num_parts, int num_ranks);
+
 /// Calls visit(node, cut) for each cut that a rank owns, in preorder. Throws Error where it lacks
 /// one.
 void for_each_owned(const Cuts& cuts, int rank, int num_ranks,

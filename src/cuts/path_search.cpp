@@ -36,7 +36,8 @@ static_assert(sizeof(NamedCut) == sizeof(Words));
 PathSearch::PathSearch(const Cuts& known, const Points& points, std::span<Part> parts)
     : cuts_(known), points_(points), parts_(parts) {
     for (LocalIndex i = 0; i < parts.size(); ++i)
-        if (is_unknown(parts[i])) left_.push_back(i);
+        if (is_unknown(parts[i])) searched_.push_back(i);
+    left_ = searched_;
 }
 
 void PathSearch::join_cuts(std::span<const double> a, std::span<const double> b,

@@ -38,6 +38,9 @@ class PathSearch {
     /// Follows the points with the cuts that came back. Throws Error where some did not.
     void learn(const Butterfly& asked);
 
+    /// Points whose parts were not known at first.
+    std::span<const LocalIndex> searched() const { return searched_; }
+
     /// The cuts that were known, and those that came.
     Cuts take() { return std::move(cuts_); }
 
@@ -53,7 +56,8 @@ class PathSearch {
     Cuts cuts_;
     const Points& points_;
     std::span<Part> parts_;
-    std::vector<LocalIndex> left_;  ///< points whose parts are not known
+    std::vector<LocalIndex> searched_;
+    std::vector<LocalIndex> left_;  ///< of them, those whose parts are not known yet
     std::vector<Key> tiers_;        ///< that were asked for
 };
 

@@ -41,6 +41,9 @@ Descent descend(const Cuts& cuts, const Vector& position, Descent at);
 /// The node of this number in preorder.
 Descent node_at(const Cuts& cuts, std::size_t node);
 
+/// Number of nodes above it.
+int depth_of(const Cuts& cuts, std::size_t node);
+
 /// Throws the Error of a look-up that needs a cut which is not known.
 [[noreturn]] void reject_unknown();
 

@@ -6,6 +6,7 @@
 #include "collective/communicator.hpp"
 #include "gather/earlier_cuts.hpp"
 #include "gather/keeping.hpp"
+#include "stage_scope.hpp"
 
 #include <rrcb/error.hpp>
 #include <rrcb/quality.hpp>
@@ -241,6 +242,20 @@ void broadcast(Decision& decision, const Participant& self) {
     std::ranges::copy(space.first(in_head().size()), in_head().begin());
     mpi::broadcast(message_of(decision).subspan(in_head().size()), root, self.comm);
     unpack(decision);
+}
+
+void decide_together(const Contribution& all, const Options& options, Decision& decision,
+                     Participant& self) {
+    if (mpi::rank_of(self.comm) == root) {
+        self.hear_of(all.summary.failing_rank);
+        self.attempt([&] {
+            const StageScope stage(options.observer, Stage::bisection);
+            decide(all, options, decision);
+        });
+        decision.verdict.failing_rank = self.failing_rank();
+    }
+    const StageScope stage(options.observer, Stage::broadcast);
+    broadcast(decision, self);
 }
 
 Box box_together(Box box, const Participant& self) {

@@ -82,6 +82,11 @@ void confirm(const Summary& all, Participant& self);
 /// not know how many are coming.
 void broadcast(Decision& decision, const Participant& self);
 
+/// Decides at the root, and brings its decision to every rank, or throws on all what failed on one.
+/// Collective.
+void decide_together(const Contribution& all, const Options& options, Decision& decision,
+                     Participant& self);
+
 /// Smallest box that holds those of all ranks. Collective.
 Box box_together(Box box, const Participant& self);
 

@@ -71,6 +71,8 @@ std::uint64_t bits_of(const Option& option, const Options& options) {
 }
 
 std::uint64_t bits_of(const Cuts& cuts) {
+    // Of cuts that are spread over the ranks each has others.
+    if (!is_whole(cuts)) return hash_of(std::vector<double>{-1, 1.0 * cuts.num_parts});
     return hash_of(values_of(cuts));
 }
 

@@ -26,7 +26,7 @@ using Request = std::array<std::uint64_t, num_compared + 3>;
 /// The bits of one option, or a hash.
 std::uint64_t bits_of(const Option& option, const Options& options);
 
-/// Hash of cuts.
+/// Hash of cuts; of those that are spread over the ranks, that they are.
 std::uint64_t bits_of(const Cuts& cuts);
 
 /// Request of options in which empty `part_sizes` still stand for equal parts.

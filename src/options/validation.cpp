@@ -65,6 +65,16 @@ void check_weights(const Points& points) {
     reject("the sum of the weights overflows; scale them down");
 }
 
+/// Whether the tree holds all of its cuts, or some and their numbers.
+bool has_its_cuts(const Cuts& cuts) {
+    const std::vector<std::int32_t>& nodes = cuts.nodes;
+    if (cuts.num_parts < 1) return false;
+    if (is_whole(cuts)) return cuts.tree.size() + 1 == static_cast<std::size_t>(cuts.num_parts);
+    return nodes.size() == cuts.tree.size() && nodes.front() >= 0 &&
+           nodes.back() < cuts.num_parts - 1 &&
+           std::ranges::adjacent_find(nodes, std::greater_equal()) == nodes.end();
+}
+
 bool cross_axes_at_numbers(const Cuts& cuts) {
     return std::ranges::all_of(cuts.tree, [&](const Cut& cut) {
         return cut.axis >= 0 && cut.axis < cuts.dimension &&
@@ -105,12 +115,7 @@ void check_axes(const Options& options, int dimension) {
 }
 
 void check_tree(const Cuts& cuts) {
-    const bool holds_all = cuts.tree.size() + 1 == static_cast<std::size_t>(cuts.num_parts);
-    const std::vector<std::int32_t>& nodes = cuts.nodes;
-    const bool holds_some = !nodes.empty() && nodes.size() == cuts.tree.size() &&
-                            nodes.front() >= 0 && nodes.back() < cuts.num_parts - 1 &&
-                            std::ranges::adjacent_find(nodes, std::greater_equal()) == nodes.end();
-    require(cuts.num_parts >= 1 && (is_whole(cuts) ? holds_all : holds_some),
+    require(has_its_cuts(cuts),
             "the tree must hold one cut less than there are parts, or the ascending number of each "
             "one that it holds");
     require(cross_axes_at_numbers(cuts), "cuts must cross axes of the points at numbers");
@@ -160,7 +165,7 @@ void check_grid(const Options& options, int dimension) {
 
 void check_previous(const Cuts& previous, const Options& options, int dimension) {
     require(previous.dimension == dimension && previous.num_parts == options.num_parts &&
-                previous.tree.size() + 1 == static_cast<std::size_t>(options.num_parts),
+                has_its_cuts(previous),
             "previous cuts must have the dimension and number of parts asked for");
     require(cross_axes_at_numbers(previous),
             "previous cuts must cross axes of the points at numbers");
@@ -205,6 +210,12 @@ Box check_points(const Points& points) {
     for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a)
         if (std::isnan(box.lower[a])) reject_coordinates(points);
     return box;
+}
+
+void normalize(std::vector<double>& sizes, int num_parts) {
+    if (sizes.empty()) sizes.assign(static_cast<std::size_t>(num_parts), 1.0);
+    const int exponent = std::ilogb(std::accumulate(sizes.begin(), sizes.end(), 0.0));
+    for (double& size : sizes) size = std::ldexp(size, -exponent);
 }
 
 }  // namespace rrcb

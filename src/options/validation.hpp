@@ -4,6 +4,8 @@
 #include <rrcb/options.hpp>
 #include <rrcb/points.hpp>
 
+#include <vector>
+
 namespace rrcb {
 
 /// Throws Error naming the option and its range when `options` can't be used.
@@ -28,5 +30,10 @@ void check_cuts(const Cuts& cuts, int dimension);
 
 /// Throws Error when the cuts of an earlier call don't fit these options.
 void check_previous(const Cuts& previous, const Options& options, int dimension);
+
+/// Scales checked sizes to a sum in [1, 2), so that weights over sizes stay in range; makes equal
+/// ones where there are none. A power of two keeps the bits of their ratios, but for sizes hundreds
+/// of decades below their sum.
+void normalize(std::vector<double>& sizes, int num_parts);
 
 }  // namespace rrcb

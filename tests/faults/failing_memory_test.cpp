@@ -100,6 +100,28 @@ TEST(FailingMemory, in_cuts_from_an_earlier_call) {
     }
 }
 
+TEST(FailingMemory, in_cuts_that_are_spread_over_the_ranks) {
+    if (test::num_ranks() < 3) return;
+    Options options = refining(Refine::tolerance);
+    options.central_parts = 2;
+    options.num_parts = 9;
+    options.imbalance_tolerance = 1.5;
+    std::vector<double> coordinates = cloud_here(2);
+    const Points points = interleaved_points(coordinates, 2);
+    const Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
+    for (double& x : coordinates) x = 1 - x;
+    fail_in_balance(options, &cuts, coordinates);
+    options.imbalance_tolerance = 1000;
+    fail_in_balance(options, &cuts, coordinates);
+    const Cuts whole = whole_cuts(cuts, MPI_COMM_WORLD);
+    std::vector<Part> expected(points.count);
+    assign(whole, points, expected);
+    fail_in([&] { return locate(cuts, points, MPI_COMM_WORLD); },
+            [&](const std::vector<Part>& parts) { EXPECT_EQ(parts, expected); });
+    fail_in([&] { return whole_cuts(cuts, MPI_COMM_WORLD); },
+            [&](const Cuts& found) { EXPECT_EQ(found.tree.size(), whole.tree.size()); });
+}
+
 TEST(FailingMemory, in_a_correction_of_all_cuts) {
     Options options;
     options.num_parts = 2;

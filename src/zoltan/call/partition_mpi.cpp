@@ -3,6 +3,7 @@
 #include "balance_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/cut_limits.hpp"
+#include "wide_mpi.hpp"
 #include "zoltan/call/average_cuts_mpi.hpp"
 #include "zoltan/call/fortran_mpi.hpp"
 #include "zoltan/call/frame_mpi.hpp"
@@ -159,7 +160,7 @@ Preparation prepare(const Call& call, const Layout& layout, const Objects& objec
         made.per_rank.resize(static_cast<std::size_t>(call.state.communicator->size()));
         made.renumbering.emplace(parameters, layout, objects, *call.state.communicator);
         const auto num_parts = static_cast<std::size_t>(layout.map.num_parts());
-        made.kept.emplace(num_parts);
+        made.kept.emplace(num_parts, is_wide(made.options, call.state.communicator->size()));
         // What the options ask of the places of cuts comes first.
         if (parameters.average_cuts != 0 && !are_cuts_limited(made.options))
             made.average.emplace(num_parts);
@@ -183,8 +184,8 @@ void list_exports(const Call& call, const Layout& layout, Objects&& objects,
         return;
     }
     const std::span<const Part> parts(balanced.parts);
-    add_checksums(parameters, call.state.workspace, objects.points,
-                  Rest::needs_positions(balanced.report), parts, rest.checksums);
+    add_checksums(parameters, call.state.workspace, objects.points, rest.by_position, parts,
+                  rest.checksums);
     Exports exports = make_exports(std::move(objects), parameters, parts, layout.map, comm.rank());
     result.exports = std::move(exports.list);
     rest.checksums.back() = exports.moves ? 1 : 0;
@@ -264,6 +265,9 @@ int balance_objects(const Call& call, Objects&& objects, Partition& result) {
         for (std::size_t part = 0; part < remap.numbers.size(); ++part)
             prepared.rest.part_sizes[static_cast<std::size_t>(remap.numbers[part])] =
                 layout.part_sizes[part];
+    const bool knows_own_parts =
+        is_whole(balanced.cuts) || (remap.identity && !call.outcome.any_local_parts);
+    prepared.rest.by_position = balanced.report.coincident_cuts > 0 || !knows_own_parts;
     list_exports(call, layout, std::move(objects), balanced, prepared.rest, result);
     select_lists(parameters, result.changes, prepared.per_rank, self, result.imports,
                  result.exports);

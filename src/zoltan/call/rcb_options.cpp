@@ -7,6 +7,7 @@
 #include "zoltan/real/zoltan_error.hpp"
 
 #include <array>
+#include <limits>
 
 namespace rrcb::zoltan {
 
@@ -56,6 +57,9 @@ Options make_options(const Parameters& parameters, const Layout& layout, int dim
         options.domain = DomainKind::analytic;
         options.refine = Refine::none;
     }
+    // Their cuts are looked at as a whole.
+    if (parameters.average_cuts != 0 || has_several_weights(parameters))
+        options.central_parts = std::numeric_limits<int>::max();
     if (parameters.lock_directions != 0 && previous != nullptr) {
         options.cut_axes = axes_of(previous->tree());
     } else if (parameters.set_directions != 0) {

@@ -77,7 +77,7 @@ bool are_in_own_part(const Objects& objects, const PartMap& map, int rank) {
 
 bool is_at_rest(const Rest& rest, const KeptPartition& kept, const Parameters& parameters,
                 const Workspace& workspace, const Objects& objects, int rank) {
-    const bool with_positions = Rest::needs_positions(rest.report);
+    const bool with_positions = rest.by_position;
     std::vector<Part> parts;
     if (!are_where_sent(rest, kept, objects, rank, !with_positions, parts)) return false;
     std::vector<std::uint64_t> checksums(rest.checksums.size(), 0);

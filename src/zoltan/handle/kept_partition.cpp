@@ -7,8 +7,8 @@
 
 namespace rrcb::zoltan {
 
-KeptPartition::KeptPartition(std::size_t num_parts) : boxes_(num_parts) {
-    nodes_.reserve(num_parts);
+KeptPartition::KeptPartition(std::size_t num_parts, bool are_spread) : boxes_(num_parts) {
+    nodes_.reserve(are_spread ? 0 : num_parts);
 }
 
 void KeptPartition::keep(Cuts&& cuts, const Frame& frame, PartMap&& map,
@@ -19,11 +19,7 @@ void KeptPartition::keep(Cuts&& cuts, const Frame& frame, PartMap&& map,
     numbers_ = std::move(numbers);
     for (std::size_t box = 0; box < numbers_.size(); ++box)
         boxes_[static_cast<std::size_t>(numbers_[box])] = static_cast<Part>(box);
-    if (is_whole(cuts_)) {
-        root_ = build(0, cuts_.num_parts);
-    } else {
-        nodes_ = {};
-    }
+    if (is_whole(cuts_)) root_ = build(0, cuts_.num_parts);
 }
 
 void KeptPartition::show_all(std::vector<Cut>&& tree) noexcept {

@@ -22,8 +22,8 @@ struct TreeNode {
 /// Last partition, for look-ups and for the next one.
 class KeptPartition {
   public:
-    /// Makes room for the cuts between so many parts.
-    explicit KeptPartition(std::size_t num_parts);
+    /// Makes room for the cuts between so many parts, which may be spread over the ranks.
+    explicit KeptPartition(std::size_t num_parts, bool are_spread = false);
 
     /// Keeps the cuts, which cross the axes of `frame`, without asking for memory. `numbers` has
     /// the new number of each part. Where the cuts are spread over the ranks, look-ups find what

@@ -58,9 +58,9 @@ struct Rest {
     std::vector<double> part_sizes{};      ///< relative; empty: equal
     std::vector<double> part_weights{};    ///< room for one per part, to count in
 
-    /// Whether checksums need positions. Cuts do not tell the part of objects in one place that are
-    /// in several parts.
-    static bool needs_positions(const Report& report) { return report.coincident_cuts > 0; }
+    /// Whether checksums hold positions, where cuts do not tell the parts of objects: those in one
+    /// place are in several parts, or ranks have parts of which they do not know the cuts.
+    bool by_position = false;
 };
 
 /// State of a Zoltan_Struct that the plug-in keeps.

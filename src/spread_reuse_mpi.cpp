@@ -1,0 +1,128 @@
+#include "spread_reuse_mpi.hpp"
+
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
+#include "cuts/known_tree.hpp"
+#include "wide_mpi.hpp"
+
+#include <rrcb/plan.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace rrcb {
+
+namespace {
+
+void add(std::span<const double> a, std::span<const double> b, std::vector<double>& joined) {
+    std::ranges::transform(a, b, std::back_inserter(joined), std::plus<>());
+}
+
+/// The cuts as planes where these are asked for. They divide no points of one place, which the
+/// look-up keeps together.
+Cuts fitted(Cuts cuts, bool plain_cuts) {
+    for (Cut& cut : cuts.tree) {
+        const double plane = cut.at[static_cast<std::size_t>(cut.axis)];
+        if (plain_cuts) cut.at.fill(-std::numeric_limits<double>::infinity());
+        cut.at[static_cast<std::size_t>(cut.axis)] = plane;
+        cut.divides = 0;
+    }
+    return cuts;
+}
+
+}  // namespace
+
+SpreadReuse::SpreadReuse(const Cuts& previous, bool plain_cuts, const Points& points,
+                         std::span<Part> parts, MPI_Comm comm)
+    : points_(points),
+      parts_(parts),
+      cuts_(fitted(previous, plain_cuts)),
+      totals_(assign_and_count(cuts_, points, parts)),
+      room_(cuts_, points, parts, comm),
+      sums_(mpi::rank_of(comm), mpi::size_of(comm), add) {}
+
+/// Adds what was known at once, and the points that were searched one by one.
+void SpreadReuse::add_up(bool by_count) {
+    const std::vector<double>& known = by_count ? totals_.counts : totals_.weights;
+    for (std::size_t k = 0; k < known.size(); ++k)
+        if (!is_unknown(totals_.parts[k]) && totals_.counts[k] > 0)
+            weights_[totals_.parts[k]] += known[k];
+    for (const LocalIndex i : room_.search.searched())
+        weights_[parts_[i]] += by_count ? 1 : points_.weight(i);
+    for (const auto& [part, weight] : weights_) {
+        const RankRange ranks = ranks_of_part(part, cuts_.num_parts, sums_.num_ranks());
+        sums_.add(static_cast<Key>(part), ranks.first_rank, std::array{weight});
+    }
+}
+
+/// Largest weight of a part that this rank owns, over what it should weigh.
+double SpreadReuse::largest_share(double weight_per_size, std::span<const double> sizes) const {
+    double largest = 0;
+    sums_.owned().for_each([&](const Record& part) {
+        const double weight = part.payload[0];
+        const double size = sizes.empty() ? 1 : sizes[part.key];
+        if (weight > 0)
+            largest = std::max(largest, size > 0 ? weight / size / weight_per_size
+                                                 : std::numeric_limits<double>::infinity());
+    });
+    return largest;
+}
+
+/// Imbalance of the parts, the same on every rank. `sizes` has one entry per part, or is empty for
+/// equal ones.
+double SpreadReuse::measure(double total_weight, bool by_count, std::span<const double> sizes,
+                            Participant& self) {
+    cuts_ = search_together(room_, self);
+    self.attempt([&] { add_up(by_count); });
+    room_.messages.run(sums_, Butterfly::to_owners, {}, self);
+    const double all_sizes =
+        sizes.empty() ? cuts_.num_parts : std::accumulate(sizes.begin(), sizes.end(), 0.0);
+    const double largest = largest_share(total_weight / all_sizes, sizes);
+    sums_.clear();
+    room_.messages.run(sums_, Butterfly::to_owners, {0, largest}, self);
+    return sums_.flags()[1];
+}
+
+/// The cuts above the points and the parts of this rank, and those of `depth` levels at the top.
+Cuts SpreadReuse::known_cuts(int depth) const {
+    std::vector<Part> needed;
+    const auto [first, end] = parts_on(sums_.rank(), cuts_.num_parts, sums_.num_ranks());
+    for (Part part = first; part < end; ++part) needed.push_back(part);
+    for (const auto& [part, weight] : weights_) needed.push_back(part);
+    std::ranges::sort(needed);
+    Cuts kept{cuts_.dimension, cuts_.num_parts, {}};
+    for (std::size_t k = 0; k < cuts_.nodes.size(); ++k) {
+        const Descent at = node_at(cuts_, static_cast<std::size_t>(cuts_.nodes[k]));
+        const auto next = std::ranges::lower_bound(needed, at.first_part);
+        const bool is_needed = next != needed.end() && *next < at.first_part + at.num_parts;
+        if (!is_needed && depth_of(cuts_, at.node) >= depth) continue;
+        kept.nodes.push_back(cuts_.nodes[k]);
+        kept.tree.push_back(cuts_.tree[k]);
+    }
+    return kept;
+}
+
+bool SpreadReuse::ends(const Options& options, double heaviest, Balance& result,
+                       Participant& self) {
+    Report& report = result.report;
+    const bool by_count = report.all_weights_zero;
+    const double weight = by_count ? static_cast<double>(report.num_points) : report.total_weight;
+    const double imbalance = measure(weight, by_count, options.part_sizes, self);
+    report_parts(imbalance, heaviest, weight, options, report);
+    if (report.num_points > 0 && !report.within_tolerance) return false;
+    self.attempt([&] {
+        const auto num_regions = static_cast<unsigned>(region_options(options).num_parts);
+        result.cuts = known_cuts(std::bit_width(num_regions) - 1);
+    });
+    agree(self);
+    report.rounds = report.num_points > 0 ? 1 : 0;
+    return true;
+}
+
+}  // namespace rrcb

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "cuts/direct_assignment.hpp"
+#include "cuts/locate_mpi.hpp"
+
+#include <rrcb/balance.hpp>
+
+#include <map>
+#include <span>
+
+namespace rrcb {
+
+/// Reuse of earlier cuts of which each rank knows some. Memory follows from the parts that the
+/// points of a rank are in, and the cuts above them.
+class SpreadReuse {
+  public:
+    /// Assigns the points, whose `parts` it writes. `points` and `parts` outlive it. Not
+    /// collective; throws std::bad_alloc, and Error where the rank lacks a cut that it owns.
+    SpreadReuse(const Cuts& previous, bool plain_cuts, const Points& points, std::span<Part> parts,
+                MPI_Comm comm);
+
+    /// False where a coordinate is NaN or infinite; then the rest is void.
+    bool all_finite() const { return totals_.all_finite; }
+
+    /// Finds the parts of all points and counts these. Where they are within the tolerance, tells
+    /// so in the report that `result` has of all points, and gives it the cuts above the points and
+    /// the parts of this rank and those between regions; false where they are not.
+    ///
+    /// Collective: one pass through the ranks, or more where one lacks cuts, to find the parts, one
+    /// to add up and one to compare. `options` are those of the call, complete; `heaviest` is the
+    /// weight of a point.
+    bool ends(const Options& options, double heaviest, Balance& result, Participant& self);
+
+  private:
+    double measure(double total_weight, bool by_count, std::span<const double> sizes,
+                   Participant& self);
+    void add_up(bool by_count);
+    double largest_share(double weight_per_size, std::span<const double> sizes) const;
+    Cuts known_cuts(int depth) const;
+
+    const Points& points_;
+    std::span<Part> parts_;
+    Cuts cuts_;
+    PartTotals totals_;
+    PathSearchRoom room_;
+    Butterfly sums_;
+    std::map<Part, double> weights_{};  ///< of the points here, in each part
+};
+
+}  // namespace rrcb

@@ -1,0 +1,210 @@
+// Calls from earlier cuts of which each rank knows some, beside look-ups by the whole tree.
+#include "held_points.hpp"
+#include "reuse_cases.hpp"
+
+#include <rrcb/error.hpp>
+#include <rrcb/locate.hpp>
+#include <rrcb/plan.hpp>
+#include <rrcb/quality.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+using test::HeldPoints;
+using test::num_ranks;
+using test::rank;
+using test::Share;
+
+Options spread_options(int num_parts, double tolerance) {
+    Options options = test::with_parts(num_parts, tolerance);
+    options.central_parts = 2;
+    return options;
+}
+
+/// Uneven points that all ranks know, with weights where asked for, scattered over the ranks.
+HeldPoints uneven_cloud(int dimension, bool has_weights) {
+    HeldPoints all{dimension, test::uniform_cloud(3000, dimension, 11)};
+    for (double& x : all.coordinates) x *= x;
+    std::mt19937_64 engine(12);
+    for (std::size_t i = 0; has_weights && i < all.count(); ++i)
+        all.weights.push_back(test::uniform(engine, 0.5, 1.5));
+    all.scatter();
+    return all;
+}
+
+void drift(double distance, HeldPoints& all) {
+    std::mt19937_64 engine(13);
+    for (double& x : all.coordinates) x += test::uniform(engine, -distance, distance);
+}
+
+double imbalance_by_look_up(const HeldPoints& all, const Cuts& whole) {
+    return imbalance(test::weights_by_look_up(all, whole));
+}
+
+/// Each point of this rank is in the part of the whole tree, which the cuts of this rank tell.
+void expect_parts(const Share& mine, const Cuts& whole, const Balance& result) {
+    const Points points = mine.points();
+    for (LocalIndex i = 0; i < points.count; ++i) {
+        ASSERT_EQ(result.parts[i], part_of(whole, points.position(i)));
+        ASSERT_EQ(part_of(result.cuts, points.position(i)), result.parts[i]);
+    }
+}
+
+TEST(SpreadReuse, keeps_cuts_while_their_parts_are_within_the_tolerance) {
+    for (const int dimension : {1, 2, 3})
+        for (const bool has_weights : {false, true})
+            for (const int num_parts : {num_ranks(), 3 * num_ranks() + 1}) {
+                HeldPoints all = uneven_cloud(dimension, has_weights);
+                const Options options = spread_options(num_parts, 1.2);
+                const Balance first = balance(Share(all).points(), options, MPI_COMM_WORLD);
+                ASSERT_EQ(is_whole(first.cuts), num_ranks() <= 2);
+                const Cuts whole = whole_cuts(first.cuts, MPI_COMM_WORLD);
+                drift(1e-3, all);
+                const Share mine(all);
+                const Balance again = balance(mine.points(), options, MPI_COMM_WORLD, first.cuts);
+                const double expected = imbalance_by_look_up(all, whole);
+                ASSERT_LE(expected, 1.2) << "the cloud drifted too far for this test";
+                expect_parts(mine, whole, again);
+                EXPECT_NEAR(again.report.measured_imbalance, expected, 1e-9);
+                EXPECT_TRUE(again.report.within_tolerance);
+                EXPECT_EQ(again.report.rounds, 1);
+                EXPECT_EQ(again.report.num_points, 3000);
+                EXPECT_EQ(again.report.least_imbalance, first.report.least_imbalance);
+                // What the ranks have of them makes the same tree.
+                const Cuts after = whole_cuts(again.cuts, MPI_COMM_WORLD);
+                EXPECT_TRUE(test::same_cuts(after, whole));
+            }
+}
+
+TEST(SpreadReuse, finds_the_parts_of_points_that_have_come_from_anywhere) {
+    const int num_parts = 2 * num_ranks();
+    HeldPoints all = uneven_cloud(2, false);
+    const Options options = spread_options(num_parts, 3000);
+    // Points in the regions of their ranks, which then know few cuts of others.
+    const Balance first = balance(Share(all).points(), options, MPI_COMM_WORLD);
+    const Cuts whole = whole_cuts(first.cuts, MPI_COMM_WORLD);
+    for (std::size_t i = 0; i < all.count(); ++i) {
+        const Part part = part_of(whole, interleaved_points(all.coordinates, 2).position(i));
+        all.owners[i] = ranks_of_part(part, num_parts, num_ranks()).first_rank;
+    }
+    const Balance settled = balance(Share(all).points(), options, MPI_COMM_WORLD, first.cuts);
+    // Then each rank gets those of others, one after the other.
+    for (int turn = 1; turn < num_ranks(); ++turn) {
+        for (Part& owner : all.owners) owner = (owner + 1) % num_ranks();
+        const Share mine(all);
+        const Balance again = balance(mine.points(), options, MPI_COMM_WORLD, settled.cuts);
+        expect_parts(mine, whole, again);
+        EXPECT_EQ(again.report.rounds, 1);
+        EXPECT_NEAR(again.report.measured_imbalance, imbalance_by_look_up(all, whole), 1e-9);
+    }
+    EXPECT_TRUE(num_ranks() <= 4 || settled.cuts.tree.size() < whole.tree.size());
+}
+
+TEST(SpreadReuse, keeps_points_together_that_a_cut_divided) {
+    HeldPoints all{2, std::vector<double>(2 * 600, 0.25)};
+    for (std::size_t i = 0; i < 40; ++i) all.coordinates[2 * i] = static_cast<double>(i);
+    all.scatter();
+    const Share mine(all);
+    Options options = spread_options(num_ranks() + 2, 1.02);
+    options.coincident = Coincident::divide;
+    const Balance first = balance(mine.points(), options, MPI_COMM_WORLD);
+    options.imbalance_tolerance = 1000;
+    for (const bool plain : {false, true}) {
+        options.plain_cuts = plain;
+        const Balance again = balance(mine.points(), options, MPI_COMM_WORLD, first.cuts);
+        const Cuts after = whole_cuts(again.cuts, MPI_COMM_WORLD);
+        expect_parts(mine, after, again);
+        EXPECT_EQ(again.report.rounds, 1);
+        for (const Cut& cut : after.tree) {
+            EXPECT_EQ(cut.divides, 0);
+            EXPECT_TRUE(!plain ||
+                        std::ranges::count_if(cut.at, [](double x) { return std::isinf(x); }) >= 2);
+        }
+    }
+}
+
+TEST(SpreadReuse, balances_anew_beyond_the_tolerance_and_for_exact_cuts) {
+    HeldPoints all = uneven_cloud(2, true);
+    Options options = spread_options(num_ranks(), 1.05);
+    const Balance first = balance(Share(all).points(), options, MPI_COMM_WORLD);
+    drift(0.3, all);
+    const Share mine(all);
+    for (const Refine refine : {Refine::tolerance, Refine::exact}) {
+        options.refine = refine;
+        const Balance fresh = balance(mine.points(), options, MPI_COMM_WORLD);
+        const Balance again = balance(mine.points(), options, MPI_COMM_WORLD, first.cuts);
+        if (num_ranks() > 2) {
+            EXPECT_EQ(again.parts, fresh.parts);
+        }
+        EXPECT_LE(again.report.measured_imbalance, 1.05);
+        EXPECT_EQ(again.cuts.nodes, fresh.cuts.nodes);
+    }
+    // As many parts as one rank makes: the cuts are those of a call from nothing as well.
+    options.central_parts = 1000;
+    options.refine = Refine::tolerance;
+    EXPECT_TRUE(is_whole(balance(mine.points(), options, MPI_COMM_WORLD, first.cuts).cuts));
+}
+
+TEST(SpreadReuse, counts_points_without_weight_and_keeps_the_cuts_without_points) {
+    HeldPoints all = uneven_cloud(2, false);
+    all.weights.assign(all.count(), 0.0);
+    const Options options = spread_options(num_ranks(), 1.1);
+    const Share mine(all);
+    const Balance first = balance(mine.points(), options, MPI_COMM_WORLD);
+    const Cuts whole = whole_cuts(first.cuts, MPI_COMM_WORLD);
+    const Balance again = balance(mine.points(), options, MPI_COMM_WORLD, first.cuts);
+    EXPECT_TRUE(again.report.all_weights_zero);
+    EXPECT_EQ(again.parts, first.parts);
+    EXPECT_NEAR(again.report.measured_imbalance, imbalance_by_look_up(all, whole), 1e-9);
+
+    const std::vector<double> none;
+    const Balance empty = balance(interleaved_points(none, 2), options, MPI_COMM_WORLD, first.cuts);
+    EXPECT_TRUE(test::same_cuts(whole_cuts(empty.cuts, MPI_COMM_WORLD), whole));
+    EXPECT_EQ(empty.report.rounds, 0);
+}
+
+TEST(SpreadReuse, tells_all_ranks_what_is_wrong_on_one) {
+    if (num_ranks() <= 2) GTEST_SKIP() << "needs three ranks";
+    HeldPoints all = uneven_cloud(2, false);
+    const Options options = spread_options(num_ranks(), 1.1);
+    Share mine(all);
+    const Balance first = balance(mine.points(), options, MPI_COMM_WORLD);
+    const auto expect = [&](const std::string& text, const Cuts& previous, const Options& asked) {
+        try {
+            balance(mine.points(), asked, MPI_COMM_WORLD, previous);
+            ADD_FAILURE() << "nothing was thrown";
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+        }
+        EXPECT_EQ(balance(Share(all).points(), options, MPI_COMM_WORLD, first.cuts).parts,
+                  first.parts);
+    };
+    const bool is_last = test::is_last_rank();
+    Cuts lacking = first.cuts;
+    if (rank() == 0) {
+        lacking.nodes.erase(lacking.nodes.begin());
+        lacking.tree.erase(lacking.tree.begin());
+    }
+    expect("rank 0: a cut is missing", lacking, options);
+    Cuts mixed = is_last ? whole_cuts(first.cuts, MPI_COMM_WORLD) : first.cuts;
+    if (!is_last) whole_cuts(first.cuts, MPI_COMM_WORLD);
+    expect("previous differs", mixed, options);
+    Options other = options;
+    if (is_last) other.refine = Refine::exact;
+    expect("refine differs", first.cuts, other);
+    other = options;
+    if (is_last) other.central_parts = 1000;
+    expect("central_parts differs", first.cuts, other);
+    if (is_last) mine.coordinates[7] = std::nan("");
+    expect("is NaN or infinite", first.cuts, options);
+}
+
+}  // namespace
+}  // namespace rrcb

@@ -55,7 +55,7 @@ void Butterfly::pack_nothing() {
 void Butterfly::pack(int step, Direction direction, const Link& link) {
     pack_nothing();
     if (direction == to_owners) {
-        hand_over(halves_at(step));
+        hand_over(step);
     } else {
         reply(step, link.rank);
     }
@@ -63,14 +63,23 @@ void Butterfly::pack(int step, Direction direction, const Link& link) {
 }
 
 /// Moves the records whose owner is in the other half into the message.
-void Butterfly::hand_over(const Halves& halves) {
+void Butterfly::hand_over(int step) {
+    if (held_.empty()) return;
+    const Halves halves = halves_at(step);
     const bool is_below = rank_ < halves.middle;
-    Records stays;
+    const auto stays_here = [&](const Record& record) {
+        return (record.owner < halves.middle) == is_below;
+    };
+    bool all_stay = true;
+    held_.for_each([&](const Record& record) { all_stay = all_stay && stays_here(record); });
+    // Mostly so where points lie near the ranks of their parts; then nothing is copied.
+    if (all_stay) return;
+    Records stay;
     held_.for_each([&](const Record& record) {
-        if ((record.owner < halves.middle) == is_below) return stays.append(record);
+        if (stays_here(record)) return stay.append(record);
         append_record(message_, record);
     });
-    held_ = std::move(stays);
+    held_ = std::move(stay);
 }
 
 /// Puts the answers to what came from a rank in a step into the message.

@@ -134,7 +134,7 @@ class Butterfly {
     };
 
     Halves halves_at(int step) const;
-    void hand_over(const Halves& halves);
+    void hand_over(int step);
     void reply(int step, int rank);
     Records merged(const Records& records, RecordReader others) const;
 

@@ -86,7 +86,10 @@ RegionSearch::RegionSearch(const RegionTree& tree, int rank, const Regions& regi
     tree_.rule.weight_per_size = tree.weight / all_sizes_;
     // A region has one part more than another at most.
     const auto most_parts = static_cast<std::size_t>(tree.num_parts / regions.cuts.num_parts) + 1;
-    if (tree.part_sizes.empty() && !tree.rule.is_exact) ones_.assign(most_parts, 1.0);
+    if (tree.part_sizes.empty() && tree.ones.empty() && !tree.rule.is_exact) {
+        ones_.assign(most_parts, 1.0);
+        tree_.ones = ones_;
+    }
     std::vector<Fragment> fragments = cell_fragments(points_);
     for (Fragment& fragment : fragments) fragment.box = box_of(fragment, points_);
     enter_region(regions, root_of(regions.cuts), {0, 0, tree.num_parts}, std::move(fragments),
@@ -101,7 +104,7 @@ double RegionSearch::share_below(const Descent& at) const {
 /// Sizes of the parts of a node; of equal ones to a tolerance only.
 std::span<const double> RegionSearch::sizes_of(const Descent& at) const {
     const auto count = static_cast<std::size_t>(at.num_parts);
-    if (tree_.part_sizes.empty()) return std::span(ones_).first(count);
+    if (tree_.part_sizes.empty()) return tree_.ones.first(count);
     return tree_.part_sizes.subspan(static_cast<std::size_t>(at.first_part), count);
 }
 

@@ -29,6 +29,7 @@ struct RegionTree {
     int num_ranks = 1;
     double weight = 0;                     ///< of all points
     std::span<const double> part_sizes{};  ///< one per part; empty: equal
+    std::span<const double> ones{};        ///< as many as a region has equal parts; empty: made
     TargetRule rule{};                     ///< but for the sizes, and the weight per size
     double share_of_longest = 1;           ///< see longest_axis()
     bool plain_cuts = false;

@@ -1,0 +1,173 @@
+// The search for the cuts below regions on a great many virtual ranks, in one process.
+#pragma once
+
+#include "gather/contribution.hpp"
+#include "refinement/region_search.hpp"
+#include "virtual_cloud.hpp"
+#include "virtual_round.hpp"
+
+#include <rrcb/balance.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace rrcb::test {
+
+/// Bytes that this thread has allocated and not freed, and the most of them since that was set; see
+/// count_memory.cpp.
+inline thread_local std::int64_t bytes_in_use = 0;
+inline thread_local std::int64_t most_bytes_in_use = 0;
+
+/// What a search amounted to; sizes in bytes.
+struct SearchTotals {
+    int rounds = 0;
+    MessageTotals messages{};
+    std::int64_t bytes_in_a_row = 0;  ///< of the longest message of every step of every round
+    std::size_t most_into_rank = 0;   ///< in one round
+    std::int64_t most_memory = 0;     ///< of a rank, beside its points and their sorted copy
+
+    std::size_t longest() const {
+        std::size_t longest = 0;
+        for (const auto& ways : messages.longest) longest = std::max({longest, ways[0], ways[1]});
+        return longest;
+    }
+};
+
+/// Ranks of a cloud, a part each, that search for the cuts below the regions of all points.
+class VirtualSearch {
+  public:
+    VirtualSearch(const VirtualCloud& cloud, int num_regions, double tolerance)
+        : parts_(cloud.coordinates.size() / 2),
+          ranks_(static_cast<std::size_t>(cloud.num_ranks())),
+          memory_(ranks_.size(), Memory{sizeof(Rank), sizeof(Rank)}),
+          ones_(ranks_.size() / static_cast<std::size_t>(num_regions), 1.0) {
+        Balance top = make_regions(cloud, num_regions, tolerance);
+        const std::vector<double> all{static_cast<double>(parts_.size())};
+        const Regions regions{std::move(top.cuts), num_regions == 1 ? all : top.report.part_weights,
+                              bounding_box(cloud.points())};
+        const RegionTree tree = tree_of(cloud, tolerance);
+        for (int rank = 0; rank < cloud.num_ranks(); ++rank) start(cloud, tree, regions, rank);
+    }
+
+    int num_ranks() const { return static_cast<int>(ranks_.size()); }
+    Butterfly& butterfly(int rank) { return of(rank).butterfly; }
+
+    /// Runs a step of a rank, and notes what memory that takes.
+    template <class Step>
+    void run(int rank, Step&& step) {
+        Memory& memory = memory_[static_cast<std::size_t>(rank)];
+        const std::int64_t before = most_bytes_in_use = bytes_in_use;
+        step();
+        memory.most = std::max(memory.most, memory.now + most_bytes_in_use - before);
+        memory.now += bytes_in_use - before;
+    }
+
+    void turn(int rank) {
+        of(rank).search.decide(butterfly(rank));
+        butterfly(rank).start(butterfly(rank).flags());
+    }
+
+    /// Searches until no rank does, which the flags tell all of them in one more round.
+    SearchTotals search() {
+        SearchTotals totals;
+        for (bool goes_on = true; goes_on;) {
+            for (int rank = 0; rank < num_ranks(); ++rank) run(rank, [&] { ask(rank); });
+            const VirtualRound<VirtualSearch> round(*this);
+            goes_on = butterfly(0).flags()[1] > 0;
+            if (goes_on) note(round, totals);
+            for (int rank = 0; rank < num_ranks(); ++rank)
+                run(rank, [&] { of(rank).search.follow(butterfly(rank)); });
+        }
+        for (const Memory& memory : memory_)
+            totals.most_memory = std::max(totals.most_memory, memory.most);
+        return totals;
+    }
+
+    /// Of each point.
+    std::span<const Part> parts() const { return parts_; }
+
+    /// The largest that a rank tells of its part.
+    double imbalance() const {
+        double largest = 0;
+        for (const auto& rank : ranks_) largest = std::max(largest, rank->search.imbalance());
+        return largest;
+    }
+
+  private:
+    struct Rank {
+        RegionSearch search;
+        Butterfly butterfly;
+
+        Rank(const RegionTree& tree, int rank, const Regions& regions, SortedPoints&& points,
+             std::span<Part> parts)
+            : search(tree, rank, regions, std::move(points), parts),
+              butterfly(rank, tree.num_ranks, RegionSearch::join) {}
+    };
+    struct Memory {
+        std::int64_t now;
+        std::int64_t most;
+    };
+
+    Rank& of(int rank) { return *ranks_[static_cast<std::size_t>(rank)]; }
+
+    static Balance make_regions(const VirtualCloud& cloud, int num_regions, double tolerance) {
+        Options options;
+        options.num_parts = num_regions;
+        const double share = std::log2(num_regions) / std::log2(cloud.num_ranks());
+        options.imbalance_tolerance = std::pow(tolerance, share);
+        return balance(cloud.points(), options, MPI_COMM_SELF);
+    }
+
+    RegionTree tree_of(const VirtualCloud& cloud, double tolerance) const {
+        RegionTree tree;
+        tree.num_parts = tree.num_ranks = cloud.num_ranks();
+        tree.ones = ones_;
+        tree.weight = static_cast<double>(parts_.size());
+        tree.rule.tolerance = tolerance;
+        tree.rule.is_exact = !(tolerance > 1);
+        tree.rule.common_weight = tree.rule.heaviest = 1;
+        return tree;
+    }
+
+    void start(const VirtualCloud& cloud, const RegionTree& tree, const Regions& regions,
+               int rank) {
+        const Points mine = cloud.points_of(rank);
+        Options options;
+        options.num_parts = cloud.num_ranks();
+        SortedPoints sorted = sort_by_cell(bin_by_options(mine, bounding_box(mine), options));
+        const std::size_t first = static_cast<std::size_t>(rank) * mine.count;
+        const auto parts = std::span(parts_).subspan(first, mine.count);
+        run(rank, [&] {
+            ranks_[static_cast<std::size_t>(rank)].emplace(tree, rank, regions, std::move(sorted),
+                                                           parts);
+        });
+    }
+
+    void ask(int rank) {
+        butterfly(rank).clear();
+        of(rank).search.ask(butterfly(rank));
+        butterfly(rank).start({0, of(rank).search.is_searching() ? 1.0 : 0.0});
+    }
+
+    static void note(const VirtualRound<VirtualSearch>& round, SearchTotals& totals) {
+        ++totals.rounds;
+        totals.messages.join(round.totals());
+        for (const auto& ways : round.totals().longest)
+            totals.bytes_in_a_row += static_cast<std::int64_t>(ways[0] + ways[1]);
+        totals.most_into_rank =
+            std::max(totals.most_into_rank, *std::ranges::max_element(round.bytes_into()));
+    }
+
+    std::vector<Part> parts_;
+    std::vector<std::optional<Rank>> ranks_;
+    std::vector<Memory> memory_;
+    std::vector<double> ones_;
+};
+
+}  // namespace rrcb::test

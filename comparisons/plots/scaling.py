@@ -17,13 +17,17 @@ import plot
 from document import Document, Rows
 from machine import add_machine
 from matplotlib.figure import Figure
-from results import write_csv
+from results import read, write_csv
 from scaling_check import Comparison, compare_all, read_counted, read_sizes
+from scaling_wide import CENTRAL_PARTS
 from scaling_time import CallPath, Machine, Observed, all_paths, observe
 
 Paths = dict[int, dict[str, CallPath]]  # by ranks and method
 MOST_RANKS = 1 << 20
-LINES = {"rrcb, estimate alone": ":", "rrcb, estimate accepted": "-", "rrcb, refined": "-."}
+LINES = {
+    "rrcb, estimate alone": ":", "rrcb, estimate accepted": "-", "rrcb, refined": "-.",
+    "rrcb by many, accepted": "-", "rrcb by many, exact": "--",
+}  # fmt: skip
 PANELS = {
     "time of a call [s]": lambda path: path.seconds,
     "messages one after the other": lambda path: path.messages,
@@ -43,7 +47,7 @@ def main() -> int:
     machine = Machine(
         arguments.latency_us * 1e-6, arguments.bandwidth_gb * 1e9, arguments.points_per_rank
     )
-    observed = observe(counted, sizes)
+    observed = observe(counted, sizes, read(directory / "virtual.csv"))
     paths = {
         1 << power: all_paths(1 << power, observed, machine)
         for power in range(1, MOST_RANKS.bit_length())
@@ -95,11 +99,11 @@ def _path_rows(paths: Paths) -> Iterator[dict]:
 def _draw(paths: Paths) -> Figure:
     figure, grid = plot.panels(1, len(PANELS), 4.1 * len(PANELS), 4)
     for axes, (label, value) in zip(grid[0], PANELS.items()):
-        for method in paths[2]:
+        for method in paths[MOST_RANKS]:
             style = plot.method_style(method.split(",")[0])
             line = LINES.get(method, style.line)
-            values = [value(by_method[method]) for by_method in paths.values()]
-            axes.plot(list(paths), values, color=style.colour, linestyle=line, label=method)
+            found = {n: value(of[method]) for n, of in paths.items() if method in of}
+            axes.plot(list(found), found.values(), color=style.colour, linestyle=line, label=method)
         axes.axvspan(2, 64, color="#EEEEEE", zorder=0, label="counts checked here")
         axes.set_xscale("log", base=2)
         axes.set_yscale("log")
@@ -121,6 +125,9 @@ def _report(
     document.heading("What the model assumes")
     for text in assumptions:
         document.paragraph(text)
+    if (directory / "virtual.csv").exists():
+        virtual = read(directory / "virtual.csv").astype(str)
+        document.table("The search below regions on virtual ranks", virtual.to_dict("records"))
     document.heading("Formula beside count")
     caption = "One call, function by function, summed over the ranks"
     document.table(caption, [comparison.texts for comparison in comparisons])
@@ -135,6 +142,8 @@ def _sentence(ranks: int, by_method: dict[str, CallPath]) -> str:
     for method, name in (
         ("rrcb, refined", "refined to the tolerance"),
         ("rrcb-exact", "exactly balanced"),
+        ("rrcb by many, accepted", "made by many ranks to the tolerance"),
+        ("rrcb by many, exact", "made by many ranks exactly"),
         ("zoltan-rcb", "Zoltan's RCB"),
         ("zoltan2-mj", "multijagged"),
     ):
@@ -149,8 +158,11 @@ def _time(seconds: float) -> str:
 
 def _time_table(paths: Paths) -> Rows:
     shown = (2, 8, 64, 512, 4096, 32768, 262144, MOST_RANKS)
+    def time_of(ranks: int, method: str) -> str:
+        return _time(paths[ranks][method].seconds) if method in paths[ranks] else "–"
+
     return [
-        {"ranks": f"{ranks:,}"} | {method: _time(p.seconds) for method, p in paths[ranks].items()}
+        {"ranks": f"{ranks:,}"} | {method: time_of(ranks, method) for method in paths[MOST_RANKS]}
         for ranks in shown
     ]
 
@@ -188,8 +200,29 @@ def _assumptions(machine: Machine, observed: Observed) -> list[str]:
         " every rank then tells every other of each of its parts.",
         f"Multijagged: {observed.steps:.2f} steps a section, the mean seen here; its sections are"
         " searched one after the other, as they are by default.",
+        *_searches_assumed(observed),
         "Contention, memory and the time inside MPI are left out: beyond the ranks of the check"
         " these are no measurements.",
+    ]
+
+
+def _searches_assumed(observed: Observed) -> list[str]:
+    if not (observed.to_tolerance and observed.exact):
+        return []
+    told = [
+        f"{name} {of.rounds_per_level:.2f} rounds a level, {of.bytes_per_step:,.0f} bytes in the"
+        f" longest message of a step on the average, {of.most_into_rank:,} bytes into a rank in a"
+        " round at most"
+        for name, of in (("to the tolerance", observed.to_tolerance), ("exact", observed.exact))
+    ]
+    return [
+        f"By many: rank 0 makes {CENTRAL_PARTS} regions, of exact cuts one; below them "
+        + "; ".join(told)
+        + ", the most of any number of virtual ranks in virtual.csv. A round is 2 log2(ranks)"
+        " messages one after the other. Points lie where their parts do. A look at every point a"
+        " level, as in the other curves; further rounds count candidates only. rrcb::balance alone:"
+        " the plug-in's own gathers and arrays of all parts, 272 bytes a rank into rank 0 and 8"
+        " bytes a part, are in the other curves of rrcb and not in these."
     ]
 
 

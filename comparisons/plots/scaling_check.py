@@ -8,6 +8,7 @@ from typing import NamedTuple
 from choice import yes
 from results import read
 import scaling_model as model
+import scaling_wide as wide
 from scaling_model import Count, Exchange, Rounds, Sizes, Traffic
 
 NONE = "rrcb[mesh=4,refine=none]"
@@ -16,6 +17,8 @@ ACCEPTED = "rrcb[mesh=4,tol=2]"
 EXACT = "rrcb-exact[mesh=4]"
 ZOLTAN = "zoltan-rcb"
 JAGGED = "zoltan2-mj"
+WIDE = "rrcb-arrays[mesh=4,tol=2,central=2]"
+WIDE_EXACT = "rrcb-arrays[mesh=4,refine=exact,central=2]"
 
 
 class Counted(NamedTuple):
@@ -98,6 +101,8 @@ def compare_all(
             found.append(Comparison(row, traffic, "", "iterations, partners and points moved"))
         if method == JAGGED and ranks > 1:
             found.append(_compare_multijagged(row))
+        if sizes and method in (WIDE, WIDE_EXACT) and ranks > 2:
+            found.append(_compare_wide(row, sizes.parts))
     return found
 
 
@@ -172,6 +177,17 @@ def read_exchange(row: Counted) -> Exchange:
         field_bytes=traffic["Rsend"].sent,
         overlap_bytes=traffic["Allgatherv"].sent,
     )
+
+
+def _compare_wide(row: Counted, parts: model.Parts) -> Comparison:
+    if row.method == WIDE:
+        return Comparison(row, *wide.accepted(row.ranks, 2, parts), "none")
+    sent = row.traffic["Isend"]
+    passes = _whole(sent.calls, wide.pass_messages(row.ranks))
+    rounds = _whole(passes - 1, 2)
+    record_bytes = sent.sent - wide.HEAD * sent.calls
+    traffic = wide.exact(row.ranks, rounds, record_bytes, parts)
+    return Comparison(row, traffic, "", "rounds and bytes of records")
 
 
 def _compare_multijagged(row: Counted) -> Comparison:

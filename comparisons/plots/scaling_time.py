@@ -10,7 +10,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import ceil
 
+import pandas as pd
+
 import scaling_model as model
+import scaling_wide as wide
 from scaling_check import EXACT, JAGGED, ZOLTAN, Counted, read_exchange, read_rounds
 from scaling_model import Rounds, Sizes
 
@@ -50,6 +53,15 @@ class CallPath:
 
 
 @dataclass(frozen=True)
+class Searches:
+    """The search below the regions on virtual ranks, with points sorted over them."""
+
+    rounds_per_level: float
+    bytes_per_step: float  # in the longest message of each, on the average
+    most_into_rank: int  # bytes in a round
+
+
+@dataclass(frozen=True)
 class Observed:
     """What the points decide, from the runs here."""
 
@@ -58,9 +70,13 @@ class Observed:
     bytes_per_list: float
     iterations: float  # of the median search in a set of Zoltan's RCB
     steps: float  # of the search of multijagged in a section
+    to_tolerance: Searches | None = None
+    exact: Searches | None = None
 
 
-def observe(counted: dict[tuple[str, int], Counted], sizes: Sizes) -> Observed:
+def observe(
+    counted: dict[tuple[str, int], Counted], sizes: Sizes, virtual: pd.DataFrame
+) -> Observed:
     """Largest rounds, mean of the iterations, over the numbers of ranks that were run."""
     exact, zoltan, jagged = (
         [row for row in counted.values() if row.method == method and row.ranks > least]
@@ -73,6 +89,25 @@ def observe(counted: dict[tuple[str, int], Counted], sizes: Sizes) -> Observed:
         max(of.candidate_bytes / cuts for cuts, of in refined),
         _mean([read_exchange(row).iterations / sum(model.sets(row.ranks)) for row in zoltan]),
         _mean([_steps(row) for row in jagged]),
+        _searches(virtual, is_exact=False),
+        _searches(virtual, is_exact=True),
+    )
+
+
+def _searches(virtual: pd.DataFrame, is_exact: bool) -> Searches | None:
+    """The most of any number of ranks whose points lie where their parts do."""
+    if virtual.empty:
+        return None
+    asked = (virtual["tolerance"] == 1) == is_exact
+    rows = virtual[asked & (virtual["layout"] == "by_part")]
+    if rows.empty:
+        return None
+    levels = rows["ranks"].map(lambda ranks: wide.levels_below(1 if is_exact else 64, ranks))
+    steps = rows["ranks"].map(lambda ranks: 2 * (ranks - 1).bit_length())
+    return Searches(
+        (rows["rounds"] / levels).max(),
+        (rows["bytes_in_a_row"] / (rows["rounds"] * steps)).max(),
+        int(rows["most_into_rank"].max()),
     )
 
 
@@ -111,12 +146,39 @@ def rrcb_path(ranks: int, refine: str, observed: Observed, machine: Machine) -> 
     return path
 
 
-def _climb(path: CallPath, ranks: int, sizes: Sizes, place: int) -> None:
+def wide_path(ranks: int, is_exact: bool, observed: Observed, machine: Machine) -> CallPath:
+    """Parts made by many ranks where there are more than one makes alone, without the plug-in."""
+    searches = observed.exact if is_exact else observed.to_tolerance
+    parts, regions = observed.sizes.parts, 1 if is_exact else wide.CENTRAL_PARTS
+    path = CallPath(machine, work=machine.points * machine.per_point)
+    _climb(path, ranks, observed.sizes, 0, wide.MOST_CELLS)
+    path.work += 2 * wide.MOST_CELLS * (regions - 1).bit_length() * machine.per_cell
+    cuts = (regions - 1) * (parts.cut + parts.bracket)
+    path.collective(ranks, parts.head)
+    path.collective(ranks, cuts, cuts > parts.head - parts.verdict)
+    if not is_exact:
+        look = model.look_bytes(regions, parts)
+        path.collective(ranks, look, 1, look)
+        path.collective(ranks, model.answer_bytes(regions, parts))
+    for size in (wide.BOX, wide.COUNT, parts.agreement, parts.agreement)[: 4 if is_exact else 3]:
+        path.collective(ranks, 2 * size, 1, size)
+    levels = wide.levels_below(regions, ranks)
+    rounds, steps = ceil(searches.rounds_per_level * levels), (ranks - 1).bit_length()
+    path.messages += (2 * rounds + 1) * steps
+    path.bytes += 2 * rounds * steps * searches.bytes_per_step
+    path.root_bytes += rounds * searches.most_into_rank
+    path.work += levels * machine.points * machine.per_look
+    return path
+
+
+def _climb(
+    path: CallPath, ranks: int, sizes: Sizes, place: int, most_cells: int = model.MOST_CELLS
+) -> None:
     """Up the tree of radix 8, at each level seven children one after the other."""
     below = 1
     while below < ranks:
         num_children = min(model.RADIX - 1, ceil(ranks / below) - 1)
-        cells = min(model.MOST_CELLS, below * model.MESH**model.DIMENSION)
+        cells = min(most_cells, below * model.MESH**model.DIMENSION)
         records = cells * sizes.parts.cell + below * place
         size = sizes.parts.summary + records
         pieces = 1 + ceil(records / 65536)
@@ -189,6 +251,9 @@ def all_paths(ranks: int, observed: Observed, machine: Machine) -> dict[str, Cal
         "rrcb, refined": rrcb_path(ranks, "refined", observed, machine),
         "rrcb-exact": rrcb_path(ranks, "exact", observed, machine),
     }
+    if ranks > wide.CENTRAL_PARTS and observed.to_tolerance and observed.exact:
+        found["rrcb by many, accepted"] = wide_path(ranks, False, observed, machine)
+        found["rrcb by many, exact"] = wide_path(ranks, True, observed, machine)
     if observed.iterations:
         found["zoltan-rcb"] = zoltan_path(ranks, observed, machine)
     if observed.steps:

@@ -24,7 +24,7 @@ struct Key {
 constexpr Key keys[] = {{"mesh", "support_mesh"},  {"cut", "cut_rule"},
                         {"refine", "refine"},      {"tol", "imbalance_tolerance"},
                         {"k", "sigma_multiplier"}, {"fraction", "sample_fraction"},
-                        {"seed", "seed"}};
+                        {"seed", "seed"},          {"central", "central_parts"}};
 
 struct Entry {
     std::string_view name;
@@ -63,7 +63,7 @@ const std::vector<Entry>& entries() {
          on_arrays,
          DomainKind::analytic,
          Refine::automatic,
-         {"mesh", "cut", "refine", "tol"}},
+         {"mesh", "cut", "refine", "tol", "central"}},
     };
     return table;
 }
@@ -125,6 +125,7 @@ void add_options(ZoltanParameters& parameters, const Options& options) {
     add("cut_rule", true);
     add("refine", true);
     add("imbalance_tolerance", false);
+    add("central_parts", false);
     if (!rrcb::traits_of(options.domain).is_random) return;
     for (const char* name : {"sigma_multiplier", "sample_fraction", "seed"}) add(name, true);
 }

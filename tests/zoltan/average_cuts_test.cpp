@@ -78,10 +78,15 @@ TEST(AverageCuts, leave_every_object_in_its_part) {
                         program.add({double(i % 20), double(i / 20)});
                 } else {
                     fill(program, 3);
-                    // Neighbours without a number between them, and at both ends of the range.
-                    program.add({1, 1}), program.add({std::nextafter(1.0, 2.0), 1});
-                    program.add({0, 0}), program.add({tiny, tiny});
-                    program.add({huge, -huge}), program.add({-huge, huge});
+                    // Neighbours without a number between them, and at both ends of the range; on
+                    // one rank alone, or a cut might divide two of them in one place.
+                    for (const auto& [x, y] : {std::pair{1.0, 1.0},
+                                               {std::nextafter(1.0, 2.0), 1.0},
+                                               {0.0, 0.0},
+                                               {tiny, tiny},
+                                               {huge, -huge},
+                                               {-huge, huge}})
+                        if (program.rank == 0) program.add({x, y});
                 }
                 program.set("LB_METHOD", "RRCB");
                 program.set("RRCB_REFINE", refine);

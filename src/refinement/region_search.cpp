@@ -2,9 +2,8 @@
 
 #include "bisection/axis_choice.hpp"
 #include "bisection/bisection.hpp"
+#include "cuts/owned_cuts.hpp"
 #include "refinement/sample.hpp"
-
-#include <rrcb/plan.hpp>
 
 #include <algorithm>
 #include <array>
@@ -12,7 +11,6 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 namespace rrcb {
@@ -20,30 +18,6 @@ namespace rrcb {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// The first part that is beyond, as all behind it are; num_parts where none is.
-template <class IsBeyond>
-Part first_beyond(int num_parts, IsBeyond&& is_beyond) {
-    Part first = 0;
-    int count = num_parts;
-    // No part before `first` is beyond, and all are from first + count on.
-    while (count > 0) {
-        const int half = count / 2;
-        const bool is_lower = is_beyond(first + half);
-        first += is_lower ? 0 : half + 1;
-        count = is_lower ? half : count - half - 1;
-    }
-    return first;
-}
-
-/// The parts that a rank holds: the first, and the one behind the last.
-std::pair<Part, Part> own_parts(int rank, int num_parts, int num_ranks) {
-    const auto ranks = [&](Part part) { return ranks_of_part(part, num_parts, num_ranks); };
-    return {
-        first_beyond(num_parts,
-                     [&](Part part) { return ranks(part).first_rank + ranks(part).count > rank; }),
-        first_beyond(num_parts, [&](Part part) { return ranks(part).first_rank > rank; })};
-}
 
 double weight_of(const std::vector<Fragment>& fragments) {
     double weight = 0;
@@ -69,7 +43,7 @@ Box box_of(const Fragment& fragment, const SortedPoints& points) {
 }  // namespace
 
 int RegionTree::owner_of(const Descent& at) const {
-    return ranks_of_part(at.first_part, num_parts, num_ranks).first_rank;
+    return rrcb::owner_of(at, num_parts, num_ranks);
 }
 
 RegionSearch::RegionSearch(const RegionTree& tree, int rank, const Regions& regions,
@@ -79,7 +53,9 @@ RegionSearch::RegionSearch(const RegionTree& tree, int rank, const Regions& regi
       dimension_(regions.cuts.dimension),
       points_(std::move(points)),
       parts_(parts) {
-    std::tie(first_own_, end_own_) = own_parts(rank, tree.num_parts, tree.num_ranks);
+    const PartRange own = parts_on(rank, tree.num_parts, tree.num_ranks);
+    first_own_ = own.first;
+    end_own_ = own.end;
     all_sizes_ = tree.part_sizes.empty()
                      ? tree.num_parts
                      : std::accumulate(tree.part_sizes.begin(), tree.part_sizes.end(), 0.0);

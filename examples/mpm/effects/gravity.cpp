@@ -1,5 +1,7 @@
 #include "effects/effect.hpp"
 
+#include <algorithm>
+
 namespace mpm {
 
 namespace {

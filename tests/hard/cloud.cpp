@@ -154,11 +154,11 @@ std::vector<std::string> names_of(std::span<const Cloud> clouds) {
     return names;
 }
 
-const Cloud& find_cloud(const std::string& name) {
+const Cloud& find_cloud(std::string_view name) {
     for (const std::span<const Cloud> list : all_lists)
         for (const Cloud& cloud : list)
             if (cloud.name == name) return cloud;
-    throw std::invalid_argument("no cloud is called " + name);
+    throw std::invalid_argument("no cloud is called " + std::string(name));
 }
 
 double weight_of(const Cloud& cloud, int point) {

@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rrcb::hard_test {
@@ -24,7 +25,7 @@ std::span<const Cloud> clouds_hard_by_weight();
 std::span<const Cloud> clouds_hard_by_distribution();
 
 std::vector<std::string> names_of(std::span<const Cloud> clouds);
-const Cloud& find_cloud(const std::string& name);
+const Cloud& find_cloud(std::string_view name);
 
 double weight_of(const Cloud& cloud, int point);
 

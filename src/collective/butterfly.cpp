@@ -1,31 +1,43 @@
 #include "collective/butterfly.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace rrcb {
 
+namespace {
+
+Key last_key(RecordReader records) {
+    Key key = 0;
+    while (!records.at_end()) key = records.next().key;
+    return key;
+}
+
+Key first_key(RecordReader records) {
+    return records.next().key;
+}
+
+}  // namespace
+
 Butterfly::Butterfly(int rank, int num_ranks, Join join)
     : rank_(rank), num_ranks_(num_ranks), join_(join) {
-    message_.reserve(head_length);
+    for (Halves halves = halves_at(0); halves.end - halves.begin > 1;
+         halves = halves_at(num_steps_))
+        ++num_steps_;
 }
 
 Butterfly::Halves Butterfly::halves_at(int step) const {
-    Halves halves{0, 0, num_ranks_};
-    // Before each turn this rank is one of those from begin to end.
+    int begin = 0;
+    int end = num_ranks_;
+    // Before each turn this rank is one of those from `begin` to `end`. Without branches, as there
+    // is no telling which half it is in.
     for (int k = 0;; ++k) {
-        const int length = halves.end - halves.begin;
-        halves.middle = halves.begin + length / 2 + length % 2;
-        if (k == step) return halves;
-        (rank_ < halves.middle ? halves.end : halves.begin) = halves.middle;
+        const int length = end - begin;
+        const int middle = begin + length / 2 + length % 2;
+        if (k == step) return {begin, middle, end};
+        const bool is_below = rank_ < middle;
+        begin = is_below ? begin : middle;
+        end = is_below ? middle : end;
     }
-}
-
-int Butterfly::num_steps() const {
-    int step = 0;
-    for (Halves halves = halves_at(0); halves.end - halves.begin > 1; halves = halves_at(step))
-        ++step;
-    return step;
 }
 
 Butterfly::Links Butterfly::links(int step, Direction direction) const {
@@ -44,12 +56,13 @@ void Butterfly::clear() {
     held_.clear();
     answers_.clear();
     asked_.clear();
+    keys_asked_.clear();
 }
 
 void Butterfly::pack_nothing() {
-    message_.resize(head_length);
-    message_[0] = head_length;
-    std::ranges::copy(flags_, message_.begin() + 1);
+    message_.clear();
+    head_[0] = head_length;
+    std::ranges::copy(flags_, head_.begin() + 1);
 }
 
 void Butterfly::pack(int step, Direction direction, const Link& link) {
@@ -59,27 +72,29 @@ void Butterfly::pack(int step, Direction direction, const Link& link) {
     } else {
         reply(step, link.rank);
     }
-    message_[0] = static_cast<double>(message_.size());
+    if (!message_.empty()) message_[0] = static_cast<double>(message_.size());
+}
+
+void Butterfly::append_to_message(const Record& record) {
+    if (message_.empty()) message_.assign(head_.begin(), head_.end());
+    append_record(message_, record);
 }
 
 /// Moves the records whose owner is in the other half into the message.
 void Butterfly::hand_over(int step) {
-    if (held_.empty()) return;
     const Halves halves = halves_at(step);
     const bool is_below = rank_ < halves.middle;
+    const int begin = is_below ? halves.begin : halves.middle;
+    const int end = is_below ? halves.middle : halves.end;
+    // Mostly so where points lie near the ranks of their parts.
+    if (held_.are_owned_between(begin, end)) return;
     const auto stays_here = [&](const Record& record) {
-        return (record.owner < halves.middle) == is_below;
+        return begin <= record.owner && record.owner < end;
     };
-    bool all_stay = true;
-    held_.for_each([&](const Record& record) { all_stay = all_stay && stays_here(record); });
-    // Mostly so where points lie near the ranks of their parts; then nothing is copied.
-    if (all_stay) return;
-    Records stay;
     held_.for_each([&](const Record& record) {
-        if (stays_here(record)) return stay.append(record);
-        append_record(message_, record);
+        if (!stays_here(record)) append_to_message(record);
     });
-    held_ = std::move(stay);
+    held_.keep(stays_here);
 }
 
 /// Puts the answers to what came from a rank in a step into the message.
@@ -87,11 +102,12 @@ void Butterfly::reply(int step, int rank) {
     const auto asked = std::ranges::find_if(
         asked_, [&](const Asked& one) { return one.step == step && one.rank == rank; });
     if (asked == asked_.end()) return;
-    auto key = asked->keys.begin();
-    answers_.for_each([&](const Record& answer) {
-        while (key != asked->keys.end() && *key < answer.key) ++key;
-        if (key != asked->keys.end() && *key == answer.key) append_record(message_, answer);
-    });
+    std::size_t next = asked->begin;
+    for (RecordReader reader = answers_.read(); !reader.at_end() && next < asked->end;) {
+        const Record answer = reader.next();
+        while (next < asked->end && keys_asked_[next] < answer.key) ++next;
+        if (next < asked->end && keys_asked_[next] == answer.key) append_to_message(answer);
+    }
 }
 
 void Butterfly::hear(std::span<const double> message) {
@@ -102,21 +118,28 @@ void Butterfly::take(int step, Direction direction, const Link& link,
                      std::span<const double> message) {
     const RecordReader incoming(message.subspan(head_length));
     if (incoming.at_end()) return;
-    if (direction == back) {
-        answers_ = merged(answers_, incoming);
-        return;
-    }
-    Asked asked{step, link.rank, {}};
-    for (RecordReader reader = incoming; !reader.at_end();) asked.keys.push_back(reader.next().key);
-    asked_.push_back(std::move(asked));
-    held_ = merged(held_, incoming);
+    if (direction == to_owners) note_asked(step, link.rank, incoming);
+    merge(direction == to_owners ? held_ : answers_, incoming);
+}
+
+void Butterfly::note_asked(int step, int rank, RecordReader incoming) {
+    const std::size_t begin = keys_asked_.size();
+    while (!incoming.at_end()) keys_asked_.push_back(incoming.next().key);
+    asked_.push_back({step, rank, begin, keys_asked_.size()});
 }
 
 /// Both in the order of their keys.
-Records Butterfly::merged(const Records& records, RecordReader others) const {
+void Butterfly::merge(Records& records, const RecordReader& others) const {
+    // Where keys ascend with their owners, all answers of a half come before those of the other.
+    if (records.empty() || records.last_key() < first_key(others))
+        return records.append_all(others);
+    if (last_key(others) < first_key(records.read())) return records.prepend_all(others);
+    records = merged(records.read(), others);
+}
+
+Records Butterfly::merged(RecordReader mine, RecordReader others) const {
     Records result;
-    std::vector<double> joined;
-    RecordReader mine = records.read();
+    result.reserve_bytes(std::max(mine.words().size_bytes(), others.words().size_bytes()));
     Record a{};
     Record b{};
     bool has_a = !mine.at_end();
@@ -128,9 +151,7 @@ Records Butterfly::merged(const Records& records, RecordReader others) const {
         const bool takes_a = has_a && (!has_b || a.key <= b.key);
         const bool takes_b = !takes_a || (has_b && b.key == a.key && join_ != nullptr);
         if (takes_a && takes_b) {
-            joined.clear();
-            join_(a.payload, b.payload, joined);
-            result.append({a.key, a.owner, joined});
+            result.append_joined(a, b, join_);
         } else {
             result.append(takes_a ? a : b);
         }

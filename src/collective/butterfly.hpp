@@ -72,7 +72,7 @@ class Butterfly {
 
     /// Steps that this rank takes part in: in those numbered from 0 on the way to the owners, in
     /// reverse order on the way back.
-    int num_steps() const;
+    int num_steps() const { return num_steps_; }
 
     /// The same step means the same halving on all ranks in it.
     Links links(int step, Direction direction) const;
@@ -109,7 +109,9 @@ class Butterfly {
     void pack_nothing();
 
     /// The message that was made: how many doubles it has, the flags, and records.
-    std::span<const double> message() const { return message_; }
+    std::span<const double> message() const {
+        return message_.empty() ? std::span<const double>(head_) : message_;
+    }
     static constexpr std::size_t head_length = 1 + std::tuple_size_v<Flags>;
 
     /// Takes in the flags of a message. Never throws.
@@ -126,26 +128,33 @@ class Butterfly {
         int end;
     };
 
-    /// Keys of which the records came from a rank.
+    /// Keys of which the records came from a rank, from `begin` to before `end` of keys_asked_.
     struct Asked {
         int step;
         int rank;
-        std::vector<Key> keys;
+        std::size_t begin;
+        std::size_t end;
     };
 
     Halves halves_at(int step) const;
     void hand_over(int step);
     void reply(int step, int rank);
-    Records merged(const Records& records, RecordReader others) const;
+    void append_to_message(const Record& record);
+    void note_asked(int step, int rank, RecordReader incoming);
+    void merge(Records& records, const RecordReader& others) const;
+    Records merged(RecordReader mine, RecordReader others) const;
 
     int rank_;
     int num_ranks_;
     Join join_;
+    int num_steps_ = 0;
     Flags flags_{};
     Records held_;
     Records answers_;
     std::vector<Asked> asked_;
-    std::vector<double> message_;
+    std::vector<Key> keys_asked_;
+    std::array<double, 1 + std::tuple_size_v<Flags>> head_{};
+    std::vector<double> message_;  ///< with its head; empty where that is all
 };
 
 }  // namespace rrcb

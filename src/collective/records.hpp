@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,9 @@ class RecordReader {
 
     bool at_end() const { return words_.empty(); }
 
+    /// The doubles of all records that were not read.
+    std::span<const double> words() const { return words_; }
+
     Record next() {
         const auto [owner, length] = std::bit_cast<Head>(words_[1]);
         const Record record{std::bit_cast<Key>(words_[0]), owner,
@@ -35,6 +39,7 @@ class RecordReader {
     }
 
   private:
+    friend class Records;
     friend void append_record(std::vector<double>& words, const Record& record);
 
     /// What follows the key.
@@ -57,14 +62,72 @@ inline void append_record(std::vector<double>& words, const Record& record) {
     words.insert(words.end(), record.payload.begin(), record.payload.end());
 }
 
-/// Records, one after the other.
+/// Records, one after the other, and between which ranks their owners are.
 class Records {
   public:
-    void clear() { words_.clear(); }
+    void clear() {
+        words_.clear();
+        forget_notes();
+    }
     bool empty() const { return words_.empty(); }
 
+    /// Of the last record; 0 without any.
+    Key last_key() const { return last_key_; }
+
+    /// True when the owners of all records are ranks from `begin` to before `end`.
+    bool are_owned_between(int begin, int end) const {
+        return begin <= lowest_owner_ && highest_owner_ < end;
+    }
+
+    /// Makes room for so many bytes of records. Throws std::bad_alloc.
+    void reserve_bytes(std::size_t size) { words_.reserve(size / sizeof(double)); }
+
     /// Throws std::bad_alloc; then the record is not there.
-    void append(const Record& record) { append_record(words_, record); }
+    void append(const Record& record) {
+        append_record(words_, record);
+        note(record);
+    }
+
+    /// Appends a record that has the key of two others, and of payload what join(a, b, joined) puts
+    /// behind `joined`. Throws std::bad_alloc; then all records here are void.
+    template <class Join>
+    void append_joined(const Record& a, const Record& b, Join&& join) {
+        append({a.key, a.owner, {}});
+        const std::size_t begin = words_.size();
+        join(a.payload, b.payload, words_);
+        const RecordReader::Head head{a.owner, static_cast<std::uint32_t>(words_.size() - begin)};
+        words_[begin - 1] = std::bit_cast<double>(head);
+    }
+
+    /// Puts other records behind these, or in front of them. Throws std::bad_alloc; then they are
+    /// not there.
+    void append_all(RecordReader others) {
+        words_.insert(words_.end(), others.words().begin(), others.words().end());
+        while (!others.at_end()) note(others.next());
+    }
+    void prepend_all(RecordReader others) {
+        words_.insert(words_.begin(), others.words().begin(), others.words().end());
+        const Key last = last_key_;
+        while (!others.at_end()) note(others.next());
+        last_key_ = last;
+    }
+
+    /// Forgets the records that are not to stay(record).
+    template <class Stay>
+    void keep(Stay&& stay) {
+        RecordReader reader = read();
+        forget_notes();
+        auto end = words_.begin();
+        // Up to `end` are the records that stay of those that were read.
+        while (!reader.at_end()) {
+            const double* begin = reader.words().data();
+            const Record record = reader.next();
+            if (!stay(record)) continue;
+            note(record);
+            end = std::copy(begin, reader.words().data(), end);
+        }
+        words_.erase(end, words_.end());
+    }
 
     RecordReader read() const { return RecordReader(words_); }
 
@@ -77,7 +140,22 @@ class Records {
     std::size_t size_bytes() const { return words_.size() * sizeof(double); }
 
   private:
+    void note(const Record& record) {
+        lowest_owner_ = std::min(lowest_owner_, record.owner);
+        highest_owner_ = std::max(highest_owner_, record.owner);
+        last_key_ = record.key;
+    }
+
+    void forget_notes() {
+        lowest_owner_ = std::numeric_limits<int>::max();
+        highest_owner_ = -1;
+        last_key_ = 0;
+    }
+
     std::vector<double> words_;
+    int lowest_owner_ = std::numeric_limits<int>::max();
+    int highest_owner_ = -1;
+    Key last_key_ = 0;
 };
 
 }  // namespace rrcb

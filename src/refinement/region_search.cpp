@@ -234,6 +234,7 @@ void RegionSearch::join(std::span<const double> a, std::span<const double> b,
 
 void RegionSearch::follow(const Butterfly& butterfly) {
     std::vector<Node> before = std::exchange(nodes_, {});
+    nodes_.reserve(before.size());
     RecordReader answers = butterfly.answers().read();
     Record answer;
     // Both ascend. Answers to others may have gone through this rank.

@@ -77,12 +77,11 @@ class VirtualSearch {
     SearchTotals search() {
         SearchTotals totals;
         for (bool goes_on = true; goes_on;) {
-            for (int rank = 0; rank < num_ranks(); ++rank) run(rank, [&] { ask(rank); });
+            run_all([&](int rank) { ask(rank); });
             const VirtualRound<VirtualSearch> round(*this);
             goes_on = butterfly(0).flags()[1] > 0;
             if (goes_on) note(round, totals);
-            for (int rank = 0; rank < num_ranks(); ++rank)
-                run(rank, [&] { of(rank).search.follow(butterfly(rank)); });
+            run_all([&](int rank) { of(rank).search.follow(butterfly(rank)); });
         }
         for (const Memory& memory : memory_)
             totals.most_memory = std::max(totals.most_memory, memory.most);
@@ -113,6 +112,14 @@ class VirtualSearch {
         std::int64_t now;
         std::int64_t most;
     };
+
+    template <class Step>
+    void run_all(Step&& step) {
+        by_halves(0, num_ranks(), [&](int begin, int end) {
+            for (int rank = begin; rank < end; ++rank) run(rank, [&] { step(rank); });
+            return MessageTotals{};
+        });
+    }
 
     Rank& of(int rank) { return *ranks_[static_cast<std::size_t>(rank)]; }
 

@@ -42,8 +42,12 @@ struct Plan {
 
 /// Export and import lists of the points whose rank changes.
 ///
-/// Collective over `comm`. `parts` has one entry in 0 ... num_parts - 1 per local point. Throws
-/// Error on every rank when some rank names a part outside that range, or another num_parts.
+/// Collective over `comm`: ceil(log2 R) messages from each of R ranks, one more from some, to
+/// announce what comes, one reduction, then one message for each pair between which points move.
+/// `parts` has one entry in 0 ... num_parts - 1 per local point. Memory as there are points that
+/// leave and come, and 100 bytes for each rank that they go to or come from: none grows with the
+/// number of ranks or parts. Throws Error on every rank when some rank names a part outside that
+/// range, or another num_parts.
 RRCB_API Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm comm);
 
 }  // namespace rrcb

@@ -121,11 +121,13 @@ auto moved(const AnyPlan& plan, const Values& values, MPI_Comm comm, const Trans
 /// afterwards: a tuple of vectors for several columns(), and a vector for one column(), or for a
 /// vector or an array with one value for each point.
 ///
-/// Collective over `comm`, the communicator of the plan: each pair of ranks exchanges a number, one
-/// reduction, then one message for each pair between which points move, however many columns there
-/// are; more where it is longer than an eighth of `limits.bytes` or than MPI counts. Every rank
-/// names columns of the same types and components, in the same order; on a rank without points they
-/// are empty.
+/// Collective over `comm`, the communicator of the plan: ceil(log2 R) messages from each of R
+/// ranks, one more from some, to compare what comes, one reduction, then one message for each pair
+/// between which points move, however many columns there are; more where it is longer than an
+/// eighth of `limits.bytes` or than MPI counts. Beside those messages there is memory for 8 bytes a
+/// point that leaves, and 100 for each rank that points go to or come from, whatever the number of
+/// ranks. Every rank names columns of the same types and components, in the same order; on a rank
+/// without points they are empty.
 ///
 /// First come the points that stay, in the order in which they were, then those that come, in the
 /// order of the plan's import lists: by rank, and as they lay there. So columns moved in separate

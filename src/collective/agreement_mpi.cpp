@@ -36,6 +36,13 @@ template <class MakeText>
     });
 }
 
+/// Failures are told in this order: those first that follow from no other.
+std::uint64_t order_of(const Participant& self, std::uint64_t num_ranks) {
+    if (!self.failed()) return 2 * num_ranks;
+    const auto rank = static_cast<std::uint64_t>(mpi::rank_of(self.comm));
+    return self.failure.may_follow ? num_ranks + rank : rank;
+}
+
 }  // namespace
 
 void agree(const Participant& self) {
@@ -43,10 +50,10 @@ void agree(const Participant& self) {
 }
 
 void agree(const Participant& self, std::initializer_list<Shared> arguments) {
-    const int num_ranks = mpi::size_of(self.comm);
+    const auto num_ranks = static_cast<std::uint64_t>(mpi::size_of(self.comm));
     // A maximum travels as the minimum of the complement.
     std::array<std::uint64_t, 1 + 2 * most_shared> smallest;
-    smallest[0] = static_cast<std::uint64_t>(self.failed() ? mpi::rank_of(self.comm) : num_ranks);
+    smallest[0] = order_of(self, num_ranks);
     std::size_t length = 1;
     for (const Shared& argument : arguments) {
         smallest[length++] = argument.value;
@@ -55,8 +62,7 @@ void agree(const Participant& self, std::initializer_list<Shared> arguments) {
     mpi::check(MPI_Allreduce(MPI_IN_PLACE, smallest.data(), static_cast<int>(length), MPI_UINT64_T,
                              MPI_MIN, self.comm),
                "MPI_Allreduce");
-    const int failing_rank = static_cast<int>(smallest[0]);
-    if (failing_rank < num_ranks) fail_together(failing_rank, self);
+    if (smallest[0] < 2 * num_ranks) fail_together(static_cast<int>(smallest[0] % num_ranks), self);
     std::size_t at = 1;
     for (const Shared& argument : arguments) {
         const std::uint64_t least = smallest[at++];

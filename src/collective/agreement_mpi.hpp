@@ -12,7 +12,9 @@ namespace rrcb {
 
 inline constexpr int root = 0;
 
-/// Throws the same Error on every rank when one of them failed on its own since they agreed last.
+/// Throws the same Error on every rank when one of them failed on its own since they agreed last:
+/// that of the lowest rank, of those with a failure that may follow from another one's if no rank
+/// has another.
 ///
 /// Collective: one reduction.
 void agree(const Participant& self);

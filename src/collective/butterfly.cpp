@@ -118,10 +118,11 @@ void Butterfly::take(int step, Direction direction, const Link& link,
                      std::span<const double> message) {
     const RecordReader incoming(message.subspan(head_length));
     if (incoming.at_end()) return;
-    if (direction == to_owners) note_asked(step, link.rank, incoming);
+    if (direction == to_owners && join_ != nullptr) note_asked(step, link.rank, incoming);
     merge(direction == to_owners ? held_ : answers_, incoming);
 }
 
+/// Notes to whom the answers to records will go.
 void Butterfly::note_asked(int step, int rank, RecordReader incoming) {
     const std::size_t begin = keys_asked_.size();
     while (!incoming.at_end()) keys_asked_.push_back(incoming.next().key);

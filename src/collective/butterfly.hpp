@@ -64,7 +64,7 @@ class Butterfly {
         const Link* end() const { return links.data() + count; }
     };
 
-    /// Not collective. Throws std::bad_alloc.
+    /// Not collective. Never throws.
     Butterfly(int rank, int num_ranks, Join join);
 
     int rank() const { return rank_; }
@@ -153,8 +153,8 @@ class Butterfly {
     Records answers_;
     std::vector<Asked> asked_;
     std::vector<Key> keys_asked_;
-    std::array<double, 1 + std::tuple_size_v<Flags>> head_{};
-    std::vector<double> message_;  ///< with its head; empty where that is all
+    std::array<double, head_length> head_{};
+    std::vector<double> message_;  ///< empty where it is the head alone
 };
 
 }  // namespace rrcb

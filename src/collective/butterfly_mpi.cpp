@@ -9,14 +9,15 @@ namespace rrcb {
 
 namespace {
 
-/// Doubles in one MPI message.
-constexpr std::size_t most_in_piece = 8192;
+/// Doubles in one MPI message, unless the caller has another room.
+constexpr std::size_t usual_room = 8192;
 
-std::size_t num_pieces(std::size_t length) {
+std::size_t num_pieces(std::size_t length, std::size_t most_in_piece) {
     return (length + most_in_piece - 1) / most_in_piece;
 }
 
-std::span<const double> piece_of(std::span<const double> message, std::size_t number) {
+std::span<const double> piece_of(std::span<const double> message, std::size_t number,
+                                 std::size_t most_in_piece) {
     const std::size_t first = number * most_in_piece;
     return message.subspan(first, std::min(most_in_piece, message.size() - first));
 }
@@ -29,7 +30,7 @@ void begin_to_send(std::span<const double> piece, int to, MPI_Request& request, 
 
 }  // namespace
 
-ButterflyMessages::ButterflyMessages() : piece_(most_in_piece) {}
+ButterflyMessages::ButterflyMessages() : own_room_(usual_room), piece_(own_room_) {}
 
 void ButterflyMessages::run(Butterfly& butterfly, Butterfly::Direction direction, Flags flags,
                             Participant& self) {
@@ -52,11 +53,11 @@ void ButterflyMessages::exchange(Butterfly& butterfly, int step, Butterfly::Dire
     if (link.sends) self.attempt([&] { butterfly.pack(step, direction, link); });
     if (self.failed()) butterfly.pack_nothing();
     const std::span<const double> sent = butterfly.message();
-    const std::size_t num_sent = link.sends ? num_pieces(sent.size()) : 0;
+    const std::size_t num_sent = link.sends ? num_pieces(sent.size(), piece_.size()) : 0;
     std::size_t num_received = link.receives ? 1 : 0;
     for (std::size_t k = 0; k < num_sent || k < num_received; ++k) {
         MPI_Request request = MPI_REQUEST_NULL;
-        if (k < num_sent) begin_to_send(piece_of(sent, k), link.rank, request, self);
+        if (k < num_sent) begin_to_send(piece_of(sent, k, piece_.size()), link.rank, request, self);
         if (k < num_received) num_received = receive(k, link.rank, self);
         self.check(MPI_Wait(&request, MPI_STATUS_IGNORE), "MPI_Wait");
     }
@@ -68,7 +69,7 @@ void ButterflyMessages::exchange(Butterfly& butterfly, int step, Butterfly::Dire
 /// Receives a piece of a message; returns how many it has. Without memory it still receives them.
 std::size_t ButterflyMessages::receive(std::size_t number, int from, Participant& self) {
     std::fill_n(piece_.begin(), head_.size(), 0.0);
-    self.check(MPI_Recv(piece_.data(), static_cast<int>(most_in_piece), MPI_DOUBLE, from,
+    self.check(MPI_Recv(piece_.data(), static_cast<int>(piece_.size()), MPI_DOUBLE, from,
                         mpi::butterfly_tag, self.comm, MPI_STATUS_IGNORE),
                "MPI_Recv");
     if (number == 0) {
@@ -78,11 +79,11 @@ std::size_t ButterflyMessages::receive(std::size_t number, int from, Participant
     const auto length = std::max(static_cast<std::size_t>(head_[0]), head_.size());
     self.attempt([&] {
         if (number == 0) arrived_.reserve(length);
-        const std::size_t size = std::min(most_in_piece, length - number * most_in_piece);
+        const std::size_t size = std::min(piece_.size(), length - number * piece_.size());
         arrived_.insert(arrived_.end(), piece_.begin(),
                         piece_.begin() + static_cast<std::ptrdiff_t>(size));
     });
-    return num_pieces(length);
+    return num_pieces(length, piece_.size());
 }
 
 }  // namespace rrcb

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace rrcb {
@@ -12,16 +13,26 @@ namespace rrcb {
 /// Carries the messages of butterflies.
 class ButterflyMessages {
   public:
-    /// Not collective. Throws std::bad_alloc.
+    /// Sends pieces of 64 kB at most. Not collective. Throws std::bad_alloc.
     ButterflyMessages();
+
+    /// Sends pieces of as many doubles as there is room for, on all ranks alike; at least a head's.
+    /// Not collective. Never throws. The room outlives it.
+    explicit ButterflyMessages(std::span<double> room) : piece_(room) {}
+
+    ButterflyMessages(const ButterflyMessages&) = delete;
+    ButterflyMessages& operator=(const ButterflyMessages&) = delete;
+    ButterflyMessages(ButterflyMessages&&) = default;
+    ButterflyMessages& operator=(ButterflyMessages&&) = default;
 
     /// Runs a pass of records to their owners, or of answers back; `flags` of this rank are joined
     /// to those of all ranks in `butterfly`.
     ///
     /// Collective: ceil(log2 R) messages from each of R ranks, one more at most from some; a
-    /// message beyond 64 kB takes more of at most as many bytes. Throws on every rank what failed
-    /// on one before the pass. A rank that fails in it goes on without records, which then are
-    /// missing elsewhere as well, until the next pass or agreement tells all ranks.
+    /// message that is longer than a piece takes more. No rank leaves before all have entered, as
+    /// it then knows the flags of all. Throws on every rank what failed on one before the pass. A
+    /// rank that fails in it goes on without records, which then are missing elsewhere as well,
+    /// until the next pass or agreement tells all ranks.
     void run(Butterfly& butterfly, Butterfly::Direction direction, Flags flags, Participant& self);
 
   private:
@@ -30,7 +41,8 @@ class ButterflyMessages {
 
     std::size_t receive(std::size_t number, int from, Participant& self);
 
-    std::vector<double> piece_;                          ///< what came last
+    std::vector<double> own_room_;
+    std::span<double> piece_;                            ///< what came last
     std::vector<double> arrived_;                        ///< the message that it belongs to
     std::array<double, Butterfly::head_length> head_{};  ///< of this
 };

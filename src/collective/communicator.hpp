@@ -15,7 +15,8 @@ namespace rrcb::mpi {
 /// Ranks run ahead of each other into the next call, so a tag tells kinds apart. Within a kind two
 /// rules hold. A call receives every message that is sent to it, and names the sender:
 /// MPI keeps those in order. Only an Exchange receives from any rank: none sends in it before all
-/// have entered it, and none enters it that has not received all of the one before.
+/// have entered it, as it announces its records by a butterfly, from which no rank comes before the
+/// flags of all have gone in; and none enters it that has not received all of the one before.
 enum Tag : int { contribution_tag = 1, points_tag, exchange_tag, stream_tag, butterfly_tag };
 
 /// Throws Error with the text of an MPI error code that is not MPI_SUCCESS.

@@ -6,15 +6,14 @@
 #include <rrcb/error.hpp>
 
 #include <memory>
-#include <utility>
 
 namespace rrcb::mpi {
 
 namespace {
 
 int free_duplicate(MPI_Comm, int, void* attribute, void*) {
-    const std::unique_ptr<Duplicate> duplicate(static_cast<Duplicate*>(attribute));
-    return MPI_Comm_free(&duplicate->comm);
+    const std::unique_ptr<MPI_Comm> duplicate(static_cast<MPI_Comm*>(attribute));
+    return MPI_Comm_free(duplicate.get());
 }
 
 int create_key() {
@@ -31,13 +30,13 @@ int key() {
 
 /// Duplicate kept with `user`, or null. A rank without a key has kept none, so no rank has for a
 /// communicator that they share.
-Duplicate* find(MPI_Comm user) {
+const MPI_Comm* find(MPI_Comm user) {
     void* attribute = nullptr;
     int found = 0;
     const Failure failure = attempt([] { key(); });
     if (failure.failed) return nullptr;
     check(MPI_Comm_get_attr(user, key(), &attribute, &found), "MPI_Comm_get_attr");
-    return found != 0 ? static_cast<Duplicate*>(attribute) : nullptr;
+    return found != 0 ? static_cast<MPI_Comm*>(attribute) : nullptr;
 }
 
 void refuse_two_groups(MPI_Comm user) {
@@ -48,32 +47,25 @@ void refuse_two_groups(MPI_Comm user) {
                     "an intercommunicator has two groups; merge them by MPI_Intercomm_merge");
 }
 
-void keep(std::unique_ptr<Duplicate>& duplicate, MPI_Comm user) {
-    check(MPI_Comm_set_errhandler(duplicate->comm, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
-    const int num_ranks = size_of(user);
-    if (num_ranks <= most_ranks_at_once)
-        duplicate->per_rank.resize(static_cast<std::size_t>(num_ranks));
-    check(MPI_Comm_set_attr(user, key(), duplicate.get()), "MPI_Comm_set_attr");
-    duplicate.release();
+void keep(MPI_Comm duplicate, MPI_Comm user) {
+    auto kept = std::make_unique<MPI_Comm>(duplicate);
+    check(MPI_Comm_set_errhandler(duplicate, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+    check(MPI_Comm_set_attr(user, key(), kept.get()), "MPI_Comm_set_attr");
+    kept.release();
 }
 
 }  // namespace
 
-Duplicate& duplicate_with(MPI_Comm user) {
+MPI_Comm duplicate_of(MPI_Comm user) {
     if (user == MPI_COMM_NULL)
         throw Error(ErrorCode::invalid_argument,
                     "MPI_COMM_NULL has no ranks; give a communicator with this rank in it");
-    if (Duplicate* found = find(user)) return *found;
+    if (const MPI_Comm* found = find(user)) return *found;
     refuse_two_groups(user);
     MPI_Comm comm = MPI_COMM_NULL;
-    std::unique_ptr<Duplicate> duplicate;
     Participant self{user};
     self.check(MPI_Comm_dup(user, &comm), "MPI_Comm_dup");
-    self.attempt([&] {
-        duplicate = std::make_unique<Duplicate>();
-        duplicate->comm = comm;
-        keep(duplicate, user);
-    });
+    self.attempt([&] { keep(comm, user); });
     try {
         agree(self);
     } catch (...) {
@@ -84,17 +76,7 @@ Duplicate& duplicate_with(MPI_Comm user) {
         }
         throw;
     }
-    return *find(user);
-}
-
-std::span<std::int64_t> per_rank_of(Duplicate& kept) {
-    if (!kept.per_rank.empty()) return kept.per_rank;
-    std::vector<std::int64_t> made;
-    Participant self{kept.comm};
-    self.attempt([&] { made.resize(static_cast<std::size_t>(size_of(kept.comm))); });
-    agree(self);
-    kept.per_rank = std::move(made);
-    return kept.per_rank;
+    return comm;
 }
 
 }  // namespace rrcb::mpi

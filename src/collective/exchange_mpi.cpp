@@ -1,60 +1,47 @@
 #include "collective/exchange_mpi.hpp"
 
 #include "collective/communicator.hpp"
+#include "collective/rank_counts_mpi.hpp"
 
 #include <rrcb/error.hpp>
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace rrcb {
-
-Exchange::Exchange(std::size_t record_bytes, std::span<std::int64_t> per_rank)
-    : record_bytes_(record_bytes), counts_(per_rank) {
-    std::ranges::fill(counts_, 0);
-}
 
 std::size_t Exchange::most_records() const {
     return mpi::longest_message / record_bytes_;
 }
 
-/// Makes the outbox; returns where in it the records for each rank begin.
-std::vector<std::size_t> Exchange::make_outbox(std::span<const int> destinations) {
-    std::vector<std::size_t> first(counts_.size());
-    const std::size_t most = counts_.size() + destinations.size() / most_records();
+void Exchange::make_outbox(std::vector<RankCount> counts, std::size_t num_records) {
+    const std::size_t most = counts.size() + num_records / most_records();
     requests_.reserve(static_cast<std::size_t>(mpi::to_int(static_cast<std::int64_t>(most))));
-    outbox_.resize(record_bytes_ * destinations.size());
-    for (const int destination : destinations) ++counts_[static_cast<std::size_t>(destination)];
-    std::exclusive_scan(counts_.begin(), counts_.end(), first.begin(), std::size_t{0});
-    return first;
+    outbox_.resize(record_bytes_ * num_records);
+    counts_ = std::move(counts);
 }
 
 std::size_t Exchange::announce(Participant& self) {
-    if (self.failed()) std::ranges::fill(counts_, 0);
-    std::int64_t count = 0;
-    mpi::check(MPI_Reduce_scatter_block(counts_.data(), &count, 1, MPI_INT64_T, MPI_SUM, self.comm),
-               "MPI_Reduce_scatter_block");
-    const auto num_records = static_cast<std::size_t>(count);
+    const std::size_t num_records = count_arrivals(counts_, self);
     self.attempt([&] {
         inbox_.resize(record_bytes_ * num_records);
-        arrived_.reserve(std::min(num_records, counts_.size() + num_records / most_records()));
+        arrived_.reserve(std::min(
+            num_records, static_cast<std::size_t>(num_ranks_) + num_records / most_records()));
     });
     return num_records;
 }
 
 void Exchange::send_all(Participant& self) {
     const std::byte* next = outbox_.data();
-    for (std::size_t destination = 0; destination < counts_.size(); ++destination) {
-        auto left = static_cast<std::size_t>(counts_[destination]);
+    for (const auto& [destination, total] : counts_) {
+        LocalIndex left = total;
         while (left > 0) {
             const std::size_t count = std::min(left, most_records());
             const std::size_t bytes = count * record_bytes_;
             MPI_Request& request = requests_.emplace_back(MPI_REQUEST_NULL);
-            self.check(
-                MPI_Isend(next, static_cast<int>(bytes), MPI_BYTE, static_cast<int>(destination),
-                          mpi::exchange_tag, self.comm, &request),
-                "MPI_Isend");
+            self.check(MPI_Isend(next, static_cast<int>(bytes), MPI_BYTE, destination,
+                                 mpi::exchange_tag, self.comm, &request),
+                       "MPI_Isend");
             next += bytes;
             left -= count;
         }

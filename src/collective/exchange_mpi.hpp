@@ -1,9 +1,9 @@
 #pragma once
 
 #include "collective/participant.hpp"
+#include "collective/rank_order.hpp"
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -12,17 +12,18 @@ namespace rrcb {
 /// Records of one size on their way from every rank to every other one, or to itself.
 class Exchange {
   public:
-    /// `per_rank` is one number for each rank, to work with, and outlives the exchange.
-    Exchange(std::size_t record_bytes, std::span<std::int64_t> per_rank);
+    Exchange(std::size_t record_bytes, int num_ranks)
+        : record_bytes_(record_bytes), num_ranks_(num_ranks) {}
 
     /// Takes a record for each of `destinations`; write(k, place) writes the k-th one.
     ///
     /// Not collective. Throws std::bad_alloc; then nothing has been taken.
     template <class Write>
     void fill(std::span<const int> destinations, Write&& write) {
-        std::vector<std::size_t> next = make_outbox(destinations);
-        for (std::size_t k = 0; k < destinations.size(); ++k)
-            write(k, &outbox_[record_bytes_ * next[static_cast<std::size_t>(destinations[k])]++]);
+        RankOrder order(destinations, num_ranks_);
+        make_outbox(order.counts(), destinations.size());
+        order.for_each(
+            [&](std::size_t k, std::size_t place) { write(k, &outbox_[record_bytes_ * place]); });
     }
 
     /// Announces the records to their ranks; returns how many come to this one, which makes room
@@ -54,15 +55,16 @@ class Exchange {
         std::size_t count;
     };
 
-    std::vector<std::size_t> make_outbox(std::span<const int> destinations);
+    void make_outbox(std::vector<RankCount> counts, std::size_t num_records);
     std::size_t most_records() const;
     void send_all(Participant& self);
     void receive_all(Participant& self);
 
     std::size_t record_bytes_;
-    std::span<std::int64_t> counts_;  ///< records for each rank
-    std::vector<std::byte> outbox_;   ///< for one rank after the other
-    std::vector<std::byte> inbox_;    ///< in the order of arrival
+    int num_ranks_;
+    std::vector<RankCount> counts_;  ///< records for each rank that gets some
+    std::vector<std::byte> outbox_;  ///< for one rank after the other
+    std::vector<std::byte> inbox_;   ///< in the order of arrival
     std::vector<Message> arrived_;
     std::vector<MPI_Request> requests_;
 };

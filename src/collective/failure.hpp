@@ -20,6 +20,7 @@ struct Failure {
     bool failed = false;
     ErrorCode code = ErrorCode::internal;
     std::array<char, 512> text{};  ///< cut short where it is longer; ends with a 0
+    bool may_follow = false;       ///< from the failure of another rank, see compare()
 };
 
 inline Failure failure_of(ErrorCode code, std::string_view text) {

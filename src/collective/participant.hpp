@@ -34,6 +34,15 @@ struct Participant {
         if (can_go_on()) failure = rrcb::attempt(step);
     }
 
+    /// Runs a step that compares what the ranks have: it may fail because another one has failed,
+    /// of which agree() then tells in its place.
+    template <class Step>
+    void compare(Step&& step) {
+        if (!can_go_on()) return;
+        failure = rrcb::attempt(step);
+        failure.may_follow = failure.failed;
+    }
+
     /// Holds back the error of an MPI call, which other ranks waited for whatever failed before.
     void check(int code, const char* call) {
         if (code == MPI_SUCCESS || failed()) return;

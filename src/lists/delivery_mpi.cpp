@@ -2,11 +2,13 @@
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
+#include "collective/rank_counts_mpi.hpp"
 #include "collective/stream_mpi.hpp"
 #include "options/rejection.hpp"
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -52,19 +54,23 @@ LocalIndex total(std::span<const RankCount> counts) {
     return sum;
 }
 
-/// Compares what the ranks send, `per_rank`, with what this one expects of them.
-void check_agreement(std::span<const RankCount> from, std::span<const std::int64_t> per_rank) {
-    auto next = from.begin();
-    for (std::size_t rank = 0; rank < per_rank.size(); ++rank) {
-        const bool is_next = next != from.end() && next->rank == static_cast<int>(rank);
-        const LocalIndex expected = is_next ? (next++)->count : 0;
-        const std::int64_t sent = per_rank[rank];
-        if (sent != failed_there && static_cast<LocalIndex>(sent) != expected)
-            reject("rank " + std::to_string(rank) + " sends " + std::to_string(sent) +
-                   " points, not " + std::to_string(expected) +
-                   " as this plan has it; make the plans of all ranks in one call, with this "
-                   "communicator");
-    }
+/// Compares the counts that the ranks send, `sent`, with those that this one expects of them.
+void check_agreement(std::span<const RankCount> expected, std::span<const RankCount> sent) {
+    const auto differ = std::ranges::mismatch(expected, sent, [](const auto& a, const auto& b) {
+        return a.rank == b.rank && a.count == b.count;
+    });
+    constexpr RankCount none{std::numeric_limits<int>::max(), 0};
+    const RankCount mine = differ.in1 != expected.end() ? *differ.in1 : none;
+    const RankCount theirs = differ.in2 != sent.end() ? *differ.in2 : none;
+    const int rank = std::min(mine.rank, theirs.rank);
+    if (rank == none.rank) return;
+    const auto count_in = [&](const RankCount& share) {
+        return std::to_string(share.rank == rank ? share.count : 0);
+    };
+    reject("rank " + std::to_string(rank) + " sends " + count_in(theirs) + " points, not " +
+           count_in(mine) +
+           " as this plan has it; make the plans of all ranks in one call, with this "
+           "communicator");
 }
 
 std::vector<Lane> make_results(std::span<const ByteColumn> columns, LocalIndex num_points) {
@@ -135,17 +141,6 @@ void run(Stream& stream, const Delivery& delivery, std::span<const Lane> lanes, 
 
 }  // namespace
 
-void exchange_counts(std::span<const RankCount> to, std::span<std::int64_t> per_rank,
-                     const Participant& self) {
-    std::ranges::fill(per_rank, self.failed() ? failed_there : 0);
-    if (!self.failed())
-        for (const RankCount& share : to)
-            per_rank[static_cast<std::size_t>(share.rank)] = static_cast<std::int64_t>(share.count);
-    mpi::check(
-        MPI_Alltoall(MPI_IN_PLACE, 1, MPI_INT64_T, per_rank.data(), 1, MPI_INT64_T, self.comm),
-        "MPI_Alltoall");
-}
-
 void check_counts(std::span<const RankCount> counts, LocalIndex total_count, int num_ranks) {
     int least = 0;
     for (const RankCount& share : counts) {
@@ -158,18 +153,17 @@ void check_counts(std::span<const RankCount> counts, LocalIndex total_count, int
 }
 
 void deliver(const Delivery& delivery, std::span<const ByteColumn> columns,
-             const TransferLimits& limits, TransferReport* report, std::span<std::int64_t> per_rank,
-             Participant& self) {
+             const TransferLimits& limits, TransferReport* report, Participant& self) {
     std::size_t point_bytes = 0;
     self.attempt([&] {
         for (const ByteColumn& column : columns) check_column(column, delivery.num_points);
         point_bytes = point_bytes_of(columns);
     });
-    exchange_counts(delivery.to, per_rank, self);
+    const std::vector<RankCount> sent = exchange_counts(delivery.to, self);
+    self.compare([&] { check_agreement(delivery.from, sent); });
     std::optional<Stream> stream;
     std::vector<Lane> lanes;
     self.attempt([&] {
-        check_agreement(delivery.from, per_rank);
         stream.emplace(point_bytes, limits.bytes);
         stream->make_room(delivery.to, delivery.from, mpi::rank_of(self.comm),
                           mpi::size_of(self.comm));

@@ -4,7 +4,6 @@
 
 #include <rrcb/transfer.hpp>
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,24 +19,14 @@ struct Delivery {
     std::vector<RankCount> from{};
 };
 
-/// Count by which a rank tells the others that it has failed.
-inline constexpr std::int64_t failed_there = -1;
-
-/// Turns the counts that go to each rank into those that come from each, `per_rank`.
-///
-/// Collective: each pair of ranks exchanges a number.
-void exchange_counts(std::span<const RankCount> to, std::span<std::int64_t> per_rank,
-                     const Participant& self);
-
 /// Throws Error unless ranks ascend and are below `num_ranks`, and counts add up to `total`.
 void check_counts(std::span<const RankCount> counts, LocalIndex total, int num_ranks);
 
-/// Moves columns into their results; `per_rank` is to work with.
+/// Moves columns into their results.
 ///
-/// Collective: a number for each pair of ranks, one reduction, then the messages. What went wrong
-/// on a rank before is told to all.
+/// Collective as exchange_counts() is, then one reduction and the messages. What went wrong on a
+/// rank before is told to all.
 void deliver(const Delivery& delivery, std::span<const detail::ByteColumn> columns,
-             const TransferLimits& limits, TransferReport* report, std::span<std::int64_t> per_rank,
-             Participant& self);
+             const TransferLimits& limits, TransferReport* report, Participant& self);
 
 }  // namespace rrcb

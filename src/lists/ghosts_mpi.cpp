@@ -1,6 +1,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "collective/rank_counts_mpi.hpp"
 #include "cuts/ball_search.hpp"
 #include "lists/delivery_mpi.hpp"
 #include "lists/remap_mpi.hpp"
@@ -113,25 +114,16 @@ void list_sent(const Cuts& cuts, const Points& points, double radius,
     neighbourhood.write(plan);
 }
 
-void list_received(std::span<const std::int64_t> per_rank, GhostPlan& plan) {
-    for (std::size_t rank = 0; rank < per_rank.size(); ++rank)
-        if (per_rank[rank] > 0)
-            plan.receive.push_back(
-                {static_cast<int>(rank), static_cast<LocalIndex>(per_rank[rank])});
-}
-
 /// Collective; what went wrong on a rank before is told to all.
 GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
-                 std::span<const RankRange> ranks_of_parts, std::span<std::int64_t> per_rank,
-                 Participant& self) {
+                 std::span<const RankRange> ranks_of_parts, Participant& self) {
     GhostPlan plan;
     std::uint64_t bits_of_cuts = 0;
     self.attempt([&] {
         list_sent(cuts, points, radius, ranks_of_parts, self.comm, plan);
         bits_of_cuts = bits_of(cuts);
     });
-    exchange_counts(plan.send, per_rank, self);
-    self.attempt([&] { list_received(per_rank, plan); });
+    plan.receive = exchange_counts(plan.send, self);
     agree(self, {{"the tree of cuts", bits_of_cuts},
                  {"the radius", std::bit_cast<std::uint64_t>(radius + 0.0)},
                  {"ranks_of_parts", hash_of(ranks_of_parts)}});
@@ -142,26 +134,23 @@ GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
 
 GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
                  std::span<const RankRange> ranks_of_parts, MPI_Comm user) {
-    mpi::Duplicate& kept = mpi::duplicate_with(user);
-    Participant self{kept.comm};
-    return ghosts(cuts, points, radius, ranks_of_parts, mpi::per_rank_of(kept), self);
+    Participant self{mpi::duplicate_of(user)};
+    return ghosts(cuts, points, radius, ranks_of_parts, self);
 }
 
 GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius, MPI_Comm user) {
-    mpi::Duplicate& kept = mpi::duplicate_with(user);
-    Participant self{kept.comm};
+    Participant self{mpi::duplicate_of(user)};
     std::vector<RankRange> ranks_of_parts;
     self.attempt([&] {
         for (Part part = 0; part < cuts.num_parts; ++part)
             ranks_of_parts.push_back(ranks_of_part(part, cuts.num_parts, mpi::size_of(self.comm)));
     });
-    return ghosts(cuts, points, radius, ranks_of_parts, mpi::per_rank_of(kept), self);
+    return ghosts(cuts, points, radius, ranks_of_parts, self);
 }
 
 void detail::move(const GhostPlan& plan, std::span<const ByteColumn> columns,
                   const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
-    mpi::Duplicate& kept = mpi::duplicate_with(user);
-    Participant self{kept.comm};
+    Participant self{mpi::duplicate_of(user)};
     Delivery delivery{.num_points = plan.num_points, .sent = plan.send_indices};
     self.attempt([&] {
         const int num_ranks = mpi::size_of(self.comm);
@@ -175,7 +164,7 @@ void detail::move(const GhostPlan& plan, std::span<const ByteColumn> columns,
         delivery.to = plan.send;
         delivery.from = plan.receive;
     });
-    deliver(delivery, columns, limits, report, mpi::per_rank_of(kept), self);
+    deliver(delivery, columns, limits, report, self);
 }
 
 }  // namespace rrcb

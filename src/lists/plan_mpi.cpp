@@ -97,16 +97,13 @@ RankRange ranks_of_part(Part part, int num_parts, int num_ranks) {
 }
 
 Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm user) {
-    mpi::Duplicate& kept = mpi::duplicate_with(user);
-    const MPI_Comm comm = kept.comm;
-    const std::span<std::int64_t> counts = mpi::per_rank_of(kept);
-    Participant self{comm};
+    Participant self{mpi::duplicate_of(user)};
     Plan result;
     result.num_points = parts.size();
-    Exchange exchange(sizeof(Notice), counts);
+    Exchange exchange(sizeof(Notice), mpi::size_of(self.comm));
     self.attempt([&] {
         check_parts(parts, num_parts);
-        list_exports(parts, num_parts, comm, result);
+        list_exports(parts, num_parts, self.comm, result);
         post(result, exchange);
     });
     const std::size_t num_imports = exchange.announce(self);

@@ -1,5 +1,6 @@
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "collective/rank_order.hpp"
 #include "lists/delivery_mpi.hpp"
 #include "options/rejection.hpp"
 
@@ -7,13 +8,12 @@
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
 
 namespace rrcb {
 
 namespace {
 
-void check_lists(const Plan& plan) {
+void check_lists(const Plan& plan, int num_ranks) {
     const std::vector<LocalIndex>& exports = plan.export_indices;
     require(exports.size() == plan.export_ranks.size(),
             "the lists of exports of the plan differ in length");
@@ -21,36 +21,18 @@ void check_lists(const Plan& plan) {
                 (exports.empty() || exports.back() < plan.num_points),
             "export_indices of the plan must ascend below num_points");
     require(std::ranges::is_sorted(plan.import_ranks), "import_ranks of the plan must ascend");
-}
-
-/// Number of times that each rank is named, by ascending rank; `ranks` may be in any order.
-std::vector<RankCount> counts_of(std::span<const int> ranks, int num_ranks) {
-    std::vector<LocalIndex> per_rank(static_cast<std::size_t>(num_ranks), 0);
-    for (const int rank : ranks) {
-        require(rank >= 0 && rank < num_ranks,
-                "the plan names a rank that is none of this communicator");
-        ++per_rank[static_cast<std::size_t>(rank)];
-    }
-    std::vector<RankCount> counts;
-    for (int rank = 0; rank < num_ranks; ++rank) {
-        const LocalIndex count = per_rank[static_cast<std::size_t>(rank)];
-        if (count > 0) counts.push_back({rank, count});
-    }
-    return counts;
+    const auto is_here = [&](int rank) { return rank >= 0 && rank < num_ranks; };
+    require(std::ranges::all_of(plan.export_ranks, is_here) &&
+                (plan.import_ranks.empty() ||
+                 (is_here(plan.import_ranks.front()) && is_here(plan.import_ranks.back()))),
+            "the plan names a rank that is none of this communicator");
 }
 
 /// Indices of the exports for one rank after the other, ascending for each.
-std::vector<LocalIndex> sort_by_rank(const Plan& plan, std::span<const RankCount> counts,
-                                     int num_ranks) {
-    std::vector<LocalIndex> next(static_cast<std::size_t>(num_ranks), 0);
-    LocalIndex begin = 0;
-    for (const RankCount& share : counts) {
-        next[static_cast<std::size_t>(share.rank)] = begin;
-        begin += share.count;
-    }
+std::vector<LocalIndex> sort_by_rank(const Plan& plan, RankOrder& order) {
     std::vector<LocalIndex> sorted(plan.export_indices.size());
-    for (std::size_t k = 0; k < sorted.size(); ++k)
-        sorted[next[static_cast<std::size_t>(plan.export_ranks[k])]++] = plan.export_indices[k];
+    order.for_each(
+        [&](std::size_t k, std::size_t place) { sorted[place] = plan.export_indices[k]; });
     return sorted;
 }
 
@@ -58,22 +40,22 @@ std::vector<LocalIndex> sort_by_rank(const Plan& plan, std::span<const RankCount
 
 void detail::move(const Plan& plan, std::span<const ByteColumn> columns,
                   const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
-    mpi::Duplicate& kept = mpi::duplicate_with(user);
-    Participant self{kept.comm};
+    Participant self{mpi::duplicate_of(user)};
     Delivery delivery;
     std::vector<LocalIndex> sent;
     self.attempt([&] {
         const int num_ranks = mpi::size_of(self.comm);
-        check_lists(plan);
+        check_lists(plan, num_ranks);
+        RankOrder order(plan.export_ranks, num_ranks);
+        sent = sort_by_rank(plan, order);
         delivery.num_points = plan.num_points;
         delivery.num_kept = plan.num_points - plan.export_indices.size();
         delivery.removed = plan.export_indices;
-        delivery.to = counts_of(plan.export_ranks, num_ranks);
-        delivery.from = counts_of(plan.import_ranks, num_ranks);
-        sent = sort_by_rank(plan, delivery.to, num_ranks);
+        delivery.to = order.counts();
+        delivery.from = count_ascending(plan.import_ranks);
         delivery.sent = sent;
     });
-    deliver(delivery, columns, limits, report, mpi::per_rank_of(kept), self);
+    deliver(delivery, columns, limits, report, self);
 }
 
 }  // namespace rrcb

@@ -137,12 +137,14 @@ TEST(FailingMpi, reaches_the_caller_of_what_moves_columns) {
 }
 
 /// Fails each message of a call on the last rank, one after the other; the call expects its result
-/// itself.
+/// itself. Of a failure in those that announce the others, which come first, all ranks hear.
 void fail_each_message(const std::function<void()>& call) {
     mpi_layer::fail_message(0);
     call();
-    const long num_messages = mpi_layer::counted_messages();
-    ASSERT_EQ(num_messages, 2 * (test::num_ranks() - 1));
+    long num_messages = mpi_layer::counted_messages();
+    MPI_Bcast(&num_messages, 1, MPI_LONG, test::num_ranks() - 1, MPI_COMM_WORLD);
+    const long num_announced = num_messages - 2 * (test::num_ranks() - 1);
+    ASSERT_GE(num_announced, test::num_ranks() > 1 ? 2 : 0);
     for (long message = 1; message <= num_messages; ++message) {
         SCOPED_TRACE(message);
         mpi_layer::fail_message(test::is_last_rank() ? message : 0);
@@ -150,23 +152,23 @@ void fail_each_message(const std::function<void()>& call) {
         try {
             call();
         } catch (const Error& error) {
-            EXPECT_EQ(error.code(), ErrorCode::mpi);
+            EXPECT_EQ(error.code(), ErrorCode::mpi) << error.what();
             threw = true;
         }
-        EXPECT_EQ(threw, test::is_last_rank());
+        EXPECT_EQ(threw, test::is_last_rank() || message <= num_announced);
         mpi_layer::fail_message(0);
         call();
     }
 }
 
-TEST(FailingMpi, of_one_message_of_a_column_is_that_ranks_alone_and_the_next_is_right) {
+TEST(FailingMpi, of_one_message_of_a_column_leaves_no_rank_waiting_and_the_next_is_right) {
     const Plan lists = plan_of_all_pairs();
     const std::vector<int> values(lists.num_points, test::rank());
     const std::vector<int> expected = transfer(lists, values, MPI_COMM_WORLD);
     fail_each_message([&] { EXPECT_EQ(transfer(lists, values, MPI_COMM_WORLD), expected); });
 }
 
-TEST(FailingMpi, of_one_message_of_a_plan_is_that_ranks_alone_and_the_next_plan_is_right) {
+TEST(FailingMpi, of_one_message_of_a_plan_leaves_no_rank_waiting_and_the_next_is_right) {
     const Plan expected = plan_of_all_pairs();
     fail_each_message(
         [&] { EXPECT_EQ(plan_of_all_pairs().import_indices, expected.import_indices); });

@@ -1,5 +1,4 @@
 // Communicators that the library cannot use.
-#include "collective/duplicate.hpp"
 #include "ranks.hpp"
 
 #include <rrcb/rrcb.hpp>
@@ -48,23 +47,6 @@ void expect_refusal(MPI_Comm comm, const std::string& text) {
 TEST(Communicators, that_are_null_are_refused) {
     expect_refusal(MPI_COMM_NULL,
                    "MPI_COMM_NULL has no ranks; give a communicator with this rank in it");
-}
-
-TEST(Communicators, of_many_ranks_get_numbers_for_all_of_them_at_need) {
-    mpi::most_ranks_at_once = 0;
-    MPI_Comm comm = MPI_COMM_NULL;
-    MPI_Comm_dup(MPI_COMM_WORLD, &comm);
-    const std::vector<double> x(10, test::rank());
-    balance(interleaved_points(x, 1), {}, comm);
-    EXPECT_TRUE(mpi::duplicate_with(comm).per_rank.empty());
-    const std::vector<Part> parts(10, (test::rank() + 1) % test::num_ranks());
-    const Plan lists = plan(parts, test::num_ranks(), comm);
-    EXPECT_EQ(mpi::duplicate_with(comm).per_rank.size(),
-              static_cast<std::size_t>(test::num_ranks()));
-    const int before = (test::rank() + test::num_ranks() - 1) % test::num_ranks();
-    EXPECT_EQ(transfer(lists, x, comm), std::vector<double>(10, before));
-    MPI_Comm_free(&comm);
-    mpi::most_ranks_at_once = 4096;
 }
 
 TEST(Communicators, of_two_groups_are_refused) {

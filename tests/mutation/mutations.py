@@ -156,6 +156,20 @@ MUTATIONS = [
         ("mpi_plan",),
     ),
     Mutation(
+        "counts for one rank replace each other on their way",
+        "src/collective/rank_counts.cpp",
+        "word_of(count_of(a) + count_of(b))",
+        "word_of(count_of(b))",
+        ("unit_rank_counts", "mpi_rank_counts"),
+    ),
+    Mutation(
+        "many ranks are sorted by the lowest digit alone",
+        "src/collective/rank_order.cpp",
+        "shift += digit_bits",
+        "shift += 0",
+        ("unit_rank_order",),
+    ),
+    Mutation(
         "numbers of parts that lose most are chosen",
         "src/lists/hungarian.cpp",
         "= -scale * gain.value;",
@@ -214,15 +228,15 @@ MUTATIONS = [
     Mutation(
         "what ranks send is not compared with what is expected",
         "src/lists/delivery_mpi.cpp",
-        "sent != failed_there && static_cast<LocalIndex>(sent) != expected",
-        "sent < failed_there",
+        "if (rank == none.rank) return;",
+        "return;",
         ("mpi_transfer",),
     ),
     Mutation(
         "points of a column go in the order of the list, not of the ranks",
         "src/lists/transfer_mpi.cpp",
-        "begin += share.count;",
-        "begin += 0;",
+        "sorted[place] = plan.export_indices[k];",
+        "sorted[k] = plan.export_indices[k];",
         ("mpi_transfer",),
     ),
     Mutation(

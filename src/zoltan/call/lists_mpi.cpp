@@ -59,10 +59,9 @@ List make_list(std::size_t count, const Record& record) {
 }
 
 /// Import list that answers the export lists of all ranks. Collective.
-List invert(const List& exports, const Parameters& parameters, std::span<std::int64_t> per_rank,
-            Participant& self) {
+List invert(const List& exports, const Parameters& parameters, Participant& self) {
     const Record record{IdWidths(parameters)};
-    Exchange exchange(record.bytes(), per_rank);
+    Exchange exchange(record.bytes(), mpi::size_of(self.comm));
     self.attempt([&] {
         const std::span ranks(exports.ranks.get(), static_cast<std::size_t>(exports.count));
         exchange.fill(ranks,
@@ -82,13 +81,13 @@ List invert(const List& exports, const Parameters& parameters, std::span<std::in
 
 }  // namespace
 
-void select_lists(const Parameters& parameters, bool changes, std::span<std::int64_t> per_rank,
-                  Participant& self, List& imports, List& exports) {
+void select_lists(const Parameters& parameters, bool changes, Participant& self, List& imports,
+                  List& exports) {
     constexpr int not_asked = -1;
     const ReturnLists asked = parameters.return_lists;
     if (!changes) return;
     if (asked == ReturnLists::all || asked == ReturnLists::imports) {
-        imports = invert(exports, parameters, per_rank, self);
+        imports = invert(exports, parameters, self);
     } else {
         imports.count = not_asked;
     }

@@ -3,19 +3,15 @@
 #include "collective/participant.hpp"
 #include "zoltan/call/lists.hpp"
 
-#include <cstdint>
-#include <span>
-
 namespace rrcb::zoltan {
 
 /// Drops the lists or completes them as RETURN_LISTS asks, where any object `changes` its rank:
 /// with the import list that answers the export lists of all ranks, by rank, in the order of that
 /// rank's list.
 ///
-/// Collective over `self.comm` where imports are asked for: two reductions, and a message for each
-/// pair of ranks with objects. `per_rank` is scratch, one number for each rank. Throws Error on all
-/// ranks where one has no memory, on one alone where its message fails.
-void select_lists(const Parameters& parameters, bool changes, std::span<std::int64_t> per_rank,
-                  Participant& self, List& imports, List& exports);
+/// Collective over `self.comm` where imports are asked for, as Exchange is, with a reduction.
+/// Throws Error on all ranks where one has no memory, on one alone where its message fails.
+void select_lists(const Parameters& parameters, bool changes, Participant& self, List& imports,
+                  List& exports);
 
 }  // namespace rrcb::zoltan

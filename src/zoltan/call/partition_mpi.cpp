@@ -140,7 +140,6 @@ struct Preparation {
     std::optional<KeptPartition> kept;
     Rest rest;
     std::optional<CutAverage> average;
-    std::vector<std::int64_t> per_rank;  ///< to announce imports with
 };
 
 Preparation prepare(const Call& call, const Layout& layout, const Objects& objects,
@@ -157,7 +156,6 @@ Preparation prepare(const Call& call, const Layout& layout, const Objects& objec
     self.attempt([&] {
         made.options =
             make_options(parameters, layout, dimension, locks ? &*call.previous : nullptr);
-        made.per_rank.resize(static_cast<std::size_t>(call.state.communicator->size()));
         made.renumbering.emplace(parameters, layout, objects, *call.state.communicator);
         const auto num_parts = static_cast<std::size_t>(layout.map.num_parts());
         made.kept.emplace(num_parts, is_wide(made.options, call.state.communicator->size()));
@@ -269,8 +267,7 @@ int balance_objects(const Call& call, Objects&& objects, Partition& result) {
         is_whole(balanced.cuts) || (remap.identity && !call.outcome.any_local_parts);
     prepared.rest.by_position = balanced.report.coincident_cuts > 0 || !knows_own_parts;
     list_exports(call, layout, std::move(objects), balanced, prepared.rest, result);
-    select_lists(parameters, result.changes, prepared.per_rank, self, result.imports,
-                 result.exports);
+    select_lists(parameters, result.changes, self, result.imports, result.exports);
     serve_fortran(call, result, self);
     show_all_cuts(call.outcome, balanced.cuts, call.state, *prepared.kept, self);
     print_notices(balanced.report, layout.map.num_parts(), remap, call.state, call.function);

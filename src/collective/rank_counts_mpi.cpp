@@ -1,0 +1,38 @@
+#include "collective/rank_counts_mpi.hpp"
+
+#include "collective/butterfly_mpi.hpp"
+#include "collective/communicator.hpp"
+#include "collective/rank_counts.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace rrcb {
+
+namespace {
+
+RankCounts exchange(RankCounts::Kind kind, std::span<const RankCount> to, Participant& self) {
+    RankCounts counts(kind, mpi::rank_of(self.comm), mpi::size_of(self.comm));
+    self.attempt([&] { counts.add(to); });
+    // On the stack: there must be room to receive also where memory is short.
+    std::array<double, 1024> room;
+    const auto piece =
+        std::span(room).first(std::min(room.size(), mpi::longest_message / sizeof(double)));
+    ButterflyMessages(piece).run(counts.butterfly(), Butterfly::to_owners, {}, self);
+    return counts;
+}
+
+}  // namespace
+
+LocalIndex count_arrivals(std::span<const RankCount> to, Participant& self) {
+    return exchange(RankCounts::sum, to, self).total();
+}
+
+std::vector<RankCount> exchange_counts(std::span<const RankCount> to, Participant& self) {
+    const RankCounts counts = exchange(RankCounts::each, to, self);
+    std::vector<RankCount> from;
+    self.attempt([&] { from = counts.from(); });
+    return from;
+}
+
+}  // namespace rrcb

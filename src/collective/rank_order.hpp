@@ -1,0 +1,47 @@
+#pragma once
+
+#include <rrcb/plan.hpp>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+/// The order of entries by the rank that each names, entries of one rank as they were.
+///
+/// By radix sort, in time as there are entries. Memory: 8 kB at most up to 1024 ranks, beyond 16
+/// bytes an entry while it is made and 8 later.
+class RankOrder {
+  public:
+    /// `ranks` are below `num_ranks`, not negative, and outlive it. Throws std::bad_alloc.
+    RankOrder(std::span<const int> ranks, int num_ranks);
+
+    /// How often the ranks occur that do, ascending.
+    const std::vector<RankCount>& counts() const { return counts_; }
+
+    /// Calls visit(k, place) for the k-th entry and its place in the order, each once. To be called
+    /// once.
+    template <class Visit>
+    void for_each(Visit&& visit) {
+        for (std::size_t place = 0; place < order_.size(); ++place) visit(order_[place], place);
+        if (!order_.empty()) return;
+        for (std::size_t k = 0; k < ranks_.size(); ++k)
+            visit(k, next_[static_cast<std::size_t>(ranks_[k])]++);
+    }
+
+  private:
+    void count_each();
+    void sort_by_digits(int num_ranks);
+
+    std::span<const int> ranks_;
+    std::vector<LocalIndex> next_;   ///< place of each digit's next entry
+    std::vector<LocalIndex> order_;  ///< none where all ranks are digits
+    std::vector<RankCount> counts_;
+};
+
+/// How often each rank occurs in an ascending list. In time as there are ranks in it, times the
+/// logarithm of its length. Throws std::bad_alloc.
+std::vector<RankCount> count_ascending(std::span<const int> ranks);
+
+}  // namespace rrcb

@@ -1,0 +1,97 @@
+// Counts between ranks, against a number for each pair of them.
+#include "../support/ranks.hpp"
+#include "collective/agreement_mpi.hpp"
+#include "collective/duplicate.hpp"
+#include "collective/rank_counts_mpi.hpp"
+
+#include <rrcb/error.hpp>
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+using test::num_ranks;
+using test::rank;
+
+/// For some of the ranks, this one among them; in every third round from none of the odd ones.
+std::vector<std::uint64_t> counts_in(int round) {
+    std::vector<std::uint64_t> counts(static_cast<std::size_t>(num_ranks()));
+    if (round % 3 == 2 && rank() % 2 == 1) return counts;
+    for (int to = 0; to < num_ranks(); ++to)
+        if ((to + 2 * rank() + round) % 3 != 0)
+            counts[static_cast<std::size_t>(to)] =
+                static_cast<std::uint64_t>(1 + to + 1000 * rank() + round) << (round % 40);
+    return counts;
+}
+
+std::vector<RankCount> sparse(const std::vector<std::uint64_t>& counts) {
+    std::vector<RankCount> result;
+    for (int k = 0; k < num_ranks(); ++k)
+        if (const auto count = counts[static_cast<std::size_t>(k)]; count > 0)
+            result.push_back({k, count});
+    return result;
+}
+
+TEST(RankCounts, are_those_of_each_pair_call_after_call) {
+    Participant self{mpi::duplicate_of(MPI_COMM_WORLD)};
+    for (int round = 0; round < 60; ++round) {
+        const std::vector<std::uint64_t> to = counts_in(round);
+        std::vector<std::uint64_t> from(to.size());
+        const std::vector<RankCount> each = exchange_counts(sparse(to), self);
+        const LocalIndex sum = count_arrivals(sparse(to), self);
+        MPI_Alltoall(to.data(), 1, MPI_UINT64_T, from.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD);
+        EXPECT_EQ(sum, std::accumulate(from.begin(), from.end(), std::uint64_t{0}));
+        const std::vector<RankCount> expected = sparse(from);
+        ASSERT_EQ(each.size(), expected.size());
+        for (std::size_t k = 0; k < each.size(); ++k) {
+            EXPECT_EQ(each[k].rank, expected[k].rank);
+            EXPECT_EQ(each[k].count, expected[k].count);
+        }
+    }
+    EXPECT_FALSE(self.failed());
+}
+
+TEST(RankCounts, of_a_rank_that_failed_before_are_not_awaited) {
+    const auto count = [](Participant& self) { count_arrivals({}, self); };
+    const auto exchange = [](Participant& self) { exchange_counts({}, self); };
+    for (const auto& call : std::vector<std::function<void(Participant&)>>{count, exchange}) {
+        for (int failing = 0; failing < num_ranks(); ++failing) {
+            Participant self{mpi::duplicate_of(MPI_COMM_WORLD)};
+            if (rank() == failing) self.failure = failure_of(ErrorCode::internal, "broken");
+            try {
+                call(self);
+                ADD_FAILURE() << "nothing was thrown";
+            } catch (const Error& error) {
+                EXPECT_EQ(error.what(), "rank " + std::to_string(failing) + ": broken");
+            }
+        }
+    }
+}
+
+TEST(RankCounts, that_contradict_a_plan_are_told_of_where_nothing_else_failed) {
+    const auto expect = [](const Participant& self, const std::string& text) {
+        try {
+            agree(self);
+            ADD_FAILURE() << "nothing was thrown";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.what(), text);
+        }
+    };
+    const std::string last = std::to_string(num_ranks() - 1);
+    for (const bool only : {true, false}) {
+        Participant self{mpi::duplicate_of(MPI_COMM_WORLD)};
+        if (!only && test::is_last_rank())
+            self.attempt([] { throw Error(ErrorCode::internal, "broken"); });
+        self.compare([] { throw Error(ErrorCode::invalid_argument, "other counts"); });
+        expect(self, only ? "rank 0: other counts" : "rank " + last + ": broken");
+    }
+}
+
+}  // namespace
+}  // namespace rrcb

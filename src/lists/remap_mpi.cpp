@@ -19,8 +19,6 @@ namespace rrcb {
 
 namespace {
 
-constexpr std::size_t overlaps_per_part = 16;
-
 /// Rule for where points stay.
 struct Owners {
     std::span<const RankRange> ranks_of_parts;
@@ -46,14 +44,6 @@ struct Owners {
     }
 };
 
-/// Sorts overlaps by count, the largest first; leaves `limit` of them at most.
-void keep_largest(std::size_t limit, std::vector<Overlap>& overlaps) {
-    std::ranges::sort(overlaps, [](const Overlap& a, const Overlap& b) {
-        return std::tie(b.count, a.origin, a.part) < std::tie(a.count, b.origin, b.part);
-    });
-    if (overlaps.size() > limit) overlaps.resize(limit);
-}
-
 std::vector<Overlap> overlaps_by_rank(std::span<const Part> parts, int num_parts, int my_rank) {
     std::vector<GlobalCount> counts(static_cast<std::size_t>(num_parts), 0);
     for (const Part part : parts) ++counts[static_cast<std::size_t>(part)];
@@ -61,25 +51,6 @@ std::vector<Overlap> overlaps_by_rank(std::span<const Part> parts, int num_parts
     for (Part part = 0; part < num_parts; ++part) {
         const GlobalCount count = counts[static_cast<std::size_t>(part)];
         if (count > 0) overlaps.push_back({my_rank, part, count});
-    }
-    return overlaps;
-}
-
-std::vector<Overlap> overlaps_by_part(std::span<const Part> parts, std::span<const Part> previous,
-                                      int num_parts) {
-    std::vector<std::pair<Part, Part>> pairs;
-    pairs.reserve(parts.size());
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        // Earlier numbers that are no longer in use cannot be kept.
-        if (previous[i] >= 0 && previous[i] < num_parts) pairs.emplace_back(previous[i], parts[i]);
-    }
-    std::ranges::sort(pairs);
-    std::vector<Overlap> overlaps;
-    for (const auto& [origin, part] : pairs) {
-        const bool same =
-            !overlaps.empty() && overlaps.back().origin == origin && overlaps.back().part == part;
-        if (!same) overlaps.push_back({origin, part, 0});
-        ++overlaps.back().count;
     }
     return overlaps;
 }
@@ -251,6 +222,32 @@ Remap remap_alone(std::span<const Part> parts, const PreviousParts& previous,
 }
 
 }  // namespace
+
+void keep_largest(std::size_t limit, std::vector<Overlap>& overlaps) {
+    std::ranges::sort(overlaps, [](const Overlap& a, const Overlap& b) {
+        return std::tie(b.count, a.origin, a.part) < std::tie(a.count, b.origin, b.part);
+    });
+    if (overlaps.size() > limit) overlaps.resize(limit);
+}
+
+std::vector<Overlap> overlaps_by_part(std::span<const Part> parts, std::span<const Part> previous,
+                                      int num_parts) {
+    std::vector<std::pair<Part, Part>> pairs;
+    pairs.reserve(parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        // Earlier numbers that are no longer in use cannot be kept.
+        if (previous[i] >= 0 && previous[i] < num_parts) pairs.emplace_back(previous[i], parts[i]);
+    }
+    std::ranges::sort(pairs);
+    std::vector<Overlap> overlaps;
+    for (const auto& [origin, part] : pairs) {
+        const bool same =
+            !overlaps.empty() && overlaps.back().origin == origin && overlaps.back().part == part;
+        if (!same) overlaps.push_back({origin, part, 0});
+        ++overlaps.back().count;
+    }
+    return overlaps;
+}
 
 std::uint64_t hash_of(std::span<const RankRange> ranks_of_parts) {
     std::uint64_t hash = ranks_of_parts.size();

@@ -17,6 +17,16 @@ struct Overlap {
     GlobalCount count = 0;
 };
 
+/// Overlaps that a rank tells for each of its parts at most.
+inline constexpr std::size_t overlaps_per_part = 16;
+
+/// Sorts overlaps by count, the largest first; leaves `limit` of them at most.
+void keep_largest(std::size_t limit, std::vector<Overlap>& overlaps);
+
+/// Points by earlier part and part, where both are below `num_parts`.
+std::vector<Overlap> overlaps_by_part(std::span<const Part> parts, std::span<const Part> previous,
+                                      int num_parts);
+
 /// Kind of the origins of overlaps.
 enum class Origins {
     ranks,  ///< the root gets the heaviest overlaps of each rank

@@ -17,7 +17,8 @@ using Ranges = std::vector<std::pair<int, int>>;
 
 Ranges ranges_of(const PartMap& map) {
     Ranges ranges;
-    for (const RankRange& range : map.ranks) ranges.emplace_back(range.first_rank, range.count);
+    for (Part part = 0; part < map.num_parts; ++part)
+        ranges.emplace_back(map.ranks_of(part).first_rank, map.ranks_of(part).count);
     return ranges;
 }
 
@@ -48,6 +49,31 @@ TEST(PartMap, spreads_a_part_over_ranks_where_there_are_fewer) {
     EXPECT_EQ(ranges_of(map), (Ranges{{0, 2}, {2, 2}}));
 }
 
+TEST(PartMap, is_a_formula_where_many_parts_lie_evenly) {
+    for (const auto& [num_parts, num_ranks] :
+         {std::pair{5000, 5000}, {5000, 7}, {4999, 5000}, {1500, 4000}}) {
+        const PartMap map = even_part_map(num_parts, num_ranks);
+        EXPECT_TRUE(map.listed.empty());
+        std::vector<int> counts(static_cast<std::size_t>(num_ranks));
+        for (Part part = 0; part < num_parts; ++part)
+            for (int k = 0; k < map.ranks_of(part).count; ++k)
+                ++counts[static_cast<std::size_t>(map.ranks_of(part).first_rank + k)];
+        for (int rank = 0; rank < num_ranks; ++rank) {
+            const auto [first, end] = map.parts_on(rank);
+            EXPECT_EQ(end - first, counts[static_cast<std::size_t>(rank)]);
+            EXPECT_EQ(map.is_alone_on(rank, first), map.ranks_of(first).count == 1);
+        }
+        if (num_parts < num_ranks) continue;
+        const PartMap asked = local_part_map(counts, num_parts);
+        EXPECT_TRUE(asked.is_even);
+        EXPECT_TRUE(asked.listed.empty());
+        EXPECT_EQ(ranges_of(asked), ranges_of(map));
+        std::swap(counts.front(), counts.back());
+        ++counts.front();
+        EXPECT_FALSE(local_part_map(counts, num_parts + 1).is_even);
+    }
+}
+
 TEST(PartMap, counts_the_parts_that_ranks_ask_for) {
     EXPECT_EQ(num_parts_of(std::vector{2, 0, 1}, -1), 3);
     EXPECT_EQ(num_parts_of(std::vector{2, -1, 1}, -1), 3);
@@ -70,6 +96,8 @@ TEST(PartMap, shares_what_is_left_among_the_ranks_that_ask_for_nothing) {
 TEST(PartMap, leaves_ranks_without_parts_that_ask_for_none) {
     const PartMap map = local_part_map(std::vector{0, 3, 0}, 3);
     EXPECT_EQ(ranges_of(map), (Ranges{{1, 1}, {1, 1}, {1, 1}}));
+    EXPECT_FALSE(map.is_even);
+    EXPECT_EQ(map.parts_on(1).end, 3);
     EXPECT_EQ(first_part_of(map, 0), -1);
     EXPECT_EQ(first_part_of(map, 1), 0);
 }

@@ -2,6 +2,7 @@
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
+#include "zoltan/call/rcb_options.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -230,6 +231,17 @@ Frame choose_frame(const Points& points, double ratio, const Frame* previous, Pa
     }
     const Frame all = principal_frame(points, unit, self);
     return drop_thin_axes(all, extents_along(all, points, self.comm), ratio);
+}
+
+Flattened flatten(const Points& points, const Parameters& parameters, const Frame* previous,
+                  Scratch<double>& room, Participant& self) {
+    Flattened flat{{}, points};
+    if (parameters.reduce_dimensions == 0) return flat;
+    flat.frame = choose_frame(points, degenerate_ratio(parameters), previous, self);
+    if (!flat.frame.turns()) return flat;
+    flat.points = interleaved_points({}, flat.frame.num_axes);
+    self.attempt([&] { flat.points = place(flat.frame, points, room); });
+    return flat;
 }
 
 }  // namespace rrcb::zoltan

@@ -1,9 +1,12 @@
 #include "zoltan/call/look_ups_mpi.hpp"
 
 #include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
 #include "cuts/whole_cuts_mpi.hpp"
 
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace rrcb::zoltan {
 
@@ -30,6 +33,23 @@ void show_all_cuts(const Outcome& outcome, const Cuts& cuts, State& state, KeptP
     make_room(cuts.num_parts, state.node_cuts, self);
     state.node_cuts->gather(cuts, self);
     kept.show_all(state.node_cuts->tree());
+}
+
+Numbering whole_numbering(const Numbering& numbering, const PartMap& map, Participant& self) {
+    std::vector<Part> numbers;
+    std::vector<Part> room;
+    self.attempt([&] {
+        numbers.resize(static_cast<std::size_t>(map.num_parts));
+        room.resize(numbers.size());
+    });
+    agree(self);
+    const auto [first, end] = map.parts_on(mpi::rank_of(self.comm));
+    for (Part part = first; part < end; ++part)
+        numbers[static_cast<std::size_t>(part)] = numbering.number_of(part);
+    mpi::check(
+        MPI_Allreduce(MPI_IN_PLACE, numbers.data(), map.num_parts, MPI_INT, MPI_SUM, self.comm),
+        "MPI_Allreduce");
+    return Numbering::of_all(std::move(numbers), std::move(room));
 }
 
 }  // namespace rrcb::zoltan

@@ -14,4 +14,8 @@ namespace rrcb::zoltan {
 void show_all_cuts(const Outcome& outcome, const Cuts& cuts, State& state, KeptPartition& kept,
                    Participant& self);
 
+/// The numbers of all boxes, of which each rank knows those of its own at least. Collective: two
+/// reductions, one as long as there are parts; throws Error on all ranks alike.
+Numbering whole_numbering(const Numbering& numbering, const PartMap& map, Participant& self);
+
 }  // namespace rrcb::zoltan

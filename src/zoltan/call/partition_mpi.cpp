@@ -1,6 +1,8 @@
 #include "zoltan/call/partition_mpi.hpp"
 
 #include "balance_mpi.hpp"
+#include "collective/agreement_mpi.hpp"
+#include "collective/butterfly_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/cut_limits.hpp"
 #include "wide_mpi.hpp"
@@ -102,33 +104,13 @@ void take_previous(Call& call) {
 bool stays(Call& call) {
     if (call.is_at_rest()) return true;
     State& state = call.state;
-    const bool is_even =
-        call.outcome.all_as_cut &&
-        are_even(*call.rest, state.parameters.skip_within, state.communicator->get());
+    const bool is_even = call.outcome.all_as_cut &&
+                         are_even(*call.rest, call.previous->map().num_parts,
+                                  state.parameters.skip_within, state.communicator->get());
     if (!is_even) return false;
     state.rest = std::exchange(call.rest, std::nullopt);
     state.kept = std::exchange(call.previous, std::nullopt);
     return true;
-}
-
-/// Positions that are cut: in their principal axes where REDUCE_DIMENSIONS finds the objects flat.
-struct Flattened {
-    Frame frame;
-    Points points;
-};
-
-/// Positions for the cuts. Collective where REDUCE_DIMENSIONS is set.
-Flattened flatten(const Call& call, const Objects& objects, Participant& self) {
-    const Parameters& parameters = call.state.parameters;
-    Flattened flat{{}, objects.points};
-    if (parameters.reduce_dimensions == 0) return flat;
-    const Frame* previous = call.previous ? &call.previous->frame() : nullptr;
-    flat.frame = choose_frame(objects.points, degenerate_ratio(parameters), previous, self);
-    if (!flat.frame.turns()) return flat;
-    flat.points = interleaved_points({}, flat.frame.num_axes);
-    self.attempt(
-        [&] { flat.points = place(flat.frame, objects.points, call.state.workspace.reduced); });
-    return flat;
 }
 
 /// Options and memory of a call, made before the ranks agree for the last time: no rank may fail
@@ -140,7 +122,21 @@ struct Preparation {
     std::optional<KeptPartition> kept;
     Rest rest;
     std::optional<CutAverage> average;
+    std::optional<ButterflyMessages> messages;
+    std::optional<ChecksumSums> checksums;
 };
+
+Rest make_rest(const Layout& layout, int dimension, int rank, bool is_spread) {
+    Rest rest;
+    rest.dimension = dimension;
+    rest.own = layout.map.parts_on(rank);
+    rest.is_spread = is_spread;
+    rest.checksums.resize(static_cast<std::size_t>(rest.own.end - rest.own.first));
+    rest.part_sizes = layout.part_sizes;
+    rest.part_weights.resize(is_spread ? rest.checksums.size()
+                                       : static_cast<std::size_t>(layout.map.num_parts));
+    return rest;
+}
 
 Preparation prepare(const Call& call, const Layout& layout, const Objects& objects,
                     const Flattened& flat, Participant& self) {
@@ -148,7 +144,7 @@ Preparation prepare(const Call& call, const Layout& layout, const Objects& objec
     const int dimension = flat.points.dimension;
     const bool fits = call.previous && call.previous->cuts().dimension == dimension &&
                       call.previous->frame() == flat.frame &&
-                      call.previous->cuts().num_parts == layout.map.num_parts();
+                      call.previous->cuts().num_parts == layout.map.num_parts;
     Preparation made;
     if (fits && !call.outcome.axes_changed && starts_from_previous(parameters))
         made.previous = &call.previous->cuts();
@@ -156,46 +152,45 @@ Preparation prepare(const Call& call, const Layout& layout, const Objects& objec
     self.attempt([&] {
         made.options =
             make_options(parameters, layout, dimension, locks ? &*call.previous : nullptr);
-        made.renumbering.emplace(parameters, layout, objects, *call.state.communicator);
-        const auto num_parts = static_cast<std::size_t>(layout.map.num_parts());
-        made.kept.emplace(num_parts, is_wide(made.options, call.state.communicator->size()));
+        const Communicator& comm = *call.state.communicator;
+        const bool is_spread = is_wide(made.options, comm.size());
+        made.renumbering.emplace(parameters, layout, objects, comm, is_spread);
+        const auto num_parts = static_cast<std::size_t>(layout.map.num_parts);
+        made.kept.emplace(num_parts, is_spread);
         // What the options ask of the places of cuts comes first.
         if (parameters.average_cuts != 0 && !are_cuts_limited(made.options))
             made.average.emplace(num_parts);
-        made.rest.dimension = objects.points.dimension;
-        made.rest.checksums.resize(num_parts + 1);
-        made.rest.part_sizes = layout.part_sizes;
-        made.rest.part_weights.resize(num_parts);
+        made.messages.emplace();
+        made.checksums.emplace(layout.map, comm, is_spread);
+        made.rest = make_rest(layout, objects.points.dimension, comm.rank(), is_spread);
     });
     return made;
 }
 
 /// Lists the objects that leave, and tells whether any does on any rank. Sums the checksums by
-/// which the next call knows its objects again. Collective unless RETURN_LISTS is NONE: one
-/// reduction for both.
+/// which the next call knows its objects again. Collective unless RETURN_LISTS is NONE.
 void list_exports(const Call& call, const Layout& layout, Objects&& objects,
-                  const Balance& balanced, Rest& rest, Partition& result) {
+                  const Balance& balanced, Preparation& prepared, Partition& result,
+                  Participant& self) {
     const Parameters& parameters = call.state.parameters;
-    const Communicator& comm = *call.state.communicator;
     if (parameters.return_lists == ReturnLists::none) {
         result.changes = true;
         return;
     }
     const std::span<const Part> parts(balanced.parts);
-    add_checksums(parameters, call.state.workspace, objects.points, rest.by_position, parts,
-                  rest.checksums);
-    Exports exports = make_exports(std::move(objects), parameters, parts, layout.map, comm.rank());
+    const Points points = objects.points;
+    Exports exports = make_exports(std::move(objects), parameters, parts, layout.map,
+                                   call.state.communicator->rank());
     result.exports = std::move(exports.list);
-    rest.checksums.back() = exports.moves ? 1 : 0;
-    sum_over_ranks(rest.checksums, comm.get());
-    result.changes = rest.checksums.back() != 0;
-    rest.checksums.pop_back();
+    result.changes = prepared.checksums->run(
+        {parameters, call.state.workspace, points, prepared.rest.by_position}, parts, exports.moves,
+        layout.map, prepared.rest, *prepared.messages, self);
 }
 
 /// Keeps cuts, parts and checksums for the next call.
 void keep(Preparation&& prepared, Balance&& balanced, const Frame& frame, PartMap&& map,
-          std::vector<Part>&& numbers, State& state) {
-    prepared.kept->keep(std::move(balanced.cuts), frame, std::move(map), std::move(numbers));
+          Numbering&& numbering, State& state) {
+    prepared.kept->keep(std::move(balanced.cuts), frame, std::move(map), std::move(numbering));
     prepared.kept->answer_look_ups(keeps_cuts(state.parameters));
     prepared.rest.report = std::move(balanced.report);
     state.kept = std::move(prepared.kept);
@@ -221,8 +216,11 @@ int stay(const Call& call, Objects&& objects, Partition& result) {
     serve_fortran(call, result, self);
     if (!state.kept->shows_all())
         show_all_cuts(call.outcome, state.kept->cuts(), state, *state.kept, self);
+    if (call.outcome.any_keeps_cuts && !state.kept->numbering().is_whole())
+        state.kept->show_all_numbers(
+            whole_numbering(state.kept->numbering(), state.kept->map(), self));
     state.kept->answer_look_ups(keeps_cuts(state.parameters));
-    print_notices(state.rest->report, state.kept->map().num_parts(), Remap{}, state, call.function);
+    print_notices(state.rest->report, state.kept->map().num_parts, Remap{}, state, call.function);
     return ZOLTAN_OK;
 }
 
@@ -253,26 +251,27 @@ int balance_objects(const Call& call, Objects&& objects, Partition& result) {
     Participant self{call.state.communicator->get()};
     Layout layout = make_layout(call.outcome, call.state, self);
     combine_weights(parameters, call.state.workspace, self.comm, objects);
-    const Flattened flat = flatten(call, objects, self);
+    const Frame* last_frame = call.previous ? &call.previous->frame() : nullptr;
+    const Flattened flat =
+        flatten(objects.points, parameters, last_frame, call.state.workspace.reduced, self);
     Preparation prepared = prepare(call, layout, objects, flat, self);
     Balance balanced = divide(call, layout, prepared, objects, flat.points, self);
     if (prepared.average)
         prepared.average->run(flat.points, balanced.parts, self.comm, balanced.cuts);
-    Remap remap = prepared.renumbering->run(layout, objects, balanced.parts, self);
-    if (!layout.part_sizes.empty())
-        for (std::size_t part = 0; part < remap.numbers.size(); ++part)
-            prepared.rest.part_sizes[static_cast<std::size_t>(remap.numbers[part])] =
-                layout.part_sizes[part];
-    const bool knows_own_parts =
-        is_whole(balanced.cuts) || (remap.identity && !call.outcome.any_local_parts);
+    auto [remap, numbering] =
+        prepared.renumbering->run(layout, objects, balanced.parts, *prepared.messages, self);
+    const bool knows_own_parts = is_whole(balanced.cuts) || (remap.identity && layout.map.is_even);
     prepared.rest.by_position = balanced.report.coincident_cuts > 0 || !knows_own_parts;
-    list_exports(call, layout, std::move(objects), balanced, prepared.rest, result);
+    list_exports(call, layout, std::move(objects), balanced, prepared, result, self);
+    if (prepared.rest.is_spread) agree(self);
     select_lists(parameters, result.changes, self, result.imports, result.exports);
     serve_fortran(call, result, self);
     show_all_cuts(call.outcome, balanced.cuts, call.state, *prepared.kept, self);
-    print_notices(balanced.report, layout.map.num_parts(), remap, call.state, call.function);
+    if ((call.outcome.any_keeps_cuts || is_whole(balanced.cuts)) && !numbering.is_whole())
+        numbering = whole_numbering(numbering, layout.map, self);
+    print_notices(balanced.report, layout.map.num_parts, remap, call.state, call.function);
     keep(std::move(prepared), std::move(balanced), flat.frame, std::move(layout.map),
-         std::move(remap.numbers), call.state);
+         std::move(numbering), call.state);
     return parameters.auto_migrate != 0 && result.changes ? migrate(call.zz, result) : ZOLTAN_OK;
 }
 

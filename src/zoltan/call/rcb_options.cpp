@@ -50,7 +50,7 @@ void check_parameters(const State& state, bool one_part_per_rank) {
 Options make_options(const Parameters& parameters, const Layout& layout, int dimension,
                      const KeptPartition* previous) {
     Options options = parameters.options;
-    options.num_parts = layout.map.num_parts();
+    options.num_parts = layout.map.num_parts;
     options.part_sizes = layout.part_sizes;
     options.plain_cuts = parameters.rectilinear_blocks != 0;
     if (has_several_weights(parameters)) {

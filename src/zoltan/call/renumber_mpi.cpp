@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
 #include <utility>
 
 namespace rrcb::zoltan {
@@ -20,34 +19,64 @@ bool may_change_numbers(const Parameters& parameters, const Layout& layout) {
     const auto are_equal = [](const std::vector<double>& sizes) {
         return std::ranges::adjacent_find(sizes, std::not_equal_to<>()) == sizes.end();
     };
-    const auto on_one_rank = [](const RankRange& range) { return range.count == 1; };
-    return parameters.remap != 0 && layout.map.num_parts() > 1 &&
-           std::ranges::all_of(layout.map.ranks, on_one_rank) && are_equal(layout.part_sizes) &&
-           std::ranges::all_of(layout.further_sizes, are_equal);
+    // Those that are listed by what ranks ask for have one each.
+    const PartMap& map = layout.map;
+    const bool are_on_one_rank = !map.is_even || map.num_parts >= map.num_ranks;
+    return parameters.remap != 0 && map.num_parts > 1 && are_on_one_rank &&
+           are_equal(layout.part_sizes) && std::ranges::all_of(layout.further_sizes, are_equal);
 }
 
 }  // namespace
 
 Renumbering::Renumbering(const Parameters& parameters, const Layout& layout, const Objects& objects,
-                         const Communicator& comm) {
-    const int num_parts = layout.map.num_parts();
-    unchanged_.numbers.resize(static_cast<std::size_t>(num_parts));
-    std::iota(unchanged_.numbers.begin(), unchanged_.numbers.end(), 0);
+                         const Communicator& comm, bool is_spread) {
+    const int num_parts = layout.map.num_parts;
     // A single rank keeps its objects under any numbers.
     const bool matters = comm.size() > 1 || by_part(layout, objects);
-    if (matters && may_change_numbers(parameters, layout))
-        room_.emplace(num_parts, comm.size(), comm.rank() == root);
+    if (!matters || !may_change_numbers(parameters, layout)) return;
+    if (is_spread && layout.map.is_even) {
+        spread_room_.emplace(num_parts, comm.get());
+        return;
+    }
+    room_.emplace(RemapBuffers(num_parts, comm.size(), comm.rank() == root));
+    room_->boxes.resize(static_cast<std::size_t>(num_parts));
+    for (Part part = 0; part < num_parts; ++part) room_->ranks.push_back(layout.map.ranks_of(part));
 }
 
-Remap Renumbering::run(const Layout& layout, const Objects& objects, std::span<Part> parts,
-                       Participant& self) {
-    if (!room_) return std::move(unchanged_);
+Renumbered Renumbering::run(const Layout& layout, const Objects& objects, std::span<Part> parts,
+                            ButterflyMessages& messages, Participant& self) {
+    if (!room_ && !spread_room_) return {};
     PreviousParts previous;
     if (by_part(layout, objects)) previous.emplace(objects.initial_parts.get(), parts.size());
-    Remap result = remap(parts, previous, layout.map.ranks, *room_, self);
-    if (result.identity) return result;
+    if (spread_room_) return run_spread(layout, previous, parts, messages, self);
+    Remap result = remap(parts, previous, room_->ranks, room_->buffers, self);
+    if (result.identity) return {};
     for (Part& part : parts) part = result.numbers[static_cast<std::size_t>(part)];
-    return result;
+    std::vector<Part> numbers = std::move(result.numbers);
+    return {std::move(result), Numbering::of_all(std::move(numbers), std::move(room_->boxes))};
+}
+
+Renumbered Renumbering::run_spread(const Layout& layout, const PreviousParts& previous,
+                                   std::span<Part> parts, ButterflyMessages& messages,
+                                   Participant& self) {
+    SpreadRemap result = remap_spread(parts, layout.map.one_each ? Origins::ranks : Origins::parts,
+                                      previous, *spread_room_, messages, self);
+    if (result.summary.identity) return {};
+    Renumbered renumbered{std::move(result.summary)};
+    self.attempt([&] {
+        std::vector<Part> boxes;
+        std::vector<Part> numbers;
+        for (const auto& [box, number] : result.numbers) {
+            boxes.push_back(box);
+            numbers.push_back(number);
+        }
+        renumbered.numbering = Numbering::of_some(std::move(boxes), std::move(numbers));
+        // A failure elsewhere, of which no rank has heard yet, may have lost one.
+        for (Part& part : parts)
+            if (const Part number = renumbered.numbering.number_of(part); number != no_part)
+                part = number;
+    });
+    return renumbered;
 }
 
 }  // namespace rrcb::zoltan

@@ -126,10 +126,4 @@ Outcome vote(const LocalStatus& local, const State& state) {
     return outcome;
 }
 
-void sum_over_ranks(std::span<std::uint64_t> numbers, MPI_Comm comm) {
-    mpi::check(MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()),
-                             MPI_UINT64_T, MPI_SUM, comm),
-               "MPI_Allreduce");
-}
-
 }  // namespace rrcb::zoltan

@@ -48,7 +48,4 @@ struct Outcome {
 /// Collective over the handle's communicator: one reduction of a few integers.
 Outcome vote(const LocalStatus& local, const State& state);
 
-/// Sums modulo 2^64, on every rank. Collective: one reduction.
-void sum_over_ranks(std::span<std::uint64_t> numbers, MPI_Comm comm);
-
 }  // namespace rrcb::zoltan

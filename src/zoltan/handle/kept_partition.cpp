@@ -7,18 +7,16 @@
 
 namespace rrcb::zoltan {
 
-KeptPartition::KeptPartition(std::size_t num_parts, bool are_spread) : boxes_(num_parts) {
+KeptPartition::KeptPartition(std::size_t num_parts, bool are_spread) {
     nodes_.reserve(are_spread ? 0 : num_parts);
 }
 
 void KeptPartition::keep(Cuts&& cuts, const Frame& frame, PartMap&& map,
-                         std::vector<Part>&& numbers) noexcept {
+                         Numbering&& numbering) noexcept {
     cuts_ = std::move(cuts);
     frame_ = frame;
     map_ = std::move(map);
-    numbers_ = std::move(numbers);
-    for (std::size_t box = 0; box < numbers_.size(); ++box)
-        boxes_[static_cast<std::size_t>(numbers_[box])] = static_cast<Part>(box);
+    numbering_ = std::move(numbering);
     if (is_whole(cuts_)) root_ = build(0, cuts_.num_parts);
 }
 
@@ -39,7 +37,7 @@ std::span<const Cut> KeptPartition::tree() const {
 
 /// Builds the nodes of a subtree in preorder. Returns its first one as a child.
 std::int32_t KeptPartition::build(Part first_part, int num_parts) {
-    if (num_parts == 1) return ~numbers_[static_cast<std::size_t>(first_part)];
+    if (num_parts == 1) return ~numbering_.number_of(first_part);
     const auto index = nodes_.size();
     const Cut& cut = cuts_.tree[index];
     nodes_.push_back({cut.at[static_cast<std::size_t>(cut.axis)], cut.axis, {}});
@@ -91,7 +89,7 @@ Part KeptPartition::descend_spread(const double* position) const {
     const std::span<const Cut> all = tree();
     while (!at.is_part())
         at = rrcb::is_above(all[at.node], exact, cuts_.dimension) ? at.upper() : at.lower();
-    return numbers_[static_cast<std::size_t>(at.first_part)];
+    return numbering_.number_of(at.first_part);
 }
 
 Part KeptPartition::descend(const double* position) const {
@@ -118,7 +116,7 @@ int KeptPartition::parts_touching(const Box& box, Part* parts) const {
         visit_touching(
             root_of(cuts_), placed, cuts_.dimension,
             [all = tree()](const Descent& at) -> const Cut& { return all[at.node]; },
-            [&](Part part) { parts[count++] = numbers_[static_cast<std::size_t>(part)]; });
+            [&](Part part) { parts[count++] = numbering_.number_of(part); });
     }
     std::sort(parts, parts + count);
     return count;
@@ -139,7 +137,7 @@ int KeptPartition::collect(std::int32_t at, const Box& box, Part* parts, int cou
 
 Box KeptPartition::region_of(Part part) const {
     const Box region =
-        region_below(root_of(cuts_), boxes_[static_cast<std::size_t>(part)],
+        region_below(root_of(cuts_), numbering_.box_of(part),
                      [all = tree()](const Descent& at) -> const Cut& { return all[at.node]; });
     return unshifted(frame_, region);
 }

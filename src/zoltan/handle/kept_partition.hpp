@@ -1,12 +1,14 @@
 #pragma once
 
 #include "zoltan/handle/frame.hpp"
+#include "zoltan/handle/numbering.hpp"
 #include "zoltan/handle/part_map.hpp"
 
 #include <rrcb/cuts.hpp>
 
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace rrcb::zoltan {
@@ -25,15 +27,21 @@ class KeptPartition {
     /// Makes room for the cuts between so many parts, which may be spread over the ranks.
     explicit KeptPartition(std::size_t num_parts, bool are_spread = false);
 
-    /// Keeps the cuts, which cross the axes of `frame`, without asking for memory. `numbers` has
-    /// the new number of each part. Where the cuts are spread over the ranks, look-ups find what
-    /// this rank knows until they get all cuts.
-    void keep(Cuts&& cuts, const Frame& frame, PartMap&& map, std::vector<Part>&& numbers) noexcept;
+    /// Keeps the cuts, which cross the axes of `frame`, without asking for memory. Where the cuts
+    /// are spread over the ranks, look-ups find what this rank knows until they get all cuts;
+    /// otherwise all numbers are known.
+    void keep(Cuts&& cuts, const Frame& frame, PartMap&& map, Numbering&& numbering) noexcept;
 
     /// Gives look-ups all cuts in preorder, of their own or in memory that outlives them.
     void show_all(std::vector<Cut>&& tree) noexcept;
     void show_all(std::span<const Cut> shared) noexcept { shared_ = shared; }
-    bool shows_all() const { return tree().size() + 1 == numbers_.size(); }
+    bool shows_all() const {
+        return tree().size() + 1 == static_cast<std::size_t>(cuts_.num_parts) &&
+               numbering_.is_whole();
+    }
+
+    /// Gives look-ups all numbers.
+    void show_all_numbers(Numbering&& numbering) noexcept { numbering_ = std::move(numbering); }
 
     /// Copies cuts that others share. Throws std::bad_alloc.
     void keep_shared();
@@ -51,7 +59,7 @@ class KeptPartition {
 
     const Frame& frame() const { return frame_; }
     const PartMap& map() const { return map_; }
-    const std::vector<Part>& numbers() const { return numbers_; }
+    const Numbering& numbering() const { return numbering_; }
 
     /// Dimension of positions in look-ups, before they are placed in the frame.
     int dimension() const { return frame_.turns() ? frame_.dimension : cuts_.dimension; }
@@ -87,8 +95,7 @@ class KeptPartition {
     Cuts cuts_;
     Frame frame_;
     PartMap map_;
-    std::vector<Part> numbers_;
-    std::vector<Part> boxes_;  ///< number of the box that each part has
+    Numbering numbering_;
     std::vector<Node> nodes_;
     std::vector<Cut> all_;         ///< where the cuts are spread over the ranks, or
     std::span<const Cut> shared_;  ///< where ranks share them

@@ -15,7 +15,7 @@ namespace {
 int write_ranks(const PartMap& map, const Part* parts, int num_parts, int* ranks) {
     int count = 0;
     for (int i = 0; i < num_parts; ++i) {
-        const RankRange& range = map.ranks[static_cast<std::size_t>(parts[i])];
+        const RankRange range = map.ranks_of(parts[i]);
         // The ranks of ascending parts ascend: only the last one can come twice.
         const int next = count == 0 ? 0 : ranks[count - 1] + 1;
         for (int r = std::max(range.first_rank, next); r < range.first_rank + range.count; ++r) {
@@ -38,7 +38,7 @@ const KeptPartition& kept_by(const State& state) {
 Place place_of(const State& state, const double* coordinates) {
     const KeptPartition& kept = kept_by(state);
     const Part part = kept.part_of(coordinates);
-    return {kept.map().ranks[static_cast<std::size_t>(part)].first_rank, part};
+    return {kept.map().ranks_of(part).first_rank, part};
 }
 
 void find_touched(const State& state, const Box& box, const Touched& touched) {
@@ -47,7 +47,7 @@ void find_touched(const State& state, const Box& box, const Touched& touched) {
     thread_local std::vector<Part> unasked;
     Part* parts = touched.parts;
     if (parts == nullptr) {
-        unasked.resize(static_cast<std::size_t>(kept.map().num_parts()));
+        unasked.resize(static_cast<std::size_t>(kept.map().num_parts));
         parts = unasked.data();
     }
     const int count = kept.parts_touching(box, parts);

@@ -11,6 +11,9 @@ namespace rrcb::zoltan {
 
 namespace {
 
+/// Parts up to which a list of their ranks is kept, which is faster than a formula.
+constexpr int most_listed = 1024;
+
 struct Asked {
     int parts = 0;
     int free_ranks = 0;  ///< which leave it open
@@ -27,12 +30,19 @@ Asked asked_by(std::span<const int> local_parts) {
 
 }  // namespace
 
+PartRange PartMap::parts_on(int rank) const {
+    if (is_even) return rrcb::parts_on(rank, num_parts, num_ranks);
+    // Not equal_range, whose answer clang 14 cannot read with GCC's library.
+    const auto first = std::ranges::lower_bound(listed, rank, {}, &RankRange::first_rank);
+    const auto end = std::ranges::upper_bound(listed, rank, {}, &RankRange::first_rank);
+    return {static_cast<Part>(first - listed.begin()), static_cast<Part>(end - listed.begin())};
+}
+
 PartMap even_part_map(int num_parts, int num_ranks) {
-    PartMap map;
-    map.one_each = num_parts == num_ranks;
-    map.ranks.reserve(static_cast<std::size_t>(num_parts));
+    PartMap map{num_parts, num_ranks, num_parts == num_ranks};
+    if (map.one_each || num_parts > most_listed) return map;
     for (int part = 0; part < num_parts; ++part)
-        map.ranks.push_back(ranks_of_part(part, num_parts, num_ranks));
+        map.listed.push_back(ranks_of_part(part, num_parts, num_ranks));
     return map;
 }
 
@@ -51,25 +61,28 @@ int num_parts_of(std::span<const int> local_parts, int num_global_parts) {
 PartMap local_part_map(std::span<const int> local_parts, int num_parts) {
     const Asked asked = asked_by(local_parts);
     const int rest = num_parts - asked.parts;
-    PartMap map;
-    map.one_each = false;
+    PartMap map{num_parts, static_cast<int>(local_parts.size()), false};
     int rank = 0;
     int free_ranks_left = asked.free_ranks;
     for (const int parts : local_parts) {
         const int extra = parts < 0 && free_ranks_left-- <= rest % asked.free_ranks ? 1 : 0;
         const int here = parts < 0 ? rest / asked.free_ranks + extra : parts;
-        map.ranks.insert(map.ranks.end(), static_cast<std::size_t>(here), RankRange{rank, 1});
+        map.listed.insert(map.listed.end(), static_cast<std::size_t>(here), RankRange{rank, 1});
+        const auto belongs_here = [&](int part) {
+            const RankRange even = ranks_of_part(part, num_parts, map.num_ranks);
+            return even.first_rank == rank && even.count == 1;
+        };
+        const int end = static_cast<int>(map.listed.size());
+        map.is_even = map.is_even && here > 0 && belongs_here(end - here) && belongs_here(end - 1);
         ++rank;
     }
+    if (map.is_even && num_parts > most_listed) map.listed = {};
     return map;
 }
 
 int first_part_of(const PartMap& map, int rank) {
-    const auto holds = [rank](const RankRange& range) {
-        return rank >= range.first_rank && rank < range.first_rank + range.count;
-    };
-    const auto found = std::ranges::find_if(map.ranks, holds);
-    return found == map.ranks.end() ? -1 : static_cast<int>(found - map.ranks.begin());
+    const PartRange here = map.parts_on(rank);
+    return here.first < here.end ? here.first : -1;
 }
 
 }  // namespace rrcb::zoltan

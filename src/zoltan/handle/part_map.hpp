@@ -1,5 +1,7 @@
 #pragma once
 
+#include "cuts/owned_cuts.hpp"
+
 #include <rrcb/plan.hpp>
 #include <rrcb/points.hpp>
 
@@ -10,14 +12,29 @@ namespace rrcb::zoltan {
 
 /// Ranks of each part, as Zoltan lays parts out.
 struct PartMap {
-    std::vector<RankRange> ranks;  ///< of each part
-    bool one_each = true;          ///< part p is on rank p and on no other
+    int num_parts = 0;
+    int num_ranks = 0;
+    bool one_each = true;             ///< part p is on rank p and on no other
+    bool is_even = true;              ///< as ranks_of_part() tells
+    std::vector<RankRange> listed{};  ///< of each part; empty where it is even, of many parts
 
-    int num_parts() const { return static_cast<int>(ranks.size()); }
+    RankRange ranks_of(Part part) const {
+        if (one_each) return {part, 1};
+        return listed.empty() ? ranks_of_part(part, num_parts, num_ranks)
+                              : listed[static_cast<std::size_t>(part)];
+    }
+
+    /// Parts on a rank.
+    PartRange parts_on(int rank) const;
+
+    bool is_alone_on(int rank, Part part) const {
+        const RankRange range = ranks_of(part);
+        return range.first_rank == rank && range.count == 1;
+    }
 
     /// Where object number `index` of rank `rank` goes: it stays when its part is there already.
     int destination(Part part, LocalIndex index, int rank) const {
-        const RankRange& range = ranks[static_cast<std::size_t>(part)];
+        const RankRange range = ranks_of(part);
         if (range.count == 1) return range.first_rank;
         if (rank >= range.first_rank && rank < range.first_rank + range.count) return rank;
         return range.first_rank + static_cast<int>(index % static_cast<LocalIndex>(range.count));

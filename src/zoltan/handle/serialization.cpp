@@ -13,7 +13,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-constexpr std::array<char, 8> signature = {'R', 'R', 'C', 'B', 'h', 'n', 'd', '3'};
+constexpr std::array<char, 8> signature = {'R', 'R', 'C', 'B', 'h', 'n', 'd', '4'};
 
 struct Header {
     std::array<char, 8> signature = zoltan::signature;
@@ -105,9 +105,13 @@ void write(Writer& writer, const KeptPartition& kept) {
         writer.value(cut.divides);
         writer.value(cut.at);
     }
-    writer.list(kept.numbers());
-    writer.list(kept.map().ranks);
-    writer.value(kept.map().one_each);
+    writer.list(kept.numbering().numbers());
+    const PartMap& map = kept.map();
+    writer.value(map.num_parts);
+    writer.value(map.num_ranks);
+    writer.value(map.one_each);
+    writer.value(map.is_even);
+    writer.list(map.listed);
     writer.value(kept.frame());
 }
 
@@ -123,18 +127,26 @@ bool fits(const Frame& frame, const Cuts& cuts) {
     return is_sound(frame) && (!frame.turns() || frame.num_axes == cuts.dimension);
 }
 
+bool is_consistent(const PartMap& map) {
+    const auto valid_range = [](const RankRange& range) {
+        return range.first_rank >= 0 && range.count >= 1;
+    };
+    const auto num_parts = static_cast<std::size_t>(map.num_parts);
+    return map.num_parts >= 1 && map.num_ranks >= 1 && (map.is_even || !map.listed.empty()) &&
+           (!map.one_each || map.num_parts == map.num_ranks) &&
+           (map.listed.empty() || map.listed.size() == num_parts) &&
+           std::ranges::all_of(map.listed, valid_range);
+}
+
 bool is_consistent(const Cuts& cuts, const PartMap& map, const std::vector<Part>& numbers) {
     const auto valid_cut = [&](const Cut& cut) {
         return cut.axis >= 0 && cut.axis < cuts.dimension &&
                std::ranges::none_of(cut.at, [](double x) { return std::isnan(x); });
     };
-    const auto valid_range = [](const RankRange& range) {
-        return range.first_rank >= 0 && range.count >= 1;
-    };
-    return cuts.dimension >= 1 && cuts.dimension <= max_dimension &&
-           cuts.tree.size() + 1 == numbers.size() && numbers.size() == map.ranks.size() &&
-           std::ranges::all_of(cuts.tree, valid_cut) &&
-           std::ranges::all_of(map.ranks, valid_range) && is_permutation(numbers);
+    return cuts.dimension >= 1 && cuts.dimension <= max_dimension && is_consistent(map) &&
+           cuts.tree.size() + 1 == static_cast<std::size_t>(map.num_parts) &&
+           (numbers.empty() || numbers.size() == cuts.tree.size() + 1) &&
+           std::ranges::all_of(cuts.tree, valid_cut) && is_permutation(numbers);
 }
 
 KeptPartition read_kept(Reader& reader) {
@@ -147,13 +159,18 @@ KeptPartition read_kept(Reader& reader) {
     }
     auto numbers = reader.list<Part>();
     PartMap map;
-    map.ranks = reader.list<RankRange>();
+    map.num_parts = reader.value<int>();
+    map.num_ranks = reader.value<int>();
     map.one_each = reader.flag();
+    map.is_even = reader.flag();
+    map.listed = reader.list<RankRange>();
     const auto frame = reader.value<Frame>();
-    cuts.num_parts = static_cast<int>(numbers.size());
+    cuts.num_parts = map.num_parts;
     if (!is_consistent(cuts, map, numbers) || !fits(frame, cuts)) refuse("inconsistent");
-    KeptPartition kept(numbers.size());
-    kept.keep(std::move(cuts), frame, std::move(map), std::move(numbers));
+    KeptPartition kept(static_cast<std::size_t>(map.num_parts));
+    std::vector<Part> room(numbers.size());
+    kept.keep(std::move(cuts), frame, std::move(map),
+              Numbering::of_all(std::move(numbers), std::move(room)));
     return kept;
 }
 

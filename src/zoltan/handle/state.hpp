@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cuts/node_cuts_mpi.hpp"
+#include "cuts/owned_cuts.hpp"
 #include "zoltan/handle/kept_partition.hpp"
 #include "zoltan/handle/parameters.hpp"
 #include "zoltan/handle/workspace.hpp"
@@ -31,14 +32,15 @@ class Communicator {
     int rank() const { return rank_; }
     int size() const { return size_; }
 
-    /// Scratch, a number for each rank, to receive into when memory is short.
-    std::span<int> per_rank() { return per_rank_; }
+    /// Scratch, a number for each rank, to receive into when memory is short. Pages that are not
+    /// used take none.
+    std::span<int> per_rank() { return {per_rank_.get(), static_cast<std::size_t>(size_)}; }
 
   private:
     MPI_Comm comm_ = MPI_COMM_NULL;
     int rank_ = 0;
     int size_ = 0;
-    std::vector<int> per_rank_;
+    std::unique_ptr<int[]> per_rank_;
 };
 
 /// One entry of Zoltan_LB_Set_Part_Sizes.
@@ -54,9 +56,13 @@ struct PartSize {
 struct Rest {
     Report report;
     int dimension = 0;
-    std::vector<std::uint64_t> checksums;  ///< of the objects of each part
-    std::vector<double> part_sizes{};      ///< relative; empty: equal
-    std::vector<double> part_weights{};    ///< room for one per part, to count in
+    PartRange own{};                       ///< parts of this rank
+    bool is_spread = false;                ///< many ranks made the parts
+    std::vector<std::uint64_t> checksums;  ///< of the objects of each of these
+    std::vector<double> part_sizes{};      ///< relative, of all parts; empty: equal
+
+    /// Room to count in: for a weight of each part, or of own ones where it is spread.
+    std::vector<double> part_weights{};
 
     /// Whether checksums hold positions, where cuts do not tell the parts of objects: those in one
     /// place are in several parts, or ranks have parts of which they do not know the cuts.

@@ -1,0 +1,32 @@
+#include "zoltan/handle/numbering.hpp"
+
+#include <rrcb/cuts.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace rrcb::zoltan {
+
+Numbering::Numbering(std::vector<Part>&& boxes, std::vector<Part>&& numbers,
+                     bool is_spread) noexcept
+    : numbers_(std::move(numbers)), boxes_(std::move(boxes)), is_spread_(is_spread) {}
+
+Numbering Numbering::of_all(std::vector<Part>&& numbers, std::vector<Part>&& room) noexcept {
+    for (std::size_t box = 0; box < numbers.size(); ++box)
+        room[static_cast<std::size_t>(numbers[box])] = static_cast<Part>(box);
+    return {std::move(room), std::move(numbers), false};
+}
+
+Numbering Numbering::of_some(std::vector<Part>&& boxes, std::vector<Part>&& numbers) noexcept {
+    return {std::move(boxes), std::move(numbers), true};
+}
+
+Part Numbering::number_of(Part box) const {
+    if (is_unchanged()) return box;
+    if (!is_spread_) return numbers_[static_cast<std::size_t>(box)];
+    const auto found = std::ranges::lower_bound(boxes_, box);
+    if (found == boxes_.end() || *found != box) return no_part;
+    return numbers_[static_cast<std::size_t>(found - boxes_.begin())];
+}
+
+}  // namespace rrcb::zoltan

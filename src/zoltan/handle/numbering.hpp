@@ -1,0 +1,48 @@
+#pragma once
+
+#include <rrcb/points.hpp>
+
+#include <vector>
+
+namespace rrcb::zoltan {
+
+/// Numbers of parts by REMAP, beside those of the boxes that the cuts make.
+class Numbering {
+  public:
+    /// A part has the number of its box.
+    Numbering() = default;
+
+    /// By the number of each box; `room` has as many entries.
+    static Numbering of_all(std::vector<Part>&& numbers, std::vector<Part>&& room) noexcept;
+
+    /// By the numbers of some boxes, one at least, which ascend.
+    static Numbering of_some(std::vector<Part>&& boxes, std::vector<Part>&& numbers) noexcept;
+
+    bool is_unchanged() const { return numbers_.empty(); }
+
+    /// Whether the number of every box is known.
+    bool is_whole() const { return !is_spread_; }
+
+    /// The number of a box; no_part where it is not known.
+    Part number_of(Part box) const;
+
+    /// The box of a part, where all are known.
+    Part box_of(Part number) const {
+        return is_unchanged() ? number : boxes_[static_cast<std::size_t>(number)];
+    }
+
+    /// Boxes whose numbers are known, where these are some of them only.
+    const std::vector<Part>& known_boxes() const { return boxes_; }
+
+    /// Numbers of all boxes, or of the known ones.
+    const std::vector<Part>& numbers() const { return numbers_; }
+
+  private:
+    Numbering(std::vector<Part>&& boxes, std::vector<Part>&& numbers, bool is_spread) noexcept;
+
+    std::vector<Part> numbers_;  ///< of all boxes, or of those in `boxes_`
+    std::vector<Part> boxes_;    ///< of all numbers, or of those in `numbers_`
+    bool is_spread_ = false;     ///< over the ranks
+};
+
+}  // namespace rrcb::zoltan

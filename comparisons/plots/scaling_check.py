@@ -18,6 +18,7 @@ EXACT = "rrcb-exact[mesh=4]"
 ZOLTAN = "zoltan-rcb"
 JAGGED = "zoltan2-mj"
 WIDE = "rrcb-arrays[mesh=4,tol=2,central=2]"
+PLUGGED = "rrcb[mesh=4,tol=2,central=2]"
 WIDE_EXACT = "rrcb-arrays[mesh=4,refine=exact,central=2]"
 
 
@@ -103,6 +104,9 @@ def compare_all(
             found.append(_compare_multijagged(row))
         if sizes and method in (WIDE, WIDE_EXACT) and ranks > 2:
             found.append(_compare_wide(row, sizes.parts))
+        if sizes and method == PLUGGED and ranks > 2:
+            vote = _read_vote(counted, sizes.parts)
+            found.append(_compare_plugged(row, vote, sizes.parts))
     return found
 
 
@@ -177,6 +181,27 @@ def read_exchange(row: Counted) -> Exchange:
         field_bytes=traffic["Rsend"].sent,
         overlap_bytes=traffic["Allgatherv"].sent,
     )
+
+
+def _read_vote(counted: dict[tuple[str, int], Counted], parts: model.Parts) -> int:
+    """Bytes of the vote, on the least ranks on which many make the parts."""
+    ranks = min(ranks for method, ranks in counted if method == PLUGGED and ranks > 2)
+    row = counted[PLUGGED, ranks]
+    traffic, _ = wide.accepted(ranks, 2, parts)
+    wide.add_plug_in(traffic, ranks, wide.PlugIn(0, renumbers="Exscan" in row.traffic), parts)
+    return _whole(row.traffic["Allreduce"].sent - traffic["Allreduce"].sent, ranks)
+
+
+def _compare_plugged(row: Counted, vote: int, parts: model.Parts) -> Comparison:
+    """Passes and records come from the run where numbers change, and are none else."""
+    traffic, _ = wide.accepted(row.ranks, 2, parts)
+    sent, known = row.traffic["Isend"], traffic["Isend"]
+    renumbers = "Exscan" in row.traffic
+    passes = _whole(sent.calls - known.calls, wide.pass_messages(row.ranks)) if renumbers else 2
+    messages = passes * wide.pass_messages(row.ranks)
+    records = sent.sent - known.sent - wide.HEAD * messages
+    wide.add_plug_in(traffic, row.ranks, wide.PlugIn(vote, passes, records, renumbers), parts)
+    return Comparison(row, traffic, "", "passes of REMAP and bytes of records")
 
 
 def _compare_wide(row: Counted, parts: model.Parts) -> Comparison:

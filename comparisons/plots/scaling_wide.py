@@ -20,6 +20,8 @@ RECORD_HEAD = 16
 HISTOGRAM = RECORD_HEAD + 8 * (1 + 7 + 2 * 66)  # 64 bins and two slots beside them
 ANSWER = RECORD_HEAD + 176
 BOX, COUNT = 48, 4  # reduced to everybody
+COUNTS_LEFT = 16  # of parts and numbers that no offer brought together, summed over lower ranks
+KEPT = 24  # points that stay under old and new numbers, and all
 
 
 class Node(NamedTuple):
@@ -100,6 +102,25 @@ def accepted(ranks: int, regions: int, parts: Parts) -> tuple[Traffic, int]:
     for level in levels:
         into += _into_first(ranks, [node.first_part for node in nodes if node.level == level])
     return traffic, into
+
+
+class PlugIn(NamedTuple):
+    """What the plug-in for Zoltan adds to a call of rrcb::balance, lists of imports left out."""
+
+    vote: int  # bytes of the reduction that begins a call
+    passes: int = 2  # to search for part numbers, and for checksums
+    record_bytes: int = 0
+    renumbers: bool = False  # parts change their numbers, or nearly
+
+
+def add_plug_in(traffic: Traffic, ranks: int, added: PlugIn, parts: Parts) -> None:
+    traffic.allreduce(ranks, added.vote)
+    traffic.allreduce(ranks, parts.agreement)
+    if added.renumbers:
+        traffic.add("Exscan", ranks, COUNTS_LEFT * ranks, COUNTS_LEFT * (ranks - 1))
+        traffic.allreduce(ranks, KEPT)
+    messages = added.passes * pass_messages(ranks)
+    traffic.add("Isend", messages, HEAD * messages + added.record_bytes)
 
 
 def exact(ranks: int, rounds: int, record_bytes: int, parts: Parts) -> Traffic:

@@ -52,7 +52,7 @@ const std::vector<Entry>& entries() {
          "RRCB",
          DomainKind::analytic,
          Refine::automatic,
-         {"mesh", "cut", "refine", "tol", "reuse"}},
+         {"mesh", "cut", "refine", "tol", "reuse", "central"}},
         {"rrcb-learned",
          "RRCB",
          DomainKind::learned,

@@ -221,7 +221,7 @@ def _searches_assumed(observed: Observed) -> list[str]:
         + ", the most of any number of virtual ranks in virtual.csv. A round is 2 log2(ranks)"
         " messages one after the other. Points lie where their parts do. A look at every point a"
         " level, as in the other curves; further rounds count candidates only. rrcb::balance alone:"
-        " the plug-in adds four times log2(ranks) messages one after the other where no part gains"
+        " the plug-in adds five times log2(ranks) messages one after the other where no part gains"
         " by another number, and 41 times log2(ranks) at most."
     ]
 

@@ -116,9 +116,9 @@ class PlugIn(NamedTuple):
 def add_plug_in(traffic: Traffic, ranks: int, added: PlugIn, parts: Parts) -> None:
     traffic.allreduce(ranks, added.vote)
     traffic.allreduce(ranks, parts.agreement)
+    traffic.allreduce(ranks, KEPT)
     if added.renumbers:
         traffic.add("Exscan", ranks, COUNTS_LEFT * ranks, COUNTS_LEFT * (ranks - 1))
-        traffic.allreduce(ranks, KEPT)
     messages = added.passes * pass_messages(ranks)
     traffic.add("Isend", messages, HEAD * messages + added.record_bytes)
 

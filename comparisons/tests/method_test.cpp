@@ -110,8 +110,9 @@ TEST(Method, starts_from_its_last_cuts_where_asked) {
 TEST(Method, names_what_is_unknown) {
     EXPECT_EQ(error_of("zoltan-rcb,magic"),
               "--methods: unknown method 'magic'; choose from: " + method_names());
-    EXPECT_EQ(error_of("rrcb[k=2]"),
-              "--methods: rrcb has no parameter 'k'; it takes mesh, cut, refine, tol, reuse");
+    EXPECT_EQ(
+        error_of("rrcb[k=2]"),
+        "--methods: rrcb has no parameter 'k'; it takes mesh, cut, refine, tol, reuse, central");
     EXPECT_EQ(error_of("zoltan-rib[mesh=2]"),
               "--methods: zoltan-rib has no parameter 'mesh'; it takes none");
 }

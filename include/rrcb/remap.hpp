@@ -20,7 +20,9 @@ struct Remap {
 
 /// Numbers the parts of a new partition so that few points leave their rank.
 ///
-/// Collective over `comm`: one reduction, one gather, one broadcast. `parts` is the new part of
+/// Collective over `comm`: one reduction, one gather, one broadcast; or, beyond 64 ranks and 128
+/// parts that lie as ranks_of_part() tells, passes through the ranks, by which no rank hears of all
+/// overlaps and all together find the same numbers in 16 rounds at most. `parts` is the new part of
 /// each local point, `ranks_of_parts` has one entry per part, ascending, with one rank each, the
 /// same on every rank. Throws Error on every rank when one names a part that is none or other ranks
 /// of parts, or has no memory.

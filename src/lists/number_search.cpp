@@ -17,6 +17,9 @@ auto rank_among_offers(std::span<const double> offer) {
     return std::tuple(offer[0], offer[1], -offer[2]);
 }
 
+/// What asks for the largest offer and makes none.
+constexpr std::array<double, 3> question{0, 0, none};
+
 std::array<double, 3> offer_of(const Overlap& overlap, const NumberRule& rule) {
     return {static_cast<double>(overlap.count),
             overlap.origin == rule.home_of(overlap.part) ? 1.0 : 0.0,
@@ -33,6 +36,7 @@ NumberSearch::NumberSearch(int num_parts, int num_ranks, int rank)
 
 void NumberSearch::start(Origins origins, std::span<const Overlap> overlaps) {
     rule_.origins = origins;
+    is_lost_.assign(overlaps.size(), false);
     overlaps_.assign(overlaps.begin(), overlaps.end());
     std::ranges::sort(overlaps_, [&](const Overlap& a, const Overlap& b) {
         const bool a_moves = rule_.home_of(a.part) != a.origin;
@@ -43,7 +47,7 @@ void NumberSearch::start(Origins origins, std::span<const Overlap> overlaps) {
     const int num_numbers = origins == Origins::ranks ? own_.end - own_.first : 1;
     for (std::size_t k = 0; k < overlaps_.size(); ++k) {
         if (k == 0 || overlaps_[k].origin != overlaps_[k - 1].origin)
-            origins_.push_back({k, k, num_numbers});
+            origins_.push_back({k, k, num_numbers, false});
         ++origins_.back().end;
     }
 }
@@ -63,6 +67,7 @@ bool NumberSearch::make_offers() {
             continue;
         }
         const std::size_t mine = origin.next++;
+        if (is_lost_[mine]) continue;
         const auto [standing, is_first] = offers_.emplace(overlaps_[mine].part, mine);
         const std::size_t other = standing->second;
         if (!is_first && rank_among_offers(offer_of(overlaps_[mine], rule_)) <=
@@ -82,11 +87,16 @@ bool NumberSearch::make_offers() {
 NumberSearch::News NumberSearch::offer(Butterfly& offers) {
     const bool is_new = make_offers();
     bool moves = false;
+    std::map<Part, std::array<double, 3>> records;
     for (const auto& [part, overlap] : offers_) {
-        const auto offer = offer_of(overlaps_[overlap], rule_);
+        const auto& offer = records[part] = offer_of(overlaps_[overlap], rule_);
         moves = moves || offer[1] == 0;
-        offers.add(static_cast<Key>(part), rule_.rank_of(part), offer);
     }
+    for (const Origin& origin : origins_)
+        for (std::size_t k = origin.next; origin.was_refused && k < origin.end; ++k)
+            if (!is_lost_[k]) records.try_emplace(overlaps_[k].part, question);
+    for (const auto& [part, record] : records)
+        offers.add(static_cast<Key>(part), rule_.rank_of(part), record);
     if (!is_new) return News::none;
     return moves ? News::elsewhere : News::at_home;
 }
@@ -100,14 +110,32 @@ void NumberSearch::choose(Butterfly& offers) {
 }
 
 void NumberSearch::follow(const Butterfly& offers) {
-    offers.answers().for_each([&](const Record& chosen) {
-        const auto mine = offers_.find(static_cast<Part>(chosen.key));
-        if (mine == offers_.end()) return;
-        const std::size_t overlap = mine->second;
-        if (static_cast<double>(overlaps_[overlap].origin) == chosen.payload[2]) return;
-        ++std::ranges::upper_bound(origins_, overlap, {}, &Origin::end)->num_free;
-        offers_.erase(mine);
+    std::map<Part, std::span<const double>> largest;
+    offers.answers().for_each([&](const Record& answer) {
+        largest.emplace(static_cast<Part>(answer.key), answer.payload);
     });
+    // An offer that another is larger than is lost for good, as only larger ones take its place.
+    const auto is_lost = [&](std::size_t overlap) {
+        const auto other = largest.find(overlaps_[overlap].part);
+        return other != largest.end() && rank_among_offers(offer_of(overlaps_[overlap], rule_)) <
+                                             rank_among_offers(other->second);
+    };
+    for (Origin& origin : origins_) {
+        for (std::size_t k = origin.next; origin.was_refused && k < origin.end; ++k)
+            is_lost_[k] = is_lost_[k] || is_lost(k);
+        origin.was_refused = false;
+    }
+    for (auto offer = offers_.begin(); offer != offers_.end();) {
+        const std::size_t mine = offer->second;
+        if (!is_lost(mine)) {
+            ++offer;
+            continue;
+        }
+        Origin& origin = *std::ranges::upper_bound(origins_, mine, {}, &Origin::end);
+        ++origin.num_free;
+        origin.was_refused = true;
+        offer = offers_.erase(offer);
+    }
 }
 
 NumberSearch::Counts NumberSearch::settle() {

@@ -45,8 +45,9 @@ using Numbered = std::pair<Part, std::int32_t>;
 /// they could have together. Rounds of offers find it (D. Gale and L. S. Shapley: College
 /// admissions and the stability of marriage, 1962). For each of its numbers the rank of an origin
 /// makes an offer to the rank of a part, the largest first; this keeps the largest of each part;
-/// who is refused makes the next. Offers that are kept are repeated in each round, so that larger
-/// ones can take their place. However many rounds there were, each number is used once at most.
+/// who is refused makes the next, and asks which others would be refused as well. Offers that are
+/// kept are repeated in each round, so that larger ones can take their place. However many rounds
+/// there were, each number is used once at most.
 ///
 /// What is then left of parts and of numbers is counted through by rank, and meets by its count.
 ///
@@ -70,13 +71,13 @@ class NumberSearch {
         elsewhere,  ///< some would change one
     };
 
-    /// Adds the offers of this rank, to be joined by keep_larger().
+    /// Adds the offers of this rank, and its questions, to be joined by keep_larger().
     News offer(Butterfly& offers);
 
-    /// Keeps the largest offer for each part of this rank, and answers.
+    /// Keeps the largest offer for each part of this rank, and answers with it.
     void choose(Butterfly& offers);
 
-    /// Takes back the offers that were refused.
+    /// Takes back the offers that were refused, and drops those that would be.
     void follow(const Butterfly& offers);
 
     /// Parts, and numbers of origins, of one rank or more.
@@ -123,6 +124,7 @@ class NumberSearch {
         std::size_t next;  ///< first one that was not made
         std::size_t end;
         int num_free;  ///< numbers without an offer
+        bool was_refused;  ///< in the last round
     };
 
     bool make_offers();
@@ -134,6 +136,7 @@ class NumberSearch {
     int rank_;
     PartRange own_;
     std::vector<Overlap> overlaps_;  ///< as origins have them
+    std::vector<bool> is_lost_;      ///< of each: a larger offer was made
     std::vector<Origin> origins_;
     std::map<Part, std::size_t> offers_;      ///< that stand: numbers of overlaps by part
     std::vector<std::int32_t> origins_of_;    ///< that own parts go to

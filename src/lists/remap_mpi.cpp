@@ -2,16 +2,11 @@
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "collective/duplicate.hpp"
 #include "lists/hungarian.hpp"
 #include "lists/rank_numbers.hpp"
 
-#include <rrcb/error.hpp>
-
 #include <algorithm>
 #include <numeric>
-#include <optional>
-#include <string>
 #include <tuple>
 #include <utility>
 
@@ -190,37 +185,6 @@ int share(int failing_rank, Remap& remap, RemapBuffers& buffers, MPI_Comm comm) 
     return static_cast<int>(tail[0]);
 }
 
-void check_arguments(std::span<const Part> parts, const PreviousParts& previous,
-                     std::size_t num_parts) {
-    if (num_parts == 0)
-        throw Error(ErrorCode::invalid_argument,
-                    "ranks_of_parts is empty; give one entry per part");
-    if (previous && previous->size() != parts.size())
-        throw Error(ErrorCode::invalid_argument,
-                    "previous has " + std::to_string(previous->size()) + " entries, parts has " +
-                        std::to_string(parts.size()) + "; give one of each per point");
-    for (std::size_t i = 0; i < parts.size(); ++i)
-        if (parts[i] < 0 || static_cast<std::size_t>(parts[i]) >= num_parts)
-            throw Error(ErrorCode::invalid_argument,
-                        "part " + std::to_string(parts[i]) + " of point " + std::to_string(i) +
-                            " is none of the " + std::to_string(num_parts) + " parts");
-}
-
-/// Checks the arguments and makes the buffers for the public functions. Collective.
-Remap remap_alone(std::span<const Part> parts, const PreviousParts& previous,
-                  std::span<const RankRange> ranks_of_parts, MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
-    std::optional<RemapBuffers> buffers;
-    self.attempt([&] {
-        check_arguments(parts, previous, ranks_of_parts.size());
-        buffers.emplace(static_cast<int>(ranks_of_parts.size()), mpi::size_of(self.comm),
-                        mpi::rank_of(self.comm) == root,
-                        previous ? Origins::parts : Origins::ranks);
-    });
-    agree(self, {{"ranks_of_parts", hash_of(ranks_of_parts)}, {"previous", previous ? 1u : 0u}});
-    return remap(parts, previous, ranks_of_parts, *buffers, self);
-}
-
 }  // namespace
 
 void keep_largest(std::size_t limit, std::vector<Overlap>& overlaps) {
@@ -293,15 +257,6 @@ Remap remap(std::span<const Part> parts, const PreviousParts& previous,
     }
     fail_together(share(self.failing_rank(), result, buffers, self.comm), self);
     return result;
-}
-
-Remap remap(std::span<const Part> parts, std::span<const RankRange> ranks_of_parts, MPI_Comm user) {
-    return remap_alone(parts, std::nullopt, ranks_of_parts, user);
-}
-
-Remap remap(std::span<const Part> parts, std::span<const Part> previous,
-            std::span<const RankRange> ranks_of_parts, MPI_Comm user) {
-    return remap_alone(parts, previous, ranks_of_parts, user);
 }
 
 }  // namespace rrcb

@@ -165,8 +165,7 @@ SpreadRemap remap_spread(std::span<const Part> parts, Origins origins,
         if (origins == Origins::ranks) keep_largest(room.search.rule().most_overlaps(), overlaps);
         room.search.start(origins, overlaps);
     });
-    if (!exchange_offers(steps)) return {};
-    join_what_is_left(steps);
+    if (exchange_offers(steps)) join_what_is_left(steps);
     NumberSearch::Kept kept;
     self.attempt([&] { kept = room.search.kept(); });
     SpreadRemap result{sum_up(parts.size(), kept, self.comm)};

@@ -11,6 +11,9 @@ namespace rrcb {
 /// Rounds of offers at most; what is not placed by then goes where numbers are left.
 inline constexpr int most_rounds_of_offers = 16;
 
+/// Ranks whose overlaps remap() gathers at one of them; more search together. Tests lower it.
+inline int most_ranks_of_gathered_overlaps = 64;
+
 /// Room for one renumbering, which the ranks make before they agree.
 struct SpreadRemapRoom {
     /// For parts that lie on the ranks as ranks_of_part() tells, each on one. Not collective.
@@ -33,10 +36,10 @@ struct SpreadRemap {
 /// long as there are parts or ranks.
 ///
 /// With Origins::parts some ranks may have `previous` parts; where none has, and with
-/// Origins::ranks, points are to stay on their rank. Collective: one pass through the ranks where
-/// all stay, or two by parts; else three more for each round of offers, six more and two
-/// reductions at most. Throws on all ranks what failed on one; what fails at last is told by the
-/// next pass or agreement.
+/// Origins::ranks, points are to stay on their rank. Collective: one pass through the ranks, one
+/// more by parts, and a reduction where all stay; else two for each round of offers, and at most
+/// four more and another reduction. Throws on all ranks what failed on one; what fails at last is
+/// told by the next pass or agreement.
 SpreadRemap remap_spread(std::span<const Part> parts, Origins origins,
                          const PreviousParts& previous, SpreadRemapRoom& room,
                          ButterflyMessages& messages, Participant& self);

@@ -255,7 +255,7 @@ TEST(NumberSearch, of_thousands_of_ranks_takes_few_rounds_and_short_messages) {
         const Overlaps overlaps = drifted(side, share);
         ManyRanks ranks(side * side, side * side, Origins::ranks, overlaps);
         EXPECT_EQ(ranks.run(), numbers_by_rank(overlaps, ranks_of(side * side, side * side)));
-        EXPECT_LE(ranks.num_rounds, share < 0.5 ? 0 : 6);
+        EXPECT_LE(ranks.num_rounds, share < 0.5 ? 0 : 5);
         EXPECT_LE(ranks.longest, 200u);
         EXPECT_LE(ranks.most_bytes_in, 1100u);
     }

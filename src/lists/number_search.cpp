@@ -189,14 +189,13 @@ bool NumberSearch::meet(const Counts& before, Butterfly& left) const {
 
 void NumberSearch::take(const Counts& before, const Butterfly& left) {
     left.answers().for_each([&](const Record& pair) {
-        // A failure elsewhere may have lost one of the two.
-        if (pair.payload[0] < 0 || pair.payload[1] < 0) return;
-        const auto part = static_cast<Part>(pair.payload[0]);
-        const auto origin = static_cast<std::int32_t>(pair.payload[1]);
         const auto count = static_cast<std::int64_t>(pair.key);
-        if (part >= own_.first && part < own_.end) origins_of_[index_of(part)] = origin;
-        if (count >= before.numbers && count < before.numbers + std::ssize(numbers_left_))
-            placed_.emplace_back(part, origin);
+        const bool is_mine =
+            count >= before.numbers && count < before.numbers + std::ssize(numbers_left_);
+        // A failure elsewhere may have lost the part.
+        if (is_mine && pair.payload[0] >= 0)
+            placed_.emplace_back(static_cast<Part>(pair.payload[0]),
+                                 static_cast<std::int32_t>(pair.payload[1]));
     });
     std::ranges::sort(placed_);
 }

@@ -93,7 +93,7 @@ class NumberSearch {
     /// unite(). Returns whether there is any.
     bool meet(const Counts& before, Butterfly& left) const;
 
-    /// Takes what it met, once it was answered by answer_all().
+    /// Takes the parts that numbers left here met, once answer_all() has answered.
     void take(const Counts& before, const Butterfly& left);
 
     /// Points that stay by the overlaps of this rank's origins, under the old numbers and the new.
@@ -123,7 +123,7 @@ class NumberSearch {
     struct Origin {
         std::size_t next;  ///< first one that was not made
         std::size_t end;
-        int num_free;  ///< numbers without an offer
+        int num_free;      ///< numbers without an offer
         bool was_refused;  ///< in the last round
     };
 

@@ -4,23 +4,28 @@
 
 namespace mpm {
 
-/// Adds the kernels that hold the nodes on the sides of the domain: `walls` before they move,
-/// `friction` after. Open sides need none.
+/// The scene with an open side and a plane (add_plane_friction) in place of each wall that has
+/// friction. Points sink into a plane a little: behind it the grid has a layer of cells more.
+Scene with_ground(Scene scene);
+
+/// Adds the kernels that hold the nodes on the sides of the domain, those of walls that bodies may
+/// leave after they have moved. Open sides need none. Walls with friction must be planes
+/// (with_ground).
 ///
 /// Shape functions may reach beyond a wall. At rollers and fixed walls the sums of nodes there go
 /// to their mirror images inside, with the signs that leave the wall at rest. At frictional walls
 /// they meet the wall together with these.
 template <int D>
-void add_walls(const Scene& scene, double wave_speed, Stages<D>& stages);
+void add_walls(const Scene& scene, Stages<D>& stages);
 
 /// Nodes of a patch, and those beyond frictional walls whose mirror images it has: they meet the
 /// wall together.
 template <int D>
 NodeRange<D> with_images(const Scene& scene, NodeRange<D> nodes);
 
-/// Whether a plane rubs the points (add_plane_friction) and holds no nodes (add_planes).
-inline bool has_friction(const Plane& plane) {
-    return plane.wall.kind == Wall::frictional && plane.wall.friction > 0;
+/// Whether a wall or plane rubs the points (add_plane_friction) and holds no nodes (add_planes).
+inline bool has_friction(const Wall& wall) {
+    return wall.kind == Wall::frictional && wall.friction > 0;
 }
 
 /// Adds the kernels that hold the nodes with mass on the planes and behind them, after they have

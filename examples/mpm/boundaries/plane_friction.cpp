@@ -14,6 +14,7 @@ struct PlaneColumns {
     MotionColumns motion;
     std::array<Column, D> force{};   ///< in the next step, N; 0 where they do not touch
     std::array<Column, D> anchor{};  ///< of the spring along the plane, m
+    Column damping = 0;              ///< part of the force out of the plane that a dashpot gives, N
     Column reach = 0;                ///< height above the plane below which they touch it, m
 };
 
@@ -55,7 +56,11 @@ class RubbingPlane {
             Components<D> at;
             for (std::size_t a = 0; a < D; ++a) at[a] = position[a][p];
             const double depth = reach[p] - ground_.height(at);
-            const double push = depth > 0 ? push_of(particles, p, depth, block.time_step) : 0;
+            double& damping = particles.data(columns_.damping)[p];
+            damping = depth > 0 ? damping_of(particles, p, block.time_step) : 0;
+            const double spring = depth > 0 ? spring_of(particles, p, depth) : 0;
+            damping = std::max(damping, -spring);
+            const double push = spring + damping;
             const Components<D> held =
                 push > 0 ? hold(particles, p, at, push, block.time_step) : Components<D>{};
             for (std::size_t a = 0; a < D; ++a) force[a][p] = push * ground_.normal[a] + held[a];
@@ -78,19 +83,22 @@ class RubbingPlane {
         return particles[columns_.motion.mass][p] * spacing_ / width_of(particles, p);
     }
 
-    /// Force out of the plane, N. The deeper, the stiffer: some tenths of a cell are the most.
-    double push_of(const Particles& particles, std::size_t p, double depth,
-                   double time_step) const {
+    /// Force of the spring out of the plane, N. The deeper, the stiffer: some tenths of a cell are
+    /// the most.
+    double spring_of(const Particles& particles, std::size_t p, double depth) const {
         constexpr double softness = 10;
         const double relative = softness * depth / spacing_;
         const double stiffness = rate_ * rate_ / softness * (1 + relative * relative);
+        return mass_above(particles, p) * stiffness * depth;
+    }
+
+    /// Force of the dashpot out of the plane, N. In a step it takes no more than the velocity of
+    /// half a cell of points, those that a node on the plane stands for.
+    double damping_of(const Particles& particles, std::size_t p, double time_step) const {
         double across = 0;
         for (std::size_t a = 0; a < D; ++a)
             across += particles[columns_.motion.velocity[a]][p] * ground_.normal[a];
-        // A dashpot does no more in a step than stop the point.
-        const double damping =
-            particles[columns_.motion.mass][p] * std::min(2 * rate_, 1 / time_step);
-        return std::max(mass_above(particles, p) * stiffness * depth - damping * across, 0.0);
+        return -mass_above(particles, p) * std::min(rate_, 0.5 / time_step) * across;
     }
 
     /// Force along the plane, N. Where the spring is at the friction, the anchor is dragged along.
@@ -136,32 +144,72 @@ class RubbingPlane {
 template <int D>
 PlaneColumns<D> add_columns(const std::string& plane, Particles& particles, Stages<D>& stages) {
     PlaneColumns<D> columns{.motion = add_motion_columns(particles, D),
+                            .damping = particles.add_column(plane + "_damping"),
                             .reach = particles.add_column(plane + "_reach")};
     for (std::size_t a = 0; a < D; ++a) {
         columns.force[a] = particles.add_column(plane + "_force_" + "xyz"[a]);
         columns.anchor[a] = particles.add_column(plane + "_anchor_" + "xyz"[a]);
         stages.fields.push_back({"plane_friction", columns.force[a], -1, static_cast<int>(a)});
     }
+    stages.fields.push_back({"plane_friction", columns.damping});
     return columns;
 }
 
+/// Adds the forces of a plane to the nodes, whose fields begin at `first`.
+///
+/// Dashpots do no more in a step than stop a node: one that only few points touch has less mass
+/// than those points stand for. Friction goes with the force out of the plane.
+template <int D>
+NodeKernel<D> force_kernel(const Ground<D>& ground, std::size_t first) {
+    return [ground, first](GridPatch<D>& patch, const StepTime& now) {
+        const std::vector<double>& damping = patch.fields[first + D];
+        for (std::size_t n = 0; n < patch.sums.size(); ++n) {
+            NodeSums<D>& node = patch.sums[n];
+            Components<D> force;
+            for (std::size_t a = 0; a < D; ++a) force[a] = patch.fields[first + a][n];
+            const double push = along_normal<D>(ground.normal, force);
+            if (!(push > 0)) continue;
+            const double stop = -along_normal<D>(ground.normal, node.momentum) / now.time_step;
+            const double left = std::clamp(damping[n], std::min(stop, 0.0), std::max(stop, 0.0));
+            const double share = std::max(0.0, 1 - (damping[n] - left) / push);
+            for (std::size_t a = 0; a < D; ++a) node.force[a] += share * force[a];
+        }
+    };
+}
+
 }  // namespace
+
+Scene with_ground(Scene scene) {
+    Walls& walls = scene.walls;
+    const std::array<std::array<Wall*, 2>, 3> sides{
+        {{&walls.left, &walls.right}, {&walls.bottom, &walls.top}, {&walls.back, &walls.front}}};
+    const std::array ends{scene.grid.lower, scene.grid.upper()};
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
+        for (const std::size_t end : {0, 1}) {
+            Wall& wall = *sides[a][end];
+            if (!has_friction(wall)) continue;
+            Plane plane{.name = "wall", .point = ends[end], .wall = wall};
+            plane.normal[a] = end == 0 ? 1 : -1;
+            scene.planes.push_back(plane);
+            wall = Wall::open;
+            ++scene.grid.num_cells[a];
+            if (end == 0) scene.grid.lower[a] -= scene.grid.spacing;
+        }
+    return scene;
+}
 
 template <int D>
 void add_plane_friction(const Scene& scene, double wave_speed, Particles& particles,
                         Stages<D>& stages) {
     for (std::size_t k = 0; k < scene.planes.size(); ++k) {
-        if (!has_friction(scene.planes[k])) continue;
+        if (!has_friction(scene.planes[k].wall)) continue;
         const std::size_t first = stages.fields.size();
         const RubbingPlane<D> plane(
             scene.planes[k], wave_speed, scene.grid.spacing,
             add_columns<D>("plane_" + std::to_string(k + 1), particles, stages));
         stages.starts.push_back([plane](Particles& points) { plane.start(points); });
-        stages.forces.push_back({"plane_friction", [first](GridPatch<D>& patch, const StepTime&) {
-                                     for (std::size_t a = 0; a < D; ++a)
-                                         for (std::size_t n = 0; n < patch.sums.size(); ++n)
-                                             patch.sums[n].force[a] += patch.fields[first + a][n];
-                                 }});
+        stages.forces.push_back(
+            {"plane_friction", force_kernel<D>(ground_of<D>(scene.planes[k]), first)});
         stages.after_materials.push_back(
             {"plane_friction", [plane](Particles& points, const PointBlock<D>& block) {
                  plane.push(points, block);

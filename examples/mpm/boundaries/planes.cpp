@@ -34,7 +34,7 @@ std::optional<Components<D>> free_normal(const Ground<D>& ground, const Walls& w
 template <int D>
 Components<D> left(Wall::Kind kind, const Components<D>& normal, Components<D> velocity) {
     if (kind == Wall::fixed) return {};
-    if (kind == Wall::frictional) return after_contact<D>({.normal = normal}, velocity);
+    if (kind == Wall::frictional) return after_contact<D>(normal, velocity);
     const double across = along_normal<D>(normal, velocity);
     for (std::size_t a = 0; a < D; ++a) velocity[a] -= across * normal[a];
     return velocity;
@@ -60,7 +60,7 @@ void visit_ground(const Ground<D>& ground, const Walls& walls, GridPatch<D>& pat
 template <int D>
 void add_planes(const Scene& scene, Stages<D>& stages) {
     for (const Plane& plane : scene.planes) {
-        if (has_friction(plane)) continue;
+        if (has_friction(plane.wall)) continue;
         const Ground<D> ground = ground_of<D>(plane);
         const Wall::Kind kind = plane.wall.kind;
         const auto hold = [ground, kind, walls = scene.walls](GridPatch<D>& patch,

@@ -56,16 +56,6 @@ bool has(const Walls& walls, Wall::Kind kind) {
     return false;
 }
 
-/// Whether walls with friction give way. With GIMP functions blocks would slide worse.
-bool gives_way(const Scene& scene) {
-    const Walls& walls = scene.walls;
-    if (scene.shape_function == ShapeFunction::gimp) return false;
-    for (const Wall* wall :
-         {&walls.left, &walls.right, &walls.bottom, &walls.top, &walls.back, &walls.front})
-        if (wall->kind == Wall::frictional && wall->friction > 0) return true;
-    return false;
-}
-
 /// Calls visit(node beyond a roller or fixed wall, its mirror image, wall, axis) for the nodes of a
 /// patch. A patch that reaches beyond a wall has the layer of images, too.
 template <int D, typename Visit>
@@ -85,13 +75,6 @@ double parity(const Wall& wall, std::size_t axis, std::size_t component) {
     return wall.kind == Wall::fixed || component == axis ? -1 : 1;
 }
 
-template <int D>
-Surface<D> surface_of(const Wall& wall, std::size_t axis, double inward) {
-    Surface<D> surface{.normal = {}, .friction = wall.friction};
-    surface.normal[axis] = inward;
-    return surface;
-}
-
 /// One of the velocities of a node.
 template <int D>
 using Velocity = Components<D> NodeMotion<D>::*;
@@ -103,68 +86,35 @@ void set_velocity(NodeMotion<D>& motion, Velocity<D> which, const Components<D>&
     motion.*which = velocity;
 }
 
-/// Lets nodes beyond a frictional wall meet it together with their mirror images.
+/// Lets a node on a frictional wall or beyond meet it together with its mirror image inside, which
+/// on the wall is the node itself.
 template <int D>
-void meet_by_image(const Surface<D>& surface, std::size_t beyond, std::size_t image,
-                   Velocity<D> which, GridPatch<D>& patch) {
-    const std::array masses{patch.sums[beyond].mass, patch.sums[image].mass};
+void meet_wall(const Components<D>& normal, std::size_t n, std::size_t image, Velocity<D> which,
+               GridPatch<D>& patch) {
+    if (n == image)
+        return set_velocity<D>(patch.motion[n], which,
+                               after_contact<D>(normal, patch.motion[n].*which));
+    const std::array masses{patch.sums[n].mass, patch.sums[image].mass};
     if (!(masses[0] > 0)) return;
-    const auto left = after_contact<D>(
-        surface, {patch.motion[beyond].*which, patch.motion[image].*which}, masses);
-    set_velocity<D>(patch.motion[beyond], which, left[0]);
+    const auto left =
+        after_contact<D>(normal, {patch.motion[n].*which, patch.motion[image].*which}, masses);
+    set_velocity<D>(patch.motion[n], which, left[0]);
     set_velocity<D>(patch.motion[image], which, left[1]);
 }
 
-/// Calls visit(node, its mirror image, surface, axis) for the nodes on frictional walls, which are
-/// their own images, and beyond. Where walls give way, each axis has two fields in
-/// GridPatch::carried: how far, and how fast in this step.
-template <int D, typename Visit>
-void visit_frictional(const Walls& walls, GridPatch<D>& patch, Visit visit) {
+/// Lets the nodes on frictional walls and beyond meet them; those beyond together with their mirror
+/// images inside.
+template <int D>
+void meet_walls(const Walls& walls, Velocity<D> which, GridPatch<D>& patch) {
     visit_sides(patch, walls,
                 [&](std::array<int, D> node, const Wall& wall, std::size_t axis, double inward) {
                     if (wall.kind != Wall::frictional) return;
                     const std::size_t n = patch.index(node);
                     node[axis] = 2 * side_of(patch, axis, inward) - node[axis];
-                    visit(n, patch.index(node), surface_of<D>(wall, axis, inward), axis);
+                    Components<D> normal{};
+                    normal[axis] = inward;
+                    meet_wall<D>(normal, n, patch.index(node), which, patch);
                 });
-}
-
-/// Finds how fast frictional walls give way in this step.
-template <int D>
-void give_way(const Walls& walls, const Bed& bed, double time_step, GridPatch<D>& patch) {
-    visit_frictional(
-        walls, patch,
-        [&](std::size_t n, std::size_t image, const Surface<D>& surface, std::size_t axis) {
-            if (!(surface.friction > 0) || !(patch.sums[n].mass > 0)) return;
-            const double into =
-                -0.5 * (along_normal<D>(surface.normal, patch.motion[n].velocity) +
-                        along_normal<D>(surface.normal, patch.motion[image].velocity));
-            patch.carried[2 * axis + 1][n] = bed.yield(into, time_step, patch.carried[2 * axis][n]);
-        });
-}
-
-/// Lets the nodes on frictional walls and beyond meet them.
-template <int D>
-void meet_walls(const Walls& walls, bool with_friction, Velocity<D> which, GridPatch<D>& patch) {
-    visit_frictional(walls, patch,
-                     [&](std::size_t n, std::size_t image, Surface<D> surface, std::size_t axis) {
-                         if (surface.friction > 0 && !patch.carried.empty())
-                             surface.yield = patch.carried[2 * axis + 1][n];
-                         if (!with_friction) surface.friction = 0;
-                         if (n == image)
-                             set_velocity<D>(patch.motion[n], which,
-                                             after_contact<D>(surface, patch.motion[n].*which));
-                         else
-                             meet_by_image<D>(surface, n, image, which, patch);
-                     });
-}
-
-/// Lets nodes meet all frictional walls. What friction at one wall pushes into another, as in a
-/// corner, is stopped by a second round without friction.
-template <int D>
-void meet_walls(const Walls& walls, Velocity<D> which, GridPatch<D>& patch) {
-    meet_walls<D>(walls, true, which, patch);
-    if (patch.margin > 0) meet_walls<D>(walls, false, which, patch);
 }
 
 /// Holds the strain velocities once they are mapped back to the nodes.
@@ -229,33 +179,6 @@ void mirror(const Walls& walls, GridPatch<D>& patch) {
                  });
 }
 
-/// The most by which walls give way, m: a tenth of a cell, and less than half the height at which
-/// points begin above a wall, so that none leaves the grid through it.
-double most_depth(const Scene& scene) {
-    int most_points = 2;
-    for (const Body& body : scene.bodies)
-        for (int a = 0; a < scene.dimension; ++a)
-            most_points = std::max(most_points, body.points_per_cell[static_cast<std::size_t>(a)]);
-    return 0.2 / most_points * scene.grid.spacing;
-}
-
-template <int D>
-void add_friction(const Scene& scene, double wave_speed, Stages<D>& stages) {
-    const Walls& walls = scene.walls;
-    const bool yields = gives_way(scene);
-    if (yields) {
-        stages.num_carried = 2 * D;
-        stages.carries_motion = true;
-    }
-    stages.moved.push_back(
-        {"friction", [walls, yields, bed = Bed(wave_speed, scene.grid.spacing, most_depth(scene))](
-                         GridPatch<D>& patch, const StepTime& now) {
-             if (yields) give_way<D>(walls, bed, now.time_step, patch);
-             meet_walls<D>(walls, &NodeMotion<D>::velocity, patch);
-             meet_walls<D>(walls, &NodeMotion<D>::strain_velocity, patch);
-         }});
-}
-
 template <int D>
 void add_remapped_walls(const Scene& scene, Stages<D>& stages) {
     const Walls& walls = scene.walls;
@@ -274,7 +197,7 @@ bool has_images(const Scene& scene) {
 }  // namespace
 
 template <int D>
-void add_walls(const Scene& scene, double wave_speed, Stages<D>& stages) {
+void add_walls(const Scene& scene, Stages<D>& stages) {
     const Walls& walls = scene.walls;
     if (has_images(scene)) {
         stages.scatters.push_back({"walls", [walls](const Particles&, std::span<const CellRun<D>>,
@@ -291,7 +214,11 @@ void add_walls(const Scene& scene, double wave_speed, Stages<D>& stages) {
                                      hold(patch.sums[patch.index(node)], wall.kind, axis);
                              });
              }});
-    if (has(walls, Wall::frictional)) add_friction(scene, wave_speed, stages);
+    if (has(walls, Wall::frictional))
+        stages.moved.push_back({"walls", [walls](GridPatch<D>& patch, const StepTime&) {
+                                    meet_walls<D>(walls, &NodeMotion<D>::velocity, patch);
+                                    meet_walls<D>(walls, &NodeMotion<D>::strain_velocity, patch);
+                                }});
     if (remaps_velocities(scene)) add_remapped_walls(scene, stages);
 }
 
@@ -331,8 +258,8 @@ NodeRange<D> with_images(const Scene& scene, NodeRange<D> nodes) {
 
 template NodeRange<2> with_images<2>(const Scene&, NodeRange<2>);
 template NodeRange<3> with_images<3>(const Scene&, NodeRange<3>);
-template void add_walls<2>(const Scene&, double, Stages<2>&);
-template void add_walls<3>(const Scene&, double, Stages<3>&);
+template void add_walls<2>(const Scene&, Stages<2>&);
+template void add_walls<3>(const Scene&, Stages<3>&);
 template void add_images<2>(const Scene&, Stages<2>&);
 template void add_images<3>(const Scene&, Stages<3>&);
 

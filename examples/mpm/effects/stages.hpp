@@ -82,7 +82,6 @@ struct Stages {
     std::optional<WorkColumns> work = {};
     std::optional<Gravity<D>> gravity = {};  ///< for the potential energy
     bool counts_nodes = false;               ///< asks for GridPatch::is_counted
-    std::size_t num_carried = 0;             ///< number of GridPatch::carried
     bool carries_motion = false;  ///< asks for the last step's GridPatch::motion after a rebalance
 };
 

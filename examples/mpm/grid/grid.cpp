@@ -39,7 +39,6 @@ void resize(GridPatch<D>& patch, const NodeRange<D>& nodes) {
     patch.sums.resize(num_nodes);
     patch.motion.resize(num_nodes);
     for (std::vector<double>& field : patch.fields) field.resize(num_nodes);
-    for (std::vector<double>& field : patch.carried) field.assign(num_nodes, 0.0);
 }
 
 namespace {

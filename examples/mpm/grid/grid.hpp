@@ -76,8 +76,7 @@ struct GridPatch {
     NodeRange<D> nodes;
     std::vector<NodeSums<D>> sums;
     std::vector<NodeMotion<D>> motion;
-    std::vector<std::vector<double>> fields;   ///< more sums of the points, for effects
-    std::vector<std::vector<double>> carried;  ///< kept from step to step, at first 0
+    std::vector<std::vector<double>> fields;  ///< more sums of the points, for effects
     /// Whether this rank counts a node in sums over the ranks. Empty unless an effect asks.
     std::vector<char> is_counted;
 

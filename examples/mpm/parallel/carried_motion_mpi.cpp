@@ -14,9 +14,7 @@ struct Message {
 
 /// Doubles of a node in a message.
 template <int D>
-std::size_t width(const GridPatch<D>& patch) {
-    return sizeof(NodeMotion<D>) / sizeof(double) + patch.carried.size();
-}
+constexpr std::size_t width = sizeof(NodeMotion<D>) / sizeof(double);
 
 /// Message with room for the nodes that a range shares with that of each rank.
 template <int D>
@@ -28,7 +26,7 @@ Message room(const GridPatch<D>& patch, std::span<const NodeRange<D>> others) {
         visit_rows<D>(intersection<D>(patch.nodes, other),
                       [&](const std::array<int, D>&, std::size_t length) { num_nodes += length; });
         message.offsets.push_back(end);
-        message.counts.push_back(static_cast<int>(num_nodes * width(patch)));
+        message.counts.push_back(static_cast<int>(num_nodes * width<D>));
         end += message.counts.back();
     }
     message.values.resize(static_cast<std::size_t>(end));
@@ -42,7 +40,7 @@ void visit_shared(const GridPatch<D>& patch, std::span<const NodeRange<D>> other
     for (const NodeRange<D>& other : others)
         visit_nodes<D>(intersection<D>(patch.nodes, other), [&](const std::array<int, D>& node) {
             visit(patch.index(node), at);
-            at += width(patch);
+            at += width<D>;
         });
 }
 
@@ -51,7 +49,7 @@ void visit_shared(const GridPatch<D>& patch, std::span<const NodeRange<D>> other
 template <int D>
 void carry_motion(std::span<const NodeRange<D>> before, std::span<const NodeRange<D>> after,
                   const GridPatch<D>& from, GridPatch<D>& to, MPI_Comm comm) {
-    static_assert(sizeof(NodeMotion<D>) == 3 * D * sizeof(double));
+    static_assert(width<D> == 3 * D);
     Message sent = room<D>(from, after), received = room<D>(to, before);
     visit_shared<D>(from, after, [&](std::size_t n, std::size_t at) {
         const NodeMotion<D>& motion = from.motion[n];
@@ -59,19 +57,16 @@ void carry_motion(std::span<const NodeRange<D>> before, std::span<const NodeRang
         for (const auto& velocity :
              {motion.velocity, motion.velocity_change, motion.strain_velocity})
             place = std::ranges::copy(velocity, place).out;
-        for (const std::vector<double>& field : from.carried) *place++ = field[n];
     });
     MPI_Alltoallv(sent.values.data(), sent.counts.data(), sent.offsets.data(), MPI_DOUBLE,
                   received.values.data(), received.counts.data(), received.offsets.data(),
                   MPI_DOUBLE, comm);
     std::ranges::fill(to.motion, NodeMotion<D>{});
-    for (std::vector<double>& field : to.carried) std::ranges::fill(field, 0.0);
     visit_shared<D>(to, before, [&](std::size_t n, std::size_t at) {
         NodeMotion<D>& motion = to.motion[n];
         const double* place = received.values.data() + at;
         for (auto* velocity : {&motion.velocity, &motion.velocity_change, &motion.strain_velocity})
             place = std::ranges::copy_n(place, D, velocity->begin()).in;
-        for (std::vector<double>& field : to.carried) field[n] = *place++;
     });
 }
 

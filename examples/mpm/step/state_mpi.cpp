@@ -45,8 +45,7 @@ void load(const std::vector<EffectState>& states, bool is_sum, std::span<const d
 template <int D>
 StateHead Stepper<D>::state_head() const {
     StateHead head{.columns = particles.column_names(),
-                   .scene = {D, scene_.grid.spacing, static_cast<double>(num_points),
-                             static_cast<double>(stages_.num_carried)},
+                   .scene = {D, scene_.grid.spacing, static_cast<double>(num_points)},
                    .numbers = {time, time_step, max_speed, static_cast<double>(num_steps)},
                    .effects = saved(stages_.states, false),
                    .boxes = decomposition.boxes};
@@ -69,7 +68,6 @@ std::vector<double> Stepper<D>::state_section() const {
             const NodeMotion<D>& node = patch_.motion[n];
             for (const auto& part : {node.velocity, node.velocity_change, node.strain_velocity})
                 append(part, section);
-            for (const std::vector<double>& field : patch_.carried) section.push_back(field[n]);
         }
     }
     const std::size_t begin = section.size(), width = particles.column_names().size();
@@ -84,7 +82,7 @@ void Stepper<D>::write_state(const std::string& path) const {
     write_state_file(path, state_head(), state_section(), comm_);
 }
 
-/// Takes the motion of the nodes of a section that this rank has, too, and what else they carry.
+/// Takes the motion of the nodes of a section that this rank has, too.
 template <int D>
 void Stepper<D>::take_motion(StateSection& section) {
     NodeRange<D> nodes;
@@ -92,7 +90,6 @@ void Stepper<D>::take_motion(StateSection& section) {
     for (int& count : nodes.count) count = static_cast<int>(section.next());
     visit_nodes<D>(nodes, [&](const std::array<int, D>& node) {
         const std::span<const double> motion = section.take(3 * D);
-        const std::span<const double> carried = section.take(patch_.carried.size());
         bool is_here = !patch_.nodes.empty();
         for (std::size_t a = 0; a < D; ++a)
             is_here &= node[a] >= patch_.nodes.begin[a] &&
@@ -103,7 +100,6 @@ void Stepper<D>::take_motion(StateSection& section) {
         std::ranges::copy(motion.first(D), mine.velocity.begin());
         std::ranges::copy(motion.subspan(D, D), mine.velocity_change.begin());
         std::ranges::copy(motion.last(D), mine.strain_velocity.begin());
-        for (std::size_t f = 0; f < carried.size(); ++f) patch_.carried[f][n] = carried[f];
     });
 }
 

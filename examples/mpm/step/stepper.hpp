@@ -74,6 +74,7 @@ class Stepper final : public Simulation::Model {
     void take_in(std::size_t num_arrived);
 
     Scene scene_;
+    Scene ground_;  ///< the same with planes in place of walls with friction
     MPI_Comm comm_;
     MotionColumns motion_ = add_motion_columns(particles, D);
     double wave_speed_;

@@ -38,11 +38,12 @@ double max_wave_speed(const Scene& scene) {
 
 /// Stages of a scene but for the mirror images in walls. Walls and planes enter before effects.
 template <int D>
-Stages<D> build_stages(const Scene& scene, double wave_speed, Particles& particles) {
+Stages<D> build_stages(const Scene& scene, const Scene& ground, double wave_speed,
+                       Particles& particles) {
     Stages<D> stages;
-    add_walls<D>(scene, wave_speed, stages);
-    add_planes<D>(scene, stages);
-    add_plane_friction<D>(scene, wave_speed, particles, stages);
+    add_walls<D>(ground, stages);
+    add_planes<D>(ground, stages);
+    add_plane_friction<D>(ground, wave_speed, particles, stages);
     const std::vector<std::optional<Values>> values = effect_values(scene);
     for (std::size_t k = 0; k < values.size(); ++k) {
         if (!values[k]) continue;
@@ -61,21 +62,21 @@ Stages<D> build_stages(const Scene& scene, double wave_speed, Particles& particl
 template <int D>
 Stepper<D>::Stepper(const Scene& scene, const Extent& extent, MPI_Comm comm)
     : scene_(scene),
+      ground_(with_ground(scene)),
       comm_(duplicate(comm)),
       wave_speed_(max_wave_speed(scene)),
       transfers_(make_transfers<D>(scene_, FlipShare(scene_, wave_speed_), particles)),
-      ownership_(scene.grid, comm_) {
+      ownership_(ground_.grid, comm_) {
     build_materials();
-    stages_ = build_stages<D>(scene_, wave_speed_, particles);
+    stages_ = build_stages<D>(scene_, ground_, wave_speed_, particles);
     for (std::size_t k = 0; stages_.work && k < materials_.size(); ++k)
         add_plastic_work<D>(scene_.materials[k], particles, stages_.work->plastic, materials_[k]);
     least_mass_ = add_least_mass<D>(scene_, motion_.mass, stages_);
-    add_images<D>(scene_, stages_);
+    add_images<D>(ground_, stages_);
     velocity_remap_ = make_velocity_remap<D>(scene_, FlipShare(scene_, wave_speed_), particles);
-    patch_.shape = scene.grid;
+    patch_.shape = ground_.grid;
     patch_.margin = transfers_->margin();
     patch_.fields.resize(stages_.fields.size());
-    patch_.carried.resize(stages_.num_carried);
     num_points = extent.num_points;
     adopt(slabs(extent.box, size_of(comm_)));
     place_points(scene_, decomposition, rank_of(comm_), motion_, particles);
@@ -98,7 +99,7 @@ void Stepper<D>::adopt(Decomposition next) {
     decomposition.local_owners.clear();
     std::vector<NodeRange<D>> patches;
     for (const Box& box : decomposition.boxes)
-        patches.push_back(with_images(scene_, nodes_of<D>(scene_.grid, box, patch_.margin)));
+        patches.push_back(with_images(ground_, nodes_of<D>(ground_.grid, box, patch_.margin)));
     const bool carries = stages_.carries_motion && !patches_.empty();
     const GridPatch<D> last = carries ? patch_ : GridPatch<D>{};
     resize<D>(patch_, patches[static_cast<std::size_t>(rank_of(comm_))]);

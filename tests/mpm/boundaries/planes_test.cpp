@@ -105,7 +105,7 @@ TEST(Plane, lets_a_block_slide_right_near_the_limit) {
     for (const ShapeFunction shape : all_shapes)
         for (const auto& [degrees, cell_size, points] :
              {std::tuple(22.0, 0.25, 2), std::tuple(23.0, 0.5, 2), std::tuple(23.0, 0.25, 2),
-              std::tuple(23.0, 0.125, 2), std::tuple(23.0, 0.5, 4)}) {
+              std::tuple(23.0, 0.125, 2), std::tuple(23.0, 0.5, 4), std::tuple(23.0, 0.25, 6)}) {
             const double expected = distance(std::tan(degrees * std::numbers::pi / 180), t);
             const Slide block = slide(rough_incline(shape, degrees, cell_size, points), t);
             EXPECT_NEAR(block.along, expected, 0.05 * expected)

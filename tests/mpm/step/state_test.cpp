@@ -153,10 +153,12 @@ TEST(State, that_does_not_fit_is_refused_on_all_ranks) {
     EXPECT_EQ(error_of(scene, file.path()), "");
     EXPECT_NE(error_of(coarse_slope(), file.path()).find("another scene"), std::string::npos);
     EXPECT_NE(error_of(scene, "nowhere.mpm").find("no state"), std::string::npos);
-    Simulation(sliding_block(ShapeFunction::gimp), MPI_COMM_WORLD).write_state(file.path());
+    Scene smooth = sliding_block(ShapeFunction::linear);
+    smooth.walls.bottom.friction = 0;
+    Simulation(smooth, MPI_COMM_WORLD).write_state(file.path());
     EXPECT_NE(error_of(sliding_block(ShapeFunction::linear), file.path()).find("another scene"),
               std::string::npos)
-        << "with GIMP walls do not give way";
+        << "walls without friction have no springs";
     Simulation(scene, MPI_COMM_WORLD).write_state(file.path());
     EXPECT_THROW(Simulation(scene, MPI_COMM_WORLD).write_state("/nowhere/state.mpm"),
                  std::runtime_error);

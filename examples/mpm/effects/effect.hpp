@@ -16,6 +16,7 @@ struct EffectBuilder {
     const Values& values;  ///< its parameters, checked
     Particles& particles;  ///< to add columns to
     Stages<D>& stages;     ///< to add kernels to
+    double wave_speed;     ///< the largest of its materials, m/s
 };
 
 /// An effect: one file in effects/, named in effects.inc.

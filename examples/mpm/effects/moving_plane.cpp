@@ -61,6 +61,7 @@ struct PlaneColumns {
     std::array<Column, D> force{};
     Column push = 0;     ///< mean of the last steps, N
     double largest = 0;  ///< half the width of a point, m
+    ContactTimes times;
 };
 
 /// Force of the next step on a point by the plane, where it will be by the end of that step.
@@ -82,14 +83,14 @@ Components<D> force_on(const MovingPlane<D>& plane, const PlaneColumns<D>& colum
     }
     const double width = std::pow(particles[columns.motion.volume][p], 1.0 / D);
     const Slip<D> slip = slip_of<D>(relative, plane.normal);
-    const double mass_rate = particles[columns.motion.mass][p] / block.time_step;
+    const double contact_time = columns.times.contact(plane.speed.at(end), block.time_step);
+    const double mass_rate = particles[columns.motion.mass][p] / contact_time;
     // The mean bears what presses the point against the plane; overlaps would have to, without it.
-    constexpr double weight = 0.05;
     double& mean = particles.data(columns.push)[p];
     const double push = std::max(
         0.0, mean + mass_rate * lost_speed<D>(slip, std::min(0.5 * width, columns.largest) - height,
-                                              block.time_step));
-    mean += weight * (push - mean);
+                                              contact_time));
+    mean += columns.times.weight(block.time_step) * (push - mean);
     return contact_force<D>(slip, plane.normal, push,
                             std::min(plane.friction * push, mass_rate * slip.speed));
 }
@@ -100,7 +101,8 @@ void build(const EffectBuilder<D>& builder) {
     const auto plane = std::make_shared<const MovingPlane<D>>(read_plane<D>(builder.values));
     PlaneColumns<D> columns{.motion = add_motion_columns(builder.particles, D),
                             .push = builder.particles.add_column("plane_push"),
-                            .largest = 0.5 * builder.scene.grid.spacing};
+                            .largest = 0.5 * builder.scene.grid.spacing,
+                            .times = ContactTimes(builder)};
     const std::size_t first = stages.fields.size();
     for (std::size_t a = 0; a < D; ++a) {
         columns.force[a] = builder.particles.add_column(std::string("plane_force_") + "xyz"[a]);

@@ -33,7 +33,7 @@ double kinetic_energy(const Motion<D>& motion, const Penetrator<D>& body) {
 
 /// Force on the soil in this step. Settles the sums of the contact. Collective: one reduction.
 template <int D>
-double sum_of_ranks(RigidContact<D>& contact, MPI_Comm comm) {
+double sum_of_ranks(RigidContact<D>& contact, double time_step, MPI_Comm comm) {
     std::vector<double> sums{contact.force};
     if (contact.bands)
         sums.insert(sums.end(), contact.bands->sums().begin(), contact.bands->sums().end());
@@ -41,7 +41,8 @@ double sum_of_ranks(RigidContact<D>& contact, MPI_Comm comm) {
     const auto count = static_cast<int>(sums.size());
     MPI_Reduce(sums.data(), total.data(), count, MPI_DOUBLE, MPI_SUM, 0, comm);
     MPI_Bcast(total.data(), count, MPI_DOUBLE, 0, comm);
-    if (contact.bands) contact.bands->settle(std::span(total).subspan(1));
+    if (contact.bands)
+        contact.bands->settle(std::span(total).subspan(1), contact.times.weight(time_step));
     contact.force = std::exchange(contact.next_force, 0);
     return total.front();
 }
@@ -49,7 +50,7 @@ double sum_of_ranks(RigidContact<D>& contact, MPI_Comm comm) {
 /// Moves the body by its equation of motion. Collective.
 template <int D>
 void move_body(RigidContact<D>& contact, Motion<D>& motion, const StepTime& step, MPI_Comm comm) {
-    const double push = sum_of_ranks(contact, comm);
+    const double push = sum_of_ranks(contact, step.time_step, comm);
     motion.is_counting_rank = rank_of(comm) == 0;
     Penetrator<D>& body = contact.body;
     const Gravity<D>& gravity = motion.gravity;
@@ -142,8 +143,10 @@ void keep_state(const std::shared_ptr<RigidContact<D>>& contact,
 template <int D>
 void build(const EffectBuilder<D>& builder) {
     Stages<D>& stages = builder.stages;
-    const auto contact = std::make_shared<RigidContact<D>>(
-        RigidContact<D>{.body = read_body<D>(builder.values), .skin = skin_friction<D>(builder)});
+    const auto contact =
+        std::make_shared<RigidContact<D>>(RigidContact<D>{.body = read_body<D>(builder.values),
+                                                          .skin = skin_friction<D>(builder),
+                                                          .times = ContactTimes(builder)});
     const auto motion = std::make_shared<Motion<D>>(read_motion<D>(builder, contact->body));
     if (contact->skin.limit)
         contact->bands.emplace(contact->body, builder.scene.grid.spacing,

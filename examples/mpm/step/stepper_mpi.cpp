@@ -47,7 +47,7 @@ Stages<D> build_stages(const Scene& scene, const Scene& ground, double wave_spee
     const std::vector<std::optional<Values>> values = effect_values(scene);
     for (std::size_t k = 0; k < values.size(); ++k) {
         if (!values[k]) continue;
-        const EffectBuilder<D> builder{scene, *values[k], particles, stages};
+        const EffectBuilder<D> builder{scene, *values[k], particles, stages, wave_speed};
         if constexpr (D == 2)
             effect_kinds()[k].build_2(builder);
         else

@@ -9,14 +9,13 @@ namespace {
 
 /// Where a scene has come to.
 struct End {
-    double energy;  ///< kinetic and elastic
-    Vector way{};   ///< of the centre
-    double front;   ///< largest x
+    double energy;   ///< kinetic and elastic
+    Vector way{};    ///< of the centre
+    double front;    ///< largest x
+    double tip = 0;  ///< y of a penetrator's tip, where there is one
 };
 
-End end_of(const std::string& name, double cell_size, double end_time, double courant_number) {
-    Scene scene = read_scene(RRCB_SCENES "/" + name + ".yaml", MPI_COMM_WORLD).scene;
-    resize_cells(scene, cell_size);
+End end_of(Scene scene, double end_time, double courant_number) {
     scene.courant_number = courant_number;
     Simulation simulation(scene, MPI_COMM_WORLD);
     const Vector start = simulation.totals().center;
@@ -27,7 +26,35 @@ End end_of(const std::string& name, double cell_size, double end_time, double co
     for (std::size_t a = 0; a < 2; ++a)
         end.way[a] = totals.center[a] - start[a] - totals.momentum[a] / totals.mass * late;
     end.front = *std::ranges::max_element(simulation.particles()["x"]);
+    if (find_effect(scene, "penetrator")) end.tip = report(simulation, "penetrator_tip_y");
     return end;
+}
+
+/// Changes no way and front by more than a fiftieth, nor energy where it is kept. Where a body
+/// strikes, its tip alone: some clay splashes up beside it.
+void expect_same_at_any_step(const Scene& scene, double end_time, bool keeps_energy) {
+    const End coarse = end_of(scene, end_time, 0.5);
+    for (const double courant_number : {0.1, 0.025}) {
+        SCOPED_TRACE(courant_number);
+        const End fine = end_of(scene, end_time, courant_number);
+        if (fine.tip != 0) {
+            EXPECT_NEAR(coarse.tip, fine.tip, 0.02 * std::abs(fine.tip));
+            continue;
+        }
+        const double way = std::hypot(fine.way[0], fine.way[1]);
+        for (std::size_t a = 0; a < 2; ++a)
+            EXPECT_NEAR(coarse.way[a], fine.way[a], 0.02 * way + 1e-9);
+        EXPECT_NEAR(coarse.front, fine.front, 0.02 * fine.front);
+        if (keeps_energy) {
+            EXPECT_NEAR(coarse.energy, fine.energy, 0.02 * fine.energy);
+        }
+    }
+}
+
+Scene shipped(const std::string& name, double cell_size) {
+    Scene scene = read_scene(RRCB_SCENES "/" + name + ".yaml", MPI_COMM_WORLD).scene;
+    resize_cells(scene, cell_size);
+    return scene;
 }
 
 struct Case {
@@ -39,29 +66,27 @@ class TimeStep : public testing::TestWithParam<Case> {};
 
 TEST_P(TimeStep, changes_no_result_by_more_than_a_fiftieth) {
     const auto& [scene, cell_size, end_time] = GetParam();
-    const End coarse = end_of(scene, cell_size, end_time, 0.5);
-    for (const double courant_number : {0.1, 0.025}) {
-        SCOPED_TRACE(courant_number);
-        const End fine = end_of(scene, cell_size, end_time, courant_number);
-        const double way = std::hypot(fine.way[0], fine.way[1]);
-        for (std::size_t a = 0; a < 2; ++a)
-            EXPECT_NEAR(coarse.way[a], fine.way[a], 0.02 * way + 1e-9);
-        EXPECT_NEAR(coarse.front, fine.front, 0.02 * fine.front);
-        if (scene == "cantilever" || scene == "elastic_structure" || scene == "axial_bar") {
-            EXPECT_NEAR(coarse.energy, fine.energy, 0.02 * fine.energy);
-        }
-    }
+    expect_same_at_any_step(
+        shipped(scene, cell_size), end_time,
+        scene == "cantilever" || scene == "elastic_structure" || scene == "axial_bar");
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, TimeStep,
-                         testing::Values(Case{"granular_column", 0.2, 1},
-                                         Case{"cantilever", 0.5, 2.27},
-                                         Case{"elastic_structure", 0.125, 0.75},
-                                         Case{"axial_bar", 1, 2.5}, Case{"infinite_slope", 2, 2},
-                                         Case{"incline_block", 0.5, 2},
-                                         Case{"falling_body", 0.25, 1}, Case{"dam_break", 0.2, 0.8},
-                                         Case{"submarine_slide", 5, 4}),
-                         [](const auto& tested) { return tested.param.scene; });
+// In seven cells of height waves tell where the slope stops. Where the strain of points takes the
+// velocities of nodes before the points have them, a share of what vibrates is lost with each step.
+TEST(CoarseSlope, that_remaps_velocities_changes_little_with_the_time_step) {
+    Scene scene = shipped("slope", 5);
+    scene.time_integration = TimeIntegration::modified;
+    expect_same_at_any_step(scene, 8, false);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shipped, TimeStep,
+    testing::Values(Case{"granular_column", 0.2, 1}, Case{"cantilever", 0.5, 2.27},
+                    Case{"elastic_structure", 0.125, 0.75}, Case{"axial_bar", 1, 2.5},
+                    Case{"infinite_slope", 2, 2}, Case{"incline_block", 0.5, 2},
+                    Case{"falling_body", 0.25, 1}, Case{"dam_break", 0.2, 0.8},
+                    Case{"submarine_slide", 5, 4}, Case{"anchor_plate", 0.5, 0.6}),
+    [](const auto& tested) { return tested.param.scene; });
 
 }  // namespace
 }  // namespace mpm::test

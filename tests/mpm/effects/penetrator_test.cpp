@@ -67,7 +67,7 @@ TEST(FrictionBands, bound_friction_by_the_limit_on_their_area) {
         bands.add(0.2, 4, 0.5);
         bands.add(0.8, 6, 0.5);
         bands.add(1.5, 1, 0.5);
-        bands.settle(std::vector<double>(bands.sums().begin(), bands.sums().end()));
+        bands.settle(std::vector<double>(bands.sums().begin(), bands.sums().end()), 0.05);
     }
     EXPECT_NEAR(bands.most_at(0.5, 0.3), 0.1, 1e-8);
     EXPECT_EQ(bands.most_at(1.5, 0.3), 0.3) << "1 N on it: Coulomb allows less";

@@ -42,9 +42,8 @@ class FrictionBands {
     /// Sums of this rank in the step. The caller adds them up over the ranks.
     std::span<const double> sums() const { return sums_; }
 
-    /// Takes the sums over all ranks into the means and begins a step.
-    void settle(std::span<const double> sums) {
-        constexpr double weight = 0.05;
+    /// Takes the sums over all ranks into the means with a weight and begins a step.
+    void settle(std::span<const double> sums, double weight) {
         for (std::size_t i = 0; i < sums_.size(); ++i) {
             means_[i] += weight * (sums[i] - means_[i]);
             sums_[i] = 0;

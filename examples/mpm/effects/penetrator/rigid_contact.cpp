@@ -1,7 +1,5 @@
 #include "effects/penetrator/rigid_contact.hpp"
 
-#include "effects/point_contact.hpp"
-
 namespace mpm {
 
 namespace {
@@ -23,7 +21,8 @@ class Pusher {
         // By the time the force acts the body will have moved on.
         body_ = contact.body;
         body_.tip[1] += block.time_step * body_.velocity;
-        ahead_ = block.time_step * std::abs(body_.velocity);
+        time_ = contact.times.contact(body_.velocity, block.time_step);
+        ahead_ = time_ * std::abs(body_.velocity);
     }
 
     std::optional<Components<D>> force_on(std::size_t p) const {
@@ -39,9 +38,9 @@ class Pusher {
             velocity[a] = particles_[columns_.motion.velocity[a]][p];
         velocity[1] -= body_.velocity;
         const Slip<D> slip = slip_of<D>(velocity, touch->normal);
-        const double mass_rate = particles_[columns_.motion.mass][p] / block_.time_step;
+        const double mass_rate = particles_[columns_.motion.mass][p] / time_;
         const double normal_force =
-            mass_rate * std::max(0.0, lost_speed<D>(slip, touch->depth - ahead_, block_.time_step));
+            mass_rate * std::max(0.0, lost_speed<D>(slip, touch->depth - ahead_, time_));
         const double most =
             std::min(friction_on(p, at[1] - body_.tip[1], normal_force), mass_rate * slip.speed);
         return contact_force<D>(slip, touch->normal, normal_force, most);
@@ -66,7 +65,8 @@ class Pusher {
     const Particles& particles_;
     const PointBlock<D>& block_;
     Penetrator<D> body_;
-    double ahead_ = 0;  ///< what the body moves in a step, m
+    double time_ = 0;   ///< of contact, s
+    double ahead_ = 0;  ///< what the body moves in it, m
 };
 
 template <int D>

@@ -12,17 +12,30 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace mpm::test {
 
-/// A column of all points in the order of their ids, on every rank. Exact: ids have one owner.
+/// How far this rank's points have moved along an axis, m.
+inline std::vector<double> displacements_along(const Simulation& simulation, std::size_t axis) {
+    std::vector<double> along;
+    for (const Vector& displacement : simulation.displacements())
+        along.push_back(displacement[axis]);
+    return along;
+}
+
+/// A column of all points, or "displacement_x" ..., in the order of their ids, on every rank.
+/// Exact: ids have one owner.
 inline std::vector<double> gathered(const Simulation& simulation, const std::string& column,
                                     MPI_Comm comm) {
     std::vector<double> values(static_cast<std::size_t>(simulation.num_points()), 0.0);
     const auto ids = simulation.particles()["id"];
-    const auto local = simulation.particles()[column];
+    const bool is_way = column.starts_with("displacement_");
+    const auto along =
+        displacements_along(simulation, is_way ? static_cast<std::size_t>(column.back() - 'x') : 0);
+    const std::span<const double> local = is_way ? along : simulation.particles()[column];
     for (std::size_t p = 0; p < ids.size(); ++p)
         values[static_cast<std::size_t>(ids[p])] = local[p];
     MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,

@@ -11,6 +11,9 @@
 
 namespace mpm {
 
+/// Column of the level of each point at the start, m, from which its strength follows.
+inline constexpr const char* start_level_column = "start_y";
+
 /// Undrained shear strength of a clay. The defaults stand for a constant strength.
 struct UndrainedStrength {
     double at_surface = 0;        ///< Pa

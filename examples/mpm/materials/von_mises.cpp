@@ -12,7 +12,7 @@ namespace {
 template <int D>
 struct Columns {
     StressColumns<D> stress;
-    Column y, displacement_y;
+    Column start_level;
     std::optional<Column> plastic_strain;  ///< where the clay softens, or the scene asks for it
 };
 
@@ -48,11 +48,10 @@ PointKernel<D> return_kernel(const UndrainedStrength& clay, double shear_modulus
                              const Columns<D>& columns) {
     return [=](Particles& particles, const PointBlock<D>& block) {
         const StressPointers<D> stresses = stress_pointers<D>(particles, columns.stress);
-        const double* const y = particles.data(columns.y);
-        const double* const rise = particles.data(columns.displacement_y);
+        const double* const level = particles.data(columns.start_level);
         double* const plastic = softens ? particles.data(columns.plastic_strain.value()) : nullptr;
         for (std::size_t p = block.begin; p < block.end; ++p) {
-            double strength = clay.intact(y[p] - rise[p]);
+            double strength = clay.intact(level[p]);
             if constexpr (softens) strength *= clay.softened(plastic[p]);
             if constexpr (has_rate)
                 strength *= clay.quickened(shear_rate<D>(block, p - block.begin));
@@ -83,10 +82,8 @@ Named<PointKernel<D>> make_kernel(const Values& values, const Columns<D>& column
 template <int D>
 MaterialModel<D> build(const Values& values, Particles& particles) {
     MaterialModel<D> model = elastic_model<D>(values, particles);
-    Columns<D> columns{add_stress_columns<D>(particles),
-                       particles.add_column("y"),
-                       particles.add_column("displacement_y"),
-                       {}};
+    Columns<D> columns{
+        add_stress_columns<D>(particles), particles.add_column(start_level_column), {}};
     if (values.has("residual_ratio") || keeps_plastic_strain(values))
         columns.plastic_strain = particles.add_column("plastic_strain");
     model.kernels.push_back(values.word("criterion") == "tresca"

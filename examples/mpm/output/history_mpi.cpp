@@ -3,7 +3,6 @@
 #include "parallel/communicator_mpi.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -18,16 +17,13 @@ struct Extremes {
 /// Extremes over the points of all ranks, and the largest number of points of a rank. Collective.
 Extremes extremes_of(const Simulation& simulation, double cell_size, double lower_x,
                      MPI_Comm comm) {
-    const Particles& particles = simulation.particles();
     const Positions at = simulation.positions();
-    std::array<std::span<const double>, 3> displacement{
-        particles["displacement_x"], particles["displacement_y"], {}};
-    if (!at.z.empty()) displacement[2] = particles["displacement_z"];
+    const std::vector<Vector> displacements = simulation.displacements();
     Extremes extremes{lower_x, -std::numeric_limits<double>::infinity(),
                       static_cast<double>(at.size())};
     for (std::size_t p = 0; p < at.size(); ++p) {
         double square = 0;
-        for (const auto column : displacement) square += column.empty() ? 0 : column[p] * column[p];
+        for (const double component : displacements[p]) square += component * component;
         if (square > cell_size * cell_size) extremes.front_x = std::max(extremes.front_x, at.x[p]);
         extremes.top_y = std::max(extremes.top_y, at.y[p]);
     }

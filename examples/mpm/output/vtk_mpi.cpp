@@ -64,7 +64,16 @@ void write_cells(std::ofstream& file, const std::string& tag,
     write_array<std::int64_t>(file, "Int64", "offsets", 1, offsets);
 }
 
-bool write_points(const std::string& path, const Particles& particles, int rank) {
+/// Displacements as rows of three.
+std::vector<double> displacement_rows(const Simulation& simulation) {
+    std::vector<double> rows;
+    for (const Vector& displacement : simulation.displacements())
+        rows.insert(rows.end(), displacement.begin(), displacement.end());
+    return rows;
+}
+
+bool write_points(const std::string& path, const Simulation& simulation, int rank) {
+    const Particles& particles = simulation.particles();
     std::ofstream file(path, std::ios::binary);
     const std::size_t count = particles.size();
     std::vector<std::int64_t> numbers(count), offsets(count);
@@ -80,6 +89,7 @@ bool write_points(const std::string& path, const Particles& particles, int rank)
         else
             write_array<double>(file, "Float64", field.name, 1, particles[field.name]);
     }
+    write_array<double>(file, "Float64", "displacement", 3, displacement_rows(simulation));
     write_array<std::int32_t>(file, "Int32", "part", 1, std::vector<std::int32_t>(count, rank));
     file << "</PointData>\n<Points>\n";
     write_array<double>(file, "Float64", "position", 3, triples(particles, ""));
@@ -97,7 +107,8 @@ bool write_parallel_points(const std::string& path, const std::string& piece,
     for (const Field& field : fields_of(particles))
         file << "<PDataArray type=\"Float64\" Name=\"" << field.name << "\" NumberOfComponents=\""
              << field.num_components << "\"/>\n";
-    file << "<PDataArray type=\"Int32\" Name=\"part\"/>\n</PPointData>\n<PPoints>\n"
+    file << "<PDataArray type=\"Float64\" Name=\"displacement\" NumberOfComponents=\"3\"/>\n"
+            "<PDataArray type=\"Int32\" Name=\"part\"/>\n</PPointData>\n<PPoints>\n"
             "<PDataArray type=\"Float64\" Name=\"position\" NumberOfComponents=\"3\"/>\n"
             "</PPoints>\n";
     for (int rank = 0; rank < num_ranks; ++rank)
@@ -167,8 +178,7 @@ void VtkSeries::write(const Simulation& simulation) {
     frames_.push_back({simulation.time(), padded(simulation.step_count())});
     const std::string piece = "points_" + frames_.back().number;
     const std::string base = folder_ + "/" + piece;
-    int good =
-        write_points(base + '_' + std::to_string(rank_) + ".vtp", simulation.particles(), rank_);
+    int good = write_points(base + '_' + std::to_string(rank_) + ".vtp", simulation, rank_);
     if (rank_ == 0) {
         good &= write_parallel_points(base + ".pvtp", piece, simulation.particles(), num_ranks_);
         good &= write_boxes(folder_ + "/boxes_" + frames_.back().number + ".vtu",

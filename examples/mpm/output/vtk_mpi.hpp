@@ -8,8 +8,8 @@
 
 namespace mpm {
 
-/// Series of files that ParaView opens: points.pvd has the material points with all their columns
-/// and their rank, boxes.pvd the boxes of the ranks.
+/// Series of files that ParaView opens: points.pvd has the material points with all their columns,
+/// displacement and rank, boxes.pvd the boxes of the ranks.
 ///
 /// Every rank writes its points (VTP), rank 0 all else (PVTP, VTU, PVD).
 class VtkSeries {

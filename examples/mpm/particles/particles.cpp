@@ -71,7 +71,6 @@ MotionColumns add_motion_columns(Particles& particles, int dimension) {
     MotionColumns motion;
     motion.position = add_triple("");
     motion.velocity = add_triple("velocity_");
-    motion.displacement = add_triple("displacement_");
     motion.mass = particles.add_column("mass");
     motion.volume = particles.add_column("volume");
     motion.id = particles.add_column("id");

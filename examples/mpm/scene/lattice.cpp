@@ -1,6 +1,7 @@
 #include "scene/lattice.hpp"
 
 #include "materials/material.hpp"
+#include "materials/undrained.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +27,7 @@ std::array<int, 3> num_points_along(const Scene& scene, const Body& body) {
     return count;
 }
 
+/// Calls visit(place, its number in the row along x) for each point in the order of their numbers.
 template <typename Visit>
 void visit_body(const Scene& scene, const Body& body, Visit visit) {
     const Vector step = lattice_spacing(scene, body);
@@ -36,7 +38,7 @@ void visit_body(const Scene& scene, const Body& body, Visit visit) {
                 Vector at{scene.grid.lower[0] + (i + 0.5) * step[0],
                           scene.grid.lower[1] + (j + 0.5) * step[1], 0};
                 if (scene.dimension == 3) at[2] = scene.grid.lower[2] + (k + 0.5) * step[2];
-                if (body.contains(at)) visit(at);
+                if (body.contains(at)) visit(at, i);
             }
 }
 
@@ -88,12 +90,20 @@ void check_alone(const Scene& scene, const Body& body, const Vector& at) {
     }
 }
 
+std::optional<Column> found(const Particles& particles, const char* name) {
+    if (!particles.has_column(name)) return {};
+    return particles.find_column(name);
+}
+
 /// Writes one point of a body into a row of columns.
 class RowWriter {
   public:
     RowWriter(const Scene& scene, const MotionColumns& motion, const Particles& particles)
-        : scene_(scene), motion_(motion), row_(particles.initial_row()) {
-        if (particles.has_column("material")) material_ = particles.find_column("material");
+        : scene_(scene),
+          motion_(motion),
+          row_(particles.initial_row()),
+          material_(found(particles, "material")),
+          start_level_(found(particles, start_level_column)) {
         for (std::size_t a = 0; a < num_axes(); ++a)
             for (std::size_t b = 0; b < num_axes(); ++b) {
                 const std::string name = std::string("affine_") + "xyz"[a] + "xyz"[b];
@@ -111,6 +121,7 @@ class RowWriter {
         row_[motion_.volume] = volume_;
         row_[motion_.mass] = mass_;
         row_[motion_.id] = static_cast<double>(id);
+        if (start_level_) row_[*start_level_] = at[1];
         return row_;
     }
 
@@ -141,20 +152,52 @@ class RowWriter {
     const MotionColumns& motion_;
     std::vector<Column> affine_;  ///< of APIC
     std::vector<double> row_;
-    std::optional<Column> material_;
+    std::optional<Column> material_, start_level_;
     double volume_ = 0, mass_ = 0;
 };
 
 }  // namespace
 
+void StartPlaces::append(const Vector& at, int i, double spacing) {
+    const bool goes_on = !rows_.empty() && rows_.back().spacing == spacing &&
+                         rows_.back().first_i + (size_ - rows_.back().first_number) == i &&
+                         rows_.back().y == at[1] && rows_.back().z == at[2];
+    if (!goes_on) rows_.push_back({size_, i, at[1], at[2], spacing});
+    ++size_;
+}
+
+std::vector<Vector> StartPlaces::displacements(Positions at,
+                                               std::span<const double> numbers) const {
+    std::vector<Vector> all(numbers.size());
+    std::int64_t begin = 0, end = 0;  // numbers of the row at hand: neighbours often share one
+    Row row{};
+    for (std::size_t p = 0; p < numbers.size(); ++p) {
+        const auto number = static_cast<std::int64_t>(numbers[p]);
+        if (number < begin || number >= end) {
+            const auto next = std::ranges::upper_bound(rows_, number, {}, &Row::first_number);
+            row = *(next - 1);
+            begin = row.first_number;
+            end = next == rows_.end() ? size_ : next->first_number;
+        }
+        const auto i = static_cast<double>(row.first_i + (number - begin));
+        all[p] = {at.x[p] - (lower_x_ + (i + 0.5) * row.spacing), at.y[p] - row.y,
+                  at.z.empty() ? 0 : at.z[p] - row.z};
+    }
+    return all;
+}
+
 Extent extent_of(const Scene& scene) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Extent extent{0, {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}}};
+    Extent extent{0,
+                  {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}},
+                  StartPlaces(scene.grid.lower[0])};
     for (const Body& body : scene.bodies) {
         const std::int64_t num_before = extent.num_points;
-        visit_body(scene, body, [&](const Vector& at) {
+        const double spacing = lattice_spacing(scene, body)[0];
+        visit_body(scene, body, [&](const Vector& at, int i) {
             check_velocity(scene, body, at);
             check_alone(scene, body, at);
+            extent.starts.append(at, i, spacing);
             ++extent.num_points;
             for (std::size_t a = 0; a < 3; ++a) {
                 extent.box.lower[a] = std::min(extent.box.lower[a], at[a]);
@@ -173,7 +216,7 @@ std::vector<BodyPoints> points_of_bodies(const Scene& scene) {
     std::vector<BodyPoints> all;
     for (const Body& body : scene.bodies) {
         BodyPoints& points = all.emplace_back();
-        visit_body(scene, body, [&](const Vector&) { ++points.num_points; });
+        visit_body(scene, body, [&](const Vector&, int) { ++points.num_points; });
         points.spacing = lattice_spacing(scene, body);
         for (const double along : points.spacing) points.volume *= along;
         points.volume *= static_cast<double>(points.num_points);
@@ -185,7 +228,7 @@ Vector nearest_point(const Scene& scene, const Vector& position) {
     Vector nearest{};
     double least = std::numeric_limits<double>::infinity();
     for (const Body& body : scene.bodies)
-        visit_body(scene, body, [&](const Vector& at) {
+        visit_body(scene, body, [&](const Vector& at, int) {
             double square = 0;
             for (std::size_t a = 0; a < 3; ++a)
                 square += (at[a] - position[a]) * (at[a] - position[a]);
@@ -202,7 +245,7 @@ void place_points(const Scene& scene, const Decomposition& decomposition, int ra
     std::int64_t id = 0;
     for (const Body& body : scene.bodies) {
         writer.start(body);
-        visit_body(scene, body, [&](const Vector& at) {
+        visit_body(scene, body, [&](const Vector& at, int) {
             int owner = 0;
             decomposition.owners({{&at[0], 1}, {&at[1], 1}, {&at[2], 1}}, {&owner, 1});
             if (owner == rank) particles.append(writer.write(body, at, id));

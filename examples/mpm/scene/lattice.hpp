@@ -5,14 +5,38 @@
 #include <mpm/scene.hpp>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace mpm {
+
+/// Where the points of a scene were at the start, by their numbers: rows of the lattice along x.
+class StartPlaces {
+  public:
+    explicit StartPlaces(double lower_x) : lower_x_(lower_x) {}
+
+    /// Adds the next point: its place, and its number and the distance of neighbours in its row.
+    void append(const Vector& at, int i, double spacing);
+
+    /// How far the points with these numbers, now at these positions, have moved, m.
+    std::vector<Vector> displacements(Positions at, std::span<const double> numbers) const;
+
+  private:
+    struct Row {
+        std::int64_t first_number, first_i;
+        double y, z, spacing;
+    };
+
+    double lower_x_;
+    std::vector<Row> rows_;
+    std::int64_t size_ = 0;
+};
 
 /// Number and place of the points of a scene.
 struct Extent {
     std::int64_t num_points = 0;
     Box box;  ///< empty without points
+    StartPlaces starts;
 };
 
 /// Extent of a scene. Throws std::invalid_argument that names a body without points, or a point
@@ -35,8 +59,8 @@ Vector lattice_spacing(const Scene& scene, const Body& body);
 /// The place of the point of a scene that is nearest to a position, the first of equals.
 Vector nearest_point(const Scene& scene, const Vector& position);
 
-/// Appends the scene's points that `rank` owns. Columns other than those of motion and `material`
-/// start with their initial values.
+/// Appends the scene's points that `rank` owns. Columns other than those of motion, `material`
+/// and the level at the start begin with their initial values.
 void place_points(const Scene& scene, const Decomposition& decomposition, int rank,
                   const MotionColumns& motion, Particles& particles);
 

@@ -52,6 +52,9 @@ const Particles& Simulation::particles() const {
 Positions Simulation::positions() const {
     return model_->positions();
 }
+std::vector<Vector> Simulation::displacements() const {
+    return model_->starts.displacements(positions(), particles()["id"]);
+}
 const Decomposition& Simulation::decomposition() const {
     return model_->decomposition;
 }

@@ -19,6 +19,7 @@ namespace mpm {
 /// A simulation of either dimension. Its virtual calls are per step, never per point.
 class Simulation::Model {
   public:
+    explicit Model(const StartPlaces& places) : starts(places) {}
     virtual ~Model() = default;
     virtual void step() = 0;
     virtual RebalanceReport rebalance(const Balancer& balancer) = 0;
@@ -31,6 +32,7 @@ class Simulation::Model {
     virtual void read_state(const std::string& path) = 0;
 
     Particles particles;
+    StartPlaces starts;
     Decomposition decomposition;
     std::int64_t num_points = 0, num_steps = 0;
     std::int64_t num_sent = 0;  ///< by this rank

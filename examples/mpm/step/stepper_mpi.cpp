@@ -61,7 +61,8 @@ Stages<D> build_stages(const Scene& scene, const Scene& ground, double wave_spee
 
 template <int D>
 Stepper<D>::Stepper(const Scene& scene, const Extent& extent, MPI_Comm comm)
-    : scene_(scene),
+    : Model(extent.starts),
+      scene_(scene),
       ground_(with_ground(scene)),
       comm_(duplicate(comm)),
       wave_speed_(max_wave_speed(scene)),

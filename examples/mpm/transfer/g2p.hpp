@@ -105,13 +105,12 @@ struct PointWriter {
         for (std::size_t a = 0; a < D; ++a) {
             position[a] = particles.data(columns.motion.position[a]);
             velocity[a] = particles.data(columns.motion.velocity[a]);
-            displacement[a] = particles.data(columns.motion.displacement[a]);
             for (std::size_t b = 0; is_affine && b < D; ++b)
                 affine[a][b] = particles.data(columns.affine[a][b]);
         }
     }
 
-    std::array<double*, D> position, velocity, displacement;
+    std::array<double*, D> position, velocity;
     std::array<std::array<double*, D>, D> affine;
     double* volume;
 };
@@ -181,7 +180,6 @@ template <int D, class Shape, bool is_affine>
                 });
             }
             points.position[a][p] += time_step * of_grid;
-            points.displacement[a][p] += time_step * of_grid;
         });
     }
 }

@@ -181,7 +181,7 @@ TEST(Effects, that_are_not_named_leave_no_trace) {
     EXPECT_EQ(bare.kernels(), (std::vector<std::string>{"p2g", "ghost_nodes", "move_nodes", "g2p",
                                                         "elastic", "migrate"}));
     EXPECT_EQ(bare.doubles_per_ghost_node(), 5u);
-    EXPECT_EQ(bare.particles().column_names().size(), 13u);
+    EXPECT_EQ(bare.particles().column_names().size(), 11u);
     const Simulation full(in_water(2000), MPI_COMM_WORLD);
     EXPECT_EQ(full.doubles_per_ghost_node(), 9u);
     EXPECT_EQ(full.kernels(),

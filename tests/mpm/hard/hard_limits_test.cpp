@@ -135,7 +135,7 @@ Scene bar_on_a_stiff_one() {
 double largest_displacement(const Simulation& simulation, double number_of_material) {
     double largest = 0;
     const auto material = simulation.particles()["material"];
-    const auto displacement = simulation.particles()["displacement_x"];
+    const auto displacement = displacements_along(simulation, 0);
     for (std::size_t p = 0; p < material.size(); ++p)
         if (material[p] == number_of_material)
             largest = std::max(largest, std::abs(displacement[p]));

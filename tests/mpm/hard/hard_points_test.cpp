@@ -83,7 +83,7 @@ TEST(HardPoints, a_hair_from_a_face_move_as_all_others) {
                     EXPECT_LT(least_distance_to_a_face(simulation), 1e-12);
                 }
             }
-            for (const double displacement : simulation.particles()["displacement_x"])
+            for (const double displacement : displacements_along(simulation, 0))
                 EXPECT_NEAR(displacement, speed * simulation.time(), 1e-12);
             EXPECT_LT(largest_stress(simulation), 1e-11);
             const Totals end = simulation.totals();
@@ -108,9 +108,9 @@ void expect_free_fall(const Scene& scene) {
         simulation.step();
     }
     EXPECT_NEAR(fallen, 9.81 * 0.81 / 2, 0.05);
-    for (const double displacement : simulation.particles()["displacement_y"])
+    for (const double displacement : displacements_along(simulation, 1))
         EXPECT_NEAR(displacement, -fallen, 1e-10);
-    for (const double displacement : simulation.particles()["displacement_x"])
+    for (const double displacement : displacements_along(simulation, 0))
         EXPECT_NEAR(displacement, 0.3 * simulation.time(), 1e-10);
     const Totals end = simulation.totals();
     EXPECT_NEAR(end.kinetic_energy - start.kinetic_energy, end.mass * speed * speed / 2, 1e-9);

@@ -57,5 +57,46 @@ TEST(FlyingDisk, keeps_mass_and_momentum_with_a_rebalance_at_every_step) {
     }
 }
 
+/// A flying ring or shell, whose rows on the lattice have gaps, and a box of fewer points in a
+/// cell.
+Scene flying_shell(int dimension) {
+    Scene scene = flying_disk();
+    scene.dimension = dimension;
+    scene.grid.num_cells[2] = dimension == 3 ? 16 : 0;
+    const Vector centre{4, 4, dimension == 3 ? 4.0 : 0};
+    const auto ball = [centre](double radius) { return ball_region(centre, radius); };
+    Body& shell = scene.bodies.front();
+    shell.contains = [outer = ball(2), inner = ball(1)](const Vector& at) {
+        return outer(at) && !inner(at);
+    };
+    shell.points_per_cell = {3, 3, 1};
+    Body box = shell;
+    box.contains = box_region({{10, 3, 3}, {12, 5, 5}});
+    box.points_per_cell = {2, 1, 1};
+    if (dimension == 2) box.contains = box_region({{10, 3}, {12, 5}});
+    scene.bodies.push_back(box);
+    return scene;
+}
+
+TEST(Displacement, is_the_way_from_the_start_on_whatever_rank_a_point_is) {
+    for (const int dimension : {2, 3}) {
+        Simulation simulation(flying_shell(dimension), MPI_COMM_WORLD);
+        std::vector<std::vector<double>> starts;
+        for (const char* axis : {"x", "y", "z"})
+            if (simulation.particles().has_column(axis))
+                starts.push_back(gathered(simulation, axis, MPI_COMM_WORLD));
+        while (simulation.time() < 0.5) simulation.step();
+        for (std::size_t a = 0; a < starts.size(); ++a) {
+            const char axis = "xyz"[a];
+            const auto now = gathered(simulation, {axis}, MPI_COMM_WORLD);
+            const auto way =
+                gathered(simulation, std::string("displacement_") + axis, MPI_COMM_WORLD);
+            for (std::size_t p = 0; p < now.size(); ++p)
+                ASSERT_EQ(way[p], now[p] - starts[a][p]) << dimension << axis << p;
+        }
+        EXPECT_GT(simulation.totals().num_migrated, size_of(MPI_COMM_WORLD) > 1 ? 0 : -1);
+    }
+}
+
 }  // namespace
 }  // namespace mpm::test

@@ -16,8 +16,7 @@ class SoilStrength {
   public:
     /// Throws std::invalid_argument where a material of the scene has none.
     explicit SoilStrength(const EffectBuilder<D>& builder)
-        : y_(builder.particles.add_column("y")),
-          displacement_y_(builder.particles.add_column("displacement_y")) {
+        : start_level_(builder.particles.add_column(start_level_column)) {
         for (const Material& material : builder.scene.materials) {
             if (material.model != "von_mises")
                 throw std::invalid_argument(
@@ -36,7 +35,7 @@ class SoilStrength {
         const std::size_t number =
             material_ ? static_cast<std::size_t>(particles[*material_][p]) : 0;
         const UndrainedStrength& clay = clays_[number];
-        double strength = clay.intact(particles[y_][p] - particles[displacement_y_][p]);
+        double strength = clay.intact(particles[start_level_][p]);
         if (plastic_strain_) strength *= clay.softened(particles[*plastic_strain_][p]);
         if (clay.rate_factor > 0) strength *= clay.quickened(shear_rate<D>(block, p - block.begin));
         return strength;
@@ -44,7 +43,7 @@ class SoilStrength {
 
   private:
     std::vector<UndrainedStrength> clays_;  ///< by material
-    Column y_, displacement_y_;
+    Column start_level_;
     std::optional<Column> material_, plastic_strain_;
 };
 

@@ -59,12 +59,11 @@ class Particles {
 
 /// The columns every scene has; of each triple the first two in two dimensions.
 struct MotionColumns {
-    std::array<Column, 3> position{};      ///< x, y, z, m
-    std::array<Column, 3> velocity{};      ///< velocity_x, ..., m/s
-    std::array<Column, 3> displacement{};  ///< displacement_x, ..., m, since the start
-    Column mass = 0;                       ///< kg; per metre of depth in two dimensions
-    Column volume = 0;                     ///< m^3; per metre of depth in two dimensions
-    Column id = 0;  ///< the number of the point in the scene, the same for any number of ranks
+    std::array<Column, 3> position{};  ///< x, y, z, m
+    std::array<Column, 3> velocity{};  ///< velocity_x, ..., m/s
+    Column mass = 0;                   ///< kg; per metre of depth in two dimensions
+    Column volume = 0;                 ///< m^3; per metre of depth in two dimensions
+    Column id = 0;  ///< number of the point in the scene, which tells where it started
 };
 
 MotionColumns add_motion_columns(Particles& particles, int dimension);

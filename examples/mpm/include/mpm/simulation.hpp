@@ -79,9 +79,11 @@ class Simulation {
     /// without communication, which waits for others.
     double work_seconds() const;
 
-    /// Points of this rank, columns by name, as "x", "displacement_x".
+    /// Points of this rank, columns by name, as "x", "velocity_x".
     const Particles& particles() const;
     Positions positions() const;  ///< of this rank's points
+    /// How far this rank's points have moved since the start, m.
+    std::vector<Vector> displacements() const;
     const Decomposition& decomposition() const;
 
     /// Names of the kernels of a step in their order, communication included, each as often as it

@@ -1,3 +1,4 @@
+#include "output/history_mpi.hpp"
 #include "output/probe_table_mpi.hpp"
 #include "support.hpp"
 
@@ -21,14 +22,15 @@ Rows rows_of(const std::string& path) {
     return rows;
 }
 
-/// Rows that probes of a scene give, at its start and after some steps; on rank 0.
+/// Rows that a table of a scene gets, at its start and after some steps; on rank 0.
+template <class Table>
 Rows recorded(const Scene& scene, double end_time) {
     const std::string path = (std::filesystem::temp_directory_path() /
-                              ("probes_" + std::to_string(size_of(MPI_COMM_WORLD)) + ".csv"))
+                              ("table_" + std::to_string(size_of(MPI_COMM_WORLD)) + ".csv"))
                                  .string();
     {
         Simulation simulation(scene, MPI_COMM_WORLD);
-        ProbeTable table(path, scene, MPI_COMM_WORLD);
+        Table table(path, scene, MPI_COMM_WORLD);
         table.write(simulation);
         while (simulation.time() < end_time) simulation.step();
         table.write(simulation);
@@ -53,7 +55,7 @@ TEST(ProbeTable, follows_points_through_a_uniform_strain) {
     scene.bodies[0].velocity = [](const Vector& at) { return Vector{rate * at[0], 0, 0}; };
     scene.probes = {{"middle", {10.1, 0.4}}, {"end", {99, 0}}, {"again", {10.3, 0.3}}};
     const double t = 2;
-    const Rows rows = recorded(scene, t);
+    const Rows rows = recorded<ProbeTable>(scene, t);
     if (rank_of(MPI_COMM_WORLD) != 0) return;
     ASSERT_EQ(rows.size(), 7u);
     EXPECT_EQ(rows[1][2], "middle");
@@ -87,6 +89,34 @@ TEST(ProbeTable, costs_a_scene_without_probes_nothing) {
 TEST(ProbeTable, tells_on_all_ranks_that_it_cannot_be_written) {
     EXPECT_THROW(ProbeTable("/nowhere/probes.csv", axial_bar(), MPI_COMM_WORLD),
                  std::runtime_error);
+}
+
+/// Two soft boxes far apart, the left one in steady motion.
+Scene boxes_at_rest_and_in_motion(double speed) {
+    return {.name = "boxes",
+            .grid = {.lower = {0, 0}, .spacing = 1, .num_cells = {30, 4}},
+            .materials = {elastic_material("rubber", 1, 1e-6, 0)},
+            .bodies = {{.contains = box_region({{20, 1}, {22, 3}}), .material = "rubber"},
+                       {.contains = box_region({{2, 1}, {4, 3}}),
+                        .material = "rubber",
+                        .velocity =
+                            [=](const Vector&) {
+                                return Vector{speed, 0, 0};
+                            }}},
+            .flip_fraction = 1};
+}
+
+TEST(History, tells_the_front_of_what_has_moved_by_more_than_a_cell) {
+    constexpr double speed = 2, first_x = 3.75, top_y = 2.75;
+    for (const double seconds : {0.4, 3.0}) {
+        const Rows rows = recorded<History>(boxes_at_rest_and_in_motion(speed), seconds);
+        if (rank_of(MPI_COMM_WORLD) != 0) continue;
+        ASSERT_EQ(rows.size(), 3u);
+        EXPECT_EQ(number(rows, 1, "front_x"), 0) << "the lower side while there is none";
+        const double way = speed * number(rows, 2, "time");
+        EXPECT_NEAR(number(rows, 2, "front_x"), way > 1 ? first_x + way : 0, 1e-9);
+        EXPECT_NEAR(number(rows, 2, "top_y"), top_y, 1e-9);
+    }
 }
 
 }  // namespace

@@ -18,15 +18,9 @@ struct Extremes {
 Extremes extremes_of(const Simulation& simulation, double cell_size, double lower_x,
                      MPI_Comm comm) {
     const Positions at = simulation.positions();
-    const std::vector<Vector> displacements = simulation.displacements();
-    Extremes extremes{lower_x, -std::numeric_limits<double>::infinity(),
-                      static_cast<double>(at.size())};
-    for (std::size_t p = 0; p < at.size(); ++p) {
-        double square = 0;
-        for (const double component : displacements[p]) square += component * component;
-        if (square > cell_size * cell_size) extremes.front_x = std::max(extremes.front_x, at.x[p]);
-        extremes.top_y = std::max(extremes.top_y, at.y[p]);
-    }
+    Extremes extremes{std::max(lower_x, simulation.front_x(cell_size)),
+                      -std::numeric_limits<double>::infinity(), static_cast<double>(at.size())};
+    for (const double y : at.y) extremes.top_y = std::max(extremes.top_y, y);
     MPI_Allreduce(MPI_IN_PLACE, &extremes, 3, MPI_DOUBLE, MPI_MAX, comm);
     return extremes;
 }

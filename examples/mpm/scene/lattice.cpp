@@ -166,24 +166,53 @@ void StartPlaces::append(const Vector& at, int i, double spacing) {
     ++size_;
 }
 
+/// Looks displacements up. It keeps the row at hand: neighbours often share one.
+class StartPlaces::Reader {
+  public:
+    Reader(const StartPlaces& places, Positions at, std::span<const double> numbers)
+        : places_(places), at_(at), numbers_(numbers) {}
+
+    Vector displacement(std::size_t p) {
+        const auto number = static_cast<std::int64_t>(numbers_[p]);
+        if (number < row_.first_number || number >= end_) find_row(number);
+        const auto i = static_cast<double>(row_.first_i + (number - row_.first_number));
+        const double start_x = places_.lower_x_ + (i + 0.5) * row_.spacing;
+        return {at_.x[p] - start_x, at_.y[p] - row_.y, at_.z.empty() ? 0 : at_.z[p] - row_.z};
+    }
+
+  private:
+    void find_row(std::int64_t number) {
+        const auto next = std::ranges::upper_bound(places_.rows_, number, {}, &Row::first_number);
+        row_ = *(next - 1);
+        end_ = next == places_.rows_.end() ? places_.size_ : next->first_number;
+    }
+
+    const StartPlaces& places_;
+    Positions at_;
+    std::span<const double> numbers_;
+    Row row_{};
+    std::int64_t end_ = 0;  ///< of the numbers of the row
+};
+
 std::vector<Vector> StartPlaces::displacements(Positions at,
                                                std::span<const double> numbers) const {
+    Reader reader(*this, at, numbers);
     std::vector<Vector> all(numbers.size());
-    std::int64_t begin = 0, end = 0;  // numbers of the row at hand: neighbours often share one
-    Row row{};
-    for (std::size_t p = 0; p < numbers.size(); ++p) {
-        const auto number = static_cast<std::int64_t>(numbers[p]);
-        if (number < begin || number >= end) {
-            const auto next = std::ranges::upper_bound(rows_, number, {}, &Row::first_number);
-            row = *(next - 1);
-            begin = row.first_number;
-            end = next == rows_.end() ? size_ : next->first_number;
-        }
-        const auto i = static_cast<double>(row.first_i + (number - begin));
-        all[p] = {at.x[p] - (lower_x_ + (i + 0.5) * row.spacing), at.y[p] - row.y,
-                  at.z.empty() ? 0 : at.z[p] - row.z};
-    }
+    for (std::size_t p = 0; p < all.size(); ++p) all[p] = reader.displacement(p);
     return all;
+}
+
+double StartPlaces::front_x(Positions at, std::span<const double> numbers, double way) const {
+    Reader reader(*this, at, numbers);
+    double front = -std::numeric_limits<double>::infinity();
+    // From the last on: sorted, they are the highest, which move first.
+    for (std::size_t p = numbers.size(); p-- > 0;) {
+        if (!(at.x[p] > front)) continue;
+        double square = 0;
+        for (const double component : reader.displacement(p)) square += component * component;
+        if (square > way * way) front = at.x[p];
+    }
+    return front;
 }
 
 Extent extent_of(const Scene& scene) {

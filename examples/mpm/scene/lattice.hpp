@@ -21,7 +21,11 @@ class StartPlaces {
     /// How far the points with these numbers, now at these positions, have moved, m.
     std::vector<Vector> displacements(Positions at, std::span<const double> numbers) const;
 
+    /// Largest x of those that have moved by more than `way` m; -infinity where there is none.
+    double front_x(Positions at, std::span<const double> numbers, double way) const;
+
   private:
+    class Reader;
     struct Row {
         std::int64_t first_number, first_i;
         double y, z, spacing;

@@ -55,6 +55,9 @@ Positions Simulation::positions() const {
 std::vector<Vector> Simulation::displacements() const {
     return model_->starts.displacements(positions(), particles()["id"]);
 }
+double Simulation::front_x(double way) const {
+    return model_->starts.front_x(positions(), particles()["id"], way);
+}
 const Decomposition& Simulation::decomposition() const {
     return model_->decomposition;
 }

@@ -84,6 +84,9 @@ class Simulation {
     Positions positions() const;  ///< of this rank's points
     /// How far this rank's points have moved since the start, m.
     std::vector<Vector> displacements() const;
+    /// Largest x of this rank's points that have moved by more than `way` m since the start, m;
+    /// -infinity where there is none.
+    double front_x(double way) const;
     const Decomposition& decomposition() const;
 
     /// Names of the kernels of a step in their order, communication included, each as often as it

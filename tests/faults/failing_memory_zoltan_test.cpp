@@ -93,14 +93,17 @@ TEST(FailingMemoryInZoltan, with_all_that_takes_memory) {
 }
 
 TEST(FailingMemoryInZoltan, with_cuts_that_are_spread_over_the_ranks) {
-    ShortProgram program;
-    // On fewer every allocation would be tried, which takes long.
-    if (program.num_ranks <= 3) return;
-    program.set("RRCB_CENTRAL_PARTS", "2");
-    program.set("RRCB_COINCIDENT", "TOGETHER");
-    program.set("NUM_GLOBAL_PARTS", "9");
-    program.set("KEEP_CUTS", "1");
-    fail_in_partition(program);
+    for (const bool keeps_cuts : {true, false}) {
+        ShortProgram program;
+        // On fewer every allocation would be tried, which takes long.
+        if (program.num_ranks <= 3) return;
+        program.set("RRCB_CENTRAL_PARTS", "2");
+        program.set("RRCB_COINCIDENT", "TOGETHER");
+        program.set("NUM_GLOBAL_PARTS", "9");
+        program.set("KEEP_CUTS", keeps_cuts ? "1" : "0");
+        if (!keeps_cuts) program.set("RETURN_LISTS", "NONE");
+        fail_in_partition(program);
+    }
 }
 
 TEST(FailingMemoryInZoltan, in_a_flat_geometry) {

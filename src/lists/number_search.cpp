@@ -250,8 +250,8 @@ std::vector<Numbered> NumberSearch::result(const Butterfly& numbers) const {
         result.emplace_back(static_cast<Part>(answer.key), static_cast<Part>(answer.payload[0]));
     });
     std::ranges::sort(result);
-    const auto repeated = std::ranges::unique(result);
-    result.erase(repeated.begin(), repeated.end());
+    // Not std::ranges::unique, whose answer clang 14 cannot read with GCC's library.
+    result.erase(std::unique(result.begin(), result.end()), result.end());
     return result;
 }
 

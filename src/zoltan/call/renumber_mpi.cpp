@@ -38,7 +38,7 @@ Renumbering::Renumbering(const Parameters& parameters, const Layout& layout, con
         spread_room_.emplace(num_parts, comm.get());
         return;
     }
-    room_.emplace(RemapBuffers(num_parts, comm.size(), comm.rank() == root));
+    room_ = Room{RemapBuffers(num_parts, comm.size(), comm.rank() == root), {}, {}};
     room_->boxes.resize(static_cast<std::size_t>(num_parts));
     for (Part part = 0; part < num_parts; ++part) room_->ranks.push_back(layout.map.ranks_of(part));
 }

@@ -106,18 +106,28 @@ TEST(SpreadRemap, leaves_objects_at_rest_that_were_sent_and_no_others) {
 }
 
 TEST(SpreadRemap, leaves_objects_that_are_even_enough_by_count) {
-    Dealt program(Program().num_ranks, "2");
-    program.set("REMAP", "0");
-    program.set("RRCB_SKIP_WITHIN", "1.3");
-    EXPECT_LE(calls_until_rest(program, 4), 4);
-    const auto weigh = [&](float factor) {
-        if (program.rank == 0)
-            for (float& weight : program.weights) weight *= factor;
-    };
-    weigh(1.1F);
-    EXPECT_EQ(program.partition().changes, 0);
-    weigh(3);
-    EXPECT_EQ(program.partition().changes, program.num_ranks > 1);
+    for (const bool are_sized : {false, true}) {
+        const int num_ranks = Program().num_ranks;
+        Dealt program(are_sized ? 2 * num_ranks : num_ranks, "2", are_sized);
+        program.set("REMAP", "0");
+        program.set("RRCB_SKIP_WITHIN", "1.3");
+        if (are_sized) {
+            // A quarter and three quarters on each rank.
+            std::vector<int> parts = {2 * program.rank, 2 * program.rank + 1};
+            std::vector<int> weights = {0, 0};
+            std::vector<float> sizes = {1, 3};
+            Zoltan_LB_Set_Part_Sizes(program.zz, 1, 2, parts.data(), weights.data(), sizes.data());
+        }
+        EXPECT_LE(calls_until_rest(program, 4), 4);
+        const auto weigh = [&](float factor) {
+            if (program.rank == 0)
+                for (float& weight : program.weights) weight *= factor;
+        };
+        weigh(1.1F);
+        EXPECT_EQ(program.partition().changes, 0);
+        weigh(3);
+        EXPECT_EQ(program.partition().changes, program.num_ranks > 1);
+    }
 }
 
 /// Every rank finds its objects by their new numbers.

@@ -44,7 +44,7 @@ SpreadReuse::SpreadReuse(const Cuts& previous, bool plain_cuts, const Points& po
       parts_(parts),
       cuts_(fitted(previous, plain_cuts)),
       totals_(assign_and_count(cuts_, points, parts)),
-      room_(cuts_, points, parts, comm),
+      room_(PathSearch(cuts_, points, parts), comm),
       sums_(mpi::rank_of(comm), mpi::size_of(comm), add) {}
 
 /// Adds what was known at once, and the points that were searched one by one.
@@ -78,7 +78,8 @@ double SpreadReuse::largest_share(double weight_per_size, std::span<const double
 /// equal ones.
 double SpreadReuse::measure(double total_weight, bool by_count, std::span<const double> sizes,
                             Participant& self) {
-    cuts_ = search_together(room_, self);
+    search_together(room_, self);
+    cuts_ = room_.search.take();
     self.attempt([&] { add_up(by_count); });
     room_.messages.run(sums_, Butterfly::to_owners, {}, self);
     const double all_sizes =

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "cuts/direct_assignment.hpp"
-#include "cuts/locate_mpi.hpp"
+#include "cuts/path_search.hpp"
+#include "cuts/tier_search_mpi.hpp"
 
 #include <rrcb/balance.hpp>
 
@@ -42,7 +43,7 @@ class SpreadReuse {
     std::span<Part> parts_;
     Cuts cuts_;
     PartTotals totals_;
-    PathSearchRoom room_;
+    SearchRoom<PathSearch> room_;
     Butterfly sums_;
     std::map<Part, double> weights_{};  ///< of the points here, in each part
 };

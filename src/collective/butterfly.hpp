@@ -13,17 +13,18 @@ namespace rrcb {
 
 /// Numbers that all ranks know after a pass: the largest of any rank.
 ///
-/// The first is the number of ranks less that of a failing one, so that the lowest of these is
-/// told; 0 for none. What the others say is up to the caller.
+/// The first tells the rank whose failure agree() would tell, the largest that of the lowest rank,
+/// of no other failure where there is one that follows from none; 0 for none. What the others say
+/// is up to the caller.
 using Flags = std::array<double, 4>;
 
-inline void mark_failed(Flags& flags, int rank, int num_ranks) {
-    flags[0] = num_ranks - rank;
+inline void mark_failed(Flags& flags, int rank, int num_ranks, bool may_follow = false) {
+    flags[0] = (may_follow ? 1.0 : 2.0) * num_ranks - rank;
 }
 
-/// The lowest rank that has failed, or no_rank.
+/// The rank whose failure is told, or no_rank.
 inline int failing_rank(const Flags& flags, int num_ranks) {
-    return flags[0] > 0 ? num_ranks - static_cast<int>(flags[0]) : no_rank;
+    return flags[0] > 0 ? static_cast<int>(2.0 * num_ranks - flags[0]) % num_ranks : no_rank;
 }
 
 /// Records of all ranks on their way to the owners of their keys, and answers on their way back:

@@ -34,7 +34,8 @@ ButterflyMessages::ButterflyMessages() : own_room_(usual_room), piece_(own_room_
 
 void ButterflyMessages::run(Butterfly& butterfly, Butterfly::Direction direction, Flags flags,
                             Participant& self) {
-    if (self.failed()) mark_failed(flags, butterfly.rank(), butterfly.num_ranks());
+    if (self.failed())
+        mark_failed(flags, butterfly.rank(), butterfly.num_ranks(), self.failure.may_follow);
     butterfly.start(flags);
     const int num_steps = butterfly.num_steps();
     for (int k = 0; k < num_steps; ++k) {

@@ -1,34 +1,31 @@
 #pragma once
 
+#include "cuts/owned_cuts.hpp"
 #include "cuts/tree.hpp"
 
 #include <algorithm>
-#include <functional>
+#include <iterator>
 #include <limits>
-#include <numeric>
 #include <span>
-#include <vector>
 
 namespace rrcb {
 
-/// Finds the parts whose closed region a ball touches, of those that are asked for.
+/// Finds the parts whose closed region a ball touches, but for some that are left out.
 class BallSearch {
   public:
-    /// `is_wanted` has an entry for each part; the radius is finite, 0 or more. `cuts` outlive the
-    /// search. Throws std::bad_alloc.
-    BallSearch(const Cuts& cuts, double radius, std::span<const char> is_wanted)
+    /// The ranges that are left out ascend and do not touch; the radius is finite, 0 or more.
+    /// `cuts` and ranges outlive the search.
+    BallSearch(const Cuts& cuts, double radius, std::span<const PartRange> left_out)
         : cuts_(cuts),
           reach_(std::min(radius * (1 + 4 * epsilon), std::numeric_limits<double>::max())),
           unit_(reach_ > 0 ? reach_ : 1),
-          num_wanted_before_(is_wanted.size() + 1, 0) {
-        std::inclusive_scan(is_wanted.begin(), is_wanted.end(), num_wanted_before_.begin() + 1,
-                            std::plus<>(), 0);
-    }
+          left_out_(left_out) {}
 
-    /// Calls visit(part), ascending. In time as there are such parts times the depth of the tree.
-    template <class Visit>
-    void for_each_part(const Vector& centre, Visit&& visit) const {
-        descend(root_of(cuts_), centre, {}, visit);
+    /// Calls visit(part), and lack(node) where the cut of a node is not known; both ascend. In time
+    /// as there are such parts times the depth of the tree.
+    template <class Visit, class Lack>
+    void for_each_part(const Vector& centre, Visit&& visit, Lack&& lack) const {
+        descend(root_of(cuts_), centre, {}, visit, lack);
     }
 
     /// True when the ball is in the interior of a box.
@@ -42,10 +39,10 @@ class BallSearch {
   private:
     static constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-    bool has_wanted(const Descent& at) const {
-        const auto first = static_cast<std::size_t>(at.first_part);
-        return num_wanted_before_[first] !=
-               num_wanted_before_[first + static_cast<std::size_t>(at.num_parts)];
+    /// Whether a range holds all parts of a node: the last one that begins no later.
+    bool is_left_out(const Descent& at) const {
+        const auto next = std::ranges::upper_bound(left_out_, at.first_part, {}, &PartRange::first);
+        return next != left_out_.begin() && at.first_part + at.num_parts <= std::prev(next)->end;
     }
 
     bool is_near(const Vector& apart) const {
@@ -58,25 +55,26 @@ class BallSearch {
     }
 
     /// Each entry of `apart` is the distance of the centre, along that axis, to the region of `at`.
-    template <class Visit>
-    void descend(const Descent& at, const Vector& centre, const Vector& apart,
-                 Visit&& visit) const {
-        if (!has_wanted(at) || !is_near(apart)) return;
+    template <class Visit, class Lack>
+    void descend(const Descent& at, const Vector& centre, const Vector& apart, Visit&& visit,
+                 Lack&& lack) const {
+        if (is_left_out(at) || !is_near(apart)) return;
         if (at.is_part()) return visit(at.first_part);
-        const Cut& cut = cuts_.tree[at.node];
-        const auto axis = static_cast<std::size_t>(cut.axis);
+        const Cut* cut = find_cut(cuts_, at.node);
+        if (cut == nullptr) return lack(at.node);
+        const auto axis = static_cast<std::size_t>(cut->axis);
         Vector below = apart;
         Vector above = apart;
-        below[axis] = std::max(apart[axis], centre[axis] - cut.at[axis]);
-        above[axis] = std::max(apart[axis], cut.at[axis] - centre[axis]);
-        descend(at.lower(), centre, below, visit);
-        descend(at.upper(), centre, above, visit);
+        below[axis] = std::max(apart[axis], centre[axis] - cut->at[axis]);
+        above[axis] = std::max(apart[axis], cut->at[axis] - centre[axis]);
+        descend(at.lower(), centre, below, visit, lack);
+        descend(at.upper(), centre, above, visit, lack);
     }
 
     const Cuts& cuts_;
-    double reach_;                        ///< the radius, and what rounding may add to a distance
-    double unit_;                         ///< of lengths, so that their squares do not overflow
-    std::vector<int> num_wanted_before_;  ///< parts of lower numbers; one entry more than parts
+    double reach_;  ///< the radius, and what rounding may add to a distance
+    double unit_;   ///< of lengths, so that their squares do not overflow
+    std::span<const PartRange> left_out_;
 };
 
 }  // namespace rrcb

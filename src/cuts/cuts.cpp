@@ -50,6 +50,13 @@ Descent descend(const Cuts& cuts, const Vector& position, Descent at) {
     return at;
 }
 
+bool knows_path(const Cuts& cuts, Part part) {
+    Descent at = root_of(cuts);
+    while (!at.is_part() && find_cut(cuts, at.node) != nullptr)
+        at = part >= at.upper().first_part ? at.upper() : at.lower();
+    return at.is_part();
+}
+
 Descent node_at(const Cuts& cuts, std::size_t node) {
     Descent at = root_of(cuts);
     while (at.node != node) at = node >= at.upper().node ? at.upper() : at.lower();

@@ -44,6 +44,9 @@ Descent node_at(const Cuts& cuts, std::size_t node);
 /// Number of nodes above it.
 int depth_of(const Cuts& cuts, std::size_t node);
 
+/// True when all cuts above a part are known.
+bool knows_path(const Cuts& cuts, Part part);
+
 /// Throws the Error of a look-up that needs a cut which is not known.
 [[noreturn]] void reject_unknown();
 

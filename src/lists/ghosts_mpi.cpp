@@ -2,7 +2,10 @@
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "collective/rank_counts_mpi.hpp"
+#include "collective/rank_order.hpp"
 #include "cuts/ball_search.hpp"
+#include "cuts/tier_search.hpp"
+#include "cuts/tier_search_mpi.hpp"
 #include "lists/delivery_mpi.hpp"
 #include "lists/remap_mpi.hpp"
 #include "options/rejection.hpp"
@@ -14,138 +17,187 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
-#include <numeric>
 #include <optional>
+#include <set>
+#include <utility>
 
 namespace rrcb {
 
 namespace {
 
-void check_ranges(std::span<const RankRange> ranks_of_parts, int num_parts, int num_ranks) {
-    require(ranks_of_parts.size() == static_cast<std::size_t>(num_parts),
-            "ranks_of_parts must have one entry for each part");
-    for (const RankRange& ranks : ranks_of_parts)
-        require(ranks.first_rank >= 0 && ranks.count >= 1 && ranks.first_rank < num_ranks &&
-                    ranks.count <= num_ranks - ranks.first_rank,
-                "ranks_of_parts must name ranks of this communicator");
-}
+/// The ranks that hold the parts: those that are given, or those of ranks_of_part.
+struct Holders {
+    std::optional<std::span<const RankRange>> given;
+    int num_parts;
+    int rank;  ///< this one
+    int num_ranks;
 
-/// Which of this rank's points which other ranks need.
+    RankRange operator()(Part part) const {
+        return given ? (*given)[static_cast<std::size_t>(part)]
+                     : ranks_of_part(part, num_parts, num_ranks);
+    }
+
+    /// The parts that this rank holds alone, in ranges as long as can be.
+    std::vector<PartRange> alone_here() const {
+        PartRange among{0, num_parts};
+        if (!given) among = parts_on(rank, num_parts, num_ranks);
+        std::vector<PartRange> ranges;
+        for (Part part = among.first; part < among.end; ++part) {
+            const RankRange ranks = (*this)(part);
+            if (ranks.first_rank != rank || ranks.count > 1) continue;
+            if (ranges.empty() || ranges.back().end != part) ranges.push_back({part, part});
+            ranges.back().end = part + 1;
+        }
+        return ranges;
+    }
+
+    void check() const {
+        if (!given) return;
+        require(given->size() == static_cast<std::size_t>(num_parts),
+                "ranks_of_parts must have one entry for each part");
+        for (const RankRange& ranks : *given)
+            require(ranks.first_rank >= 0 && ranks.count >= 1 && ranks.first_rank < num_ranks &&
+                        ranks.count <= num_ranks - ranks.first_rank,
+                    "ranks_of_parts must name ranks of this communicator");
+    }
+};
+
+/// Which of this rank's points which other ranks need, by the cuts that are known.
 class Neighbourhood {
   public:
-    Neighbourhood(const Cuts& cuts, double radius, std::span<const RankRange> ranks_of_parts,
-                  int rank, int num_ranks)
-        : ranks_of_parts_(ranks_of_parts),
-          rank_(rank),
-          is_foreign_(foreign_parts()),
-          search_(cuts, radius, is_foreign_),
-          last_point_(static_cast<std::size_t>(num_ranks), no_point),
-          num_sent_(static_cast<std::size_t>(num_ranks), 0) {
-        if (std::ranges::count(is_foreign_, 0) == 1)
-            home_ = box_of(
-                cuts, static_cast<Part>(std::ranges::find(is_foreign_, 0) - is_foreign_.begin()));
+    Neighbourhood(const Cuts& cuts, double radius, const Holders& holders)
+        : holders_(holders), alone_(holders.alone_here()), search_(cuts, radius, alone_) {
+        if (alone_.size() != 1 || alone_[0].end - alone_[0].first != 1) return;
+        if (knows_path(cuts, alone_[0].first)) home_ = box_of(cuts, alone_[0].first);
     }
 
     /// Notes the ranks that need a point. Points come in ascending order.
     void add(LocalIndex point, const Vector& position) {
         if (home_ && search_.is_inside(position, *home_)) return;
-        search_.for_each_part(position, [&](Part part) {
-            const RankRange& ranks = ranks_of_parts_[static_cast<std::size_t>(part)];
-            for (int rank = ranks.first_rank; rank < ranks.first_rank + ranks.count; ++rank)
-                if (rank != rank_) send(point, rank);
-        });
+        const auto first = std::ssize(ranks_);
+        search_.for_each_part(
+            position, [&](Part part) { note(holders_(part)); },
+            [&](std::size_t node) { lacking_.insert(node); });
+        // A rank may hold several of the parts.
+        std::ranges::sort(ranks_.begin() + first, ranks_.end());
+        const auto again = std::ranges::unique(ranks_.begin() + first, ranks_.end());
+        ranks_.erase(again.begin(), again.end());
+        points_.resize(ranks_.size(), point);
     }
 
     void write(GhostPlan& plan) const {
-        std::vector<LocalIndex> next(num_sent_.size());
-        std::exclusive_scan(num_sent_.begin(), num_sent_.end(), next.begin(), LocalIndex{0});
-        plan.send_indices.resize(sent_.size());
-        for (const Sent& sent : sent_)
-            plan.send_indices[next[static_cast<std::size_t>(sent.rank)]++] = sent.point;
-        for (std::size_t rank = 0; rank < num_sent_.size(); ++rank)
-            if (num_sent_[rank] > 0) plan.send.push_back({static_cast<int>(rank), num_sent_[rank]});
+        RankOrder order(ranks_, holders_.num_ranks);
+        plan.send = order.counts();
+        plan.send_indices.resize(points_.size());
+        order.for_each(
+            [&](std::size_t k, std::size_t place) { plan.send_indices[place] = points_[k]; });
+    }
+
+    /// Nodes near points whose cuts are not known.
+    std::vector<std::size_t> lacking() const { return {lacking_.begin(), lacking_.end()}; }
+
+  private:
+    void note(const RankRange& ranks) {
+        for (int rank = ranks.first_rank; rank < ranks.first_rank + ranks.count; ++rank)
+            if (rank != holders_.rank) ranks_.push_back(rank);
+    }
+
+    const Holders& holders_;
+    std::vector<PartRange> alone_;
+    BallSearch search_;
+    std::optional<Box> home_;  ///< region of the only part that is this rank's alone
+    std::vector<LocalIndex> points_;
+    std::vector<int> ranks_;  ///< each to get one of the points
+    std::set<std::size_t> lacking_;
+};
+
+/// What a plan is made from on this rank.
+struct GhostRequest {
+    const Points& points;
+    double radius;
+    Holders holders;
+
+    void check(const Cuts& cuts) const {
+        require(std::isfinite(radius) && radius >= 0, "the radius must be finite, 0 or more");
+        check_points(points);
+        check_tree(cuts);
+        require(cuts.dimension == points.dimension, "cuts must have the dimension of the points");
+        holders.check();
+    }
+
+    /// Lists what this rank sends; returns the nodes whose cuts it lacks for the rest.
+    std::vector<std::size_t> list_sent(const Cuts& cuts, GhostPlan& plan) const {
+        Neighbourhood neighbourhood(cuts, radius, holders);
+        for (LocalIndex i = 0; i < points.count; ++i) neighbourhood.add(i, points.position(i));
+        plan.num_points = points.count;
+        neighbourhood.write(plan);
+        return neighbourhood.lacking();
+    }
+};
+
+/// Search for the cuts that a plan lacks.
+class GhostSearch : public TierSearch {
+  public:
+    GhostSearch(const Cuts& known, std::vector<std::size_t> lacking, const GhostRequest& request,
+                GhostPlan& plan)
+        : TierSearch(known), lacking_(std::move(lacking)), request_(request), plan_(plan) {}
+
+    bool ask(Butterfly& asked) {
+        TierSearch::ask(lacking_, asked);
+        return !lacking_.empty();
+    }
+
+    void learn(const Butterfly& asked) {
+        TierSearch::learn(asked);
+        if (!lacking_.empty()) lacking_ = request_.list_sent(cuts(), plan_);
     }
 
   private:
-    struct Sent {
-        LocalIndex point;
-        int rank;
-    };
-    static constexpr LocalIndex no_point = std::numeric_limits<LocalIndex>::max();
-
-    /// 1 for parts that another rank holds, also beside this one.
-    std::vector<char> foreign_parts() const {
-        std::vector<char> is_foreign;
-        for (const RankRange& ranks : ranks_of_parts_)
-            is_foreign.push_back(ranks.first_rank != rank_ || ranks.count > 1 ? 1 : 0);
-        return is_foreign;
-    }
-
-    void send(LocalIndex point, int rank) {
-        LocalIndex& last = last_point_[static_cast<std::size_t>(rank)];
-        if (last == point) return;
-        last = point;
-        sent_.push_back({point, rank});
-        ++num_sent_[static_cast<std::size_t>(rank)];
-    }
-
-    std::span<const RankRange> ranks_of_parts_;
-    int rank_;
-    std::vector<char> is_foreign_;
-    BallSearch search_;
-    std::optional<Box> home_;             ///< region of the only part that is this rank's alone
-    std::vector<LocalIndex> last_point_;  ///< that was sent, by rank
-    std::vector<LocalIndex> num_sent_;    ///< by rank
-    std::vector<Sent> sent_;
+    std::vector<std::size_t> lacking_;
+    const GhostRequest& request_;
+    GhostPlan& plan_;
 };
 
-/// The part of a plan that this rank knows. Not collective.
-void list_sent(const Cuts& cuts, const Points& points, double radius,
-               std::span<const RankRange> ranks_of_parts, MPI_Comm comm, GhostPlan& plan) {
-    const int num_ranks = mpi::size_of(comm);
-    require(std::isfinite(radius) && radius >= 0, "the radius must be finite, 0 or more");
-    check_points(points);
-    check_cuts(cuts, points.dimension);
-    check_ranges(ranks_of_parts, cuts.num_parts, num_ranks);
-    Neighbourhood neighbourhood(cuts, radius, ranks_of_parts, mpi::rank_of(comm), num_ranks);
-    for (LocalIndex i = 0; i < points.count; ++i) neighbourhood.add(i, points.position(i));
-    plan.num_points = points.count;
-    neighbourhood.write(plan);
-}
-
 /// Collective; what went wrong on a rank before is told to all.
-GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
-                 std::span<const RankRange> ranks_of_parts, Participant& self) {
+GhostPlan ghosts(const Cuts& cuts, const GhostRequest& request, Participant& self) {
     GhostPlan plan;
+    std::optional<SearchRoom<GhostSearch>> room;
     std::uint64_t bits_of_cuts = 0;
+    std::uint64_t bits_of_holders = 0;
     self.attempt([&] {
-        list_sent(cuts, points, radius, ranks_of_parts, self.comm, plan);
+        request.check(cuts);
+        std::vector<std::size_t> lacking = request.list_sent(cuts, plan);
+        if (!is_whole(cuts))
+            room.emplace(GhostSearch(cuts, std::move(lacking), request, plan), self.comm);
         bits_of_cuts = bits_of(cuts);
+        if (request.holders.given) bits_of_holders = hash_of(*request.holders.given);
     });
     plan.receive = exchange_counts(plan.send, self);
     agree(self, {{"the tree of cuts", bits_of_cuts},
-                 {"the radius", std::bit_cast<std::uint64_t>(radius + 0.0)},
-                 {"ranks_of_parts", hash_of(ranks_of_parts)}});
+                 {"the radius", std::bit_cast<std::uint64_t>(request.radius + 0.0)},
+                 {"ranks_of_parts", bits_of_holders}});
+    if (!room || !search_together(*room, self)) return plan;
+    plan.receive = exchange_counts(plan.send, self);
+    agree(self);
     return plan;
+}
+
+GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
+                 std::optional<std::span<const RankRange>> given, MPI_Comm user) {
+    Participant self{mpi::duplicate_of(user)};
+    const Holders holders{given, cuts.num_parts, mpi::rank_of(self.comm), mpi::size_of(self.comm)};
+    return ghosts(cuts, {points, radius, holders}, self);
 }
 
 }  // namespace
 
 GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
-                 std::span<const RankRange> ranks_of_parts, MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
-    return ghosts(cuts, points, radius, ranks_of_parts, self);
+                 std::span<const RankRange> ranks_of_parts, MPI_Comm comm) {
+    return ghosts(cuts, points, radius, std::optional(ranks_of_parts), comm);
 }
 
-GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius, MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
-    std::vector<RankRange> ranks_of_parts;
-    self.attempt([&] {
-        for (Part part = 0; part < cuts.num_parts; ++part)
-            ranks_of_parts.push_back(ranks_of_part(part, cuts.num_parts, mpi::size_of(self.comm)));
-    });
-    return ghosts(cuts, points, radius, ranks_of_parts, self);
+GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius, MPI_Comm comm) {
+    return ghosts(cuts, points, radius, std::nullopt, comm);
 }
 
 void detail::move(const GhostPlan& plan, std::span<const ByteColumn> columns,

@@ -1,6 +1,7 @@
 #include "options/request.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
 #include <type_traits>
@@ -22,22 +23,26 @@ std::uint64_t bits_of(std::uint64_t value) {
     return value;
 }
 
-std::uint64_t hash_of(std::span<const double> values) {
-    std::uint64_t hash = values.size();
-    for (const double value : values) {
-        hash = (hash ^ bits_of(value)) * 0x9e3779b97f4a7c15u;
-        hash ^= hash >> 32;
-    }
-    return hash;
-}
+/// Hash of numbers that are added one by one.
+class Hash {
+  public:
+    explicit Hash(std::size_t count) : hash_(count) {}
 
-std::vector<double> values_of(const Cuts& cuts) {
-    std::vector<double> values;
-    for (const Cut& cut : cuts.tree) {
-        values.push_back(cut.axis);
-        values.insert(values.end(), cut.at.begin(), cut.at.end());
+    void add(double value) {
+        hash_ = (hash_ ^ bits_of(value)) * 0x9e3779b97f4a7c15u;
+        hash_ ^= hash_ >> 32;
     }
-    return values;
+
+    std::uint64_t value() const { return hash_; }
+
+  private:
+    std::uint64_t hash_;
+};
+
+std::uint64_t hash_of(std::span<const double> values) {
+    Hash hash(values.size());
+    for (const double value : values) hash.add(value);
+    return hash.value();
 }
 
 /// Number for how this thread rounds and treats subnormal numbers, found out by computing. Ranks
@@ -72,8 +77,14 @@ std::uint64_t bits_of(const Option& option, const Options& options) {
 
 std::uint64_t bits_of(const Cuts& cuts) {
     // Of cuts that are spread over the ranks each has others.
-    if (!is_whole(cuts)) return hash_of(std::vector<double>{-1, 1.0 * cuts.num_parts});
-    return hash_of(values_of(cuts));
+    if (!is_whole(cuts))
+        return hash_of(std::array{-1.0, 1.0 * cuts.num_parts, 1.0 * cuts.dimension});
+    Hash hash((1 + max_dimension) * cuts.tree.size());
+    for (const Cut& cut : cuts.tree) {
+        hash.add(cut.axis);
+        for (const double x : cut.at) hash.add(x);
+    }
+    return hash.value();
 }
 
 std::vector<double> values_of_part_sizes(const Options& options) {

@@ -118,6 +118,10 @@ TEST(FailingMemory, in_cuts_that_are_spread_over_the_ranks) {
     assign(whole, points, expected);
     fail_in([&] { return locate(cuts, points, MPI_COMM_WORLD); },
             [&](const std::vector<Part>& parts) { EXPECT_EQ(parts, expected); });
+    const auto ghosts_here = [&] { return ghosts(cuts, points, 0.2, MPI_COMM_WORLD); };
+    const GhostPlan near = ghosts_here();
+    fail_in(ghosts_here,
+            [&](const GhostPlan& found) { EXPECT_EQ(found.send_indices, near.send_indices); });
     fail_in([&] { return whole_cuts(cuts, MPI_COMM_WORLD); },
             [&](const Cuts& found) { EXPECT_EQ(found.tree.size(), whole.tree.size()); });
 }

@@ -53,20 +53,8 @@ TEST(Locate, finds_the_parts_of_positions_anywhere) {
 }
 
 TEST(Locate, finds_the_parts_of_a_tree_of_many_tiers) {
-    // A chain of planes at 1, 2, ...: the part is the coordinate.
     const int num_parts = 40000;
-    Cuts whole{1, num_parts, std::vector<Cut>(num_parts - 1)};
-    const std::function<void(std::size_t, Part, int)> fill = [&](std::size_t node, Part first,
-                                                                 int count) {
-        if (count == 1) return;
-        const int below = count / 2;
-        whole.tree[node].at = {static_cast<double>(first + below),
-                               -std::numeric_limits<double>::infinity(),
-                               -std::numeric_limits<double>::infinity()};
-        fill(node + 1, first, below);
-        fill(node + static_cast<std::size_t>(below), first + below, count - below);
-    };
-    fill(0, 0, num_parts);
+    const Cuts whole = test::planes(num_parts);
     std::mt19937_64 engine(static_cast<unsigned>(rank()));
     std::vector<double> x;
     for (int i = 0; i < 200; ++i) x.push_back(test::uniform(engine, 0, num_parts));

@@ -5,6 +5,7 @@
 
 #include <rrcb/plan.hpp>
 
+#include <functional>
 #include <limits>
 #include <random>
 #include <vector>
@@ -27,7 +28,22 @@ inline Cuts random_cuts(int dimension, int num_parts) {
     return cuts;
 }
 
-/// What a rank knows of it: the paths to its own parts, and to some others.
+/// Planes at 1, 2, ... in one dimension: the part of a position is what is before its point.
+inline Cuts planes(int num_parts) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Cuts cuts{1, num_parts, {}};
+    const std::function<void(Part, int)> divide = [&](Part first, int count) {
+        if (count == 1) return;
+        const int below = lower_parts(count);
+        cuts.tree.push_back({0, 0, {static_cast<double>(first + below), -infinity, -infinity}});
+        divide(first, below);
+        divide(first + below, count - below);
+    };
+    divide(0, num_parts);
+    return cuts;
+}
+
+/// What a rank knows of a tree: the paths to its own parts, and to some others.
 inline Cuts known_here(const Cuts& whole, std::vector<Part> also = {}) {
     for (Part part = 0; part < whole.num_parts; ++part) {
         const RankRange ranks = ranks_of_part(part, whole.num_parts, num_ranks());

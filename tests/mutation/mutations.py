@@ -270,15 +270,22 @@ MUTATIONS = [
     Mutation(
         "points of a shared part are not sent",
         "src/lists/ghosts_mpi.cpp",
-        "ranks.first_rank != rank_ || ranks.count > 1 ? 1 : 0",
-        "ranks.first_rank != rank_ ? 1 : 0",
+        "ranks.first_rank != rank || ranks.count > 1",
+        "ranks.first_rank != rank",
         ("mpi_ghosts",),
     ),
     Mutation(
         "a ghost is sent to a rank once for each of its parts",
         "src/lists/ghosts_mpi.cpp",
-        "if (last == point) return;",
+        "ranks_.erase(again.begin(), again.end());",
         "",
         ("mpi_ghosts",),
+    ),
+    Mutation(
+        "cuts that a rank lacks are not asked for",
+        "src/cuts/ball_search.hpp",
+        "return lack(at.node);",
+        "return;",
+        ("mpi_spread_ghosts",),
     ),
 ]

@@ -28,15 +28,6 @@ namespace rrcb {
 
 namespace {
 
-/// Options with nothing left to default but the sizes of equal parts.
-Options complete(Options options, int num_ranks) {
-    if (options.num_parts == 0) options.num_parts = num_ranks;
-    if (options.refine == Refine::automatic)
-        options.refine = traits_of(options.domain).automatic_refine;
-    if (!options.grid.empty()) options.plain_cuts = true;
-    return options;
-}
-
 /// State of a call on one rank.
 struct Work {
     Options options;
@@ -49,6 +40,7 @@ struct Work {
     /// Where many ranks make the parts, what was asked for: the options above are for regions.
     std::optional<Options> whole;
     std::optional<RegionRefinement> below_regions;
+    std::optional<SpreadPlaces> places;  ///< where points may stay as they lie
     Balance result;
 };
 
@@ -110,6 +102,9 @@ void prepare(const Points& points, const Options& given, bool may_stay, Work& wo
     const bool reads_current = reads_current_parts(options, mpi::size_of(self.comm));
     make_room(work.decision, options, points.dimension, reads_current);
     make_room_for_parts(points, reads_current, work, self);
+    if (work.whole && may_keep_parts(*work.whole, mpi::size_of(self.comm)))
+        work.places.emplace(*work.whole, place_of(points, box, work.mine.summary.weight), may_stay,
+                            points.dimension, mpi::rank_of(self.comm));
     work.binned = bin_by_options(points, box, options);
     add_records(points, work.binned, options, work.mine);
     if (reads_current && may_stay)
@@ -150,14 +145,6 @@ void prepare_to_reuse_spread(const Points& points, const Options& given, const C
     work.result.parts.resize(points.count);
     reuse.emplace(previous, work.options.plain_cuts, points, work.result.parts, self.comm);
     if (!reuse->all_finite()) reject_coordinates(points);
-}
-
-/// Tells what the parts weigh, as counted.
-void report_measured(double imbalance, std::vector<double>&& part_weights, const Options& options,
-                     Report& report) {
-    report.measured_imbalance = imbalance;
-    report.within_tolerance = imbalance <= options.imbalance_tolerance;
-    report.part_weights = std::move(part_weights);
 }
 
 /// Assigns the points by the cuts as they are, and counts the parts where the cuts are earlier ones
@@ -289,6 +276,23 @@ void divide_together(const Points& points, Work& work, Participant& self) {
     stay(work, self);
 }
 
+/// Makes the parts by many ranks, or leaves them as they are. Collective.
+void divide_among_many(const Points& points, Work& work, Participant& self) {
+    const Options& options = *work.whole;
+    const Verdict& verdict = work.decision.verdict;
+    Balance& result = work.result;
+    auto held = read_held(work.places, result.report, *work.below_regions, self);
+    if (held && stays_at_once(held->imbalance, options.imbalance_tolerance))
+        return stay_spread(options, verdict.heaviest, std::move(*held), result, self);
+    divide_together(points, work, self);
+    work.refinement.reset();
+    if (result.report.all_weights_zero) work.binned.points.weights = {};
+    refine_regions(options, verdict, work.mine.summary.box, work.binned, *work.below_regions,
+                   result, self);
+    if (held && !is_worth_moving(held->imbalance, result.report.measured_imbalance, options))
+        stay_spread(options, verdict.heaviest, std::move(*held), result, self);
+}
+
 /// Ends with earlier cuts of which ranks know some only, where their parts are even enough, or
 /// balances from nothing. Collective.
 Balance reuse_spread(const Points& points, const Options& given, const Cuts& previous,
@@ -325,12 +329,11 @@ Balance balance(const Points& points, const Options& given, const Cuts* previous
     const int num_parts = work.whole ? work.whole->num_parts : work.options.num_parts;
     work.result.report = report_of(work.decision.verdict, num_parts);
     work.result.cuts = std::move(work.decision.bisection.cuts);
-    previous ? reuse_together(points, work, self) : divide_together(points, work, self);
-    if (!work.whole) return std::move(work.result);
-    work.refinement.reset();
-    if (work.result.report.all_weights_zero) work.binned.points.weights = {};
-    refine_regions(*work.whole, work.decision.verdict, work.mine.summary.box, work.binned,
-                   *work.below_regions, work.result, self);
+    if (work.whole) {
+        divide_among_many(points, work, self);
+    } else {
+        previous ? reuse_together(points, work, self) : divide_together(points, work, self);
+    }
     return std::move(work.result);
 }
 

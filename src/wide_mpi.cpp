@@ -44,6 +44,11 @@ void number_as_in_tree(int num_parts, Balance& result) {
     for (Part& part : result.parts) part = first_parts[static_cast<std::size_t>(part)];
 }
 
+/// Of all points, or their number where they are balanced by that.
+double weight_of(const Report& report) {
+    return report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
+}
+
 RegionTree tree_of(const Options& options, const Verdict& verdict, double weight, int num_ranks) {
     RegionTree tree;
     tree.num_parts = options.num_parts;
@@ -103,13 +108,30 @@ void report_parts(double imbalance, double heaviest, double weight, const Option
     report.within_tolerance = imbalance <= options.imbalance_tolerance;
 }
 
+std::optional<SpreadParts> read_held(std::optional<SpreadPlaces>& places, const Report& report,
+                                     RegionRefinement& refinement, Participant& self) {
+    if (!places || report.num_points == 0) return std::nullopt;
+    return places->read(weight_of(report), report.all_weights_zero, refinement.messages(), self);
+}
+
+void stay_spread(const Options& options, double heaviest, SpreadParts&& held, Balance& result,
+                 Participant& self) {
+    agree(self);
+    std::ranges::fill(result.parts, static_cast<Part>(mpi::rank_of(self.comm)));
+    result.cuts = std::move(held.cuts);
+    Report& report = result.report;
+    report.kept = true;
+    report.part_weights.clear();
+    report.coincident_cuts = mpi::sum_of(held.num_divided, self.comm);
+    report_parts(held.imbalance, heaviest, weight_of(report), options, report);
+}
+
 void refine_regions(const Options& options, const Verdict& verdict, const Box& box,
                     const BinnedPoints& binned, RegionRefinement& refinement, Balance& result,
                     Participant& self) {
     const StageScope stage(options.observer, Stage::refinement);
     Report& report = result.report;
-    const double weight =
-        report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
+    const double weight = weight_of(report);
     // Not counted without points, or for one region.
     std::vector<double> weights = std::exchange(report.part_weights, {});
     self.attempt([&] { weights.resize(static_cast<std::size_t>(result.cuts.num_parts), weight); });

@@ -1,9 +1,12 @@
 #pragma once
 
 #include "gather/decision_mpi.hpp"
+#include "gather/spread_places_mpi.hpp"
 #include "refinement/region_refinement_mpi.hpp"
 
 #include <rrcb/balance.hpp>
+
+#include <optional>
 
 namespace rrcb {
 
@@ -25,6 +28,16 @@ inline constexpr std::size_t most_cells_of_regions = 112;
 /// could be at best.
 void report_parts(double imbalance, double heaviest, double weight, const Options& options,
                   Report& report);
+
+/// What the ranks hold, of points of which `report` tells; see SpreadPlaces::read(). Nothing
+/// without places, or points. Collective.
+std::optional<SpreadParts> read_held(std::optional<SpreadPlaces>& places, const Report& report,
+                                     RegionRefinement& refinement, Participant& self);
+
+/// Leaves the points in the parts that the ranks hold, by the complete options of a call; `result`
+/// tells of all points. Collective.
+void stay_spread(const Options& options, double heaviest, SpreadParts&& held, Balance& result,
+                 Participant& self);
 
 /// Makes the parts below the regions that are the parts of `result`.
 ///

@@ -165,6 +165,12 @@ def wide_path(ranks: int, is_exact: bool, observed: Observed, machine: Machine) 
     levels = wide.levels_below(regions, ranks)
     rounds, steps = ceil(searches.rounds_per_level * levels), (ranks - 1).bit_length()
     path.messages += (2 * rounds + 1) * steps
+    if not is_exact:
+        # The places of the ranks; in each step a record for each cut above that is open.
+        records = steps * (steps + 1) // 2
+        path.messages += 2 * steps
+        path.bytes += records * (wide.PLACES + wide.CUT)
+        path.root_bytes += records * wide.PLACES
     path.bytes += 2 * rounds * steps * searches.bytes_per_step
     path.root_bytes += rounds * searches.most_into_rank
     path.work += levels * machine.points * machine.per_look

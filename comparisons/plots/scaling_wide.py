@@ -19,6 +19,8 @@ HEAD = 40  # length and flags
 RECORD_HEAD = 16
 HISTOGRAM = RECORD_HEAD + 8 * (1 + 7 + 2 * 66)  # 64 bins and two slots beside them
 ANSWER = RECORD_HEAD + 176
+PLACES = RECORD_HEAD + 8 * 2 * (2 + 2 * model.DIMENSION**2)  # below a cut and above it
+CUT = RECORD_HEAD + 32
 BOX, COUNT = 48, 4  # reduced to everybody
 COUNTS_LEFT = 16  # of parts and numbers that no offer brought together, summed over lower ranks
 KEPT = 24  # points that stay under old and new numbers, and all
@@ -68,6 +70,38 @@ def _into_first(ranks: int, owners: list[int]) -> int:
     return bytes_in
 
 
+def _nodes_above(part: int, node: Node) -> Iterator[Node]:
+    while node.parts > 1:
+        yield node
+        lower, upper = node.below()
+        node = upper if part >= upper.first_part else lower
+
+
+def _places(ranks: int) -> tuple[int, int]:
+    """Records of places that go to the owners of all cuts, and those of them into rank 0."""
+    held = [set(_nodes_above(rank, Node(0, 0, ranks))) for rank in range(ranks)]
+    count = into = 0
+    halves = [(0, ranks)]
+    while halves:
+        begin, end = halves.pop()
+        if end - begin == 1:
+            continue
+        middle = end - (end - begin) // 2
+        gone = [
+            {node for node in held[rank] if (node.first_part < middle) != (rank < middle)}
+            for rank in range(begin, end)
+        ]
+        for rank, nodes in zip(range(begin, end), gone):
+            mirror = begin + end - 1 - rank
+            target = middle if mirror == rank else mirror
+            held[rank] -= nodes
+            held[target] |= nodes
+            count += len(nodes)
+            into += len(nodes) if target == 0 else 0
+        halves += [(begin, middle), (middle, end)]
+    return count, into
+
+
 def top(ranks: int, regions: int, parts: Parts) -> tuple[Traffic, int]:
     """Before the search below the regions, and bytes into rank 0; accepted, or one region."""
     traffic, agreements = Traffic(), [BOX, COUNT, parts.agreement]
@@ -90,15 +124,19 @@ def top(ranks: int, regions: int, parts: Parts) -> tuple[Traffic, int]:
 
 
 def accepted(ranks: int, regions: int, parts: Parts) -> tuple[Traffic, int]:
-    """Every cut found by one count, a level in a round; and bytes into rank 0."""
+    """Every cut found by one count, a level in a round; and bytes into rank 0.
+
+    Before, the places of the ranks, between which scattered points leave no cuts.
+    """
     traffic, into = top(ranks, regions, parts)
     nodes = list(nodes_below(regions, Node(0, 0, ranks)))
     levels = sorted({node.level for node in nodes})
-    passes = 2 * len(levels) + 1
+    passes = 2 + 2 * len(levels) + 1
+    places, places_into = _places(ranks)
     size = HEAD * passes * pass_messages(ranks)
-    size += len(nodes) * (ranks - 1) * (HISTOGRAM + ANSWER)
+    size += len(nodes) * (ranks - 1) * (HISTOGRAM + ANSWER) + places * PLACES
     traffic.add("Isend", passes * pass_messages(ranks), size)
-    into += HEAD * passes * (ranks - 1).bit_length()
+    into += HEAD * passes * (ranks - 1).bit_length() + places_into * PLACES
     for level in levels:
         into += _into_first(ranks, [node.first_part for node in nodes if node.level == level])
     return traffic, into

@@ -49,9 +49,9 @@ struct Balance {
 /// and freed with it.
 ///
 /// Points stay as they lie where that is good enough: where there is a part for each rank, up to
-/// 4096, and what the ranks hold is a bisection such as a new one might be, the cuts are those
-/// between the ranks (Report::kept). This holds for DomainKind::analytic with estimated cuts, also
-/// refined to a tolerance, if
+/// 4096 if rank 0 makes them all, and what the ranks hold is a bisection such as a new one might
+/// be, the cuts are those between the ranks (Report::kept). This holds for DomainKind::analytic
+/// with estimated cuts, also refined to a tolerance, if
 /// - the imbalance exceeds 1 by a tenth of what the tolerance allows at most, or
 /// - new cuts, counted, neither reach a tolerance that is missed, nor halve the excess and gain a
 ///   twentieth of what the tolerance allows; where it is missed before and after a refinement, the
@@ -69,7 +69,8 @@ struct Balance {
 /// rounds a level to a tolerance, four exactly. Then no rank holds an array with an entry for each
 /// part or rank, but for `part_sizes`: beside the points and a sorted copy of them a rank has about
 /// 1.5 kB for each node of a level in which it has points, 64 kB for messages, and the owner of a
-/// node up to 1024 positions. Such points never stay as they lie.
+/// node up to 1024 positions. Whether points may stay as they lie the owners tell in one more round
+/// of that kind; part r then is on rank r.
 ///
 /// Cuts lie where Options::min_width and Options::grid let them, those of points that stay as well.
 /// The axes are then chosen with a look ahead at what the cuts below can do, and refined cuts are

@@ -71,4 +71,12 @@ const DomainTraits& traits_of(DomainKind kind) {
                     std::to_string(static_cast<int>(kind)));
 }
 
+Options complete(Options options, int num_ranks) {
+    if (options.num_parts == 0) options.num_parts = num_ranks;
+    if (options.refine == Refine::automatic)
+        options.refine = traits_of(options.domain).automatic_refine;
+    if (!options.grid.empty()) options.plain_cuts = true;
+    return options;
+}
+
 }  // namespace rrcb

@@ -27,4 +27,8 @@ struct DomainTraits {
 /// Traits of a kind. Throws Error where there are none.
 const DomainTraits& traits_of(DomainKind kind);
 
+/// Options with nothing left to default but the sizes of equal parts. Throws Error where they name
+/// no kind.
+Options complete(Options options, int num_ranks);
+
 }  // namespace rrcb

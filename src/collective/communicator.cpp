@@ -31,6 +31,11 @@ void broadcast(std::span<std::byte> bytes, int root, MPI_Comm comm) {
     }
 }
 
+int sum_of(int here, MPI_Comm comm) {
+    check(MPI_Allreduce(MPI_IN_PLACE, &here, 1, MPI_INT, MPI_SUM, comm), "MPI_Allreduce");
+    return here;
+}
+
 int rank_of(MPI_Comm comm) {
     int rank = 0;
     check(MPI_Comm_rank(comm, &rank), "MPI_Comm_rank");

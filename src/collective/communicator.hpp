@@ -31,6 +31,9 @@ inline std::size_t longest_message = std::numeric_limits<int>::max();
 /// MPI_Bcast of any number of bytes. Collective over `comm`; as many on each rank.
 void broadcast(std::span<std::byte> bytes, int root, MPI_Comm comm);
 
+/// Sum over all ranks. Collective.
+int sum_of(int here, MPI_Comm comm);
+
 int rank_of(MPI_Comm comm);
 int size_of(MPI_Comm comm);
 

@@ -17,19 +17,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// True when no other axis of the box is much longer: less strict than a new cut has it, which
-/// knows the extents by an estimate, or cuts might turn for ever.
-bool is_long(const Box& box, int axis, int dimension) {
-    constexpr double enough = 0.8;
-    const auto half_extent = [&](int b) {
-        const auto a = static_cast<std::size_t>(b);
-        return box.upper[a] / 2 - box.lower[a] / 2;
-    };
-    for (int other = 0; other < dimension; ++other)
-        if (!(half_extent(axis) >= enough * half_extent(other))) return false;
-    return true;
-}
-
 class Reader {
   public:
     Reader(std::span<const Place> places, const Cuts& estimate, const Options& options,
@@ -68,7 +55,10 @@ class Reader {
             const Place above = joined(ranks.subspan(num_below));
             const bool as_expected = expected && axis == usual;
             if (!may_cross(axis, usual, as_expected, below, above)) continue;
-            if (!find_cut(below, above, axis, current_.cuts.tree[at.node])) continue;
+            const auto cut = cut_between(below, above, axis, estimate_.dimension,
+                                         options_.plain_cuts, may_divide());
+            if (!cut) continue;
+            current_.cuts.tree[at.node] = *cut;
             if (are_cuts_limited(options_)) gaps_[at.node] = gap_between(below, above, axis);
             return read_node(at.lower(), ranks.first(num_below), as_expected) &&
                    read_node(at.upper(), ranks.subspan(num_below), as_expected);
@@ -128,26 +118,6 @@ class Reader {
         return all;
     }
 
-    /// The cut between the points of two groups of ranks, in the middle of the gap where there is
-    /// one; returns false where none is allowed.
-    bool find_cut(const Place& below, const Place& above, int axis, Cut& cut) const {
-        const auto a = static_cast<std::size_t>(axis);
-        cut = {axis, 0, {-infinity, -infinity, -infinity}};
-        if (below.count == 0) return true;
-        cut.at[a] = infinity;
-        if (above.count == 0) return true;
-        const Vector& last = below.last[a];
-        const Vector& first = above.first[a];
-        cut.at[a] = std::midpoint(last[a], first[a]);
-        if (!(cut.at[a] > last[a])) cut.at[a] = first[a];
-        if (last[a] < first[a]) return true;
-        const PositionOrder is_before(axis, 0, estimate_.dimension);
-        if (options_.plain_cuts || is_before(first, last)) return false;
-        cut.divides = is_before(last, first) ? 0 : 1;
-        std::copy_n(first.begin(), estimate_.dimension, cut.at.begin());
-        return cut.divides == 0 || may_divide();
-    }
-
     /// Points in one place lie in the order of their ranks, so parts in another order divide none.
     bool may_divide() const {
         return by_number_ && options_.coincident == Coincident::divide &&
@@ -174,6 +144,35 @@ class Reader {
 };
 
 }  // namespace
+
+bool is_long(const Box& box, int axis, int dimension) {
+    constexpr double enough = 0.8;
+    const auto half_extent = [&](int b) {
+        const auto a = static_cast<std::size_t>(b);
+        return box.upper[a] / 2 - box.lower[a] / 2;
+    };
+    for (int other = 0; other < dimension; ++other)
+        if (!(half_extent(axis) >= enough * half_extent(other))) return false;
+    return true;
+}
+
+std::optional<Cut> cut_between(const Place& below, const Place& above, int axis, int dimension,
+                               bool plain_cuts, bool may_divide) {
+    const auto a = static_cast<std::size_t>(axis);
+    if (below.count == 0) return plane(axis, -infinity);
+    if (above.count == 0) return plane(axis, infinity);
+    const Vector& last = below.last[a];
+    const Vector& first = above.first[a];
+    const double middle = std::midpoint(last[a], first[a]);
+    Cut cut = plane(axis, middle > last[a] ? middle : first[a]);
+    if (last[a] < first[a]) return cut;
+    const PositionOrder is_before(axis, 0, dimension);
+    if (plain_cuts || is_before(first, last)) return std::nullopt;
+    cut.divides = is_before(last, first) ? 0 : 1;
+    std::copy_n(first.begin(), dimension, cut.at.begin());
+    if (cut.divides != 0 && !may_divide) return std::nullopt;
+    return cut;
+}
 
 std::optional<CurrentParts> read_current(std::span<const Place> places, const Cuts& estimate,
                                          const Options& options) {

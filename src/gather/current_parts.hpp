@@ -19,6 +19,16 @@ struct CurrentParts {
     double imbalance = 1;
 };
 
+/// True when no other axis of the box is much longer: less strict than a new cut has it, which
+/// knows the extents by an estimate, or cuts might turn for ever.
+bool is_long(const Box& box, int axis, int dimension);
+
+/// The cut between the points of two groups of ranks, in the middle of the gap where there is one;
+/// nothing where none may be. It divides points in one place only where `may_divide`, as those of
+/// lower ranks then are below.
+std::optional<Cut> cut_between(const Place& below, const Place& above, int axis, int dimension,
+                               bool plain_cuts, bool may_divide);
+
 /// Reads the places of the ranks, one each, as a bisection into the parts that the complete
 /// `options` ask for, one per rank; nothing where they are none. Not collective.
 ///

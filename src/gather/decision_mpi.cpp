@@ -160,6 +160,13 @@ Report report_of(const Verdict& verdict, int num_parts) {
     return report;
 }
 
+void report_measured(double imbalance, std::vector<double>&& part_weights, const Options& options,
+                     Report& report) {
+    report.measured_imbalance = imbalance;
+    report.within_tolerance = imbalance <= options.imbalance_tolerance;
+    report.part_weights = std::move(part_weights);
+}
+
 bool is_refined(const Options& options) {
     return options.refine != Refine::none && options.cut_rule == CutRule::weighted_fraction &&
            !traits_of(options.domain).sends_points;

@@ -50,6 +50,10 @@ struct Decision {
 /// Report on a partition that nobody has measured.
 Report report_of(const Verdict& verdict, int num_parts);
 
+/// Tells what the parts weigh, as counted.
+void report_measured(double imbalance, std::vector<double>&& part_weights, const Options& options,
+                     Report& report);
+
 /// True when the cuts are to be moved by what the ranks count: the literal midpoint has no weight
 /// to aim at, and all points at the root need no second look.
 bool is_refined(const Options& options);

@@ -7,11 +7,15 @@
 
 namespace rrcb {
 
-bool reads_current_parts(const Options& options, int num_ranks) {
-    constexpr int most_ranks = 4096;
+bool may_keep_parts(const Options& options, int num_ranks) {
     return traits_of(options.domain).builds_on_last &&
            options.cut_rule == CutRule::weighted_fraction && options.refine != Refine::exact &&
-           num_ranks > 1 && num_ranks <= most_ranks && options.num_parts == num_ranks;
+           num_ranks > 1 && options.num_parts == num_ranks;
+}
+
+bool reads_current_parts(const Options& options, int num_ranks) {
+    constexpr int most_ranks = 4096;
+    return num_ranks <= most_ranks && may_keep_parts(options, num_ranks);
 }
 
 bool stays_at_once(double current, double tolerance) {

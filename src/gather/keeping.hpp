@@ -4,8 +4,11 @@
 
 namespace rrcb {
 
+/// True when points may stay in the parts that the ranks hold, one each. `options` are complete.
+bool may_keep_parts(const Options& options, int num_ranks);
+
 /// True when the root is to read where the points of each rank lie and what they weigh. It can then
-/// tell whether they already lie as it would have them. `options` are complete.
+/// tell whether they already lie as it would have them, of ranks that are not too many.
 bool reads_current_parts(const Options& options, int num_ranks);
 
 /// True for the imbalance of a distribution so good that no better one is searched.

@@ -17,11 +17,6 @@ Flags flags_of(const std::optional<RegionSearch>& search) {
     return {0, search->is_searching() ? 1.0 : 0.0, search->imbalance()};
 }
 
-int sum_of(int here, MPI_Comm comm) {
-    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &here, 1, MPI_INT, MPI_SUM, comm), "MPI_Allreduce");
-    return here;
-}
-
 }  // namespace
 
 RegionRefinement::RegionRefinement(int rank, int num_ranks)
@@ -63,7 +58,7 @@ Refined RegionRefinement::search(const Regions& regions, const RegionTree& tree,
         self.attempt([&] { search->follow(butterfly_); });
     }
     refined.imbalance = butterfly_.flags()[2];
-    refined.coincident_cuts = sum_of(search->num_coincident(), self.comm);
+    refined.coincident_cuts = mpi::sum_of(search->num_coincident(), self.comm);
     self.attempt([&] { refined.cuts = search->cuts(); });
     points = search->take_points();
     return refined;

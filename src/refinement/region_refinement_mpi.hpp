@@ -27,6 +27,8 @@ class RegionRefinement {
     Refined refine(const Regions& regions, RegionTree tree, const BinnedPoints& binned,
                    std::span<Part> parts, Participant& self);
 
+    ButterflyMessages& messages() { return messages_; }
+
   private:
     Refined search(const Regions& regions, const RegionTree& tree, SortedPoints& points,
                    std::span<Part> parts, Participant& self);

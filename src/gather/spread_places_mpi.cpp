@@ -1,0 +1,145 @@
+#include "gather/spread_places_mpi.hpp"
+
+#include "bisection/axis_choice.hpp"
+#include "bisection/domain_kinds.hpp"
+#include "cuts/owned_cuts.hpp"
+#include "cuts/position_order.hpp"
+#include "gather/current_parts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+namespace {
+
+using CutWords = std::array<double, sizeof(Cut) / sizeof(double)>;
+
+/// Joins the places below two cuts, and those above.
+template <int dimension>
+void join_sides(std::span<const double> a, std::span<const double> b, std::vector<double>& joined) {
+    std::vector<Place> sides = read_places(a, dimension);
+    const std::vector<Place> others = read_places(b, dimension);
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+        join(sides[k], others[k], dimension);
+        append_place(sides[k], dimension, joined);
+    }
+}
+
+constexpr std::array<Butterfly::Join, max_dimension> joins{join_sides<1>, join_sides<2>,
+                                                           join_sides<3>};
+
+/// Calls visit(node, is_above) for each node with a cut above a part; the keys ascend.
+template <class Visit>
+void for_each_above(Part part, int num_parts, Visit&& visit) {
+    for (Descent at{0, 0, num_parts}; !at.is_part();) {
+        const bool is_above = part >= at.upper().first_part;
+        visit(at, is_above);
+        at = is_above ? at.upper() : at.lower();
+    }
+}
+
+}  // namespace
+
+SpreadPlaces::SpreadPlaces(const Options& options, const Place& mine, bool may_stay, int dimension,
+                           int rank)
+    : options_(options),
+      mine_(mine),
+      may_stay_(may_stay),
+      dimension_(dimension),
+      butterfly_(rank, options.num_parts, joins[static_cast<std::size_t>(dimension) - 1]) {}
+
+std::optional<SpreadParts> SpreadPlaces::read(double total, bool by_count,
+                                              ButterflyMessages& messages, Participant& self) {
+    self.attempt([&] { tell_places(); });
+    messages.run(butterfly_, Butterfly::to_owners,
+                 {0, may_stay_ ? 0.0 : 1.0, share(total, by_count)}, self);
+    const double imbalance = butterfly_.flags()[2];
+    if (butterfly_.flags()[1] > 0) return std::nullopt;
+    bool are_cut = false;
+    self.attempt([&] { are_cut = decide_cuts(); });
+    messages.run(butterfly_, Butterfly::back, {0, are_cut ? 0.0 : 1.0}, self);
+    if (butterfly_.flags()[1] > 0) return std::nullopt;
+    SpreadParts parts;
+    self.attempt([&] { parts = parts_told(); });
+    parts.imbalance = imbalance;
+    return parts;
+}
+
+/// What this rank holds, over what its part should weigh.
+double SpreadPlaces::share(double total, bool by_count) const {
+    const double weight = by_count ? mine_.count : mine_.weight;
+    const auto& sizes = options_.part_sizes;
+    const double all_sizes =
+        sizes.empty() ? options_.num_parts : std::accumulate(sizes.begin(), sizes.end(), 0.0);
+    const double size = sizes.empty() ? 1 : sizes[static_cast<std::size_t>(butterfly_.rank())];
+    if (mine_.count > 0 && !(size > 0)) return std::numeric_limits<double>::infinity();
+    return weight > 0 ? weight / size / (total / all_sizes) : 0;
+}
+
+void SpreadPlaces::tell_places() {
+    std::vector<double> payload;
+    for_each_above(butterfly_.rank(), options_.num_parts, [&](const Descent& at, bool is_above) {
+        payload.clear();
+        append_place(is_above ? Place{} : mine_, dimension_, payload);
+        append_place(is_above ? mine_ : Place{}, dimension_, payload);
+        butterfly_.add(at.node, owner_of(at, options_.num_parts, options_.num_parts), payload);
+    });
+}
+
+/// Answers with the cuts of the nodes that this rank owns; false where one has none.
+bool SpreadPlaces::decide_cuts() {
+    bool are_cut = true;
+    butterfly_.owned().for_each([&](const Record& record) {
+        const std::vector<Place> sides = read_places(record.payload, dimension_);
+        const std::optional<Cut> cut = cut_of(sides[0], sides[1]);
+        are_cut = are_cut && cut;
+        if (cut) butterfly_.answer(record.key, std::bit_cast<CutWords>(*cut));
+    });
+    return are_cut;
+}
+
+/// Across the axis that a new cut would have, if one may be there, or else another long one.
+std::optional<Cut> SpreadPlaces::cut_of(const Place& below, const Place& above) const {
+    Place all = below;
+    join(all, above, dimension_);
+    const int usual =
+        longest_axis(all.box(), dimension_, traits_of(options_.domain).share_of_longest);
+    for (int k = 0; k < dimension_; ++k) {
+        const auto axis = static_cast<int>(ordering_axis(usual, k));
+        if (!is_long(all.box(), axis, dimension_)) continue;
+        const auto cut = cut_between(below, above, axis, dimension_, options_.plain_cuts,
+                                     options_.coincident == Coincident::divide);
+        if (cut) return cut;
+    }
+    return std::nullopt;
+}
+
+/// The cuts above the part of this rank, of the answers, which may be to others too.
+SpreadParts SpreadPlaces::parts_told() const {
+    const int num_parts = options_.num_parts;
+    SpreadParts parts{{dimension_, num_parts, {}, {}}};
+    RecordReader answers = butterfly_.answers().read();
+    for_each_above(butterfly_.rank(), num_parts, [&](const Descent& at, bool) {
+        while (!answers.at_end()) {
+            const Record answer = answers.next();
+            if (answer.key != at.node) continue;
+            CutWords words;
+            std::ranges::copy(answer.payload, words.begin());
+            const auto cut = std::bit_cast<Cut>(words);
+            parts.cuts.nodes.push_back(static_cast<std::int32_t>(at.node));
+            parts.cuts.tree.push_back(cut);
+            const bool is_own = answer.owner == butterfly_.rank();
+            parts.num_divided += is_own ? cut.divides : 0;
+            return;
+        }
+    });
+    return parts;
+}
+
+}  // namespace rrcb

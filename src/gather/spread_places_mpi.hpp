@@ -1,0 +1,54 @@
+#pragma once
+
+#include "collective/butterfly_mpi.hpp"
+#include "collective/participant.hpp"
+#include "gather/place.hpp"
+
+#include <rrcb/cuts.hpp>
+#include <rrcb/options.hpp>
+
+#include <optional>
+
+namespace rrcb {
+
+/// The parts that the ranks hold.
+struct SpreadParts {
+    Cuts cuts;  ///< those above the part of this rank
+    double imbalance = 1;
+    int num_divided = 0;  ///< cuts that this rank owns and that divide points in one place
+};
+
+/// The place of this rank's points, which owners of nodes read with those of the others as a
+/// bisection, part r being on rank r. As read_current(), but a cut may lie across any long axis of
+/// the points that it divides.
+class SpreadPlaces {
+  public:
+    /// By complete options that ask for a part for each rank. `may_stay` may differ between ranks;
+    /// nothing is read unless all may. Not collective. Throws std::bad_alloc.
+    SpreadPlaces(const Options& options, const Place& mine, bool may_stay, int dimension, int rank);
+
+    /// The parts that the ranks hold, of the weight `total` together or, `by_count`, of as many
+    /// points; nothing where they are no bisection.
+    ///
+    /// Collective: one pass of records to their owners, and where all may stay one of cuts back. A
+    /// message has 16 + 32 (1 + dimension^2) bytes at most for each cut above a part. Throws on
+    /// every rank what failed on one before; but a failure in the last messages stays with its rank
+    /// for the next agreement.
+    std::optional<SpreadParts> read(double total, bool by_count, ButterflyMessages& messages,
+                                    Participant& self);
+
+  private:
+    double share(double total, bool by_count) const;
+    void tell_places();
+    bool decide_cuts();
+    std::optional<Cut> cut_of(const Place& below, const Place& above) const;
+    SpreadParts parts_told() const;
+
+    Options options_;
+    Place mine_;
+    bool may_stay_;
+    int dimension_;
+    Butterfly butterfly_;
+};
+
+}  // namespace rrcb

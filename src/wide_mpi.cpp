@@ -26,6 +26,15 @@ void for_each_region(const Descent& at, int num_regions, Visit&& visit) {
     for_each_region(at.upper(), num_regions / 2, visit);
 }
 
+/// Appends the axes of the cuts between these nodes.
+void append_axes(const Descent& at, int num_regions, std::span<const int> cut_axes,
+                 std::vector<int>& axes) {
+    if (num_regions == 1) return;
+    axes.push_back(cut_axes[at.node]);
+    append_axes(at.lower(), num_regions / 2, cut_axes, axes);
+    append_axes(at.upper(), num_regions / 2, cut_axes, axes);
+}
+
 double sum_of(std::span<const double> values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
@@ -55,6 +64,7 @@ RegionTree tree_of(const Options& options, const Verdict& verdict, double weight
     tree.num_ranks = num_ranks;
     tree.weight = weight;
     tree.part_sizes = options.part_sizes;
+    tree.cut_axes = options.cut_axes;
     tree.rule.tolerance = options.imbalance_tolerance;
     tree.rule.common_weight = verdict.common_weight;
     tree.rule.heaviest = verdict.heaviest;
@@ -70,9 +80,8 @@ RegionTree tree_of(const Options& options, const Verdict& verdict, double weight
 bool is_wide(const Options& options, int num_ranks) {
     const bool has_statistics =
         options.domain == DomainKind::analytic || options.domain == DomainKind::learned;
-    const bool are_axes_free = options.grouped_axes.empty() && options.cut_axes.empty();
     return std::min(options.num_parts, num_ranks) > options.central_parts && has_statistics &&
-           is_refined(options) && are_axes_free && !are_cuts_limited(options);
+           is_refined(options) && options.grouped_axes.empty() && !are_cuts_limited(options);
 }
 
 Options region_options(const Options& options) {
@@ -91,6 +100,10 @@ Options region_options(const Options& options) {
                 ? at.num_parts
                 : sum_of(std::span(options.part_sizes).subspan(first, count)));
     });
+    regions.cut_axes.clear();
+    if (!options.cut_axes.empty())
+        append_axes({0, 0, options.num_parts}, regions.num_parts, options.cut_axes,
+                    regions.cut_axes);
     const auto levels = [](int num_parts) {
         return static_cast<double>(std::bit_width(static_cast<unsigned>(num_parts - 1)));
     };

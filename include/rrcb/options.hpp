@@ -79,7 +79,7 @@ struct Options {
     /// Refine::exact each cut is. A rank then gets the cuts between the regions, those of nodes in
     /// which it has points, and those on the way to its own parts, see Cuts::nodes. No effect with
     /// domains other than analytic and learned, with CutRule::midpoint, Refine::none, `min_width`,
-    /// `grid`, `grouped_axes` or `cut_axes`.
+    /// `grid` or `grouped_axes`.
     int central_parts = 64;
 
     double sigma_multiplier = 1.5;  ///< sampled: half-width of a cell's sampling box in sigmas, > 0

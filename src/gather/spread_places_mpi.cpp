@@ -97,7 +97,7 @@ bool SpreadPlaces::decide_cuts() {
     bool are_cut = true;
     butterfly_.owned().for_each([&](const Record& record) {
         const std::vector<Place> sides = read_places(record.payload, dimension_);
-        const std::optional<Cut> cut = cut_of(sides[0], sides[1]);
+        const std::optional<Cut> cut = cut_of(record.key, sides[0], sides[1]);
         are_cut = are_cut && cut;
         if (cut) butterfly_.answer(record.key, std::bit_cast<CutWords>(*cut));
     });
@@ -105,14 +105,18 @@ bool SpreadPlaces::decide_cuts() {
 }
 
 /// Across the axis that a new cut would have, if one may be there, or else another long one.
-std::optional<Cut> SpreadPlaces::cut_of(const Place& below, const Place& above) const {
+std::optional<Cut> SpreadPlaces::cut_of(std::size_t node, const Place& below,
+                                        const Place& above) const {
     Place all = below;
     join(all, above, dimension_);
+    const Box box = all.box();
+    const bool is_given = !options_.cut_axes.empty();
     const int usual =
-        longest_axis(all.box(), dimension_, traits_of(options_.domain).share_of_longest);
-    for (int k = 0; k < dimension_; ++k) {
+        is_given ? options_.cut_axes[node]
+                 : longest_axis(box, dimension_, traits_of(options_.domain).share_of_longest);
+    for (int k = 0; k < (is_given ? 1 : dimension_); ++k) {
         const auto axis = static_cast<int>(ordering_axis(usual, k));
-        if (!is_long(all.box(), axis, dimension_)) continue;
+        if (!is_given && !is_long(box, axis, dimension_)) continue;
         const auto cut = cut_between(below, above, axis, dimension_, options_.plain_cuts,
                                      options_.coincident == Coincident::divide);
         if (cut) return cut;

@@ -19,8 +19,8 @@ struct SpreadParts {
 };
 
 /// The place of this rank's points, which owners of nodes read with those of the others as a
-/// bisection, part r being on rank r. As read_current(), but a cut may lie across any long axis of
-/// the points that it divides.
+/// bisection, part r being on rank r. As read_current(), but where axes are free a cut may lie
+/// across any long one of the points that it divides.
 class SpreadPlaces {
   public:
     /// By complete options that ask for a part for each rank. `may_stay` may differ between ranks;
@@ -41,7 +41,7 @@ class SpreadPlaces {
     double share(double total, bool by_count) const;
     void tell_places();
     bool decide_cuts();
-    std::optional<Cut> cut_of(const Place& below, const Place& above) const;
+    std::optional<Cut> cut_of(std::size_t node, const Place& below, const Place& above) const;
     SpreadParts parts_told() const;
 
     Options options_;

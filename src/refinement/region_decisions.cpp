@@ -120,7 +120,7 @@ void RegionSearch::decide_by_first_count(Node& node, std::span<const double> his
     const auto weights = histogram.subspan(layout_.num_extents, layout_.num_slots());
     node.content.box = box_in(histogram);
     node.content.weight = std::accumulate(weights.begin(), weights.end(), 0.0);
-    const CutSearch anew = first_search(node.content.box, node.content.weight);
+    const CutSearch anew = first_search(node.at, node.content.box, node.content.weight);
     if (anew.cut.axis != search.cut.axis) {
         search = anew;
         return;

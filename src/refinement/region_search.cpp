@@ -121,7 +121,7 @@ void RegionSearch::enter(const Descent& at, Content&& content) {
     if (at.is_part() || (content.weight > 0 && share > 0 && share < 1)) {
         // A vector that is moved keeps its entries where they are.
         const LocalSearch local(content.fragments, points_);
-        const CutSearch search = first_search(content.box, content.weight);
+        const CutSearch search = first_search(at, content.box, content.weight);
         nodes_.push_back({at, std::move(content), search, local});
         return;
     }
@@ -171,10 +171,12 @@ void RegionSearch::end_at_part(const Descent& at, const Content& content) {
     imbalance_ = std::max(imbalance_, content.weight / tree_.weight / share);
 }
 
-/// The search in a box before anything is counted.
-CutSearch RegionSearch::first_search(const Box& box, double weight) const {
+/// The search for the cut of a node in a box before anything is counted, or to weigh a part.
+CutSearch RegionSearch::first_search(const Descent& at, const Box& box, double weight) const {
     CutSearch search;
-    search.cut.axis = longest_axis(box, dimension_, tree_.share_of_longest);
+    search.cut.axis = tree_.cut_axes.empty() || at.is_part()
+                          ? longest_axis(box, dimension_, tree_.share_of_longest)
+                          : tree_.cut_axes[at.node];
     search.num_axes = tree_.plain_cuts ? 1 : dimension_;
     search.divides = tree_.divides_coincident && !tree_.plain_cuts ? 1 : 0;
     search.cut.at.fill(-infinity);

@@ -29,6 +29,7 @@ struct RegionTree {
     int num_ranks = 1;
     double weight = 0;                     ///< of all points
     std::span<const double> part_sizes{};  ///< one per part; empty: equal
+    std::span<const int> cut_axes{};       ///< of all cuts in preorder; empty: free
     std::span<const double> ones{};        ///< as many as a region has equal parts; empty: made
     TargetRule rule{};                     ///< but for the sizes, and the weight per size
     double share_of_longest = 1;           ///< see longest_axis()
@@ -152,7 +153,7 @@ class RegionSearch {
     Halves split_by_parts(const std::vector<Fragment>& fragments, Part first_above);
     void end_at_cut(const Node& node, const Answer& answer);
     void end_at_part(const Descent& at, const Content& content);
-    CutSearch first_search(const Box& box, double weight) const;
+    CutSearch first_search(const Descent& at, const Box& box, double weight) const;
     std::vector<double> answer_to(const Record& record, Node& node);
     void place_weights(const Node& node, std::span<const double> payload, Answer& answer) const;
     void count(const Node& node, std::vector<double>& payload) const;

@@ -110,6 +110,14 @@ TEST(WidePointsAtRest, in_parts_of_given_sizes_rest) {
     expect_rest(random_points(6000, 2, 4), options, 2);
 }
 
+TEST(WidePointsAtRest, in_given_axes_or_between_planes_rest) {
+    Options options = wide_options(1.05);
+    options.plain_cuts = true;
+    expect_rest(random_points(6000, 2, 5), options, 2);
+    options.cut_axes.assign(static_cast<std::size_t>(num_ranks()) - 1, 1);
+    expect_rest(random_points(6000, 2, 5), options, 2);
+}
+
 TEST(WidePointsAtRest, in_one_place_and_divided_rest) {
     HeldPoints all{2, std::vector<double>(1200, 0.5)};
     all.scatter();

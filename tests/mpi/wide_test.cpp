@@ -175,6 +175,34 @@ TEST(Wide, a_tolerance_that_exact_cuts_reach_is_not_missed) {
     EXPECT_LE(imbalance(expect_consistent(points, result)), 1.05);
 }
 
+void expect_axes(const Cuts& cuts, const std::vector<int>& cut_axes) {
+    for (std::size_t k = 0; k < cuts.tree.size(); ++k)
+        EXPECT_EQ(cuts.tree[k].axis, cut_axes[static_cast<std::size_t>(cuts.nodes[k])]);
+}
+
+TEST(Wide, cuts_lie_across_the_axes_given_to_them) {
+    const auto mine = share_of_cloud(2048, 3, uniform);
+    const Points points = interleaved_points(mine, 3);
+    for (const Refine refine : {Refine::exact, Refine::tolerance})
+        for (const int central : central_parts()) {
+            Options options = wide_options(central, refine);
+            options.imbalance_tolerance = 1.05;
+            const Balance free = balance(points, options, MPI_COMM_WORLD);
+            for (int node = 0; node + 1 < num_ranks(); ++node)
+                options.cut_axes.push_back((node * node + 1) % 3);
+            const Balance result = balance(points, options, MPI_COMM_WORLD);
+            EXPECT_LE(imbalance(expect_consistent(points, result)), 1.05);
+            expect_axes(result.cuts, options.cut_axes);
+            // Cuts across other axes are made anew.
+            const Balance again = balance(points, options, MPI_COMM_WORLD, free.cuts);
+            expect_axes(again.cuts, options.cut_axes);
+            EXPECT_EQ(again.parts, result.parts);
+            if (refine != Refine::exact) continue;
+            options.central_parts = num_ranks();
+            EXPECT_EQ(result.parts, balance(points, options, MPI_COMM_WORLD).parts);
+        }
+}
+
 TEST(Wide, parts_have_the_sizes_asked_for_and_stay_empty_where_these_are_0) {
     for (const int num_parts : {num_ranks(), 2 * num_ranks() + 1, 3}) {
         if (num_parts < 3) continue;
@@ -312,7 +340,6 @@ TEST(Wide, all_ranks_get_all_cuts_where_the_call_asks_for_something_else) {
         [](Options& o) {
             o.grouped_axes = {1, 0};
         },
-        [](Options& o) { o.cut_axes.assign(static_cast<std::size_t>(num_ranks() - 1), 0); },
         [](Options& o) {
             o.min_width = {1e-9, 1e-9};
         },

@@ -2,6 +2,7 @@
 
 #include "parallel/communicator_mpi.hpp"
 
+#include <gtest/gtest.h>
 #include <mpi.h>
 #include <mpm/region.hpp>
 #include <mpm/simulation.hpp>
@@ -102,6 +103,34 @@ inline Decomposition between_cuts(const std::vector<double>& cuts, bool ties_go_
         }
     };
     return decomposition;
+}
+
+/// Boxes between horizontal cuts, as near to the bottom as a cell.
+inline Decomposition layers(int num_ranks) {
+    Decomposition decomposition = between_cuts(std::vector<double>(num_ranks - 1, 0.0));
+    std::vector<double> cuts;
+    for (int k = 1; k < num_ranks; ++k) cuts.push_back(0.11 * k);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < decomposition.boxes.size(); ++k) {
+        Box& box = decomposition.boxes[k];
+        box.lower = {-infinity, k == 0 ? -infinity : cuts[k - 1], -infinity};
+        box.upper = {infinity, k < cuts.size() ? cuts[k] : infinity, infinity};
+    }
+    decomposition.owners = [cuts](Positions at, std::span<int> owners) {
+        for (std::size_t i = 0; i < owners.size(); ++i)
+            owners[i] = static_cast<int>(std::ranges::upper_bound(cuts, at.y[i]) - cuts.begin());
+    };
+    return decomposition;
+}
+
+/// Expects the positions and velocities of a run on each rank alone and of one on all ranks to
+/// agree.
+inline void expect_same_motion(const Simulation& serial, const Simulation& parallel) {
+    for (const char* column : {"x", "y", "velocity_x", "velocity_y"})
+        EXPECT_LT(relative_difference(gathered(serial, column, MPI_COMM_SELF),
+                                      gathered(parallel, column, MPI_COMM_WORLD)),
+                  1e-11)
+            << column;
 }
 
 /// An elastic material as a scene names it.

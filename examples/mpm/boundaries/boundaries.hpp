@@ -4,13 +4,13 @@
 
 namespace mpm {
 
-/// The scene with an open side and a plane (add_plane_friction) in place of each wall that has
-/// friction. Points sink into a plane a little: behind it the grid has a layer of cells more.
+/// The scene with an open side and a plane in place of each wall that has friction or moves. Points
+/// sink into a plane a little: behind it the grid has a layer of cells more.
 Scene with_ground(Scene scene);
 
 /// Adds the kernels that hold the nodes on the sides of the domain, those of walls that bodies may
-/// leave after they have moved. Open sides need none. Walls with friction must be planes
-/// (with_ground).
+/// leave after they have moved. Open sides need none. Walls with friction or a
+/// motion must be planes (with_ground).
 ///
 /// Shape functions may reach beyond a wall. At rollers and fixed walls the sums of nodes there go
 /// to their mirror images inside, with the signs that leave the wall at rest. At frictional walls

@@ -1,40 +1,10 @@
 #pragma once
 
-#include "grid/grid.hpp"
+#include "effects/moving_ground.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace mpm {
-
-template <int D>
-inline double along_normal(const Components<D>& normal, const Components<D>& velocity) {
-    double across = 0;
-    for (std::size_t a = 0; a < D; ++a) across += velocity[a] * normal[a];
-    return across;
-}
-
-/// Solid ground behind a plane.
-template <int D>
-struct Ground {
-    Components<D> normal;  ///< outward, of unit length
-    double level;          ///< of the plane along the normal, m
-
-    double height(const Components<D>& at) const { return along_normal<D>(normal, at) - level; }
-};
-
-template <int D>
-Ground<D> ground_of(const Plane& plane) {
-    double square = 0;
-    for (std::size_t a = 0; a < D; ++a) square += plane.normal[a] * plane.normal[a];
-    Ground<D> ground{};
-    for (std::size_t a = 0; a < D; ++a) {
-        ground.normal[a] = plane.normal[a] / std::sqrt(square);
-        ground.level += ground.normal[a] * plane.point[a];
-    }
-    return ground;
-}
 
 /// Velocity of a node without its part into a surface.
 template <int D>

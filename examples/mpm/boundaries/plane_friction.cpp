@@ -29,7 +29,7 @@ class RubbingPlane {
   public:
     RubbingPlane(const Plane& plane, double wave_speed, double spacing,
                  const PlaneColumns<D>& columns)
-        : ground_(ground_of<D>(plane)),
+        : ground_(plane),
           friction_(plane.wall.friction),
           spacing_(spacing),
           rate_(wave_speed / spacing),
@@ -40,7 +40,8 @@ class RubbingPlane {
     void start(Particles& particles) const {
         for (std::size_t p = 0; p < particles.size(); ++p)
             particles.data(columns_.reach)[p] =
-                std::min(ground_.height(position_of(particles, p)), width_of(particles, p));
+                std::min(ground_.height(ground_.origin(position_of(particles, p), 0)),
+                         width_of(particles, p));
     }
 
     /// Finds the forces of the next step on a block of points.
@@ -52,12 +53,14 @@ class RubbingPlane {
             force[a] = particles.data(columns_.force[a]);
         }
         const double* const reach = particles.data(columns_.reach);
+        const double end = block.time + block.time_step;
+        const Components<D> moved = ground_.origin({}, end), speed = ground_.velocity(end);
         for (std::size_t p = block.begin; p < block.end; ++p) {
             Components<D> at;
-            for (std::size_t a = 0; a < D; ++a) at[a] = position[a][p];
+            for (std::size_t a = 0; a < D; ++a) at[a] = position[a][p] + moved[a];
             const double depth = reach[p] - ground_.height(at);
             double& damping = particles.data(columns_.damping)[p];
-            damping = depth > 0 ? damping_of(particles, p, block.time_step) : 0;
+            damping = depth > 0 ? damping_of(particles, p, speed, block.time_step) : 0;
             const double spring = depth > 0 ? spring_of(particles, p, depth) : 0;
             damping = std::max(damping, -spring);
             const double push = spring + damping;
@@ -94,10 +97,11 @@ class RubbingPlane {
 
     /// Force of the dashpot out of the plane, N. In a step it takes no more than the velocity of
     /// half a cell of points, those that a node on the plane stands for.
-    double damping_of(const Particles& particles, std::size_t p, double time_step) const {
+    double damping_of(const Particles& particles, std::size_t p, const Components<D>& speed,
+                      double time_step) const {
         double across = 0;
         for (std::size_t a = 0; a < D; ++a)
-            across += particles[columns_.motion.velocity[a]][p] * ground_.normal[a];
+            across += (particles[columns_.motion.velocity[a]][p] - speed[a]) * ground_.normal[a];
         return -mass_above(particles, p) * std::min(rate_, 0.5 / time_step) * across;
     }
 
@@ -163,13 +167,16 @@ template <int D>
 NodeKernel<D> force_kernel(const Ground<D>& ground, std::size_t first) {
     return [ground, first](GridPatch<D>& patch, const StepTime& now) {
         const std::vector<double>& damping = patch.fields[first + D];
+        const double across = along_normal<D>(ground.normal, ground.velocity(now.time));
         for (std::size_t n = 0; n < patch.sums.size(); ++n) {
             NodeSums<D>& node = patch.sums[n];
             Components<D> force;
             for (std::size_t a = 0; a < D; ++a) force[a] = patch.fields[first + a][n];
             const double push = along_normal<D>(ground.normal, force);
             if (!(push > 0)) continue;
-            const double stop = -along_normal<D>(ground.normal, node.momentum) / now.time_step;
+            const double inward =
+                across * node.mass - along_normal<D>(ground.normal, node.momentum);
+            const double stop = inward / now.time_step;
             const double left = std::clamp(damping[n], std::min(stop, 0.0), std::max(stop, 0.0));
             const double share = std::max(0.0, 1 - (damping[n] - left) / push);
             for (std::size_t a = 0; a < D; ++a) node.force[a] += share * force[a];
@@ -187,7 +194,7 @@ Scene with_ground(Scene scene) {
     for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
         for (const std::size_t end : {0, 1}) {
             Wall& wall = *sides[a][end];
-            if (!has_friction(wall)) continue;
+            if (!has_friction(wall) && wall.motion.speeds.empty()) continue;
             Plane plane{.name = "wall", .point = ends[end], .wall = wall};
             plane.normal[a] = end == 0 ? 1 : -1;
             scene.planes.push_back(plane);
@@ -209,7 +216,7 @@ void add_plane_friction(const Scene& scene, double wave_speed, Particles& partic
             add_columns<D>("plane_" + std::to_string(k + 1), particles, stages));
         stages.starts.push_back([plane](Particles& points) { plane.start(points); });
         stages.forces.push_back(
-            {"plane_friction", force_kernel<D>(ground_of<D>(scene.planes[k]), first)});
+            {"plane_friction", force_kernel<D>(Ground<D>(scene.planes[k]), first)});
         stages.after_materials.push_back(
             {"plane_friction", [plane](Particles& points, const PointBlock<D>& block) {
                  plane.push(points, block);

@@ -1,7 +1,6 @@
 #include "effects/effect.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <stdexcept>
 
 namespace mpm {
@@ -12,14 +11,26 @@ namespace mpm {
 
 namespace {
 
-std::size_t number_of(const std::string& name) {
+const EffectKind& kind_of(const Effect& effect) {
+    const std::string& name = effect.kind.empty() ? effect.name : effect.kind;
     std::vector<std::string> names;
     for (const EffectKind& kind : effect_kinds()) {
-        if (kind.name == name) return names.size();
+        if (kind.name == name) return kind;
         names.push_back(kind.name);
     }
-    throw std::invalid_argument("effects: there is no effect '" + name +
-                                "'; possible: " + joined(names));
+    throw std::invalid_argument("effects: there is no effect '" + name + "'; possible: " +
+                                joined(names) + "; another name needs one of these as its 'kind'");
+}
+
+/// Throws std::invalid_argument where an effect may not stand beside one before it.
+void check_beside(const NamedEffect& effect, const std::vector<NamedEffect>& before) {
+    const std::string place = "effects / " + effect.name;
+    for (const NamedEffect& other : before) {
+        if (other.name == effect.name) throw std::invalid_argument(place + " is named twice");
+        if (other.kind == effect.kind && !effect.kind->may_repeat)
+            throw std::invalid_argument(place + " is a second " + effect.kind->name + " beside '" +
+                                        other.name + "', of which a scene has one");
+    }
 }
 
 }  // namespace
@@ -33,15 +44,18 @@ std::span<const EffectKind> effect_kinds() {
     return kinds;
 }
 
-std::vector<std::optional<Values>> effect_values(const Scene& scene) {
-    std::vector<std::optional<Values>> values(effect_kinds().size());
+std::vector<NamedEffect> effects_of(const Scene& scene) {
+    std::vector<NamedEffect> effects;
     for (const Effect& effect : scene.effects) {
-        const std::size_t kind = number_of(effect.name);
-        const std::string place = "effects / " + effect.name;
-        if (values[kind]) throw std::invalid_argument(place + " is named twice");
-        values[kind].emplace(effect.parameters, effect_kinds()[kind].rules, place, scene.dimension);
+        const EffectKind& kind = kind_of(effect);
+        NamedEffect named{
+            &kind, effect.name,
+            Values(effect.parameters, kind.rules, "effects / " + effect.name, scene.dimension)};
+        check_beside(named, effects);
+        effects.push_back(std::move(named));
     }
-    return values;
+    std::ranges::stable_sort(effects, {}, &NamedEffect::kind);
+    return effects;
 }
 
 }  // namespace mpm

@@ -2,7 +2,6 @@
 
 #include "effects/stages.hpp"
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,10 +12,11 @@ namespace mpm {
 template <int D>
 struct EffectBuilder {
     const Scene& scene;
-    const Values& values;  ///< its parameters, checked
-    Particles& particles;  ///< to add columns to
-    Stages<D>& stages;     ///< to add kernels to
-    double wave_speed;     ///< the largest of its materials, m/s
+    const std::string& name;  ///< its own in the scene
+    const Values& values;     ///< its parameters, checked
+    Particles& particles;     ///< to add columns to
+    Stages<D>& stages;        ///< to add kernels to
+    double wave_speed;        ///< the largest of its materials, m/s
 };
 
 /// An effect: one file in effects/, named in effects.inc.
@@ -25,14 +25,23 @@ struct EffectKind {
     std::vector<Rule> rules;  ///< of its parameters
     void (*build_2)(const EffectBuilder<2>&);
     void (*build_3)(const EffectBuilder<3>&);
+    bool may_repeat = false;  ///< whether a scene may have several
+};
+
+/// An effect that a scene names, with its checked parameters.
+struct NamedEffect {
+    const EffectKind* kind;
+    std::string name;
+    Values values;
 };
 
 /// Effects there are, in the order they enter a stage; see effects.inc.
 std::span<const EffectKind> effect_kinds();
 
-/// Checked parameters of each effect of a scene, by the number of its kind.
+/// Effects of a scene in the order of their kinds, those of one kind in the order of the scene.
 ///
-/// Throws std::invalid_argument for an unknown effect, one named twice, and wrong parameters.
-std::vector<std::optional<Values>> effect_values(const Scene& scene);
+/// Throws std::invalid_argument for an unknown effect, one named twice, a second one of a kind that
+/// may not repeat, and wrong parameters.
+std::vector<NamedEffect> effects_of(const Scene& scene);
 
 }  // namespace mpm

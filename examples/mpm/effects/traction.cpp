@@ -19,12 +19,12 @@ struct Face {
 };
 
 template <int D>
-Face read_face(const Values& values) {
+Face read_face(const Values& values, const std::string& place) {
     const std::size_t side =
         static_cast<std::size_t>(std::ranges::find(sides, values.word("side")) - sides.begin());
     if (side >= 2 * D)
         throw std::invalid_argument(
-            "effects / traction: 'side' must be left, right, bottom or top in two dimensions");
+            place + ": 'side' must be left, right, bottom or top in two dimensions");
     Face face{side / 2, side % 2 == 0 ? -1.0 : 1.0, everywhere};
     for (std::size_t a = 0; a < D; ++a) {
         if (values.has("lower")) face.box.lower[a] = values.list("lower")[a];
@@ -53,20 +53,21 @@ template <int D>
 void build(const EffectBuilder<D>& builder) {
     const Values& values = builder.values;
     Stages<D>& stages = builder.stages;
-    const Face face = read_face<D>(values);
+    const std::string place = "effects / " + builder.name;
+    const Face face = read_face<D>(values, place);
     const MotionColumns motion = add_motion_columns(builder.particles, D);
-    const Column area = builder.particles.add_column("traction_area");
+    const Column area = builder.particles.add_column(builder.name + "_area");
     stages.starts.push_back([=, scene = builder.scene](Particles& particles) {
         const Positions positions = positions_of(particles, motion, D);
         for (std::size_t p = 0; p < particles.size(); ++p)
             particles.data(area)[p] = area_at<D>(scene, face, positions[p]);
     });
     const std::size_t field = stages.fields.size();
-    stages.fields.push_back({"traction_area", area});
+    stages.fields.push_back({builder.name, area});
     Components<D> traction;
     std::copy_n(values.list("traction").begin(), D, traction.begin());
-    const TimeFunction share(values.list("times"), values.list("shares"), "effects / traction");
-    stages.forces.push_back({"traction", [=](GridPatch<D>& patch, const StepTime& step) {
+    const TimeFunction share(values.list("times"), values.list("shares"), place);
+    stages.forces.push_back({builder.name, [=](GridPatch<D>& patch, const StepTime& step) {
                                  Components<D> now = traction;
                                  for (double& component : now) component *= share.at(step.time);
                                  for (std::size_t n = 0; n < patch.sums.size(); ++n)
@@ -87,7 +88,8 @@ EffectKind traction_effect() {
              optional(vector("upper", "m")), numbers("times", "s", std::vector<double>{0}),
              numbers("shares", "", std::vector<double>{1})},
             build<2>,
-            build<3>};
+            build<3>,
+            true};
 }
 
 }  // namespace mpm

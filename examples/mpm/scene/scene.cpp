@@ -1,4 +1,5 @@
 #include "effects/effect.hpp"
+#include "effects/time_function.hpp"
 #include "materials/material.hpp"
 
 #include <mpm/scene.hpp>
@@ -32,11 +33,39 @@ void check_body(const Scene& scene, const Body& body) {
     material_of(scene, body);
 }
 
-void check_walls(const Walls& walls) {
-    for (const Wall* wall :
-         {&walls.left, &walls.right, &walls.bottom, &walls.top, &walls.back, &walls.front})
-        require(wall->friction >= 0 && std::isfinite(wall->friction),
-                "the friction of a wall must not be negative");
+/// What moves across the grid is an effect, moving_plane: nodes and springs would give way to it.
+void check_motion(const Wall& wall, const Vector& normal, int dimension, const std::string& place) {
+    const Motion& motion = wall.motion;
+    if (motion.speeds.empty()) return;
+    double square = 0, across = 0, largest = 0;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
+        square += motion.direction[a] * motion.direction[a];
+        across += motion.direction[a] * normal[a];
+        largest += std::abs(motion.direction[a] * normal[a]);
+    }
+    require(square > 0 && std::isfinite(square),
+            place + " must move along a direction that is not zero");
+    require(std::abs(across) <= 1e-9 * largest,
+            place + " must move along itself; what moves across is an effect, moving_plane");
+    require(wall.kind == Wall::fixed || (wall.kind == Wall::frictional && wall.friction > 0),
+            place + " moves nothing along it; it must be fixed or have friction");
+    TimeFunction(motion.times, motion.speeds, "scene: " + place);
+}
+
+void check_walls(const Scene& scene) {
+    const Walls& walls = scene.walls;
+    const std::array all{&walls.left, &walls.right, &walls.bottom,
+                         &walls.top,  &walls.back,  &walls.front};
+    const std::array names{"left", "right", "bottom", "top", "back", "front"};
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const Wall& wall = *all[k];
+        const std::string place = std::string("the wall '") + names[k] + "'";
+        require(wall.friction >= 0 && std::isfinite(wall.friction),
+                "the friction of " + place + " must not be negative");
+        Vector normal{};
+        normal[k / 2] = 1;
+        check_motion(wall, normal, scene.dimension, place);
+    }
 }
 
 void check_planes(const Scene& scene) {
@@ -52,6 +81,7 @@ void check_planes(const Scene& scene) {
         require(plane.wall.kind != Wall::open, "plane '" + plane.name + "' must not be open");
         require(plane.wall.friction >= 0 && std::isfinite(plane.wall.friction),
                 "the friction of plane '" + plane.name + "' must not be negative");
+        check_motion(plane.wall, plane.normal, scene.dimension, "plane '" + plane.name + "'");
     }
 }
 
@@ -88,11 +118,11 @@ void validate(const Scene& scene) {
     require(!scene.bodies.empty(), "there is no body");
     for (const Material& material : scene.materials) values_of(material, scene.dimension);
     for (const Body& body : scene.bodies) check_body(scene, body);
-    check_walls(scene.walls);
+    check_walls(scene);
     check_planes(scene);
     check_probes(scene);
     check_transfer(scene);
-    effect_values(scene);
+    effects_of(scene);
 }
 
 Parameters* find_effect(Scene& scene, const std::string& name) {

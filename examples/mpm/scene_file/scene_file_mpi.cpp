@@ -40,7 +40,15 @@ GridShape read_domain(const List& list, int dimension) {
     return grid;
 }
 
-Walls read_walls(const List& list, int dimension) {
+Motion read_motion(const List& list, int dimension) {
+    const Values values =
+        list.values({vector("direction", ""), numbers("times", "s", std::vector<double>{0}),
+                     numbers("speeds", "m/s")},
+                    dimension);
+    return {vector_of(values.list("direction")), values.list("times"), values.list("speeds")};
+}
+
+Walls read_walls(List list, int dimension) {
     Walls walls;
     const std::vector<std::pair<std::string, Wall*>> sides{
         {"left", &walls.left}, {"right", &walls.right}, {"bottom", &walls.bottom},
@@ -48,6 +56,9 @@ Walls read_walls(const List& list, int dimension) {
     const auto num_sides = static_cast<std::size_t>(2 * dimension);
     std::vector<Rule> rules;
     for (std::size_t side = 0; side < num_sides; ++side) {
+        const std::string motion = sides[side].first + "_motion";
+        if (list.has(motion))
+            sides[side].second->motion = read_motion(list.take_list(motion), dimension);
         rules.push_back(choice(sides[side].first, {"open", "roller", "fixed", "frictional"}));
         rules.push_back(optional(not_negative(sides[side].first + "_friction", "")));
     }
@@ -64,7 +75,9 @@ Walls read_walls(const List& list, int dimension) {
     return walls;
 }
 
-Plane read_plane(const List& list, const std::string& name, int dimension) {
+Plane read_plane(List list, const std::string& name, int dimension) {
+    const Motion motion =
+        list.has("motion") ? read_motion(list.take_list("motion"), dimension) : Motion{};
     const Values values = list.values(
         {vector("point", "m"), vector("normal", ""),
          choice("kind", {"roller", "fixed", "frictional"}), optional(not_negative("friction", ""))},
@@ -79,6 +92,7 @@ Plane read_plane(const List& list, const std::string& name, int dimension) {
     if ((kind == "frictional") != values.has("friction"))
         list.refuse("friction", "must be there for a frictional plane, and only there");
     if (kind == "frictional") plane.wall.friction = values.number("friction");
+    plane.wall.motion = motion;
     return plane;
 }
 
@@ -111,6 +125,13 @@ OutputPlan read_output(const List& list, int dimension) {
             static_cast<int>(values.number("vtk_every")), values.number("every_time")};
 }
 
+/// Takes out a word; empty where there is none.
+std::string take_word(const std::string& name, Parameters& parameters) {
+    const auto word = parameters.extract(name);
+    if (!word || !std::holds_alternative<std::string>(word.mapped())) return "";
+    return std::get<std::string>(word.mapped());
+}
+
 SceneFile read_list(List list, const std::string& name) {
     List materials = list.take_list("materials"), bodies = list.take_list("bodies");
     List effects = list.take_list("effects"), planes = list.take_list("planes");
@@ -133,15 +154,16 @@ SceneFile read_list(List list, const std::string& name) {
         scene.planes.push_back(read_plane(planes.take_list(key), key, dimension));
     for (const std::string& key : materials.sublist_names()) {
         Parameters parameters = materials.take_list(key).parameters();
-        const auto model = parameters.extract("model");
-        const bool is_word = model && std::holds_alternative<std::string>(model.mapped());
-        scene.materials.push_back(
-            {key, is_word ? std::get<std::string>(model.mapped()) : "", parameters});
+        const std::string model = take_word("model", parameters);
+        scene.materials.push_back({key, model, parameters});
     }
     for (const std::string& key : bodies.sublist_names())
         scene.bodies.push_back(read_body(bodies.take_list(key), key, dimension));
-    for (const std::string& key : effects.sublist_names())
-        scene.effects.push_back({key, effects.take_list(key).parameters()});
+    for (const std::string& key : effects.sublist_names()) {
+        Parameters parameters = effects.take_list(key).parameters();
+        const std::string kind = take_word("kind", parameters);
+        scene.effects.push_back({key, parameters, kind});
+    }
     for (const std::string& key : probes.sublist_names())
         scene.probes.push_back({key, vector_of(probes.take_list(key)
                                                    .values({vector("position", "m")}, dimension)

@@ -44,14 +44,13 @@ Stages<D> build_stages(const Scene& scene, const Scene& ground, double wave_spee
     add_walls<D>(ground, stages);
     add_planes<D>(ground, stages);
     add_plane_friction<D>(ground, wave_speed, particles, stages);
-    const std::vector<std::optional<Values>> values = effect_values(scene);
-    for (std::size_t k = 0; k < values.size(); ++k) {
-        if (!values[k]) continue;
-        const EffectBuilder<D> builder{scene, *values[k], particles, stages, wave_speed};
+    for (const NamedEffect& effect : effects_of(scene)) {
+        const EffectBuilder<D> builder{scene,     effect.name, effect.values,
+                                       particles, stages,      wave_speed};
         if constexpr (D == 2)
-            effect_kinds()[k].build_2(builder);
+            effect.kind->build_2(builder);
         else
-            effect_kinds()[k].build_3(builder);
+            effect.kind->build_3(builder);
     }
     if (!scene.probes.empty()) add_probes<D>(scene, particles, stages);
     return stages;

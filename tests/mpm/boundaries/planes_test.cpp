@@ -128,6 +128,18 @@ TEST(Plane, holds_a_block_near_the_limit) {
         }
 }
 
+// The slope moves down at 5 m/s, ahead of the block: friction takes it along, a = g (sin + mu cos).
+TEST(Plane, that_moves_along_itself_rubs_by_the_relative_speed) {
+    constexpr double t = 1;
+    const double mu = std::tan(22 * std::numbers::pi / 180);
+    const double expected = g * (sine + mu * cosine) * (t * t - ramp * t + ramp * ramp / 3) / 2;
+    for (const ShapeFunction shape : all_shapes) {
+        Scene scene = rough_incline(shape, 22, 0.25, 2);
+        scene.planes.front().wall.motion = {{2 * cosine, -2 * sine}, {0}, {5}};
+        EXPECT_NEAR(slide(scene, t).along, expected, 0.02 * expected);
+    }
+}
+
 TEST(Plane, that_is_fixed_holds_a_block) {
     EXPECT_LT(slide(incline(Wall::fixed, 0.25), 2).along, 0.05);
 }
@@ -259,6 +271,9 @@ TEST(Plane, that_cannot_be_is_refused_by_its_name) {
     };
     expect_refused({"face", {}, {0, 0}, Wall::fixed}, "plane 'face' must have a normal");
     expect_refused({"face", {}, {0, 1}, Wall::open}, "plane 'face' must not be open");
+    Plane moving{"face", {}, {3, 1}, Wall::fixed};
+    moving.wall.motion = {{0, 1}, {0}, {1}};
+    expect_refused(moving, "plane 'face' must move along itself");
     expect_refused({"face", {}, {0, 1}, {Wall::frictional, -1}}, "friction of plane 'face'");
     expect_refused({"face", {std::nan("")}, {0, 1}, Wall::fixed}, "finite point");
 }

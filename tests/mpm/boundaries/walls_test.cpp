@@ -80,32 +80,6 @@ TEST(FrictionalWall, without_friction_holds_as_rollers_do) {
     }
 }
 
-/// Boxes between horizontal cuts, as near to the bottom as a cell.
-Decomposition layers(int num_ranks) {
-    Decomposition decomposition = between_cuts(std::vector<double>(num_ranks - 1, 0.0));
-    std::vector<double> cuts;
-    for (int k = 1; k < num_ranks; ++k) cuts.push_back(0.11 * k);
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < decomposition.boxes.size(); ++k) {
-        Box& box = decomposition.boxes[k];
-        box.lower = {-infinity, k == 0 ? -infinity : cuts[k - 1], -infinity};
-        box.upper = {infinity, k < cuts.size() ? cuts[k] : infinity, infinity};
-    }
-    decomposition.owners = [cuts](Positions at, std::span<int> owners) {
-        for (std::size_t i = 0; i < owners.size(); ++i)
-            owners[i] = static_cast<int>(std::ranges::upper_bound(cuts, at.y[i]) - cuts.begin());
-    };
-    return decomposition;
-}
-
-void expect_same_motion(const Simulation& serial, const Simulation& parallel) {
-    for (const char* column : {"x", "y", "velocity_x", "velocity_y"})
-        EXPECT_LT(relative_difference(gathered(serial, column, MPI_COMM_SELF),
-                                      gathered(parallel, column, MPI_COMM_WORLD)),
-                  1e-11)
-            << column;
-}
-
 // Nodes beyond a wall and their mirror images can lie on different ranks.
 TEST(FrictionalWall, acts_the_same_between_ranks_along_it) {
     for (const ShapeFunction shape : all_shapes) {

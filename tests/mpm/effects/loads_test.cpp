@@ -79,13 +79,19 @@ TEST(Traction, pulls_a_bar_by_its_law) {
     expect_pulled(bar(ShapeFunction::linear, 3));
 }
 
-// Free, the whole bar gains traction * area * time of momentum, in any direction.
-TEST(Traction, gives_the_momentum_of_force_and_area) {
+/// A free bar with effects on it.
+Scene free_bar(const std::vector<Effect>& effects) {
     Scene scene = bar(ShapeFunction::quadratic);
     scene.walls = {};
     scene.grid.lower = {-1, -1};
     scene.grid.num_cells = {26, 8, 1};
-    scene.effects = {traction({30, -20})};
+    scene.effects = effects;
+    return scene;
+}
+
+// Free, the whole bar gains traction * area * time of momentum, in any direction.
+TEST(Traction, gives_the_momentum_of_force_and_area) {
+    Scene scene = free_bar({traction({30, -20})});
     scene.effects[0].parameters["times"] = std::vector<double>{0, 0.1};
     scene.effects[0].parameters["shares"] = std::vector<double>{1, 1};
     Simulation simulation(scene, MPI_COMM_WORLD);
@@ -155,6 +161,40 @@ TEST(MovingPlane, strains_a_column_as_a_piston_does) {
     expect_pushed(bar(ShapeFunction::linear, 2, 0.3), 0.2, 0.05);
 }
 
+TEST(Traction, may_act_several_times_under_names) {
+    const auto on = [](const std::string& side, const std::vector<double>& pull) {
+        return Parameters{{"side", side}, {"traction", pull}};
+    };
+    Simulation simulation(free_bar({{"east", on("right", {30, -20}), "traction"},
+                                    {"traction", on("top", {0, 7})},
+                                    {"west", on("left", {-10, 0}), "traction"}}),
+                          MPI_COMM_WORLD);
+    for (int step = 0; step < 20; ++step) simulation.step();
+    const Totals now = simulation.totals();
+    EXPECT_NEAR(now.momentum[0], 20 * simulation.time(), 1e-9);
+    EXPECT_NEAR(now.momentum[1], (70 - 20) * simulation.time(), 1e-9);
+}
+
+// Two pistons press a free bar from both ends: it stays where it is, and each does half of it.
+TEST(MovingPlane, may_act_several_times_under_names) {
+    constexpr double speed = 0.05;
+    Effect west = piston(speed, 0);
+    west.parameters["normal"] = std::vector<double>{1, 0};
+    west.name = "west";
+    west.kind = "moving_plane";
+    Scene scene = bar(ShapeFunction::quadratic);
+    scene.walls.left = Wall::open;
+    scene.grid.lower[0] = -1;
+    scene.grid.num_cells[0] = 26;
+    scene.effects = {piston(speed), west, {"damping", {{"rate", 5.0}, {"until", 1.0}}}};
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    while (simulation.time() < 2.25) simulation.step();
+    const double way = 2 * speed * (simulation.time() - 0.25);
+    const double expected = modulus * std::log(1 - way / length);
+    EXPECT_NEAR(mean_in_middle(simulation, "stress_xx"), expected, 0.05 * std::abs(expected));
+    EXPECT_NEAR(simulation.totals().center[0], 0.5 * length, 0.001);
+}
+
 /// Way of a short stiff block on a plane that moves along by 0.1 m, to a speed of -1 m/s.
 double shaken(double friction, double& momentum) {
     Scene scene{.name = "shaken",
@@ -199,6 +239,12 @@ TEST(Loads, are_refused_with_the_reason) {
     scene.effects = {piston(1)};
     scene.effects[0].parameters["normal"] = std::vector<double>{0, 0};
     EXPECT_THROW(Simulation(scene, MPI_COMM_WORLD), std::invalid_argument);
+    scene.effects = {piston(1), piston(1)};
+    EXPECT_THROW(validate(scene), std::invalid_argument) << "the same name";
+    scene.effects = {gravity_effect(9), gravity_effect(9)};
+    scene.effects[1].name = "more";
+    scene.effects[1].kind = "gravity";
+    EXPECT_THROW(validate(scene), std::invalid_argument) << "a scene has one";
 }
 
 }  // namespace

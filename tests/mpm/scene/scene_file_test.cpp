@@ -75,6 +75,41 @@ TEST(SceneFile, names_the_file_the_place_the_key_and_what_is_allowed) {
     expect_names(error_with("cells: [116, 38]", "cells: [116, 38"), {"not understood"});
 }
 
+TEST(SceneFile, takes_motions_of_walls_and_effects_of_a_kind) {
+    std::string text = text_of(slope_path);
+    const auto put = [&](const std::string& before, const std::string& lines) {
+        text.insert(text.find(before), lines);
+    };
+    put("  materials:",
+        "    bottom_motion:\n      direction: [1, 0]\n      times: [0, 2]\n"
+        "      speeds: [0, 0.5]\n"
+        "  planes:\n    lid:\n      point: [0, 30]\n      normal: [0, -1]\n"
+        "      kind: fixed\n      motion:\n        direction: [1, 0]\n"
+        "        speeds: [-1]\n");
+    put("    gravity:",
+        "    pull:\n      kind: traction\n      side: right\n      traction: [1, 2]\n");
+    const Scene scene = parse_scene(text, SceneFormat::yaml, "a.yaml").scene;
+    EXPECT_EQ(scene.walls.bottom.motion.speeds, (std::vector<double>{0, 0.5}));
+    EXPECT_EQ(scene.walls.bottom.motion.direction, (Vector{1, 0, 0}));
+    EXPECT_EQ(scene.planes.front().wall.motion.times, (std::vector<double>{0}));
+    EXPECT_EQ(scene.effects.front().name, "pull");
+    EXPECT_EQ(scene.effects.front().kind, "traction");
+}
+
+TEST(SceneFile, names_what_is_wrong_with_a_motion_or_a_kind) {
+    const auto with_motion = [](const std::string& keys) {
+        return error_with("bottom: fixed\n", "bottom: fixed\n    bottom_motion:\n" + keys);
+    };
+    expect_names(with_motion("      speeds: [1]\n"),
+                 {"walls / bottom_motion", "'direction'", "missing"});
+    expect_names(with_motion("      direction: [1, 0]\n"), {"'speeds'", "missing"});
+    expect_names(with_motion("      direction: [0, 1]\n      speeds: [1]\n"),
+                 {"the wall 'bottom' must move along itself"});
+    expect_names(error_with("    gravity:", "    weight:\n      kind: levity"),
+                 {"'levity'", "possible", "gravity"});
+    expect_names(error_with("    gravity:", "    weight:"), {"'weight'", "'kind'"});
+}
+
 /// The slope's file with a plane named face.
 std::string error_of_plane(const std::string& keys) {
     return error_with("  materials:",

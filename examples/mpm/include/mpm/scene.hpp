@@ -45,6 +45,13 @@ struct Material {
     Parameters parameters;
 };
 
+/// Motion of a wall or plane: its speed at some times, with straight lines between them.
+struct Motion {
+    Vector direction{};               ///< of any length
+    std::vector<double> times = {};   ///< s, ascending
+    std::vector<double> speeds = {};  ///< along the direction, m/s; none: it rests
+};
+
 /// A side of the domain.
 struct Wall {
     enum Kind {
@@ -57,7 +64,8 @@ struct Wall {
     Wall(Kind the_kind = open, double the_friction = 0) : kind(the_kind), friction(the_friction) {}
 
     Kind kind;
-    double friction;  ///< coefficient of a frictional wall
+    double friction;     ///< coefficient of a frictional wall
+    Motion motion = {};  ///< along itself, of one that is fixed or has friction
 };
 
 struct Walls {
@@ -71,13 +79,14 @@ struct Plane {
     std::string name;
     Vector point{};   ///< on the plane, m
     Vector normal{};  ///< out of the ground, of any length
-    Wall wall;        ///< its hold on nodes behind it, with friction on points; not open
+    Wall wall = {};   ///< its hold on nodes behind it, with friction on points; not open
 };
 
-/// An effect by name, with its parameters; see effect.hpp.
+/// An effect, with its parameters; see effect.hpp.
 struct Effect {
-    std::string name;
+    std::string name;  ///< of its kind, where that is not given
     Parameters parameters;
+    std::string kind = {};  ///< a scene may have several tractions and moving planes
 };
 
 /// The point nearest to a position at the start, whose motion, stress and strain are recorded.

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <span>
 
 namespace comparisons {
 
@@ -47,14 +46,11 @@ void note_state(SimulationRun& run, const mpm::Simulation& simulation, MPI_Comm 
     const mpm::Particles& particles = simulation.particles();
     const auto x = particles["x"];
     const auto mass = particles["mass"];
-    const auto across = particles["displacement_x"];
-    const auto up = particles["displacement_y"];
-    const bool is_solid = particles.has_column("displacement_z");
-    const auto along = is_solid ? particles["displacement_z"] : std::span<const double>();
+    const std::vector<mpm::Vector> ways = simulation.displacements();
     double front = nowhere;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         run.mass_kg += mass[i];
-        const double moved = std::hypot(across[i], up[i], is_solid ? along[i] : 0);
+        const double moved = std::hypot(ways[i][0], ways[i][1], ways[i][2]);
         run.moved_m = std::max(run.moved_m, moved);
         if (moved > 1) front = std::max(front, x[i]);
     }

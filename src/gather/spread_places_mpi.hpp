@@ -23,8 +23,8 @@ struct SpreadParts {
 /// across any long one of the points that it divides.
 class SpreadPlaces {
   public:
-    /// By complete options that ask for a part for each rank. `may_stay` may differ between ranks;
-    /// nothing is read unless all may. Not collective. Throws std::bad_alloc.
+    /// By complete options that ask for a part for each rank and outlive this. `may_stay` may
+    /// differ between ranks; nothing is read unless all may. Not collective. Throws std::bad_alloc.
     SpreadPlaces(const Options& options, const Place& mine, bool may_stay, int dimension, int rank);
 
     /// The parts that the ranks hold, of the weight `total` together or, `by_count`, of as many
@@ -44,7 +44,7 @@ class SpreadPlaces {
     std::optional<Cut> cut_of(std::size_t node, const Place& below, const Place& above) const;
     SpreadParts parts_told() const;
 
-    Options options_;
+    const Options& options_;
     Place mine_;
     bool may_stay_;
     int dimension_;

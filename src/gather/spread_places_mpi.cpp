@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -20,15 +21,45 @@ namespace {
 
 using CutWords = std::array<double, sizeof(Cut) / sizeof(double)>;
 
-/// Joins the places below two cuts, and those above.
+/// The points below a cut and those above it, as far as cuts show: of each side the ends that face
+/// the other, the box, and as count whether there are any.
+struct FacingPlaces {
+    Place below, above;
+};
+
+/// Calls `visit` with each of the 2 dimension (dimension + 1) doubles that tell the sides.
+template <class AnyPlaces, class Visit>
+void for_each_double(AnyPlaces& sides, int dimension, Visit&& visit) {
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
+        visit(sides.below.first[a][a]);
+        visit(sides.above.last[a][a]);
+        for (std::size_t b = 0; b < static_cast<std::size_t>(dimension); ++b) {
+            visit(sides.below.last[a][b]);
+            visit(sides.above.first[a][b]);
+        }
+    }
+}
+
+void append_facing(const FacingPlaces& sides, int dimension, std::vector<double>& doubles) {
+    for_each_double(sides, dimension, [&](double value) { doubles.push_back(value); });
+}
+
+FacingPlaces read_facing(std::span<const double> doubles, int dimension) {
+    FacingPlaces sides;
+    auto from = doubles.begin();
+    for_each_double(sides, dimension, [&](double& value) { value = *from++; });
+    for (Place* side : {&sides.below, &sides.above})
+        side->count = std::isfinite(side->first[0][0]) ? 1 : 0;
+    return sides;
+}
+
 template <int dimension>
 void join_sides(std::span<const double> a, std::span<const double> b, std::vector<double>& joined) {
-    std::vector<Place> sides = read_places(a, dimension);
-    const std::vector<Place> others = read_places(b, dimension);
-    for (std::size_t k = 0; k < sides.size(); ++k) {
-        join(sides[k], others[k], dimension);
-        append_place(sides[k], dimension, joined);
-    }
+    FacingPlaces sides = read_facing(a, dimension);
+    const FacingPlaces others = read_facing(b, dimension);
+    join(sides.below, others.below, dimension);
+    join(sides.above, others.above, dimension);
+    append_facing(sides, dimension, joined);
 }
 
 constexpr std::array<Butterfly::Join, max_dimension> joins{join_sides<1>, join_sides<2>,
@@ -86,8 +117,8 @@ void SpreadPlaces::tell_places() {
     std::vector<double> payload;
     for_each_above(butterfly_.rank(), options_.num_parts, [&](const Descent& at, bool is_above) {
         payload.clear();
-        append_place(is_above ? Place{} : mine_, dimension_, payload);
-        append_place(is_above ? mine_ : Place{}, dimension_, payload);
+        append_facing({is_above ? Place{} : mine_, is_above ? mine_ : Place{}}, dimension_,
+                      payload);
         butterfly_.add(at.node, owner_of(at, options_.num_parts, options_.num_parts), payload);
     });
 }
@@ -96,8 +127,8 @@ void SpreadPlaces::tell_places() {
 bool SpreadPlaces::decide_cuts() {
     bool are_cut = true;
     butterfly_.owned().for_each([&](const Record& record) {
-        const std::vector<Place> sides = read_places(record.payload, dimension_);
-        const std::optional<Cut> cut = cut_of(record.key, sides[0], sides[1]);
+        const FacingPlaces sides = read_facing(record.payload, dimension_);
+        const std::optional<Cut> cut = cut_of(record.key, sides.below, sides.above);
         are_cut = are_cut && cut;
         if (cut) butterfly_.answer(record.key, std::bit_cast<CutWords>(*cut));
     });

@@ -31,9 +31,9 @@ class SpreadPlaces {
     /// points; nothing where they are no bisection.
     ///
     /// Collective: one pass of records to their owners, and where all may stay one of cuts back. A
-    /// message has 16 + 32 (1 + dimension^2) bytes at most for each cut above a part. Throws on
-    /// every rank what failed on one before; but a failure in the last messages stays with its rank
-    /// for the next agreement.
+    /// message has 16 (1 + dimension + dimension^2) bytes at most for each cut above a part. Throws
+    /// on every rank what failed on one before; but a failure in the last messages stays with its
+    /// rank for the next agreement.
     std::optional<SpreadParts> read(double total, bool by_count, ButterflyMessages& messages,
                                     Participant& self);
 

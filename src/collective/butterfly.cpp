@@ -19,29 +19,27 @@ Key first_key(RecordReader records) {
 }  // namespace
 
 Butterfly::Butterfly(int rank, int num_ranks, Join join)
-    : rank_(rank), num_ranks_(num_ranks), join_(join) {
-    for (Halves halves = halves_at(0); halves.end - halves.begin > 1;
-         halves = halves_at(num_steps_))
-        ++num_steps_;
+    : rank_(rank), num_ranks_(num_ranks), join_(join), halves_(halves_of(0, num_ranks)) {
+    while (halves_.end - halves_.begin > 1) halves_at(++num_steps_);
 }
 
-Butterfly::Halves Butterfly::halves_at(int step) const {
-    int begin = 0;
-    int end = num_ranks_;
-    // Before each turn this rank is one of those from `begin` to `end`. Without branches, as there
-    // is no telling which half it is in.
-    for (int k = 0;; ++k) {
-        const int length = end - begin;
-        const int middle = begin + length / 2 + length % 2;
-        if (k == step) return {begin, middle, end};
-        const bool is_below = rank_ < middle;
-        begin = is_below ? begin : middle;
-        end = is_below ? middle : end;
+const Butterfly::Halves& Butterfly::halves_at(int step) {
+    if (step < step_of_halves_) {
+        step_of_halves_ = 0;
+        halves_ = halves_of(0, num_ranks_);
     }
+    // Before each turn this rank is one of `halves_`. Without branches, as there is no telling
+    // which half it is in.
+    for (; step_of_halves_ < step; ++step_of_halves_) {
+        const bool is_below = rank_ < halves_.middle;
+        halves_ = halves_of(is_below ? halves_.begin : halves_.middle,
+                            is_below ? halves_.middle : halves_.end);
+    }
+    return halves_;
 }
 
-Butterfly::Links Butterfly::links(int step, Direction direction) const {
-    const Halves halves = halves_at(step);
+Butterfly::Links Butterfly::links(int step, Direction direction) {
+    const Halves& halves = halves_at(step);
     const int mirror = halves.begin + (halves.end - 1 - rank_);
     const bool to = direction == to_owners;
     // Of an odd number of ranks the last of the lower half has none across from it: it hands its
@@ -82,7 +80,7 @@ void Butterfly::append_to_message(const Record& record) {
 
 /// Moves the records whose owner is in the other half into the message.
 void Butterfly::hand_over(int step) {
-    const Halves halves = halves_at(step);
+    const Halves& halves = halves_at(step);
     const bool is_below = rank_ < halves.middle;
     const int begin = is_below ? halves.begin : halves.middle;
     const int end = is_below ? halves.middle : halves.end;

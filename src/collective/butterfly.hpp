@@ -76,7 +76,7 @@ class Butterfly {
     int num_steps() const { return num_steps_; }
 
     /// The same step means the same halving on all ranks in it.
-    Links links(int step, Direction direction) const;
+    Links links(int step, Direction direction);
 
     /// Forgets all records and answers.
     void clear();
@@ -129,6 +129,11 @@ class Butterfly {
         int end;
     };
 
+    static constexpr Halves halves_of(int begin, int end) {
+        const int length = end - begin;
+        return {begin, begin + length / 2 + length % 2, end};
+    }
+
     /// Keys of which the records came from a rank, from `begin` to before `end` of keys_asked_.
     struct Asked {
         int step;
@@ -137,7 +142,8 @@ class Butterfly {
         std::size_t end;
     };
 
-    Halves halves_at(int step) const;
+    /// From those of the last call, if these are not of a later step.
+    const Halves& halves_at(int step);
     void hand_over(int step);
     void reply(int step, int rank);
     void append_to_message(const Record& record);
@@ -149,6 +155,8 @@ class Butterfly {
     int num_ranks_;
     Join join_;
     int num_steps_ = 0;
+    Halves halves_;
+    int step_of_halves_ = 0;
     Flags flags_{};
     Records held_;
     Records answers_;

@@ -120,7 +120,8 @@ class VirtualRound {
     /// Brings ranks to a step.
     MessageTotals go(Butterfly::Direction direction, int step, int begin, int end) {
         MessageTotals totals;
-        for (int rank = begin; rank < end; ++rank) bring(rank, step, direction, totals);
+        // From above, as an exchange begins from the upper one of two ranks.
+        for (int rank = end; rank-- > begin;) bring(rank, step, direction, totals);
         return totals;
     }
 
@@ -131,9 +132,9 @@ class VirtualRound {
         while (is_there ? step_of(rank) < goal : step_of(rank) > goal) {
             const int before = step_of(rank);
             const int step = is_there ? before : before - 1;
-            const int upper =
-                std::max(rank, ranks_.butterfly(rank).links(step, direction).links[0].rank);
-            const Butterfly::Links links = ranks_.butterfly(upper).links(step, direction);
+            Butterfly::Links links = ranks_.butterfly(rank).links(step, direction);
+            const int upper = std::max(rank, links.links[0].rank);
+            if (upper != rank) links = ranks_.butterfly(upper).links(step, direction);
             bring(upper, before, direction, totals);
             for (const auto& link : links) bring(link.rank, before, direction, totals);
             for (const auto& link : links) exchange(upper, step, direction, link, totals);

@@ -127,18 +127,22 @@ TEST(Butterfly, takes_a_message_a_step_and_a_step_a_halving) {
 
 TEST(Butterfly, sends_along_a_link_what_its_other_end_receives) {
     for (const int num_ranks : numbers_of_ranks()) {
-        const Ranks ranks(num_ranks);
+        Ranks ranks(num_ranks);
+        // Both forwards and back, as a rank is asked.
         for (const auto direction : {Butterfly::to_owners, Butterfly::back})
-            for (const Butterfly& rank : ranks.all)
-                for (int step = 0; step < rank.num_steps(); ++step)
+            for (Butterfly& rank : ranks.all)
+                for (int k = 0; k < rank.num_steps(); ++k) {
+                    const bool is_there = direction == Butterfly::to_owners;
+                    const int step = is_there ? k : rank.num_steps() - 1 - k;
                     for (const auto& link : rank.links(step, direction)) {
-                        const Butterfly& other = ranks.all[static_cast<std::size_t>(link.rank)];
+                        Butterfly& other = ranks.all[static_cast<std::size_t>(link.rank)];
                         int matching = 0;
                         for (const auto& there : other.links(step, direction))
                             matching += there.rank == rank.rank() && there.sends == link.receives &&
                                         there.receives == link.sends;
                         ASSERT_EQ(matching, 1) << num_ranks;
                     }
+                }
     }
 }
 

@@ -105,7 +105,7 @@ def _draw(paths: Paths) -> Figure:
             found = {n: value(of[method]) for n, of in paths.items() if method in of}
             axes.plot(list(found), found.values(), color=style.colour, linestyle=line, label=method)
         axes.axvspan(2, 64, color="#EEEEEE", zorder=0, label="counts checked here")
-        axes.set_xscale("log", base=2)
+        axes.set_xscale("log", base=16)
         axes.set_yscale("log")
         axes.set_title(label)
         axes.grid(True)

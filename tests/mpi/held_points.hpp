@@ -4,9 +4,11 @@
 #include "../support/ranks.hpp"
 
 #include <rrcb/balance.hpp>
+#include <rrcb/quality.hpp>
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -50,6 +52,29 @@ struct Share {
     Points points() const { return interleaved_points(coordinates, dimension, weights); }
 };
 
+/// Of the ranks, by count where all weights are 0.
+inline double imbalance_of(const HeldPoints& all, const Options& options) {
+    const bool by_count = std::ranges::all_of(all.weights, [](double w) { return w == 0; });
+    std::vector<double> weights(static_cast<std::size_t>(num_ranks()));
+    for (std::size_t i = 0; i < all.count(); ++i)
+        weights[static_cast<std::size_t>(all.owners[i])] += by_count ? 1 : all.weights[i];
+    return imbalance(weights, options.part_sizes);
+}
+
+/// Gives each rank its part, of this rank's points told by `parts`; returns how many points of all
+/// move. Collective.
+inline std::size_t move_to(const std::vector<Part>& parts, HeldPoints& all) {
+    const Share mine(all);
+    std::vector<Part> owners(all.count(), -1);
+    for (std::size_t i = 0; i < parts.size(); ++i) owners[mine.indices[i]] = parts[i];
+    MPI_Allreduce(MPI_IN_PLACE, owners.data(), static_cast<int>(owners.size()), MPI_INT32_T,
+                  MPI_MAX, MPI_COMM_WORLD);
+    std::size_t num_moved = 0;
+    for (std::size_t i = 0; i < owners.size(); ++i) num_moved += owners[i] == all.owners[i] ? 0 : 1;
+    all.owners = std::move(owners);
+    return num_moved;
+}
+
 /// What a call made of them.
 struct Step {
     Balance balance;
@@ -61,17 +86,11 @@ struct Step {
 inline Step balance_and_move(HeldPoints& all, const Options& options) {
     const Share mine(all);
     Step step{balance(mine.points(), options, MPI_COMM_WORLD)};
-    std::vector<Part> owners(all.count(), -1);
     for (std::size_t i = 0; i < mine.indices.size(); ++i) {
-        owners[mine.indices[i]] = step.balance.parts[i];
         const Vector x = mine.points().position(i);
         step.num_strays += part_of(step.balance.cuts, x) == step.balance.parts[i] ? 0 : 1;
     }
-    MPI_Allreduce(MPI_IN_PLACE, owners.data(), static_cast<int>(owners.size()), MPI_INT32_T,
-                  MPI_MAX, MPI_COMM_WORLD);
-    for (std::size_t i = 0; i < owners.size(); ++i)
-        step.num_moved += owners[i] == all.owners[i] ? 0 : 1;
-    all.owners = std::move(owners);
+    step.num_moved = move_to(step.balance.parts, all);
     return step;
 }
 

@@ -15,6 +15,7 @@ namespace {
 
 using test::balance_and_move;
 using test::HeldPoints;
+using test::imbalance_of;
 using test::num_ranks;
 using test::Share;
 using test::Step;
@@ -24,14 +25,6 @@ Options with(Refine refine, int support_mesh = 0) {
     options.refine = refine;
     options.support_mesh = support_mesh;
     return options;
-}
-
-double imbalance_of(const HeldPoints& all, const Options& options) {
-    const bool by_count = std::ranges::all_of(all.weights, [](double w) { return w == 0; });
-    std::vector<double> weights(static_cast<std::size_t>(num_ranks()));
-    for (std::size_t i = 0; i < all.count(); ++i)
-        weights[static_cast<std::size_t>(all.owners[i])] += by_count ? 1 : all.weights[i];
-    return imbalance(weights, options.part_sizes);
 }
 
 /// Points move in the first `most_moves` calls at most, and never to a worse balance.

@@ -4,7 +4,6 @@
 #include "held_points.hpp"
 
 #include <rrcb/locate.hpp>
-#include <rrcb/quality.hpp>
 
 #include <gtest/gtest.h>
 
@@ -14,6 +13,8 @@ namespace rrcb {
 namespace {
 
 using test::HeldPoints;
+using test::imbalance_of;
+using test::move_to;
 using test::num_ranks;
 using test::rank;
 using test::Share;
@@ -24,27 +25,6 @@ Options wide_options(double tolerance) {
     options.refine = Refine::tolerance;
     options.imbalance_tolerance = tolerance;
     return options;
-}
-
-double imbalance_of(const HeldPoints& all, const Options& options) {
-    const bool by_count = std::ranges::all_of(all.weights, [](double w) { return w == 0; });
-    std::vector<double> weights(static_cast<std::size_t>(num_ranks()));
-    for (std::size_t i = 0; i < all.count(); ++i)
-        weights[static_cast<std::size_t>(all.owners[i])] += by_count ? 1 : all.weights[i];
-    return imbalance(weights, options.part_sizes);
-}
-
-/// Gives each rank its part; returns how many points of all move. Collective.
-std::size_t move_to(const std::vector<Part>& mine, HeldPoints& all) {
-    const Share share(all);
-    std::vector<Part> owners(all.count(), -1);
-    for (std::size_t i = 0; i < mine.size(); ++i) owners[share.indices[i]] = mine[i];
-    MPI_Allreduce(MPI_IN_PLACE, owners.data(), static_cast<int>(owners.size()), MPI_INT32_T,
-                  MPI_MAX, MPI_COMM_WORLD);
-    std::size_t num_moved = 0;
-    for (std::size_t i = 0; i < owners.size(); ++i) num_moved += owners[i] == all.owners[i] ? 0 : 1;
-    all.owners = std::move(owners);
-    return num_moved;
 }
 
 /// The cuts tell the part of every point, of any rank, but of those that they divide. Collective.

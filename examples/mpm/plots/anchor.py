@@ -1,9 +1,11 @@
-"""Depth of the torpedo anchor beside its equation of motion: anchor.py PROGRAM SCENE PICTURE
+"""Depth of the torpedo anchor beside its equation of motion:
+anchor.py PROGRAM SCENE PICTURE [--by-cells]
 
 Pushes the anchor into the clay at constant speeds, from which follow the bearing capacity factor,
 the adhesion factor, the factor of rate, the drag of the clay and its added mass as this method has
 them; integrates the equation of motion with them (Runge and Kutta's fourth order); and sets the
-anchor that falls freely beside it, as Markdown tables and a picture."""
+anchor that falls freely beside it, as Markdown tables and a picture. --by-cells in place of all that:
+the forces on tip and side of an anchor that is pushed at the speed of the fall, by cell size."""
 
 from __future__ import annotations
 
@@ -29,6 +31,8 @@ GRAVITY = 9.81
 SLOW, DEEPEST, WINDOW = 5, 10, 0.25  # m/s, m, m
 SLOWING = 1.5 * GRAVITY
 DEPTHS = np.arange(0, DEEPEST - WINDOW, 0.05)
+SHOWN = np.array([2.0, 4.0, 6.0, 8.0])  # m
+CELL_SIZES = [0.25, 1 / 6, 0.125, 0.1]  # m, --by-cells
 PUSHED = {"mass": 1e12, "weight_share": 0, "fluid_density": None}
 NO_RATE = {"rate_factor": None, "reference_rate": None}
 SMOOTH = {"friction": 0, "adhesion_factor": None}
@@ -58,7 +62,7 @@ class Fall:
         return self.depth[last], self.time[last]
 
     def forces_at(self, depths: np.ndarray) -> np.ndarray:
-        """Mean force over a window of depth around each."""
+        """Mean force over a window of depth around each; nan where it did not get to."""
         sinks = np.diff(self.depth, prepend=-np.inf) > 0
         impulse = np.cumsum(self.force * np.diff(self.time, prepend=self.time[0]))
         ends = [
@@ -66,7 +70,8 @@ class Fall:
             for side in (-WINDOW, WINDOW)
         ]
         gained = np.interp(ends[1], self.time, impulse) - np.interp(ends[0], self.time, impulse)
-        return gained / (ends[1] - ends[0])
+        took = ends[1] - ends[0]
+        return np.divide(gained, took, out=np.full_like(gained, np.nan), where=took > 0)
 
 
 def simulate(program: str, scene: str, keys: dict, cell_size: float | None = None) -> Fall:
@@ -184,9 +189,9 @@ def print_constants(anchor: Anchor, measured: Measured, smooth: np.ndarray) -> N
     side = (measured.resistance - bearing)[1:] / anchor.strength_on_side(DEPTHS)[1:]
     drag = measured.drag / (0.5 * anchor.density * anchor.section)
     print("| depth, m | Nc | alpha | Cd |\n|---|---|---|---|")
-    for depth in (2, 4, 6, 8):
+    for depth in SHOWN:
         i = int(np.argmin(abs(DEPTHS - depth)))
-        print(f"| {depth} | {factor[i]:.1f} | {side[i - 1]:.2f} | {drag[i]:.2f} |")
+        print(f"| {depth:g} | {factor[i]:.1f} | {side[i - 1]:.2f} | {drag[i]:.2f} |")
     print(f"\nrate factor: {measured.rate_share:.2f} of the gain at speed / diameter")
     print(f"added mass: {measured.added_mass:.0f} kg\n")
 
@@ -207,6 +212,20 @@ def draw(runs: dict[str, Fall], other_cells: dict[str, Fall], picture: str) -> N
     figure.savefig(
         picture, dpi=150, bbox_inches="tight", pad_inches=0.05, metadata={"Software": None}
     )
+
+
+def print_by_cells(program: str, scene: str) -> None:
+    """The push without friction has the force on the tip, what friction adds is the side's."""
+    push = PUSHED | {"end_time": DEEPEST / Anchor(scene).speed}
+    plan = [(push | keys, size) for size in CELL_SIZES for keys in (SMOOTH, {})]
+    with ThreadPoolExecutor(2) as pool:
+        runs = pool.map(lambda run: simulate(program, scene, *run).forces_at(SHOWN), plan)
+        forces = [run / 1000 for run in runs]
+    shown = ", ".join(f"{depth:g}" for depth in SHOWN)
+    print(f"| cells, m | tip at {shown} m, kN | side, kN |\n|---|---|---|")
+    for size, smooth, rough in zip(CELL_SIZES, forces[::2], forces[1::2]):
+        tip, side = (", ".join(f"{force:.1f}" for force in all) for all in (smooth, rough - smooth))
+        print(f"| {size:.3g} | {tip} | {side} |")
 
 
 def main(program: str, scene_file: str, picture: str) -> None:
@@ -245,6 +264,10 @@ def main(program: str, scene_file: str, picture: str) -> None:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 4:
-        sys.exit("anchor.py PROGRAM SCENE PICTURE")
-    main(*sys.argv[1:])
+    words = [word for word in sys.argv[1:] if word != "--by-cells"]
+    if len(words) != 3:
+        sys.exit("anchor.py PROGRAM SCENE PICTURE [--by-cells]")
+    if len(words) == len(sys.argv) - 1:
+        main(*words)
+    else:
+        print_by_cells(words[0], Path(words[1]).read_text())

@@ -127,7 +127,8 @@ void RegionSearch::enter(const Descent& at, Content&& content) {
     }
     // Nothing lies on a side without size, and what weighs nothing lies below.
     const bool is_below = share > 0;
-    divide(at, content, plane(0, is_below ? infinity : -infinity), {},
+    const int axis = tree_.cut_axes.empty() ? 0 : tree_.cut_axes[at.node];
+    divide(at, content, plane(axis, is_below ? infinity : -infinity), {},
            is_below ? content.weight : 0);
 }
 

@@ -11,6 +11,7 @@
 namespace rrcb {
 namespace {
 
+using test::num_ranks;
 using test::share_of_cloud;
 using test::three_columns;
 
@@ -44,6 +45,18 @@ TEST(GivenAxes, of_each_cut_are_kept) {
     const Balance result = balance(interleaved_points(mine, 3), options, MPI_COMM_WORLD);
     for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(result.cuts.tree[k].axis, options.cut_axes[k]);
     EXPECT_LE(result.report.measured_imbalance, 1.01);
+}
+
+TEST(GivenAxes, of_each_cut_are_kept_also_by_many_ranks_and_where_nothing_is_to_be_cut) {
+    const auto mine = share_of_cloud(3, 2, [](std::size_t, int, double u) { return u; });
+    Options options;
+    options.central_parts = 2;
+    options.num_parts = 2 * num_ranks();
+    options.part_sizes.assign(static_cast<std::size_t>(options.num_parts), 1);
+    options.part_sizes.front() = 0;
+    options.cut_axes.assign(static_cast<std::size_t>(options.num_parts) - 1, 1);
+    const Balance result = balance(interleaved_points(mine, 2), options, MPI_COMM_WORLD);
+    for (const Cut& cut : result.cuts.tree) EXPECT_EQ(cut.axis, 1);
 }
 
 TEST(PlainCuts, keep_points_on_a_plane_together) {

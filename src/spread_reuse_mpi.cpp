@@ -62,14 +62,17 @@ void SpreadReuse::add_up(bool by_count) {
 }
 
 /// Largest weight of a part that this rank owns, over what it should weigh.
-double SpreadReuse::largest_share(double weight_per_size, std::span<const double> sizes) const {
+double SpreadReuse::largest_share(double total_weight, std::span<const double> sizes) const {
+    const double all_sizes =
+        sizes.empty() ? cuts_.num_parts : std::accumulate(sizes.begin(), sizes.end(), 0.0);
     double largest = 0;
     sums_.owned().for_each([&](const Record& part) {
         const double weight = part.payload[0];
-        const double size = sizes.empty() ? 1 : sizes[part.key];
+        // Shares, as imbalance() has them.
+        const double ideal = (sizes.empty() ? 1 : sizes[part.key]) / all_sizes;
         if (weight > 0)
-            largest = std::max(largest, size > 0 ? weight / size / weight_per_size
-                                                 : std::numeric_limits<double>::infinity());
+            largest = std::max(largest, ideal > 0 ? weight / total_weight / ideal
+                                                  : std::numeric_limits<double>::infinity());
     });
     return largest;
 }
@@ -82,9 +85,7 @@ double SpreadReuse::measure(double total_weight, bool by_count, std::span<const 
     cuts_ = room_.search.take();
     self.attempt([&] { add_up(by_count); });
     room_.messages.run(sums_, Butterfly::to_owners, {}, self);
-    const double all_sizes =
-        sizes.empty() ? cuts_.num_parts : std::accumulate(sizes.begin(), sizes.end(), 0.0);
-    const double largest = largest_share(total_weight / all_sizes, sizes);
+    const double largest = largest_share(total_weight, sizes);
     sums_.clear();
     room_.messages.run(sums_, Butterfly::to_owners, {0, largest}, self);
     return sums_.flags()[1];

@@ -36,7 +36,7 @@ class SpreadReuse {
     double measure(double total_weight, bool by_count, std::span<const double> sizes,
                    Participant& self);
     void add_up(bool by_count);
-    double largest_share(double weight_per_size, std::span<const double> sizes) const;
+    double largest_share(double total_weight, std::span<const double> sizes) const;
     Cuts known_cuts(int depth) const;
 
     const Points& points_;

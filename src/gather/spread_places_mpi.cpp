@@ -110,7 +110,8 @@ double SpreadPlaces::share(double total, bool by_count) const {
         sizes.empty() ? options_.num_parts : std::accumulate(sizes.begin(), sizes.end(), 0.0);
     const double size = sizes.empty() ? 1 : sizes[static_cast<std::size_t>(butterfly_.rank())];
     if (mine_.count > 0 && !(size > 0)) return std::numeric_limits<double>::infinity();
-    return weight > 0 ? weight / size / (total / all_sizes) : 0;
+    // Shares, as imbalance() has them.
+    return weight > 0 ? weight / total / (size / all_sizes) : 0;
 }
 
 void SpreadPlaces::tell_places() {

@@ -170,6 +170,18 @@ TEST(SpreadReuse, counts_points_without_weight_and_keeps_the_cuts_without_points
     EXPECT_EQ(empty.report.rounds, 0);
 }
 
+TEST(SpreadReuse, measures_weights_so_small_that_a_mean_part_is_no_double) {
+    HeldPoints all = uneven_cloud(2, true);
+    for (double& weight : all.weights) weight = weight > 1.45 ? 5e-324 : 0;
+    const Share mine(all);
+    const Options options = spread_options(num_ranks(), 1.2);
+    const Balance first = balance(mine.points(), options, MPI_COMM_WORLD);
+    const Balance again = balance(mine.points(), options, MPI_COMM_WORLD, first.cuts);
+    EXPECT_EQ(again.report.rounds, 1);
+    EXPECT_NEAR(again.report.measured_imbalance,
+                imbalance_by_look_up(all, whole_cuts(again.cuts, MPI_COMM_WORLD)), 1e-9);
+}
+
 TEST(SpreadReuse, tells_all_ranks_what_is_wrong_on_one) {
     if (num_ranks() <= 2) GTEST_SKIP() << "needs three ranks";
     HeldPoints all = uneven_cloud(2, false);

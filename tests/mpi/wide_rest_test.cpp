@@ -77,6 +77,8 @@ TEST(WidePointsAtRest, of_any_dimension_and_weight_rest) {
         expect_rest(all, wide_options(1.05), 2);
         all.weights = test::uniform_cloud(all.count(), 1, 8);
         expect_rest(all, wide_options(1.05), 2);
+        for (double& weight : all.weights) weight = weight < 0.1 ? 5e-324 : 0;
+        expect_rest(all, wide_options(1.05), 2);
         std::ranges::fill(all.weights, 0.0);
         expect_rest(all, wide_options(1.05), 2);
     }

@@ -149,7 +149,8 @@ void refine_regions(const Options& options, const Verdict& verdict, const Box& b
     std::vector<double> weights = std::exchange(report.part_weights, {});
     self.attempt([&] { weights.resize(static_cast<std::size_t>(result.cuts.num_parts), weight); });
     self.attempt([&] { number_as_in_tree(options.num_parts, result); });
-    const Regions regions{std::move(result.cuts), weights, box_together(box, self)};
+    const Regions regions{std::move(result.cuts), weights, box_together(box, self),
+                          report.coincident_cuts};
     Refined refined =
         refinement.refine(regions, tree_of(options, verdict, weight, mpi::size_of(self.comm)),
                           binned, result.parts, self);
@@ -157,7 +158,7 @@ void refine_regions(const Options& options, const Verdict& verdict, const Box& b
     result.cuts = std::move(refined.cuts);
     report_parts(refined.imbalance, verdict.heaviest, weight, options, report);
     report.rounds += refined.rounds;
-    report.coincident_cuts += refined.coincident_cuts;
+    report.coincident_cuts = refined.coincident_cuts;
 }
 
 }  // namespace rrcb

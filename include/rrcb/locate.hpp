@@ -22,8 +22,8 @@ RRCB_API Cuts whole_cuts(const Cuts& cuts, MPI_Comm comm);
 /// states their dimension. Where some rank lacks cuts, the ranks share those that they own in one
 /// pass through them, of ceil(log2 R) messages each, and ask the owners, with 5 kB in answer for
 /// each 127 cuts that a rank asks for. In trees of up to 2^20 parts that takes two questions, one
-/// after the other; three after exact cuts, of which not all ranks know the first ones. Whole cuts
-/// are looked up in place.
+/// after the other; three after exact cuts, or where a tolerance was missed: then not all ranks
+/// know the first ones. Whole cuts are looked up in place.
 ///
 /// Throws Error on every rank alike: for coordinates that are NaN or infinite, positions of another
 /// dimension than the cuts, cuts that whole_cuts() would refuse, or no memory.

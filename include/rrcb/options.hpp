@@ -76,10 +76,10 @@ struct Options {
 
     /// Parts that rank 0 makes alone, at least 2. Where there are more, and more ranks, it makes as
     /// many regions, a power of two, and each cut below them is found by a rank of its parts; with
-    /// Refine::exact each cut is. A rank then gets the cuts between the regions, those of nodes in
-    /// which it has points, and those on the way to its own parts, see Cuts::nodes. No effect with
-    /// domains other than analytic and learned, with CutRule::midpoint, Refine::none, `min_width`,
-    /// `grid` or `grouped_axes`.
+    /// Refine::exact, and once more where the tolerance is missed, each cut is. A rank then gets
+    /// the cuts between the regions, those of nodes in which it has points, and those on the way to
+    /// its own parts, see Cuts::nodes. No effect with domains other than analytic and learned, with
+    /// CutRule::midpoint, Refine::none, `min_width`, `grid` or `grouped_axes`.
     int central_parts = 64;
 
     double sigma_multiplier = 1.5;  ///< sampled: half-width of a cell's sampling box in sigmas, > 0

@@ -32,7 +32,8 @@ Refined RegionRefinement::refine(const Regions& regions, RegionTree tree,
     if (!missed || std::exchange(tree.rule.is_exact, true)) return refined;
     std::vector<Part> before;
     self.attempt([&] { before.assign(parts.begin(), parts.end()); });
-    Refined exact = search(regions, tree, points, parts, self);
+    const Regions all_in_one{{regions.cuts.dimension, 1, {}}, {&tree.weight, 1}, regions.box};
+    Refined exact = search(all_in_one, tree, points, parts, self);
     exact.rounds += refined.rounds;
     if (exact.imbalance < refined.imbalance) return exact;
     refined.rounds = exact.rounds;
@@ -58,7 +59,8 @@ Refined RegionRefinement::search(const Regions& regions, const RegionTree& tree,
         self.attempt([&] { search->follow(butterfly_); });
     }
     refined.imbalance = butterfly_.flags()[2];
-    refined.coincident_cuts = mpi::sum_of(search->num_coincident(), self.comm);
+    refined.coincident_cuts =
+        regions.num_coincident + mpi::sum_of(search->num_coincident(), self.comm);
     self.attempt([&] { refined.cuts = search->cuts(); });
     points = search->take_points();
     return refined;

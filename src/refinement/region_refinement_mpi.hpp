@@ -22,8 +22,9 @@ class RegionRefinement {
     ///
     /// Collective. `regions` and `tree` are the same on every rank. To a tolerance that is missed,
     /// because slack was spent on upper levels that lower ones need, it searches once more,
-    /// exactly, and keeps the better cuts. Throws on every rank what failed on one, before or here;
-    /// but a failure in the last messages stays with its rank for the next agreement.
+    /// exactly and without the regions, and keeps the better cuts. Throws on every rank what failed
+    /// on one, before or here; but a failure in the last messages stays with its rank for the next
+    /// agreement.
     Refined refine(const Regions& regions, RegionTree tree, const BinnedPoints& binned,
                    std::span<Part> parts, Participant& self);
 

@@ -45,6 +45,7 @@ struct Regions {
     Cuts cuts{};                        ///< between them
     std::span<const double> weights{};  ///< over all ranks
     Box box{};                          ///< of all points
+    int num_coincident = 0;             ///< cuts between them with points that the target divides
 };
 
 /// One rank's part in the search for the cuts below the regions.

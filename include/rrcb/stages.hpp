@@ -6,7 +6,7 @@
 
 namespace rrcb {
 
-/// Stages of a call of `balance`, in this order.
+/// Stages of a call of `balance`, in this order; see StageObserver for those that come again.
 enum class Stage {
     moments,     ///< local: what this rank contributes, in place of its points
     gather,      ///< the contributions travel to the root
@@ -26,9 +26,11 @@ RRCB_API const char* name_of(Stage stage);
 
 /// Told, on its own rank, when a stage of `balance` begins and when it ends.
 ///
-/// Every stage that begins also ends, in failing calls too; each does so at most once a call. The
-/// functions may not communicate over the communicator of the call, nor throw, since no rank may
-/// fail alone.
+/// Every stage that begins ends before another does, in failing calls too. Some come again in a
+/// call: the broadcast where points stay after new cuts were counted; the refinement where many
+/// ranks make the parts, first of regions, which with Refine::exact are assigned instead; all from
+/// the moments on where earlier cuts that are spread over the ranks do not stay. The functions may
+/// not communicate over the communicator of the call, nor throw, since no rank may fail alone.
 class RRCB_API StageObserver {
   public:
     /// An observer outlives the calls that it observes.

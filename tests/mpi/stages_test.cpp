@@ -26,11 +26,14 @@ std::string start_of_call() {
            (test::rank() == 0 ? " +bisection -bisection" : "") + " +broadcast -broadcast";
 }
 
-std::string stages_seen(const Options& asked, const std::vector<double>& coordinates) {
+std::string stages_seen(const Options& asked, const std::vector<double>& coordinates,
+                        const Cuts* previous = nullptr) {
     Recorder recorder;
     Options options = asked;
     options.observer = &recorder;
-    balance(interleaved_points(coordinates, 2), options, MPI_COMM_WORLD);
+    const Points points = interleaved_points(coordinates, 2);
+    if (previous) balance(points, options, MPI_COMM_WORLD, *previous);
+    if (!previous) balance(points, options, MPI_COMM_WORLD);
     return recorder.text;
 }
 
@@ -42,6 +45,25 @@ TEST(Stages, are_seen_in_their_order) {
     EXPECT_EQ(stages_seen(options, cloud), start_of_call() + " +assignment -assignment");
     options.domain = DomainKind::points;
     EXPECT_EQ(stages_seen(options, cloud), start_of_call() + " +assignment -assignment");
+}
+
+TEST(Stages, come_again_where_many_ranks_make_the_parts) {
+    if (test::num_ranks() < 3) GTEST_SKIP() << "needs three ranks";
+    auto cloud = test::uniform_cloud(500, 2, static_cast<unsigned>(test::rank()));
+    Options options;
+    options.central_parts = 2;
+    options.refine = Refine::exact;
+    EXPECT_EQ(stages_seen(options, cloud),
+              start_of_call() + " +assignment -assignment +refinement -refinement");
+    options.refine = Refine::tolerance;
+    const std::string anew = start_of_call() + " +refinement -refinement +refinement -refinement";
+    EXPECT_EQ(stages_seen(options, cloud), anew);
+    const Cuts cuts = balance(interleaved_points(cloud, 2), options, MPI_COMM_WORLD).cuts;
+    const std::string moments = " +moments -moments";
+    const std::string reuse = " +assignment -assignment" + start_of_call().substr(moments.size());
+    EXPECT_EQ(stages_seen(options, cloud, &cuts), reuse);
+    for (double& x : cloud) x *= x;
+    EXPECT_EQ(stages_seen(options, cloud, &cuts), reuse + anew);
 }
 
 TEST(Stages, end_when_a_call_fails) {

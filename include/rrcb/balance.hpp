@@ -101,8 +101,9 @@ RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm 
 ///
 /// Where `previous` is spread over the ranks, see Cuts::nodes, and the options ask for parts that
 /// many ranks make, the cuts stay while the parts are within the tolerance, and are made from
-/// nothing beyond it, with Refine::exact and with other options. Counts then go to the ranks of the
-/// parts, and memory follows from the parts that the points of a rank are in.
+/// nothing beyond it, with Refine::exact, with Options::cut_axes and with other options. Counts
+/// then go to the ranks of the parts, and memory follows from the parts that the points of a rank
+/// are in.
 ///
 /// The other axes of `previous` stay. `previous` must be the same on every rank, or what each rank
 /// got by a balance on this communicator, and have the dimension and number of parts asked for.

@@ -27,11 +27,13 @@ template <int D>
 void build(const EffectBuilder<D>& builder) {
     const double fraction = builder.values.number("fraction");
     const double until = builder.values.number("until");
-    // After walls and planes: what they give balances, and a node that they hold has no velocity.
+    // After walls and planes: what they give balances. They hold again what it leaves.
     builder.stages.moved.push_back(
-        {"local_damping", [=](GridPatch<D>& patch, const StepTime& step) {
+        {"local_damping",
+         [=, holds = builder.stages.moved](GridPatch<D>& patch, const StepTime& step) {
              if (step.time >= until) return;
              for (NodeMotion<D>& motion : patch.motion) damp<D>(fraction, motion);
+             for (const auto& hold : holds) hold.kernel(patch, step);
          }});
 }
 

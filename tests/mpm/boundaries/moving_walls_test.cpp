@@ -93,6 +93,37 @@ TEST(MovingWall, takes_a_block_along_by_friction) {
     }
 }
 
+// The base runs under the roller, into which it must draw nothing.
+TEST(MovingWall, leaves_what_another_wall_holds) {
+    Scene scene = block_on_belt(ShapeFunction::quadratic);
+    scene.bodies.front().contains = box_region({{0, 0}, {2, 1}});
+    scene.walls = {.left = Wall::roller, .bottom = Wall::fixed};
+    scene.walls.bottom.motion = {{-1, 0}, {0}, {1}};
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    while (simulation.time() < 0.2) simulation.step();
+    for (const double x : gathered(simulation, "x", MPI_COMM_WORLD)) EXPECT_GT(x, 0.03);
+}
+
+TEST(MovingWall, moves_as_it_is_told_beside_local_damping) {
+    constexpr double speed = 0.5;
+    Scene scene = block_on_belt(ShapeFunction::linear);
+    scene.bodies.front().contains = box_region({{1, 0}, {7, 1}});
+    scene.walls.bottom = Wall::fixed;
+    scene.walls.bottom.motion = {{1, 0}, {0}, {speed}};
+    scene.effects = {{"local_damping", {{"fraction", 0.7}, {"until", 10.0}}}};
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    while (simulation.time() < 0.6) simulation.step();
+    const auto y = gathered(simulation, "y", MPI_COMM_WORLD);
+    const auto way = gathered(simulation, "displacement_x", MPI_COMM_WORLD);
+    double sum = 0, num_lowest = 0;
+    for (std::size_t p = 0; p < y.size(); ++p) {
+        if (y[p] > 0.1) continue;
+        sum += way[p];
+        ++num_lowest;
+    }
+    EXPECT_NEAR(sum / num_lowest, speed * simulation.time(), 0.01 * speed * simulation.time());
+}
+
 TEST(MovingWall, acts_the_same_between_ranks) {
     for (const double friction : {0.0, 0.3}) {
         Scene scene = Shaken::scene(ShapeFunction::quadratic, 0.25);

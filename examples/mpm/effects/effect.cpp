@@ -1,6 +1,7 @@
 #include "effects/effect.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <stdexcept>
 
 namespace mpm {
@@ -20,6 +21,16 @@ const EffectKind& kind_of(const Effect& effect) {
     }
     throw std::invalid_argument("effects: there is no effect '" + name + "'; possible: " +
                                 joined(names) + "; another name needs one of these as its 'kind'");
+}
+
+/// Throws std::invalid_argument where a name would not do in the files that tell columns by it.
+void check_name(const std::string& name) {
+    const auto may_stand = [](unsigned char character) {
+        return std::isalnum(character) != 0 || character == '_' || character == '-';
+    };
+    if (name.empty() || !std::ranges::all_of(name, may_stand))
+        throw std::invalid_argument("effects / " + name +
+                                    ": the name must be of letters, digits, _ and -");
 }
 
 /// Throws std::invalid_argument where an effect may not stand beside one before it.
@@ -51,6 +62,7 @@ std::vector<NamedEffect> effects_of(const Scene& scene) {
         NamedEffect named{
             &kind, effect.name,
             Values(effect.parameters, kind.rules, "effects / " + effect.name, scene.dimension)};
+        check_name(effect.name);
         check_beside(named, effects);
         effects.push_back(std::move(named));
     }

@@ -3,6 +3,7 @@
 #include "effects/stages.hpp"
 
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,14 @@ struct EffectBuilder {
     Particles& particles;     ///< to add columns to
     Stages<D>& stages;        ///< to add kernels to
     double wave_speed;        ///< the largest of its materials, m/s
+
+    /// Adds a column named after the effect. Throws std::invalid_argument where another has it.
+    Column add_own_column(const std::string& ending) const {
+        if (particles.has_column(name + ending))
+            throw std::invalid_argument("effects / " + name + ": the points have a column '" +
+                                        name + ending + "' already; give the effect another name");
+        return particles.add_column(name + ending);
+    }
 };
 
 /// An effect: one file in effects/, named in effects.inc.
@@ -40,8 +49,8 @@ std::span<const EffectKind> effect_kinds();
 
 /// Effects of a scene in the order of their kinds, those of one kind in the order of the scene.
 ///
-/// Throws std::invalid_argument for an unknown effect, one named twice, a second one of a kind that
-/// may not repeat, and wrong parameters.
+/// Throws std::invalid_argument for an unknown effect, one named twice or by other characters than
+/// letters, digits, _ and -, a second one of a kind that may not repeat, and wrong parameters.
 std::vector<NamedEffect> effects_of(const Scene& scene);
 
 }  // namespace mpm

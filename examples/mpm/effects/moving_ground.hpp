@@ -39,7 +39,7 @@ class Ground {
         speed_.emplace(motion.times, motion.speeds, plane.name);
     }
 
-    /// Where a position of a time was at the first time, if it moves with the ground.
+    /// Where a position of a time was at the start, if it moves with the ground.
     Components<D> origin(Components<D> at, double time) const {
         for (std::size_t a = 0; speed_ && a < D; ++a)
             at[a] -= speed_->integral(time) * direction_[a];
@@ -61,7 +61,7 @@ class Ground {
     Components<D> normal;  ///< outward, of unit length
 
   private:
-    double level_ = 0;  ///< along the normal at the first time, m
+    double level_ = 0;  ///< along the normal at the start, m
     Components<D> direction_{};
     std::optional<TimeFunction> speed_ = {};  ///< along the direction, m/s
 };

@@ -85,12 +85,12 @@ void build(const EffectBuilder<D>& builder) {
     const auto plane = std::make_shared<const MovingPlane<D>>(
         read_plane<D>(builder.values, "effects / " + builder.name));
     PlaneColumns<D> columns{.motion = add_motion_columns(builder.particles, D),
-                            .push = builder.particles.add_column(builder.name + "_push"),
+                            .push = builder.add_own_column("_push"),
                             .largest = 0.5 * builder.scene.grid.spacing,
                             .times = ContactTimes(builder)};
     const std::size_t first = stages.fields.size();
     for (std::size_t a = 0; a < D; ++a) {
-        columns.force[a] = builder.particles.add_column(builder.name + "_force_" + "xyz"[a]);
+        columns.force[a] = builder.add_own_column(std::string("_force_") + "xyz"[a]);
         stages.fields.push_back({builder.name, columns.force[a], -1, static_cast<int>(a)});
     }
     stages.forces.push_back({builder.name, [=](GridPatch<D>& patch, const StepTime&) {

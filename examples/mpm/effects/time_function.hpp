@@ -24,6 +24,8 @@ class TimeFunction {
         for (std::size_t k = 1; k < times_.size(); ++k)
             sums_.push_back(sums_.back() +
                             0.5 * (times_[k] - times_[k - 1]) * (values_[k] + values_[k - 1]));
+        const double before_start = integral(0);
+        for (double& sum : sums_) sum -= before_start;
     }
 
     double at(double time) const {
@@ -34,7 +36,7 @@ class TimeFunction {
         return std::lerp(values_[next - 1], values_[next], share);
     }
 
-    /// Integral from the first time on, negative before it.
+    /// Integral from time 0 on.
     double integral(double time) const {
         const std::size_t next = next_of(time);
         const std::size_t last = next == 0 ? 0 : next - 1;
@@ -48,7 +50,7 @@ class TimeFunction {
     }
 
     std::vector<double> times_, values_;
-    std::vector<double> sums_{0};  ///< integral up to each time
+    std::vector<double> sums_{0};  ///< integral from time 0 up to each time
 };
 
 }  // namespace mpm

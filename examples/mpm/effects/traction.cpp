@@ -56,7 +56,7 @@ void build(const EffectBuilder<D>& builder) {
     const std::string place = "effects / " + builder.name;
     const Face face = read_face<D>(values, place);
     const MotionColumns motion = add_motion_columns(builder.particles, D);
-    const Column area = builder.particles.add_column(builder.name + "_area");
+    const Column area = builder.add_own_column("_area");
     stages.starts.push_back([=, scene = builder.scene](Particles& particles) {
         const Positions positions = positions_of(particles, motion, D);
         for (std::size_t p = 0; p < particles.size(); ++p)

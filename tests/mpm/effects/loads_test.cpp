@@ -20,6 +20,11 @@ TEST(TimeFunction, follows_straight_lines_and_sums_them_up) {
     EXPECT_EQ(f.integral(4), 1);
     EXPECT_EQ(f.integral(6), -3);
     EXPECT_EQ(TimeFunction({0}, {3}, "here").integral(2), 6);
+    for (const double first : {-1, 1}) {
+        const TimeFunction constant({first, first + 2}, {3, 3}, "here");
+        EXPECT_EQ(constant.integral(0), 0);
+        EXPECT_EQ(constant.integral(2), 6);
+    }
     EXPECT_THROW(TimeFunction({0, 1}, {3}, "here"), std::invalid_argument);
     EXPECT_THROW(TimeFunction({1, 1}, {3, 4}, "here"), std::invalid_argument);
 }
@@ -241,6 +246,14 @@ TEST(Loads, are_refused_with_the_reason) {
     EXPECT_THROW(Simulation(scene, MPI_COMM_WORLD), std::invalid_argument);
     scene.effects = {piston(1), piston(1)};
     EXPECT_THROW(validate(scene), std::invalid_argument) << "the same name";
+    scene.effects = {piston(1)};
+    scene.effects[0].kind = "moving_plane";
+    scene.effects[0].name = "two words";
+    EXPECT_THROW(validate(scene), std::invalid_argument) << "no name of a column";
+    scene.effects[0].name = "plane_1";
+    scene.planes = {{"ground", {0, 0}, {0, 1}, {Wall::frictional, 0.3}}};
+    EXPECT_THROW(Simulation(scene, MPI_COMM_WORLD), std::invalid_argument) << "a plane's columns";
+    scene.planes.clear();
     scene.effects = {gravity_effect(9), gravity_effect(9)};
     scene.effects[1].name = "more";
     scene.effects[1].kind = "gravity";

@@ -1,6 +1,7 @@
 #include "effects/effect.hpp"
 #include "effects/moving_ground.hpp"
 #include "effects/point_contact.hpp"
+#include "scene/lattice.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,12 +29,13 @@ Vector direction_of(const Values& values, const std::string& name, const std::st
 }
 
 template <int D>
-MovingPlane<D> read_plane(const Values& values, const std::string& place) {
+MovingPlane<D> read_plane(const Scene& scene, const Values& values, const std::string& place) {
     Plane plane{.name = place, .normal = direction_of(values, "normal", place)};
     std::ranges::copy(values.list("point"), plane.point.begin());
     plane.wall.motion = {
         values.has("direction") ? direction_of(values, "direction", place) : plane.normal,
         values.list("times"), values.list("speeds")};
+    check_in_front(scene, plane, place);
     return {Ground<D>(plane), values.number("friction")};
 }
 
@@ -83,7 +85,7 @@ template <int D>
 void build(const EffectBuilder<D>& builder) {
     Stages<D>& stages = builder.stages;
     const auto plane = std::make_shared<const MovingPlane<D>>(
-        read_plane<D>(builder.values, "effects / " + builder.name));
+        read_plane<D>(builder.scene, builder.values, "effects / " + builder.name));
     PlaneColumns<D> columns{.motion = add_motion_columns(builder.particles, D),
                             .push = builder.add_own_column("_push"),
                             .largest = 0.5 * builder.scene.grid.spacing,

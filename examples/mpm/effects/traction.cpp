@@ -49,12 +49,26 @@ double area_at(const Scene& scene, const Face& face, const Vector& at) {
     return 0;
 }
 
+/// Throws std::invalid_argument for a face without points. All ranks look at all points.
+template <int D>
+void check_face(const Scene& scene, const Face& face, const std::string& place) {
+    bool has_point = false;
+    visit_points(scene, [&](const Body&, const Vector& at) {
+        has_point = has_point || area_at<D>(scene, face, at) > 0;
+    });
+    if (!has_point)
+        throw std::invalid_argument(place +
+                                    ": no outermost point of its 'side' lies in the box from "
+                                    "'lower' to 'upper'; make that larger");
+}
+
 template <int D>
 void build(const EffectBuilder<D>& builder) {
     const Values& values = builder.values;
     Stages<D>& stages = builder.stages;
     const std::string place = "effects / " + builder.name;
     const Face face = read_face<D>(values, place);
+    check_face<D>(builder.scene, face, place);
     const MotionColumns motion = add_motion_columns(builder.particles, D);
     const Column area = builder.add_own_column("_area");
     stages.starts.push_back([=, scene = builder.scene](Particles& particles) {

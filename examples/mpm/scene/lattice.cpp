@@ -4,6 +4,7 @@
 #include "materials/undrained.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -215,6 +216,15 @@ double StartPlaces::front_x(Positions at, std::span<const double> numbers, doubl
     return front;
 }
 
+double StartPlaces::fingerprint() const {
+    std::uint64_t hash = 14695981039346656037U;  // FNV-1a, by words in place of bytes
+    for (const Row& row : rows_)
+        for (const double part : {static_cast<double>(row.first_number),
+                                  static_cast<double>(row.first_i), row.y, row.z, row.spacing})
+            hash = (hash ^ std::bit_cast<std::uint64_t>(part)) * 1099511628211U;
+    return static_cast<double>(hash >> 11);
+}
+
 Extent extent_of(const Scene& scene) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Extent extent{0,
@@ -238,7 +248,32 @@ Extent extent_of(const Scene& scene) {
                                         ": holds no point; it must lie in the domain, and be no "
                                         "smaller than the distance of points in a cell");
     }
+    for (const Plane& plane : scene.planes) check_in_front(scene, plane, "planes / " + plane.name);
     return extent;
+}
+
+void visit_points(const Scene& scene,
+                  const std::function<void(const Body&, const Vector&)>& visit) {
+    for (const Body& body : scene.bodies)
+        visit_body(scene, body, [&](const Vector& at, int) { visit(body, at); });
+}
+
+void check_in_front(const Scene& scene, const Plane& plane, const std::string& place) {
+    visit_points(scene, [&](const Body& body, const Vector& at) {
+        const Vector size = lattice_spacing(scene, body);
+        double height = 0, half_size = 0, square = 0;
+        for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a) {
+            height += plane.normal[a] * (at[a] - plane.point[a]);
+            half_size += 0.5 * std::abs(plane.normal[a]) * size[a];
+            square += plane.normal[a] * plane.normal[a];
+        }
+        if (!(height < -half_size)) return;
+        std::ostringstream text;
+        text << place << ": the body '" << body.name << "' lies behind it by "
+             << -height / std::sqrt(square) << " m at x = " << at[0] << ", y = " << at[1]
+             << ", z = " << at[2] << " m; cut the body, or move or turn the plane";
+        throw std::invalid_argument(text.str());
+    });
 }
 
 std::vector<BodyPoints> points_of_bodies(const Scene& scene) {

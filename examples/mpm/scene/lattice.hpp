@@ -5,7 +5,9 @@
 #include <mpm/scene.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace mpm {
@@ -23,6 +25,9 @@ class StartPlaces {
 
     /// Largest x of those that have moved by more than `way` m; -infinity where there is none.
     double front_x(Positions at, std::span<const double> numbers, double way) const;
+
+    /// A number that others rarely have, the same on all ranks.
+    double fingerprint() const;
 
   private:
     class Reader;
@@ -44,8 +49,15 @@ struct Extent {
 };
 
 /// Extent of a scene. Throws std::invalid_argument that names a body without points, or a point
-/// whose velocity is not finite or that lies in two bodies.
+/// whose velocity is not finite or that lies in two bodies or behind a plane.
 Extent extent_of(const Scene& scene);
+
+/// Calls visit(body, place) for each point of a scene in the order of their numbers.
+void visit_points(const Scene& scene, const std::function<void(const Body&, const Vector&)>& visit);
+
+/// Throws std::invalid_argument that names a point of a scene that lies behind a plane by more than
+/// half its size. `place` is for the error.
+void check_in_front(const Scene& scene, const Plane& plane, const std::string& place);
 
 /// The points of one body on the lattice.
 struct BodyPoints {

@@ -55,13 +55,16 @@ Walls read_walls(List list, int dimension) {
         {"top", &walls.top},   {"back", &walls.back},   {"front", &walls.front}};
     const auto num_sides = static_cast<std::size_t>(2 * dimension);
     std::vector<Rule> rules;
+    std::string lists;
     for (std::size_t side = 0; side < num_sides; ++side) {
         const std::string motion = sides[side].first + "_motion";
         if (list.has(motion))
             sides[side].second->motion = read_motion(list.take_list(motion), dimension);
         rules.push_back(choice(sides[side].first, {"open", "roller", "fixed", "frictional"}));
         rules.push_back(optional(not_negative(sides[side].first + "_friction", "")));
+        lists += (lists.empty() ? "" : ", ") + motion;
     }
+    list.refuse_other_lists(lists);
     const Values values = list.values(rules, dimension);
     for (std::size_t side = 0; side < num_sides; ++side) {
         const auto& [name, wall] = sides[side];

@@ -15,7 +15,7 @@ namespace mpm {
 /// What a written state holds for all ranks.
 struct StateHead {
     std::vector<std::string> columns;  ///< of the points
-    /// Dimension, grid, number of points, which must agree.
+    /// Dimension, grid, number and places of points, probes, which must agree.
     std::vector<double> scene;
     std::vector<double> numbers;  ///< time and such
     std::vector<double> effects;  ///< EffectState that is the same on all ranks

@@ -51,6 +51,8 @@ StateHead Stepper<D>::state_head() const {
                    .boxes = decomposition.boxes};
     append(scene_.grid.lower, head.scene);
     append(scene_.grid.num_cells, head.scene);
+    head.scene.push_back(starts.fingerprint());
+    for (const Probe& probe : scene_.probes) append(probe.position, head.scene);
     return head;
 }
 
@@ -148,7 +150,7 @@ void Stepper<D>::read_state(const std::string& path) {
         reader.head().numbers.size() != mine.numbers.size())
         throw std::runtime_error(path +
                                  ": is the state of another scene, of another grid, or of "
-                                 "other materials, effects or method");
+                                 "other bodies, materials, effects, probes or method");
     std::vector<std::size_t> all(particles.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     particles.remove(all);

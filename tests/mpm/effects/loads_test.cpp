@@ -236,6 +236,11 @@ TEST(Loads, are_refused_with_the_reason) {
     scene.effects = {traction({1, 0})};
     scene.effects[0].parameters["side"] = std::string("front");
     EXPECT_THROW(Simulation(scene, MPI_COMM_WORLD), std::invalid_argument);
+    scene.effects = {traction({1, 0})};
+    scene.effects[0].parameters["upper"] = std::vector<double>{length - 0.2, 1};
+    EXPECT_THROW(Simulation(scene, MPI_COMM_WORLD), std::invalid_argument) << "no point there";
+    scene.effects = {piston(1, 0.8 * length)};
+    EXPECT_THROW(Simulation(scene, MPI_COMM_WORLD), std::invalid_argument) << "in the bar";
     scene.effects = {piston(1)};
     scene.effects[0].parameters["times"] = std::vector<double>{0, 0};
     EXPECT_THROW(Simulation(scene, MPI_COMM_WORLD), std::invalid_argument);

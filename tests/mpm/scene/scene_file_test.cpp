@@ -105,6 +105,9 @@ TEST(SceneFile, names_what_is_wrong_with_a_motion_or_a_kind) {
     expect_names(with_motion("      direction: [1, 0]\n"), {"'speeds'", "missing"});
     expect_names(with_motion("      direction: [0, 1]\n      speeds: [1]\n"),
                  {"the wall 'bottom' must move along itself"});
+    expect_names(
+        error_with("bottom: fixed\n", "bottom: fixed\n    front_motion:\n      speeds: [1]\n"),
+        {"walls", "'front_motion'", "possible", "bottom_motion"});
     expect_names(error_with("    gravity:", "    weight:\n      kind: levity"),
                  {"'levity'", "possible", "gravity"});
     expect_names(error_with("    gravity:", "    weight:"), {"'weight'", "'kind'"});

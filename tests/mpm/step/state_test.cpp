@@ -153,6 +153,10 @@ TEST(State, that_does_not_fit_is_refused_on_all_ranks) {
     EXPECT_EQ(error_of(scene, file.path()), "");
     EXPECT_NE(error_of(coarse_slope(), file.path()).find("another scene"), std::string::npos);
     EXPECT_NE(error_of(scene, "nowhere.mpm").find("no state"), std::string::npos);
+    Scene beside = scene;
+    beside.bodies.front().contains = ball_region({5, 4}, 2);
+    EXPECT_NE(error_of(beside, file.path()).find("other bodies"), std::string::npos)
+        << "as many points in another place";
     Scene smooth = sliding_block(ShapeFunction::linear);
     smooth.walls.bottom.friction = 0;
     Simulation(smooth, MPI_COMM_WORLD).write_state(file.path());

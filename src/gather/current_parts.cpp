@@ -58,8 +58,9 @@ class Reader {
             const auto cut = cut_between(below, above, axis, estimate_.dimension,
                                          options_.plain_cuts, may_divide());
             if (!cut) continue;
-            current_.cuts.tree[at.node] = *cut;
             if (are_cuts_limited(options_)) gaps_[at.node] = gap_between(below, above, axis);
+            if (gaps_[at.node].empty()) continue;
+            current_.cuts.tree[at.node] = *cut;
             return read_node(at.lower(), ranks.first(num_below), as_expected) &&
                    read_node(at.upper(), ranks.subspan(num_below), as_expected);
         }

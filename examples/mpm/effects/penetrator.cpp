@@ -3,8 +3,11 @@
 #include "effects/penetrator/rigid_contact.hpp"
 #include "effects/penetrator/skin_friction.hpp"
 #include "parallel/communicator_mpi.hpp"
+#include "scene/lattice.hpp"
 
+#include <algorithm>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -78,6 +81,23 @@ Penetrator<D> read_body(const Values& values) {
     return body;
 }
 
+/// Throws std::invalid_argument for a point that begins in the body by more than half its size, as
+/// contact would hurl it out. All ranks look at all points.
+template <int D>
+void check_apart(const Penetrator<D>& body, const Scene& scene) {
+    visit_points(scene, [&](const Body& soil, const Vector& at) {
+        const Vector size = lattice_spacing(scene, soil);
+        const auto touch = body.touch(at, 0);
+        if (!touch || touch->depth <= 0.5 * *std::max_element(size.begin(), size.begin() + D))
+            return;
+        std::ostringstream text;
+        text << "effects / penetrator: the body '" << soil.name << "' begins in it at x = " << at[0]
+             << ", y = " << at[1] << ", z = " << at[2]
+             << " m; subtract its shape from the body, or place its 'tip' elsewhere";
+        throw std::invalid_argument(text.str());
+    });
+}
+
 template <int D>
 Motion<D> read_motion(const EffectBuilder<D>& builder, const Penetrator<D>& body) {
     const Values& values = builder.values;
@@ -147,6 +167,7 @@ void build(const EffectBuilder<D>& builder) {
         std::make_shared<RigidContact<D>>(RigidContact<D>{.body = read_body<D>(builder.values),
                                                           .skin = skin_friction<D>(builder),
                                                           .times = ContactTimes(builder)});
+    check_apart(contact->body, builder.scene);
     const auto motion = std::make_shared<Motion<D>>(read_motion<D>(builder, contact->body));
     if (contact->skin.limit)
         contact->bands.emplace(contact->body, builder.scene.grid.spacing,

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <stdexcept>
 
 namespace mpm::test {
 namespace {
@@ -160,6 +161,15 @@ TEST(Penetrator, rubs_by_coulomb) {
     const double gained = after.momentum[1] + down * after.mass;
     EXPECT_GT(gained, 0.9 * down * after.mass) << "it has met the body";
     EXPECT_NEAR(fast * after.mass - after.momentum[0], friction * gained, 1e-9 * gained);
+}
+
+// Contact would hurl it out, with energy from nowhere.
+TEST(Penetrator, may_not_begin_in_the_soil) {
+    Scene scene = struck_block(100, 0);
+    find_effect(scene, "penetrator")->at("tip") = std::vector<double>{3, 4.5};
+    EXPECT_THROW(Simulation(scene, MPI_COMM_WORLD), std::invalid_argument);
+    scene.bodies.front().contains = box_region({{2, 3}, {4, 4.5}});
+    EXPECT_NO_THROW(Simulation(scene, MPI_COMM_WORLD));
 }
 
 TEST(Penetrator, falls_freely_before_it_meets_the_soil) {

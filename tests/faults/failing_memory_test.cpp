@@ -1,6 +1,7 @@
 #include "failing_memory.hpp"
 
 #include "clouds.hpp"
+#include "part_ranks.hpp"
 
 #include <rrcb/rrcb.hpp>
 
@@ -182,9 +183,7 @@ TEST(FailingMemory, in_a_plan) {
 TEST(FailingMemory, in_new_part_numbers) {
     const std::vector<Part> parts = parts_here();
     const std::vector<Part> previous(parts.rbegin(), parts.rend());
-    std::vector<RankRange> ranks;
-    for (Part part = 0; part < 2 * test::num_ranks(); ++part)
-        ranks.push_back(ranks_of_part(part, 2 * test::num_ranks(), test::num_ranks()));
+    const std::vector<RankRange> ranks = test::ranks_of_parts(2 * test::num_ranks());
     for (const bool on_rank : {true, false}) {
         const auto call = [&] {
             return on_rank ? remap(parts, ranks, MPI_COMM_WORLD)

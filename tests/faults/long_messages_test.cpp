@@ -2,7 +2,7 @@
 #include "clouds.hpp"
 #include "collective/communicator.hpp"
 #include "mpi_layer.hpp"
-#include "ranks.hpp"
+#include "part_ranks.hpp"
 #include "refinement/candidates_mpi.hpp"
 
 #include <rrcb/rrcb.hpp>
@@ -79,9 +79,7 @@ TEST(LongMessages, give_the_same_numbers_of_parts_in_pieces) {
     std::vector<Part> parts(100);
     std::iota(parts.begin(), parts.end(), 3 * test::rank());
     for (Part& part : parts) part %= num_parts;
-    std::vector<RankRange> ranks;
-    for (Part part = 0; part < num_parts; ++part)
-        ranks.push_back(ranks_of_part(part, num_parts, test::num_ranks()));
+    const std::vector<RankRange> ranks = test::ranks_of_parts(num_parts);
     const Remap expected = remap(parts, ranks, MPI_COMM_WORLD);
     const ShortMessages pieces;
     const Remap result = remap(parts, ranks, MPI_COMM_WORLD);

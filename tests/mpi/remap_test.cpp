@@ -1,4 +1,4 @@
-#include "ranks.hpp"
+#include "part_ranks.hpp"
 
 #include <rrcb/error.hpp>
 #include <rrcb/remap.hpp>
@@ -15,19 +15,12 @@ namespace {
 
 using test::num_ranks;
 using test::rank;
-
-std::vector<RankRange> ranks_of(int num_parts) {
-    std::vector<RankRange> ranks;
-    for (Part part = 0; part < num_parts; ++part) {
-        ranks.push_back(ranks_of_part(part, num_parts, num_ranks()));
-    }
-    return ranks;
-}
+using test::ranks_of_parts;
 
 TEST(Remap, undoes_a_rotation_of_the_parts) {
     const int parts_now = num_ranks();
     const std::vector<Part> parts(10, (rank() + 1) % parts_now);
-    const Remap result = remap(parts, ranks_of(parts_now), MPI_COMM_WORLD);
+    const Remap result = remap(parts, ranks_of_parts(parts_now), MPI_COMM_WORLD);
     EXPECT_EQ(result.num_points, 10 * num_ranks());
     EXPECT_EQ(result.kept_before, parts_now == 1 ? 10 : 0);
     EXPECT_EQ(result.kept_after, 10 * num_ranks());
@@ -42,7 +35,7 @@ TEST(Remap, leaves_the_numbers_where_nothing_is_gained) {
     // Everybody has one point for every part: any permutation keeps as many.
     std::vector<Part> parts(static_cast<std::size_t>(parts_now));
     std::iota(parts.begin(), parts.end(), 0);
-    const Remap result = remap(parts, ranks_of(parts_now), MPI_COMM_WORLD);
+    const Remap result = remap(parts, ranks_of_parts(parts_now), MPI_COMM_WORLD);
     EXPECT_TRUE(result.identity);
     EXPECT_EQ(result.numbers, parts);
     EXPECT_EQ(result.kept_after, result.kept_before);
@@ -53,7 +46,7 @@ TEST(Remap, keeps_points_on_their_rank_in_any_part_of_it) {
     // Part p goes round to the rank behind: 2 -> rank 0, 3 -> rank 0, ...
     const Part first = (2 * rank() + 2) % parts_now;
     const std::vector<Part> parts = {first, first, first + 1};
-    const Remap result = remap(parts, ranks_of(parts_now), MPI_COMM_WORLD);
+    const Remap result = remap(parts, ranks_of_parts(parts_now), MPI_COMM_WORLD);
     EXPECT_EQ(result.kept_after, 3 * num_ranks());
     for (const Part part : parts) {
         EXPECT_EQ(result.numbers[static_cast<std::size_t>(part)] / 2, rank());
@@ -64,7 +57,7 @@ TEST(Remap, keeps_the_numbers_of_earlier_parts) {
     const int parts_now = 2 * num_ranks();
     const std::vector<Part> previous = {2 * rank(), 2 * rank() + 1, parts_now, -1};
     const std::vector<Part> parts = {2 * rank() + 1, 2 * rank(), 0, 0};
-    const Remap result = remap(parts, previous, ranks_of(parts_now), MPI_COMM_WORLD);
+    const Remap result = remap(parts, previous, ranks_of_parts(parts_now), MPI_COMM_WORLD);
     EXPECT_EQ(result.kept_before, 0);
     EXPECT_EQ(result.kept_after, 2 * num_ranks());
     EXPECT_EQ(result.numbers[static_cast<std::size_t>(2 * rank())], 2 * rank() + 1);
@@ -74,9 +67,9 @@ TEST(Remap, takes_ranks_without_points) {
     const bool holder = rank() == 0;
     const std::vector<Part> parts(holder ? 5 : 0, num_ranks() - 1);
     const std::vector<Part> previous(parts.size(), 0);
-    EXPECT_EQ(remap(parts, ranks_of(num_ranks()), MPI_COMM_WORLD).kept_after, 5);
-    EXPECT_EQ(remap(parts, previous, ranks_of(num_ranks()), MPI_COMM_WORLD).kept_after, 5);
-    const Remap nothing = remap({}, ranks_of(num_ranks()), MPI_COMM_WORLD);
+    EXPECT_EQ(remap(parts, ranks_of_parts(num_ranks()), MPI_COMM_WORLD).kept_after, 5);
+    EXPECT_EQ(remap(parts, previous, ranks_of_parts(num_ranks()), MPI_COMM_WORLD).kept_after, 5);
+    const Remap nothing = remap({}, ranks_of_parts(num_ranks()), MPI_COMM_WORLD);
     EXPECT_TRUE(nothing.identity);
     EXPECT_EQ(nothing.num_points, 0);
 }
@@ -156,22 +149,22 @@ TEST(Remap, refuses_arguments_that_differ_between_ranks) {
                                         std::to_string(num_ranks() - 1) +
                                         "; give the same value on every rank");
         }
-        EXPECT_EQ(remap({}, ranks_of(3), MPI_COMM_WORLD).num_points, 0);
+        EXPECT_EQ(remap({}, ranks_of_parts(3), MPI_COMM_WORLD).num_points, 0);
     };
     const std::vector<Part> parts(3);
     for (const int other : {1, 129, 10000}) {
-        const std::vector<RankRange> ranks = ranks_of(test::is_last_rank() ? other : 100);
+        const std::vector<RankRange> ranks = ranks_of_parts(test::is_last_rank() ? other : 100);
         expect_difference("ranks_of_parts", [&] { remap(parts, ranks, MPI_COMM_WORLD); });
         expect_difference("ranks_of_parts", [&] { remap(parts, parts, ranks, MPI_COMM_WORLD); });
     }
-    std::vector<RankRange> elsewhere = ranks_of(2);
+    std::vector<RankRange> elsewhere = ranks_of_parts(2);
     if (test::is_last_rank()) elsewhere[1].first_rank = 0;
     expect_difference("ranks_of_parts", [&] { remap(parts, elsewhere, MPI_COMM_WORLD); });
     expect_difference("previous", [&] {
         if (test::is_last_rank()) {
-            remap(parts, ranks_of(3), MPI_COMM_WORLD);
+            remap(parts, ranks_of_parts(3), MPI_COMM_WORLD);
         } else {
-            remap(parts, parts, ranks_of(3), MPI_COMM_WORLD);
+            remap(parts, parts, ranks_of_parts(3), MPI_COMM_WORLD);
         }
     });
 }
@@ -180,7 +173,7 @@ TEST(Remap, refuses_on_all_ranks_what_one_gets_wrong) {
     const auto expect_error = [](const std::vector<Part>& parts, const std::vector<Part>& previous,
                                  const std::string& expected) {
         try {
-            remap(parts, previous, ranks_of(num_ranks()), MPI_COMM_WORLD);
+            remap(parts, previous, ranks_of_parts(num_ranks()), MPI_COMM_WORLD);
             ADD_FAILURE() << "expected: " << expected;
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::invalid_argument);

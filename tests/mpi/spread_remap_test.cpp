@@ -1,7 +1,7 @@
 // Part numbers by all ranks together, beside those that one rank finds.
 #include "lists/hungarian.hpp"
 #include "lists/spread_remap_mpi.hpp"
-#include "ranks.hpp"
+#include "part_ranks.hpp"
 
 #include <rrcb/error.hpp>
 #include <rrcb/remap.hpp>
@@ -17,13 +17,7 @@ namespace {
 
 using test::num_ranks;
 using test::rank;
-
-std::vector<RankRange> ranks_of(int num_parts) {
-    std::vector<RankRange> ranks;
-    for (Part part = 0; part < num_parts; ++part)
-        ranks.push_back(ranks_of_part(part, num_parts, num_ranks()));
-    return ranks;
-}
+using test::ranks_of_parts;
 
 /// Lets all ranks search, or one of them decide.
 template <class Call>
@@ -60,9 +54,11 @@ TEST(SpreadRemap, by_ranks_and_by_parts_finds_what_one_rank_does) {
         const std::vector<Part> parts = dealt(num_parts, seed);
         std::vector<Part> previous = dealt(num_parts + 3, seed + 1);
         previous.resize(parts.size());
-        const auto by_rank = [&] { return remap(parts, ranks_of(num_parts), MPI_COMM_WORLD); };
+        const auto by_rank = [&] {
+            return remap(parts, ranks_of_parts(num_parts), MPI_COMM_WORLD);
+        };
         const auto by_part = [&] {
-            return remap(parts, previous, ranks_of(num_parts), MPI_COMM_WORLD);
+            return remap(parts, previous, ranks_of_parts(num_parts), MPI_COMM_WORLD);
         };
         expect_same(found(true, by_rank), found(false, by_rank));
         expect_same(found(true, by_part), found(false, by_part));
@@ -73,17 +69,17 @@ TEST(SpreadRemap, leaves_numbers_that_nobody_gains_by) {
     for (const int num_parts : {129, 200}) {
         std::vector<Part> parts;
         for (Part part = 0; part < num_parts; ++part)
-            if (ranks_of(num_parts)[static_cast<std::size_t>(part)].first_rank == rank())
+            if (ranks_of_parts(num_parts)[static_cast<std::size_t>(part)].first_rank == rank())
                 parts.insert(parts.end(), 3, part);
         const Remap result =
-            found(true, [&] { return remap(parts, ranks_of(num_parts), MPI_COMM_WORLD); });
+            found(true, [&] { return remap(parts, ranks_of_parts(num_parts), MPI_COMM_WORLD); });
         EXPECT_TRUE(result.identity);
         EXPECT_EQ(result.num_points, 3 * num_parts);
         EXPECT_EQ(result.kept_before, 3 * num_parts);
         EXPECT_EQ(result.kept_after, 3 * num_parts);
         EXPECT_TRUE(std::ranges::is_sorted(result.numbers));
         const Remap empty =
-            found(true, [&] { return remap({}, ranks_of(num_parts), MPI_COMM_WORLD); });
+            found(true, [&] { return remap({}, ranks_of_parts(num_parts), MPI_COMM_WORLD); });
         EXPECT_TRUE(empty.identity);
         EXPECT_EQ(empty.numbers, result.numbers);
     }
@@ -94,13 +90,13 @@ TEST(SpreadRemap, refuses_on_all_ranks_what_one_gets_wrong) {
     const std::vector<Part> wrong(3, test::is_last_rank() ? 200 : 0);
     for (int k = 0; k < 2; ++k) {
         try {
-            remap(wrong, ranks_of(200), MPI_COMM_WORLD);
+            remap(wrong, ranks_of_parts(200), MPI_COMM_WORLD);
             ADD_FAILURE() << "expected an error";
         } catch (const Error& error) {
             EXPECT_EQ(error.what(), "rank " + std::to_string(num_ranks() - 1) +
                                         ": part 200 of point 0 is none of the 200 parts");
         }
-        EXPECT_EQ(remap(dealt(200, 1), ranks_of(200), MPI_COMM_WORLD).numbers.size(), 200u);
+        EXPECT_EQ(remap(dealt(200, 1), ranks_of_parts(200), MPI_COMM_WORLD).numbers.size(), 200u);
     }
 }
 

@@ -2,6 +2,7 @@
 #include "lists/number_search.hpp"
 
 #include "../support/clouds.hpp"
+#include "../support/part_ranks.hpp"
 #include "../support/virtual_butterfly.hpp"
 #include "lists/hungarian.hpp"
 #include "lists/rank_numbers.hpp"
@@ -139,13 +140,6 @@ class ManyRanks {
     std::map<Part, Part> told_;
 };
 
-std::vector<RankRange> ranks_of(int num_parts, int num_ranks) {
-    std::vector<RankRange> ranks;
-    for (Part part = 0; part < num_parts; ++part)
-        ranks.push_back(ranks_of_part(part, num_parts, num_ranks));
-    return ranks;
-}
-
 /// Overlaps of few counts, so that many are equal, of `per_origin` parts each; some origins have
 /// none.
 Overlaps random_overlaps(int num_parts, int num_origins, int per_origin, unsigned seed) {
@@ -171,7 +165,8 @@ TEST(NumberSearch, by_ranks_finds_what_one_place_finds) {
         const Overlaps overlaps =
             random_overlaps(num_parts, num_ranks, 1 + static_cast<int>(seed % 9), seed);
         ManyRanks ranks(num_parts, num_ranks, Origins::ranks, overlaps);
-        EXPECT_EQ(ranks.run(), numbers_by_rank(overlaps, ranks_of(num_parts, num_ranks)))
+        EXPECT_EQ(ranks.run(),
+                  numbers_by_rank(overlaps, test::ranks_of_parts(num_parts, num_ranks)))
             << seed << ": " << num_parts << " parts, " << num_ranks << " ranks";
     }
 }
@@ -226,7 +221,7 @@ TEST(NumberSearch, places_all_but_few_where_refusals_form_a_chain_that_is_cut_of
         if (rank + 1 < num_ranks) overlaps.push_back({rank, rank + 1, 2 * (num_ranks - rank) - 1});
     }
     ManyRanks all(num_ranks, num_ranks, Origins::ranks, overlaps);
-    EXPECT_EQ(all.run(), numbers_by_rank(overlaps, ranks_of(num_ranks, num_ranks)));
+    EXPECT_EQ(all.run(), numbers_by_rank(overlaps, test::ranks_of_parts(num_ranks, num_ranks)));
     EXPECT_EQ(all.num_rounds, num_ranks);
     ManyRanks few(num_ranks, num_ranks, Origins::ranks, overlaps);
     few.run(16);
@@ -254,7 +249,8 @@ TEST(NumberSearch, of_thousands_of_ranks_takes_few_rounds_and_short_messages) {
     for (const double share : {0.1, 0.9}) {
         const Overlaps overlaps = drifted(side, share);
         ManyRanks ranks(side * side, side * side, Origins::ranks, overlaps);
-        EXPECT_EQ(ranks.run(), numbers_by_rank(overlaps, ranks_of(side * side, side * side)));
+        EXPECT_EQ(ranks.run(),
+                  numbers_by_rank(overlaps, test::ranks_of_parts(side * side, side * side)));
         EXPECT_LE(ranks.num_rounds, share < 0.5 ? 0 : 5);
         EXPECT_LE(ranks.longest, 200u);
         EXPECT_LE(ranks.most_bytes_in, 1100u);

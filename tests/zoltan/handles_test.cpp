@@ -1,5 +1,5 @@
 #include "../faults/memory_layer.hpp"
-#include "program.hpp"
+#include "same_lists.hpp"
 
 #include <gtest/gtest.h>
 #include <zoltan_mem.h>
@@ -19,15 +19,6 @@ extern "C" int MPI_Comm_free(MPI_Comm* comm) {
 
 namespace rrcb::zoltan_test {
 namespace {
-
-/// All that lists say, for comparison.
-void expect_same(const ListCopy& a, const ListCopy& b) {
-    EXPECT_EQ(a.count, b.count);
-    EXPECT_EQ(a.global_ids, b.global_ids);
-    EXPECT_EQ(a.local_ids, b.local_ids);
-    EXPECT_EQ(a.ranks, b.ranks);
-    EXPECT_EQ(a.parts, b.parts);
-}
 
 void expect_same(const Outcome& a, const Outcome& b) {
     EXPECT_EQ(a.code, b.code);

@@ -1,6 +1,7 @@
 // REMAP and objects at rest where many ranks make the parts, beside what one rank decides.
 #include "moving.hpp"
 #include "regions.hpp"
+#include "same_lists.hpp"
 
 #include <gtest/gtest.h>
 
@@ -57,13 +58,6 @@ struct Dealt : Moving {
             parts[static_cast<std::size_t>(i)] = (7 * rank + i / 3) % (num_parts + 2);
     }
 };
-
-void expect_same(const ListCopy& a, const ListCopy& b) {
-    EXPECT_EQ(a.count, b.count);
-    EXPECT_EQ(a.global_ids, b.global_ids);
-    EXPECT_EQ(a.ranks, b.ranks);
-    EXPECT_EQ(a.parts, b.parts);
-}
 
 /// Beyond 128 parts both ways are greedy.
 TEST(SpreadRemap, gives_the_lists_of_numbers_that_one_rank_finds) {

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "program.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rrcb::zoltan_test {
+
+/// All that lists say.
+inline void expect_same(const ListCopy& a, const ListCopy& b) {
+    EXPECT_EQ(a.count, b.count);
+    EXPECT_EQ(a.global_ids, b.global_ids);
+    EXPECT_EQ(a.local_ids, b.local_ids);
+    EXPECT_EQ(a.ranks, b.ranks);
+    EXPECT_EQ(a.parts, b.parts);
+}
+
+}  // namespace rrcb::zoltan_test

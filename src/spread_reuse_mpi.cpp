@@ -3,6 +3,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/known_tree.hpp"
+#include "cuts/part_share.hpp"
 #include "wide_mpi.hpp"
 
 #include <rrcb/plan.hpp>
@@ -67,12 +68,8 @@ double SpreadReuse::largest_share(double total_weight, std::span<const double> s
         sizes.empty() ? cuts_.num_parts : std::accumulate(sizes.begin(), sizes.end(), 0.0);
     double largest = 0;
     sums_.owned().for_each([&](const Record& part) {
-        const double weight = part.payload[0];
-        // Shares, as imbalance() has them.
         const double ideal = (sizes.empty() ? 1 : sizes[part.key]) / all_sizes;
-        if (weight > 0)
-            largest = std::max(largest, ideal > 0 ? weight / total_weight / ideal
-                                                  : std::numeric_limits<double>::infinity());
+        largest = std::max(largest, over_ideal(part.payload[0], total_weight, ideal));
     });
     return largest;
 }

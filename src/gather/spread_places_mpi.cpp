@@ -3,6 +3,7 @@
 #include "bisection/axis_choice.hpp"
 #include "bisection/domain_kinds.hpp"
 #include "cuts/owned_cuts.hpp"
+#include "cuts/part_share.hpp"
 #include "cuts/position_order.hpp"
 #include "gather/current_parts.hpp"
 
@@ -110,8 +111,7 @@ double SpreadPlaces::share(double total, bool by_count) const {
         sizes.empty() ? options_.num_parts : std::accumulate(sizes.begin(), sizes.end(), 0.0);
     const double size = sizes.empty() ? 1 : sizes[static_cast<std::size_t>(butterfly_.rank())];
     if (mine_.count > 0 && !(size > 0)) return std::numeric_limits<double>::infinity();
-    // Shares, as imbalance() has them.
-    return weight > 0 ? weight / total / (size / all_sizes) : 0;
+    return over_ideal(weight, total, size / all_sizes);
 }
 
 void SpreadPlaces::tell_places() {

@@ -1,8 +1,9 @@
+#include "cuts/part_share.hpp"
+
 #include <rrcb/quality.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace rrcb {
@@ -27,12 +28,9 @@ double imbalance(std::span<const double> part_weights, std::span<const double> p
     const double sizes = std::accumulate(part_sizes.begin(), part_sizes.end(), 0.0);
     double worst = 0;
     for (std::size_t p = 0; p < part_weights.size(); ++p) {
-        if (!(part_weights[p] > 0)) continue;
-        // Shares, since a part of a tiny weight may be no number that a double holds.
         const double ideal = part_sizes.empty() ? 1 / static_cast<double>(part_weights.size())
                                                 : part_sizes[p] / sizes;
-        worst = std::max(worst, ideal > 0 ? part_weights[p] / total / ideal
-                                          : std::numeric_limits<double>::infinity());
+        worst = std::max(worst, over_ideal(part_weights[p], total, ideal));
     }
     return worst > 0 ? worst : 1;
 }

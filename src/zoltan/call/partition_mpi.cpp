@@ -28,7 +28,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <cstdio>
 #include <new>
 #include <optional>

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <limits>
+
+namespace rrcb {
+
+/// Weight of a part over what it should weigh, the share `ideal` of `total`; 0 without weight, and
+/// infinite where nothing should lie.
+inline double over_ideal(double weight, double total, double ideal) {
+    if (!(weight > 0)) return 0;
+    // Shares, since a part of a tiny weight may be no number that a double holds.
+    return ideal > 0 ? weight / total / ideal : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace rrcb

@@ -31,9 +31,6 @@ class Numbering {
         return is_unchanged() ? number : boxes_[static_cast<std::size_t>(number)];
     }
 
-    /// Boxes whose numbers are known, where these are some of them only.
-    const std::vector<Part>& known_boxes() const { return boxes_; }
-
     /// Numbers of all boxes, or of the known ones.
     const std::vector<Part>& numbers() const { return numbers_; }
 

@@ -76,32 +76,6 @@ bool read_rows(const Rows& rows, std::string_view text, Options& options) {
     return numbers && !numbers->empty() && rows.set(options, *numbers);
 }
 
-/// Text in the case of a sentence's middle, unless it begins with a word of the interface.
-std::string continued(std::string_view text) {
-    std::string result(text);
-    const bool is_name = result.size() > 1 && std::isupper(static_cast<unsigned char>(result[1]));
-    if (!is_name)
-        result[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(result[0])));
-    return result;
-}
-
-/// Words of the interface, which are all of capitals, in the type of code.
-std::string with_code_marks(std::string_view text) {
-    const auto is_part = [](char c) {
-        return std::isupper(static_cast<unsigned char>(c)) || c == '_' || c == '=';
-    };
-    std::string result;
-    for (std::size_t begin = 0; begin < text.size();) {
-        std::size_t end = begin;
-        while (end < text.size() && is_part(text[end])) ++end;
-        const std::string word(text.substr(begin, std::max(end, begin + 1) - begin));
-        const bool of_the_interface = word.size() > 3 && word != "RRCB";
-        result += of_the_interface ? '`' + word + '`' : word;
-        begin += word.size();
-    }
-    return result;
-}
-
 std::string listed(const Choice& choice) {
     std::string text;
     for (const Word& word : choice) {
@@ -123,29 +97,6 @@ std::string bounds_of(const Range<Number>& range) {
         return " above " + least + (is_bounded(range) ? ", at most " + text_of(range.most) : "");
     return is_bounded(range) ? " from " + least + " to " + text_of(range.most)
                              : ", " + least + " or more";
-}
-
-template <class Number>
-std::string values_in_table(const Range<Number>& range, const Options& first) {
-    std::string bounds = bounds_of(range);
-    bounds.erase(0, bounds.find_first_not_of(", "));
-    if (bounds.starts_with("from ")) bounds.erase(0, 5);
-    if (range.most_in_3d != range.most) bounds += " (" + text_of(range.most_in_3d) + " in 3-D)";
-    const bool is_automatic = range.zero != nullptr && first.*range.field == 0;
-    return (is_automatic ? '`' + std::string(automatic) + '`' : text_of(first.*range.field)) +
-           ", " + bounds;
-}
-
-std::string values_in_table(const Rows& rows, const Options& first) {
-    return '`' + text_of(rows, first) + "`, " + rows.text + ": `" + rows.example + '`';
-}
-
-std::string values_in_table(const Choice& choice, const Options& first) {
-    const Word& front = word_of(choice, first);
-    std::string text = '`' + std::string(front.word) + '`';
-    for (const Word& word : choice)
-        if (&word != &front) text += ", `" + std::string(word.word) + '`';
-    return text;
 }
 
 }  // namespace
@@ -264,22 +215,6 @@ void copy_option(const Option& option, const Options& from, Options& to) {
         } else if constexpr (std::is_same_v<Kind, Rows>) {
             kind.set(to, kind.get(from));
         }
-    });
-}
-
-std::string table_row(const Option& option, const Options& first) {
-    return visit_kind(option, [&]<class Kind>(const Kind& kind) -> std::string {
-        std::string text = continued(option.text);
-        if constexpr (std::is_same_v<Kind, Choice>) {
-            for (const Word& word : kind) text += std::string("; ") + word.word + ": " + word.text;
-        } else if constexpr (is_range<Kind>) {
-            if (kind.zero != nullptr) text += "; " + std::string(automatic) + ": " + kind.zero;
-        }
-        if constexpr (std::is_same_v<Kind, Lists>)
-            return "";
-        else
-            return '|' + (" `" + std::string(option.parameter)) + "` | " +
-                   values_in_table(kind, first) + " | " + with_code_marks(text) + " |";
     });
 }
 

@@ -209,8 +209,4 @@ std::string write_option(const Option& option, const Options& options);
 /// Makes the option what it is in `from`.
 void copy_option(const Option& option, const Options& from, Options& to);
 
-/// Row of the option in a table of parameters, in Markdown: name, values with `first` in front,
-/// what it sets.
-std::string table_row(const Option& option, const Options& first);
-
 }  // namespace rrcb

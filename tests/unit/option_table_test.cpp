@@ -7,8 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cmath>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 namespace rrcb {
@@ -222,6 +224,74 @@ TEST(Request, differs_in_every_option_by_its_name) {
               "previous");
     EXPECT_EQ(name_of_request(*first_difference(reference, request_of({}, 3, nullptr))),
               "dimension");
+}
+
+/// Returns the text as the middle of a sentence has it: a word of capitals stays one.
+std::string continued(std::string_view text) {
+    std::string result(text);
+    const bool is_name = result.size() > 1 && std::isupper(static_cast<unsigned char>(result[1]));
+    if (!is_name)
+        result[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(result[0])));
+    return result;
+}
+
+/// Marks the words of the interface, which have capitals only, as code.
+std::string with_code_marks(const std::string& text) {
+    static const std::regex word("[A-Z_=]{4,}");
+    return std::regex_replace(std::regex_replace(text, word, "`$&`"), std::regex("`RRCB`"), "RRCB");
+}
+
+std::string values_of(const Option& option, const Choice& choice, const Options& first) {
+    const std::string front = write_option(option, first);
+    std::string text = '`' + front + '`';
+    for (const Word& word : choice)
+        if (word.word != front) text += ", `" + std::string(word.word) + '`';
+    return text;
+}
+
+std::string values_of(const Option& option, const Rows& rows, const Options& first) {
+    return '`' + write_option(option, first) + "`, " + rows.text + ": `" + rows.example + '`';
+}
+
+template <class Number>
+std::string values_of(const Option& option, const Range<Number>& range, const Options& first) {
+    const std::string value = write_option(option, first);
+    std::string text = value == "AUTO" ? "`AUTO`" : value;
+    text +=
+        std::regex_replace(legal_values(option), std::regex("^a (whole )?number(,| from)? "), ", ");
+    if (range.most_in_3d != range.most) {
+        std::ostringstream most;
+        most << " (" << range.most_in_3d << " in 3-D)";
+        text += most.str();
+    }
+    return text;
+}
+
+std::string meanings(const Choice& choice) {
+    std::string text;
+    for (const Word& word : choice) text += std::string("; ") + word.word + ": " + word.text;
+    return text;
+}
+
+template <class Number>
+std::string meanings(const Range<Number>& range) {
+    return range.zero != nullptr ? std::string("; AUTO: ") + range.zero : "";
+}
+
+std::string meanings(const Rows&) {
+    return "";
+}
+
+/// Returns the row of an option in the table of the document: its parameter, its values with that
+/// of `first` in front, and what it sets.
+std::string table_row(const Option& option, const Options& first) {
+    return visit_kind(option, [&]<class Kind>(const Kind& kind) -> std::string {
+        if constexpr (std::is_same_v<Kind, Lists>)
+            return "";
+        else
+            return "| `" + std::string(option.parameter) + "` | " + values_of(option, kind, first) +
+                   " | " + with_code_marks(continued(option.text) + meanings(kind)) + " |";
+    });
 }
 
 TEST(OptionTable, is_the_table_of_the_document) {

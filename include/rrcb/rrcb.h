@@ -153,7 +153,8 @@ RRCB_API int rrcb_get_plan(const rrcb_balancer* balancer, rrcb_plan* plan);
  *  come.
  *
  *  Collective. A point has `bytes` of them, the same on every rank; `from` holds
- *  plan.num_points * bytes, `to` has room for plan.num_points_after * bytes elsewhere. */
+ *  plan.num_points * bytes, `to` has room for plan.num_points_after * bytes elsewhere. Only the
+ *  number of bytes is compared between ranks, not the type of what they hold. */
 RRCB_API int rrcb_transfer(rrcb_balancer* balancer, size_t bytes, const void* from, void* to);
 
 #ifdef __cplusplus

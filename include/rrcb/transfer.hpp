@@ -61,10 +61,19 @@ struct TransferReport {
 
 namespace detail {
 
+/// Kind of a value: the same on every rank of a program, as no address or name of its type is.
+enum class ValueKind { integer, floating_point, other };
+
+template <class T>
+inline constexpr ValueKind kind_of = std::is_integral_v<T>         ? ValueKind::integer
+                                     : std::is_floating_point_v<T> ? ValueKind::floating_point
+                                                                   : ValueKind::other;
+
 /// A column without its type, and where its result goes.
 struct ByteColumn {
     const std::byte* from;
     std::size_t num_values;
+    ValueKind kind;
     std::size_t value_bytes;
     std::size_t components;
     void* result;
@@ -75,6 +84,7 @@ template <class T>
 ByteColumn byte_column(const Column<T>& column, std::vector<T>& result) {
     return {reinterpret_cast<const std::byte*>(column.values.data()),
             column.values.size(),
+            kind_of<T>,
             sizeof(T),
             column.components,
             &result,
@@ -126,8 +136,9 @@ auto moved(const AnyPlan& plan, const Values& values, MPI_Comm comm, const Trans
 /// between which points move, however many columns there are; more where it is longer than an
 /// eighth of `limits.bytes` or than MPI counts. Beside those messages there is memory for 8 bytes a
 /// point that leaves, and 100 for each rank that points go to or come from, whatever the number of
-/// ranks. Every rank names columns of the same types and components, in the same order; on a rank
-/// without points they are empty.
+/// ranks. Every rank gives the same columns in the same order: equal are whether values are whole
+/// numbers, floating-point numbers or of another type, their size, and how many a point has. On a
+/// rank without points columns are empty.
 ///
 /// First come the points that stay, in the order in which they were, then those that come, in the
 /// order of the plan's import lists: by rank, and as they lay there. So columns moved in separate
@@ -136,7 +147,7 @@ auto moved(const AnyPlan& plan, const Values& values, MPI_Comm comm, const Trans
 /// `report` may be null. The columns are only read; nothing is lost when a call fails. Throws Error
 /// on every rank alike where one has a column of another length than plan.num_points * components,
 /// lists that no plan of this communicator has or that do not match those of the other ranks, other
-/// sizes or limits than they have, or no memory; on that rank alone when a message fails.
+/// columns or limits than they have, or no memory; on that rank alone when a message fails.
 template <class Columns>
 auto transfer(const Plan& plan, const Columns& columns, MPI_Comm comm,
               const TransferLimits& limits = {}, TransferReport* report = nullptr) {

@@ -127,8 +127,13 @@ int rrcb_make_plan(rrcb_balancer* balancer, size_t count, const int32_t* parts) 
 int rrcb_transfer(rrcb_balancer* balancer, size_t bytes, const void* from, void* to) {
     return guarded(balancer, [&](auto& own) {
         const std::size_t length = from == nullptr ? 0 : own.plan.num_points * bytes;
-        const rrcb::detail::ByteColumn column{
-            static_cast<const std::byte*>(from), length, 1, bytes, to, rrcb::c::room_at};
+        const rrcb::detail::ByteColumn column{static_cast<const std::byte*>(from),
+                                              length,
+                                              rrcb::detail::ValueKind::other,
+                                              1,
+                                              bytes,
+                                              to,
+                                              rrcb::c::room_at};
         rrcb::detail::move(own.plan, {&column, 1}, {}, nullptr, own.comm);
     });
 }

@@ -22,20 +22,6 @@ template <class MakeText>
     }
 }
 
-/// Names the lowest rank with another value than the root. Collective.
-[[noreturn]] void refuse(const Shared& argument, const Participant& self) {
-    const int num_ranks = mpi::size_of(self.comm);
-    std::uint64_t of_root = argument.value;
-    mpi::check(MPI_Bcast(&of_root, 1, MPI_UINT64_T, root, self.comm), "MPI_Bcast");
-    int differing = argument.value != of_root ? mpi::rank_of(self.comm) : num_ranks;
-    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &differing, 1, MPI_INT, MPI_MIN, self.comm),
-               "MPI_Allreduce");
-    throw_alike(ErrorCode::invalid_argument, [&] {
-        return std::string(argument.name) + " differs between rank " + std::to_string(root) +
-               " and rank " + std::to_string(differing) + "; give the same value on every rank";
-    });
-}
-
 /// Failures are told in this order: those first that follow from no other.
 std::uint64_t order_of(const Participant& self, std::uint64_t num_ranks) {
     if (!self.failed()) return 2 * num_ranks;
@@ -50,6 +36,11 @@ void agree(const Participant& self) {
 }
 
 void agree(const Participant& self, std::initializer_list<Shared> arguments) {
+    const std::size_t differing = find_difference(self, {arguments.begin(), arguments.size()});
+    if (differing < arguments.size()) refuse(arguments.begin()[differing], self);
+}
+
+std::size_t find_difference(const Participant& self, std::span<const Shared> arguments) {
     const auto num_ranks = static_cast<std::uint64_t>(mpi::size_of(self.comm));
     // A maximum travels as the minimum of the complement.
     std::array<std::uint64_t, 1 + 2 * most_shared> smallest;
@@ -63,12 +54,23 @@ void agree(const Participant& self, std::initializer_list<Shared> arguments) {
                              MPI_MIN, self.comm),
                "MPI_Allreduce");
     if (smallest[0] < 2 * num_ranks) fail_together(static_cast<int>(smallest[0] % num_ranks), self);
-    std::size_t at = 1;
-    for (const Shared& argument : arguments) {
-        const std::uint64_t least = smallest[at++];
-        const std::uint64_t most = ~smallest[at++];
-        if (least != most) refuse(argument, self);
-    }
+    std::size_t first = 0;
+    while (first < arguments.size() && smallest[1 + 2 * first] == ~smallest[2 + 2 * first]) ++first;
+    return first;
+}
+
+void refuse(const Shared& argument, const Participant& self) {
+    // Names the lowest rank with another value than the root.
+    const int num_ranks = mpi::size_of(self.comm);
+    std::uint64_t of_root = argument.value;
+    mpi::check(MPI_Bcast(&of_root, 1, MPI_UINT64_T, root, self.comm), "MPI_Bcast");
+    int differing = argument.value != of_root ? mpi::rank_of(self.comm) : num_ranks;
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &differing, 1, MPI_INT, MPI_MIN, self.comm),
+               "MPI_Allreduce");
+    throw_alike(ErrorCode::invalid_argument, [&] {
+        return std::string(argument.name) + " differs between rank " + std::to_string(root) +
+               " and rank " + std::to_string(differing) + "; give the same value on every rank";
+    });
 }
 
 void fail_together(int failing_rank, const Participant& self) {

@@ -4,8 +4,10 @@
 
 #include <mpi.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <span>
 #include <string_view>
 
 namespace rrcb {
@@ -30,6 +32,13 @@ struct Shared {
 /// Collective: one reduction. All ranks name the same arguments, three at most. The messages that
 /// follow may depend on them.
 void agree(const Participant& self, std::initializer_list<Shared> arguments);
+
+/// The same, but returns the number of the first of `arguments` that differs, or how many there
+/// are.
+std::size_t find_difference(const Participant& self, std::span<const Shared> arguments);
+
+/// Throws on every rank the Error of an argument that differs between ranks. Collective.
+[[noreturn]] void refuse(const Shared& argument, const Participant& self);
 
 /// Throws on every rank what failed on `failing_rank`; nothing where it is no_rank.
 ///

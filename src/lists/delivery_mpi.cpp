@@ -5,8 +5,11 @@
 #include "collective/rank_counts_mpi.hpp"
 #include "collective/stream_mpi.hpp"
 #include "options/rejection.hpp"
+#include "refinement/mix.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <optional>
@@ -46,6 +49,62 @@ std::size_t point_bytes_of(std::span<const ByteColumn> columns) {
         bytes += column.components * column.value_bytes;
     }
     return bytes;
+}
+
+/// What must be the same of a column on every rank.
+struct ColumnType {
+    std::uint64_t components = 0;
+    std::uint64_t value_bytes = 0;
+    std::uint64_t kind = 0;
+
+    bool operator==(const ColumnType&) const = default;
+};
+
+ColumnType type_of(const ByteColumn& column) {
+    return {column.components, column.value_bytes, static_cast<std::uint64_t>(column.kind)};
+}
+
+std::string text_of(const ColumnType& type) {
+    constexpr std::array kinds{"whole numbers", "floating-point numbers", "values of another type"};
+    return std::to_string(type.components) + " per point, " + kinds.at(type.kind) + " of " +
+           std::to_string(type.value_bytes) + " bytes";
+}
+
+std::uint64_t hash_of(std::span<const ByteColumn> columns) {
+    std::uint64_t hash = columns.size();
+    for (const ByteColumn& column : columns) {
+        const auto [components, value_bytes, kind] = type_of(column);
+        for (const std::uint64_t number : {components, value_bytes, kind})
+            hash = mix(hash ^ number);
+    }
+    return hash;
+}
+
+template <class Value>
+Value of_root(Value value, const Participant& self) {
+    mpi::broadcast(std::as_writable_bytes(std::span(&value, 1)), root, self.comm);
+    return value;
+}
+
+/// Throws the Error that names the first column of the lowest rank that differs from the root's.
+/// Collective, once the hashes of the columns were found to differ.
+void refuse_types(std::span<const ByteColumn> columns, Participant& self) {
+    const std::size_t num_of_root = of_root(columns.size(), self);
+    self.attempt([&] {
+        if (columns.size() != num_of_root)
+            reject(std::to_string(columns.size()) + " columns, but " + std::to_string(num_of_root) +
+                   " on rank 0; give the same columns on every rank");
+    });
+    for (std::size_t k = 0; k < num_of_root; ++k) {
+        const ColumnType here = k < columns.size() ? type_of(columns[k]) : ColumnType{};
+        const ColumnType there = of_root(here, self);
+        self.attempt([&] {
+            if (here != there)
+                reject("column " + std::to_string(k) + " (the first is 0) has " + text_of(here) +
+                       ", but " + text_of(there) + " on rank 0; give the same on every rank");
+        });
+    }
+    agree(self);
 }
 
 LocalIndex total(std::span<const RankCount> counts) {
@@ -169,8 +228,11 @@ void deliver(const Delivery& delivery, std::span<const ByteColumn> columns,
                           mpi::size_of(self.comm));
         lanes = make_results(columns, delivery.num_kept + total(delivery.from));
     });
-    agree(self, {{"the size of a point in all columns", point_bytes},
-                 {"TransferLimits::bytes", limits.bytes}});
+    const std::array shared{Shared{"the type of a column", hash_of(columns)},
+                            Shared{"TransferLimits::bytes", limits.bytes}};
+    const std::size_t differing = find_difference(self, shared);
+    if (differing == 0) refuse_types(columns, self);
+    if (differing < shared.size()) refuse(shared[differing], self);
     for (const Lane& lane : lanes) keep(delivery, lane);
     run(*stream, delivery, lanes, self);
     if (report != nullptr)

@@ -120,5 +120,19 @@ TEST(Fetch, by_a_plan_that_does_not_hold_together_is_refused_on_all_ranks) {
            });
 }
 
+TEST(Fetch, of_a_column_of_another_type_is_refused_on_all_ranks) {
+    if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
+    const std::vector<double> coordinates{rank() + 0.5, 0};
+    const GhostPlan plan = ghosts(slabs(), interleaved_points(coordinates, 2), 10, MPI_COMM_WORLD);
+    const std::vector<float> numbers(1);
+    const std::vector<int> whole(1);
+    expect_refusal("column 0 (the first is 0) has 1 per point, whole numbers of 4 bytes, but", [&] {
+        if (test::is_last_rank())
+            fetch(plan, whole, MPI_COMM_WORLD);
+        else
+            fetch(plan, numbers, MPI_COMM_WORLD);
+    });
+}
+
 }  // namespace
 }  // namespace rrcb

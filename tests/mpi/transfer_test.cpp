@@ -243,24 +243,48 @@ TEST(Transfer, tells_all_ranks_what_is_wrong_on_one_of_them) {
     }
 }
 
-TEST(Transfer, refuses_limits_and_types_that_differ_between_ranks) {
+TEST(Transfer, refuses_limits_that_differ_between_ranks) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
-    const Plan lists = shift(4);
-    const std::vector<double> wide(4);
-    const std::vector<float> narrow(4);
-    expect_on_all_ranks(text_of([&] {
-                            transfer(
-                                lists, wide, MPI_COMM_WORLD,
-                                {test::is_last_rank() ? std::size_t{2000} : std::size_t{1000}});
-                        }),
+    const std::vector<double> values(4);
+    const TransferLimits limits{test::is_last_rank() ? std::size_t{2000} : std::size_t{1000}};
+    expect_on_all_ranks(text_of([&] { transfer(shift(4), values, MPI_COMM_WORLD, limits); }),
                         "TransferLimits::bytes differs between rank 0 and rank");
+}
+
+/// Fails unless columns of as many bytes are refused on all ranks if the last rank has other ones.
+void expect_refusal(const auto& columns, const auto& of_last_rank, const std::string& text) {
+    const Plan lists = shift(4);
+    const std::string expected = "rank " + std::to_string(num_ranks() - 1) + ": " + text;
     expect_on_all_ranks(text_of([&] {
                             if (test::is_last_rank())
-                                transfer(lists, narrow, MPI_COMM_WORLD);
+                                transfer(lists, of_last_rank, MPI_COMM_WORLD);
                             else
-                                transfer(lists, wide, MPI_COMM_WORLD);
+                                transfer(lists, columns, MPI_COMM_WORLD);
                         }),
-                        "the size of a point in all columns differs between rank 0 and rank");
+                        expected);
+}
+
+struct Pair {
+    float values[2];
+};
+
+TEST(Transfer, names_the_column_whose_type_differs_between_ranks) {
+    if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
+    const std::vector<double> wide(4);
+    const std::vector<float> narrow(8);
+    const std::vector<std::int32_t> whole(8);
+    const std::vector<std::int64_t> long_whole(4);
+    const std::vector<Pair> pairs(4);
+    expect_refusal(columns(column(narrow, 2), wide), columns(wide, column(narrow, 2)),
+                   "column 0 (the first is 0) has 1 per point, floating-point numbers of 8 bytes, "
+                   "but 2 per point, floating-point numbers of 4 bytes on rank 0");
+    expect_refusal(columns(wide, column(narrow, 2)), columns(wide, column(whole, 2)),
+                   "column 1 (the first is 0) has 2 per point, whole numbers of 4 bytes, but 2 per "
+                   "point, floating-point numbers of 4 bytes on rank 0");
+    expect_refusal(columns(wide, wide, wide), columns(wide, wide, long_whole), "column 2 ");
+    expect_refusal(column(wide), column(pairs),
+                   "column 0 (the first is 0) has 1 per point, values of another type of 8 bytes");
+    expect_refusal(columns(wide), columns(wide, column(narrow, 2)), "2 columns, but 1 on rank 0");
 }
 
 TEST(Transfer, refuses_more_components_than_a_size_can_count) {

@@ -9,7 +9,7 @@ namespace rrcb::hard_test {
 std::vector<double> moving_cloud(int step);
 
 /// Takes as many steps as RRCB_TEST_REBALANCES says, 150 without it, and fails when memory, handles
-/// of MPI or files are more at the end than after the first third. Collective.
+/// of MPI or files are more at the end than after an earlier round of 60 steps. Collective.
 void expect_constant_resources(const std::function<void(int step)>& take_step);
 
 }  // namespace rrcb::hard_test

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gather/contribution.hpp"
+#include "memory_layer.hpp"
 #include "refinement/region_search.hpp"
 #include "virtual_cloud.hpp"
 #include "virtual_round.hpp"
@@ -18,11 +19,6 @@
 #include <vector>
 
 namespace rrcb::test {
-
-/// Bytes that this thread has allocated and not freed, and the most of them since that was set; see
-/// count_memory.cpp.
-inline thread_local std::int64_t bytes_in_use = 0;
-inline thread_local std::int64_t most_bytes_in_use = 0;
 
 /// What a search amounted to; sizes in bytes.
 struct SearchTotals {
@@ -62,10 +58,11 @@ class VirtualSearch {
     template <class Step>
     void run(int rank, Step&& step) {
         Memory& memory = memory_[static_cast<std::size_t>(rank)];
-        const std::int64_t before = most_bytes_in_use = bytes_in_use;
+        const std::int64_t before = memory_layer::live_bytes();
+        memory_layer::restart_peak();
         step();
-        memory.most = std::max(memory.most, memory.now + most_bytes_in_use - before);
-        memory.now += bytes_in_use - before;
+        memory.most = std::max(memory.most, memory.now + memory_layer::peak_bytes());
+        memory.now += memory_layer::live_bytes() - before;
     }
 
     void turn(int rank) {

@@ -1,7 +1,7 @@
+#include "../support/held_memory.hpp"
 #include "program.hpp"
 
 #include <gtest/gtest.h>
-#include <malloc.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -119,17 +119,17 @@ TEST(State, does_not_grow_over_two_thousand_partitions) {
             program.set(name, "1");
         }
         repeat(program, warm_up);
-        const auto memory = mallinfo2().uordblks;
+        const test::HeldMemory before;
         const int communicators = num_communicators;
         repeat(program, repeats);
-        const long grown = static_cast<long>(mallinfo2().uordblks) - static_cast<long>(memory);
         if (program.rank == 0) {
             std::printf("%-4s %d partitions: %ld bytes more, %d communicators more\n", method,
-                        repeats, grown, num_communicators - communicators);
+                        repeats, test::HeldMemory{}.bytes - before.bytes,
+                        num_communicators - communicators);
         }
         if (std::string(method) == "RCB") continue;
         EXPECT_EQ(num_communicators, communicators);
-        EXPECT_LT(grown, repeats * 8);  // less than the smallest block a call could leave behind
+        test::expect_no_growth(before, repeats);
     }
 }
 

@@ -194,10 +194,7 @@ void use_hier(Program& program, const char* inner_method) {
 }
 
 void repeat(Program& program, int times) {
-    for (int i = 0; i < times; ++i) {
-        program.partition();
-        MPI_Barrier(MPI_COMM_WORLD);
-    }
+    for (int i = 0; i < times; ++i) program.partition();
 }
 
 double imbalance(const Program& program, const Outcome& outcome, int num_parts) {

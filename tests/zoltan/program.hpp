@@ -73,8 +73,7 @@ void scatter_points(Program& program, int count);
 /// the handle for it, which gets `inner_method` (a literal).
 void use_hier(Program& program, const char* inner_method);
 
-/// Partitions in step: a rank that lags behind makes MPI keep the messages of the others, and
-/// memory grow by what is not the plug-in's.
+/// Partitions again and again.
 void repeat(Program& program, int times);
 
 /// Part of each object in the program's order, which is not that of Zoltan's list, after a call

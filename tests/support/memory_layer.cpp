@@ -10,14 +10,14 @@ namespace memory_layer {
 
 namespace {
 
-long failing_allocation = 0;
-Shortage failing = Shortage::once;
-long num_counted = 0;
-long num_live = 0;
-long bytes_live = 0;
-long bytes_before = 0;
-long bytes_at_peak = 0;
-bool has_ended = false;
+thread_local long failing_allocation = 0;
+thread_local Shortage failing = Shortage::once;
+thread_local long num_counted = 0;
+thread_local long num_live = 0;
+thread_local long bytes_live = 0;
+thread_local long bytes_before = 0;
+thread_local long bytes_at_peak = 0;
+thread_local bool has_ended = false;
 
 }  // namespace
 
@@ -46,6 +46,10 @@ long counted_allocations() {
 
 long live_blocks() {
     return num_live;
+}
+
+long live_bytes() {
+    return bytes_live;
 }
 
 long peak_bytes() {

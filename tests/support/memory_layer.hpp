@@ -1,6 +1,7 @@
 #pragma once
 
-/// The program's allocations, of which chosen ones fail; linked in tests only.
+/// The program's allocations, which are counted, and of which chosen ones fail; linked in tests
+/// only. The counts are those of the thread that asks.
 namespace memory_layer {
 
 enum class Shortage {
@@ -21,8 +22,9 @@ bool next_fails();
 /// How many allocations were counted since fail_allocation.
 long counted_allocations();
 
-/// How many blocks of operator new are in use.
+/// How many blocks of operator new are in use, and their bytes.
 long live_blocks();
+long live_bytes();
 
 /// Most bytes that blocks of operator new had in use at a time since restart_peak, beyond those in
 /// use then.

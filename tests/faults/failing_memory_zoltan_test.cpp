@@ -86,8 +86,7 @@ TEST(FailingMemoryInZoltan, with_all_that_takes_memory) {
     program.set("RRCB_REFINE", "EXACT");
     program.set("KEEP_CUTS", "1");
     program.set("RCB_SET_DIRECTIONS", "2");
-    program.set("OBJ_WEIGHT_DIM", "2");
-    program.further_weight = [](int object, int) { return static_cast<float>(1 + object % 3); };
+    program.set("OBJ_WEIGHT_DIM", "1");
     program.set("NUM_LOCAL_PARTS", "2");
     fail_in_partition(program);
 }
@@ -104,30 +103,6 @@ TEST(FailingMemoryInZoltan, with_cuts_that_are_spread_over_the_ranks) {
         if (!keeps_cuts) program.set("RETURN_LISTS", "NONE");
         fail_in_partition(program);
     }
-}
-
-TEST(FailingMemoryInZoltan, in_a_flat_geometry) {
-    ShortProgram program;
-    program.set("REDUCE_DIMENSIONS", "1");
-    program.set("KEEP_CUTS", "1");
-    program.set("REMAP", "0");
-    for (std::size_t i = 0; i < program.coordinates.size(); i += 2)
-        program.coordinates[i] = 1.5 * program.coordinates[i + 1];
-    fail_in_partition(program);
-}
-
-TEST(FailingMemoryInZoltan, under_a_norm_of_several_weights) {
-    ShortProgram program;
-    program.set("RETURN_LISTS", "PARTS");
-    program.set("RCB_MULTICRITERIA_NORM", "3");
-    program.set("OBJ_WEIGHT_DIM", "2");
-    program.further_weight = [](int object, int) { return static_cast<float>(1 + object % 3); };
-    program.set("NUM_GLOBAL_PARTS", "6");
-    std::array parts{0, 1};
-    std::array weights{0, 1};
-    std::array sizes{2.0F, 3.0F};
-    Zoltan_LB_Set_Part_Sizes(program.zz, 1, 2, parts.data(), weights.data(), sizes.data());
-    fail_in_partition(program);
 }
 
 TEST(FailingMemoryInZoltan, with_parts_of_different_sizes) {

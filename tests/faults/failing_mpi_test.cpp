@@ -59,18 +59,6 @@ TEST(FailingMpi, gives_all_ranks_one_code_and_no_lists_and_the_next_call_works) 
     }
 }
 
-TEST(FailingMpi, gives_no_lists_in_flat_geometries_and_under_norms_of_several_weights) {
-    Cloud cloud;
-    for (std::size_t i = 0; i < cloud.coordinates.size(); i += 2)
-        cloud.coordinates[i] = 2 * cloud.coordinates[i + 1];
-    cloud.further_weight = [](int object, int) { return static_cast<float>(1 + object % 3); };
-    cloud.set("REDUCE_DIMENSIONS", "1");
-    cloud.set("KEEP_CUTS", "1");
-    cloud.set("OBJ_WEIGHT_DIM", "2");
-    cloud.set("RCB_MULTICRITERIA_NORM", "3");
-    expect_one_code_and_no_lists(cloud);
-}
-
 TEST(FailingMpi, gives_no_lists_whichever_are_asked_for) {
     for (const char* lists : {"IMPORT", "EXPORT", "PARTS", "NONE"}) {
         SCOPED_TRACE(lists);

@@ -26,14 +26,6 @@ constexpr Case cases[] = {
          p.set("OBJ_WEIGHT_DIM", "1");
      },
      "all weights are zero"},
-    {"two weights that are all zero",
-     [](Program& p) {
-         scatter_points(p, 50);
-         p.weights.assign(50, 0);
-         p.further_weight = [](int, int) { return 0.0F; };
-         p.set("OBJ_WEIGHT_DIM", "2");
-     },
-     "all weights are zero"},
     {"an object that outweighs the others",
      [](Program& p) {
          scatter_points(p, 50);
@@ -56,13 +48,6 @@ constexpr Case cases[] = {
          p.set("RCB_SET_DIRECTIONS", "7");
      },
      "RCB_SET_DIRECTIONS out of bounds"},
-    {"more weights than are used",
-     [](Program& p) {
-         scatter_points(p, 50);
-         p.further_weight = [](int, int) { return 1.0F; };
-         p.set("OBJ_WEIGHT_DIM", "5");
-     },
-     "Too many weights"},
 };
 
 int code_of(const Case& given, const char* method, std::string& said) {

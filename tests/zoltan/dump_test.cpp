@@ -181,36 +181,6 @@ TEST(Dump, holds_initial_parts_and_part_sizes) {
     for (std::size_t i = 0; i < 40; ++i) EXPECT_EQ(numbers[4 * i + 3], program.rank);
 }
 
-TEST(Dump, holds_every_weight_of_an_object) {
-    const Folder folder("weights");
-    DumpingProgram program(folder.string());
-    program.set("RRCB_DUMP_WHEN", "ALWAYS");
-    program.set("OBJ_WEIGHT_DIM", "2");
-    Zoltan_Set_Obj_List_Fn(
-        program.zz,
-        [](void* data, int, int, ZOLTAN_ID_PTR gids, ZOLTAN_ID_PTR lids, int, float* weights,
-           int* code) {
-            *code = ZOLTAN_OK;
-            const Program& mine = *static_cast<const Program*>(data);
-            for (int i = 0; i < mine.size(); ++i) {
-                gids[i] = mine.gid_word(i, 0);
-                lids[i] = mine.lid_word(i, 0);
-                weights[2 * i] = static_cast<float>(i);
-                weights[2 * i + 1] = 0.1F;
-            }
-        },
-        &program);
-    EXPECT_EQ(program.partition().code, ZOLTAN_OK);
-    const auto mine = lines_of_rank(program, folder / "call-1");
-    EXPECT_TRUE(contains(mine, "weights 2"));
-    const std::vector<double> numbers = numbers_of(mine);
-    ASSERT_EQ(numbers.size(), 160U);
-    for (std::size_t i = 0; i < 40; ++i) {
-        EXPECT_EQ(numbers[4 * i + 2], static_cast<double>(i));
-        EXPECT_EQ(numbers[4 * i + 3], static_cast<double>(0.1F));
-    }
-}
-
 TEST(Dump, of_one_rank_that_asks_is_made_by_all) {
     const Folder folder("one");
     DumpingProgram program("");

@@ -162,44 +162,12 @@ TEST(RectilinearBlocks, keep_points_of_one_plane_together) {
     }
 }
 
-/// Shares of the parts in the sum of the weights, each weight over its total where `normalised`.
-std::array<double, 2> shares(const Program& program, const Outcome& outcome, bool normalised) {
-    std::array<double, 4> sums{};
-    const std::vector<int> parts = parts_by_object(outcome);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const auto part = static_cast<std::size_t>(parts[i]);
-        sums[part] += double(program.weights[i]);
-        sums[2 + part] += double(program.further_weight(static_cast<int>(i), 1));
-    }
-    MPI_Allreduce(MPI_IN_PLACE, sums.data(), 4, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-    const double first = normalised ? sums[0] + sums[1] : 1;
-    const double second = normalised ? sums[2] + sums[3] : 1;
-    const double all = (sums[0] + sums[1]) / first + (sums[2] + sums[3]) / second;
-    return {(sums[0] / first + sums[2] / second) / all, (sums[1] / first + sums[3] / second) / all};
-}
-
-struct TwoWeights : Program {
-    explicit TwoWeights(const char* method) {
-        fill_box(*this, {3, 1, 0}, 4000);
-        // The second weight is a hundred times the first, and lies on the other side.
-        further_weight = [this](int object, int) {
-            return static_cast<float>(100 *
-                                      (3 - coordinates[static_cast<std::size_t>(2 * object)]));
-        };
-        set("LB_METHOD", method);
-        set("OBJ_WEIGHT_DIM", "2");
-        set("RETURN_LISTS", "PARTS");
-        set("NUM_GLOBAL_PARTS", "2");
-    }
-};
-
 TEST(Shortcomings, are_told_and_do_not_change_the_code) {
     Program program;
     fill_box(program, {1, 1, 0}, 200);
     program.set("LB_METHOD", "RRCB");
     program.set("DEBUG_LEVEL", "1");
-    program.set("REDUCE_DIMENSIONS", "1");
-    program.set("DEGENERATE_RATIO", "1");
+    program.set("RCB_SET_DIRECTIONS", "9");
     program.set("RCB_OUTPUT_LEVEL", "1");
     testing::internal::CaptureStderr();
     testing::internal::CaptureStdout();
@@ -208,46 +176,8 @@ TEST(Shortcomings, are_told_and_do_not_change_the_code) {
     const std::string output = testing::internal::GetCapturedStdout();
     const bool first = program.rank == 0;
     EXPECT_EQ(warnings.find("WARNING") != warnings.npos, first) << warnings;
-    EXPECT_EQ(warnings.find("DEGENERATE_RATIO") != warnings.npos, first) << warnings;
+    EXPECT_EQ(warnings.find("RCB_SET_DIRECTIONS") != warnings.npos, first) << warnings;
     EXPECT_EQ(output.find("imbalance") != output.npos, first) << output;
-}
-
-TEST(Weights, of_two_kinds_are_balanced_in_their_normalised_sum) {
-    for (const char* method : methods) {
-        SCOPED_TRACE(method);
-        TwoWeights program(method);
-        const Outcome outcome = program.partition();
-        EXPECT_EQ(outcome.code, ZOLTAN_OK);
-        for (const double share : shares(program, outcome, true)) EXPECT_NEAR(share, 0.5, 0.02);
-    }
-}
-
-TEST(Weights, that_are_comparable_are_balanced_in_their_plain_sum) {
-    for (const char* method : methods) {
-        SCOPED_TRACE(method);
-        TwoWeights program(method);
-        program.set("OBJ_WEIGHTS_COMPARABLE", "1");
-        const Outcome outcome = program.partition();
-        for (const double share : shares(program, outcome, false)) EXPECT_NEAR(share, 0.5, 0.02);
-    }
-}
-
-TEST(Weights, beyond_the_fourth_are_ignored) {
-    TwoWeights four("RRCB"), five("RRCB");
-    four.set("OBJ_WEIGHT_DIM", "4");
-    five.set("OBJ_WEIGHT_DIM", "5");
-    five.further_weight = [&](int object, int k) {
-        return k < 4 ? four.further_weight(object, k) : 1e6F * static_cast<float>(object);
-    };
-    EXPECT_EQ(four.partition().exports.parts, five.partition().exports.parts);
-}
-
-TEST(Weights, at_fault_on_one_rank_are_fatal_everywhere_though_their_sum_is_not) {
-    TwoWeights program("RRCB");
-    if (program.rank == program.num_ranks - 1) program.weights[7] = -1;
-    EXPECT_EQ(program.partition().code, ZOLTAN_FATAL);
-    program.weights[7] = 1;
-    EXPECT_EQ(program.partition().code, ZOLTAN_OK);
 }
 
 }  // namespace

@@ -123,31 +123,6 @@ TEST(Rest, is_reached_with_the_second_call) {
     }
 }
 
-TEST(Rest, is_reached_in_turned_axes_and_by_norms_of_several_weights) {
-    for (const Cloud& cloud : clouds) {
-        for (const char* reuse : {"0", "1"}) {
-            SCOPED_TRACE(std::string(cloud.name) + " " + reuse);
-            Moving program(3);
-            std::mt19937 random(static_cast<unsigned>(3 + program.rank));
-            cloud.fill(program, random);
-            // A plane across all axes.
-            for (std::size_t i = 0; i < program.coordinates.size(); i += 3)
-                program.coordinates[i + 2] = program.coordinates[i] + program.coordinates[i + 1];
-            program.further_weight = [&](int object, int) {
-                const auto first = static_cast<std::size_t>(3 * object);
-                return static_cast<float>(1 + std::abs(program.coordinates[first]));
-            };
-            program.set("LB_METHOD", "RRCB");
-            program.set("RCB_REUSE", reuse);
-            program.set("REDUCE_DIMENSIONS", "1");
-            EXPECT_LE(calls_until_rest(program, 30), 2);
-            program.set("OBJ_WEIGHT_DIM", "2");
-            program.set("RCB_MULTICRITERIA_NORM", "2");
-            EXPECT_LE(calls_until_rest(program, 30), 2);
-        }
-    }
-}
-
 TEST(Rest, is_reached_by_parts_that_callbacks_name) {
     const int num_ranks = Program().num_ranks;
     for (const int num_parts : {num_ranks, 2 * num_ranks + 1, 200}) {

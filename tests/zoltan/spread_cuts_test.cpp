@@ -174,10 +174,6 @@ TEST(SpreadCuts, are_reused_while_their_parts_are_within_the_tolerance) {
         num_moved += first.parts[i] != again.parts[i] ? 1 : 0;
     EXPECT_LE(num_moved, 5u);
     expect_look_ups(program.zz, again, 40);
-    // Average cuts and norms look at all of them, and lie elsewhere.
-    program.set("AVERAGE_CUTS", "1");
-    AllObjects averaged(program, program.partition());
-    expect_look_ups(program.zz, averaged, 40);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "zoltan/call/layout_mpi.hpp"
 
 #include "collective/communicator.hpp"
-#include "zoltan/call/rcb_options.hpp"
 #include "zoltan/real/zoltan_error.hpp"
 
 #include <algorithm>
@@ -25,11 +24,10 @@ int count_parts(const Outcome& outcome, const State& state, std::span<int> local
 }
 
 /// Sizes that this rank asks for, of the parts from `first_part` on.
-void ask_for_sizes(const State& state, int weight, int first_here, int first_part,
-                   std::span<double> sizes) {
+void ask_for_sizes(const State& state, int first_here, int first_part, std::span<double> sizes) {
     std::ranges::fill(sizes, not_set);
     for (const PartSize& entry : state.part_sizes) {
-        if (entry.weight != weight) continue;
+        if (entry.weight != 0) continue;
         const int part = (entry.global ? 0 : first_here) + entry.part - first_part;
         if (part < 0 || part >= static_cast<int>(sizes.size())) continue;
         sizes[static_cast<std::size_t>(part)] = static_cast<double>(entry.size);
@@ -39,7 +37,7 @@ void ask_for_sizes(const State& state, int weight, int first_here, int first_par
 /// Sizes of the parts, merged as in Zoltan: the largest that any rank asks for, 1 where none does.
 ///
 /// They are merged in pieces, for which every rank has the memory.
-void merge_part_sizes(int num_parts, const State& state, int weight, const Layout& layout,
+void merge_part_sizes(int num_parts, const State& state, const Layout& layout,
                       std::vector<double>& merged, Participant& self) {
     self.attempt([&] { merged.resize(static_cast<std::size_t>(num_parts)); });
     const int first_here = first_part_of(layout.map, state.communicator->rank());
@@ -47,7 +45,7 @@ void merge_part_sizes(int num_parts, const State& state, int weight, const Layou
     for (int first_part = 0; first_part < num_parts; first_part += static_cast<int>(piece.size())) {
         const int count = std::min(num_parts - first_part, static_cast<int>(piece.size()));
         const std::span<double> sizes = std::span(piece).first(static_cast<std::size_t>(count));
-        ask_for_sizes(state, weight, first_here, first_part, sizes);
+        ask_for_sizes(state, first_here, first_part, sizes);
         mpi::check(MPI_Allreduce(MPI_IN_PLACE, sizes.data(), count, MPI_DOUBLE, MPI_MAX, self.comm),
                    "MPI_Allreduce");
         std::ranges::replace_if(
@@ -66,13 +64,7 @@ Layout make_layout(const Outcome& outcome, const State& state, Participant& self
         layout.map = outcome.any_local_parts ? local_part_map(local_parts, num_parts)
                                              : even_part_map(num_parts, state.communicator->size());
     });
-    if (!outcome.any_part_sizes) return layout;
-    merge_part_sizes(num_parts, state, 0, layout, layout.part_sizes, self);
-    if (!has_several_weights(state.parameters)) return layout;
-    const int num_weights = std::min(state.parameters.weight_dimension, most_weights);
-    for (int weight = 1; weight < num_weights; ++weight)
-        merge_part_sizes(num_parts, state, weight, layout,
-                         layout.further_sizes[static_cast<std::size_t>(weight - 1)], self);
+    if (outcome.any_part_sizes) merge_part_sizes(num_parts, state, layout, layout.part_sizes, self);
     return layout;
 }
 

@@ -4,9 +4,7 @@
 #include "zoltan/call/vote_mpi.hpp"
 #include "zoltan/handle/part_map.hpp"
 #include "zoltan/handle/state.hpp"
-#include "zoltan/norm/multicriteria.hpp"
 
-#include <array>
 #include <vector>
 
 namespace rrcb::zoltan {
@@ -15,8 +13,6 @@ namespace rrcb::zoltan {
 struct Layout {
     PartMap map;
     std::vector<double> part_sizes;  ///< relative; empty: equal
-    /// Sizes for an object's further weights, where each is balanced by itself.
-    std::array<std::vector<double>, most_weights - 1> further_sizes{};
 };
 
 /// The layout that the ranks ask for together.

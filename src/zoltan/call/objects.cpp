@@ -3,7 +3,6 @@
 #include "zoltan/real/zoltan_error.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 namespace rrcb::zoltan {
@@ -96,8 +95,7 @@ class Collector {
 
     void read_ids_and_weights(std::size_t count) {
         const int weight_dimension = parameters_.weight_dimension;
-        const auto stride = static_cast<std::size_t>(weight_dimension);
-        weights_ = stride == 0 ? nullptr : workspace_.callback_weights.get(count * stride);
+        weights_ = weight_dimension == 0 ? nullptr : workspace_.callback_weights.get(count);
         const auto list = callback<ZOLTAN_OBJ_LIST_FN>(zz_, ZOLTAN_OBJ_LIST_FN_TYPE);
         if (list) {
             int code = ZOLTAN_OK;
@@ -107,19 +105,6 @@ class Collector {
         } else {
             iterate_objects(count);
         }
-        if (weight_dimension > 1) check_weights(count * stride);
-    }
-
-    /// Throws for a wrong weight. Several are summed later, and it would hide in the sum.
-    void check_weights(std::size_t size) {
-        const auto valid = [](float weight) { return std::isfinite(weight) && weight >= 0; };
-        const float* fault = std::find_if_not(weights_, weights_ + size, valid);
-        if (fault == weights_ + size) return;
-        throw ZoltanError(ZOLTAN_FATAL,
-                          "object " +
-                              std::to_string((fault - weights_) / parameters_.weight_dimension) +
-                              " has the weight " + std::to_string(*fault) +
-                              "; weights must be finite and not negative");
     }
 
     void iterate_objects(std::size_t count) {
@@ -137,8 +122,7 @@ class Collector {
         int found = first(gid, lid, global_id(0), local_id(0), wdim, weights_, &code);
         check(code, "ZOLTAN_FIRST_OBJ_FN");
         for (std::size_t i = 1; i < count && found != 0; ++i) {
-            float* weight =
-                weights_ == nullptr ? nullptr : weights_ + i * static_cast<std::size_t>(wdim);
+            float* weight = weights_ == nullptr ? nullptr : weights_ + i;
             found = next(gid, lid, global_id(i - 1), local_id(i - 1), global_id(i), local_id(i),
                          wdim, weight, &code);
             check(code, "ZOLTAN_NEXT_OBJ_FN");
@@ -155,7 +139,7 @@ class Collector {
         double* coordinates = workspace_.coordinates.get(count * dimension);
         read_geometry(count, coordinates);
         std::span<const double> weights;
-        if (parameters_.weight_dimension == 1) {
+        if (weights_ != nullptr) {
             double* converted = workspace_.weights.get(count);
             std::copy_n(weights_, count, converted);
             weights = {converted, count};
@@ -214,7 +198,6 @@ class Collector {
 
     /// Makes room for later steps: they run between messages, where no rank may fail alone.
     void make_room(std::size_t count) {
-        if (parameters_.weight_dimension > 1) workspace_.weights.get(count);
         if (parameters_.return_lists == ReturnLists::none) return;
         objects_.new_ranks = ZoltanArray<int>(count);
         objects_.new_parts = ZoltanArray<int>(count);

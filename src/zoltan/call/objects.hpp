@@ -46,8 +46,9 @@ struct Objects {
     Points points;                   ///< borrowed from the workspace
 };
 
-/// Objects by the registered callbacks. Not collective. Throws ZoltanError for a missing or failing
-/// callback, a negative count, and a dimension other than 1, 2 or 3.
+/// Objects by the registered callbacks, with at most one weight each. Not collective. Throws
+/// ZoltanError for a missing or failing callback, a negative count, and a dimension other than 1, 2
+/// or 3.
 Objects collect_objects(Zoltan_Struct* zz, const Parameters& parameters, Workspace& workspace);
 
 }  // namespace rrcb::zoltan

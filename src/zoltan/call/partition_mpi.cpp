@@ -4,11 +4,9 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/butterfly_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "cuts/cut_limits.hpp"
 #include "wide_mpi.hpp"
-#include "zoltan/call/average_cuts_mpi.hpp"
 #include "zoltan/call/fortran_mpi.hpp"
-#include "zoltan/call/frame_mpi.hpp"
+#include "zoltan/call/forwarding.hpp"
 #include "zoltan/call/layout_mpi.hpp"
 #include "zoltan/call/lists_mpi.hpp"
 #include "zoltan/call/look_ups_mpi.hpp"
@@ -17,9 +15,7 @@
 #include "zoltan/call/renumber_mpi.hpp"
 #include "zoltan/call/rest_mpi.hpp"
 #include "zoltan/call/vote_mpi.hpp"
-#include "zoltan/call/weights_mpi.hpp"
 #include "zoltan/dump/dump_mpi.hpp"
-#include "zoltan/norm/norm_balance_mpi.hpp"
 #include "zoltan/real/message.hpp"
 #include "zoltan/real/zoltan_error.hpp"
 
@@ -45,6 +41,7 @@ namespace {
 LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Objects& objects) {
     try {
         check_parameters(state, one_part_per_rank);
+        if (forwards(state.parameters)) return {};
         objects = collect_objects(zz, state.parameters, state.workspace);
         LocalStatus status(objects.warned ? ZOLTAN_WARN : ZOLTAN_OK, "");
         status.at_rest = state.rest && state.kept &&
@@ -120,7 +117,6 @@ struct Preparation {
     std::optional<Renumbering> renumbering;
     std::optional<KeptPartition> kept;
     Rest rest;
-    std::optional<CutAverage> average;
     std::optional<ButterflyMessages> messages;
     std::optional<ChecksumSums> checksums;
 };
@@ -138,11 +134,10 @@ Rest make_rest(const Layout& layout, int dimension, int rank, bool is_spread) {
 }
 
 Preparation prepare(const Call& call, const Layout& layout, const Objects& objects,
-                    const Flattened& flat, Participant& self) {
+                    Participant& self) {
     const Parameters& parameters = call.state.parameters;
-    const int dimension = flat.points.dimension;
+    const int dimension = objects.points.dimension;
     const bool fits = call.previous && call.previous->cuts().dimension == dimension &&
-                      call.previous->frame() == flat.frame &&
                       call.previous->cuts().num_parts == layout.map.num_parts;
     Preparation made;
     if (fits && !call.outcome.axes_changed && starts_from_previous(parameters))
@@ -154,11 +149,7 @@ Preparation prepare(const Call& call, const Layout& layout, const Objects& objec
         const Communicator& comm = *call.state.communicator;
         const bool is_spread = is_wide(made.options, comm.size());
         made.renumbering.emplace(parameters, layout, objects, comm, is_spread);
-        const auto num_parts = static_cast<std::size_t>(layout.map.num_parts);
-        made.kept.emplace(num_parts, is_spread);
-        // What the options ask of the places of cuts comes first.
-        if (parameters.average_cuts != 0 && !are_cuts_limited(made.options))
-            made.average.emplace(num_parts);
+        made.kept.emplace(static_cast<std::size_t>(layout.map.num_parts), is_spread);
         made.messages.emplace();
         made.checksums.emplace(layout.map, comm, is_spread);
         made.rest = make_rest(layout, objects.points.dimension, comm.rank(), is_spread);
@@ -187,9 +178,9 @@ void list_exports(const Call& call, const Layout& layout, Objects&& objects,
 }
 
 /// Keeps cuts, parts and checksums for the next call.
-void keep(Preparation&& prepared, Balance&& balanced, const Frame& frame, PartMap&& map,
-          Numbering&& numbering, State& state) {
-    prepared.kept->keep(std::move(balanced.cuts), frame, std::move(map), std::move(numbering));
+void keep(Preparation&& prepared, Balance&& balanced, PartMap&& map, Numbering&& numbering,
+          State& state) {
+    prepared.kept->keep(std::move(balanced.cuts), std::move(map), std::move(numbering));
     prepared.kept->answer_look_ups(keeps_cuts(state.parameters));
     prepared.rest.report = std::move(balanced.report);
     state.kept = std::move(prepared.kept);
@@ -223,40 +214,13 @@ int stay(const Call& call, Objects&& objects, Partition& result) {
     return ZOLTAN_OK;
 }
 
-/// Divides the objects, those of several weights by the norm that is asked for. Collective.
-///
-/// They are divided by the sum of their weights first, since the balancer then has checked all
-/// input.
-Balance divide(const Call& call, const Layout& layout, const Preparation& prepared,
-               const Objects& objects, const Points& points, Participant& self) {
-    const Parameters& parameters = call.state.parameters;
-    const bool may_stay = !has_several_weights(parameters) &&
-                          are_in_own_part(objects, layout.map, call.state.communicator->rank());
-    Balance balanced = balance(points, prepared.options, prepared.previous, may_stay, self);
-    if (!has_several_weights(parameters) || balanced.report.num_points == 0) return balanced;
-    const auto stride = static_cast<std::size_t>(parameters.weight_dimension);
-    const Criteria criteria{parameters.multicriteria_norm,
-                            {call.state.workspace.callback_weights.data(), points.count * stride},
-                            stride,
-                            parameters.weights_comparable != 0,
-                            layout.further_sizes,
-                            std::max(1.0, parameters.max_aspect_ratio)};
-    balance_norm(points, criteria, prepared.options, balanced, self);
-    return balanced;
-}
-
 int balance_objects(const Call& call, Objects&& objects, Partition& result) {
     const Parameters& parameters = call.state.parameters;
     Participant self{call.state.communicator->get()};
     Layout layout = make_layout(call.outcome, call.state, self);
-    combine_weights(parameters, call.state.workspace, self.comm, objects);
-    const Frame* last_frame = call.previous ? &call.previous->frame() : nullptr;
-    const Flattened flat =
-        flatten(objects.points, parameters, last_frame, call.state.workspace.reduced, self);
-    Preparation prepared = prepare(call, layout, objects, flat, self);
-    Balance balanced = divide(call, layout, prepared, objects, flat.points, self);
-    if (prepared.average)
-        prepared.average->run(flat.points, balanced.parts, self.comm, balanced.cuts);
+    Preparation prepared = prepare(call, layout, objects, self);
+    const bool may_stay = are_in_own_part(objects, layout.map, call.state.communicator->rank());
+    Balance balanced = balance(objects.points, prepared.options, prepared.previous, may_stay, self);
     auto [remap, numbering] =
         prepared.renumbering->run(layout, objects, balanced.parts, *prepared.messages, self);
     const bool knows_own_parts = is_whole(balanced.cuts) || (remap.identity && layout.map.is_even);
@@ -269,8 +233,8 @@ int balance_objects(const Call& call, Objects&& objects, Partition& result) {
     if ((call.outcome.any_keeps_cuts || is_whole(balanced.cuts)) && !numbering.is_whole())
         numbering = whole_numbering(numbering, layout.map, self);
     print_notices(balanced.report, layout.map.num_parts, remap, call.state, call.function);
-    keep(std::move(prepared), std::move(balanced), flat.frame, std::move(layout.map),
-         std::move(numbering), call.state);
+    keep(std::move(prepared), std::move(balanced), std::move(layout.map), std::move(numbering),
+         call.state);
     return parameters.auto_migrate != 0 && result.changes ? migrate(call.zz, result) : ZOLTAN_OK;
 }
 
@@ -307,6 +271,15 @@ int refuse_difference(const Call& call, const Objects& objects, Partition& resul
     return fail(call, objects, {ZOLTAN_FATAL, text.data()}, result);
 }
 
+/// Leaves a call to the real Zoltan. The cuts of an earlier one are of no use afterwards.
+int leave_to_zoltan(const Call& call, Partition& result) {
+    print_forwarding(call.state, call.function);
+    call.state.kept.reset();
+    call.state.rest.reset();
+    result.is_zoltans = true;
+    return ZOLTAN_OK;
+}
+
 }  // namespace
 
 int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_part_per_rank,
@@ -315,6 +288,9 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
     const LocalStatus local = collect(zz, state, one_part_per_rank, objects);
     const Outcome outcome = vote(local, state);
     Call call{zz, state, function, to, outcome};
+    state.zoltan_has_cuts = false;
+    if (!outcome.failed() && outcome.differing == nullptr && forwards(state.parameters))
+        return leave_to_zoltan(call, result);
     if (!call.is_at_rest()) take_previous(call);
     dump_inputs(DumpReason::asked, call, objects, local);
     if (outcome.failed()) {

@@ -9,6 +9,7 @@ namespace rrcb::zoltan {
 struct Partition {
     bool changes = false;
     bool with_caller = false;  ///< the arrays are in the caller's variables already
+    bool is_zoltans = false;   ///< the real Zoltan is to answer the call; all else is empty
     List imports;
     List exports;
 };

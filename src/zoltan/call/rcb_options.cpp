@@ -3,11 +3,10 @@
 #include "bisection/domain_kinds.hpp"
 #include "cuts/cut_limits.hpp"
 #include "cuts/tree.hpp"
-#include "zoltan/norm/multicriteria.hpp"
+#include "zoltan/call/forwarding.hpp"
 #include "zoltan/real/zoltan_error.hpp"
 
 #include <array>
-#include <limits>
 
 namespace rrcb::zoltan {
 
@@ -32,8 +31,7 @@ void check_parameters(const State& state, bool one_part_per_rank) {
     if (parameters.return_lists == ReturnLists::candidates) {
         throw ZoltanError(ZOLTAN_FATAL, "RRCB makes no candidate lists; change RETURN_LISTS");
     }
-    if (are_cuts_limited(parameters.options) &&
-        (has_several_weights(parameters) || parameters.reduce_dimensions != 0))
+    if (are_cuts_limited(parameters.options) && forwards(parameters))
         throw ZoltanError(ZOLTAN_FATAL,
                           "RRCB_MIN_WIDTH and RRCB_GRID hold along the axes of the coordinates and "
                           "for one weight; unset REDUCE_DIMENSIONS and OBJ_WEIGHT_DIM above 1");
@@ -53,13 +51,6 @@ Options make_options(const Parameters& parameters, const Layout& layout, int dim
     options.num_parts = layout.map.num_parts;
     options.part_sizes = layout.part_sizes;
     options.plain_cuts = parameters.rectilinear_blocks != 0;
-    if (has_several_weights(parameters)) {
-        options.domain = DomainKind::analytic;
-        options.refine = Refine::none;
-    }
-    // Their cuts are looked at as a whole.
-    if (parameters.average_cuts != 0 || has_several_weights(parameters))
-        options.central_parts = std::numeric_limits<int>::max();
     if (parameters.lock_directions != 0 && previous != nullptr) {
         options.cut_axes = axes_of(previous->tree());
     } else if (parameters.set_directions != 0) {
@@ -68,16 +59,12 @@ Options make_options(const Parameters& parameters, const Layout& layout, int dim
     return options;
 }
 
-bool has_several_weights(const Parameters& parameters) {
-    return parameters.weight_dimension > 1;
-}
-
 bool starts_from_previous(const Parameters& parameters) {
     const Options& options = parameters.options;
     const bool refines = options.refine != Refine::none &&
                          traits_of(options.domain).builds_on_last &&
                          options.cut_rule == CutRule::weighted_fraction;
-    return reuses_cuts(parameters) && refines && !has_several_weights(parameters);
+    return reuses_cuts(parameters) && refines;
 }
 
 bool keeps_cuts(const Parameters& parameters) {
@@ -86,27 +73,13 @@ bool keeps_cuts(const Parameters& parameters) {
 }
 
 bool chooses_axes(std::string_view name) {
-    return name == "RCB_SET_DIRECTIONS" || name == "RCB_RECTILINEAR_BLOCKS" ||
-           name == "REDUCE_DIMENSIONS" || name == "DEGENERATE_RATIO";
-}
-
-double degenerate_ratio(const Parameters& parameters) {
-    return parameters.degenerate_ratio > 1 ? parameters.degenerate_ratio
-                                           : Parameters{}.degenerate_ratio;
+    return name == "RCB_SET_DIRECTIONS" || name == "RCB_RECTILINEAR_BLOCKS";
 }
 
 std::vector<std::string> parameter_warnings(const Parameters& parameters) {
     std::vector<std::string> texts;
     if (parameters.set_directions < 0 || parameters.set_directions > 6) {
         texts.emplace_back("Parameter RCB_SET_DIRECTIONS out of bounds; reset to 1.");
-    }
-    if (parameters.weight_dimension > most_weights) {
-        texts.emplace_back("Too many weights (" + std::to_string(parameters.weight_dimension) +
-                           ") were given; only the first " + std::to_string(most_weights) +
-                           " will be used.");
-    }
-    if (parameters.reduce_dimensions != 0 && !(parameters.degenerate_ratio > 1)) {
-        texts.emplace_back("DEGENERATE_RATIO <= 1, setting it to 10.0");
     }
     return texts;
 }

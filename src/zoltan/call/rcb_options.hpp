@@ -22,10 +22,6 @@ void check_parameters(const State& state, bool one_part_per_rank);
 Options make_options(const Parameters& parameters, const Layout& layout, int dimension,
                      const KeptPartition* previous);
 
-/// Whether objects have several weights, of which a norm is balanced (RCB_MULTICRITERIA_NORM). The
-/// balancer then makes an estimate only.
-bool has_several_weights(const Parameters& parameters);
-
 /// Whether the search starts from the cuts of the last call (RCB_REUSE). Only a refinement does: it
 /// goes on from there to the balance asked for.
 bool starts_from_previous(const Parameters& parameters);
@@ -36,9 +32,6 @@ bool keeps_cuts(const Parameters& parameters);
 /// Whether the parameter decides which axes are cut. After a change older cuts may cross other
 /// axes.
 bool chooses_axes(std::string_view name);
-
-/// DEGENERATE_RATIO, or its default where it is at most 1.
-double degenerate_ratio(const Parameters& parameters);
 
 /// Warnings of settings that are not kept, a sentence each, in Zoltan's words where it has some.
 std::vector<std::string> parameter_warnings(const Parameters& parameters);

@@ -16,14 +16,12 @@ bool by_part(const Layout& layout, const Objects& objects) {
 }
 
 bool may_change_numbers(const Parameters& parameters, const Layout& layout) {
-    const auto are_equal = [](const std::vector<double>& sizes) {
-        return std::ranges::adjacent_find(sizes, std::not_equal_to<>()) == sizes.end();
-    };
+    const std::vector<double>& sizes = layout.part_sizes;
+    const bool are_equal = std::ranges::adjacent_find(sizes, std::not_equal_to<>()) == sizes.end();
     // Those that are listed by what ranks ask for have one each.
     const PartMap& map = layout.map;
     const bool are_on_one_rank = !map.is_even || map.num_parts >= map.num_ranks;
-    return parameters.remap != 0 && map.num_parts > 1 && are_on_one_rank &&
-           are_equal(layout.part_sizes) && std::ranges::all_of(layout.further_sizes, are_equal);
+    return parameters.remap != 0 && map.num_parts > 1 && are_on_one_rank && are_equal;
 }
 
 }  // namespace

@@ -146,8 +146,7 @@ bool are_as_cut(State& state, const Objects& objects) {
     const Parameters& parameters = state.parameters;
     // Parts may have become too thin where the box of the points did.
     const bool counts = parameters.return_lists != ReturnLists::none &&
-                        !has_several_weights(parameters) && parameters.skip_within > 0 &&
-                        parameters.options.min_width.empty();
+                        parameters.skip_within > 0 && parameters.options.min_width.empty();
     if (!counts || !state.rest || !state.kept) return false;
     Rest& rest = *state.rest;
     std::vector<Part> parts;

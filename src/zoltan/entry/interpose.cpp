@@ -13,15 +13,19 @@ using namespace rrcb::zoltan;
 
 namespace {
 
-int switch_to_rrcb(State& state) {
+/// Switches to RRCB, and the real Zoltan to RCB, as which it answers what RRCB leaves to it.
+template <typename SwitchZoltan>
+int switch_to_rrcb(State& state, SwitchZoltan switch_zoltan) {
     if (state.deserialized) {
         throw ZoltanError(
             ZOLTAN_FATAL,
             "a handle filled by Zoltan_Deserialize cannot be switched to RRCB; create "
             "one with Zoltan_Create");
     }
-    state.parameters.rrcb = true;
-    return ZOLTAN_OK;
+    // Zoltan frees its cuts even when its method stays.
+    const int code = state.parameters.rrcb ? ZOLTAN_OK : switch_zoltan();
+    if (code == ZOLTAN_OK) state.parameters.rrcb = true;
+    return code;
 }
 
 int reject_value(const State& state, const std::string& name, const std::string& value) {
@@ -31,17 +35,17 @@ int reject_value(const State& state, const std::string& name, const std::string&
     return ZOLTAN_WARN;
 }
 
-/// Sets a parameter of the plug-in, or one of Zoltan by `forward_it`.
+/// Sets a parameter of the plug-in, or one of Zoltan by `forward_value`.
 template <typename Forward>
 int set_parameter(State& state, const std::string& name, const char* raw_value,
-                  Forward forward_it) {
+                  Forward forward_value) {
     const std::string value = clean(raw_value);
     if (name == "LB_METHOD" && without_trailing_blanks(value) == "RRCB")
-        return switch_to_rrcb(state);
+        return switch_to_rrcb(state, [&] { return forward_value("RCB"); });
     const Setting setting = set_own(state.parameters, name, raw_value);
     if (setting == Setting::accepted) return ZOLTAN_OK;
     if (setting == Setting::defaulted) return reject_value(state, name, value);
-    const int code = forward_it();
+    const int code = forward_value(raw_value);
     // An unknown word for RETURN_LISTS is warned about, but sets the default.
     const bool taken = code == ZOLTAN_OK || name == "RETURN_LISTS";
     if (taken) note_common(state.parameters, name, value);
@@ -63,16 +67,19 @@ void note_change(State& state, const std::string& name, int code, const char* ra
 
 int set_parameter(Zoltan_Struct* zz, const char* raw_name, const char* raw_value, int index) {
     State* state = find_state(zz);
-    const auto forward_it = [&] {
-        return forward<&RealZoltan::set_param_vec>(zz, raw_name, raw_value, index);
+    const auto forward_value = [&](const char* value) {
+        return forward<&RealZoltan::set_param_vec>(zz, raw_name, value, index);
     };
-    if (state == nullptr) return forward_it();
+    if (state == nullptr) return forward_value(raw_value);
     return guarded("Zoltan_Set_Param", state, [&] {
         std::string name = clean(raw_name);
-        const int code = set_parameter(*state, name, raw_value, forward_it);
+        const int code = set_parameter(*state, name, raw_value, forward_value);
         if (index >= 0) name += '[' + std::to_string(index) + ']';
         note_change(*state, name, code, raw_value);
-        if (!state->parameters.rrcb) state->kept.reset();
+        if (!state->parameters.rrcb) {
+            state->kept.reset();
+            state->zoltan_has_cuts = false;
+        }
         return code;
     });
 }
@@ -90,6 +97,52 @@ void hand_out(List&& list, bool with_caller, const CallerList& to) {
 void hand_out(Partition&& result, const CallerLists& to) {
     hand_out(std::move(result.imports), result.with_caller, to.imports);
     hand_out(std::move(result.exports), result.with_caller, to.exports);
+}
+
+/// A call of one of the functions that partition.
+struct Request {
+    Zoltan_Struct* zz;
+    const char* function;
+    bool one_part_per_rank;
+};
+
+/// The caller's variables beside the lists.
+struct CallerNumbers {
+    int* changes;
+    int* num_gid_entries;
+    int* num_lid_entries;
+};
+
+/// Lets the real Zoltan answer by `forward_it`, also for a handle of RRCB's.
+template <typename Forward>
+int let_zoltan_answer(const Request& request, Forward forward_it) {
+    State* state = find_state(request.zz);
+    tell_if_not_replaced(state, request.function);
+    const InsideZoltan inside(state);
+    const int code = forward_it();
+    if (state != nullptr && state->parameters.rrcb)
+        state->zoltan_has_cuts =
+            keeps_cuts(state->parameters) && (code == ZOLTAN_OK || code == ZOLTAN_WARN);
+    return code;
+}
+
+/// Partitions with RRCB or, where that is left to the real Zoltan, by `forward_it`.
+template <typename Forward>
+int answer(const Request& request, const CallerNumbers& numbers, const CallerLists& to,
+           Forward forward_it) {
+    State* state = rrcb_state(request.zz);
+    if (state == nullptr) return let_zoltan_answer(request, forward_it);
+    Partition result;
+    const int code = guarded(request.function, state, [&] {
+        return partition(request.zz, *state, request.function, request.one_part_per_rank, to,
+                         result);
+    });
+    if (result.is_zoltans) return let_zoltan_answer(request, forward_it);
+    *numbers.changes = result.changes ? 1 : 0;
+    *numbers.num_gid_entries = state->parameters.num_gid_entries;
+    *numbers.num_lid_entries = state->parameters.num_lid_entries;
+    hand_out(std::move(result), to);
+    return code;
 }
 
 }  // namespace
@@ -146,27 +199,16 @@ RRCB_EXPORT int Zoltan_LB_Partition(
     ZOLTAN_ID_PTR* import_global_ids, ZOLTAN_ID_PTR* import_local_ids, int** import_procs,
     int** import_to_part, int* num_export, ZOLTAN_ID_PTR* export_global_ids,
     ZOLTAN_ID_PTR* export_local_ids, int** export_procs, int** export_to_part) {
-    State* state = rrcb_state(zz);
-    if (state == nullptr) {
-        tell_if_not_replaced(find_state(zz), "Zoltan_LB_Partition");
-        const InsideZoltan inside(find_state(zz));
-        return forward<&RealZoltan::lb_partition>(
-            zz, changes, num_gid_entries, num_lid_entries, num_import, import_global_ids,
-            import_local_ids, import_procs, import_to_part, num_export, export_global_ids,
-            export_local_ids, export_procs, export_to_part);
-    }
     const CallerLists to{
         {num_import, import_global_ids, import_local_ids, import_procs, import_to_part},
         {num_export, export_global_ids, export_local_ids, export_procs, export_to_part}};
-    Partition result;
-    const int code = guarded("Zoltan_LB_Partition", state, [&] {
-        return partition(zz, *state, "Zoltan_LB_Partition", false, to, result);
-    });
-    *changes = result.changes ? 1 : 0;
-    *num_gid_entries = state->parameters.num_gid_entries;
-    *num_lid_entries = state->parameters.num_lid_entries;
-    hand_out(std::move(result), to);
-    return code;
+    return answer(
+        {zz, "Zoltan_LB_Partition", false}, {changes, num_gid_entries, num_lid_entries}, to, [&] {
+            return forward<&RealZoltan::lb_partition>(
+                zz, changes, num_gid_entries, num_lid_entries, num_import, import_global_ids,
+                import_local_ids, import_procs, import_to_part, num_export, export_global_ids,
+                export_local_ids, export_procs, export_to_part);
+        });
 }
 
 RRCB_EXPORT int Zoltan_LB_Balance(Zoltan_Struct* zz, int* changes, int* num_gid_entries,
@@ -175,26 +217,15 @@ RRCB_EXPORT int Zoltan_LB_Balance(Zoltan_Struct* zz, int* changes, int* num_gid_
                                   int** import_procs, int* num_export,
                                   ZOLTAN_ID_PTR* export_global_ids, ZOLTAN_ID_PTR* export_local_ids,
                                   int** export_procs) {
-    State* state = rrcb_state(zz);
-    if (state == nullptr) {
-        tell_if_not_replaced(find_state(zz), "Zoltan_LB_Balance");
-        const InsideZoltan inside(find_state(zz));
-        return forward<&RealZoltan::lb_balance>(zz, changes, num_gid_entries, num_lid_entries,
-                                                num_import, import_global_ids, import_local_ids,
-                                                import_procs, num_export, export_global_ids,
-                                                export_local_ids, export_procs);
-    }
     const CallerLists to{{num_import, import_global_ids, import_local_ids, import_procs, nullptr},
                          {num_export, export_global_ids, export_local_ids, export_procs, nullptr}};
-    Partition result;
-    const int code = guarded("Zoltan_LB_Balance", state, [&] {
-        return partition(zz, *state, "Zoltan_LB_Balance", true, to, result);
-    });
-    *changes = result.changes ? 1 : 0;
-    *num_gid_entries = state->parameters.num_gid_entries;
-    *num_lid_entries = state->parameters.num_lid_entries;
-    hand_out(std::move(result), to);
-    return code;
+    return answer(
+        {zz, "Zoltan_LB_Balance", true}, {changes, num_gid_entries, num_lid_entries}, to, [&] {
+            return forward<&RealZoltan::lb_balance>(zz, changes, num_gid_entries, num_lid_entries,
+                                                    num_import, import_global_ids, import_local_ids,
+                                                    import_procs, num_export, export_global_ids,
+                                                    export_local_ids, export_procs);
+        });
 }
 
 RRCB_EXPORT int Zoltan_LB_Set_Part_Sizes(Zoltan_Struct* zz, int global_num, int length,

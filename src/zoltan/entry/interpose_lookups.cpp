@@ -22,7 +22,7 @@ void hand_out_failure(int* values, int* count) {
 
 RRCB_EXPORT int Zoltan_LB_Point_PP_Assign(Zoltan_Struct* zz, double* coordinates, int* proc,
                                           int* part) {
-    const State* state = rrcb_state(zz);
+    const State* state = look_up_state(zz);
     if (state == nullptr) {
         return forward<&RealZoltan::lb_point_pp_assign>(zz, coordinates, proc, part);
     }
@@ -34,7 +34,7 @@ RRCB_EXPORT int Zoltan_LB_Point_PP_Assign(Zoltan_Struct* zz, double* coordinates
 }
 
 RRCB_EXPORT int Zoltan_LB_Point_Assign(Zoltan_Struct* zz, double* coordinates, int* proc) {
-    const State* state = rrcb_state(zz);
+    const State* state = look_up_state(zz);
     if (state == nullptr) return forward<&RealZoltan::lb_point_assign>(zz, coordinates, proc);
     write_place({}, proc, nullptr);
     return guarded("Zoltan_LB_Point_Assign", state, [&] {
@@ -47,7 +47,7 @@ RRCB_EXPORT int Zoltan_LB_Point_Assign(Zoltan_Struct* zz, double* coordinates, i
 RRCB_EXPORT int Zoltan_LB_Box_PP_Assign(Zoltan_Struct* zz, double xmin, double ymin, double zmin,
                                         double xmax, double ymax, double zmax, int* procs,
                                         int* num_procs, int* parts, int* num_parts) {
-    const State* state = rrcb_state(zz);
+    const State* state = look_up_state(zz);
     if (state == nullptr) {
         return forward<&RealZoltan::lb_box_pp_assign>(zz, xmin, ymin, zmin, xmax, ymax, zmax, procs,
                                                       num_procs, parts, num_parts);
@@ -64,7 +64,7 @@ RRCB_EXPORT int Zoltan_LB_Box_PP_Assign(Zoltan_Struct* zz, double xmin, double y
 RRCB_EXPORT int Zoltan_LB_Box_Assign(Zoltan_Struct* zz, double xmin, double ymin, double zmin,
                                      double xmax, double ymax, double zmax, int* procs,
                                      int* num_procs) {
-    const State* state = rrcb_state(zz);
+    const State* state = look_up_state(zz);
     if (state == nullptr) {
         return forward<&RealZoltan::lb_box_assign>(zz, xmin, ymin, zmin, xmax, ymax, zmax, procs,
                                                    num_procs);
@@ -81,7 +81,7 @@ RRCB_EXPORT int Zoltan_LB_Box_Assign(Zoltan_Struct* zz, double xmin, double ymin
 RRCB_EXPORT int Zoltan_RCB_Box(Zoltan_Struct* zz, int part, int* dimension, double* xmin,
                                double* ymin, double* zmin, double* xmax, double* ymax,
                                double* zmax) {
-    const State* state = rrcb_state(zz);
+    const State* state = look_up_state(zz);
     if (state == nullptr) {
         return forward<&RealZoltan::rcb_box>(zz, part, dimension, xmin, ymin, zmin, xmax, ymax,
                                              zmax);
@@ -91,7 +91,7 @@ RRCB_EXPORT int Zoltan_RCB_Box(Zoltan_Struct* zz, int part, int* dimension, doub
     *xmax = *ymax = *zmax = DBL_MAX;
     return guarded("Zoltan_RCB_Box", state, [&] {
         const rrcb::Box region = region_of(*state, part);
-        *dimension = kept_by(*state).dimension();
+        *dimension = kept_by(*state).cuts().dimension;
         *xmin = region.lower[0], *ymin = region.lower[1], *zmin = region.lower[2];
         *xmax = region.upper[0], *ymax = region.upper[1], *zmax = region.upper[2];
         return ZOLTAN_OK;
@@ -100,7 +100,7 @@ RRCB_EXPORT int Zoltan_RCB_Box(Zoltan_Struct* zz, int part, int* dimension, doub
 
 RRCB_EXPORT int Zoltan_RCB_Partition_Tree(Zoltan_Struct* zz, int node, int* parent, int* left_leaf,
                                           int* right_leaf) {
-    const State* state = rrcb_state(zz);
+    const State* state = look_up_state(zz);
     if (state == nullptr) {
         return forward<&RealZoltan::rcb_partition_tree>(zz, node, parent, left_leaf, right_leaf);
     }

@@ -20,19 +20,34 @@ int set_again(Zoltan_Struct* zz, const std::string& name, const std::string& val
     return Zoltan_Set_Param_Vec(zz, name.substr(0, bracket).c_str(), value.c_str(), index);
 }
 
+/// Gives the real Zoltan its parameters, part sizes and cuts. Its parameters come through the
+/// plug-in once more, which therefore keeps its own aside.
+int unpack_zoltans(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
+    Parameters parameters = state.parameters;
+    parameters.rrcb = true;
+    const int code =
+        forward<&RealZoltan::deserialize>(zz, parcel.of_zoltan.size(), parcel.of_zoltan.data());
+    state.parameters = std::move(parameters);
+    state.part_sizes = std::move(parcel.part_sizes);
+    state.kept.reset();
+    state.zoltan_has_cuts = code == ZOLTAN_OK;
+    return code;
+}
+
 /// Gives a handle all parameters of the one that was packed.
 int unpack(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     const bool replace_rcb = state.parameters.replace_rcb;
     state.parameters = Parameters{};
     state.parameters.replace_rcb = replace_rcb;
     read_environment(state);
-    state.part_sizes.clear();
     state.rest.reset();
     state.deserialized = false;
+    Zoltan_LB_Set_Part_Sizes(zz, 1, -1, nullptr, nullptr, nullptr);
     for (const auto& [name, value] : parcel.given) {
         const int code = set_again(zz, name, value);
         if (code != ZOLTAN_OK && code != ZOLTAN_WARN) return code;
     }
+    if (!parcel.of_zoltan.empty()) return unpack_zoltans(zz, state, std::move(parcel));
     for (PartSize& entry : parcel.part_sizes) {
         const int code = Zoltan_LB_Set_Part_Sizes(zz, entry.global ? 1 : 0, 1, &entry.part,
                                                   &entry.weight, &entry.size);
@@ -40,6 +55,7 @@ int unpack(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     }
     state.parameters.rrcb = true;
     state.kept = std::move(parcel.kept);
+    state.zoltan_has_cuts = false;
     return ZOLTAN_OK;
 }
 
@@ -51,6 +67,17 @@ void tell_if_left_to_zoltan(const State& state) {
                   "the buffer is Zoltan's own, so the handle stays with Zoltan's methods");
 }
 
+/// Bytes of a handle; with those of the real Zoltan, where it made the last partition.
+std::vector<char> pack(const Zoltan_Struct* zz, const State& state) {
+    std::vector<char> of_zoltan;
+    if (state.zoltan_has_cuts) {
+        of_zoltan.resize(forward<&RealZoltan::serialize_size>(zz));
+        const int code = forward<&RealZoltan::serialize>(zz, of_zoltan.size(), of_zoltan.data());
+        if (code != ZOLTAN_OK) throw ZoltanError(code, "Zoltan's RCB cannot be serialized");
+    }
+    return serialize(state, of_zoltan);
+}
+
 }  // namespace
 
 RRCB_EXPORT size_t Zoltan_Serialize_Size(Zoltan_Struct const* zz) {
@@ -58,7 +85,7 @@ RRCB_EXPORT size_t Zoltan_Serialize_Size(Zoltan_Struct const* zz) {
     if (state == nullptr) return forward<&RealZoltan::serialize_size>(zz);
     size_t size = 0;
     guarded("Zoltan_Serialize_Size", state, [&] {
-        size = serialize(*state).size();
+        size = pack(zz, *state).size();
         return ZOLTAN_OK;
     });
     return size;
@@ -68,7 +95,7 @@ RRCB_EXPORT int Zoltan_Serialize(Zoltan_Struct const* zz, size_t size, char* buf
     const State* state = rrcb_state(zz);
     if (state == nullptr) return forward<&RealZoltan::serialize>(zz, size, buffer);
     return guarded("Zoltan_Serialize", state, [&] {
-        const std::vector<char> bytes = serialize(*state);
+        const std::vector<char> bytes = pack(zz, *state);
         if (bytes.size() > size) {
             throw ZoltanError(ZOLTAN_FATAL, "the buffer is too small; ask Zoltan_Serialize_Size");
         }
@@ -90,6 +117,7 @@ RRCB_EXPORT int Zoltan_Deserialize(Zoltan_Struct* zz, size_t size, char* buffer)
         state->parameters.rrcb = false;
         state->deserialized = true;
         state->kept.reset();
+        state->zoltan_has_cuts = false;
     }
     return forward<&RealZoltan::deserialize>(zz, size, buffer);
 }

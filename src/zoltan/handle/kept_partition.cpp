@@ -11,10 +11,8 @@ KeptPartition::KeptPartition(std::size_t num_parts, bool are_spread) {
     nodes_.reserve(are_spread ? 0 : num_parts);
 }
 
-void KeptPartition::keep(Cuts&& cuts, const Frame& frame, PartMap&& map,
-                         Numbering&& numbering) noexcept {
+void KeptPartition::keep(Cuts&& cuts, PartMap&& map, Numbering&& numbering) noexcept {
     cuts_ = std::move(cuts);
-    frame_ = frame;
     map_ = std::move(map);
     numbering_ = std::move(numbering);
     if (is_whole(cuts_)) root_ = build(0, cuts_.num_parts);
@@ -73,12 +71,6 @@ bool KeptPartition::is_above(std::size_t cut, const double* position) const {
     return rrcb::is_above(cuts_.tree[cut], exact, cuts_.dimension);
 }
 
-Part KeptPartition::part_of(const double* coordinates) const {
-    if (!frame_.turns()) [[likely]]
-        return descend(coordinates);
-    return descend(place(frame_, coordinates).data());
-}
-
 /// By all cuts, or no_part where those that this rank knows do not tell.
 Part KeptPartition::descend_spread(const double* position) const {
     Vector exact{};
@@ -92,7 +84,7 @@ Part KeptPartition::descend_spread(const double* position) const {
     return numbering_.number_of(at.first_part);
 }
 
-Part KeptPartition::descend(const double* position) const {
+Part KeptPartition::part_of(const double* position) const {
     if (!is_whole(cuts_)) [[unlikely]]
         return descend_spread(position);
     std::int32_t at = root_;
@@ -105,16 +97,15 @@ Part KeptPartition::descend(const double* position) const {
 }
 
 int KeptPartition::parts_touching(const Box& box, Part* parts) const {
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension()); ++a) {
+    for (std::size_t a = 0; a < static_cast<std::size_t>(cuts_.dimension); ++a) {
         if (!(box.lower[a] <= box.upper[a])) return 0;
     }
-    const Box placed = frame_.turns() ? place(frame_, box) : box;
     int count = 0;
     if (is_whole(cuts_)) [[likely]] {
-        count = collect(root_, placed, parts, 0);
+        count = collect(root_, box, parts, 0);
     } else {
         visit_touching(
-            root_of(cuts_), placed, cuts_.dimension,
+            root_of(cuts_), box, cuts_.dimension,
             [all = tree()](const Descent& at) -> const Cut& { return all[at.node]; },
             [&](Part part) { parts[count++] = numbering_.number_of(part); });
     }
@@ -136,10 +127,8 @@ int KeptPartition::collect(std::int32_t at, const Box& box, Part* parts, int cou
 }
 
 Box KeptPartition::region_of(Part part) const {
-    const Box region =
-        region_below(root_of(cuts_), numbering_.box_of(part),
-                     [all = tree()](const Descent& at) -> const Cut& { return all[at.node]; });
-    return unshifted(frame_, region);
+    return region_below(root_of(cuts_), numbering_.box_of(part),
+                        [all = tree()](const Descent& at) -> const Cut& { return all[at.node]; });
 }
 
 }  // namespace rrcb::zoltan

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "zoltan/handle/frame.hpp"
 #include "zoltan/handle/numbering.hpp"
 #include "zoltan/handle/part_map.hpp"
 
@@ -27,10 +26,9 @@ class KeptPartition {
     /// Makes room for the cuts between so many parts, which may be spread over the ranks.
     explicit KeptPartition(std::size_t num_parts, bool are_spread = false);
 
-    /// Keeps the cuts, which cross the axes of `frame`, without asking for memory. Where the cuts
-    /// are spread over the ranks, look-ups find what this rank knows until they get all cuts;
-    /// otherwise all numbers are known.
-    void keep(Cuts&& cuts, const Frame& frame, PartMap&& map, Numbering&& numbering) noexcept;
+    /// Keeps the cuts without asking for memory. Where they are spread over the ranks, look-ups
+    /// find what this rank knows until they get all cuts; otherwise all numbers are known.
+    void keep(Cuts&& cuts, PartMap&& map, Numbering&& numbering) noexcept;
 
     /// Gives look-ups all cuts in preorder, of their own or in memory that outlives them.
     void show_all(std::vector<Cut>&& tree) noexcept;
@@ -57,21 +55,17 @@ class KeptPartition {
     /// All cuts in preorder, where look-ups have them.
     std::span<const Cut> tree() const;
 
-    const Frame& frame() const { return frame_; }
     const PartMap& map() const { return map_; }
     const Numbering& numbering() const { return numbering_; }
-
-    /// Dimension of positions in look-ups, before they are placed in the frame.
-    int dimension() const { return frame_.turns() ? frame_.dimension : cuts_.dimension; }
 
     /// Part of a position, one coordinate per dimension.
     Part part_of(const double* coordinates) const;
 
     /// Writes the parts that a closed box touches, ascending. Returns their number. `parts` has
-    /// room for all. A box that is turned to the frame may touch more.
+    /// room for all.
     int parts_touching(const Box& box, Part* parts) const;
 
-    /// Region of a part along the axes of the frame, open sides +-infinity.
+    /// Region of a part, open sides +-infinity.
     Box region_of(Part part) const;
 
     /// Node 1 ... parts - 1 of the tree; node 0 stands above the root. Its numbers are those before
@@ -87,13 +81,11 @@ class KeptPartition {
     };
 
     std::int32_t build(Part first_part, int num_parts);
-    Part descend(const double* position) const;
     Part descend_spread(const double* position) const;
     bool is_above(std::size_t cut, const double* position) const;
     int collect(std::int32_t at, const Box& box, Part* parts, int count) const;
 
     Cuts cuts_;
-    Frame frame_;
     PartMap map_;
     Numbering numbering_;
     std::vector<Node> nodes_;

@@ -28,7 +28,7 @@ struct Touched {
 /// Parts a closed box touches and the ranks that hold them, both ascending.
 void find_touched(const State& state, const Box& box, const Touched& touched);
 
-/// Region of a part, along the axes of the frame; open sides are +-DBL_MAX, as in Zoltan. Throws
+/// Region of a part; open sides are +-DBL_MAX, as in Zoltan. Throws
 /// ZoltanError for an unknown part.
 Box region_of(const State& state, int part);
 

@@ -62,11 +62,6 @@ bool read_integer(int& value, std::string_view text, int least) {
     return true;
 }
 
-bool read_real(double& value, std::string_view text) {
-    value = std::atof(std::string(text).c_str());
-    return true;
-}
-
 bool read_imbalance(double& imbalance, std::string_view text) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -43,11 +43,7 @@ struct Parameters {
     int set_directions = 0;
     int rectilinear_blocks = 0;
     int average_cuts = 0;
-    int weights_comparable = 0;
-    int multicriteria_norm = 1;
     int reduce_dimensions = 0;
-    double degenerate_ratio = 10;
-    double max_aspect_ratio = 10;
     int output_level = 0;
     int final_output = 0;
     int debug_level = 1;
@@ -68,7 +64,6 @@ bool reuses_cuts(const Parameters& parameters);
 // Readers of a value, in upper case but that of RRCB_DUMP. False, and nothing is set, for what is
 // no legal value.
 bool read_integer(int& value, std::string_view text, int least);
-bool read_real(double& value, std::string_view text);
 bool read_imbalance(double& imbalance, std::string_view text);
 bool read_return_lists(ReturnLists& lists, std::string_view text);
 bool read_folder(std::string& folder, std::string_view text);
@@ -153,17 +148,13 @@ inline constexpr ParameterRow parameter_table[] = {
     flag<&Parameters::auto_migrate>("AUTO_MIGRATE"),
     flag<&Parameters::remap>("REMAP"),
     must_agree<&Parameters::reuse_cuts, read_integer<>, is_on<reuses_cuts>>("RCB_REUSE"),
-    flag<&Parameters::weights_comparable>("OBJ_WEIGHTS_COMPARABLE"),
     flag<&Parameters::average_cuts>("AVERAGE_CUTS"),
     must_agree<&Parameters::return_lists, read_return_lists>("RETURN_LISTS"),
     flag<&Parameters::lock_directions>("RCB_LOCK_DIRECTIONS"),
     must_agree<&Parameters::set_directions, read_integer<>>("RCB_SET_DIRECTIONS"),
     flag<&Parameters::rectilinear_blocks>("RCB_RECTILINEAR_BLOCKS"),
     flag<&Parameters::reduce_dimensions>("REDUCE_DIMENSIONS"),
-    must_agree<&Parameters::multicriteria_norm, read_integer<>>("RCB_MULTICRITERIA_NORM"),
-    must_agree<&Parameters::max_aspect_ratio, read_real>("RCB_MAX_ASPECT_RATIO"),
     must_agree<&Parameters::skip_within, read_imbalance>("RRCB_SKIP_WITHIN"),
-    must_agree<&Parameters::degenerate_ratio, read_real>("DEGENERATE_RATIO"),
     may_differ<&Parameters::num_global_parts, read_integer<1>>("NUM_GLOBAL_PARTS"),
     may_differ<&Parameters::num_global_parts, read_integer<1>>("NUM_GLOBAL_PARTITIONS"),
     may_differ<&Parameters::num_local_parts, read_integer<0>>("NUM_LOCAL_PARTS"),

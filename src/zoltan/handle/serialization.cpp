@@ -13,7 +13,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-constexpr std::array<char, 8> signature = {'R', 'R', 'C', 'B', 'h', 'n', 'd', '4'};
+constexpr std::array<char, 8> signature = {'R', 'R', 'C', 'B', 'h', 'n', 'd', '5'};
 
 struct Header {
     std::array<char, 8> signature = zoltan::signature;
@@ -112,7 +112,6 @@ void write(Writer& writer, const KeptPartition& kept) {
     writer.value(map.one_each);
     writer.value(map.is_even);
     writer.list(map.listed);
-    writer.value(kept.frame());
 }
 
 bool is_permutation(std::vector<Part> numbers) {
@@ -121,10 +120,6 @@ bool is_permutation(std::vector<Part> numbers) {
         if (numbers[i] != static_cast<Part>(i)) return false;
     }
     return true;
-}
-
-bool fits(const Frame& frame, const Cuts& cuts) {
-    return is_sound(frame) && (!frame.turns() || frame.num_axes == cuts.dimension);
 }
 
 bool is_consistent(const PartMap& map) {
@@ -164,19 +159,18 @@ KeptPartition read_kept(Reader& reader) {
     map.one_each = reader.flag();
     map.is_even = reader.flag();
     map.listed = reader.list<RankRange>();
-    const auto frame = reader.value<Frame>();
     cuts.num_parts = map.num_parts;
-    if (!is_consistent(cuts, map, numbers) || !fits(frame, cuts)) refuse("inconsistent");
+    if (!is_consistent(cuts, map, numbers)) refuse("inconsistent");
     KeptPartition kept(static_cast<std::size_t>(map.num_parts));
     std::vector<Part> room(numbers.size());
-    kept.keep(std::move(cuts), frame, std::move(map),
+    kept.keep(std::move(cuts), std::move(map),
               Numbering::of_all(std::move(numbers), std::move(room)));
     return kept;
 }
 
 }  // namespace
 
-std::vector<char> serialize(const State& state) {
+std::vector<char> serialize(const State& state, const std::vector<char>& of_zoltan) {
     Writer body;
     body.value<std::uint64_t>(state.parameters.given.size());
     for (const auto& [name, value] : state.parameters.given) {
@@ -190,6 +184,7 @@ std::vector<char> serialize(const State& state) {
         body.value(entry.size);
         body.value(entry.weight);
     }
+    body.list(of_zoltan);
     const bool has_cuts = state.kept && state.kept->answers_look_ups();
     body.value(has_cuts);
     if (has_cuts) write(body, *state.kept);
@@ -224,6 +219,7 @@ Parcel deserialize(std::span<const char> bytes) {
         const auto size = reader.value<float>();
         parcel.part_sizes.push_back({part, global, size, reader.value<int>()});
     }
+    parcel.of_zoltan = reader.list<char>();
     if (reader.flag()) parcel.kept = read_kept(reader);
     return parcel;
 }

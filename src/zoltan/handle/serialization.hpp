@@ -10,16 +10,18 @@
 
 namespace rrcb::zoltan {
 
-/// Contents of a serialized handle: all parameters that the program has set, and the kept cuts. As
-/// in Zoltan neither communicator nor callbacks.
+/// Contents of a serialized handle: all parameters that the program has set, and the kept cuts,
+/// which may be Zoltan's. As in Zoltan neither communicator nor callbacks.
 struct Parcel {
     std::map<std::string, std::string> given;  ///< see Parameters::given
     std::vector<PartSize> part_sizes;
     std::optional<KeptPartition> kept;
+    std::vector<char> of_zoltan;  ///< buffer of the real Zoltan; empty: it has no cuts
 };
 
-/// The parcel of a handle as bytes, for machines of one kind. Not collective.
-std::vector<char> serialize(const State& state);
+/// The parcel of a handle as bytes, for machines of one kind; `of_zoltan` as in Parcel. Not
+/// collective.
+std::vector<char> serialize(const State& state, const std::vector<char>& of_zoltan);
 
 /// Whether the bytes are those of `serialize`, by their start. Otherwise they are Zoltan's.
 bool is_parcel(std::span<const char> bytes);

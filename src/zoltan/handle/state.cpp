@@ -78,6 +78,7 @@ void copy_contents(State& to, const State& from) {
     copy.part_sizes = from.part_sizes;
     copy.kept = from.kept;
     copy.rest = from.rest;
+    copy.zoltan_has_cuts = from.zoltan_has_cuts;
     copy.axes_changed = from.axes_changed;
     copy.deserialized = from.deserialized;
     copy.replacement_asked = from.replacement_asked;

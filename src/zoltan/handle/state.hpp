@@ -77,6 +77,7 @@ struct State {
     std::vector<PartSize> part_sizes;
     std::optional<KeptPartition> kept;  ///< of the last partition
     std::optional<Rest> rest;           ///< of the same; none once a parameter was changed
+    bool zoltan_has_cuts = false;       ///< of the last partition, which the real Zoltan made
     bool axes_changed = false;          ///< a parameter that chooses axes was changed since
     bool deserialized = false;          ///< Zoltan's parameters were set behind the plug-in's back
     bool replacement_asked = false;     ///< by RRCB_REPLACE, on any rank of the communicator

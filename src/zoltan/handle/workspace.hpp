@@ -29,7 +29,6 @@ struct Workspace {
     Scratch<double> coordinates;
     Scratch<double> weights;
     Scratch<float> callback_weights;
-    Scratch<double> reduced;  ///< coordinates in the frame of a flat geometry
 };
 
 }  // namespace rrcb::zoltan

@@ -1,7 +1,7 @@
 # Files for pkg-config: rrcb.pc, and rrcb_zoltan.pc and rrcb_fortran.pc where there are the plug-in and
 # the module.
-file(RELATIVE_PATH RRCB_PREFIX_ABOVE /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
-string(REGEX REPLACE "/$" "" RRCB_PREFIX_ABOVE "${RRCB_PREFIX_ABOVE}")
+file(RELATIVE_PATH RRCB_PC_PREFIX /${CMAKE_INSTALL_LIBDIR} /)
+string(REGEX REPLACE "/$" "" RRCB_PC_PREFIX "${RRCB_PC_PREFIX}")
 
 # Puts a flag before each word of a list, which may be empty.
 function(rrcb_flags result flag)
@@ -20,6 +20,13 @@ function(rrcb_install_pc name component)
   install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
           COMPONENT ${component})
 endfunction()
+
+# A program finds the libraries where they are installed, except in a system's own folders, which the
+# loader knows.
+set(RRCB_PC_RUN_PATH "")
+if(NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+  set(RRCB_PC_RUN_PATH "-Wl,-rpath,\${libdir}")
+endif()
 
 set(private ${MPI_CXX_LIBRARIES})
 foreach(library IN LISTS CMAKE_CXX_IMPLICIT_LINK_LIBRARIES)
@@ -40,7 +47,6 @@ endif()
 
 # A program in Fortran calls MPI by MPI's own module; where there is none, its compiler has to know.
 if(RRCB_FORTRAN)
-  find_package(MPI QUIET COMPONENTS Fortran)
   rrcb_flags(RRCB_PC_FORTRAN_FLAGS -I ${MPI_Fortran_INCLUDE_DIRS})
   rrcb_flags(RRCB_PC_FORTRAN_PRIVATE "" ${MPI_Fortran_LIBRARIES})
   rrcb_install_pc(rrcb_fortran development)

@@ -1,5 +1,5 @@
-# The install as its users meet it: a project of their own against the installed package, and the
-# library built where there is no Trilinos.
+# The install as its users meet it: a project of their own against the installed package, and one that
+# builds the library with itself where there is no Trilinos.
 set(prefix ${CMAKE_CURRENT_BINARY_DIR}/prefix)
 set(consumer ${CMAKE_CURRENT_BINARY_DIR}/consumer)
 
@@ -18,24 +18,50 @@ add_test(
 add_test(
   NAME install.builds_without_trilinos
   COMMAND
-    ${CMAKE_CTEST_COMMAND} --build-and-test ${PROJECT_SOURCE_DIR}
+    ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/install/embedded
     ${CMAKE_CURRENT_BINARY_DIR}/without_trilinos --build-generator ${CMAKE_GENERATOR}
-    --build-options -DCMAKE_BUILD_TYPE=Debug -DCMAKE_DISABLE_FIND_PACKAGE_Zoltan=ON
-    -DCMAKE_DISABLE_FIND_PACKAGE_Teuchos=ON -DRRCB_MPM=OFF -DRRCB_TESTS=OFF -DRRCB_WERROR=${RRCB_WERROR})
+    --build-options -DRRCB_SOURCE=${PROJECT_SOURCE_DIR} -DCMAKE_BUILD_TYPE=Debug
+    -DCMAKE_DISABLE_FIND_PACKAGE_Zoltan=ON -DCMAKE_DISABLE_FIND_PACKAGE_Teuchos=ON -DRRCB_MPM=OFF
+    -DRRCB_EXAMPLES=ON -DRRCB_BENCHMARKS=AUTO -DRRCB_FORTRAN=AUTO -DRRCB_WERROR=${RRCB_WERROR})
 add_test(
   NAME install.left_out
   COMMAND
     ${CMAKE_COMMAND} -D
     "OUTPUT=RRCB_ZOLTAN: Zoltan of Trilinos was not found.*What packages add, this installs:.*tools/set_up [a-z0-9 .+-]*libtrilinos-kokkos-dev libtrilinos-teuchos-dev libtrilinos-zoltan-dev" -P
     ${CMAKE_CURRENT_SOURCE_DIR}/cmake/expect.cmake -- ${CMAKE_COMMAND} -E cat
-    ${CMAKE_CURRENT_BINARY_DIR}/without_trilinos/left_out.txt)
-add_test(
-  NAME install.asked_for_but_missing
-  COMMAND
-    ${CMAKE_COMMAND} -D FAILS=TRUE -D "OUTPUT=RRCB_ZOLTAN=ON needs Zoltan of Trilinos" -P
-    ${CMAKE_CURRENT_SOURCE_DIR}/cmake/expect.cmake -- ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B
-    ${CMAKE_CURRENT_BINARY_DIR}/asked_for -G ${CMAKE_GENERATOR} -DRRCB_ZOLTAN=ON
-    -DCMAKE_DISABLE_FIND_PACKAGE_Zoltan=ON)
+    ${CMAKE_CURRENT_BINARY_DIR}/without_trilinos/_deps/rrcb-build/left_out.txt)
+
+# rrcb_add_missing_test(<name> <text of the error> <argument of cmake...>)
+function(rrcb_add_missing_test name text)
+  add_test(
+    NAME install.${name}
+    COMMAND
+      ${CMAKE_COMMAND} -D FAILS=TRUE -D OUTPUT=${text} -P
+      ${CMAKE_CURRENT_SOURCE_DIR}/cmake/expect.cmake -- ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B
+      ${CMAKE_CURRENT_BINARY_DIR}/${name} -G ${CMAKE_GENERATOR} ${ARGN})
+endfunction()
+rrcb_add_missing_test(asked_for_but_missing "RRCB_ZOLTAN=ON needs Zoltan of Trilinos"
+                      -DRRCB_ZOLTAN=ON -DCMAKE_DISABLE_FIND_PACKAGE_Zoltan=ON)
+rrcb_add_missing_test(names_missing_packages "RRCB needs Eigen.*libeigen3-dev"
+                      -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON)
+
+# A cache from a time when there was no compiler of Fortran.
+if(RRCB_FORTRAN)
+  add_test(
+    NAME install.fortran_is_looked_for_again
+    COMMAND
+      ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B ${CMAKE_CURRENT_BINARY_DIR}/fortran_again -G
+      ${CMAKE_GENERATOR} -DCMAKE_Fortran_COMPILER=CMAKE_Fortran_COMPILER-NOTFOUND -DRRCB_FORTRAN=ON
+      -DRRCB_TESTS=OFF -DRRCB_EXAMPLES=OFF)
+  set_tests_properties(install.fortran_is_looked_for_again PROPERTIES LABELS install TIMEOUT 120)
+endif()
+add_test(NAME install.sets_its_own_policies
+         COMMAND ${CMAKE_COMMAND} -D FAILS=TRUE -D "OUTPUT=rrcb is found" -P
+                 ${CMAKE_CURRENT_SOURCE_DIR}/cmake/expect.cmake -- ${CMAKE_COMMAND} -S
+                 ${CMAKE_CURRENT_SOURCE_DIR}/install/bare -B ${CMAKE_CURRENT_BINARY_DIR}/bare -G
+                 ${CMAKE_GENERATOR} -DCMAKE_PREFIX_PATH=${prefix})
+set_tests_properties(install.sets_its_own_policies PROPERTIES FIXTURES_REQUIRED installed LABELS
+                                                              install TIMEOUT 120)
 
 find_program(RRCB_PKG_CONFIG pkg-config)
 if(RRCB_PKG_CONFIG)
@@ -61,6 +87,15 @@ if(Python3_FOUND)
                    ${PROJECT_SOURCE_DIR}/packaging/spack/package.py
                    ${PROJECT_BINARY_DIR}/CMakeCache.txt ${PROJECT_SOURCE_DIR})
   set_tests_properties(install.symbols install.spack PROPERTIES LABELS install TIMEOUT 60)
+  if(RRCB_ZOLTAN AND RRCB_PKG_CONFIG AND RRCB_FORTRAN AND MPI_Fortran_HAVE_F08_MODULE)
+    add_test(NAME first_steps COMMAND ${CMAKE_COMMAND} -E env CMAKE_GENERATOR=${CMAKE_GENERATOR}
+                                      ${CMAKE_CURRENT_SOURCE_DIR}/first_steps/run ${prefix})
+    set_tests_properties(first_steps PROPERTIES FIXTURES_REQUIRED installed LABELS install TIMEOUT 600
+                                                PROCESSORS 4)
+  else()
+    rrcb_left_out("test of the documents' commands"
+                  "the plug-in, pkg-config or mpi_f08 is not there" pkg-config gfortran)
+  endif()
 endif()
 
 set_tests_properties(install.clean PROPERTIES FIXTURES_SETUP clean_prefix)
@@ -72,4 +107,4 @@ set_tests_properties(install.left_out PROPERTIES FIXTURES_REQUIRED without_trili
                                                  TIMEOUT 60)
 set_tests_properties(
   install.clean install.install install.consumer install.builds_without_trilinos
-  install.asked_for_but_missing PROPERTIES LABELS install TIMEOUT 300 PROCESSORS 2)
+  install.asked_for_but_missing install.names_missing_packages PROPERTIES LABELS install TIMEOUT 300 PROCESSORS 2)

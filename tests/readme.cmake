@@ -1,7 +1,10 @@
+cmake_minimum_required(VERSION 3.22)
+
 # cmake -D ROOT=... -P readme.cmake
 #
 # Fails unless each block of C++ shown in the README and in the document of the loop is part of an
-# example, which is compiled and run; the indentation does not count.
+# example, which is compiled and run; the indentation does not count. So must each line of CMake in the
+# documents of how to install and to begin.
 function(read_flat file result)
   file(READ ${file} text)
   string(REGEX REPLACE "\n +" "\n" text "${text}")
@@ -29,4 +32,19 @@ foreach(document IN ITEMS README.md docs/loop.md)
       message(FATAL_ERROR "this C++ in ${document} is in no example:\n${block}")
     endif()
   endforeach()
+endforeach()
+
+set(configured "")
+foreach(project IN ITEMS examples/quick_start tests/install/embedded)
+  file(STRINGS ${ROOT}/${project}/CMakeLists.txt lines)
+  list(APPEND configured ${lines})
+endforeach()
+foreach(document IN ITEMS docs/install.md docs/first_program.md)
+  read_flat(${ROOT}/${document} text)
+  string(REGEX MATCHALL "```cmake\n[^`]+```" blocks "${text}")
+  string(REGEX REPLACE "```cmake\n|```|\n" ";" lines "${blocks}")
+  list(REMOVE_ITEM lines "" ${configured})
+  if(lines OR NOT blocks)
+    message(FATAL_ERROR "these lines of CMake in ${document} are in no project: ${lines}")
+  endif()
 endforeach()

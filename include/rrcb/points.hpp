@@ -1,5 +1,9 @@
 #pragma once
 
+#if __cplusplus < 202002L
+#error "RRCB needs C++20: add -std=c++20 to the options of the compiler"
+#endif
+
 #include <rrcb/export.h>
 
 #include <array>

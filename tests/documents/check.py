@@ -6,6 +6,7 @@ code is there; and each message in the table of docs/errors.md is in the source,
 capitals, which stand for numbers and names.
 """
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -19,10 +20,15 @@ MADE = ("comparisons/out", "examples/mpm/out")
 
 
 def documents(root):
-    listed = subprocess.run(["git", "-C", str(root), "ls-files", "--cached", "--others",
-                             "--exclude-standard", "*.md"], capture_output=True, text=True)
-    names = listed.stdout.split() or [str(path.relative_to(root)) for path in root.rglob("*.md")]
-    return [root / name for name in names if not name.startswith("build/")]
+    """Those that git lists or, without git or in a copy, all but what runs have made."""
+    if shutil.which("git"):
+        listed = subprocess.run(["git", "-C", str(root), "ls-files", "--cached", "--others",
+                                 "--exclude-standard", "*.md"], capture_output=True, text=True)
+        names = listed.stdout.split()
+        if names:
+            return [root / name for name in names]
+    names = [str(path.relative_to(root)) for path in root.rglob("*.md")]
+    return [root / name for name in names if not name.startswith(("build/", *MADE))]
 
 
 def marks_of(document):

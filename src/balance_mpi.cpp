@@ -184,8 +184,7 @@ void refine_together(const Points& points, const Bin& bin, Work& work, Participa
                       !decision.part_weights.empty(),
                       decision.verdict.heaviest,
                       decision.reuses,
-                      decision.box.empty() ? Box{} : decision.box[0],
-                      std::move(decision.planned)};
+                      decision.box.empty() ? Box{} : decision.box[0]};
     Refined refined =
         work.refinement->refine(std::move(estimate), counted, bin, result.parts, self);
     report_measured(refined.imbalance, work.sums.take(), options, report);

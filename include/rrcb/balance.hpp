@@ -73,8 +73,8 @@ struct Balance {
 /// of that kind; part r then is on rank r.
 ///
 /// Cuts lie where Options::min_width and Options::grid let them, those of points that stay as well.
-/// The axes are then chosen with a look ahead at what the cuts below can do, and refined cuts are
-/// moved as far as they may; the imbalance may stay above the tolerance.
+/// Each is then in the place nearest to the share of its parts, across another axis if that comes
+/// nearer; the imbalance may stay above the tolerance.
 ///
 /// Throws Error on every rank alike: for NaN or infinite coordinates, negative, NaN or infinite
 /// weights, arrays of inconsistent length, options out of range or different between ranks, limits

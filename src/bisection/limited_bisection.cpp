@@ -3,34 +3,168 @@
 #include "bisection/axis_choice.hpp"
 #include "bisection/bisection.hpp"
 #include "bisection/patches.hpp"
-#include "bisection/place_search.hpp"
+#include "bisection/slice.hpp"
+#include "bisection/weighted_quantile.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace rrcb {
 
 namespace {
 
-/// Points as patches without extent.
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Turns points into patches without extent.
 void make_patches(StatisticalDomain& domain) {
     for (const MassPoint& point : domain.points)
         domain.patches.push_back({point.position, point.position, point.weight});
     domain.points = {};
 }
 
-/// Brackets about the cuts of a tree, at the shares that they are found to have below them.
-void add_brackets(const StatisticalDomain& domain, const Descent& at, int depth,
-                  Bisection& bisection) {
-    if (at.is_part()) return;
-    const Cut& cut = bisection.cuts.tree[at.node];
-    const Halves halves = split_domain(domain, cut);
-    const double weight = weight_of(domain);
-    const double below = weight > 0 ? weight_of(halves.lower) / weight : 0;
-    bisection.brackets.push_back(bracket_of(domain, cut, below, depth));
-    add_brackets(halves.lower, at.lower(), depth + 1, bisection);
-    add_brackets(halves.upper, at.upper(), depth + 1, bisection);
+double weight_below(const StatisticalDomain& domain, const Cut& plane) {
+    const auto a = static_cast<std::size_t>(plane.axis);
+    double weight = 0;
+    for (const Patch& patch : domain.patches)
+        weight += weight_below(slice_of(patch, a), plane.at[a]);
+    return weight;
+}
+
+/// An axis that a cut may cross, and its places.
+struct Way {
+    int axis;
+    Places places;
+};
+
+/// Returns the axes that have places for the cut of a node: `preferred`, then the others from the
+/// longest of `extent` down.
+std::vector<Way> ways_across(const Descent& at, const Box& region, const Box& extent, int preferred,
+                             CutLimits& limits) {
+    std::vector<Way> ways;
+    for (int axis = 0; axis < limits.dimension(); ++axis) {
+        if (limits.are_axes_given() && axis != preferred) continue;
+        const Places places = limits.places(at, region, axis);
+        if (!places.empty()) ways.push_back({axis, places});
+    }
+    std::ranges::stable_sort(ways, std::greater<>(), [&](const Way& way) {
+        const auto a = static_cast<std::size_t>(way.axis);
+        return way.axis == preferred ? infinity : extent.upper[a] / 2 - extent.lower[a] / 2;
+    });
+    return ways;
+}
+
+/// A cut, and the weight below it.
+struct Trial {
+    Cut cut;
+    double below;
+};
+
+/// A node with what it divides.
+struct Piece {
+    StatisticalDomain domain;  ///< of patches
+    Descent at;
+    Box region;
+    int depth;
+};
+
+struct Task {
+    const Options& options;
+    AxisChoice axis_of;
+    CutLimits limits;
+    bool with_brackets;
+    Bisection result;
+
+    std::span<const double> sizes_of(const Descent& at) const {
+        return std::span(options.part_sizes)
+            .subspan(static_cast<std::size_t>(at.first_part),
+                     static_cast<std::size_t>(at.num_parts));
+    }
+};
+
+Trial trial_in(const StatisticalDomain& domain, int axis, double place) {
+    const Cut cut = plane(axis, place);
+    return {cut, weight_below(domain, cut)};
+}
+
+/// Returns the cut in the places of `way` with about the weight `target` below it: of the lines on
+/// both sides of the exact place the one that comes nearer.
+Trial trial_at(const StatisticalDomain& domain, const Way& way, double target, const Task& task) {
+    const bool is_plain = task.options.plain_cuts;
+    const AxisLimits& limits = task.limits.across(way.axis);
+    const Cut cut = weighted_quantile({domain, way.axis}, target, is_plain);
+    const double value = cut.at[static_cast<std::size_t>(way.axis)];
+    const double place = limits.nearest(value, way.places.first, way.places.last);
+    if (place == value && !is_plain) return {cut, weight_of(split_domain(domain, cut).lower)};
+    const Trial trial = trial_in(domain, way.axis, place);
+    const double other = value < place ? limits.place_before(place) : limits.place_behind(place);
+    if (!limits.has_grid() || other < way.places.first || other > way.places.last) return trial;
+    const Trial beside = trial_in(domain, way.axis, other);
+    return std::abs(beside.below - target) < std::abs(trial.below - target) ? beside : trial;
+}
+
+Trial trial_across(const Piece& piece, const Box& extent, const Way& way, const Task& task) {
+    const double share = share_below(task.sizes_of(piece.at));
+    const auto a = static_cast<std::size_t>(way.axis);
+    const double weight = weight_of(piece.domain);
+    if (weight > 0 && task.options.cut_rule == CutRule::weighted_fraction)
+        return trial_at(piece.domain, way, share * weight, task);
+    const double value = weight > 0 ? std::lerp(extent.lower[a], extent.upper[a], share)
+                                    : way.places.first / 2 + way.places.last / 2;
+    const AxisLimits& limits = task.limits.across(way.axis);
+    return trial_in(piece.domain, way.axis,
+                    limits.nearest(value, way.places.first, way.places.last));
+}
+
+/// Returns the cut across the first axis on which it is about as good as asked for, or the best.
+Cut cut_in_places(const Piece& piece, int preferred, const Box& extent, Task& task) {
+    constexpr double bearable = 0.005;
+    const double weight = weight_of(piece.domain);
+    const double share = share_below(task.sizes_of(piece.at));
+    const double lighter = std::min(share, 1 - share) * weight;
+    Trial best{};
+    double least = infinity;
+    for (const Way& way : ways_across(piece.at, piece.region, extent, preferred, task.limits)) {
+        const Trial trial = trial_across(piece, extent, way, task);
+        const double error = std::abs(trial.below - share * weight);
+        if (error < least) best = trial;
+        least = std::min(least, error);
+        if (least <= bearable * lighter || task.options.cut_rule == CutRule::midpoint) break;
+    }
+    return best.cut;
+}
+
+/// Returns the cut of a node; everything is on one side if the parts of the other have no size.
+Cut choose_cut(const Piece& piece, Task& task) {
+    const Box extent = extent_of(piece.domain);
+    const int axis = task.axis_of(piece.at.node, piece.depth, extent);
+    if (task.limits.divides(piece.at)) return cut_in_places(piece, axis, extent, task);
+    return plane(axis, share_below(task.sizes_of(piece.at)) > 0 ? infinity : -infinity);
+}
+
+void bisect_piece(Piece piece, Task& task) {
+    if (piece.at.is_part()) {
+        task.result.part_weights.push_back(weight_of(piece.domain));
+        return;
+    }
+    const Cut cut = choose_cut(piece, task);
+    task.result.cuts.tree.push_back(cut);
+    Halves halves = split_domain(piece.domain, cut);
+    if (task.with_brackets) {
+        const double below = share_below(task.sizes_of(piece.at));
+        task.result.brackets.push_back(bracket_of(piece.domain, cut, below, piece.depth));
+    }
+    piece.domain.patches = {};
+    bisect_piece(
+        {std::move(halves.lower), piece.at.lower(), box_below(piece.region, cut), piece.depth + 1},
+        task);
+    bisect_piece(
+        {std::move(halves.upper), piece.at.upper(), box_above(piece.region, cut), piece.depth + 1},
+        task);
 }
 
 void move_node(CutLimits& limits, const Descent& at, const Box& region, Cuts& cuts) {
@@ -45,20 +179,6 @@ void move_node(CutLimits& limits, const Descent& at, const Box& region, Cuts& cu
     move_node(limits, at.upper(), box_above(region, cut), cuts);
 }
 
-void append_shares(std::span<const double> weights, std::span<const double> sizes,
-                   std::vector<double>& shares) {
-    if (sizes.size() == 1) return;
-    constexpr double rounding = 1e-9;
-    const auto num_below = static_cast<std::size_t>(lower_parts(static_cast<int>(sizes.size())));
-    const double of_sizes = share_below(sizes);
-    const double of_weights = share_below(weights);
-    const bool is_same = std::abs(of_weights - of_sizes) <= rounding ||
-                         std::ranges::all_of(weights, [](double weight) { return weight == 0; });
-    shares.push_back(is_same ? of_sizes : of_weights);
-    append_shares(weights.first(num_below), sizes.first(num_below), shares);
-    append_shares(weights.subspan(num_below), sizes.subspan(num_below), shares);
-}
-
 }  // namespace
 
 Bisection bisect_within(const Box& points, StatisticalDomain domain, const Options& options,
@@ -66,31 +186,14 @@ Bisection bisect_within(const Box& points, StatisticalDomain domain, const Optio
     make_patches(domain);
     const int dimension = domain.dimension;
     const AxisChoice axis_of(options, points, dimension);
-    CutLimits limits(options, points, dimension, {axis_of.given(options.num_parts), {}});
-    limits.require_room();
-    const int effort =
-        options.cut_rule == CutRule::midpoint
-            ? 0
-            : PlaceSearch::affordable_effort(domain.patches.size(), dimension, options.num_parts);
-    Bisection result{{dimension, options.num_parts, {}}, {}, {}};
-    PlaceSearch search(limits, axis_of, options, domain);
-    const Piece whole{std::move(domain), root_of(result.cuts), limits.region(), 0};
-    Outcome outcome = search.solve(whole, 0);
-    if (!search.is_good(whole, outcome) && effort > 0) {
-        Outcome better = search.solve_all(whole, effort);
-        if (better.heaviest < outcome.heaviest) outcome = std::move(better);
-    }
-    result.cuts.tree = std::move(outcome.tree);
-    result.part_weights = std::move(outcome.weights);
-    if (with_brackets) add_brackets(whole.domain, whole.at, 0, result);
-    return result;
-}
-
-std::vector<double> planned_shares(std::span<const double> part_weights,
-                                   std::span<const double> part_sizes) {
-    std::vector<double> shares;
-    append_shares(part_weights, part_sizes, shares);
-    return shares;
+    Task task{options,
+              axis_of,
+              {options, points, dimension, {axis_of.given(options.num_parts), {}}},
+              with_brackets,
+              {{dimension, options.num_parts, {}}, {}, {}}};
+    task.limits.require_room();
+    bisect_piece({std::move(domain), root_of(task.result.cuts), task.limits.region(), 0}, task);
+    return std::move(task.result);
 }
 
 void move_into_places(const Box& points, const Options& options, Cuts& cuts) {

@@ -6,18 +6,13 @@
 
 namespace rrcb {
 
-/// As bisect(), with all cuts in their places, of points in the box `points`.
+/// Bisects as bisect() does, with all cuts in their places, for points in the box `points`.
 ///
-/// Where the places next to the shares of the parts leave these too uneven, other axes and places
-/// are tried, each with what the cuts below can then do, as far as a few tens of milliseconds go.
-/// Throws Error where there is no room for the parts.
+/// Each cut is at the place nearest to the share of its parts: across its preferred axis, or across
+/// another if that comes much nearer. No cut looks ahead at those below it. Throws Error if there
+/// is no room for the parts.
 Bisection bisect_within(const Box& points, StatisticalDomain domain, const Options& options,
                         bool with_brackets);
-
-/// Share of the weight of each node that lies below its cut, in preorder, by what the parts weigh;
-/// that of their sizes where it is the same but for rounding.
-std::vector<double> planned_shares(std::span<const double> part_weights,
-                                   std::span<const double> part_sizes);
 
 /// Moves the cuts of an earlier call into their places; across the longest extent that has any
 /// where their own axis has none. Not collective. Throws Error where there is no room for the

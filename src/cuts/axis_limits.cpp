@@ -44,6 +44,9 @@ double AxisLimits::line(double k) const {
 double AxisLimits::line_below(double value) const {
     // By parts, as the difference might overflow.
     double k = std::floor(value / grid_.spacing - grid_.origin / grid_.spacing);
+    // A line has no place if its number times the spacing overflows.
+    const double last = std::floor(std::numeric_limits<double>::max() / grid_.spacing);
+    k = std::clamp(k, -last, last);
     while (line(k) > value) --k;
     while (line(k + 1) <= value) ++k;
     return k;
@@ -54,9 +57,8 @@ double AxisLimits::next_behind(double face) const {
         return least_double(face, std::max(face + min_width_, std::nextafter(face, infinity)),
                             [&](double x) { return is_apart(face, x); });
     // More cells than doubles tell apart are behind all points.
-    const double cells = std::floor(min_width_ / grid_.spacing);
-    if (!(cells < 0x1p52)) return infinity;
-    double k = line_below(face) + cells;
+    if (!(min_width_ / grid_.spacing < 0x1p52)) return infinity;
+    double k = line_below(std::min(face + min_width_, std::numeric_limits<double>::max()));
     while (is_apart(face, line(k))) --k;
     while (!is_apart(face, line(k))) ++k;
     return line(k);

@@ -212,10 +212,7 @@ void decide(const Contribution& all, const Options& options, Decision& decision)
         const bool with_brackets = is_refined(options);
         bisection = bisect_gathered(all, options, bisection.cuts.dimension, with_brackets);
         bisection.brackets.resize(with_brackets ? bisection.cuts.tree.size() : 0);
-        if (!decision.box.empty()) {
-            decision.box[0] = all.summary.box;
-            decision.planned = planned_shares(bisection.part_weights, options.part_sizes);
-        }
+        if (!decision.box.empty()) decision.box[0] = all.summary.box;
     }
     decision.verdict = verdict_of(all.summary, bisection, options.part_sizes);
     if (decision.reuses) weigh_parts(all, options, decision);

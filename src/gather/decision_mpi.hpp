@@ -40,7 +40,6 @@ struct Decision {
     Verdict verdict;
     Bisection bisection;
     std::vector<Box> box{};              ///< of all points, where limited cuts are to be refined
-    std::vector<double> planned{};       ///< shares below new ones, see planned_shares; at the root
     CurrentParts current{};              ///< on all ranks once they were told that these stay
     bool reuses = false;                 ///< the cuts are earlier ones, which all ranks have
     std::vector<double> part_weights{};  ///< of the parts of these, where all counted

@@ -71,8 +71,7 @@ void Refinement::start(Estimate&& estimate, Participant& self) {
              estimate_.total_weight / sum_of(sizes),
              0,
              options_.refine == Refine::exact,
-             estimate_.is_earlier && !is_limited,
-             estimate_.planned};
+             estimate_.is_earlier && !is_limited};
     if (is_limited)
         self.attempt([&] {
             limits_.emplace(options_, estimate_.box, estimate_.cuts.dimension,

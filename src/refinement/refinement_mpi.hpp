@@ -29,10 +29,7 @@ struct Estimate {
     bool is_counted = false;  ///< `parts` and the sums hold what the cuts make, not good enough
     double heaviest = 0;      ///< weight of the heaviest point
     bool is_earlier = false;  ///< the cuts are those of an earlier call
-    /// Of all points, and the shares of weight planned below the cuts (at the root only); where
-    /// cuts are limited.
-    Box box{};
-    std::vector<double> planned{};
+    Box box{};                ///< of all points, if cuts are limited
 };
 
 /// The points by cells, for a search by levels. May throw. Made of a std::ref, it takes no memory.

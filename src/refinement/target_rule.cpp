@@ -106,7 +106,7 @@ double TargetRule::share_below(const Descent& at) const {
 CutTarget TargetRule::target_of(const Descent& at, double weight, double below) const {
     const auto sizes = sizes_of(at);
     CutTarget target;
-    target.target = (planned.empty() ? share_below(at) : planned[at.node]) * weight;
+    target.target = share_below(at) * weight;
     target.slack = common_weight / 2;
     // Less by a hair: an odd point goes above the cut, wherever the search began.
     if (is_exact) target.target = std::max(0.0, target.target - std::ldexp(common_weight, -12));

@@ -16,15 +16,13 @@ inline constexpr double not_counted = std::numeric_limits<double>::quiet_NaN();
 /// so that few points change parts; otherwise to the share of the parts below it.
 struct TargetRule {
     std::span<const double> part_sizes;
-    double tolerance = 1;               ///< of the imbalance of all parts
-    double common_weight = 0;           ///< weight of each point where all weigh the same, else 0
-    double heaviest = 0;                ///< weight of the heaviest point
-    double weight_per_size = 0;         ///< weight that a part of size 1 is to have
-    double counted_weight = 0;          ///< of all parts, where these were counted
-    bool is_exact = false;              ///< no slack but half a point
-    bool is_earlier = false;            ///< the cuts are those of an earlier call, not limited
-    std::span<const double> planned{};  ///< shares below the cuts in preorder that their limits
-                                        ///< allow, in place of the parts' own; empty: the latter
+    double tolerance = 1;        ///< of the imbalance of all parts
+    double common_weight = 0;    ///< weight of each point where all weigh the same, else 0
+    double heaviest = 0;         ///< weight of the heaviest point
+    double weight_per_size = 0;  ///< weight that a part of size 1 is to have
+    double counted_weight = 0;   ///< of all parts, where these were counted
+    bool is_exact = false;       ///< no slack but half a point
+    bool is_earlier = false;     ///< the cuts are those of an earlier call, not limited
 
     std::span<const double> sizes_of(const Descent& at) const {
         return part_sizes.subspan(static_cast<std::size_t>(at.first_part),

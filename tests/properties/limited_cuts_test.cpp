@@ -90,6 +90,24 @@ TEST(AxisLimits, find_the_first_line_that_keeps_a_width_to_the_bit) {
     });
 }
 
+TEST(AxisLimits, find_lines_across_the_whole_range_of_doubles) {
+    constexpr double most = std::numeric_limits<double>::max();
+    for (const double spacing : {most / 16, most * 0x1p-40, most * 0x1p-50}) {
+        for (const double origin : {-most, -most / 3, 0.0, most / 3, most}) {
+            const AxisLimits limits(3 * spacing, {origin, spacing});
+            const AxisLimits mirrored(3 * spacing, {-origin, spacing});
+            for (const double face : {-most, -most / 2, 0.0, most / 2, most}) {
+                const double k = limits.line_below(face);
+                EXPECT_LE(origin + k * spacing, face);
+                EXPECT_GT(origin + (k + 1) * spacing, face);
+                const double first = limits.first_behind(face, 1);
+                EXPECT_GE(first - face, 3 * spacing);
+                EXPECT_EQ(mirrored.last_before(-face, 1), -first);
+            }
+        }
+    }
+}
+
 TEST(AxisLimits, count_as_many_boxes_from_either_end) {
     expect_always(10000, [] {
         const double lower = any_number();
@@ -195,10 +213,11 @@ TEST(LimitedCuts, keep_widths_and_lines_and_fail_only_where_nothing_fits) {
     });
 }
 
-TEST(LimitedCuts, are_nearly_as_even_as_the_best_there_are) {
+/// Imbalances of a number of cases over those of the best cuts that there are.
+std::vector<double> ratios_to_the_best(int num_cases, int most_parts) {
     std::vector<double> ratios;
-    expect_always(10000, [&] {
-        const Limited input = any_limited(14, 5);
+    expect_always(num_cases, [&] {
+        const Limited input = any_limited(14, most_parts);
         const double least = least_imbalance(input.points(), input.options);
         if (std::isinf(least)) return;
         const Bisection found = bisection_of(input);
@@ -208,11 +227,22 @@ TEST(LimitedCuts, are_nearly_as_even_as_the_best_there_are) {
                 input.points().weight(i);
         ratios.push_back(imbalance(weights) / least);
     });
-    // A search by looking ahead is no proof; it misses now and then among a few heavy points.
+    return ratios;
+}
+
+TEST(LimitedCuts, of_two_parts_are_the_best_there_are) {
+    const std::vector<double> ratios = ratios_to_the_best(10000, 2);
+    EXPECT_GT(ratios.size(), 4000u);
+    EXPECT_LE(std::ranges::max(ratios), 1.005);
+}
+
+TEST(LimitedCuts, are_mostly_nearly_as_even_as_the_best_there_are) {
+    // Cuts that do not look ahead miss now and then among a few heavy points.
+    const std::vector<double> ratios = ratios_to_the_best(10000, 5);
     const auto num_near = std::ranges::count_if(ratios, [](double ratio) { return ratio <= 1.05; });
     std::printf("%zu cases, %zu of them not within 1.05, the worst %.3f\n", ratios.size(),
                 ratios.size() - static_cast<std::size_t>(num_near), std::ranges::max(ratios));
-    EXPECT_GE(static_cast<double>(num_near), 0.995 * static_cast<double>(ratios.size()));
+    EXPECT_GE(static_cast<double>(num_near), 0.98 * static_cast<double>(ratios.size()));
     EXPECT_LE(std::ranges::max(ratios), 2);
 }
 

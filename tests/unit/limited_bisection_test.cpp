@@ -1,0 +1,73 @@
+#include "bisection/limited_bisection.hpp"
+
+#include "bisection/domain_kinds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+std::size_t num_allocations = 0;
+
+}  // namespace
+
+// Each look at a place allocates, so that allocations measure the work.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+    ++num_allocations;
+    if (void* memory = std::malloc(size)) return memory;
+    throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+
+namespace rrcb {
+namespace {
+
+/// A dense and a thin cell of the unit box, which leave the search the most to try.
+StatisticalDomain two_cells(int dimension) {
+    StatisticalDomain domain{dimension};
+    domain.patches.push_back({{0, 0, 0}, {0.25, 1, 1}, 900, {}, {}});
+    domain.patches.push_back({{0.25, 0, 0}, {1, 1, 1}, 100, {}, {}});
+    return domain;
+}
+
+/// Widths and lines that leave little more room than the parts need.
+Options tight_options(int num_parts, int dimension) {
+    Options options;
+    options.num_parts = num_parts;
+    options.part_sizes.assign(static_cast<std::size_t>(num_parts), 1.0);
+    const double along = std::ceil(1.5 * std::pow(num_parts, 1.0 / dimension)) + 1;
+    for (int axis = 0; axis < dimension; ++axis) {
+        options.min_width.push_back(0.95 / along);
+        options.grid.push_back({0.001, 0.01 / along});
+    }
+    return complete(options, 1);
+}
+
+std::size_t allocations_of(int num_parts, int dimension) {
+    const Options options = tight_options(num_parts, dimension);
+    const Box box{{0, 0, 0}, {1, 1, 1}};
+    const std::size_t before = num_allocations;
+    const Bisection found = bisect_within(box, two_cells(dimension), options, true);
+    EXPECT_EQ(found.part_weights.size(), static_cast<std::size_t>(num_parts));
+    return num_allocations - before;
+}
+
+TEST(LimitedBisection, looks_at_a_few_places_for_each_part) {
+    for (const int dimension : {1, 2, 3}) {
+        for (const int num_parts : {100, 400, 1600}) {
+            EXPECT_LE(allocations_of(num_parts, dimension), 60u * static_cast<unsigned>(num_parts))
+                << dimension << "-D, " << num_parts << " parts";
+        }
+    }
+}
+
+}  // namespace
+}  // namespace rrcb

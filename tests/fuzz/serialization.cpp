@@ -51,8 +51,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         state.parameters.given = parcel.given;
         state.part_sizes = parcel.part_sizes;
         state.kept = parcel.kept;
-        const std::vector<char> again = rrcb::zoltan::serialize(state);
-        expect(rrcb::zoltan::serialize(state) == again, "the same bytes twice");
+        const std::vector<char> again = rrcb::zoltan::serialize(state, parcel.of_zoltan);
+        expect(rrcb::zoltan::serialize(state, parcel.of_zoltan) == again, "the same bytes twice");
         expect(rrcb::zoltan::deserialize(again).given == parcel.given, "the same parameters");
     } catch (const rrcb::zoltan::ZoltanError&) {
     }

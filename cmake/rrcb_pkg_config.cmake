@@ -3,12 +3,13 @@
 file(RELATIVE_PATH RRCB_PC_PREFIX /${CMAKE_INSTALL_LIBDIR} /)
 string(REGEX REPLACE "/$" "" RRCB_PC_PREFIX "${RRCB_PC_PREFIX}")
 
-# Puts a flag before each word of a list, which may be empty.
+# Puts a flag before each word of a list, which may be empty; no -l before the path of a library.
 function(rrcb_flags result flag)
   set(text "")
   if(ARGN)
     list(REMOVE_DUPLICATES ARGN)
     list(TRANSFORM ARGN PREPEND "${flag}")
+    list(TRANSFORM ARGN REPLACE "^-l/" "/")
     list(JOIN ARGN " " text)
   endif()
   set(${result} "${text}" PARENT_SCOPE)
@@ -39,7 +40,9 @@ rrcb_flags(RRCB_PC_MPI_FLAGS -I ${MPI_CXX_INCLUDE_DIRS})
 rrcb_install_pc(rrcb development)
 
 if(RRCB_ZOLTAN)
-  find_package(Zoltan QUIET)
+  if(NOT Zoltan_LIBRARIES)
+    find_package(Zoltan QUIET)
+  endif()
   rrcb_flags(RRCB_PC_ZOLTAN_FLAGS -I ${Zoltan_INCLUDE_DIRS})
   rrcb_flags(RRCB_PC_ZOLTAN -l ${Zoltan_LIBRARIES})
   rrcb_install_pc(rrcb_zoltan zoltan)

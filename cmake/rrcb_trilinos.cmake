@@ -1,15 +1,16 @@
 # rrcb_find_trilinos(<package>)
 #
 # Finds one package of Trilinos and offers it as <package>::<package in lower case>; defines nothing
-# when it is not there. Debian's Trilinos exports un-namespaced targets without include
+# when it is not there. A Zoltan of its own configure has no files for CMake: Zoltan_INCLUDE_DIRS and
+# Zoltan_LIBRARIES name it. Debian's Trilinos exports un-namespaced targets without include
 # directories, so they are wrapped; installed with the library, for rrcbConfig.cmake.
 function(rrcb_find_trilinos package)
   string(TOLOWER ${package} name)
   set(target ${package}::${name})
-  if(NOT TARGET ${target})
+  if(NOT TARGET ${target} AND NOT ${package}_LIBRARIES)
     find_package(${package} QUIET)
   endif()
-  if(TARGET ${target} OR NOT ${package}_FOUND)
+  if(TARGET ${target} OR NOT ${package}_LIBRARIES)
     return()
   endif()
   add_library(${target} INTERFACE IMPORTED GLOBAL)

@@ -17,16 +17,20 @@ target_include_directories(zoltan_archive PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
 target_compile_definitions(zoltan_archive PRIVATE ZOLTAN_LIBRARY="${zoltan_library}")
 target_link_libraries(zoltan_archive PRIVATE ${CMAKE_DL_LIBS})
 
-rrcb_add_test(
-  NAME clients.static
-  SOURCES static_test.cpp ../zoltan/program.cpp ../zoltan/lists_test.cpp ../zoltan/lookups_test.cpp
-  LIBRARIES rrcb::zoltan_static zoltan_archive
-  RANKS 1 2 4
-  LABELS clients)
-target_compile_options(clients.static PRIVATE -include rrcb/zoltan/rrcb_zoltan_rename.h)
-target_include_directories(clients.static PRIVATE ../zoltan)
-target_include_directories(
-  clients.static SYSTEM PRIVATE $<TARGET_PROPERTY:Zoltan::zoltan,INTERFACE_INCLUDE_DIRECTORIES>)
+function(add_static_test name archive)
+  rrcb_add_test(
+    NAME clients.${name}
+    SOURCES static_test.cpp ../zoltan/program.cpp ${ARGN}
+    LIBRARIES rrcb::zoltan_static ${archive}
+    RANKS 1 2 4
+    LABELS clients)
+  target_compile_options(clients.${name} PRIVATE -include rrcb/zoltan/rrcb_zoltan_rename.h)
+  target_include_directories(clients.${name} PRIVATE ../zoltan)
+  target_include_directories(
+    clients.${name} SYSTEM PRIVATE $<TARGET_PROPERTY:Zoltan::zoltan,INTERFACE_INCLUDE_DIRECTORIES>)
+endfunction()
+add_static_test(static zoltan_archive ../zoltan/lists_test.cpp ../zoltan/lookups_test.cpp
+                ../zoltan/serialization_test.cpp)
 
 # A program of a static Zoltan that nothing was compiled into cannot be reached.
 if(can_preload)

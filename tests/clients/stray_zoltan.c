@@ -1,4 +1,4 @@
 /* A second library with a function of Zoltan's. */
-int Zoltan_Serialize(void) {
+int Zoltan_LB_Box_Assign(void) {
     return -1;
 }

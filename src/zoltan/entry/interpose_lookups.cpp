@@ -97,16 +97,3 @@ RRCB_EXPORT int Zoltan_RCB_Box(Zoltan_Struct* zz, int part, int* dimension, doub
         return ZOLTAN_OK;
     });
 }
-
-RRCB_EXPORT int Zoltan_RCB_Partition_Tree(Zoltan_Struct* zz, int node, int* parent, int* left_leaf,
-                                          int* right_leaf) {
-    const State* state = look_up_state(zz);
-    if (state == nullptr) {
-        return forward<&RealZoltan::rcb_partition_tree>(zz, node, parent, left_leaf, right_leaf);
-    }
-    return guarded("Zoltan_RCB_Partition_Tree", state, [&] {
-        const TreeNode found = tree_node_of(*state, node);
-        *parent = found.parent, *left_leaf = found.lower, *right_leaf = found.upper;
-        return ZOLTAN_OK;
-    });
-}

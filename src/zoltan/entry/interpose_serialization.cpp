@@ -1,13 +1,16 @@
-#include "zoltan/entry/entry_point.hpp"
+#include "zoltan/entry/optional_call.hpp"
 #include "zoltan/handle/environment.hpp"
 #include "zoltan/handle/serialization.hpp"
-#include "zoltan/real/real_zoltan.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <utility>
 
 using namespace rrcb::zoltan;
+
+RRCB_DECLARE_REAL(Zoltan_Serialize_Size)
+RRCB_DECLARE_REAL(Zoltan_Serialize)
+RRCB_DECLARE_REAL(Zoltan_Deserialize)
 
 namespace {
 
@@ -25,8 +28,8 @@ int set_again(Zoltan_Struct* zz, const std::string& name, const std::string& val
 int unpack_zoltans(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     Parameters parameters = state.parameters;
     parameters.rrcb = true;
-    const int code =
-        forward<&RealZoltan::deserialize>(zz, parcel.of_zoltan.size(), parcel.of_zoltan.data());
+    auto* const real = RRCB_REAL(Zoltan_Deserialize, deserialize);
+    const int code = real(zz, parcel.of_zoltan.size(), parcel.of_zoltan.data());
     state.parameters = std::move(parameters);
     state.part_sizes = std::move(parcel.part_sizes);
     state.kept.reset();
@@ -71,8 +74,9 @@ void tell_if_left_to_zoltan(const State& state) {
 std::vector<char> pack(const Zoltan_Struct* zz, const State& state) {
     std::vector<char> of_zoltan;
     if (state.zoltan_has_cuts) {
-        of_zoltan.resize(forward<&RealZoltan::serialize_size>(zz));
-        const int code = forward<&RealZoltan::serialize>(zz, of_zoltan.size(), of_zoltan.data());
+        of_zoltan.resize(RRCB_REAL(Zoltan_Serialize_Size, serialize_size)(zz));
+        auto* const real = RRCB_REAL(Zoltan_Serialize, serialize);
+        const int code = real(zz, of_zoltan.size(), of_zoltan.data());
         if (code != ZOLTAN_OK) throw ZoltanError(code, "Zoltan's RCB cannot be serialized");
     }
     return serialize(state, of_zoltan);
@@ -81,20 +85,20 @@ std::vector<char> pack(const Zoltan_Struct* zz, const State& state) {
 }  // namespace
 
 RRCB_EXPORT size_t Zoltan_Serialize_Size(Zoltan_Struct const* zz) {
-    const State* state = rrcb_state(zz);
-    if (state == nullptr) return forward<&RealZoltan::serialize_size>(zz);
     size_t size = 0;
-    guarded("Zoltan_Serialize_Size", state, [&] {
-        size = pack(zz, *state).size();
+    guarded("Zoltan_Serialize_Size", find_state(zz), [&] {
+        const State* state = rrcb_state(zz);
+        size = state == nullptr ? RRCB_REAL(Zoltan_Serialize_Size, serialize_size)(zz)
+                                : pack(zz, *state).size();
         return ZOLTAN_OK;
     });
     return size;
 }
 
 RRCB_EXPORT int Zoltan_Serialize(Zoltan_Struct const* zz, size_t size, char* buffer) {
-    const State* state = rrcb_state(zz);
-    if (state == nullptr) return forward<&RealZoltan::serialize>(zz, size, buffer);
-    return guarded("Zoltan_Serialize", state, [&] {
+    return guarded("Zoltan_Serialize", find_state(zz), [&] {
+        const State* state = rrcb_state(zz);
+        if (state == nullptr) return RRCB_REAL(Zoltan_Serialize, serialize)(zz, size, buffer);
         const std::vector<char> bytes = pack(zz, *state);
         if (bytes.size() > size) {
             throw ZoltanError(ZOLTAN_FATAL, "the buffer is too small; ask Zoltan_Serialize_Size");
@@ -106,18 +110,18 @@ RRCB_EXPORT int Zoltan_Serialize(Zoltan_Struct const* zz, size_t size, char* buf
 
 RRCB_EXPORT int Zoltan_Deserialize(Zoltan_Struct* zz, size_t size, char* buffer) {
     State* state = find_state(zz);
-    if (state != nullptr && is_parcel({buffer, size})) {
-        return guarded("Zoltan_Deserialize", state, [&] {
+    return guarded("Zoltan_Deserialize", state, [&] {
+        if (state != nullptr && is_parcel({buffer, size}))
             return unpack(zz, *state, deserialize({buffer, size}));
-        });
-    }
-    // The buffer comes from the real Zoltan and replaces every parameter.
-    if (state != nullptr) {
-        tell_if_left_to_zoltan(*state);
-        state->parameters.rrcb = false;
-        state->deserialized = true;
-        state->kept.reset();
-        state->zoltan_has_cuts = false;
-    }
-    return forward<&RealZoltan::deserialize>(zz, size, buffer);
+        auto* const real = RRCB_REAL(Zoltan_Deserialize, deserialize);
+        // The buffer comes from the real Zoltan and replaces every parameter.
+        if (state != nullptr) {
+            tell_if_left_to_zoltan(*state);
+            state->parameters.rrcb = false;
+            state->deserialized = true;
+            state->kept.reset();
+            state->zoltan_has_cuts = false;
+        }
+        return real(zz, size, buffer);
+    });
 }

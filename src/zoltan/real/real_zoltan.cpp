@@ -25,18 +25,13 @@ class Finder {
     /// Requires a function that the plug-in calls by name.
     void find(const char* name) { require(Found(name)); }
 
-    /// Function in the library of those found so far; null where it has none.
+    /// Function in the library of those found so far; null if it has none. One in another library
+    /// would not know the handles.
     template <typename Function>
     void find_beside(Function& function, const char* name) const {
         const Found found(name);
         const bool beside = found.address != nullptr && found.base == first_.base;
         function = beside ? reinterpret_cast<Function>(found.address) : nullptr;
-    }
-
-    /// Function in any library; null where there is none.
-    template <typename Function>
-    void find_any(Function& function, const char* name) const {
-        function = reinterpret_cast<Function>(Found(name).address);
     }
 
     const char* missing() const { return missing_; }
@@ -82,7 +77,7 @@ class Finder {
 Finder find_all(RealZoltan& real) {
     Finder finder;
 #define RRCB_FORWARDED(function, member) finder.find(real.member, #function);
-#define RRCB_OPTIONAL(function, member) finder.find_any(real.member, #function);
+#define RRCB_OPTIONAL(function, member) finder.find_beside(real.member, #function);
 #include "zoltan/real/functions.inc"
     for (const char* name :
          {"Zoltan_Malloc", "Zoltan_Realloc", "Zoltan_Free", "Zoltan_Get_Fn", "Zoltan_Migrate"})

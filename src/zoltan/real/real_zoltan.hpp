@@ -1,7 +1,8 @@
 #pragma once
 
+#include <rrcb/zoltan/optional_functions.h>
+
 #include <zoltan.h>
-#include <zoltan_partition_tree.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,0 +1,28 @@
+#ifndef RRCB_ZOLTAN_OPTIONAL_FUNCTIONS_H
+#define RRCB_ZOLTAN_OPTIONAL_FUNCTIONS_H
+
+/** @file
+ * Functions that not every Zoltan has, nor its headers declare: a Zoltan built by its own configure
+ * has no Zoltan_RCB_Partition_Tree, one before 3.9 no Zoltan_Serialize. RRCB answers all of them
+ * for handles with LB_METHOD=RRCB. Other handles get ZOLTAN_FATAL, or the size 0, with a message.
+ */
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct Zoltan_Struct;
+
+int Zoltan_RCB_Partition_Tree(struct Zoltan_Struct* zz, int node, int* parent, int* left_leaf,
+                              int* right_leaf);
+size_t Zoltan_Serialize_Size(struct Zoltan_Struct const* zz);
+int Zoltan_Serialize(struct Zoltan_Struct const* zz, size_t size, char* buffer);
+int Zoltan_Deserialize(struct Zoltan_Struct* zz, size_t size, char* buffer);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "zoltan/entry/entry_point.hpp"
+#include "zoltan/real/real_zoltan.hpp"
+
+/// RRCB_DECLARE_REAL(function) declares the real one of a function that not every Zoltan has, and
+/// RRCB_REAL(function, member) is its address; it throws ZoltanError if the Zoltan behind lacks it.
+///
+/// A static archive must have those that the program calls, and no others: they are referred to in
+/// files of their own, by their names without the prefix.
+#ifdef RRCB_ZOLTAN_STATIC
+#define RRCB_DECLARE_REAL(function) \
+    extern "C" decltype(function) real_##function __asm__(#function);
+#define RRCB_REAL(function, member) (&real_##function)
+#else
+#define RRCB_DECLARE_REAL(function)
+#define RRCB_REAL(function, member) rrcb::zoltan::real_function<&rrcb::zoltan::RealZoltan::member>()
+#endif
+
+namespace rrcb::zoltan {
+
+template <auto member>
+auto real_function() {
+    const RealZoltan* real = real_zoltan();
+    if (real == nullptr || real->*member == nullptr)
+        throw ZoltanError(ZOLTAN_FATAL, "the Zoltan behind RRCB has no such function");
+    return real->*member;
+}
+
+}  // namespace rrcb::zoltan

@@ -27,6 +27,10 @@ int MPI_Comm_dup(MPI_Comm comm, MPI_Comm* made) {
     return count_if_done(PMPI_Comm_dup(comm, made), held.communicators, 1);
 }
 
+int MPI_Comm_idup(MPI_Comm comm, MPI_Comm* made, MPI_Request* request) {
+    return count_if_done(PMPI_Comm_idup(comm, made, request), held.communicators, 1);
+}
+
 int MPI_Comm_split(MPI_Comm comm, int color, int key, MPI_Comm* made) {
     return count_if_done(PMPI_Comm_split(comm, color, key, made), held.communicators, 1);
 }

@@ -14,6 +14,11 @@ extern "C" int MPI_Comm_dup(MPI_Comm comm, MPI_Comm* copy) {
     return PMPI_Comm_dup(comm, copy);
 }
 
+extern "C" int MPI_Comm_idup(MPI_Comm comm, MPI_Comm* copy, MPI_Request* request) {
+    ++num_communicators;
+    return PMPI_Comm_idup(comm, copy, request);
+}
+
 extern "C" int MPI_Comm_split(MPI_Comm comm, int color, int key, MPI_Comm* part) {
     ++num_communicators;
     return PMPI_Comm_split(comm, color, key, part);

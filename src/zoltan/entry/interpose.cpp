@@ -152,11 +152,12 @@ RRCB_EXPORT Zoltan_Struct* Zoltan_Create(MPI_Comm user) {
     if (zz == nullptr || user == MPI_COMM_NULL) return zz;
     // A handle without a state is Zoltan's alone. It refuses LB_METHOD=RRCB, and so the program
     // knows.
+    bool is_everywhere = true;
     guarded("Zoltan_Create", nullptr, [&] {
-        create_state(zz, user);
+        is_everywhere = create_state(zz, user);
         return ZOLTAN_OK;
     });
-    return zz;
+    return is_everywhere ? zz : nullptr;
 }
 
 RRCB_EXPORT Zoltan_Struct* Zoltan_Copy(Zoltan_Struct const* from) {

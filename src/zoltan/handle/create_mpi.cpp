@@ -4,12 +4,14 @@
 #include "collective/communicator.hpp"
 #include "zoltan/handle/environment.hpp"
 #include "zoltan/handle/replacement.hpp"
+#include "zoltan/handle/roll_call_mpi.hpp"
 #include "zoltan/handle/state.hpp"
 #include "zoltan/real/message.hpp"
 #include "zoltan/real/real_zoltan.hpp"
 
 #include <atomic>
 #include <memory>
+#include <new>
 #include <utility>
 
 namespace rrcb::zoltan {
@@ -24,16 +26,35 @@ struct Ballot {
     int does_not_ask = 0;
 };
 
-Ballot vote_on_environment(bool asks, const Participant& self) {
-    const int num_ranks = mpi::size_of(self.comm);
-    Ballot ballot{self.failed() ? num_ranks - mpi::rank_of(self.comm) : 0,
-                  real_zoltan()->serves_rrcb ? 0 : 1, asks ? 1 : 0, asks ? 0 : 1};
-    static_assert(sizeof ballot == 4 * sizeof(int));
-    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &ballot, 4, MPI_INT, MPI_MAX, self.comm),
-               "MPI_Allreduce");
-    if (ballot.failing_rank_from_last > 0)
-        fail_together(num_ranks - ballot.failing_rank_from_last, self);
-    return ballot;
+/// What the ranks exchange by nonblocking calls, which write to it for as long as they are pending.
+struct Exchange {
+    MPI_Comm duplicate = MPI_COMM_NULL;
+    Ballot ballot;
+};
+
+/// Memory of a thread for one exchange at a time; replaced where calls stay pending.
+thread_local Exchange first_exchange;
+thread_local Exchange* exchange = &first_exchange;
+
+void leave_pending() {
+    auto* unused = new (std::nothrow) Exchange;
+    if (unused != nullptr) exchange = unused;
+}
+
+/// Reduces the ballots of all ranks, on the duplicate: calls of the program cannot meet these
+/// there. Returns false if some ranks take no part.
+bool vote_on_environment(bool asks, RollCall& roll_call, Participant& self) {
+    const int from_last = self.failed() ? mpi::size_of(self.comm) - mpi::rank_of(self.comm) : 0;
+    exchange->ballot = {from_last, real_zoltan()->serves_rrcb ? 0 : 1, asks ? 1 : 0, asks ? 0 : 1};
+    static_assert(sizeof(Ballot) == 4 * sizeof(int));
+    const bool has_duplicate = exchange->duplicate != MPI_COMM_NULL;
+    MPI_Request request = MPI_REQUEST_NULL;
+    const int code = MPI_Iallreduce(MPI_IN_PLACE, &exchange->ballot, 4, MPI_INT, MPI_MAX,
+                                    has_duplicate ? exchange->duplicate : self.comm, &request);
+    // What failed may be pending nonetheless.
+    const bool are_all_here = roll_call.complete(request, self);
+    if (are_all_here) mpi::check(code, "MPI_Iallreduce");
+    return are_all_here;
 }
 
 void warn_once_of_difference(int rank) {
@@ -56,9 +77,15 @@ struct Draft {
     bool asks_for_replacement = false;
 };
 
-/// Makes them. All ranks duplicate the communicator, whatever fails on one of them.
-void make(Draft& draft, const Zoltan_Struct* zz, MPI_Comm user, Participant& self) {
-    self.check(MPI_Comm_dup(user, &draft.duplicate), "MPI_Comm_dup");
+/// Makes them. All ranks duplicate the communicator, whatever fails on one of them. Returns false
+/// if some ranks take no part.
+bool make(Draft& draft, const Zoltan_Struct* zz, MPI_Comm user, RollCall& roll_call,
+          Participant& self) {
+    *exchange = {};
+    MPI_Request request = MPI_REQUEST_NULL;
+    self.check(MPI_Comm_idup(user, &exchange->duplicate, &request), "MPI_Comm_idup");
+    if (!roll_call.complete(request, self)) return false;
+    draft.duplicate = exchange->duplicate;
     self.attempt([&] {
         State& state = draft.state;
         state.communicator = std::make_unique<Communicator>(draft.duplicate);
@@ -69,6 +96,7 @@ void make(Draft& draft, const Zoltan_Struct* zz, MPI_Comm user, Participant& sel
         draft.asks_for_replacement = is_replacement_asked();
         add_state(zz, std::move(state));
     });
+    return true;
 }
 
 /// Frees the communicator together with the other ranks.
@@ -80,17 +108,28 @@ void discard(Draft& draft, const Zoltan_Struct* zz) {
 
 }  // namespace
 
-void create_state(const Zoltan_Struct* zz, MPI_Comm user) {
+bool create_state(const Zoltan_Struct* zz, MPI_Comm user) {
+    RollCall roll_call(user);
     Draft draft;
     Participant self{user};
-    make(draft, zz, user, self);
     try {
-        const Ballot ballot = vote_on_environment(draft.asks_for_replacement, self);
-        if (ballot.leaves_all_to_zoltan != 0) return discard(draft, zz);
+        if (!make(draft, zz, user, roll_call, self) ||
+            !vote_on_environment(draft.asks_for_replacement, roll_call, self)) {
+            leave_pending();
+            return false;
+        }
+        const Ballot& ballot = exchange->ballot;
+        if (ballot.failing_rank_from_last > 0)
+            fail_together(mpi::size_of(user) - ballot.failing_rank_from_last, self);
+        if (ballot.leaves_all_to_zoltan != 0) {
+            discard(draft, zz);
+            return true;
+        }
         State& state = *find_state(zz);
         if (ballot.asks_for_replacement != 0) replace_rcb(state);
         if (ballot.asks_for_replacement == ballot.does_not_ask)
             warn_once_of_difference(state.communicator->rank());
+        return true;
     } catch (...) {
         discard(draft, zz);
         throw;
@@ -106,7 +145,8 @@ void copy_state(const Zoltan_Struct* to, const Zoltan_Struct* from) {
     const bool fits = copy != nullptr && is_congruent(*copy->communicator, *source->communicator);
     if (!fits) {
         remove_state(to);
-        create_state(to, source->communicator->get());
+        if (!create_state(to, source->communicator->get()))
+            throw Error(ErrorCode::mpi, "some ranks do not answer");
     }
     Participant self{source->communicator->get()};
     self.attempt([&] { copy_contents(*find_state(to), *source); });

@@ -10,8 +10,11 @@ namespace rrcb::zoltan {
 /// It is on none where Zoltan's functions come from several libraries on any rank. RRCB_REPLACE on
 /// one rank holds on all.
 ///
+/// Returns false if some ranks do not run the plug-in, which RollCall has reported. The real
+/// Zoltan_Create must have returned: it duplicates the communicator, so all ranks have been in it.
+///
 /// Collective over `user`: one duplication, one reduction. Throws Error on all ranks alike.
-void create_state(const Zoltan_Struct* zz, MPI_Comm user);
+bool create_state(const Zoltan_Struct* zz, MPI_Comm user);
 
 /// Copies the state of one handle to another, if the plug-in has it.
 ///

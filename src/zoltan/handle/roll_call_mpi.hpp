@@ -1,0 +1,45 @@
+#pragma once
+
+#include "collective/participant.hpp"
+
+#include <mpi.h>
+
+#include <chrono>
+#include <vector>
+
+namespace rrcb::zoltan {
+
+/// Waits for all ranks of a communicator, of which some may lack the plug-in, up to a time limit.
+///
+/// The limit is RRCB_AGREE_SECONDS, 20 by default; 0 means none. Its last quarter serves to find
+/// out which ranks are missing. The clock starts with the object: make it when every rank is known
+/// to be in the call, so that a late rank is not taken for one without the plug-in.
+class RollCall {
+  public:
+    explicit RollCall(MPI_Comm comm);
+
+    /// Completes a nonblocking collective call. Returns false if some ranks take no part in it.
+    ///
+    /// Then the lowest rank with the plug-in prints which ranks have none, and all ranks with it
+    /// raise MPI_ERR_OTHER on the communicator: by default that ends the program. The collective
+    /// call is left pending, and its buffers must stay.
+    bool complete(MPI_Request request, Participant& self);
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    /// Tests the request until it is complete, the time is over, or `is_enough()`.
+    template <typename Enough>
+    bool test_until(Clock::time_point end, MPI_Request& request, Participant& self, Enough enough);
+    bool call_ranks(MPI_Request& request, Participant& self);
+    bool receive_call();
+    void report();
+
+    MPI_Comm comm_;
+    Clock::time_point start_;
+    std::chrono::duration<double> limit_;
+    std::vector<char> present_;  ///< a flag for each rank
+    std::size_t num_present_ = 0;
+};
+
+}  // namespace rrcb::zoltan

@@ -78,10 +78,9 @@ RegionTree tree_of(const Options& options, const Verdict& verdict, double weight
 }  // namespace
 
 bool is_wide(const Options& options, int num_ranks) {
-    const bool has_statistics =
-        options.domain == DomainKind::analytic || options.domain == DomainKind::learned;
-    return std::min(options.num_parts, num_ranks) > options.central_parts && has_statistics &&
-           is_refined(options) && options.grouped_axes.empty() && !are_cuts_limited(options);
+    return std::min(options.num_parts, num_ranks) > options.central_parts &&
+           options.domain == DomainKind::analytic && is_refined(options) &&
+           options.grouped_axes.empty() && !are_cuts_limited(options);
 }
 
 Options region_options(const Options& options) {

@@ -199,7 +199,7 @@ def _literal_midpoint(evidence: Evidence) -> Iterator[Claim]:
 
 def _learned(evidence: Evidence) -> Iterator[Claim]:
     found = lasting(evidence.results.cycle)
-    text = "comparisons/run --domains compares a learned one"
+    text = "comparisons/studies/learned trains one"
     analytic, sampled = found.get("rrcb[refine=none]"), found.get(STANDARD)
     if analytic and sampled:
         text += f"; the analytic one, without random points, leaves {analytic['most'].number:.4f}"

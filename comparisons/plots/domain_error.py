@@ -21,12 +21,10 @@ from results import read_all
 CASE = ["cloud", "dim", "parts", "kind"]
 LEAST_ERROR = 1e-6  # of what is divided exactly
 LATTICE = "lattice"  # no density helps there
-LEARNED, ANALYTIC = "learned", "analytic"
-FREE_SURFACES = ("slope", "run_out", "polygon", "scene")
+ANALYTIC = "analytic"
 KINDS = {  # the method whose look the kind has, and its line
     "box": ("zoltan-rib", (0, (5, 1, 1, 1))),
     ANALYTIC: ("rrcb", "-"),
-    LEARNED: ("rrcb-learned", "-"),
     "counts": ("zoltan-hsfc", "--"),
     "samples": ("rrcb-sampled", "-."),
     "floor": ("zoltan-rcb", ":"),
@@ -88,19 +86,6 @@ def _text(logs: pd.Series, case: tuple) -> str:
     return spread_of(logs.loc[case]).text(2)
 
 
-def verdict(errors: pd.DataFrame) -> str:
-    """The learned domain beside the analytic one, in 2-D."""
-    logs = ratios(errors[errors["dim"] == 2], LEARNED)
-    clouds = logs.index.get_level_values("cloud")
-    is_free = np.array([cloud.startswith(FREE_SURFACES) for cloud in clouds])
-    worst = np.exp(logs.groupby("cloud").mean()).idxmax()
-    return (
-        f"learned / analytic in 2-D: {spread_of(logs[is_free]).text(3)} at free surfaces,"
-        f" {spread_of(logs).text(3)} on all clouds, at most"
-        f" {spread_of(logs.xs(worst, level='cloud')).text(3)} ({worst})."
-    )
-
-
 def draw_errors(means: pd.DataFrame) -> Figure:
     """A panel per dimension and number of parts."""
     dimensions, parts = (sorted(means[name].unique()) for name in ("dim", "parts"))
@@ -134,7 +119,7 @@ def main() -> None:
     errors = errors_of(read_all(directory / "domains.csv"))
     plot.use_style()
     plot.save(draw_errors(mean_errors(errors)), directory / "domains.png")
-    text = f"{verdict(errors)}\n\n{table_of(errors)}\n"
+    text = table_of(errors) + "\n"
     (directory / "domains.md").write_text(text)
     print(text)
 

@@ -1,6 +1,5 @@
 #include "domain_comparison.hpp"
 
-#include "bisection/learned_domain.hpp"
 #include "error_sources_mpi.hpp"
 
 #include <rrcb/bisection.hpp>
@@ -22,29 +21,14 @@ SupportMesh mesh_over(const Points& points, int cells_per_axis) {
     return rrcb::make_support_mesh(rrcb::bounding_box(points), points.dimension, cells_per_axis);
 }
 
-/// The cells as the root gets them.
-rrcb::CellSet cells_at_root(const Points& points, int cells_per_axis) {
-    rrcb::CellSet set;
-    const SupportMesh mesh = mesh_over(points, cells_per_axis);
-    set.cells = lean_cells(points, mesh);
-    set.heaviest = points.weights.empty() ? 1 : std::ranges::max(points.weights);
-    set.blocks = {{0, set.cells.size(), mesh}};
-    return set;
-}
-
 StatisticalDomain boxes(const Points& points, int cells_per_axis) {
     return box_domain(rrcb::cell_moments(points, mesh_over(points, cells_per_axis)),
                       points.dimension, std::sqrt(3.0));
 }
 
 StatisticalDomain analytic(const Points& points, int cells_per_axis) {
-    return rrcb::analytic_domain(cells_at_root(points, cells_per_axis).cells, points.dimension,
-                                 rrcb::bounding_box(points));
-}
-
-StatisticalDomain learned(const Points& points, int cells_per_axis) {
-    return rrcb::learned_domain(cells_at_root(points, cells_per_axis), points.dimension,
-                                rrcb::bounding_box(points));
+    return rrcb::analytic_domain(lean_cells(points, mesh_over(points, cells_per_axis)),
+                                 points.dimension, rrcb::bounding_box(points));
 }
 
 StatisticalDomain counts(const Points& points, int cells_per_axis) {
@@ -140,8 +124,8 @@ std::vector<int> lean_meshes(int dimension, bool quick) {
 const std::vector<DomainMaker>& domain_makers() {
     static const std::vector<DomainMaker> makers = {
         {"box", full_record, boxes},       {"analytic", lean_record, analytic},
-        {"learned", lean_record, learned}, {"counts", count_record, counts},
-        {"samples", full_record, samples}, {"floor", floor_record, floor_of},
+        {"counts", count_record, counts},  {"samples", full_record, samples},
+        {"floor", floor_record, floor_of},
     };
     return makers;
 }

@@ -17,7 +17,7 @@ struct DomainMaker {
     rrcb::StatisticalDomain (*make)(const rrcb::Points& points, int cells_per_axis);
 };
 
-/// Boxes of the moments, analytic, learned, counts, samples of the paper; last the true shares of
+/// Boxes of the moments, analytic, counts, samples of the paper; last the true shares of
 /// sub-cells, which no guess within cells of that size can do better than.
 const std::vector<DomainMaker>& domain_makers();
 

@@ -53,11 +53,6 @@ const std::vector<Entry>& entries() {
          DomainKind::analytic,
          Refine::automatic,
          {"mesh", "cut", "refine", "tol", "reuse", "central"}},
-        {"rrcb-learned",
-         "RRCB",
-         DomainKind::learned,
-         Refine::automatic,
-         {"mesh", "cut", "refine", "tol", "reuse"}},
         {"rrcb-exact", "RRCB", DomainKind::analytic, Refine::exact, {"mesh"}},
         {"rrcb-arrays",
          on_arrays,
@@ -180,7 +175,7 @@ std::vector<Method> default_methods() {
             for (const char* setting : {"[tol=1.1]", "[tol=1.05]", "", "[tol=1.001]"}) {
                 methods.push_back(read_method(name + setting));
             }
-        } else if (name != "rrcb-learned") {  // in which little would differ from rrcb
+        } else {
             methods.push_back(read_method(name));
         }
     }

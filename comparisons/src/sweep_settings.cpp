@@ -48,7 +48,6 @@ std::vector<Method> cost_settings() {
         settings.push_back(std::move(method));
     }
     add_rrcb(settings);
-    settings.push_back(read_method("rrcb-learned"));
     settings.push_back(read_method("rrcb-arrays"));
     return settings;
 }

@@ -11,9 +11,7 @@ namespace rrcb {
 enum class DomainKind {
     analytic,  ///< each cell a smooth density with the cell's moments: no points, no noise
     sampled,  ///< pseudo-random points in mean +- multiplier * sigma of each cell: the paper's RRCB
-    points,   ///< the points themselves, all gathered at the root: the paper's RCB, for reference
-    learned   ///< as analytic, but where the cells around a cell tell more of how its points lie, a
-              ///< learned density with the cell's moments: at free surfaces, in 2-D
+    points    ///< the points themselves, all gathered at the root: the paper's RCB, for reference
 };
 
 /// Where a box is cut across its longest axis.
@@ -24,8 +22,7 @@ enum class CutRule {
 
 /// Accuracy to which the estimated cuts are moved by what the ranks really hold.
 enum class Refine {
-    automatic,  ///< tolerance for analytic and learned domains; none for sampled, the paper's
-                ///< method
+    automatic,  ///< tolerance for analytic domains; none for sampled, the paper's method
     none,       ///< not at all: the estimate from the statistics stands
     tolerance,  ///< until the measured imbalance is within `imbalance_tolerance`
     exact       ///< to the weighted median: each cut within the weight of one object
@@ -78,7 +75,7 @@ struct Options {
     /// many regions, a power of two, and each cut below them is found by a rank of its parts; with
     /// Refine::exact, and once more where the tolerance is missed, each cut is. A rank then gets
     /// the cuts between the regions, those of nodes in which it has points, and those on the way to
-    /// its own parts, see Cuts::nodes. No effect with domains other than analytic and learned, with
+    /// its own parts, see Cuts::nodes. No effect with domains other than analytic, with
     /// CutRule::midpoint, Refine::none, `min_width`, `grid` or `grouped_axes`.
     int central_parts = 64;
 

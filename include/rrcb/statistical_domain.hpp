@@ -45,17 +45,6 @@ struct StatisticalDomain {
 RRCB_API StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension,
                                            const Box& box);
 
-/// The analytic domain of the cells of one mesh, in its order, but for those of which the cells
-/// around them tell more. Not collective.
-///
-/// Such a cell, of at least 16 points, becomes 8 x 8 uniform patches: a prior that was learned from
-/// other clouds, by the moments of 3 x 3 cells, times exp(a x + b x^2 + c y + d y^2), so that mean
-/// and deviation are those of the cell. It is taken only where it tells so much more than an even
-/// prior that as many points as the cell has would show it. In 3-D, and along a mesh of no extent,
-/// all cells are analytic.
-RRCB_API StatisticalDomain learned_domain(std::span<const CellMoments> cells,
-                                          const SupportMesh& mesh, const Box& box);
-
 /// Pseudo-random points of equal weight, uniform in mean +- multiplier * sigma of each cell.
 ///
 /// `sample_fraction` times the number of real points in all, shared out over the cells in

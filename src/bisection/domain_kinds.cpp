@@ -1,7 +1,5 @@
 #include "bisection/domain_kinds.hpp"
 
-#include "bisection/learned_domain.hpp"
-
 #include <rrcb/error.hpp>
 
 #include <string>
@@ -15,16 +13,12 @@ StatisticalDomain build_analytic(const CellSet& set, int dimension, const Box& b
     return analytic_domain(set.cells, dimension, box);
 }
 
-StatisticalDomain build_learned(const CellSet& set, int dimension, const Box& box, const Options&) {
-    return learned_domain(set, dimension, box);
-}
-
 StatisticalDomain build_sampled(const CellSet& set, int dimension, const Box&,
                                 const Options& options) {
     return sampled_domain(set.cells, dimension, options);
 }
 
-// Extents of an analytic or a learned domain are estimates. The sampled domain stands for the
+// Extents of an analytic domain are estimates. The sampled domain stands for the
 // paper's method, which refines nothing.
 constexpr DomainTraits domain_kinds[] = {
     {.kind = DomainKind::analytic,
@@ -35,14 +29,6 @@ constexpr DomainTraits domain_kinds[] = {
      .automatic_refine = Refine::tolerance,
      .share_of_longest = 0.9,
      .build = build_analytic},
-    {.kind = DomainKind::learned,
-     .sends_points = false,
-     .has_lean_cells = true,
-     .builds_on_last = true,
-     .is_random = false,
-     .automatic_refine = Refine::tolerance,
-     .share_of_longest = 0.9,
-     .build = build_learned},
     {.kind = DomainKind::sampled,
      .sends_points = false,
      .has_lean_cells = false,

@@ -8,22 +8,13 @@
 
 namespace rrcb {
 
-/// Consecutive cells of a CellSet that are of one support mesh, whose numbers they have.
-struct MeshBlock {
-    std::size_t begin;
-    std::size_t end;
-    SupportMesh mesh;
-};
-
 /// Cells of several ranks, of their support meshes or of a lattice.
 ///
 /// The lattice of an exponent e divides all of space into cubes with edges of 2^e and corners at
 /// multiples of 2^e, so that the cubes of a greater exponent are unions of those of a smaller one.
 struct CellSet {
     std::vector<CellMoments> cells;
-    int exponent = no_lattice;        ///< the greatest of those that cells were merged on
-    double heaviest = 0;              ///< weight of a point, where the cells' counts are not known
-    std::vector<MeshBlock> blocks{};  ///< of the cells that were not merged, in their order
+    int exponent = no_lattice;  ///< the greatest of those that cells were merged on
 
     static constexpr int no_lattice = std::numeric_limits<int>::min();
 };

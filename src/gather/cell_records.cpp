@@ -171,9 +171,7 @@ CellSet read_cells(std::span<const double> records, int dimension) {
             take_lattice(records, count, dimension, static_cast<int>(block.exponent), all);
             continue;
         }
-        const std::size_t begin = all.cells.size();
         const SupportMesh mesh = take_mesh(records, dimension);
-        all.blocks.push_back({begin, begin + count, mesh});
         if (form == Form::lean) {
             const auto packed = take(records, static_cast<std::size_t>(block.num_packed));
             unpack_cells({block.are_counts != 0, static_cast<int>(block.exponent)},

@@ -183,9 +183,7 @@ void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t 
 StatisticalDomain build_domain(const Contribution& all, const Options& options, int dimension) {
     const DomainTraits& traits = traits_of(options.domain);
     if (traits.sends_points) return read_points(all.points, dimension);
-    CellSet set = read_cells(all.records, dimension);
-    set.heaviest = all.summary.heaviest;
-    return traits.build(set, dimension, all.summary.box, options);
+    return traits.build(read_cells(all.records, dimension), dimension, all.summary.box, options);
 }
 
 }  // namespace rrcb

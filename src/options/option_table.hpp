@@ -79,9 +79,7 @@ inline constexpr Word domain_words[] = {
     {"SAMPLED", static_cast<int>(DomainKind::sampled),
      "pseudo-random points with the cell's moments, the paper's RRCB"},
     {"POINTS", static_cast<int>(DomainKind::points),
-     "the points themselves, all gathered at the root, the paper's RCB"},
-    {"LEARNED", static_cast<int>(DomainKind::learned),
-     "as ANALYTIC, but where the cells around a cell tell more, a learned density"}};
+     "the points themselves, all gathered at the root, the paper's RCB"}};
 
 inline constexpr Word cut_rule_words[] = {
     {"WEIGHTED", static_cast<int>(CutRule::weighted_fraction),
@@ -89,8 +87,7 @@ inline constexpr Word cut_rule_words[] = {
     {"MIDPOINT", static_cast<int>(CutRule::midpoint), "at that share of the extent"}};
 
 inline constexpr Word refine_words[] = {
-    {"AUTO", static_cast<int>(Refine::automatic),
-     "TOLERANCE with ANALYTIC and LEARNED, NONE with SAMPLED"},
+    {"AUTO", static_cast<int>(Refine::automatic), "TOLERANCE with ANALYTIC, NONE with SAMPLED"},
     {"NONE", static_cast<int>(Refine::none), "the estimate stands"},
     {"TOLERANCE", static_cast<int>(Refine::tolerance),
      "until the imbalance is within IMBALANCE_TOL"},

@@ -65,7 +65,7 @@ Options refining(Refine refine) {
 
 TEST(FailingMemory, in_estimated_cuts) {
     for (const DomainKind domain :
-         {DomainKind::analytic, DomainKind::sampled, DomainKind::points, DomainKind::learned}) {
+         {DomainKind::analytic, DomainKind::sampled, DomainKind::points}) {
         Options options = refining(Refine::none);
         options.domain = domain;
         fail_in_balance(options);

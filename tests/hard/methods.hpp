@@ -16,8 +16,7 @@ struct Method {
     bool balances() const { return refine != Refine::none || domain == DomainKind::points; }
     /// A call that starts from the cuts of the one before may stop at them.
     bool keeps_good_cuts() const {
-        return (domain == DomainKind::analytic || domain == DomainKind::learned) &&
-               refine == Refine::tolerance;
+        return domain == DomainKind::analytic && refine == Refine::tolerance;
     }
     double tolerance() const;  ///< of what `balances`
 };
@@ -33,8 +32,6 @@ inline constexpr std::array methods = {
     Method{DomainKind::analytic, Refine::none, "ANALYTIC", "NONE"},
     Method{DomainKind::analytic, Refine::tolerance, "ANALYTIC", "TOLERANCE"},
     Method{DomainKind::analytic, Refine::exact, "ANALYTIC", "EXACT"},
-    Method{DomainKind::learned, Refine::none, "LEARNED", "NONE"},
-    Method{DomainKind::learned, Refine::tolerance, "LEARNED", "TOLERANCE"},
     Method{DomainKind::sampled, Refine::none, "SAMPLED", "NONE"},
     Method{DomainKind::sampled, Refine::tolerance, "SAMPLED", "TOLERANCE"},
     Method{DomainKind::sampled, Refine::exact, "SAMPLED", "EXACT"},

@@ -23,9 +23,7 @@ TEST(Rebalances, hold_what_they_held) {
         coordinates = moving_cloud(step);
         const Points points = interleaved_points(coordinates, 2, weights);
         const bool reuses = step % 3 == 1;
-        options.domain = step % 5 == 2   ? DomainKind::sampled
-                         : step % 5 == 3 ? DomainKind::learned
-                                         : DomainKind::analytic;
+        options.domain = step % 5 == 2 ? DomainKind::sampled : DomainKind::analytic;
         options.refine = step % 2 == 0 ? Refine::tolerance : Refine::exact;
         const Balance result = reuses ? balance(points, options, MPI_COMM_WORLD, cuts)
                                       : balance(points, options, MPI_COMM_WORLD);

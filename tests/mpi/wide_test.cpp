@@ -284,7 +284,6 @@ TEST(Wide, all_ranks_get_all_cuts_where_the_call_asks_for_something_else) {
     }
     Options planes = wide_options(2);
     planes.plain_cuts = true;
-    planes.domain = DomainKind::learned;
     EXPECT_FALSE(is_whole(balance(points, planes, MPI_COMM_WORLD).cuts));
 }
 

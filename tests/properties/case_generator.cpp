@@ -31,7 +31,7 @@ rc::Gen<Case::Shape> any_shape() {
                               Weights::one_giant, Weights::zero)),
         gen::set(&Shape::owners, gen::element(Owners::scattered, Owners::blocks, Owners::one_rank)),
         gen::set(&Shape::num_parts, gen::inRange<std::int32_t>(1, 14)),
-        gen::set(&Shape::domain, gen::element(DomainKind::analytic, DomainKind::learned,
+        gen::set(&Shape::domain, gen::element(DomainKind::analytic, DomainKind::analytic,
                                               DomainKind::points, DomainKind::sampled)),
         gen::set(&Shape::refine,
                  gen::element(Refine::automatic, Refine::exact, Refine::tolerance, Refine::none)),

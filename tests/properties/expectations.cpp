@@ -73,8 +73,7 @@ bool is_exact(const Options& options) {
 
 bool is_to_tolerance(const Options& options) {
     const bool by_default =
-        options.refine == Refine::automatic &&
-        (options.domain == DomainKind::analytic || options.domain == DomainKind::learned);
+        options.refine == Refine::automatic && options.domain == DomainKind::analytic;
     return options.cut_rule == CutRule::weighted_fraction &&
            (is_exact(options) || by_default || options.refine == Refine::tolerance);
 }

@@ -48,7 +48,7 @@ void set_part_sizes(Program& program, const std::vector<std::int32_t>& sizes) {
 }
 
 void set_parameters(Program& program, const Case& input) {
-    constexpr std::array domains = {"ANALYTIC", "SAMPLED", "POINTS", "LEARNED"};
+    constexpr std::array domains = {"ANALYTIC", "SAMPLED", "POINTS"};
     constexpr std::array refinements = {"AUTO", "NONE", "TOLERANCE", "EXACT"};
     const Case::Shape& shape = input.shape;
     program.set("LB_METHOD", "RRCB");

@@ -147,10 +147,6 @@ TEST(CellRecords, come_back_with_their_boxes) {
     const CellSet read = read_cells(records, 2);
     ASSERT_EQ(read.cells.size(), cells.size() + merged.cells.size());
     EXPECT_EQ(read.exponent, merged.exponent);
-    ASSERT_EQ(read.blocks.size(), 1u);
-    EXPECT_EQ(read.blocks[0].begin, 0u);
-    EXPECT_EQ(read.blocks[0].end, cells.size());
-    EXPECT_EQ(read.blocks[0].mesh.cells, mesh.cells);
     for (std::size_t i = 0; i < cells.size(); ++i) {
         EXPECT_EQ(read.cells[i].moments.mean, cells[i].moments.mean);
         EXPECT_EQ(read.cells[i].box.lower, cells[i].box.lower);

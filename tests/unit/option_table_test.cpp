@@ -53,7 +53,7 @@ TEST(OptionTable, writes_what_it_reads) {
     const std::vector<std::pair<std::string_view, std::vector<std::string>>> texts = {
         {"num_parts", {"AUTO", "1", "2147483647"}},
         {"support_mesh", {"AUTO", "1", "4096"}},
-        {"domain", {"ANALYTIC", "SAMPLED", "POINTS", "LEARNED"}},
+        {"domain", {"ANALYTIC", "SAMPLED", "POINTS"}},
         {"cut_rule", {"WEIGHTED", "MIDPOINT"}},
         {"refine", {"AUTO", "NONE", "TOLERANCE", "EXACT"}},
         {"coincident", {"TOGETHER", "DIVIDE"}},

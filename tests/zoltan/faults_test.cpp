@@ -131,7 +131,7 @@ TEST(Faults, a_missing_callback_is_fatal) {
 TEST(Faults, coordinates_that_are_not_finite_are_fatal) {
     for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(),
                              -std::numeric_limits<double>::infinity()}) {
-        for (const char* domain : {"ANALYTIC", "SAMPLED", "POINTS", "LEARNED"}) {
+        for (const char* domain : {"ANALYTIC", "SAMPLED", "POINTS"}) {
             SCOPED_TRACE(domain);
             FaultyProgram program;
             program.set("RRCB_DOMAIN", domain);

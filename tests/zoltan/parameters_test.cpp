@@ -22,7 +22,7 @@ TEST(Parameters, of_rrcb_are_accepted_in_any_case_with_leading_blanks) {
     for (const char* value : {"AUTO", "auto", "1", "8", "64", "DEFAULT"}) {
         EXPECT_EQ(program.set("RRCB_SUPPORT_MESH", value), ZOLTAN_OK) << value;
     }
-    for (const char* value : {"ANALYTIC", "sampled", "POINTS", "Learned", "DEFAULT"}) {
+    for (const char* value : {"ANALYTIC", "sampled", "POINTS", "DEFAULT"}) {
         EXPECT_EQ(program.set("rrcb_domain", value), ZOLTAN_OK) << value;
     }
     EXPECT_EQ(program.set("RRCB_CUT_RULE", "MIDPOINT"), ZOLTAN_OK);

@@ -3,6 +3,7 @@
 #include "bisection/axis_choice.hpp"
 #include "bisection/bisection.hpp"
 #include "cuts/owned_cuts.hpp"
+#include "cuts/part_share.hpp"
 #include "refinement/sample.hpp"
 
 #include <algorithm>
@@ -116,7 +117,7 @@ void RegionSearch::enter_region(const Regions& regions, const Descent& region, c
 /// Begins to search the cut of a node; goes on to its children where counting does not find it.
 void RegionSearch::enter(const Descent& at, Content&& content) {
     if (content.fragments.empty() && !holds_own_parts(at)) return;
-    if (at.is_part() && content.is_counted) return end_at_part(at, content);
+    if (at.is_part() && content.is_counted && !is_tiny(at)) return end_at_part(at, content);
     const double share = at.is_part() ? 1 : share_below(at);
     if (at.is_part() || (content.weight > 0 && share > 0 && share < 1)) {
         // A vector that is moved keeps its entries where they are.
@@ -167,9 +168,21 @@ RegionSearch::Halves RegionSearch::split_by_parts(const std::vector<Fragment>& f
 
 void RegionSearch::end_at_part(const Descent& at, const Content& content) {
     write_part(content.fragments, at.first_part, points_, parts_);
-    if (!(content.weight > 0) || tree_.owner_of(at) != rank_) return;
-    const double share = (tree_.part_sizes.empty() ? 1.0 : sizes_of(at)[0]) / all_sizes_;
-    imbalance_ = std::max(imbalance_, content.weight / tree_.weight / share);
+    if (tree_.owner_of(at) != rank_) return;
+    imbalance_ = std::max(imbalance_, over_ideal(content.weight, tree_.weight, ideal_share(at)));
+}
+
+/// Share of the weight that a part should have.
+double RegionSearch::ideal_share(const Descent& at) const {
+    return (tree_.part_sizes.empty() ? 1.0 : sizes_of(at)[0]) / all_sizes_;
+}
+
+/// Whether the round-off of what a cut left over may be much of what a part should weigh, so that
+/// only its points tell how heavy it is.
+bool RegionSearch::is_tiny(const Descent& part) const {
+    constexpr double least_share = 0x1p-20;
+    const double share = tree_.part_sizes.empty() ? 1 : ideal_share(part);
+    return share > 0 && share < least_share;
 }
 
 /// The search for the cut of a node in a box before anything is counted, or to weigh a part.
@@ -203,8 +216,8 @@ void RegionSearch::count(const Node& node, std::vector<double>& payload) const {
         const auto& fragments = node.content.fragments;
         const double weight = node.divides_lot ? weight_at(node.search.cut, fragments, points_)
                                                : weight_of(fragments);
-        const double told[] = {mark_of_weight, 1.0 * rank_,
-                               rounded_to(node.search.quantum, weight)};
+        const double quantum = node.divides_lot ? node.search.quantum : 0;
+        const double told[] = {mark_of_weight, 1.0 * rank_, rounded_to(quantum, weight)};
         if (weight > 0) payload.assign(std::begin(told), std::end(told));
         return;
     }

@@ -144,6 +144,8 @@ class RegionSearch {
     double share_below(const Descent& at) const;
     std::span<const double> sizes_of(const Descent& at) const;
     CutTarget target_of(const Descent& at, double weight) const;
+    double ideal_share(const Descent& part) const;
+    bool is_tiny(const Descent& part) const;
     bool holds_own_parts(const Descent& at) const;
     void enter_region(const Regions& regions, const Descent& region, const Descent& at,
                       std::vector<Fragment>&& fragments, const Box& box);

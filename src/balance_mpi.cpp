@@ -4,6 +4,7 @@
 #include "bisection/limited_bisection.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "cuts/cut_limits.hpp"
 #include "cuts/direct_assignment.hpp"
 #include "gather/decision_mpi.hpp"
 #include "gather/earlier_cuts.hpp"
@@ -311,12 +312,23 @@ Balance reuse_spread(const Points& points, const Options& given, const Cuts& pre
     return balance(points, given, nullptr, may_stay, self);
 }
 
-}  // namespace
+/// What a call ends with, and whether another set of axes may be much better.
+struct Outcome {
+    Balance balance;
+    bool may_be_poor = false;
+};
 
-Balance balance(const Points& points, const Options& given, const Cuts* previous, bool may_stay,
-                Participant& self) {
-    if (previous && !is_whole(*previous))
-        return reuse_spread(points, given, *previous, may_stay, self);
+/// True when parts are so uneven that the axes of earlier cuts, which stay, may be why.
+bool may_be_poor(const Report& report, const Options& options) {
+    constexpr double factor = 1.25;
+    const double within_reach = std::max(options.imbalance_tolerance, report.least_imbalance);
+    return is_refined(options) && !are_cuts_limited(options) &&
+           report.measured_imbalance > factor * within_reach;
+}
+
+/// Balances from statistics, or from earlier cuts that are whole. Collective.
+Outcome balance_once(const Points& points, const Options& given, const Cuts* previous,
+                     bool may_stay, Participant& self) {
     Work work;
     work.options.observer = given.observer;
     self.attempt([&] {
@@ -333,7 +345,25 @@ Balance balance(const Points& points, const Options& given, const Cuts* previous
     } else {
         previous ? reuse_together(points, work, self) : divide_together(points, work, self);
     }
-    return std::move(work.result);
+    const bool is_poor = previous && may_be_poor(work.result.report, work.options);
+    return {std::move(work.result), is_poor};
+}
+
+}  // namespace
+
+Balance balance(const Points& points, const Options& given, const Cuts* previous, bool may_stay,
+                Participant& self) {
+    if (previous && !is_whole(*previous))
+        return reuse_spread(points, given, *previous, may_stay, self);
+    Outcome reused = balance_once(points, given, previous, may_stay, self);
+    if (!reused.may_be_poor) return std::move(reused.balance);
+    Balance anew = balance_once(points, given, nullptr, false, self).balance;
+    const double imbalance = reused.balance.report.measured_imbalance;
+    const bool gains = is_worth_moving(imbalance, anew.report.measured_imbalance, given);
+    const int rounds = reused.balance.report.rounds + anew.report.rounds;
+    Balance& best = gains ? anew : reused.balance;
+    best.report.rounds = rounds;
+    return std::move(best);
 }
 
 Balance balance(const Points& points, const Options& options, MPI_Comm comm) {

@@ -105,9 +105,14 @@ RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm 
 /// then go to the ranks of the parts, and memory follows from the parts that the points of a rank
 /// are in.
 ///
-/// The other axes of `previous` stay. `previous` must be the same on every rank, or what each rank
-/// got by a balance on this communicator, and have the dimension and number of parts asked for.
-/// Points in one place that it divides are counted on the side where the look-up finds them.
+/// The other axes of `previous` stay, unless the imbalance ends above 1.25 times the larger of the
+/// tolerance and Report::least_imbalance. Then cuts are made from statistics as well, of other
+/// axes, except with Options::min_width or Options::grid, and replace those if that gains
+/// something.
+///
+/// `previous` must be the same on every rank, or what each rank got by a balance on this
+/// communicator, and have the dimension and number of parts asked for. Points in one place that it
+/// divides are counted on the side where the look-up finds them.
 /// Report::kept, estimated_imbalance and num_records tell nothing here. Without any points the cuts
 /// stay, and the report is that of a call from nothing.
 RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm comm,

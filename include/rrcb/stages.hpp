@@ -29,8 +29,9 @@ RRCB_API const char* name_of(Stage stage);
 /// Every stage that begins ends before another does, in failing calls too. Some come again in a
 /// call: the broadcast where points stay after new cuts were counted; the refinement where many
 /// ranks make the parts, first of regions, which with Refine::exact are assigned instead; all from
-/// the moments on where earlier cuts that are spread over the ranks do not stay. The functions may
-/// not communicate over the communicator of the call, nor throw, since no rank may fail alone.
+/// the moments on where earlier cuts that are spread over the ranks do not stay, or may be poor.
+/// The functions may not communicate over the communicator of the call, nor throw, since no rank
+/// may fail alone.
 class RRCB_API StageObserver {
   public:
     /// An observer outlives the calls that it observes.

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <string>
@@ -127,6 +129,47 @@ TEST(Reuse, of_a_drifting_cloud_moves_half_of_what_exact_cuts_do_at_most) {
     EXPECT_GT(num_moves, 0);
     EXPECT_LE(moved, moved_by_exact / 2) << num_moves;
     RecordProperty("moved_share_of_exact", std::to_string(moved / moved_by_exact));
+}
+
+/// A few points for each part, of weights over four decades.
+HeldPoints heavy_points(int dimension, int num_parts, std::mt19937_64& engine) {
+    const std::size_t count = static_cast<std::size_t>(num_parts) * (1 + engine() % 12);
+    HeldPoints all{dimension,
+                   test::uniform_cloud(count, dimension, static_cast<unsigned>(engine()))};
+    for (std::size_t i = 0; i < count; ++i)
+        all.weights.push_back(std::pow(10, test::uniform(engine, 0, 4)));
+    all.scatter();
+    return all;
+}
+
+TEST(Reuse, takes_other_axes_if_those_of_earlier_cuts_miss_a_tolerance_by_far) {
+    std::mt19937_64 engine(3);
+    int num_turned = 0;
+    for (int round = 0; round < 200; ++round) {
+        const int dimension = 2 + round % 2;
+        const int num_parts = 2 + static_cast<int>(engine() % 12);
+        Options options = with_parts(num_parts, round % 4 == 0 ? 1.5 : 1.001);
+        options.refine = round % 3 == 0 ? Refine::exact : Refine::tolerance;
+        const Share before(heavy_points(dimension, num_parts, engine));
+        const Cuts first = balance(before.points(), options, MPI_COMM_WORLD).cuts;
+        const HeldPoints all = heavy_points(dimension, num_parts, engine);
+        const Share mine(all);
+        const Balance again = balance(mine.points(), options, MPI_COMM_WORLD, first);
+        const double reached = again.report.measured_imbalance;
+        EXPECT_NEAR(imbalance(weights_by_look_up(all, again.cuts)), reached, 1e-9 * reached);
+        options.refine = Refine::exact;
+        const double exact =
+            balance(mine.points(), options, MPI_COMM_WORLD).report.measured_imbalance;
+        const double least = std::max(options.imbalance_tolerance, again.report.least_imbalance);
+        // Less than a twentieth of what the tolerance allows is no gain.
+        const double no_gain = (options.imbalance_tolerance - 1) / 20 + 1e-9 * exact;
+        EXPECT_LE(reached, std::max(1.25 * least, exact + no_gain));
+        const bool has_turned =
+            !std::ranges::equal(first.tree, again.cuts.tree, {}, &Cut::axis, &Cut::axis);
+        num_turned += has_turned ? 1 : 0;
+    }
+    EXPECT_GT(num_turned, 0);
+    EXPECT_LT(num_turned, 150);
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ struct Bisection {
 /// `part_sizes` are relative, one per part, or empty for equal parts. Cuts lie where `rule` says,
 /// in the ratio of the sizes below and above; those by weight exactly for the piecewise-linear
 /// cumulative weight of the patches. Patches that lie on the plane are divided along the other
-/// axes. Parts of size 0 get an empty region. Not collective.
+/// axes. Parts of size 0 get an empty region. Not collective. Throws Error for a number of parts
+/// below 1, sizes that Options::part_sizes could not be, or a dimension that is none.
 RRCB_API Bisection bisect(StatisticalDomain domain, int num_parts,
                           std::span<const double> part_sizes, CutRule rule);
 

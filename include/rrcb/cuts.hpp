@@ -55,25 +55,34 @@ constexpr int lower_parts(int num_parts) {
     return num_parts / 2;
 }
 
-/// Part of a position; no_part where the cuts that tell it are not known. Not collective; O(depth),
-/// by a logarithm more where the tree is not whole.
+/// Returns the part of a position; no_part if a coordinate is NaN, or if the cuts that decide are
+/// not known.
+///
+/// Not collective; O(depth), by a logarithm more if the tree is not whole. Nothing else is checked:
+/// the cuts are those of a balance, or fulfil what is written at Cut and Cuts.
 RRCB_API Part part_of(const Cuts& cuts, const Vector& position);
 
-/// Part of every point, into `parts` (length points.count). Not collective.
+/// Writes the part of every point into `parts` (length points.count). Not collective.
 ///
-/// Throws Error where the cuts that tell the part of a point are not known.
+/// Throws Error if a coordinate is NaN or infinite, arrays have another length, the points another
+/// dimension than the cuts, the cuts are no tree, or the cuts that decide on a point are not known;
+/// `parts` is void then. Weights are not looked at.
 RRCB_API void assign(const Cuts& cuts, const Points& points, std::span<Part> parts);
 
-/// Region of a part; open sides are +-infinity. Lower faces belong to it, upper faces do not,
-/// but for ties (see Cut). Not collective.
+/// Returns the region of a part; open sides are +-infinity. Lower faces belong to it, upper faces
+/// do not, except for ties (see Cut). Not collective.
 ///
-/// Throws Error where some of the cuts above the part are not known.
+/// The region is the empty box if the cuts leave no position to the part, as they do to parts of
+/// size 0, unless one of them divides points there. Throws Error for a number that is no part, cuts
+/// that are no tree, or if some of the cuts above the part are not known.
 RRCB_API Box box_of(const Cuts& cuts, Part part);
 
-/// Parts whose region a closed box touches, ascending; none for an empty box. Not collective.
+/// Returns the parts whose region a closed box touches, ascending; none for an empty box. Not
+/// collective.
 ///
-/// Where the box holds the place of points that a cut divides, both sides of it are touched. Throws
-/// Error where cuts that may cross the box are not known.
+/// Where the box holds the place of points that a cut divides, both sides of it are touched. A part
+/// whose region is empty is never touched. Throws Error for bounds that are NaN, cuts that are no
+/// tree, or if cuts that may cross the box are not known.
 RRCB_API std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
 
 }  // namespace rrcb

@@ -27,12 +27,12 @@ struct GhostPlan {
 /// again. The plan is the same as by the whole tree.
 ///
 /// A rank needs the points of others whose distance to the region of one of its parts, the closed
-/// box_of(cuts, part), is at most `radius`. So of any two points in the regions of their ranks that
-/// are that near each rank gets the other's. A distance of exactly `radius` counts, and to lose
-/// none by rounding so do those up to 8 units in the last place beyond. Points may lie anywhere,
-/// also outside the regions of their own rank, and are sent to each rank once. Ranks that share a
-/// part need all the points in it of each other. The radius is in the unit of the coordinates,
-/// finite, 0 or more.
+/// box_of(cuts, part), is at most `radius`; none for a part whose region is empty. So of any two
+/// points in the regions of their ranks that are that near each rank gets the other's. A distance
+/// of exactly `radius` counts, and to lose none by rounding so do those up to 8 units in the last
+/// place beyond. Points may lie anywhere, also outside the regions of their own rank, and are sent
+/// to each rank once. Ranks that share a part need all the points in it of each other. The radius
+/// is in the unit of the coordinates, finite, 0 or more.
 ///
 /// Parts lie on ranks_of_part. Memory as there are points to send, 100 bytes for each rank that
 /// they go to or come from, and 5 kB for each 127 cuts that the rank asks for: none grows with the

@@ -11,9 +11,10 @@ namespace rrcb {
 /// The whole tree of cuts of which each rank holds a part.
 ///
 /// Collective over `comm`, that of the balance: one reduction of 32 bytes a part, which every rank
-/// has to hold. Cuts that are whole come back as they are. Throws Error on every rank alike: where
-/// the ranks hold cuts of trees of other dimensions or numbers of parts, where one lacks a cut that
-/// a balance on this communicator would have left with it, or has no memory.
+/// has to hold. Cuts that are whole come back as they are. Throws Error on every rank alike: if
+/// cuts are no tree, those of the ranks are of trees of other dimensions or numbers of parts, whole
+/// trees differ, a rank lacks the cut of a node whose lowest part begins on this rank, or has no
+/// memory.
 RRCB_API Cuts whole_cuts(const Cuts& cuts, MPI_Comm comm);
 
 /// Part of each of any positions, by cuts of which each rank holds some.

@@ -33,7 +33,9 @@ RRCB_API Moments merge(const Moments& a, const Moments& b);
 
 /// Moments of every cell that holds weight, in the order of the cells. Not collective.
 ///
-/// The points must be finite and lie in the box of `mesh`, in any order.
+/// The points must be finite and lie in the box of `mesh`, in any order, which is not checked.
+/// Throws Error for another dimension than that of the mesh, arrays that do not fit together, or
+/// weights that are negative, NaN or infinite.
 ///
 /// Shifted sums (Chan, Golub, LeVeque: Algorithms for computing the sample variance, 1983, section
 /// 3), about the first point of each cell, and in a second pass about the mean where that point

@@ -52,7 +52,8 @@ struct Options {
     CutRule cut_rule = CutRule::weighted_fraction;  ///< where boxes are cut
 
     Refine refine = Refine::automatic;  ///< no effect on DomainKind::points, CutRule::midpoint
-    double imbalance_tolerance = 1.01;  ///< tolerance: heaviest part / mean part to reach, >= 1
+    double imbalance_tolerance = 1.01;  ///< tolerance: heaviest part / mean part to reach, >= 1,
+                                        ///< finite
 
     std::vector<int> grouped_axes;  ///< cross all of the first axis' cuts, then the next axis',
                                     ///< ...; empty: each box across its own longest axis

@@ -19,7 +19,7 @@ struct RankRange {
 ///
 /// num_parts / num_ranks parts each, the remainder one more each on the last ranks; with fewer
 /// parts than ranks a part spreads over consecutive ranks, the ranks left over one more each for
-/// the parts before the last.
+/// the parts before the last. Throws Error unless 0 <= part < num_parts and num_ranks >= 1.
 RRCB_API RankRange ranks_of_part(Part part, int num_parts, int num_ranks);
 
 /// So many points, to or from one rank.
@@ -47,7 +47,7 @@ struct Plan {
 /// `parts` has one entry in 0 ... num_parts - 1 per local point. Memory as there are points that
 /// leave and come, and 100 bytes for each rank that they go to or come from: none grows with the
 /// number of ranks or parts. Throws Error on every rank when some rank names a part outside that
-/// range, or another num_parts.
+/// range, another num_parts, or one below 1.
 RRCB_API Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm comm);
 
 }  // namespace rrcb

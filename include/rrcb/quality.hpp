@@ -13,7 +13,9 @@ namespace rrcb {
 /// collective.
 ///
 /// `part_sizes` are relative, one per part, or empty for equal parts; parts of size 0 are left out
-/// unless they hold weight, then the imbalance is infinite. 1 when there is no weight at all.
+/// unless they hold weight, then the imbalance is infinite. 1 when there is no weight at all; NaN
+/// when the sum of the weights is not finite. Throws Error when there are sizes for another number
+/// of parts.
 RRCB_API double imbalance(std::span<const double> part_weights,
                           std::span<const double> part_sizes = {});
 
@@ -31,8 +33,8 @@ RRCB_API double worst_load_unbalance_percent(std::span<const double> part_weight
 /// Weight of every part over all ranks, length num_parts, on every rank.
 ///
 /// Collective over `comm`: two reductions. `parts` holds one entry in 0 ... num_parts - 1 per local
-/// point; throws Error on all ranks where one holds others, has weights of another length or names
-/// another num_parts.
+/// point; throws Error on all ranks where one holds others, has weights of another length, or names
+/// another num_parts or one below 1.
 RRCB_API std::vector<double> part_weights(const Points& points, std::span<const Part> parts,
                                           int num_parts, MPI_Comm comm);
 

@@ -23,9 +23,10 @@ struct Remap {
 /// Collective over `comm`: one reduction, one gather, one broadcast; or, beyond 64 ranks and 128
 /// parts that lie as ranks_of_part() tells, passes through the ranks, by which no rank hears of all
 /// overlaps and all together find the same numbers in 16 rounds at most. `parts` is the new part of
-/// each local point, `ranks_of_parts` has one entry per part, ascending, with one rank each, the
-/// same on every rank. Throws Error on every rank when one names a part that is none or other ranks
-/// of parts, or has no memory.
+/// each local point, `ranks_of_parts` has one entry per part, ascending, the same on every rank; of
+/// several ranks of a part the first one counts. Throws Error on every rank when one names a part
+/// that is none, ranks of parts that are not as told or other ones than the others, or has no
+/// memory.
 ///
 /// Every rank tells the root its heaviest overlaps, 16 per part it holds, so up to 16 parts all
 /// of them; counts are of what was told. The root finds the permutation that keeps most: up to 128

@@ -113,12 +113,13 @@ RRCB_API int rrcb_balance(rrcb_balancer* balancer, int dimension, size_t count,
 RRCB_API int rrcb_rebalance(rrcb_balancer* balancer, int dimension, size_t count,
                             const double* coordinates, const double* weights, int32_t* parts);
 
-/** Reads the report of the last balance. Not collective. */
+/** Reads the report of the last balance. Not collective. An error before the first. */
 RRCB_API int rrcb_get_report(const rrcb_balancer* balancer, rrcb_report* report);
 
 /** Shows the cuts, which belong to the balancer until it gets others. Not collective.
  *
- *  An error where the balancer holds a part of them only, see rrcb::Cuts. */
+ *  An error before the first balance or rrcb_set_cuts, as of all functions that need cuts, and if
+ *  the balancer holds a part of them only, see rrcb::Cuts. */
 RRCB_API int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts);
 
 /** Gives each rank's balancer all cuts, where each holds a part of them, as rrcb::whole_cuts.
@@ -146,7 +147,8 @@ RRCB_API int rrcb_box_of(const rrcb_balancer* balancer, int32_t part, double* lo
  *  the parts are those of the cuts. Collective. */
 RRCB_API int rrcb_make_plan(rrcb_balancer* balancer, size_t count, const int32_t* parts);
 
-/** Shows the plan, which belongs to the balancer until it makes another. Not collective. */
+/** Shows the plan, which belongs to the balancer until it makes another. Not collective. An error
+ *  before the first, as of rrcb_transfer. */
 RRCB_API int rrcb_get_plan(const rrcb_balancer* balancer, rrcb_plan* plan);
 
 /** Moves a column along the plan, as rrcb::transfer: first the points that stay, then those that

@@ -15,7 +15,8 @@ struct SupportMesh {
     Vector cells_per_length{};  ///< of scaled length; 0 on an axis of zero extent
 };
 
-/// Lays `cells_per_axis` (>= 1) cells over each axis of `box`. Not collective.
+/// Lays `cells_per_axis` cells over each axis of `box`. Not collective. Throws Error for less than
+/// one cell, or a dimension that is none.
 RRCB_API SupportMesh make_support_mesh(const Box& box, int dimension, int cells_per_axis);
 
 /// Cells of a mesh, the product over the axes. Not collective.

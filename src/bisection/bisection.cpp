@@ -4,6 +4,9 @@
 #include "bisection/patches.hpp"
 #include "bisection/point_selection.hpp"
 #include "bisection/weighted_quantile.hpp"
+#include "options/option_table.hpp"
+#include "options/rejection.hpp"
+#include "options/validation.hpp"
 
 #include <rrcb/bisection.hpp>
 
@@ -165,11 +168,14 @@ Bisection bisect(StatisticalDomain domain, const Options& options, bool with_bra
 
 Bisection bisect(StatisticalDomain domain, int num_parts, std::span<const double> part_sizes,
                  CutRule rule) {
+    require(num_parts >= 1, "num_parts must be at least 1");
     Options options;
     options.num_parts = num_parts;
     options.part_sizes.assign(part_sizes.begin(), part_sizes.end());
     if (part_sizes.empty()) options.part_sizes.assign(static_cast<std::size_t>(num_parts), 1.0);
     options.cut_rule = rule;
+    check_dimension(domain.dimension, "the domain");
+    check_part_sizes(options, domain.dimension);
     return bisect(std::move(domain), options, false);
 }
 

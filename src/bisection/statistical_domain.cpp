@@ -1,4 +1,6 @@
 #include "bisection/cell_patches.hpp"
+#include "options/option_table.hpp"
+#include "options/validation.hpp"
 
 #include <rrcb/statistical_domain.hpp>
 
@@ -51,6 +53,7 @@ Box around(const Moments& moments, double multiplier) {
 
 StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension,
                                   const Box& box) {
+    check_dimension(dimension, "the domain");
     const std::vector<double> weights = weights_of(cells);
     const double heavy = least_heavy_weight(weights, dimension);
     StatisticalDomain domain{dimension};
@@ -62,6 +65,9 @@ StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimens
 
 StatisticalDomain sampled_domain(std::span<const CellMoments> cells, int dimension,
                                  const Options& options) {
+    check_dimension(dimension, "the domain");
+    for (const char* name : {"sample_fraction", "sigma_multiplier"})
+        check_value(*find_option(name), options, dimension);
     StatisticalDomain domain{dimension};
     if (cells.empty()) return domain;
     const std::vector<double> weights = weights_of(cells);
@@ -86,6 +92,7 @@ StatisticalDomain sampled_domain(std::span<const CellMoments> cells, int dimensi
 }
 
 StatisticalDomain point_domain(const Points& points) {
+    check_arrays(points);
     StatisticalDomain domain{points.dimension};
     domain.points.reserve(points.count);
     for (LocalIndex i = 0; i < points.count; ++i)

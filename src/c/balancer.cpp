@@ -36,7 +36,7 @@ Cuts copy_of(const rrcb_cuts& given) {
     std::ranges::transform(std::span(given.tree, size), cuts.tree.begin(), [](const rrcb_cut& cut) {
         return Cut{cut.axis, cut.divides, std::to_array(cut.at)};
     });
-    check_cuts(cuts, given.dimension);
+    check_cuts(cuts);
     return cuts;
 }
 
@@ -63,10 +63,30 @@ void require(const void* pointer, const char* name) {
         throw Error(ErrorCode::invalid_argument, std::string(name) + " is null");
 }
 
+void require_arrays(std::size_t count, const void* coordinates, const void* parts) {
+    if (count == 0) return;
+    require(coordinates, "coordinates");
+    require(parts, "parts");
+}
+
+void require_cuts(const rrcb_balancer& own) {
+    if (own.cuts.dimension == 0)
+        throw Error(ErrorCode::invalid_argument,
+                    "the balancer has no cuts yet; call rrcb_balance or rrcb_set_cuts");
+}
+
+void require_plan(const rrcb_balancer& own) {
+    if (!own.plan)
+        throw Error(ErrorCode::invalid_argument,
+                    "the balancer has no plan yet; call rrcb_make_plan");
+}
+
 }  // namespace rrcb::c
 
 using rrcb::c::guarded;
 using rrcb::c::require;
+using rrcb::c::require_cuts;
+using rrcb::c::require_plan;
 
 const char* rrcb_version(void) {
     return rrcb::version();
@@ -98,7 +118,10 @@ int rrcb_set_part_sizes(rrcb_balancer* balancer, size_t count, const double* siz
 int rrcb_get_report(const rrcb_balancer* balancer, rrcb_report* report) {
     return guarded(balancer, [&](const auto& own) {
         require(report, "report");
-        const rrcb::Report& from = own.report;
+        if (!own.report)
+            throw rrcb::Error(rrcb::ErrorCode::invalid_argument,
+                              "the balancer has no report yet; call rrcb_balance");
+        const rrcb::Report& from = *own.report;
         *report = {from.num_points,
                    from.total_weight,
                    from.measured_imbalance,
@@ -115,6 +138,7 @@ int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts) {
                   offsetof(rrcb_cut, at) == offsetof(rrcb::Cut, at));
     return guarded(balancer, [&](const auto& own) {
         require(cuts, "cuts");
+        require_cuts(own);
         if (!is_whole(own.cuts))
             throw rrcb::Error(rrcb::ErrorCode::invalid_argument,
                               "the balancer holds a part of the cuts; call rrcb_gather_cuts on all "
@@ -135,6 +159,7 @@ int rrcb_box_of(const rrcb_balancer* balancer, int32_t part, double* lower, doub
     return guarded(balancer, [&](const auto& own) {
         require(lower, "lower");
         require(upper, "upper");
+        require_cuts(own);
         const rrcb::Box box = rrcb::box_of(own.cuts, part);
         std::ranges::copy(box.lower, lower);
         std::ranges::copy(box.upper, upper);
@@ -144,7 +169,8 @@ int rrcb_box_of(const rrcb_balancer* balancer, int32_t part, double* lower, doub
 int rrcb_get_plan(const rrcb_balancer* balancer, rrcb_plan* plan) {
     return guarded(balancer, [&](const auto& own) {
         require(plan, "plan");
-        const rrcb::Plan& from = own.plan;
+        require_plan(own);
+        const rrcb::Plan& from = *own.plan;
         *plan = {from.num_points,
                  from.num_points - from.export_indices.size() + from.import_indices.size(),
                  from.export_indices.size(),

@@ -8,13 +8,15 @@
 
 #include <mpi.h>
 
+#include <optional>
+
 /// What a program in C holds by a pointer.
 struct rrcb_balancer {
     MPI_Comm comm = MPI_COMM_NULL;
     rrcb::Options options{};
     rrcb::Cuts cuts{};
-    rrcb::Report report{};
-    rrcb::Plan plan{};
+    std::optional<rrcb::Report> report{};
+    std::optional<rrcb::Plan> plan{};
 };
 
 namespace rrcb::c {
@@ -30,6 +32,13 @@ int guarded(Body&& body) noexcept {
 
 /// Throws the Error of a null pointer.
 void require(const void* pointer, const char* name);
+
+/// The same for the arrays of a call, of which points need all.
+void require_arrays(std::size_t count, const void* coordinates, const void* parts);
+
+/// Throws Error unless the balancer has cuts, or a plan.
+void require_cuts(const rrcb_balancer& own);
+void require_plan(const rrcb_balancer& own);
 
 /// The same for functions of a balancer.
 template <class Balancer, class Body>

@@ -1,9 +1,10 @@
+#include "balance_mpi.hpp"
 #include "c/balancer.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/duplicate.hpp"
-
-#include <rrcb/locate.hpp>
-#include <rrcb/transfer.hpp>
+#include "cuts/locate_mpi.hpp"
+#include "cuts/whole_cuts_mpi.hpp"
+#include "lists/plan_mpi.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -13,14 +14,13 @@ namespace rrcb::c {
 
 namespace {
 
-/// View of the arrays of a call. Where one is missing the view is of no use, which all ranks hear
-/// of from the call that gets it.
-Points points_of(int dimension, std::size_t count, const double* coordinates, const double* weights,
-                 const Part* parts) {
+/// View of the arrays of a call, of no use where require_arrays() throws.
+Points points_of(int dimension, std::size_t count, const double* coordinates,
+                 const double* weights) {
     Points points;
     points.dimension = dimension;
     points.count = count;
-    if (count == 0 || coordinates == nullptr || parts == nullptr) return points;
+    if (count == 0 || coordinates == nullptr) return points;
     if (dimension < 1 || dimension > max_dimension) return points;
     const std::size_t length = count * static_cast<std::size_t>(dimension);
     const std::span<const double> each =
@@ -32,14 +32,6 @@ void keep(Balance&& balance, std::span<Part> parts, rrcb_balancer& own) noexcept
     std::ranges::copy(balance.parts, parts.begin());
     own.cuts = std::move(balance.cuts);
     own.report = std::move(balance.report);
-}
-
-/// Parts of a call; a part that is none in place of an array that is missing, so that all ranks
-/// hear of it.
-std::span<const Part> parts_of(std::size_t count, const Part* parts) {
-    static constexpr Part none = -1;
-    if (count > 0 && parts == nullptr) return {&none, 1};
-    return {parts, count};
 }
 
 /// The caller's room for a column.
@@ -64,7 +56,14 @@ void create(MPI_Comm comm, rrcb_balancer** balancer) {
 
 }  // namespace rrcb::c
 
+using rrcb::Participant;
 using rrcb::c::guarded;
+using rrcb::c::keep;
+using rrcb::c::points_of;
+using rrcb::c::require_arrays;
+using rrcb::c::require_cuts;
+using rrcb::c::require_plan;
+using rrcb::mpi::duplicate_of;
 
 int rrcb_create(MPI_Comm comm, rrcb_balancer** balancer) {
     return guarded([&] { rrcb::c::create(comm, balancer); });
@@ -77,34 +76,40 @@ int rrcb_create_fortran(MPI_Fint comm, rrcb_balancer** balancer) {
 int rrcb_balance(rrcb_balancer* balancer, int dimension, size_t count, const double* coordinates,
                  const double* weights, int32_t* parts) {
     return guarded(balancer, [&](auto& own) {
-        const rrcb::Points points =
-            rrcb::c::points_of(dimension, count, coordinates, weights, parts);
-        rrcb::c::keep(rrcb::balance(points, own.options, own.comm), {parts, count}, own);
+        Participant self{duplicate_of(own.comm)};
+        self.attempt([&] { require_arrays(count, coordinates, parts); });
+        const rrcb::Points points = points_of(dimension, count, coordinates, weights);
+        keep(rrcb::balance(points, own.options, nullptr, true, self), {parts, count}, own);
     });
 }
 
 int rrcb_rebalance(rrcb_balancer* balancer, int dimension, size_t count, const double* coordinates,
                    const double* weights, int32_t* parts) {
     return guarded(balancer, [&](auto& own) {
-        const rrcb::Points points =
-            rrcb::c::points_of(dimension, count, coordinates, weights, parts);
-        rrcb::c::keep(rrcb::balance(points, own.options, own.comm, own.cuts), {parts, count}, own);
+        Participant self{duplicate_of(own.comm)};
+        self.attempt([&] {
+            require_cuts(own);
+            require_arrays(count, coordinates, parts);
+        });
+        const rrcb::Points points = points_of(dimension, count, coordinates, weights);
+        keep(rrcb::balance(points, own.options, &own.cuts, true, self), {parts, count}, own);
     });
 }
 
 int rrcb_gather_cuts(rrcb_balancer* balancer) {
-    return guarded(balancer, [&](auto& own) { own.cuts = rrcb::whole_cuts(own.cuts, own.comm); });
+    return guarded(balancer, [&](auto& own) {
+        Participant self{duplicate_of(own.comm)};
+        self.attempt([&] { require_cuts(own); });
+        own.cuts = rrcb::whole_cuts(own.cuts, self);
+    });
 }
 
 int rrcb_assign(const rrcb_balancer* balancer, size_t count, const double* coordinates,
                 int32_t* parts) {
     return guarded(balancer, [&](const auto& own) {
-        if (own.cuts.dimension == 0)
-            throw rrcb::Error(rrcb::ErrorCode::invalid_argument, "the balancer has no cuts yet");
-        if (count > 0) rrcb::c::require(coordinates, "coordinates");
-        if (count > 0) rrcb::c::require(parts, "parts");
-        rrcb::assign(own.cuts,
-                     rrcb::c::points_of(own.cuts.dimension, count, coordinates, nullptr, parts),
+        require_cuts(own);
+        require_arrays(count, coordinates, parts);
+        rrcb::assign(own.cuts, points_of(own.cuts.dimension, count, coordinates, nullptr),
                      {parts, count});
     });
 }
@@ -112,28 +117,44 @@ int rrcb_assign(const rrcb_balancer* balancer, size_t count, const double* coord
 int rrcb_locate(const rrcb_balancer* balancer, size_t count, const double* coordinates,
                 int32_t* parts) {
     return guarded(balancer, [&](const auto& own) {
-        const rrcb::Points positions =
-            rrcb::c::points_of(own.cuts.dimension, count, coordinates, nullptr, parts);
-        std::ranges::copy(rrcb::locate(own.cuts, positions, own.comm), parts);
+        Participant self{duplicate_of(own.comm)};
+        self.attempt([&] {
+            require_cuts(own);
+            require_arrays(count, coordinates, parts);
+        });
+        const rrcb::Points positions = points_of(own.cuts.dimension, count, coordinates, nullptr);
+        std::ranges::copy(rrcb::locate(own.cuts, positions, self), parts);
     });
 }
 
 int rrcb_make_plan(rrcb_balancer* balancer, size_t count, const int32_t* parts) {
     return guarded(balancer, [&](auto& own) {
-        own.plan = rrcb::plan(rrcb::c::parts_of(count, parts), own.cuts.num_parts, own.comm);
+        Participant self{duplicate_of(own.comm)};
+        self.attempt([&] {
+            require_cuts(own);
+            if (count > 0) rrcb::c::require(parts, "parts");
+        });
+        const std::size_t length = parts == nullptr ? 0 : count;
+        own.plan = rrcb::plan({parts, length}, own.cuts.num_parts, self);
     });
 }
 
 int rrcb_transfer(rrcb_balancer* balancer, size_t bytes, const void* from, void* to) {
     return guarded(balancer, [&](auto& own) {
-        const std::size_t length = from == nullptr ? 0 : own.plan.num_points * bytes;
+        Participant self{duplicate_of(own.comm)};
+        self.attempt([&] {
+            require_plan(own);
+            if (own.plan->num_points > 0 && bytes > 0) rrcb::c::require(from, "from");
+        });
+        const rrcb::Plan none;
+        const rrcb::Plan& plan = own.plan ? *own.plan : none;
         const rrcb::detail::ByteColumn column{static_cast<const std::byte*>(from),
-                                              length,
+                                              plan.num_points * bytes,
                                               rrcb::detail::ValueKind::other,
                                               1,
                                               bytes,
                                               to,
                                               rrcb::c::room_at};
-        rrcb::detail::move(own.plan, {&column, 1}, {}, nullptr, own.comm);
+        rrcb::move(plan, {&column, 1}, {}, nullptr, self);
     });
 }

@@ -1,6 +1,8 @@
 #include "cells/binned_points.hpp"
 #include "cells/point_layout.hpp"
 #include "cells/running_sums.hpp"
+#include "options/rejection.hpp"
+#include "options/validation.hpp"
 
 #include <rrcb/moments.hpp>
 
@@ -199,6 +201,8 @@ std::vector<CellMoments> cell_moments(const BinnedPoints& binned) {
 }
 
 std::vector<CellMoments> cell_moments(const Points& points, const SupportMesh& mesh) {
+    check_arrays(points);
+    require(points.dimension == mesh.dimension, "the mesh must have the dimension of the points");
     return cell_moments(bin_by_cell(points, mesh));
 }
 

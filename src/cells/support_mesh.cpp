@@ -1,4 +1,6 @@
 #include "cells/safe_scale.hpp"
+#include "options/rejection.hpp"
+#include "options/validation.hpp"
 
 #include <rrcb/support_mesh.hpp>
 
@@ -18,6 +20,8 @@ double scale_of_lengths(double lower, double upper) {
 }  // namespace
 
 SupportMesh make_support_mesh(const Box& box, int dimension, int cells_per_axis) {
+    check_dimension(dimension, "the mesh");
+    require(cells_per_axis >= 1, "cells_per_axis must be at least 1");
     SupportMesh mesh;
     mesh.dimension = dimension;
     mesh.box = box;

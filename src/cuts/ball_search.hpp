@@ -7,10 +7,12 @@
 #include <iterator>
 #include <limits>
 #include <span>
+#include <vector>
 
 namespace rrcb {
 
-/// Finds the parts whose closed region a ball touches, but for some that are left out.
+/// Finds the parts whose closed region a ball touches, but for some that are left out. A region
+/// that holds no position is touched by none.
 class BallSearch {
   public:
     /// The ranges that are left out ascend and do not touch; the radius is finite, 0 or more.
@@ -19,7 +21,8 @@ class BallSearch {
         : cuts_(cuts),
           reach_(std::min(radius * (1 + 4 * epsilon), std::numeric_limits<double>::max())),
           unit_(reach_ > 0 ? reach_ : 1),
-          left_out_(left_out) {}
+          left_out_(left_out),
+          empty_(empty_parts(cuts)) {}
 
     /// Calls visit(part), and lack(node) where the cut of a node is not known; both ascend. In time
     /// as there are such parts times the depth of the tree.
@@ -59,7 +62,10 @@ class BallSearch {
     void descend(const Descent& at, const Vector& centre, const Vector& apart, Visit&& visit,
                  Lack&& lack) const {
         if (is_left_out(at) || !is_near(apart)) return;
-        if (at.is_part()) return visit(at.first_part);
+        if (at.is_part()) {
+            if (!std::ranges::binary_search(empty_, at.first_part)) visit(at.first_part);
+            return;
+        }
         const Cut* cut = find_cut(cuts_, at.node);
         if (cut == nullptr) return lack(at.node);
         const auto axis = static_cast<std::size_t>(cut->axis);
@@ -75,6 +81,7 @@ class BallSearch {
     double reach_;  ///< the radius, and what rounding may add to a distance
     double unit_;   ///< of lengths, so that their squares do not overflow
     std::span<const PartRange> left_out_;
+    std::vector<Part> empty_;  ///< whose region is empty
 };
 
 }  // namespace rrcb

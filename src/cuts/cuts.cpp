@@ -1,10 +1,14 @@
 #include "cuts/tree.hpp"
 #include "options/rejection.hpp"
+#include "options/validation.hpp"
 
 #include <rrcb/cuts.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
+#include <utility>
 
 namespace rrcb {
 
@@ -16,7 +20,53 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 const Cut& known_cut(const Cuts& cuts, const Descent& at) {
     const Cut* cut = find_cut(cuts, at.node);
     if (cut == nullptr) reject_unknown();
+    require(cut->axis >= 0 && cut->axis < cuts.dimension &&
+                !std::isnan(cut->at[static_cast<std::size_t>(cut->axis)]),
+            "cuts must cross axes of the points at numbers");
     return *cut;
+}
+
+/// Throws Error unless each node has its place in the tree.
+void check_shape(const Cuts& cuts) {
+    check_dimension(cuts.dimension, "cuts");
+    const auto num_nodes = static_cast<std::size_t>(std::max(cuts.num_parts, 1)) - 1;
+    require(cuts.num_parts >= 1 && (is_whole(cuts) ? cuts.tree.size() == num_nodes
+                                                   : cuts.tree.size() == cuts.nodes.size()),
+            "the tree must hold one cut less than there are parts, or the number of each one that "
+            "it holds");
+}
+
+/// True when no position is on the upper side of `lower` and on the lower side of `upper`, which
+/// cross one axis; null where that side is open.
+bool leave_nothing(const Cut* lower, const Cut* upper, int dimension) {
+    if (lower == nullptr && upper == nullptr) return false;
+    if (lower == nullptr) return upper->at[static_cast<std::size_t>(upper->axis)] == -infinity;
+    if (upper == nullptr) return lower->at[static_cast<std::size_t>(lower->axis)] == infinity;
+    const bool holds_divided =
+        upper->divides != 0 &&
+        std::equal(lower->at.begin(), lower->at.begin() + dimension, upper->at.begin());
+    return is_above(*upper, lower->at, dimension) && !holds_divided;
+}
+
+/// Appends the empty parts at or below `at`. Only bounds that meet or are in reverse leave one
+/// empty.
+void append_empty(const Cuts& cuts, const Descent& at, const Box& box, std::vector<Part>& parts) {
+    if (at.is_part()) {
+        bool may_be_empty = false;
+        for (std::size_t a = 0; a < static_cast<std::size_t>(cuts.dimension); ++a)
+            may_be_empty = may_be_empty || !(box.lower[a] < box.upper[a]);
+        if (may_be_empty && is_region_empty(cuts, at.first_part)) parts.push_back(at.first_part);
+        return;
+    }
+    const Cut* cut = find_cut(cuts, at.node);
+    if (cut == nullptr) return;
+    const auto axis = static_cast<std::size_t>(cut->axis);
+    Box below = box;
+    Box above = box;
+    below.upper[axis] = std::min(box.upper[axis], cut->at[axis]);
+    above.lower[axis] = std::max(box.lower[axis], cut->at[axis]);
+    append_empty(cuts, at.lower(), below, parts);
+    append_empty(cuts, at.upper(), above, parts);
 }
 
 }  // namespace
@@ -70,7 +120,37 @@ int depth_of(const Cuts& cuts, std::size_t node) {
     return depth;
 }
 
+bool is_region_empty(const Cuts& cuts, Part part) {
+    // The nearest cuts on both sides, by the order in which they take positions.
+    std::array<const Cut*, max_dimension> lower{};
+    std::array<const Cut*, max_dimension> upper{};
+    for (Descent at = root_of(cuts); !at.is_part();) {
+        const Cut& cut = known_cut(cuts, at);
+        const auto axis = static_cast<std::size_t>(cut.axis);
+        const bool above = part >= at.upper().first_part;
+        if (above && (!lower[axis] || is_above(*lower[axis], cut.at, cuts.dimension)))
+            lower[axis] = &cut;
+        if (!above && (!upper[axis] || is_above(cut, upper[axis]->at, cuts.dimension)))
+            upper[axis] = &cut;
+        at = above ? at.upper() : at.lower();
+    }
+    for (std::size_t a = 0; a < max_dimension; ++a)
+        if (leave_nothing(lower[a], upper[a], cuts.dimension)) return true;
+    return false;
+}
+
+std::vector<Part> empty_parts(const Cuts& cuts) {
+    std::vector<Part> parts;
+    Box everywhere;
+    std::swap(everywhere.lower, everywhere.upper);
+    append_empty(cuts, root_of(cuts), everywhere, parts);
+    return parts;
+}
+
 Part part_of(const Cuts& cuts, const Vector& position) {
+    for (std::size_t a = 0; a < static_cast<std::size_t>(cuts.dimension); ++a)
+        if (std::isnan(position[a])) [[unlikely]]
+            return no_part;
     Descent at = root_of(cuts);
     if (!is_whole(cuts)) [[unlikely]] {
         at = descend(cuts, position, at);
@@ -82,18 +162,29 @@ Part part_of(const Cuts& cuts, const Vector& position) {
 }
 
 Box box_of(const Cuts& cuts, Part part) {
+    check_shape(cuts);
+    if (part < 0 || part >= cuts.num_parts)
+        reject("part " + std::to_string(part) + " is none of the " +
+               std::to_string(cuts.num_parts) + " parts of the cuts");
+    if (is_region_empty(cuts, part)) return {};
     return region_below(root_of(cuts), part,
                         [&](const Descent& at) -> const Cut& { return known_cut(cuts, at); });
 }
 
 std::vector<Part> parts_touching(const Cuts& cuts, const Box& box) {
+    check_shape(cuts);
     std::vector<Part> parts;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(cuts.dimension); ++a)
-        if (!(box.lower[a] <= box.upper[a])) return parts;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(cuts.dimension); ++a) {
+        require(!std::isnan(box.lower[a]) && !std::isnan(box.upper[a]),
+                "the bounds of the box must be numbers, or infinite on open sides");
+        if (box.lower[a] > box.upper[a]) return parts;
+    }
     visit_touching(
         root_of(cuts), box, cuts.dimension,
         [&](const Descent& at) -> const Cut& { return known_cut(cuts, at); },
-        [&](Part part) { parts.push_back(part); });
+        [&](Part part) {
+            if (!is_region_empty(cuts, part)) parts.push_back(part);
+        });
     return parts;
 }
 

@@ -4,6 +4,8 @@
 #include "cuts/known_tree.hpp"
 #include "cuts/point_block.hpp"
 #include "cuts/tree.hpp"
+#include "options/rejection.hpp"
+#include "options/validation.hpp"
 
 #include <algorithm>
 #include <array>
@@ -151,8 +153,9 @@ class HeapLookUp {
                     static_cast<Part>(heap_.parts[static_cast<std::size_t>(parts[i]) - first]);
         }
         if (heap_.is_plain) return;
-        for_each_tied(tied_, columns, length, cuts_.dimension,
-                      [&](LocalIndex i, const Vector& x) { parts[i] = part_of(cuts_, x); });
+        for_each_tied(tied_, columns, length, cuts_.dimension, [&](LocalIndex i, const Vector& x) {
+            parts[i] = descend(cuts_, x, root_of(cuts_)).first_part;
+        });
     }
 
     /// Bins are parts.
@@ -268,18 +271,18 @@ Box box_around(const Points& points) {
 
 }  // namespace
 
-void assign_known(const Cuts& cuts, const Points& points, std::span<Part> parts) {
-    if (points.count == 0) return;
+bool assign_known(const Cuts& cuts, const Points& points, std::span<Part> parts) {
+    if (points.count == 0) return true;
     const auto look_at_nothing = [](LocalIndex, LocalIndex) {};
-    if (is_whole(cuts)) {
-        Assigner(HeapLookUp(cuts)).run(points, parts, look_at_nothing);
-    } else {
-        Assigner(KnownTree(cuts, box_around(points))).run(points, parts, look_at_nothing);
-    }
+    return is_whole(cuts)
+               ? Assigner(HeapLookUp(cuts)).run(points, parts, look_at_nothing)
+               : Assigner(KnownTree(cuts, box_around(points))).run(points, parts, look_at_nothing);
 }
 
 void assign(const Cuts& cuts, const Points& points, std::span<Part> parts) {
-    assign_known(cuts, points, parts);
+    check_positions(points, cuts);
+    require(parts.size() == points.count, "parts must have one entry per point");
+    if (!assign_known(cuts, points, parts)) reject_coordinates(points);
     if (!is_whole(cuts) && std::ranges::any_of(parts, is_unknown)) reject_unknown();
 }
 

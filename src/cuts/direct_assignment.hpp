@@ -15,8 +15,9 @@ struct PartTotals {
     bool all_finite = true;       ///< no coordinate is NaN or infinite; otherwise the rest is void
 };
 
-/// Part of every point, as assign() has it, or unknown_below() a node that is not known.
-void assign_known(const Cuts& cuts, const Points& points, std::span<Part> parts);
+/// Part of every point, as assign() has it, or unknown_below() a node that is not known. Returns
+/// whether all coordinates are finite; otherwise the parts are void.
+bool assign_known(const Cuts& cuts, const Points& points, std::span<Part> parts);
 
 /// Part of every point by the cuts, into `parts` (length points.count), as the look-up has it, and
 /// what each part holds: in one pass over the coordinates, without cells.

@@ -1,3 +1,5 @@
+#include "cuts/locate_mpi.hpp"
+
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
@@ -7,24 +9,18 @@
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 
-#include <rrcb/locate.hpp>
-
 #include <cstdint>
 #include <optional>
 
 namespace rrcb {
 
-std::vector<Part> locate(const Cuts& cuts, const Points& positions, MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
+std::vector<Part> locate(const Cuts& cuts, const Points& positions, Participant& self) {
     std::vector<Part> parts;
     std::optional<SearchRoom<PathSearch>> room;
     self.attempt([&] {
-        check_tree(cuts);
-        check_points(positions);
-        require(positions.dimension == cuts.dimension,
-                "positions must have the dimension of the cuts");
+        check_positions(positions, cuts);
         parts.resize(positions.count);
-        assign_known(cuts, positions, parts);
+        if (!assign_known(cuts, positions, parts)) reject_coordinates(positions);
         if (!is_whole(cuts)) room.emplace(PathSearch(cuts, positions, parts), self.comm);
     });
     agree(self, {{"the dimension of the cuts", static_cast<std::uint64_t>(cuts.dimension)},
@@ -32,6 +28,11 @@ std::vector<Part> locate(const Cuts& cuts, const Points& positions, MPI_Comm use
                  {"whether the tree is whole", is_whole(cuts) ? 1u : 0u}});
     if (room) search_together(*room, self);
     return parts;
+}
+
+std::vector<Part> locate(const Cuts& cuts, const Points& positions, MPI_Comm user) {
+    Participant self{mpi::duplicate_of(user)};
+    return locate(cuts, positions, self);
 }
 
 }  // namespace rrcb

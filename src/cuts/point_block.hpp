@@ -38,7 +38,8 @@ using TiedPoints = std::array<std::int32_t, block_length>;
 /// Copies a block of points; returns a number whose highest bit is 1 where a coordinate is not
 /// finite.
 template <class Layout>
-std::uint64_t copy_block(const Layout& x, LocalIndex first, LocalIndex length, Columns& columns) {
+RRCB_VECTOR_CLONES std::uint64_t copy_block(const Layout& x, LocalIndex first, LocalIndex length,
+                                            Columns& columns) {
     constexpr std::uint64_t magnitude = ~std::uint64_t{0} >> 1;
     constexpr std::uint64_t lowest_of_exponent = std::uint64_t{1} << 52;
     std::uint64_t carries = 0;

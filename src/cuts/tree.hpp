@@ -80,7 +80,8 @@ inline Descent first_crossing(const Cuts& cuts, const Box& box, Descent at) {
     return at;
 }
 
-/// Region of a part at or below `at`, see box_of(); cut_of(node) gives each cut above it.
+/// Least box between the cuts above a part at or below `at`, each of which cut_of(node) gives; its
+/// bounds may be in reverse, as box_of() has none.
 template <class CutOf>
 Box region_below(Descent at, Part part, CutOf&& cut_of) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -97,6 +98,13 @@ Box region_below(Descent at, Part part, CutOf&& cut_of) {
     }
     return box;
 }
+
+/// True when the cuts above a part, all of which are known, leave no position to its region along
+/// some axis, nor points that a cut divides.
+bool is_region_empty(const Cuts& cuts, Part part);
+
+/// The parts of which this holds, ascending; of a part of a tree those whose cuts are known.
+std::vector<Part> empty_parts(const Cuts& cuts);
 
 /// True when a closed box holds the place of points that lie on both sides of a cut.
 inline bool holds_divided_points(const Box& box, const Cut& cut, int dimension) {

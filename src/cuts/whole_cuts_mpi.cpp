@@ -4,6 +4,7 @@
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "cuts/owned_cuts.hpp"
+#include "options/request.hpp"
 #include "options/validation.hpp"
 
 #include <rrcb/locate.hpp>
@@ -30,8 +31,10 @@ void join_cuts(std::span<Cut> tree, MPI_Comm comm, Participant& self) {
 
 Cuts whole_cuts(const Cuts& cuts, Participant& self) {
     Cuts whole;
+    std::uint64_t bits_of_cuts = 0;
     self.attempt([&] {
         check_tree(cuts);
+        bits_of_cuts = bits_of(cuts);
         whole = is_whole(cuts)
                     ? cuts
                     : Cuts{cuts.dimension, cuts.num_parts,
@@ -42,7 +45,8 @@ Cuts whole_cuts(const Cuts& cuts, Participant& self) {
     });
     agree(self, {{"the dimension of the cuts", static_cast<std::uint64_t>(cuts.dimension)},
                  {"the number of parts", static_cast<std::uint64_t>(cuts.num_parts)},
-                 {"whether the tree is whole", is_whole(cuts) ? 1u : 0u}});
+                 {"whether the tree is whole", is_whole(cuts) ? 1u : 0u},
+                 {"the tree of cuts", bits_of_cuts}});
     if (!is_whole(cuts)) join_cuts(whole.tree, self.comm, self);
     self.throw_alone();
     return whole;

@@ -146,8 +146,8 @@ contains
     error = c_get_report(self%handle, report)
   end subroutine
 
-  !> The cuts belong to the balancer until it gets others; `dimension` is 0 before the first. An
-  !> error where the balancer holds a part of them only.
+  !> The cuts belong to the balancer until it gets others. An error before the first, with
+  !> `dimension` 0, and if the balancer holds a part of them only.
   subroutine balancer_cuts(self, dimension, cuts, error)
     class(rrcb_balancer), intent(in) :: self
     integer, intent(out) :: dimension

@@ -1,10 +1,10 @@
+#include "lists/plan_mpi.hpp"
+
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "collective/exchange_mpi.hpp"
-
-#include <rrcb/error.hpp>
-#include <rrcb/plan.hpp>
+#include "options/rejection.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -39,10 +39,10 @@ int first_rank_of(Part part, int num_parts, int num_ranks) {
 }
 
 void check_parts(std::span<const Part> parts, int num_parts) {
+    require(num_parts >= 1, "num_parts must be at least 1");
     const auto is_none = [&](Part part) { return part < 0 || part >= num_parts; };
     if (std::ranges::any_of(parts, is_none))
-        throw Error(ErrorCode::invalid_argument,
-                    "a part is outside 0 ... " + std::to_string(num_parts - 1));
+        reject("a part is outside 0 ... " + std::to_string(num_parts - 1));
 }
 
 void list_exports(std::span<const Part> parts, int num_parts, MPI_Comm comm, Plan& plan) {
@@ -84,6 +84,9 @@ void list_imports(const Exchange& exchange, Plan& plan) {
 }  // namespace
 
 RankRange ranks_of_part(Part part, int num_parts, int num_ranks) {
+    if (num_ranks < 1 || part < 0 || part >= num_parts) [[unlikely]]
+        reject("part " + std::to_string(part) + " of " + std::to_string(num_parts) + " on " +
+               std::to_string(num_ranks) + " ranks; parts and ranks count from 0");
     if (num_parts < num_ranks) {
         const int first = first_rank_of(part, num_parts, num_ranks);
         return {first, first_rank_of(part + 1, num_parts, num_ranks) - first};
@@ -96,8 +99,7 @@ RankRange ranks_of_part(Part part, int num_parts, int num_ranks) {
     return {rank, 1};
 }
 
-Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
+Plan plan(std::span<const Part> parts, int num_parts, Participant& self) {
     Plan result;
     result.num_points = parts.size();
     Exchange exchange(sizeof(Notice), mpi::size_of(self.comm));
@@ -112,6 +114,11 @@ Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm user) {
     exchange.run(self);
     list_imports(exchange, result);
     return result;
+}
+
+Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm user) {
+    Participant self{mpi::duplicate_of(user)};
+    return plan(parts, num_parts, self);
 }
 
 }  // namespace rrcb

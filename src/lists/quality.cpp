@@ -1,14 +1,22 @@
 #include "cuts/part_share.hpp"
+#include "options/rejection.hpp"
 
 #include <rrcb/quality.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace rrcb {
 
 namespace {
+
+/// Throws Error unless the sizes are those of the parts.
+void check_sizes(std::span<const double> part_weights, std::span<const double> part_sizes) {
+    require(part_sizes.empty() || part_sizes.size() == part_weights.size(),
+            "part_sizes must hold one entry per part, or none for equal parts");
+}
 
 /// Weight each part should have.
 std::vector<double> ideal_weights(std::span<const double> part_weights,
@@ -24,7 +32,10 @@ std::vector<double> ideal_weights(std::span<const double> part_weights,
 }  // namespace
 
 double imbalance(std::span<const double> part_weights, std::span<const double> part_sizes) {
+    if (part_weights.empty()) return 1;
+    check_sizes(part_weights, part_sizes);
     const double total = std::accumulate(part_weights.begin(), part_weights.end(), 0.0);
+    if (!std::isfinite(total)) return std::numeric_limits<double>::quiet_NaN();
     const double sizes = std::accumulate(part_sizes.begin(), part_sizes.end(), 0.0);
     double worst = 0;
     for (std::size_t p = 0; p < part_weights.size(); ++p) {
@@ -37,6 +48,7 @@ double imbalance(std::span<const double> part_weights, std::span<const double> p
 
 std::vector<double> load_unbalance_percent(std::span<const double> part_weights,
                                            std::span<const double> part_sizes) {
+    check_sizes(part_weights, part_sizes);
     std::vector<double> unbalance = ideal_weights(part_weights, part_sizes);
     for (std::size_t p = 0; p < unbalance.size(); ++p) {
         const double ideal = unbalance[p];

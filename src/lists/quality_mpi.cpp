@@ -1,8 +1,8 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "options/rejection.hpp"
 
-#include <rrcb/error.hpp>
 #include <rrcb/plan.hpp>
 #include <rrcb/quality.hpp>
 
@@ -14,18 +14,16 @@ namespace rrcb {
 namespace {
 
 void check_arguments(const Points& points, std::span<const Part> parts, int num_parts) {
+    require(num_parts >= 1, "num_parts must be at least 1");
     if (parts.size() != points.count)
-        throw Error(ErrorCode::invalid_argument,
-                    "parts has " + std::to_string(parts.size()) + " entries for " +
-                        std::to_string(points.count) + " points; give one per point");
-    if (!points.weights.empty() && points.weights.size() != points.count)
-        throw Error(ErrorCode::invalid_argument,
-                    "weights must hold one entry per point, or none for unit weights");
+        reject("parts has " + std::to_string(parts.size()) + " entries for " +
+               std::to_string(points.count) + " points; give one per point");
+    require(points.weights.empty() || points.weights.size() == points.count,
+            "weights must hold one entry per point, or none for unit weights");
     for (const Part part : parts)
         if (part < 0 || part >= num_parts)
-            throw Error(ErrorCode::invalid_argument, "part " + std::to_string(part) +
-                                                         " is none of the " +
-                                                         std::to_string(num_parts) + " parts");
+            reject("part " + std::to_string(part) + " is none of the " + std::to_string(num_parts) +
+                   " parts");
 }
 
 std::vector<double> weights_here(const Points& points, std::span<const Part> parts, int num_parts) {

@@ -4,8 +4,7 @@
 #include "collective/duplicate.hpp"
 #include "lists/hungarian.hpp"
 #include "lists/spread_remap_mpi.hpp"
-
-#include <rrcb/error.hpp>
+#include "options/rejection.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -17,20 +16,27 @@ namespace rrcb {
 
 namespace {
 
+void check_ranks(std::span<const RankRange> ranks_of_parts, int num_ranks) {
+    require(!ranks_of_parts.empty(), "ranks_of_parts is empty; give one entry per part");
+    require(std::ranges::all_of(ranks_of_parts,
+                                [&](const RankRange& ranks) {
+                                    return ranks.first_rank >= 0 && ranks.count >= 1 &&
+                                           ranks.count <= num_ranks - ranks.first_rank;
+                                }),
+            "ranks_of_parts must name ranks of this communicator");
+    require(std::ranges::is_sorted(ranks_of_parts, {}, &RankRange::first_rank),
+            "ranks_of_parts must ascend");
+}
+
 void check_arguments(std::span<const Part> parts, const PreviousParts& previous,
                      std::size_t num_parts) {
-    if (num_parts == 0)
-        throw Error(ErrorCode::invalid_argument,
-                    "ranks_of_parts is empty; give one entry per part");
     if (previous && previous->size() != parts.size())
-        throw Error(ErrorCode::invalid_argument,
-                    "previous has " + std::to_string(previous->size()) + " entries, parts has " +
-                        std::to_string(parts.size()) + "; give one of each per point");
+        reject("previous has " + std::to_string(previous->size()) + " entries, parts has " +
+               std::to_string(parts.size()) + "; give one of each per point");
     for (std::size_t i = 0; i < parts.size(); ++i)
         if (parts[i] < 0 || static_cast<std::size_t>(parts[i]) >= num_parts)
-            throw Error(ErrorCode::invalid_argument,
-                        "part " + std::to_string(parts[i]) + " of point " + std::to_string(i) +
-                            " is none of the " + std::to_string(num_parts) + " parts");
+            reject("part " + std::to_string(parts[i]) + " of point " + std::to_string(i) +
+                   " is none of the " + std::to_string(num_parts) + " parts");
 }
 
 /// Room for a call, whoever finds the numbers.
@@ -91,6 +97,7 @@ Remap remap_alone(std::span<const Part> parts, const PreviousParts& previous,
     const Origins origins = previous ? Origins::parts : Origins::ranks;
     Room room;
     self.attempt([&] {
+        check_ranks(ranks_of_parts, mpi::size_of(self.comm));
         check_arguments(parts, previous, ranks_of_parts.size());
         room = make_room(ranks_of_parts, origins, self.comm);
     });

@@ -2,9 +2,8 @@
 #include "collective/duplicate.hpp"
 #include "collective/rank_order.hpp"
 #include "lists/delivery_mpi.hpp"
+#include "lists/plan_mpi.hpp"
 #include "options/rejection.hpp"
-
-#include <rrcb/transfer.hpp>
 
 #include <algorithm>
 #include <functional>
@@ -38,9 +37,8 @@ std::vector<LocalIndex> sort_by_rank(const Plan& plan, RankOrder& order) {
 
 }  // namespace
 
-void detail::move(const Plan& plan, std::span<const ByteColumn> columns,
-                  const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
+void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
+          const TransferLimits& limits, TransferReport* report, Participant& self) {
     Delivery delivery;
     std::vector<LocalIndex> sent;
     self.attempt([&] {
@@ -56,6 +54,12 @@ void detail::move(const Plan& plan, std::span<const ByteColumn> columns,
         delivery.sent = sent;
     });
     deliver(delivery, columns, limits, report, self);
+}
+
+void detail::move(const Plan& plan, std::span<const ByteColumn> columns,
+                  const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
+    Participant self{mpi::duplicate_of(user)};
+    rrcb::move(plan, columns, limits, report, self);
 }
 
 }  // namespace rrcb

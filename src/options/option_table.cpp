@@ -117,6 +117,8 @@ bool is_legal(const Option& option, const Options& options, int dimension) {
     return visit_kind(option, [&]<class Kind>(const Kind& kind) {
         if constexpr (is_range<Kind>) {
             return lies_in(kind, dimension < 3 ? kind.most : kind.most_in_3d, options.*kind.field);
+        } else if constexpr (std::is_same_v<Kind, Choice>) {
+            return std::ranges::find(kind, kind.get(options), &Word::value) != kind.end();
         } else {
             return true;
         }
@@ -131,7 +133,9 @@ std::string requirement(const Option& option, int dimension) {
             if (kind.above_least)
                 return is_bounded(kind) ? "in (" + least + ", " + most + "]"
                                         : "finite and above " + least;
-            if (kind.zero == nullptr) return "at least " + least;
+            const bool is_real = std::is_same_v<Kind, Range<double>>;
+            if (kind.zero == nullptr)
+                return (is_real ? "finite and at least " : "at least ") + least;
             return (is_bounded(kind) ? least + " ... " + most : std::string("positive")) +
                    kind.unit + ", or 0 for " + (is_bounded(kind) ? "the default" : kind.zero);
         } else {

@@ -156,7 +156,7 @@ inline constexpr Option option_table[] = {
      choice_of<Coincident, &Options::coincident>(coincident_words)},
     {"imbalance_tolerance", "IMBALANCE_TOL",
      "Heaviest part / mean part to reach with RRCB_REFINE=TOLERANCE",
-     Range<double>{&Options::imbalance_tolerance, 1, std::numeric_limits<double>::infinity()}},
+     Range<double>{&Options::imbalance_tolerance, 1, std::numeric_limits<double>::max()}},
     {"central_parts", "RRCB_CENTRAL_PARTS",
      "Parts that one rank makes; where there are more, and more ranks, many ranks make them",
      Range<int>{&Options::central_parts, 2, std::numeric_limits<int>::max()}},

@@ -15,32 +15,6 @@ namespace rrcb {
 
 namespace {
 
-void check_coordinates(const Points& points) {
-    constexpr const char* left_over =
-        "the length of the coordinate array must be a multiple of the dimension";
-    const auto dimension = static_cast<std::size_t>(points.dimension);
-    require(points.stride >= 1, "the stride of the points must be at least 1");
-    if (points.count == 0) {
-        require(points.stride > dimension || points.axes[0].empty(), left_over);
-        return;
-    }
-    const bool interleaved = dimension > 1 && is_interleaved(points);
-    require(!interleaved || points.axes[0].size() == points.count * dimension, left_over);
-    for (std::size_t a = 0; a < dimension; ++a) {
-        const std::size_t size = points.axes[a].size();
-        require(points.stride > 1 || size == points.count,
-                "coordinate arrays must all have the same length");
-        require(size > 0 && (size - 1) / points.stride >= points.count - 1,
-                "coordinate arrays must reach to the last point, (count - 1) * stride");
-    }
-}
-
-void check_lengths(const Points& points) {
-    check_coordinates(points);
-    require(points.weights.empty() || points.weights.size() == points.count,
-            "weights must hold one entry per point, or none for unit weights");
-}
-
 bool is_grid(const GridLines& lines) {
     return std::isfinite(lines.origin) && std::isfinite(lines.spacing) && lines.spacing > 0;
 }
@@ -115,14 +89,21 @@ void check_axes(const Options& options, int dimension) {
 }
 
 void check_tree(const Cuts& cuts) {
+    check_dimension(cuts.dimension, "cuts");
     require(has_its_cuts(cuts),
             "the tree must hold one cut less than there are parts, or the ascending number of each "
             "one that it holds");
     require(cross_axes_at_numbers(cuts), "cuts must cross axes of the points at numbers");
 }
 
-void check_cuts(const Cuts& cuts, int dimension) {
-    require(cuts.dimension == dimension, "cuts must have the dimension of the points");
+void check_positions(const Points& positions, const Cuts& cuts) {
+    check_tree(cuts);
+    require(positions.dimension == cuts.dimension, "positions must have the dimension of the cuts");
+    check_coordinates(positions);
+}
+
+void check_cuts(const Cuts& cuts) {
+    check_dimension(cuts.dimension, "cuts");
     require(cuts.num_parts >= 1 && is_whole(cuts) &&
                 cuts.tree.size() + 1 == static_cast<std::size_t>(cuts.num_parts),
             "the tree must hold one cut less than there are parts; whole_cuts() gathers them where "
@@ -171,10 +152,14 @@ void check_previous(const Cuts& previous, const Options& options, int dimension)
             "previous cuts must cross axes of the points at numbers");
 }
 
+void check_value(const Option& option, const Options& options, int dimension) {
+    if (!is_legal(option, options, dimension))
+        reject(std::string(option.name) + " must be " + requirement(option, dimension));
+}
+
 void check_options(const Options& options, int dimension) {
     for (const Option& option : option_table) {
-        if (!is_legal(option, options, dimension))
-            reject(std::string(option.name) + " must be " + requirement(option, dimension));
+        check_value(option, options, dimension);
         visit_kind(option, [&](const auto& kind) {
             if constexpr (requires { kind.check; }) kind.check(options, dimension);
         });
@@ -197,10 +182,37 @@ void reject_coordinates(const Points& points) {
            std::to_string(first_axis) + " is NaN or infinite" + tally(bad));
 }
 
+void check_coordinates(const Points& points) {
+    constexpr const char* left_over =
+        "the length of the coordinate array must be a multiple of the dimension";
+    check_dimension(points.dimension, "points");
+    const auto dimension = static_cast<std::size_t>(points.dimension);
+    require(points.stride >= 1, "the stride of the points must be at least 1");
+    if (points.count == 0) {
+        require(points.stride > dimension || points.axes[0].empty(), left_over);
+        return;
+    }
+    const bool interleaved = dimension > 1 && is_interleaved(points);
+    require(!interleaved || points.axes[0].size() == points.count * dimension, left_over);
+    for (std::size_t a = 0; a < dimension; ++a) {
+        const std::size_t size = points.axes[a].size();
+        require(points.stride > 1 || size == points.count,
+                "coordinate arrays must all have the same length");
+        require(size > 0 && (size - 1) / points.stride >= points.count - 1,
+                "coordinate arrays must reach to the last point, (count - 1) * stride");
+    }
+}
+
+void check_dimension(int dimension, const char* name) {
+    if (dimension < 1 || dimension > max_dimension)
+        reject(std::string(name) +
+               " must have 1, 2 or 3 dimensions, also on a rank without points");
+}
+
 void check_arrays(const Points& points) {
-    require(points.dimension >= 1 && points.dimension <= max_dimension,
-            "points must have 1, 2 or 3 dimensions, also on a rank without points");
-    check_lengths(points);
+    check_coordinates(points);
+    require(points.weights.empty() || points.weights.size() == points.count,
+            "weights must hold one entry per point, or none for unit weights");
     check_weights(points);
 }
 

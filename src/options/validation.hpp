@@ -11,6 +11,11 @@ namespace rrcb {
 /// Throws Error naming the option and its range when `options` can't be used.
 void check_options(const Options& options, int dimension);
 
+struct Option;
+
+/// The same for a number or a choice alone.
+void check_value(const Option& option, const Options& options, int dimension);
+
 /// Throws Error when the arrays of the points do not fit together, or weights are unusable.
 void check_arrays(const Points& points);
 
@@ -22,11 +27,22 @@ void check_arrays(const Points& points);
 /// unusable.
 Box check_points(const Points& points);
 
+/// Throws Error when the coordinates do not fit the dimension and number of the points. Not whether
+/// they are finite.
+void check_coordinates(const Points& points);
+
+/// Throws Error that names what has another number of axes than 1, 2 or 3.
+void check_dimension(int dimension, const char* name);
+
 /// Throws Error when cuts are neither a tree nor a part of one.
 void check_tree(const Cuts& cuts);
 
-/// Throws Error when cuts are no whole tree, or not one for points of this dimension.
-void check_cuts(const Cuts& cuts, int dimension);
+/// Throws Error when a look-up of positions by these cuts would leave an array. Weights, and
+/// whether coordinates are finite, are not looked at.
+void check_positions(const Points& positions, const Cuts& cuts);
+
+/// Throws Error when cuts are no whole tree.
+void check_cuts(const Cuts& cuts);
 
 /// Throws Error when the cuts of an earlier call don't fit these options.
 void check_previous(const Cuts& previous, const Options& options, int dimension);

@@ -127,12 +127,16 @@ TEST_F(Agreement, on_options_out_of_range) {
     with([](Options& o) { o.support_mesh = 5000; }, "support_mesh must be 1 ... 4096");
     with([](Options& o) { o.sample_fraction = 0; }, "sample_fraction must be in (0, 1]");
     with([](Options& o) { o.sigma_multiplier = nan; }, "sigma_multiplier");
-    with([](Options& o) { o.domain = static_cast<DomainKind>(7); }, "domain must be a value");
+    with([](Options& o) { o.domain = static_cast<DomainKind>(7); }, "domain must be");
+    with([](Options& o) { o.cut_rule = static_cast<CutRule>(5); }, "cut_rule must be WEIGHTED");
+    with([](Options& o) { o.refine = static_cast<Refine>(-3); }, "refine must be AUTO, NONE");
+    with([](Options& o) { o.coincident = static_cast<Coincident>(7); }, "coincident must be");
     with([](Options& o) { o.sigma_multiplier = 0; }, "sigma_multiplier must be finite and above 0");
     with([](Options& o) { o.num_parts = 2, o.part_sizes = {1}; }, "part_sizes must hold one");
     with([](Options& o) { o.num_parts = 2, o.part_sizes = {0, 0}; }, "part_sizes must have a");
     with([](Options& o) { o.num_parts = 2, o.part_sizes = {2, -1}; }, "part_sizes must be finite");
-    with([](Options& o) { o.imbalance_tolerance = 0.9; }, "imbalance_tolerance must be at least 1");
+    with([](Options& o) { o.imbalance_tolerance = 0.9; },
+         "imbalance_tolerance must be finite and at least 1");
     with([](Options& o) { o.grouped_axes = {0, 0}; }, "grouped_axes must name each axis once");
     with([](Options& o) { o.grouped_axes = {1, 2}; }, "grouped_axes must name every axis");
     with([](Options& o) { o.num_parts = 3, o.cut_axes = {0}; }, "cut_axes must hold one axis");

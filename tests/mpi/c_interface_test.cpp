@@ -176,9 +176,9 @@ TEST_F(CInterface, what_is_wrong_on_one_rank_fails_on_all) {
     const double* coordinates = cloud.coordinates.data();
     const int invalid = RRCB_INVALID_ARGUMENT;
     expect_error_everywhere(call(2, is_last_rank() ? nullptr : coordinates, parts.data()), invalid,
-                            "");
+                            "coordinates is null");
     expect_error_everywhere(call(2, coordinates, is_last_rank() ? nullptr : parts.data()), invalid,
-                            "");
+                            "parts is null");
     expect_error_everywhere(call(is_last_rank() ? 4 : 2, coordinates, parts.data()), invalid,
                             "dimension");
     if (is_last_rank()) cloud.coordinates.back() = std::numeric_limits<double>::quiet_NaN();
@@ -188,9 +188,13 @@ TEST_F(CInterface, what_is_wrong_on_one_rank_fails_on_all) {
     ASSERT_EQ(call(2, coordinates, parts.data()), RRCB_OK) << rrcb_last_error();
     std::int32_t* none_there = is_last_rank() ? nullptr : parts.data();
     expect_error_everywhere(rrcb_locate(balancer, cloud.count(), coordinates, none_there), invalid,
-                            "");
+                            "parts is null");
+    expect_error_everywhere(
+        rrcb_rebalance(balancer, 2, cloud.count(), coordinates, nullptr, none_there), invalid,
+        "parts is null");
     const std::int32_t* given = is_last_rank() ? nullptr : parts.data();
-    expect_error_everywhere(rrcb_make_plan(balancer, cloud.count(), given), invalid, "part");
+    expect_error_everywhere(rrcb_make_plan(balancer, cloud.count(), given), invalid,
+                            "parts is null");
     ASSERT_EQ(rrcb_make_plan(balancer, cloud.count(), parts.data()), RRCB_OK);
     rrcb_plan plan;
     ASSERT_EQ(rrcb_get_plan(balancer, &plan), RRCB_OK);
@@ -198,7 +202,7 @@ TEST_F(CInterface, what_is_wrong_on_one_rank_fails_on_all) {
     const double* weights = cloud.weights.data();
     expect_error_everywhere(
         rrcb_transfer(balancer, sizeof(double), is_last_rank() ? nullptr : weights, here.data()),
-        invalid, "column");
+        invalid, "from is null");
     const std::size_t bytes = is_last_rank() ? 4 : 8;
     if (num_ranks() > 1)
         expect_error_everywhere(rrcb_transfer(balancer, bytes, weights, here.data()), invalid, "");
@@ -243,11 +247,55 @@ TEST_F(CInterface, names_what_it_does_not_know) {
     EXPECT_EQ(rrcb_set_cuts(balancer, &no_tree), RRCB_INVALID_ARGUMENT);
     const rrcb_cuts no_parts{2, 0, nullptr};
     EXPECT_EQ(rrcb_set_cuts(balancer, &no_parts), RRCB_INVALID_ARGUMENT);
-    std::int32_t part = 0;
-    const double x = 0;
-    EXPECT_EQ(rrcb_assign(balancer, 1, &x, &part), RRCB_INVALID_ARGUMENT);
-    EXPECT_NE(std::strstr(rrcb_last_error(), "no cuts"), nullptr) << rrcb_last_error();
+    for (const int dimension : {-1, 0, 4, 9}) {
+        const rrcb_cuts nowhere{dimension, 1, nullptr};
+        EXPECT_EQ(rrcb_set_cuts(balancer, &nowhere), RRCB_INVALID_ARGUMENT);
+        EXPECT_NE(std::strstr(rrcb_last_error(), "1, 2 or 3 dimensions"), nullptr);
+    }
     rrcb_free(nullptr);
+}
+
+TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {
+    const auto expect_missing = [](int code, const std::string& what) {
+        expect_error_everywhere(code, RRCB_INVALID_ARGUMENT, "the balancer has no " + what);
+    };
+    rrcb_report report;
+    rrcb_cuts cuts;
+    rrcb_plan plan;
+    Box box;
+    std::int32_t part = 0;
+    const double x[] = {0.5, 0.5};
+    double y[2];
+    expect_missing(rrcb_get_report(balancer, &report), "report yet");
+    expect_missing(rrcb_get_cuts(balancer, &cuts), "cuts yet");
+    expect_missing(rrcb_get_plan(balancer, &plan), "plan yet");
+    expect_missing(rrcb_box_of(balancer, 0, box.lower.data(), box.upper.data()), "cuts yet");
+    expect_missing(rrcb_assign(balancer, 1, x, &part), "cuts yet");
+    expect_missing(rrcb_locate(balancer, 1, x, &part), "cuts yet");
+    expect_missing(rrcb_gather_cuts(balancer), "cuts yet");
+    expect_missing(rrcb_rebalance(balancer, 2, 1, x, nullptr, &part), "cuts yet");
+    expect_missing(rrcb_make_plan(balancer, 1, &part), "cuts yet");
+    expect_missing(rrcb_transfer(balancer, 8, x, y), "plan yet");
+
+    const rrcb_cuts given{2, 1, nullptr};
+    ASSERT_EQ(rrcb_set_cuts(balancer, &given), RRCB_OK);
+    EXPECT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
+    EXPECT_EQ(rrcb_assign(balancer, 1, x, &part), RRCB_OK);
+    for (const std::int32_t none : {-1, 1, 1000})
+        EXPECT_EQ(rrcb_box_of(balancer, none, box.lower.data(), box.upper.data()),
+                  RRCB_INVALID_ARGUMENT);
+    expect_missing(rrcb_get_report(balancer, &report), "report yet");
+    expect_missing(rrcb_get_plan(balancer, &plan), "plan yet");
+}
+
+TEST_F(CInterface, takes_the_tolerances_that_are_taken_in_cpp) {
+    for (const char* text : {"inf", "nan", "0.5"}) {
+        Options options;
+        options.imbalance_tolerance = std::stod(text);
+        const Points points{.dimension = 2};
+        EXPECT_EQ(rrcb_set(balancer, "imbalance_tolerance", text), RRCB_INVALID_ARGUMENT);
+        EXPECT_THROW(rrcb::balance(points, options, MPI_COMM_WORLD), Error);
+    }
 }
 
 }  // namespace

@@ -276,5 +276,18 @@ TEST(Ghosts, at_exactly_the_radius_count) {
               test::is_last_rank() ? std::vector<LocalIndex>{} : std::vector<LocalIndex>{0});
 }
 
+TEST(Ghosts, go_to_no_rank_whose_part_is_empty) {
+    if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
+    // The last cut is below the one above it: no position is between them.
+    Cuts cuts = test::slabs();
+    cuts.tree.back().at[0] = num_ranks() == 2 ? -std::numeric_limits<double>::infinity() : -1;
+    const Part empty = num_ranks() == 2 ? 0 : num_ranks() - 2;
+    const std::vector<double> coordinates{num_ranks() - 2.0, 0, 0.25, 0, num_ranks() - 0.5, 0};
+    const GhostPlan lists = ghosts(cuts, interleaved_points(coordinates, 2), 100, MPI_COMM_WORLD);
+    for (const RankCount& share : lists.send) EXPECT_NE(share.rank, empty);
+    EXPECT_EQ(lists.send.size(), static_cast<std::size_t>(num_ranks() - (rank() == empty ? 1 : 2)));
+    EXPECT_EQ(lists.receive.empty(), rank() == empty);
+}
+
 }  // namespace
 }  // namespace rrcb

@@ -195,5 +195,25 @@ TEST(MovedFraction, counts_the_weight_that_changes_rank) {
     EXPECT_DOUBLE_EQ(moved_fraction(points, parts, num_ranks(), MPI_COMM_WORLD), expected);
 }
 
+TEST(RanksOfPart, of_a_part_or_rank_that_is_none_are_refused) {
+    EXPECT_THROW(ranks_of_part(5, 3, 2), Error);
+    EXPECT_THROW(ranks_of_part(-1, 3, 2), Error);
+    EXPECT_THROW(ranks_of_part(3, 3, 8), Error);
+    EXPECT_THROW(ranks_of_part(0, 0, 2), Error);
+    EXPECT_THROW(ranks_of_part(0, 3, 0), Error);
+    EXPECT_THROW(ranks_of_part(0, 3, -1), Error);
+}
+
+TEST(Plan, for_no_parts_is_refused_on_all_ranks) {
+    const std::vector<double> none;
+    for (const int num_parts : {0, -1}) {
+        EXPECT_THROW(plan({}, num_parts, MPI_COMM_WORLD), Error);
+        EXPECT_THROW(plan({}, test::is_last_rank() ? num_parts : 1, MPI_COMM_WORLD), Error);
+        const Points points = interleaved_points(none, 2);
+        EXPECT_THROW(part_weights(points, {}, num_parts, MPI_COMM_WORLD), Error);
+        EXPECT_THROW(moved_fraction(points, {}, num_parts, MPI_COMM_WORLD), Error);
+    }
+}
+
 }  // namespace
 }  // namespace rrcb

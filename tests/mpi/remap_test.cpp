@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <string>
@@ -191,6 +192,25 @@ TEST(Remap, refuses_on_all_ranks_what_one_gets_wrong) {
     }
     expect_error(fine, test::is_last_rank() ? too_few : fine,
                  "previous has 2 entries, parts has 3; give one of each per point");
+}
+
+TEST(Remap, refuses_ranks_of_parts_that_are_none_of_the_communicator) {
+    const std::vector<Part> parts{0, 1};
+    std::vector<RankRange> descending(2);
+    descending[0].first_rank = num_ranks() - 1;
+    for (const std::vector<RankRange>& wrong : {std::vector<RankRange>{},
+                                                {{0, 1}, {num_ranks(), 1}},
+                                                {{-1, 1}, {0, 1}},
+                                                {{0, 0}, {0, 1}},
+                                                {{0, 1}, {0, num_ranks() + 1}},
+                                                {{0, 1}, {1, std::numeric_limits<int>::max()}}}) {
+        EXPECT_THROW(remap(parts, wrong, MPI_COMM_WORLD), Error);
+        EXPECT_THROW(remap(parts, parts, wrong, MPI_COMM_WORLD), Error);
+    }
+    if (num_ranks() > 1) {
+        EXPECT_THROW(remap(parts, descending, MPI_COMM_WORLD), Error);
+    }
+    EXPECT_EQ(remap(parts, ranks_of_parts(2), MPI_COMM_WORLD).num_points, 2 * num_ranks());
 }
 
 }  // namespace

@@ -127,5 +127,16 @@ TEST(WholeCuts, that_no_balance_left_with_the_ranks_are_refused_on_all_of_them) 
     expect_refusal("whether the tree is whole differs", spoiled([&](Cuts& cuts) { cuts = whole; }));
 }
 
+TEST(WholeCuts, that_are_no_tree_or_differ_are_refused_on_all_ranks) {
+    for (const int dimension : {-1, 0, 4, 9})
+        expect_refusal("cuts must have 1, 2 or 3 dimensions", {dimension, 1, {}});
+    expect_refusal("the tree must hold", {2, 0, {}});
+    expect_refusal("the tree must hold", {2, 5, {}});
+    if (num_ranks() == 1) return;
+    Cuts whole = random_cuts(2, 9);
+    if (test::is_last_rank()) whole.tree[3].at.fill(7);
+    expect_refusal("the tree of cuts differs between rank 0 and rank", whole);
+}
+
 }  // namespace
 }  // namespace rrcb

@@ -1,6 +1,7 @@
 #include "../support/clouds.hpp"
 
 #include <rrcb/bisection.hpp>
+#include <rrcb/error.hpp>
 
 #include <gtest/gtest.h>
 
@@ -144,6 +145,32 @@ TEST(Bisection, survives_the_whole_range_of_double) {
     EXPECT_EQ(cut_in_two(patches_1d({{-huge, huge, 1}})), 0);
     EXPECT_EQ(cut_in_two(patches_1d({{-huge, -huge, 1}, {huge, huge, 1}})), 0);
     EXPECT_EQ(cut_in_two(patches_1d({{0, 0, 1}, {5e-324, 5e-324, 1}})), 5e-324);
+}
+
+TEST(Bisection, of_arguments_out_of_range_is_refused) {
+    const std::vector<double> x(12, 0.5);
+    StatisticalDomain domain = point_domain(interleaved_points(x, 2));
+    const auto expect_refusal = [&](int num_parts, const std::vector<double>& sizes) {
+        EXPECT_THROW(bisect(domain, num_parts, sizes, CutRule::weighted_fraction), Error);
+    };
+    expect_refusal(0, {});
+    expect_refusal(-1, {});
+    expect_refusal(3, {1, 2});
+    expect_refusal(3, {1, 2, 3, 4});
+    expect_refusal(3, {1, 2, -3});
+    expect_refusal(3, {0, 0, 0});
+    expect_refusal(2, {1, std::numeric_limits<double>::quiet_NaN()});
+    domain.dimension = 9;
+    expect_refusal(3, {});
+    EXPECT_THROW(point_domain({.dimension = 2, .count = 3}), Error);
+    EXPECT_THROW(make_support_mesh({}, 2, 0), Error);
+    EXPECT_THROW(make_support_mesh({}, 4, 1), Error);
+    const SupportMesh mesh = make_support_mesh({{0, 0, 0}, {1, 1, 1}}, 2, 4);
+    EXPECT_THROW(cell_moments(interleaved_points(x, 3), mesh), Error);
+    Options options;
+    options.sample_fraction = -1;
+    EXPECT_THROW(sampled_domain({}, 2, options), Error);
+    EXPECT_THROW(analytic_domain({}, 9, {}), Error);
 }
 
 }  // namespace

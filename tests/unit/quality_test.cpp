@@ -1,8 +1,10 @@
+#include <rrcb/error.hpp>
 #include <rrcb/quality.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace rrcb {
@@ -42,6 +44,21 @@ TEST(Quality, load_unbalance_is_negative_where_a_part_holds_too_much) {
     EXPECT_DOUBLE_EQ(lu[2], -50);
     EXPECT_DOUBLE_EQ(lu[3], 30);
     EXPECT_DOUBLE_EQ(worst_load_unbalance_percent(std::vector<double>{8, 10, 15, 7}), 50);
+}
+
+TEST(Quality, sizes_of_other_parts_are_refused) {
+    const std::vector<double> weights{1, 2, 3};
+    const std::vector<double> sizes{1, 2};
+    EXPECT_THROW(imbalance(weights, sizes), Error);
+    EXPECT_THROW(imbalance(sizes, weights), Error);
+    EXPECT_THROW(load_unbalance_percent(weights, sizes), Error);
+    EXPECT_THROW(worst_load_unbalance_percent(weights, sizes), Error);
+}
+
+TEST(Quality, no_imbalance_follows_from_weights_that_are_no_numbers) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (const double bad : {infinity, std::nan("")})
+        EXPECT_TRUE(std::isnan(imbalance(std::vector<double>{1, bad, 1})));
 }
 
 }  // namespace

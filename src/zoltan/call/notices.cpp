@@ -40,11 +40,11 @@ bool asks_for_report_line(const Parameters& parameters) {
 /// Line of RCB_OUTPUT_LEVEL: size, imbalance, rounds, and objects that new part numbers keep in
 /// place.
 std::string report_line(const Report& report, int num_parts, const Remap& remap) {
-    const bool measured = !std::isnan(report.measured_imbalance);
+    const Summary summary = summary_of(report, num_parts);
     std::string text =
         format("RRCB: %lld objects in %d parts, imbalance %.4f (%s), %d rounds",
-               static_cast<long long>(report.num_points), num_parts, imbalance_of(report),
-               measured ? "measured" : "estimated", report.rounds);
+               static_cast<long long>(summary.num_objects), num_parts, summary.imbalance,
+               summary.is_measured ? "measured" : "estimated", report.rounds);
     if (remap.identity) return text;
     return text + format("; REMAP keeps %.1f %% of the objects in place instead of %.1f %%",
                          percent(remap.kept_after, remap.num_points),
@@ -95,6 +95,11 @@ void print_messages(const Report& report, int num_parts, const Remap& remap,
 }
 
 }  // namespace
+
+Summary summary_of(const Report& report, int num_parts) {
+    return {report.num_points, num_parts, imbalance_of(report),
+            !std::isnan(report.measured_imbalance)};
+}
 
 void print_notices(const Report& report, int num_parts, const Remap& remap, const State& state,
                    const char* function) noexcept {

@@ -1,11 +1,14 @@
 #pragma once
 
+#include "zoltan/call/partition_mpi.hpp"
 #include "zoltan/handle/state.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/remap.hpp>
 
 namespace rrcb::zoltan {
+
+Summary summary_of(const Report& report, int num_parts);
 
 /// Prints warnings and a report line on rank 0. Not collective; lack of memory is no failure.
 ///

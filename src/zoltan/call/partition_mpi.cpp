@@ -211,6 +211,7 @@ int stay(const Call& call, Objects&& objects, Partition& result) {
             whole_numbering(state.kept->numbering(), state.kept->map(), self));
     state.kept->answer_look_ups(keeps_cuts(state.parameters));
     print_notices(state.rest->report, state.kept->map().num_parts, Remap{}, state, call.function);
+    result.summary = summary_of(state.rest->report, state.kept->map().num_parts);
     return ZOLTAN_OK;
 }
 
@@ -233,6 +234,7 @@ int balance_objects(const Call& call, Objects&& objects, Partition& result) {
     if ((call.outcome.any_keeps_cuts || is_whole(balanced.cuts)) && !numbering.is_whole())
         numbering = whole_numbering(numbering, layout.map, self);
     print_notices(balanced.report, layout.map.num_parts, remap, call.state, call.function);
+    result.summary = summary_of(balanced.report, layout.map.num_parts);
     keep(std::move(prepared), std::move(balanced), std::move(layout.map), std::move(numbering),
          call.state);
     return parameters.auto_migrate != 0 && result.changes ? migrate(call.zz, result) : ZOLTAN_OK;

@@ -3,7 +3,17 @@
 #include "zoltan/call/lists.hpp"
 #include "zoltan/handle/state.hpp"
 
+#include <optional>
+
 namespace rrcb::zoltan {
+
+/// A partition in numbers. `num_objects` and `num_parts` are those of all ranks.
+struct Summary {
+    GlobalCount num_objects = 0;
+    int num_parts = 0;
+    double imbalance = 0;
+    bool is_measured = false;  ///< otherwise estimated
+};
 
 /// Result of Zoltan_LB_Partition beside its code.
 struct Partition {
@@ -12,6 +22,7 @@ struct Partition {
     bool is_zoltans = false;   ///< the real Zoltan is to answer the call; all else is empty
     List imports;
     List exports;
+    std::optional<Summary> summary;  ///< empty if the call fails or is the real Zoltan's
 };
 
 /// Zoltan_LB_Partition under LB_METHOD=RRCB, or Zoltan_LB_Balance, which asks for one part per

@@ -1,9 +1,14 @@
+#include "zoltan/call/call_log_mpi.hpp"
+#include "zoltan/handle/environment.hpp"
 #include "zoltan/handle/replacement.hpp"
 #include "zoltan/handle/state.hpp"
 #include "zoltan/real/message.hpp"
 
+#include <rrcb/version.hpp>
+
 #include <mpi.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <string_view>
 
@@ -29,8 +34,9 @@ bool is_first_process() {
 /// Tells that RRCB was asked for, but no handle came through it, as where a program has Zoltan as a
 /// static archive. Shells and launchers inherit the environment, but use no MPI.
 __attribute__((destructor)) void tell_if_asked_for_nothing() {
-    if (any_handle_made() || !has_used_mpi() || !is_first_process() || !is_replacement_asked())
-        return;
+    if (any_call_answered() || !has_used_mpi() || !is_first_process()) return;
+    if (is_verbosity_asked()) std::printf("RRCB %s: no calls\n", version());
+    if (any_handle_made() || !is_replacement_asked()) return;
     print_warning(0, "RRCB_REPLACE",
                   "the program made no handle through RRCB: it holds Zoltan as a static archive, "
                   "has it in front of RRCB, or does not use it");

@@ -1,3 +1,4 @@
+#include "zoltan/call/call_log_mpi.hpp"
 #include "zoltan/call/fortran_mpi.hpp"
 #include "zoltan/call/partition_mpi.hpp"
 #include "zoltan/call/rcb_options.hpp"
@@ -6,6 +7,7 @@
 #include "zoltan/handle/replacement.hpp"
 #include "zoltan/real/real_zoltan.hpp"
 
+#include <chrono>
 #include <string>
 #include <utility>
 
@@ -132,12 +134,15 @@ int answer(const Request& request, const CallerNumbers& numbers, const CallerLis
            Forward forward_it) {
     State* state = rrcb_state(request.zz);
     if (state == nullptr) return let_zoltan_answer(request, forward_it);
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
     Partition result;
     const int code = guarded(request.function, state, [&] {
         return partition(request.zz, *state, request.function, request.one_part_per_rank, to,
                          result);
     });
     if (result.is_zoltans) return let_zoltan_answer(request, forward_it);
+    log_call(*state, result, std::chrono::duration<double>(Clock::now() - start).count());
     *numbers.changes = result.changes ? 1 : 0;
     *numbers.num_gid_entries = state->parameters.num_gid_entries;
     *numbers.num_lid_entries = state->parameters.num_lid_entries;

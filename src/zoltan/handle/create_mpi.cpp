@@ -24,6 +24,7 @@ struct Ballot {
     int leaves_all_to_zoltan = 0;
     int asks_for_replacement = 0;
     int does_not_ask = 0;
+    int is_verbose = 0;
 };
 
 /// What the ranks exchange by nonblocking calls, which write to it for as long as they are pending.
@@ -45,11 +46,12 @@ void leave_pending() {
 /// there. Returns false if some ranks take no part.
 bool vote_on_environment(bool asks, RollCall& roll_call, Participant& self) {
     const int from_last = self.failed() ? mpi::size_of(self.comm) - mpi::rank_of(self.comm) : 0;
-    exchange->ballot = {from_last, real_zoltan()->serves_rrcb ? 0 : 1, asks ? 1 : 0, asks ? 0 : 1};
-    static_assert(sizeof(Ballot) == 4 * sizeof(int));
+    exchange->ballot = {from_last, real_zoltan()->serves_rrcb ? 0 : 1, asks ? 1 : 0, asks ? 0 : 1,
+                        is_verbosity_asked() ? 1 : 0};
+    static_assert(sizeof(Ballot) == 5 * sizeof(int));
     const bool has_duplicate = exchange->duplicate != MPI_COMM_NULL;
     MPI_Request request = MPI_REQUEST_NULL;
-    const int code = MPI_Iallreduce(MPI_IN_PLACE, &exchange->ballot, 4, MPI_INT, MPI_MAX,
+    const int code = MPI_Iallreduce(MPI_IN_PLACE, &exchange->ballot, 5, MPI_INT, MPI_MAX,
                                     has_duplicate ? exchange->duplicate : self.comm, &request);
     // What failed may be pending nonetheless.
     const bool are_all_here = roll_call.complete(request, self);
@@ -126,6 +128,7 @@ bool create_state(const Zoltan_Struct* zz, MPI_Comm user) {
             return true;
         }
         State& state = *find_state(zz);
+        state.is_verbose = ballot.is_verbose != 0;
         if (ballot.asks_for_replacement != 0) replace_rcb(state);
         if (ballot.asks_for_replacement == ballot.does_not_ask)
             warn_once_of_difference(state.communicator->rank());

@@ -9,4 +9,7 @@ namespace rrcb::zoltan {
 /// illegal value leaves the default; rank 0 warns of it once. Not collective.
 void read_environment(State& state);
 
+/// Whether RRCB_VERBOSE is in the environment of this process, and not 0.
+bool is_verbosity_asked();
+
 }  // namespace rrcb::zoltan

@@ -23,12 +23,6 @@ bool read_environment() {
     return false;
 }
 
-/// LB_METHOD in the form in which Zoltan compares it.
-std::string method_of(const State& state) {
-    const auto given = state.parameters.given.find("LB_METHOD");
-    return given == state.parameters.given.end() ? "RCB" : clean(given->second.c_str());
-}
-
 /// Method whose replacement a user may expect, and the reason that Zoltan keeps it.
 struct Left {
     const char* method;
@@ -43,6 +37,11 @@ constexpr std::array left_methods = {
 };
 
 }  // namespace
+
+std::string method_of(const State& state) {
+    const auto given = state.parameters.given.find("LB_METHOD");
+    return given == state.parameters.given.end() ? "RCB" : clean(given->second.c_str());
+}
 
 InsideZoltan::InsideZoltan(const State* outer) noexcept
     : outer_before_(outer_state), inside_before_(inside) {

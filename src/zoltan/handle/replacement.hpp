@@ -2,6 +2,8 @@
 
 #include "zoltan/handle/state.hpp"
 
+#include <string>
+
 namespace rrcb::zoltan {
 
 /// Marks a call of the real Zoltan's partitioning, for a handle with `outer` (null: unknown).
@@ -17,6 +19,9 @@ class InsideZoltan {
     const State* outer_before_;
     bool inside_before_;
 };
+
+/// LB_METHOD in the form in which Zoltan compares it.
+std::string method_of(const State& state);
 
 /// Whether RRCB_REPLACE=RCB is in the environment of this process; another value is warned about.
 bool is_replacement_asked();

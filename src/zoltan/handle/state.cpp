@@ -82,6 +82,7 @@ void copy_contents(State& to, const State& from) {
     copy.axes_changed = from.axes_changed;
     copy.deserialized = from.deserialized;
     copy.replacement_asked = from.replacement_asked;
+    copy.is_verbose = from.is_verbose;
     copy.inside_hier = from.inside_hier;
     // Cuts are shared by the ranks of one handle.
     if (copy.kept) copy.kept->keep_shared();

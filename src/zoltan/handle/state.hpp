@@ -81,6 +81,7 @@ struct State {
     bool axes_changed = false;          ///< a parameter that chooses axes was changed since
     bool deserialized = false;          ///< Zoltan's parameters were set behind the plug-in's back
     bool replacement_asked = false;     ///< by RRCB_REPLACE, on any rank of the communicator
+    bool is_verbose = false;            ///< by RRCB_VERBOSE, on any rank of the communicator
     bool inside_hier = false;           ///< made by Zoltan, for one of HIER's levels
     Workspace workspace;
 };

@@ -93,6 +93,12 @@ bool divide(const Fragment& fragment, LocalIndex middle, const SortedPoints& poi
 
 }  // namespace
 
+double weight_of(const std::vector<Fragment>& fragments) {
+    double weight = 0;
+    for (const Fragment& fragment : fragments) weight += fragment.weight;
+    return weight;
+}
+
 std::vector<Fragment> cell_fragments(const SortedPoints& points) {
     std::vector<Fragment> fragments;
     for (LocalIndex cell = 0; cell + 1 < points.begins.size(); ++cell) {

@@ -29,6 +29,9 @@ struct Lot {
     double below = 0;   ///< weight of the row that belongs below; 0: all of it stays above
 };
 
+/// Weight of all points of the fragments.
+double weight_of(const std::vector<Fragment>& fragments);
+
 /// Weight of the points exactly at a cut.
 double weight_at(const Cut& cut, const std::vector<Fragment>& fragments,
                  const SortedPoints& points);

@@ -32,7 +32,8 @@ Refinement::Refinement(const Options& options, int dimension, bool is_root, Part
     const std::size_t num_parts = options.part_sizes.size();
     nodes_.reserve(num_parts);
     children_.reserve(num_parts);
-    lots_.reserve(num_parts / 2);
+    lots_.reserve(num_parts);
+    divided_.reserve(num_parts);
     if (options.refine != Refine::exact && !are_cuts_limited(options))
         correction_.emplace(options.num_parts, is_root);
 }
@@ -267,6 +268,7 @@ void Refinement::place_in_lots(const Participant& self) {
 /// Goes on with the nodes below, by the cuts that the level found.
 void Refinement::descend(Participant& self) {
     children_.clear();
+    divided_.clear();
     // Searches, and lots of the searches that divide one, stand in the order of their nodes.
     std::size_t next = 0;
     auto before = lots_.begin();
@@ -280,7 +282,10 @@ void Refinement::descend(Participant& self) {
             cut = search.cut;
             below = search.below;
             lot.below = search.lot_below;
-            if (lot.below > 0) lot.before = *before++;
+            if (lot.below > 0) {
+                lot.before = *before++;
+                divided_.insert(divided_.end(), {children_.size(), children_.size() + 1});
+            }
             cut.divides = lot.below > 0 ? 1 : 0;
             refined_.coincident_cuts += search.coincident;
         } else {
@@ -296,7 +301,25 @@ void Refinement::descend(Participant& self) {
         children_.push_back({node.at.upper(), std::move(halves.second), node.weight - below,
                              is_counted, not_counted, box_above(node.region, cut)});
     }
+    weigh_divided(self);
     std::swap(nodes_, children_);
+}
+
+/// Adds up the weight on both sides of each cut that divides a lot, which may be off by nearly a
+/// point's: more than all other points if that is heavy. Collective where there are any.
+void Refinement::weigh_divided(const Participant& self) {
+    if (divided_.empty()) return;
+    lots_.clear();
+    for (const std::size_t child : divided_) {
+        const std::size_t sibling = child % 2 == 0 ? child + 1 : child - 1;
+        const double quantum = quantum_for(children_[child].weight + children_[sibling].weight);
+        lots_.push_back(rounded_to(quantum, weight_of(children_[child].fragments)));
+    }
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, lots_.data(), mpi::to_int(std::ssize(lots_)), MPI_DOUBLE,
+                             MPI_SUM, self.comm),
+               "MPI_Allreduce");
+    auto weight = lots_.begin();
+    for (const std::size_t child : divided_) children_[child].weight = *weight++;
 }
 
 /// Searches all cuts, and keeps them where they are better than those before. Collective.

@@ -87,6 +87,7 @@ class Refinement {
     Bracket bracket_of(const Node& node) const;
     void recount(std::span<Part> parts, Participant& self);
     void place_in_lots(const Participant& self);
+    void weigh_divided(const Participant& self);
     void descend(Participant& self);
 
     const Options& options_;
@@ -101,6 +102,7 @@ class Refinement {
     std::vector<Node> children_;            ///< of the next one
     LevelSearch level_;
     std::vector<double> lots_;  ///< for each cut that divides a lot, what of it is on lower ranks
+    std::vector<std::size_t> divided_;  ///< children on both sides of these cuts
     Refined refined_;
 };
 

@@ -20,12 +20,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double weight_of(const std::vector<Fragment>& fragments) {
-    double weight = 0;
-    for (const Fragment& fragment : fragments) weight += fragment.weight;
-    return weight;
-}
-
 /// Box of the entries of a fragment.
 Box box_of(const Fragment& fragment, const SortedPoints& points) {
     Box box = fragment.box;
@@ -138,10 +132,14 @@ void RegionSearch::divide(const Descent& at, const Content& content, const Cut& 
                           double below) {
     known_.push_back({at.node, cut});
     auto [lower, upper] = split_tightly(content.fragments, cut, lot);
-    const bool is_counted = content.is_counted && !(lot.below > 0);
+    // A side of a lot that is divided may weigh up to a point more or less than asked for, which
+    // the next count tells; until then the node's weight is a bound.
+    const bool divides_lot = lot.below > 0;
+    const bool is_counted = content.is_counted && !divides_lot;
+    const double above = divides_lot ? content.weight : content.weight - below;
+    if (divides_lot) below = content.weight;
     enter(at.lower(), {std::move(lower), box_below(content.box, cut), below, is_counted});
-    enter(at.upper(),
-          {std::move(upper), box_above(content.box, cut), content.weight - below, is_counted});
+    enter(at.upper(), {std::move(upper), box_above(content.box, cut), above, is_counted});
 }
 
 /// Splits fragments whose boxes touch their entries; so do those of the halves.

@@ -80,6 +80,42 @@ TEST(CoincidentPoints, of_different_weight_are_divided_within_the_heaviest) {
     for (const double sum : sums) EXPECT_LE(std::abs(sum - total / 4), 100);
 }
 
+/// Whether each cut below a node leaves the share of the parts below it, but for the heaviest
+/// point.
+bool are_cuts_within(std::span<const double> weights, double heaviest) {
+    if (weights.size() == 1) return true;
+    const auto lower = weights.first(weights.size() / 2);
+    const auto upper = weights.subspan(weights.size() / 2);
+    const double below = std::accumulate(lower.begin(), lower.end(), 0.0);
+    const double all = below + std::accumulate(upper.begin(), upper.end(), 0.0);
+    const double target =
+        all * static_cast<double>(lower.size()) / static_cast<double>(weights.size());
+    const double slack = all >= heaviest ? heaviest : 1;
+    return std::abs(below - target) <= slack * (1 + 1e-9) && are_cuts_within(lower, heaviest) &&
+           are_cuts_within(upper, heaviest);
+}
+
+TEST(CoincidentPoints, beside_one_that_outweighs_them_are_divided_by_number) {
+    constexpr LocalIndex count = 5;
+    const std::vector<double> mine(count, 0.3);
+    for (const int central_parts : {64, 2}) {
+        for (const double heaviest : {50.0, 1e6}) {
+            for (int num_parts = 3; num_parts < 16; ++num_parts) {
+                std::vector<double> weights(count, 1.0);
+                if (rank() == num_parts % num_ranks()) weights[count / 2] = heaviest;
+                Options options = dividing(num_parts);
+                options.central_parts = central_parts;
+                const Balance result =
+                    balance(interleaved_points(mine, 1, weights), options, MPI_COMM_WORLD);
+                EXPECT_TRUE(are_cuts_within(part_weights(interleaved_points(mine, 1, weights),
+                                                         result.parts, num_parts, MPI_COMM_WORLD),
+                                            heaviest))
+                    << num_parts << " parts, " << heaviest << ", " << central_parts;
+            }
+        }
+    }
+}
+
 TEST(CoincidentPoints, stay_together_where_the_tolerance_allows_it) {
     // 490, 20 and 490: with either side of 510 the imbalance is 1.02.
     std::vector<double> mine;

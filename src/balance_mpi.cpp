@@ -3,7 +3,6 @@
 #include "bisection/domain_kinds.hpp"
 #include "bisection/limited_bisection.hpp"
 #include "collective/communicator.hpp"
-#include "collective/duplicate.hpp"
 #include "cuts/cut_limits.hpp"
 #include "cuts/direct_assignment.hpp"
 #include "gather/decision_mpi.hpp"
@@ -293,6 +292,14 @@ void divide_among_many(const Points& points, Work& work, Participant& self) {
         stay_spread(options, verdict.heaviest, std::move(*held), result, self);
 }
 
+/// True when parts are so uneven that the axes of earlier cuts, which stay, may be why.
+bool may_be_poor(const Report& report, const Options& options) {
+    constexpr double factor = 1.25;
+    const double within_reach = std::max(options.imbalance_tolerance, report.least_imbalance);
+    return is_refined(options) && !are_cuts_limited(options) &&
+           report.measured_imbalance > factor * within_reach;
+}
+
 /// Ends with earlier cuts of which ranks know some only, where their parts are even enough, or
 /// balances from nothing. Collective.
 Balance reuse_spread(const Points& points, const Options& given, const Cuts& previous,
@@ -302,33 +309,23 @@ Balance reuse_spread(const Points& points, const Options& given, const Cuts& pre
     std::optional<SpreadReuse> reuse;
     self.attempt([&] { prepare_to_reuse_spread(points, given, previous, work, reuse, self); });
     // Both begin with the same messages, so that ranks meet there where one has failed.
-    if (!self.failed() && !reuse) return balance(points, given, nullptr, may_stay, self);
+    if (!self.failed() && !reuse)
+        return balance_once(points, given, nullptr, may_stay, self).balance;
     gather(points.dimension, work, self);
     decide_together(work.mine, work.options, work.decision, self);
     const Verdict& verdict = work.decision.verdict;
     work.result.report = report_of(verdict, work.whole->num_parts);
     if (reuse->ends(*work.whole, verdict.heaviest, work.result, self))
         return std::move(work.result);
-    return balance(points, given, nullptr, may_stay, self);
+    return balance_once(points, given, nullptr, may_stay, self).balance;
 }
 
-/// What a call ends with, and whether another set of axes may be much better.
-struct Outcome {
-    Balance balance;
-    bool may_be_poor = false;
-};
+}  // namespace
 
-/// True when parts are so uneven that the axes of earlier cuts, which stay, may be why.
-bool may_be_poor(const Report& report, const Options& options) {
-    constexpr double factor = 1.25;
-    const double within_reach = std::max(options.imbalance_tolerance, report.least_imbalance);
-    return is_refined(options) && !are_cuts_limited(options) &&
-           report.measured_imbalance > factor * within_reach;
-}
-
-/// Balances from statistics, or from earlier cuts that are whole. Collective.
 Outcome balance_once(const Points& points, const Options& given, const Cuts* previous,
                      bool may_stay, Participant& self) {
+    if (previous && !is_whole(*previous))
+        return {reuse_spread(points, given, *previous, may_stay, self)};
     Work work;
     work.options.observer = given.observer;
     self.attempt([&] {
@@ -347,33 +344,6 @@ Outcome balance_once(const Points& points, const Options& given, const Cuts* pre
     }
     const bool is_poor = previous && may_be_poor(work.result.report, work.options);
     return {std::move(work.result), is_poor};
-}
-
-}  // namespace
-
-Balance balance(const Points& points, const Options& given, const Cuts* previous, bool may_stay,
-                Participant& self) {
-    if (previous && !is_whole(*previous))
-        return reuse_spread(points, given, *previous, may_stay, self);
-    Outcome reused = balance_once(points, given, previous, may_stay, self);
-    if (!reused.may_be_poor) return std::move(reused.balance);
-    Balance anew = balance_once(points, given, nullptr, false, self).balance;
-    const double imbalance = reused.balance.report.measured_imbalance;
-    const bool gains = is_worth_moving(imbalance, anew.report.measured_imbalance, given);
-    const int rounds = reused.balance.report.rounds + anew.report.rounds;
-    Balance& best = gains ? anew : reused.balance;
-    best.report.rounds = rounds;
-    return std::move(best);
-}
-
-Balance balance(const Points& points, const Options& options, MPI_Comm comm) {
-    Participant self{mpi::duplicate_of(comm)};
-    return balance(points, options, nullptr, true, self);
-}
-
-Balance balance(const Points& points, const Options& options, MPI_Comm comm, const Cuts& previous) {
-    Participant self{mpi::duplicate_of(comm)};
-    return balance(points, options, &previous, true, self);
 }
 
 }  // namespace rrcb

@@ -1,4 +1,6 @@
 #include "cells/point_layout.hpp"
+#include "options/rejection.hpp"
+#include "options/validation.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -73,6 +75,17 @@ Box box_of_strided(const double* values, LocalIndex count, std::size_t stride) {
     return box;
 }
 
+/// Throws Error when points lie beyond their arrays.
+void check_reach(const Points& points) {
+    check_dimension(points.dimension, "points");
+    require(points.stride >= 1, "the stride of the points must be at least 1");
+    for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a) {
+        const std::size_t size = points.axes[a].size();
+        require(points.count == 0 || (size > 0 && (size - 1) / points.stride >= points.count - 1),
+                "coordinate arrays must reach to the last point, (count - 1) * stride");
+    }
+}
+
 }  // namespace
 
 Points interleaved_points(std::span<const double> coordinates, int dimension,
@@ -100,6 +113,7 @@ Points column_points(std::span<const std::span<const double>> columns,
 }
 
 Box bounding_box(const Points& points) {
+    check_reach(points);
     if (points.count == 0) return {};
     if (is_interleaved(points))
         return box_of_values(points.axes[0].first(points.count * points.stride), points.stride);

@@ -2,6 +2,7 @@
 #include "cells/sorted_points.hpp"
 
 #include <rrcb/eigen.hpp>
+#include <rrcb/error.hpp>
 #include <rrcb/moments.hpp>
 #include <rrcb/points.hpp>
 
@@ -122,6 +123,21 @@ TEST(Points, bounding_box_tells_of_coordinates_that_are_no_numbers_at_any_stride
 TEST(Points, bounding_box_of_no_points_is_empty) {
     const Box box = bounding_box(interleaved_points({}, 3));
     EXPECT_GT(box.lower[0], box.upper[0]);
+}
+
+TEST(Points, whose_arrays_end_before_them_have_no_box) {
+    const std::vector<double> x(12);
+    Points points = interleaved_points(x, 2);
+    points.count = 7;
+    EXPECT_THROW(bounding_box(points), Error);
+    points.count = std::numeric_limits<std::size_t>::max();
+    EXPECT_THROW(bounding_box(points), Error);
+    points.count = 6;
+    EXPECT_EQ(bounding_box(points).upper[1], 0);
+    for (const int dimension : {0, 3, 9}) {
+        points.dimension = dimension;
+        EXPECT_THROW(bounding_box(points), Error);
+    }
 }
 
 }  // namespace

@@ -15,10 +15,14 @@ extern "C" {
 
 struct Zoltan_Struct;
 
+/** Returns the node `node` of the tree of cuts, as Zoltan's zoltan_partition_tree.h has it. */
 int Zoltan_RCB_Partition_Tree(struct Zoltan_Struct* zz, int node, int* parent, int* left_leaf,
                               int* right_leaf);
+/** Returns the bytes that Zoltan_Serialize needs; 0 if Zoltan lacks it. */
 size_t Zoltan_Serialize_Size(struct Zoltan_Struct const* zz);
+/** Writes the handle into `buffer` of `size` bytes. */
 int Zoltan_Serialize(struct Zoltan_Struct const* zz, size_t size, char* buffer);
+/** Fills the handle from a buffer that Zoltan_Serialize wrote. */
 int Zoltan_Deserialize(struct Zoltan_Struct* zz, size_t size, char* buffer);
 
 #ifdef __cplusplus

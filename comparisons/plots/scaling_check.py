@@ -121,7 +121,7 @@ def read_sizes(directory: Path, counted: dict[tuple[str, int], Counted]) -> Size
     searches = exact["Bcast"].sent - none["Bcast"].sent - model.answer_bytes(2, parts)
     return Sizes(
         parts,
-        agreements=none["Allreduce"].sent // 2 - model.checksum_bytes(2),
+        agreements=none["Allreduce"].sent // 2,
         num_agreements=none["Allreduce"].calls // 2,
         parameters=none["Gather"].sent // 2,
         broadcasts=none["Bcast"].sent - 8 * 2,
@@ -197,7 +197,7 @@ def _compare_plugged(row: Counted, vote: int, parts: model.Parts) -> Comparison:
     traffic, _ = wide.accepted(row.ranks, 2, parts)
     sent, known = row.traffic["Isend"], traffic["Isend"]
     renumbers = "Exscan" in row.traffic
-    passes = _whole(sent.calls - known.calls, wide.pass_messages(row.ranks)) if renumbers else 2
+    passes = _whole(sent.calls - known.calls, wide.pass_messages(row.ranks)) if renumbers else 1
     messages = passes * wide.pass_messages(row.ranks)
     records = sent.sent - known.sent - wide.HEAD * messages
     wide.add_plug_in(traffic, row.ranks, wide.PlugIn(vote, passes, records, renumbers), parts)

@@ -81,7 +81,7 @@ class Sizes(NamedTuple):
     """Bytes of RRCB's fixed messages."""
 
     parts: Parts
-    agreements: int  # all reductions to everybody together, but for checksums of the parts
+    agreements: int  # all reductions to everybody together
     num_agreements: int
     parameters: int  # gathered from every rank by the plug-in
     broadcasts: int  # all broadcasts together, but for what grows with the parts, head included
@@ -120,14 +120,9 @@ def subtree(rank: int, ranks: int) -> int:
     return min(stride, ranks - rank)
 
 
-def checksum_bytes(ranks: int) -> int:
-    """By which the plug-in knows the objects of each part again, and whether any moves."""
-    return 8 * (ranks + 1)
-
-
-def all_agreements(ranks: int, sizes: Sizes, refine: str) -> tuple[int, int]:
+def all_agreements(sizes: Sizes, refine: str) -> tuple[int, int]:
     """Number and bytes; a look at the parts tells of failures as well."""
-    number, size = sizes.num_agreements, sizes.agreements + checksum_bytes(ranks)
+    number, size = sizes.num_agreements, sizes.agreements
     if LOOKS[refine]:
         return number - 1, size - sizes.parts.agreement
     return number, size
@@ -162,7 +157,7 @@ def hand_up_bytes(ranks: int, refine: str, parts: Parts) -> int:
 def rrcb(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> Traffic:
     """`refine`: none, accepted (one look at the estimate), refined (and one at the end), or exact."""
     traffic = Traffic()
-    num_agreements, agreements = all_agreements(ranks, sizes, refine)
+    num_agreements, agreements = all_agreements(sizes, refine)
     traffic.add("Allreduce", ranks * num_agreements, ranks * agreements, ranks * agreements)
     traffic.gather(ranks, sizes.parameters)
     once = sizes.broadcasts + 8 * ranks
@@ -192,7 +187,7 @@ def _refine(traffic: Traffic, ranks: int, sizes: Sizes, rounds: Rounds) -> None:
 
 def rrcb_root_bytes(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> int:
     """Bytes that rank 0 gets."""
-    into = all_agreements(ranks, sizes, refine)[1] + ranks * sizes.parameters
+    into = all_agreements(sizes, refine)[1] + ranks * sizes.parameters
     mine = hand_up_bytes(ranks, refine, sizes.parts)
     into += sum(sizes.parts.summary + subtree(child, ranks) * mine for child in children(0, ranks))
     into += LOOKS[refine] * look_bytes(ranks, sizes.parts)

@@ -123,7 +123,7 @@ def _steps(row: Counted) -> float:
 def rrcb_path(ranks: int, refine: str, observed: Observed, machine: Machine) -> CallPath:
     sizes = observed.sizes
     path = CallPath(machine, work=machine.points * machine.per_point)
-    num_agreements, agreements = model.all_agreements(ranks, sizes, refine)
+    num_agreements, agreements = model.all_agreements(sizes, refine)
     per_agreement = agreements / num_agreements
     path.collective(ranks, 2 * per_agreement, num_agreements, per_agreement)
     path.collective(ranks, ranks * sizes.parameters, 1, ranks * sizes.parameters)

@@ -24,6 +24,7 @@ CUT = RECORD_HEAD + 32
 BOX, COUNT = 48, 4  # reduced to everybody
 COUNTS_LEFT = 16  # of parts and numbers that no offer brought together, summed over lower ranks
 KEPT = 24  # points that stay under old and new numbers, and all
+CHECKSUM = 16  # of the objects and their parts, in this call and after it
 
 
 class Node(NamedTuple):
@@ -146,7 +147,7 @@ class PlugIn(NamedTuple):
     """What the plug-in for Zoltan adds to a call of rrcb::balance, lists of imports left out."""
 
     vote: int  # bytes of the reduction that begins a call
-    passes: int = 2  # to search for part numbers, and for checksums
+    passes: int = 1  # to search for part numbers
     record_bytes: int = 0
     renumbers: bool = False  # parts change their numbers, or nearly
 
@@ -155,6 +156,8 @@ def add_plug_in(traffic: Traffic, ranks: int, added: PlugIn, parts: Parts) -> No
     traffic.allreduce(ranks, added.vote)
     traffic.allreduce(ranks, parts.agreement)
     traffic.allreduce(ranks, KEPT)
+    for _ in range(2):
+        traffic.allreduce(ranks, CHECKSUM)
     if added.renumbers:
         traffic.add("Exscan", ranks, COUNTS_LEFT * ranks, COUNTS_LEFT * (ranks - 1))
     messages = added.passes * pass_messages(ranks)

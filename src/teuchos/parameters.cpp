@@ -99,8 +99,6 @@ struct Getter {
 };
 
 void add_parameters_of_plug_in(ParameterList& list) {
-    add_number(list, "RRCB_SKIP_WITHIN", 0.0, {0.0, largest},
-               "Plug-in only: imbalance within which objects stay: a number, 1 or more; 0: none.");
     static constexpr Word words[] = {{"FAILURE", 0, "when a call fails"},
                                      {"ALWAYS", 1, "at every call"}};
     list.set("RRCB_DUMP", std::string(),

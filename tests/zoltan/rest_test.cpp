@@ -125,7 +125,7 @@ TEST(Rest, is_reached_with_the_second_call) {
 
 TEST(Rest, is_reached_by_parts_that_callbacks_name) {
     const int num_ranks = Program().num_ranks;
-    for (const int num_parts : {num_ranks, 2 * num_ranks + 1, 200}) {
+    for (const int num_parts : {(num_ranks + 1) / 2, num_ranks, 2 * num_ranks + 1, 200}) {
         for (const Way& way : ways) {
             SCOPED_TRACE(std::to_string(num_parts) + way.method + way.reuse + way.refine);
             Moving program(2);

@@ -23,7 +23,7 @@ RRCB_API Teuchos::ParameterList read_parameters(const std::string& file);
 
 /// The options that a list asks for; what it does not name keeps its default.
 ///
-/// RRCB_SKIP_WITHIN, RRCB_DUMP and RRCB_DUMP_WHEN concern the plug-in alone and are checked only. A
+/// RRCB_DUMP and RRCB_DUMP_WHEN concern the plug-in alone and are checked only. A
 /// whole number is taken where a real one is due. Not collective; `balance` checks that ranks
 /// agree. Throws Error for an unknown name, a wrong type or a value out of range.
 RRCB_API Options options_from(const Teuchos::ParameterList& list);

@@ -38,17 +38,17 @@ namespace rrcb::zoltan {
 namespace {
 
 /// Result of all that one rank does alone. Errors and foreign exceptions become a status.
-LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Objects& objects) {
+LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Objects& objects,
+                    Placed& placed) {
     try {
         check_parameters(state, one_part_per_rank);
         if (forwards(state.parameters)) return {};
         objects = collect_objects(zz, state.parameters, state.workspace);
+        const bool asks_for_lists = state.parameters.return_lists != ReturnLists::none;
+        if (state.rest && state.kept && asks_for_lists)
+            placed = find_placed(objects, *state.kept, *state.rest, state.communicator->rank());
         LocalStatus status(objects.warned ? ZOLTAN_WARN : ZOLTAN_OK, "");
-        status.at_rest = state.rest && state.kept &&
-                         state.parameters.return_lists != ReturnLists::none &&
-                         is_at_rest(*state.rest, *state.kept, state.parameters, state.workspace,
-                                    objects, state.communicator->rank());
-        status.is_as_cut = are_as_cut(state, objects);
+        status.may_rest = placed.are_known;
         return status;
     } catch (const ZoltanError& error) {
         return {error.code(), error.what()};
@@ -81,57 +81,38 @@ struct Call {
     const CallerLists& to;
     const Outcome& outcome;
     std::optional<KeptPartition> previous = {};
-    std::optional<Rest> rest = {};  ///< of the previous partition
-
-    /// Whether nothing has changed on any rank since the last partition.
-    bool is_at_rest() const { return outcome.at_rest && outcome.differing == nullptr; }
 };
 
 /// Takes the last partition out of the state: should this call fail, the next one must not build on
 /// it.
 void take_previous(Call& call) {
-    call.rest = std::exchange(call.state.rest, std::nullopt);
+    call.state.rest.reset();
     call.previous = std::exchange(call.state.kept, std::nullopt);
     if (!call.outcome.all_kept_cuts) call.previous.reset();
 }
 
-/// Whether the objects stay where the last partition put them: nothing has changed on any rank, or
-/// they lie as its cuts tell and their parts, counted, are even enough. Collective where they are.
-bool stays(Call& call) {
-    if (call.is_at_rest()) return true;
-    State& state = call.state;
-    const bool is_even = call.outcome.all_as_cut &&
-                         are_even(*call.rest, call.previous->map().num_parts,
-                                  state.parameters.skip_within, state.communicator->get());
-    if (!is_even) return false;
-    state.rest = std::exchange(call.rest, std::nullopt);
-    state.kept = std::exchange(call.previous, std::nullopt);
-    return true;
+/// Whether no object and no parameter has changed on any rank since the last partition. Collective
+/// where the objects may rest: one reduction.
+bool is_at_rest(const Call& call, const Placed& placed) {
+    const State& state = call.state;
+    const bool may_rest = call.outcome.may_rest && !call.outcome.failed() &&
+                          call.outcome.differing == nullptr &&
+                          (!call.outcome.any_keeps_cuts || state.kept->shows_all());
+    std::uint64_t checksum = placed.checksum;
+    if (may_rest) add_up(false, checksum, state.communicator->get());
+    return may_rest && checksum == state.rest->checksum;
 }
 
 /// Options and memory of a call, made before the ranks agree for the last time: no rank may fail
 /// alone afterwards.
 struct Preparation {
     Options options;
+    bool is_spread = false;          ///< many ranks make the parts
     const Cuts* previous = nullptr;  ///< to start from
     std::optional<Renumbering> renumbering;
     std::optional<KeptPartition> kept;
-    Rest rest;
     std::optional<ButterflyMessages> messages;
-    std::optional<ChecksumSums> checksums;
 };
-
-Rest make_rest(const Layout& layout, int dimension, int rank, bool is_spread) {
-    Rest rest;
-    rest.dimension = dimension;
-    rest.own = layout.map.parts_on(rank);
-    rest.is_spread = is_spread;
-    rest.checksums.resize(static_cast<std::size_t>(rest.own.end - rest.own.first));
-    rest.part_sizes = layout.part_sizes;
-    rest.part_weights.resize(is_spread ? rest.checksums.size()
-                                       : static_cast<std::size_t>(layout.map.num_parts));
-    return rest;
-}
 
 Preparation prepare(const Call& call, const Layout& layout, const Objects& objects,
                     Participant& self) {
@@ -147,44 +128,38 @@ Preparation prepare(const Call& call, const Layout& layout, const Objects& objec
         made.options =
             make_options(parameters, layout, dimension, locks ? &*call.previous : nullptr);
         const Communicator& comm = *call.state.communicator;
-        const bool is_spread = is_wide(made.options, comm.size());
-        made.renumbering.emplace(parameters, layout, objects, comm, is_spread);
-        made.kept.emplace(static_cast<std::size_t>(layout.map.num_parts), is_spread);
+        made.is_spread = is_wide(made.options, comm.size());
+        made.renumbering.emplace(parameters, layout, objects, comm, made.is_spread);
+        made.kept.emplace(static_cast<std::size_t>(layout.map.num_parts), made.is_spread);
         made.messages.emplace();
-        made.checksums.emplace(layout.map, comm, is_spread);
-        made.rest = make_rest(layout, objects.points.dimension, comm.rank(), is_spread);
     });
     return made;
 }
 
-/// Lists the objects that leave, and tells whether any does on any rank. Sums the checksums by
-/// which the next call knows its objects again. Collective unless RETURN_LISTS is NONE.
+/// Lists the objects that leave, and keeps the checksum by which the next call knows them again.
+/// Collective unless RETURN_LISTS is NONE: one reduction.
 void list_exports(const Call& call, const Layout& layout, Objects&& objects,
-                  const Balance& balanced, Preparation& prepared, Partition& result,
-                  Participant& self) {
+                  std::span<const Part> parts, Partition& result) {
     const Parameters& parameters = call.state.parameters;
     if (parameters.return_lists == ReturnLists::none) {
         result.changes = true;
         return;
     }
-    const std::span<const Part> parts(balanced.parts);
-    const Points points = objects.points;
-    Exports exports = make_exports(std::move(objects), parameters, parts, layout.map,
-                                   call.state.communicator->rank());
+    const Communicator& comm = *call.state.communicator;
+    Rest rest{{}, checksum_of(objects.points, parts)};
+    Exports exports = make_exports(std::move(objects), parameters, parts, layout.map, comm.rank());
     result.exports = std::move(exports.list);
-    result.changes = prepared.checksums->run(
-        {parameters, call.state.workspace, points, prepared.rest.by_position}, parts, exports.moves,
-        layout.map, prepared.rest, *prepared.messages, self);
+    result.changes = add_up(exports.moves, rest.checksum, comm.get());
+    call.state.rest = std::move(rest);
 }
 
-/// Keeps cuts, parts and checksums for the next call.
+/// Keeps cuts, numbers of parts and report for look-ups and for the next call.
 void keep(Preparation&& prepared, Balance&& balanced, PartMap&& map, Numbering&& numbering,
           State& state) {
     prepared.kept->keep(std::move(balanced.cuts), std::move(map), std::move(numbering));
     prepared.kept->answer_look_ups(keeps_cuts(state.parameters));
-    prepared.rest.report = std::move(balanced.report);
     state.kept = std::move(prepared.kept);
-    if (state.parameters.return_lists != ReturnLists::none) state.rest = std::move(prepared.rest);
+    if (state.rest) state.rest->report = std::move(balanced.report);
     state.axes_changed = false;
 }
 
@@ -196,6 +171,15 @@ void serve_fortran(const Call& call, Partition& result, Participant& self) {
     result.with_caller = true;
 }
 
+/// Whether each part has a rank of its own, and all objects of this rank are in its part. Objects
+/// whose parts no callback names are. Not collective.
+bool are_in_own_part(const Objects& objects, const PartMap& map, int rank) {
+    if (!map.one_each) return false;
+    const int* named = objects.initial_parts.get();
+    if (named == nullptr) return true;
+    return std::all_of(named, named + objects.count, [&](int part) { return part == rank; });
+}
+
 /// Answers a call where the objects stay where the last partition put them. Collective as
 /// serve_fortran is.
 int stay(const Call& call, Objects&& objects, Partition& result) {
@@ -204,11 +188,6 @@ int stay(const Call& call, Objects&& objects, Partition& result) {
         result.exports = list_in_place(std::move(objects), state.communicator->rank());
     Participant self{state.communicator->get()};
     serve_fortran(call, result, self);
-    if (!state.kept->shows_all())
-        show_all_cuts(call.outcome, state.kept->cuts(), state, *state.kept, self);
-    if (call.outcome.any_keeps_cuts && !state.kept->numbering().is_whole())
-        state.kept->show_all_numbers(
-            whole_numbering(state.kept->numbering(), state.kept->map(), self));
     state.kept->answer_look_ups(keeps_cuts(state.parameters));
     print_notices(state.rest->report, state.kept->map().num_parts, Remap{}, state, call.function);
     result.summary = summary_of(state.rest->report, state.kept->map().num_parts);
@@ -224,10 +203,8 @@ int balance_objects(const Call& call, Objects&& objects, Partition& result) {
     Balance balanced = balance(objects.points, prepared.options, prepared.previous, may_stay, self);
     auto [remap, numbering] =
         prepared.renumbering->run(layout, objects, balanced.parts, *prepared.messages, self);
-    const bool knows_own_parts = is_whole(balanced.cuts) || (remap.identity && layout.map.is_even);
-    prepared.rest.by_position = balanced.report.coincident_cuts > 0 || !knows_own_parts;
-    list_exports(call, layout, std::move(objects), balanced, prepared, result, self);
-    if (prepared.rest.is_spread) agree(self);
+    list_exports(call, layout, std::move(objects), balanced.parts, result);
+    if (prepared.is_spread) agree(self);
     select_lists(parameters, result.changes, self, result.imports, result.exports);
     serve_fortran(call, result, self);
     show_all_cuts(call.outcome, balanced.cuts, call.state, *prepared.kept, self);
@@ -287,22 +264,24 @@ int leave_to_zoltan(const Call& call, Partition& result) {
 int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_part_per_rank,
               const CallerLists& to, Partition& result) {
     Objects objects;
-    const LocalStatus local = collect(zz, state, one_part_per_rank, objects);
+    Placed placed;
+    const LocalStatus local = collect(zz, state, one_part_per_rank, objects, placed);
     const Outcome outcome = vote(local, state);
     Call call{zz, state, function, to, outcome};
     state.zoltan_has_cuts = false;
     if (!outcome.failed() && outcome.differing == nullptr && forwards(state.parameters))
         return leave_to_zoltan(call, result);
-    if (!call.is_at_rest()) take_previous(call);
     dump_inputs(DumpReason::asked, call, objects, local);
+    const bool stays = is_at_rest(call, placed);
+    if (!stays) take_previous(call);
     if (outcome.failed()) {
         fail(call, objects, {local.code, local.text.data(), outcome.failing_rank}, result);
         return outcome.code;
     }
     if (outcome.differing != nullptr) return refuse_difference(call, objects, result);
     try {
-        const int code = stays(call) ? stay(call, std::move(objects), result)
-                                     : balance_objects(call, std::move(objects), result);
+        const int code = stays ? stay(call, std::move(objects), result)
+                               : balance_objects(call, std::move(objects), result);
         return code == ZOLTAN_OK ? outcome.code : code;
     } catch (const ZoltanError& error) {
         return fail(call, objects, {error.code(), error.what()}, result);

@@ -58,8 +58,7 @@ struct Ballot {
     int keeps_cuts = 0;
     int lacks_cuts = 0;
     int axes_changed = 0;
-    int not_at_rest = 0;
-    int not_as_cut = 0;
+    int may_not_rest = 0;
     int dumping_rank_from_last = 0;  ///< ranks - lowest rank with a folder
     int dump_always = 0;
     std::array<int, num_shared> largest{};
@@ -80,8 +79,7 @@ Ballot ballot_of(const LocalStatus& local, const State& state) {
     ballot.keeps_cuts = keeps_cuts(parameters) ? 1 : 0;
     ballot.lacks_cuts = state.kept ? 0 : 1;
     ballot.axes_changed = state.axes_changed ? 1 : 0;
-    ballot.not_at_rest = local.at_rest ? 0 : 1;
-    ballot.not_as_cut = local.is_as_cut ? 0 : 1;
+    ballot.may_not_rest = local.may_rest ? 0 : 1;
     if (!parameters.dump_folder.empty()) {
         ballot.dumping_rank_from_last = state.communicator->size() - state.communicator->rank();
         ballot.dump_always = parameters.dump_always ? 1 : 0;
@@ -112,8 +110,7 @@ Outcome vote(const LocalStatus& local, const State& state) {
     outcome.any_keeps_cuts = ballot.keeps_cuts != 0;
     outcome.all_kept_cuts = ballot.lacks_cuts == 0;
     outcome.axes_changed = ballot.axes_changed != 0;
-    outcome.at_rest = ballot.not_at_rest == 0;
-    outcome.all_as_cut = ballot.not_as_cut == 0;
+    outcome.may_rest = ballot.may_not_rest == 0;
     if (ballot.dumping_rank_from_last > 0)
         outcome.dump.rank = state.communicator->size() - ballot.dumping_rank_from_last;
     outcome.dump.always = ballot.dump_always != 0;

@@ -19,8 +19,7 @@ struct LocalStatus {
     }
 
     int code = ZOLTAN_OK;
-    bool at_rest = false;          ///< see is_at_rest
-    bool is_as_cut = false;        ///< see are_as_cut
+    bool may_rest = false;         ///< the last partition has put all objects where they are
     std::array<char, 512> text{};  ///< ends with a 0
 };
 
@@ -35,8 +34,7 @@ struct Outcome {
     bool any_keeps_cuts = false;   ///< for look-ups
     bool all_kept_cuts = false;    ///< of the last call, on every rank
     bool axes_changed = false;  ///< a parameter that chooses axes was changed somewhere since then
-    bool at_rest = false;       ///< nothing has changed since then on any rank
-    bool all_as_cut = false;    ///< the last cuts still tell where all objects are
+    bool may_rest = false;      ///< see LocalStatus, on every rank
     DumpWish dump;
     const char* differing = nullptr;  ///< name of a parameter that differs between ranks
 

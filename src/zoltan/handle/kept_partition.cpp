@@ -71,13 +71,11 @@ bool KeptPartition::is_above(std::size_t cut, const double* position) const {
     return rrcb::is_above(cuts_.tree[cut], exact, cuts_.dimension);
 }
 
-/// By all cuts, or no_part where those that this rank knows do not tell.
+/// Descends all cuts, where the kept ones are spread over the ranks.
 Part KeptPartition::descend_spread(const double* position) const {
     Vector exact{};
     std::copy_n(position, cuts_.dimension, exact.begin());
     Descent at = root_of(cuts_);
-    if (!shows_all()) at = rrcb::descend(cuts_, exact, at);
-    if (!shows_all() && !at.is_part()) return no_part;
     const std::span<const Cut> all = tree();
     while (!at.is_part())
         at = rrcb::is_above(all[at.node], exact, cuts_.dimension) ? at.upper() : at.lower();

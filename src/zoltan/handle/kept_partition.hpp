@@ -26,20 +26,17 @@ class KeptPartition {
     /// Makes room for the cuts between so many parts, which may be spread over the ranks.
     explicit KeptPartition(std::size_t num_parts, bool are_spread = false);
 
-    /// Keeps the cuts without asking for memory. Where they are spread over the ranks, look-ups
-    /// find what this rank knows until they get all cuts; otherwise all numbers are known.
+    /// Keeps the cuts without asking for memory. If they are spread over the ranks, look-ups wait
+    /// for show_all().
     void keep(Cuts&& cuts, PartMap&& map, Numbering&& numbering) noexcept;
 
     /// Gives look-ups all cuts in preorder, of their own or in memory that outlives them.
     void show_all(std::vector<Cut>&& tree) noexcept;
     void show_all(std::span<const Cut> shared) noexcept { shared_ = shared; }
     bool shows_all() const {
-        return tree().size() + 1 == static_cast<std::size_t>(cuts_.num_parts) &&
-               numbering_.is_whole();
+        return numbering_.is_whole() &&
+               tree().size() + 1 == static_cast<std::size_t>(cuts_.num_parts);
     }
-
-    /// Gives look-ups all numbers.
-    void show_all_numbers(Numbering&& numbering) noexcept { numbering_ = std::move(numbering); }
 
     /// Copies cuts that others share. Throws std::bad_alloc.
     void keep_shared();

@@ -62,15 +62,6 @@ bool read_integer(int& value, std::string_view text, int least) {
     return true;
 }
 
-bool read_imbalance(double& imbalance, std::string_view text) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return false;
-    if (value != 0 && !(value >= 1 && std::isfinite(value))) return false;
-    imbalance = value;
-    return true;
-}
-
 bool read_return_lists(ReturnLists& lists, std::string_view text) {
     const auto has = [text](std::string_view word) { return text.find(word) != text.npos; };
     lists = has("EXPORT")      ? has("IMPORT") ? ReturnLists::all : ReturnLists::exports

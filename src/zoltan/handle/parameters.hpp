@@ -50,8 +50,6 @@ struct Parameters {
     ReturnLists return_lists = ReturnLists::all;
     Options options = default_options();  ///< RRCB_* only; parts are filled in per call
 
-    double skip_within =
-        0;  ///< imbalance up to which objects stay without a look at new cuts; 0: none
     std::string dump_folder;   ///< where the inputs of calls go; empty: nowhere
     bool dump_always = false;  ///< the inputs of all calls, not only of failing ones
     std::map<std::string, std::string> given;  ///< all that was set, as it was set
@@ -64,7 +62,6 @@ bool reuses_cuts(const Parameters& parameters);
 // Readers of a value, in upper case but that of RRCB_DUMP. False, and nothing is set, for what is
 // no legal value.
 bool read_integer(int& value, std::string_view text, int least);
-bool read_imbalance(double& imbalance, std::string_view text);
 bool read_return_lists(ReturnLists& lists, std::string_view text);
 bool read_folder(std::string& folder, std::string_view text);
 bool read_dump_when(bool& always, std::string_view text);
@@ -154,7 +151,6 @@ inline constexpr ParameterRow parameter_table[] = {
     must_agree<&Parameters::set_directions, read_integer<>>("RCB_SET_DIRECTIONS"),
     flag<&Parameters::rectilinear_blocks>("RCB_RECTILINEAR_BLOCKS"),
     flag<&Parameters::reduce_dimensions>("REDUCE_DIMENSIONS"),
-    must_agree<&Parameters::skip_within, read_imbalance>("RRCB_SKIP_WITHIN"),
     may_differ<&Parameters::num_global_parts, read_integer<1>>("NUM_GLOBAL_PARTS"),
     may_differ<&Parameters::num_global_parts, read_integer<1>>("NUM_GLOBAL_PARTITIONS"),
     may_differ<&Parameters::num_local_parts, read_integer<0>>("NUM_LOCAL_PARTS"),

@@ -27,11 +27,6 @@ struct PartMap {
     /// Parts on a rank.
     PartRange parts_on(int rank) const;
 
-    bool is_alone_on(int rank, Part part) const {
-        const RankRange range = ranks_of(part);
-        return range.first_rank == rank && range.count == 1;
-    }
-
     /// Where object number `index` of rank `rank` goes: it stays when its part is there already.
     int destination(Part part, LocalIndex index, int rank) const {
         const RankRange range = ranks_of(part);

@@ -52,21 +52,10 @@ struct PartSize {
 };
 
 /// Result of the last partition. It stands while the objects are in the parts they were sent to and
-/// keep their weights: a program that balances until nothing changes comes to an end.
+/// are the same: a program that balances until nothing changes comes to an end.
 struct Rest {
     Report report;
-    int dimension = 0;
-    PartRange own{};                       ///< parts of this rank
-    bool is_spread = false;                ///< many ranks made the parts
-    std::vector<std::uint64_t> checksums;  ///< of the objects of each of these
-    std::vector<double> part_sizes{};      ///< relative, of all parts; empty: equal
-
-    /// Room to count in: for a weight of each part, or of own ones where it is spread.
-    std::vector<double> part_weights{};
-
-    /// Whether checksums hold positions, where cuts do not tell the parts of objects: those in one
-    /// place are in several parts, or ranks have parts of which they do not know the cuts.
-    bool by_position = false;
+    std::uint64_t checksum = 0;  ///< of the objects of all ranks and their parts
 };
 
 /// State of a Zoltan_Struct that the plug-in keeps.

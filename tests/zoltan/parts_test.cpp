@@ -220,6 +220,20 @@ TEST(Parts, of_zero_size_stay_empty_and_not_all_may_be_zero) {
     EXPECT_EQ(partition_with(program, "RRCB").code, ZOLTAN_FATAL);
 }
 
+TEST(Parts, of_zero_size_hold_all_objects_where_there_is_one_part) {
+    for (const char* method : {"RCB", "RRCB"}) {
+        Program program;
+        scatter_points(program, 50);
+        program.set("NUM_GLOBAL_PARTS", "1");
+        int part = 0;
+        float size = 0;
+        Zoltan_LB_Set_Part_Sizes(program.zz, 1, 1, &part, nullptr, &size);
+        const Outcome outcome = partition_with(program, method);
+        EXPECT_EQ(outcome.code, ZOLTAN_OK) << method;
+        EXPECT_EQ(outcome.exports.parts, std::vector<int>(50, 0)) << method;
+    }
+}
+
 TEST(Parts, more_than_objects_stay_empty) {
     Program program;
     if (program.rank == 0) {

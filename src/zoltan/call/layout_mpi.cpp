@@ -64,7 +64,9 @@ Layout make_layout(const Outcome& outcome, const State& state, Participant& self
         layout.map = outcome.any_local_parts ? local_part_map(local_parts, num_parts)
                                              : even_part_map(num_parts, state.communicator->size());
     });
-    if (outcome.any_part_sizes) merge_part_sizes(num_parts, state, layout, layout.part_sizes, self);
+    // A single part holds all objects, whatever its size.
+    if (outcome.any_part_sizes && num_parts > 1)
+        merge_part_sizes(num_parts, state, layout, layout.part_sizes, self);
     return layout;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cuts/position_order.hpp"
+#include "refinement/cut_search.hpp"
 
 #include <rrcb/points.hpp>
 
@@ -33,9 +34,8 @@ struct Division {
     Ties ties;         ///< that the target lies in, of several candidates; else empty
 };
 
-/// The division of sorted candidates, all above the weight `base`, that comes nearest to the
-/// target.
-Division best_division(std::span<const Candidate> sorted, const PositionOrder& before, double base,
-                       double target);
+/// The division of sorted candidates, all above the base of the target, with the least excess.
+Division best_division(std::span<const Candidate> sorted, const PositionOrder& before,
+                       const CutTarget& target);
 
 }  // namespace rrcb

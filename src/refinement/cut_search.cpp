@@ -40,8 +40,8 @@ void finish_behind(CutSearch& search, Vector position, double below) {
     finish_at(search, position, below);
 }
 
-/// Ends among points that no cut tells apart: divides them, or leaves all of them on the side that
-/// is nearer to the target.
+/// Ends among points that no cut tells apart: divides them, or leaves all of them on the side with
+/// the smaller excess.
 void finish_among_ties(CutSearch& search, const CutTarget& target, const Vector& position,
                        double below_ties, double weight) {
     const double missing = target.target - below_ties;
@@ -49,7 +49,7 @@ void finish_among_ties(CutSearch& search, const CutTarget& target, const Vector&
     if (search.divides != 0) {
         search.lot_below = missing;
         finish_at(search, position, target.target);
-    } else if (missing < weight / 2) {
+    } else if (target.excess(below_ties) < target.excess(below_ties + weight)) {
         finish_at(search, position, below_ties);
     } else {
         finish_behind(search, position, below_ties + weight);
@@ -128,7 +128,7 @@ Chosen choose(double base, double target, std::span<const double> weights) {
     return chosen;
 }
 
-/// Distances from the target of a cut at either edge of a slot.
+/// Excess that a cut at either edge of a slot leaves.
 struct EdgeErrors {
     double lower;
     double upper;
@@ -138,7 +138,7 @@ struct EdgeErrors {
 };
 
 EdgeErrors errors_at(const Chosen& chosen, double weight, const CutTarget& target) {
-    return {target.target - chosen.below, chosen.below + weight - target.target};
+    return {target.excess(chosen.below), target.excess(chosen.below + weight)};
 }
 
 /// True when all candidates share a coordinate, at which a cut may lie and may break ties.
@@ -296,10 +296,10 @@ void decide_among(CutSearch& search, CutTarget& target, std::span<const double> 
     const PositionOrder before = order_of(search);
     std::ranges::stable_sort(candidates, before, &Candidate::position);
 
-    const Division division = best_division(candidates, before, target.base, target.target);
+    const Division division = best_division(candidates, before, target);
     const std::size_t best = division.num_below;
     search.coincident = division.ties.count > 0 ? 1 : 0;
-    const bool good = std::abs(division.below - target.target) <= target.slack;
+    const bool good = target.excess(division.below) <= target.slack;
     if (search.coincident != 0 && search.divides != 0 && !good) {
         const Ties& ties = division.ties;
         finish_among_ties(search, target, candidates[ties.begin].position, ties.below, ties.weight);

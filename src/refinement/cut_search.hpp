@@ -48,11 +48,18 @@ struct CutSearch {
 /// State of a search at the root alone.
 struct CutTarget {
     double target = 0;               ///< weight that belongs below the cut
-    double slack = 0;                ///< how far from it the weight below may be
+    double share = 0.5;              ///< of the weight of the node that this is
+    double slack = 0;                ///< excess that a cut may leave
     double base = 0;                 ///< weight of the node below what is left to the search
     GlobalCount num_candidates = 0;  ///< points of all ranks that are left
     int num_counts = 0;              ///< times that candidates were counted in bins
     Places places{};                 ///< of the cut; any where cuts are not limited
+
+    /// Weight that one side has too much, times twice the share of the other side: in proportion to
+    /// the factor by which it exceeds its own. Of halves it is the distance from the target.
+    double excess(double below) const {
+        return below < target ? 2 * share * (target - below) : 2 * (1 - share) * (below - target);
+    }
 };
 
 /// Number of the axis a search works on.

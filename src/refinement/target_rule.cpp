@@ -106,8 +106,11 @@ double TargetRule::share_below(const Descent& at) const {
 CutTarget TargetRule::target_of(const Descent& at, double weight, double below) const {
     const auto sizes = sizes_of(at);
     CutTarget target;
-    target.target = share_below(at) * weight;
-    target.slack = common_weight / 2;
+    target.share = share_below(at);
+    target.target = target.share * weight;
+    // The point on the target goes to one of the sides.
+    const double of_both = 2 * target.share * (1 - target.share);
+    target.slack = of_both * common_weight;
     // Less by a hair: an odd point goes above the cut, wherever the search began.
     if (is_exact) target.target = std::max(0.0, target.target - std::ldexp(common_weight, -12));
     if (is_exact || !(weight > 0)) return target;
@@ -118,8 +121,7 @@ CutTarget TargetRule::target_of(const Descent& at, double weight, double below) 
     const int levels = num_levels(at.num_parts);
     const double growth =
         std::pow(attainable_tolerance(sizes, *this) * ideal / weight, 1.0 / levels);
-    target.slack =
-        std::max(target.slack, (growth - 1) * std::min(target.target, weight - target.target));
+    target.slack = std::max(target.slack, of_both * (growth - 1) * weight);
     return target;
 }
 

@@ -104,6 +104,28 @@ TEST(Wide, a_tolerance_that_exact_cuts_reach_is_not_missed) {
         }
 }
 
+TEST(Wide, a_small_part_gets_no_point_that_another_has_more_room_for) {
+    // 10 points for each part but the first two, which share 10: 1.6 and 8.4 of them. With 2 points
+    // the first would have 1.25 times its own; with 1 the second has 9, 1.07 times.
+    const int count = 10 * (num_ranks() - 1);
+    std::vector<double> sizes{1.6, 8.4};
+    sizes.resize(static_cast<std::size_t>(num_ranks()), 10);
+    for (const int central : central_parts())
+        for (const bool is_weighted : {false, true}) {
+            const auto mine = share_of_cloud(static_cast<std::size_t>(count), 1, uniform);
+            std::vector<double> weights(mine.size(), 1.0);
+            if (is_weighted && !weights.empty()) weights[0] = 1 + 1e-9;
+            const Points points = interleaved_points(mine, 1, weights);
+            Options options = wide_options(central, Refine::tolerance);
+            options.part_sizes = sizes;
+            options.imbalance_tolerance = 1.2;
+            const Balance result = balance(points, options, MPI_COMM_WORLD);
+            const auto sums = expect_consistent(points, result);
+            EXPECT_LE(imbalance(sums, sizes), 1.2) << central;
+            EXPECT_TRUE(result.report.within_tolerance);
+        }
+}
+
 void expect_axes(const Cuts& cuts, const std::vector<int>& cut_axes) {
     for (std::size_t k = 0; k < cuts.tree.size(); ++k)
         EXPECT_EQ(cuts.tree[k].axis, cut_axes[static_cast<std::size_t>(cuts.nodes[k])]);

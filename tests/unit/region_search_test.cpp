@@ -322,8 +322,10 @@ class Global {
             return;
         }
         EXPECT_EQ(cut.axis, axis_of(members)) << case_;
-        const double error = std::abs(sum(lower) - target);
-        EXPECT_LE(error, best_error(members, target, cut.axis) + 1e-12 * all) << case_;
+        const double share = target / all;
+        EXPECT_LE(excess(sum(lower) / all, share),
+                  least_excess(members, share, cut.axis) * (1 + 1e-12))
+            << case_;
     }
 
     int axis_of(const std::vector<std::size_t>& members) const {
@@ -339,21 +341,29 @@ class Global {
         return axis;
     }
 
-    double best_error(std::vector<std::size_t> members, double target, int axis) const {
+    /// Weight of the side that has more of its own share, over that share.
+    static double excess(double below, double share) {
+        return std::max(below / share, (1 - below) / (1 - share));
+    }
+
+    /// The least that a cut across this axis may leave.
+    double least_excess(std::vector<std::size_t> members, double share, int axis) const {
         const auto key = [&](std::size_t i) {
             std::vector<double> numbers{x(i, static_cast<std::size_t>(axis))};
             for (std::size_t a = 0; a < d_ && !case_.plain_cuts; ++a) numbers.push_back(x(i, a));
             return numbers;
         };
         std::ranges::sort(members, {}, key);
-        double best = target;
+        double all = 0;
+        for (const std::size_t i : members) all += weight(i);
+        double least = excess(0, share);
         double below = 0;
         for (std::size_t k = 0; k < members.size(); ++k) {
             below += weight(members[k]);
             if (k + 1 < members.size() && key(members[k]) == key(members[k + 1])) continue;
-            best = std::min(best, std::abs(below - target));
+            least = std::min(least, excess(below / all, share));
         }
-        return best;
+        return least;
     }
 
     Case case_;

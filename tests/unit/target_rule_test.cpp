@@ -37,20 +37,40 @@ TEST(TargetRule, of_exact_cuts_leaves_half_a_point_of_slack) {
     EXPECT_EQ(rule.target_of({0, 0, 2}, 200).slack, 0);
 }
 
+TEST(TargetRule, of_exact_cuts_prefers_the_side_that_a_point_takes_the_least_beyond_its_size) {
+    // Of 10 points of weight 1 the sides are to have 1.6 and 8.4. With 2 and 8 the lower one has
+    // 1.25 times its own, with 1 and 9 the upper one has 1.07 times.
+    const std::vector<double> sizes{1.6, 8.4};
+    TargetRule rule = rule_of(sizes, 1.1, 1);
+    rule.is_exact = true;
+    const CutTarget target = rule.target_of({0, 0, 2}, 10);
+    EXPECT_LT(target.excess(1), target.excess(2));
+    EXPECT_LE(target.excess(1), target.slack);
+    EXPECT_GT(target.excess(2), target.slack);
+    EXPECT_GT(target.excess(0), target.slack);
+    EXPECT_NEAR(target.excess(2) / target.excess(1), (2 / 1.6 - 1) / (9 / 8.4 - 1), 1e-2);
+}
+
 TEST(TargetRule, spends_all_slack_on_the_last_level_and_a_root_of_it_above) {
     const std::vector<double> sizes(8, 1.0);
     const TargetRule rule = rule_of(sizes, 1.331);
     EXPECT_NEAR(rule.target_of({0, 0, 2}, 200).slack, 33.1, 1e-10);
     EXPECT_NEAR(rule.target_of({0, 0, 8}, 800).slack, 40, 1e-10);  // 1.331 is 1.1 cubed
     // Two of three parts are cut once more.
-    EXPECT_NEAR(rule_of(sizes, 1.21).target_of({0, 0, 3}, 300).slack, 10, 1e-10);
+    const CutTarget target = rule_of(sizes, 1.21).target_of({0, 0, 3}, 300);
+    EXPECT_NEAR(target.slack, target.excess(110), 1e-10);
+    EXPECT_NEAR(target.slack, target.excess(300 - 220), 1e-10);
 }
 
-TEST(TargetRule, has_no_more_slack_than_the_lighter_side_allows) {
+TEST(TargetRule, lets_each_side_exceed_its_size_by_the_same_factor) {
     const std::vector<double> sizes{1, 3};
-    EXPECT_NEAR(rule_of(sizes, 1.1).target_of({0, 0, 2}, 400).slack, 10, 1e-10);
+    const CutTarget target = rule_of(sizes, 1.1).target_of({0, 0, 2}, 400);
+    EXPECT_NEAR(target.slack, target.excess(110), 1e-10);
+    EXPECT_NEAR(target.slack, target.excess(400 - 330), 1e-10);
     const std::vector<double> other_way_round{3, 1};
-    EXPECT_NEAR(rule_of(other_way_round, 1.1).target_of({0, 0, 2}, 400).slack, 10, 1e-10);
+    const CutTarget other = rule_of(other_way_round, 1.1).target_of({0, 0, 2}, 400);
+    EXPECT_NEAR(other.slack, other.excess(330), 1e-10);
+    EXPECT_NEAR(other.slack, other.excess(400 - 110), 1e-10);
 }
 
 TEST(TargetRule, leaves_a_node_that_is_too_heavy_less_slack_and_in_the_end_none) {
@@ -67,10 +87,12 @@ TEST(TargetRule, counts_on_whole_points_where_all_weigh_the_same) {
     EXPECT_EQ(rule_of(sizes, 1.05, 10).target_of({0, 0, 2}, 200).slack, 5) << "half a point";
     // The smallest part with a size decides: 25 and a tenth are room for 2 points.
     const std::vector<double> uneven{1, 0.25, 0, 3};
-    EXPECT_EQ(rule_of(uneven, 1.1, 10).target_of({0, 0, 4}, 425).slack, 5);
+    EXPECT_NEAR(rule_of(uneven, 1.1, 10).target_of({0, 0, 4}, 425).slack,
+                2 * 10 * (1.25 / 4.25) * (3 / 4.25), 1e-10)
+        << "the point on the target";
     const std::vector<double> with_none{1, 0.5, 0, 2.5};
     EXPECT_NEAR(rule_of(with_none, 1.2, 10).target_of({0, 0, 4}, 400).slack,
-                (std::sqrt(1.2) - 1) * 150, 1e-10);
+                (std::sqrt(1.2) - 1) * 400 * 2 * 0.375 * 0.625, 1e-10);
 }
 
 TEST(TargetRule, keeps_every_part_within_the_tolerance_however_the_slack_is_spent) {
@@ -82,7 +104,8 @@ TEST(TargetRule, keeps_every_part_within_the_tolerance_however_the_slack_is_spen
             if (at.is_part()) return weight;
             const CutTarget target = rule.target_of(at, weight);
             double most = 0;
-            for (const double below : {target.target - target.slack, target.target + target.slack})
+            for (const double below : {target.target - target.slack / (2 * target.share),
+                                       target.target + target.slack / (2 * (1 - target.share))})
                 most = std::max({most, again(again, at.lower(), below),
                                  again(again, at.upper(), weight - below)});
             return most;

@@ -74,7 +74,7 @@ void introduce(const Points& points, const Options& given, const Box& box, const
     work.mine.summary.request = request_of(options, points.dimension, previous);
     // Not before the ranks are compared by what they were given.
     if (previous) options.domain = DomainKind::analytic;
-    if ((!previous || !is_whole(*previous)) && is_wide(options, mpi::size_of(self.comm))) {
+    if (is_wide(options, mpi::size_of(self.comm))) {
         if (!options.part_sizes.empty()) normalize(options.part_sizes, options.num_parts);
         work.whole = std::exchange(options, region_options(options));
     }
@@ -132,8 +132,7 @@ void prepare_to_reuse(const Points& points, const Options& given, const Cuts& pr
                                  totals.counts.end());
 }
 
-/// The same where ranks know some of the earlier cuts only. Not where the options leave nothing to
-/// reuse.
+/// The same where no rank looks at all cuts. Leaves `reuse` empty if the options rule it out.
 void prepare_to_reuse_spread(const Points& points, const Options& given, const Cuts& previous,
                              Work& work, std::optional<SpreadReuse>& reuse,
                              const Participant& self) {
@@ -173,12 +172,10 @@ void refine_together(const Points& points, const Bin& bin, Work& work, Participa
     Report& report = result.report;
     Points counted = points;
     if (report.all_weights_zero) counted.weights = work.binned.points.weights = {};
-    const double weight =
-        report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
     Decision& decision = work.decision;
     Estimate estimate{std::move(result.cuts),
                       std::move(decision.bisection.brackets),
-                      weight,
+                      weight_of(report),
                       decision.verdict.common_weight,
                       decision.verdict.current_imbalance,
                       !decision.part_weights.empty(),
@@ -300,8 +297,8 @@ bool may_be_poor(const Report& report, const Options& options) {
            report.measured_imbalance > factor * within_reach;
 }
 
-/// Ends with earlier cuts of which ranks know some only, where their parts are even enough, or
-/// balances from nothing. Collective.
+/// Ends with earlier cuts where their parts are even enough, or balances from nothing; no rank
+/// looks at all cuts. Collective.
 Balance reuse_spread(const Points& points, const Options& given, const Cuts& previous,
                      bool may_stay, Participant& self) {
     Work work;
@@ -315,16 +312,17 @@ Balance reuse_spread(const Points& points, const Options& given, const Cuts& pre
     decide_together(work.mine, work.options, work.decision, self);
     const Verdict& verdict = work.decision.verdict;
     work.result.report = report_of(verdict, work.whole->num_parts);
-    if (reuse->ends(*work.whole, verdict.heaviest, work.result, self))
-        return std::move(work.result);
-    return balance_once(points, given, nullptr, may_stay, self).balance;
+    if (!reuse->ends(*work.whole, verdict.heaviest, work.result, self))
+        return balance_once(points, given, nullptr, may_stay, self).balance;
+    hold_cuts(points, *work.whole, work.result, self);
+    return std::move(work.result);
 }
 
 }  // namespace
 
 Outcome balance_once(const Points& points, const Options& given, const Cuts* previous,
                      bool may_stay, Participant& self) {
-    if (previous && !is_whole(*previous))
+    if (previous && reuses_spread(*previous, given, mpi::size_of(self.comm)))
         return {reuse_spread(points, given, *previous, may_stay, self)};
     Work work;
     work.options.observer = given.observer;
@@ -339,6 +337,7 @@ Outcome balance_once(const Points& points, const Options& given, const Cuts* pre
     work.result.cuts = std::move(work.decision.bisection.cuts);
     if (work.whole) {
         divide_among_many(points, work, self);
+        hold_cuts(points, *work.whole, work.result, self);
     } else {
         previous ? reuse_together(points, work, self) : divide_together(points, work, self);
     }

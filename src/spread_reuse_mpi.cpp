@@ -25,14 +25,18 @@ void add(std::span<const double> a, std::span<const double> b, std::vector<doubl
     std::ranges::transform(a, b, std::back_inserter(joined), std::plus<>());
 }
 
-/// The cuts as planes where these are asked for. They divide no points of one place, which the
-/// look-up keeps together.
+/// The cuts as planes where these are asked for, with their numbers. They divide no points of one
+/// place, which the look-up keeps together.
 Cuts fitted(Cuts cuts, bool plain_cuts) {
     for (Cut& cut : cuts.tree) {
         const double plane = cut.at[static_cast<std::size_t>(cut.axis)];
         if (plain_cuts) cut.at.fill(-std::numeric_limits<double>::infinity());
         cut.at[static_cast<std::size_t>(cut.axis)] = plane;
         cut.divides = 0;
+    }
+    if (is_whole(cuts)) {
+        cuts.nodes.resize(cuts.tree.size());
+        std::iota(cuts.nodes.begin(), cuts.nodes.end(), 0);
     }
     return cuts;
 }
@@ -43,6 +47,7 @@ SpreadReuse::SpreadReuse(const Cuts& previous, bool plain_cuts, const Points& po
                          std::span<Part> parts, MPI_Comm comm)
     : points_(points),
       parts_(parts),
+      was_whole_(is_whole(previous)),
       cuts_(fitted(previous, plain_cuts)),
       totals_(assign_and_count(cuts_, points, parts)),
       room_(PathSearch(cuts_, points, parts), comm),
@@ -88,8 +93,13 @@ double SpreadReuse::measure(double total_weight, bool by_count, std::span<const 
     return sums_.flags()[1];
 }
 
-/// The cuts above the points and the parts of this rank, and those of `depth` levels at the top.
-Cuts SpreadReuse::known_cuts(int depth) const {
+/// All cuts where each rank has and gets them; otherwise those above the points and the parts of
+/// this rank, and those between regions.
+Cuts SpreadReuse::kept_cuts(const Options& options) const {
+    if (was_whole_ && options.cuts == HeldCuts::whole)
+        return {cuts_.dimension, cuts_.num_parts, cuts_.tree};
+    const auto num_regions = static_cast<unsigned>(region_options(options).num_parts);
+    const int depth = std::bit_width(num_regions) - 1;
     std::vector<Part> needed;
     const auto [first, end] = parts_on(sums_.rank(), cuts_.num_parts, sums_.num_ranks());
     for (Part part = first; part < end; ++part) needed.push_back(part);
@@ -111,14 +121,11 @@ bool SpreadReuse::ends(const Options& options, double heaviest, Balance& result,
                        Participant& self) {
     Report& report = result.report;
     const bool by_count = report.all_weights_zero;
-    const double weight = by_count ? static_cast<double>(report.num_points) : report.total_weight;
+    const double weight = weight_of(report);
     const double imbalance = measure(weight, by_count, options.part_sizes, self);
     report_parts(imbalance, heaviest, weight, options, report);
     if (report.num_points > 0 && !report.within_tolerance) return false;
-    self.attempt([&] {
-        const auto num_regions = static_cast<unsigned>(region_options(options).num_parts);
-        result.cuts = known_cuts(std::bit_width(num_regions) - 1);
-    });
+    self.attempt([&] { result.cuts = kept_cuts(options); });
     agree(self);
     report.rounds = report.num_points > 0 ? 1 : 0;
     return true;

@@ -11,8 +11,8 @@
 
 namespace rrcb {
 
-/// Reuse of earlier cuts of which each rank knows some. Memory follows from the parts that the
-/// points of a rank are in, and the cuts above them.
+/// Reuse of earlier cuts of which each rank knows some, or all. Memory follows from the parts that
+/// the points of a rank are in, and the cuts above them.
 class SpreadReuse {
   public:
     /// Assigns the points, whose `parts` it writes. `points` and `parts` outlive it. Not
@@ -37,11 +37,12 @@ class SpreadReuse {
                    Participant& self);
     void add_up(bool by_count);
     double largest_share(double total_weight, std::span<const double> sizes) const;
-    Cuts known_cuts(int depth) const;
+    Cuts kept_cuts(const Options& options) const;
 
     const Points& points_;
     std::span<Part> parts_;
-    Cuts cuts_;
+    bool was_whole_;
+    Cuts cuts_;  ///< with their numbers, also where they are all
     PartTotals totals_;
     SearchRoom<PathSearch> room_;
     Butterfly sums_;

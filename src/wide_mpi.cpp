@@ -1,9 +1,15 @@
 #include "wide_mpi.hpp"
 
 #include "bisection/domain_kinds.hpp"
+#include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/cut_limits.hpp"
+#include "cuts/direct_assignment.hpp"
+#include "cuts/path_search.hpp"
+#include "cuts/tier_search_mpi.hpp"
 #include "cuts/tree.hpp"
+#include "cuts/whole_cuts_mpi.hpp"
+#include "lists/quality_mpi.hpp"
 #include "stage_scope.hpp"
 
 #include <algorithm>
@@ -53,11 +59,6 @@ void number_as_in_tree(int num_parts, Balance& result) {
     for (Part& part : result.parts) part = first_parts[static_cast<std::size_t>(part)];
 }
 
-/// Of all points, or their number where they are balanced by that.
-double weight_of(const Report& report) {
-    return report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
-}
-
 RegionTree tree_of(const Options& options, const Verdict& verdict, double weight, int num_ranks) {
     RegionTree tree;
     tree.num_parts = options.num_parts;
@@ -75,6 +76,20 @@ RegionTree tree_of(const Options& options, const Verdict& verdict, double weight
     return tree;
 }
 
+/// The cuts above each of these points, with what is known. Collective.
+Cuts with_cuts_above(const Points& points, const Cuts& known, Participant& self) {
+    std::vector<Part> parts;
+    std::optional<SearchRoom<PathSearch>> room;
+    self.attempt([&] {
+        parts.resize(points.count);
+        assign_known(known, points, parts);
+        room.emplace(PathSearch(known, points, parts), self.comm);
+    });
+    agree(self);
+    search_together(*room, self);
+    return room->search.take();
+}
+
 }  // namespace
 
 bool is_wide(const Options& options, int num_ranks) {
@@ -83,12 +98,18 @@ bool is_wide(const Options& options, int num_ranks) {
            options.grouped_axes.empty() && !are_cuts_limited(options);
 }
 
+bool reuses_spread(const Cuts& previous, const Options& options, int num_ranks) {
+    if (!is_whole(previous)) return true;
+    Options completed = complete(options, num_ranks);
+    completed.domain = DomainKind::analytic;
+    return is_wide(completed, num_ranks);
+}
+
 Options region_options(const Options& options) {
+    const auto most = static_cast<unsigned>(std::min(options.central_parts, most_regions));
     Options regions = options;
     regions.num_parts =
-        options.refine == Refine::exact
-            ? 1
-            : static_cast<int>(std::bit_floor(static_cast<unsigned>(options.central_parts)));
+        options.refine == Refine::exact ? 1 : static_cast<int>(std::bit_floor(most));
     if (regions.num_parts == 1) regions.refine = Refine::none;
     regions.part_sizes.clear();
     for_each_region({0, 0, options.num_parts}, regions.num_parts, [&](const Descent& at) {
@@ -109,6 +130,10 @@ Options region_options(const Options& options) {
     regions.imbalance_tolerance = std::pow(options.imbalance_tolerance,
                                            levels(regions.num_parts) / levels(options.num_parts));
     return regions;
+}
+
+double weight_of(const Report& report) {
+    return report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
 }
 
 void report_parts(double imbalance, double heaviest, double weight, const Options& options,
@@ -158,6 +183,23 @@ void refine_regions(const Options& options, const Verdict& verdict, const Box& b
     report_parts(refined.imbalance, verdict.heaviest, weight, options, report);
     report.rounds += refined.rounds;
     report.coincident_cuts = refined.coincident_cuts;
+}
+
+void hold_cuts(const Points& points, const Options& options, Balance& result, Participant& self) {
+    Report& report = result.report;
+    const bool gets_all = options.cuts == HeldCuts::whole;
+    const bool divides = options.coincident == Coincident::divide && report.coincident_cuts > 0;
+    if (!gets_all && !divides) return;
+    const StageScope stage(options.observer, Stage::broadcast);
+    if (!gets_all) {
+        result.cuts = with_cuts_above(points, result.cuts, self);
+        return;
+    }
+    if (!is_whole(result.cuts)) result.cuts = whole_cuts(result.cuts, self);
+    if (report.num_points == 0) return;
+    Points counted = points;
+    if (report.all_weights_zero) counted.weights = {};
+    report.part_weights = part_weights(counted, result.parts, result.cuts.num_parts, self);
 }
 
 }  // namespace rrcb

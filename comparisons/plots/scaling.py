@@ -19,7 +19,7 @@ from machine import add_machine
 from matplotlib.figure import Figure
 from results import read, write_csv
 from scaling_check import Comparison, compare_all, read_counted, read_sizes
-from scaling_wide import CENTRAL_PARTS
+from scaling_wide import REGIONS
 from scaling_time import CallPath, Machine, Observed, all_paths, observe
 
 Paths = dict[int, dict[str, CallPath]]  # by ranks and method
@@ -216,7 +216,7 @@ def _searches_assumed(observed: Observed) -> list[str]:
         for name, of in (("to the tolerance", observed.to_tolerance), ("exact", observed.exact))
     ]
     return [
-        f"By many: rank 0 makes {CENTRAL_PARTS} regions, of exact cuts one; below them "
+        f"By many: rank 0 makes {REGIONS} regions, of exact cuts one; below them "
         + "; ".join(told)
         + ", the most of any number of virtual ranks in virtual.csv. A round is 2 log2(ranks)"
         " messages one after the other. Points lie where their parts do. A look at every point a"

@@ -149,7 +149,7 @@ def rrcb_path(ranks: int, refine: str, observed: Observed, machine: Machine) -> 
 def wide_path(ranks: int, is_exact: bool, observed: Observed, machine: Machine) -> CallPath:
     """Parts made by many ranks where there are more than one makes alone, without the plug-in."""
     searches = observed.exact if is_exact else observed.to_tolerance
-    parts, regions = observed.sizes.parts, 1 if is_exact else wide.CENTRAL_PARTS
+    parts, regions = observed.sizes.parts, 1 if is_exact else wide.REGIONS
     path = CallPath(machine, work=machine.points * machine.per_point)
     _climb(path, ranks, observed.sizes, 0, wide.MOST_CELLS)
     path.work += 2 * wide.MOST_CELLS * (regions - 1).bit_length() * machine.per_cell
@@ -257,7 +257,7 @@ def all_paths(ranks: int, observed: Observed, machine: Machine) -> dict[str, Cal
         "rrcb, refined": rrcb_path(ranks, "refined", observed, machine),
         "rrcb-exact": rrcb_path(ranks, "exact", observed, machine),
     }
-    if ranks > wide.CENTRAL_PARTS and observed.to_tolerance and observed.exact:
+    if ranks > wide.REGIONS and observed.to_tolerance and observed.exact:
         found["rrcb by many, accepted"] = wide_path(ranks, False, observed, machine)
         found["rrcb by many, exact"] = wide_path(ranks, True, observed, machine)
     if observed.iterations:

@@ -1,4 +1,5 @@
-"""What a call moves where many ranks make the parts (Options::central_parts), by formula.
+"""What a call moves where many ranks make the parts (Options::central_parts), by formula; each rank
+gets its own cuts (HeldCuts::own).
 
 Records travel to the owners of cuts, and answers back, along a butterfly of ranks: in each step a
 rank sends one message, of a head and of the records whose owners lie in the other half. Where every
@@ -13,7 +14,7 @@ from typing import NamedTuple
 import scaling_model as model
 from scaling_model import Parts, Traffic
 
-CENTRAL_PARTS = 64
+REGIONS = 64  # at most
 MOST_CELLS = 224  # that are handed on up the tree; coarsened to 112 beyond
 HEAD = 40  # length and flags
 RECORD_HEAD = 16

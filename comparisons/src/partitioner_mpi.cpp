@@ -62,7 +62,10 @@ void coordinates(void* data, int, int, int count, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR l
 class ArraysPartitioner : public Partitioner {
   public:
     ArraysPartitioner(const rrcb::Options& options, const Workload& workload, MPI_Comm comm)
-        : options_(options), workload_(workload), comm_(comm) {}
+        : options_(options), workload_(workload), comm_(comm) {
+        // The plug-in, beside which this stands, gathers no cuts either.
+        options_.cuts = rrcb::HeldCuts::own;
+    }
 
     int partition() override {
         try {

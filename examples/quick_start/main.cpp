@@ -7,14 +7,14 @@
 #include <cstdio>
 #include <vector>
 
-// A row of unit squares of 100 x 100 points; rank r holds the next r + 1 of them.
+// A row of unit squares of 40 x 40 points; rank r holds the next r + 1 of them.
 std::vector<double> squares_of(int rank) {
     const int first = rank * (rank + 1) / 2;
     std::vector<double> coordinates;
-    for (int i = 0; i < 100 * (rank + 1); ++i) {
-        for (int j = 0; j < 100; ++j) {
-            coordinates.push_back(first + (i + 0.5) / 100);
-            coordinates.push_back((j + 0.5) / 100);
+    for (int i = 0; i < 40 * (rank + 1); ++i) {
+        for (int j = 0; j < 40; ++j) {
+            coordinates.push_back(first + (i + 0.5) / 40);
+            coordinates.push_back((j + 0.5) / 40);
         }
     }
     return coordinates;
@@ -31,11 +31,11 @@ int main(int argc, char** argv) {
     const int num_parts = balance.cuts.num_parts;
     const rrcb::Plan plan = rrcb::plan(balance.parts, num_parts, MPI_COMM_WORLD);
 
-    // Columns of the points that are here now, and copies of those of others within 0.02.
+    // Columns of the points that are here now, and copies of those of others within 0.05.
     const std::vector<double> here =
         rrcb::transfer(plan, rrcb::column(coordinates, 2), MPI_COMM_WORLD);
     const rrcb::GhostPlan near =
-        rrcb::ghosts(balance.cuts, rrcb::interleaved_points(here, 2), 0.02, MPI_COMM_WORLD);
+        rrcb::ghosts(balance.cuts, rrcb::interleaved_points(here, 2), 0.05, MPI_COMM_WORLD);
     const std::vector<double> ghosts = rrcb::fetch(near, rrcb::column(here, 2), MPI_COMM_WORLD);
 
     const std::vector<double> weights =
@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
 }
 
 // Output on 4 ranks:
-// 100000 points in 4 parts
+// 16000 points in 4 parts
 // imbalance 1.0000, moved 50 %
-// rank 0 sends 0 points and receives 15000
-// it holds 25000 and knows 200 near them
+// rank 0 sends 0 points and receives 2400
+// it holds 4000 and knows 80 near them

@@ -12,15 +12,15 @@ static void check(int code) {
     MPI_Abort(MPI_COMM_WORLD, code);
 }
 
-// A row of unit squares of 100 x 100 points; rank r holds the next r + 1 of them.
+// A row of unit squares of 40 x 40 points; rank r holds the next r + 1 of them.
 static double* squares_of(int rank, size_t* count) {
-    *count = (size_t)(rank + 1) * 10000;
+    *count = (size_t)(rank + 1) * 1600;
     double* coordinates = malloc(2 * *count * sizeof *coordinates);
     double* x = coordinates;
-    for (int i = 0; i < 100 * (rank + 1); ++i) {
-        for (int j = 0; j < 100; ++j) {
-            *x++ = rank * (rank + 1) / 2 + (i + 0.5) / 100;
-            *x++ = (j + 0.5) / 100;
+    for (int i = 0; i < 40 * (rank + 1); ++i) {
+        for (int j = 0; j < 40; ++j) {
+            *x++ = rank * (rank + 1) / 2 + (i + 0.5) / 40;
+            *x++ = (j + 0.5) / 40;
         }
     }
     return coordinates;
@@ -62,5 +62,5 @@ int main(int argc, char** argv) {
 }
 
 // Output on 4 ranks:
-// 100000 points, imbalance 1.0000
-// rank 0 sends 0 points, receives 15000 and holds 25000
+// 16000 points, imbalance 1.0000
+// rank 0 sends 0 points, receives 2400 and holds 4000

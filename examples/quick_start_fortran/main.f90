@@ -52,15 +52,15 @@ contains
     call MPI_Abort(MPI_COMM_WORLD, code)
   end subroutine
 
-  ! A row of unit squares of 100 x 100 points; rank r holds the next r + 1 of them.
+  ! A row of unit squares of 40 x 40 points; rank r holds the next r + 1 of them.
   function squares_of(rank) result(points)
     integer, intent(in) :: rank
     real(c_double), allocatable :: points(:, :)
     integer :: i, j
-    allocate (points(2, 10000*(rank + 1)))
-    do i = 0, 100*(rank + 1) - 1
-      do j = 0, 99
-        points(:, 100*i + j + 1) = [rank*(rank + 1)/2 + (i + 0.5d0)/100, (j + 0.5d0)/100]
+    allocate (points(2, 1600*(rank + 1)))
+    do i = 0, 40*(rank + 1) - 1
+      do j = 0, 39
+        points(:, 40*i + j + 1) = [rank*(rank + 1)/2 + (i + 0.5d0)/40, (j + 0.5d0)/40]
       end do
     end do
   end function
@@ -68,5 +68,5 @@ contains
 end program
 
 ! Output on 4 ranks:
-! 100000 points, imbalance 1.0000
-! rank 0 sends 0 points, receives 15000 and holds 25000
+! 16000 points, imbalance 1.0000
+! rank 0 sends 0 points, receives 2400 and holds 4000

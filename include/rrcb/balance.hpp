@@ -20,7 +20,7 @@ struct Report {
     bool within_tolerance = false;     ///< measured to be within Options::imbalance_tolerance
     std::vector<double> part_weights;  ///< over all ranks, counted, one per part, by count where
                                        ///< all weights are 0; empty where they were not counted,
-                                       ///< and where many ranks make the parts
+                                       ///< and where cuts are not whole
     double least_imbalance = 1;  ///< no partition is better: of the heaviest point in a part alone
     int coincident_cuts = 0;  ///< that met points no allowed cut can tell apart, where the balance
                               ///< asked for divides them; counted by the refinement
@@ -30,8 +30,8 @@ struct Report {
     int surplus_parts = 0;          ///< parts that must stay empty: more parts than points
 };
 
-/// The new partition; every rank gets the same cuts, or those that it knows, and the parts of its
-/// own points.
+/// The new partition; every rank gets the same cuts, unless Options::cuts asks for its own, and the
+/// parts of its own points.
 struct Balance {
     Cuts cuts;                ///< between the parts, for look-ups
     std::vector<Part> parts;  ///< length points.count
@@ -66,11 +66,12 @@ struct Balance {
 /// this way, and the cuts below them are made by many ranks. Each rank tells the owner of a node,
 /// the first rank of its first part, what it has there, along ceil(log2 R) messages on R ranks, in
 /// which records of one node are joined; the owner answers the same way. Nodes take about two such
-/// rounds a level to a tolerance, four exactly. Then no rank holds an array with an entry for each
-/// part or rank, but for `part_sizes`: beside the points and a sorted copy of them a rank has about
-/// 1.5 kB for each node of a level in which it has points, 64 kB for messages, and the owner of a
-/// node up to 1024 positions. Whether points may stay as they lie the owners tell in one more round
-/// of that kind; part r then is on rank r.
+/// rounds a level to a tolerance, four exactly. At the end all ranks get all cuts and the weights
+/// of all parts, by two reductions of 40 bytes a part. With Options::cuts = own they do not, and no
+/// rank holds an array with an entry for each part or rank, but for `part_sizes`: beside the points
+/// and a sorted copy of them a rank has about 1.5 kB for each node of a level in which it has
+/// points, 64 kB for messages, and the owner of a node up to 1024 positions. Whether points may
+/// stay as they lie the owners tell in one more round of that kind; part r then is on rank r.
 ///
 /// Cuts lie where Options::min_width and Options::grid let them, those of points that stay as well.
 /// Each is then in the place nearest to the share of its parts, across another axis if that comes
@@ -99,11 +100,11 @@ RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm 
 /// the nearest place, or across another axis where there is none. Then the points are counted, and
 /// beyond the tolerance all cuts are searched in their places, to the shares of the parts.
 ///
-/// Where `previous` is spread over the ranks, see Cuts::nodes, and the options ask for parts that
-/// many ranks make, the cuts stay while the parts are within the tolerance, and are made from
-/// nothing beyond it, with Refine::exact, with Options::cut_axes and with other options. Counts
-/// then go to the ranks of the parts, and memory follows from the parts that the points of a rank
-/// are in.
+/// Where many ranks make the parts, see Options::central_parts, `previous` may be whole or not; the
+/// cuts stay while the parts are within the tolerance, and are made from nothing beyond it, with
+/// Refine::exact and with Options::cut_axes. Counts then go to the ranks of the parts, and memory
+/// follows from `previous` and the parts that the points of a rank are in. Where one rank makes the
+/// parts, cuts that are not whole are made from nothing.
 ///
 /// The other axes of `previous` stay, unless the imbalance ends above 1.25 times the larger of the
 /// tolerance and Report::least_imbalance. Then cuts are made from statistics as well, of other

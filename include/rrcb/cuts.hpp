@@ -2,6 +2,8 @@
 
 #include <rrcb/points.hpp>
 
+#include <mpi.h>
+
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -28,10 +30,11 @@ RRCB_API bool is_above(const Cut& cut, const Vector& position, int dimension);
 /// `tree` holds num_parts - 1 cuts in preorder. A node of n parts leaves `lower_parts(n)` of them,
 /// the lower numbers, below its cut. Same bits on every rank after `balance`.
 ///
-/// Where many ranks make the parts, see Options::central_parts, `tree` holds the cuts that this
-/// rank knows, those above its points and above its parts, and `nodes` tells which these are, on
-/// every rank: also on one that happens to know all. Look-ups work wherever these tell;
-/// rrcb/locate.hpp has what else is needed.
+/// With Options::cuts = own, where many ranks make the parts, `tree` holds only some cuts: those
+/// above the points and the parts of this rank, and `nodes` contains their numbers, also on a rank
+/// that happens to have all. Then look-ups that need other cuts fail on this rank alone; the
+/// collective assign() and ghosts() work with both kinds, and whole_cuts() makes the one of the
+/// other.
 struct Cuts {
     int dimension = 0;      ///< of the points
     int num_parts = 1;      ///< of the whole tree
@@ -65,24 +68,49 @@ RRCB_API Part part_of(const Cuts& cuts, const Vector& position);
 /// Writes the part of every point into `parts` (length points.count). Not collective.
 ///
 /// Throws Error if a coordinate is NaN or infinite, arrays have another length, the points another
-/// dimension than the cuts, the cuts are no tree, or the cuts that decide on a point are not known;
-/// `parts` is void then. Weights are not looked at.
+/// dimension than the cuts, or the cuts are no tree; `parts` is void then. With cuts that are not
+/// whole also, on this rank alone, if it lacks a cut above a point: call assign(cuts, points, comm)
+/// instead. Weights are not looked at.
 RRCB_API void assign(const Cuts& cuts, const Points& points, std::span<Part> parts);
 
 /// Returns the region of a part; open sides are +-infinity. Lower faces belong to it, upper faces
 /// do not, except for ties (see Cut). Not collective.
 ///
 /// The region is the empty box if the cuts leave no position to the part, as they do to parts of
-/// size 0, unless one of them divides points there. Throws Error for a number that is no part, cuts
-/// that are no tree, or if some of the cuts above the part are not known.
+/// size 0, unless one of them divides points there. Throws Error for a number that is no part and
+/// cuts that are no tree; with cuts that are not whole also, on this rank alone, if it lacks a cut
+/// above the part: call whole_cuts() before.
 RRCB_API Box box_of(const Cuts& cuts, Part part);
 
 /// Returns the parts whose region a closed box touches, ascending; none for an empty box. Not
 /// collective.
 ///
 /// Where the box holds the place of points that a cut divides, both sides of it are touched. A part
-/// whose region is empty is never touched. Throws Error for bounds that are NaN, cuts that are no
-/// tree, or if cuts that may cross the box are not known.
+/// whose region is empty is never touched. Throws Error for bounds that are NaN and cuts that are
+/// no tree; with cuts that are not whole also, on this rank alone, if it lacks a cut that may cross
+/// the box: call whole_cuts() before.
 RRCB_API std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
+
+/// Part of each of any points, by whole cuts or by cuts of which each rank has some.
+///
+/// Collective over `comm`, that of the balance; each rank gives points of its own, or none, but
+/// states their dimension. Whole cuts are looked up locally, and one reduction compares errors. If
+/// ranks have some cuts each and one lacks some, ranks share those that they own in one pass of
+/// ceil(log2 R) messages each, and ask the owners, with 5 kB in answer for each 127 cuts that a
+/// rank asks for. In trees of up to 2^20 parts that takes two questions, one after the other; three
+/// after exact cuts, or if a tolerance was missed.
+///
+/// Throws Error on every rank alike: for coordinates that are NaN or infinite, points of another
+/// dimension than the cuts, cuts that whole_cuts() would refuse, or no memory.
+RRCB_API std::vector<Part> assign(const Cuts& cuts, const Points& points, MPI_Comm comm);
+
+/// The whole tree of cuts of which each rank holds a part.
+///
+/// Collective over `comm`, that of the balance: one reduction of 32 bytes a part, which every rank
+/// has to hold. Cuts that are whole come back as they are. Throws Error on every rank alike: if
+/// cuts are no tree, those of the ranks are of trees of other dimensions or numbers of parts, whole
+/// trees differ, a rank lacks the cut of a node whose lowest part begins on this rank, or has no
+/// memory.
+RRCB_API Cuts whole_cuts(const Cuts& cuts, MPI_Comm comm);
 
 }  // namespace rrcb

@@ -22,7 +22,7 @@ struct GhostPlan {
 ///
 /// Collective over `comm`: ceil(log2 R) messages from each of R ranks, one more from some, to tell
 /// what comes, then one reduction. Where ranks know a part of the cuts each, one such pass more;
-/// and where some lacks cuts near its points, which it then asks the owners for as locate() does,
+/// and where some lacks cuts near its points, which it then asks the owners for as assign() does,
 /// one to share cuts, two for each time that some rank asks, and the first pass and the reduction
 /// again. The plan is the same as by the whole tree.
 ///

@@ -25,13 +25,20 @@ enum class Refine {
     automatic,  ///< tolerance for analytic domains; none for sampled, the paper's method
     none,       ///< not at all: the estimate from the statistics stands
     tolerance,  ///< until the measured imbalance is within `imbalance_tolerance`
-    exact       ///< to the weighted median: each cut within the weight of one object
+    exact       ///< to the weighted median: each cut within the weight of one object, which goes
+                ///< to the side that it takes the least beyond its size
 };
 
 /// What becomes of points in one and the same place where the balance asked for divides them.
 enum class Coincident {
     together,  ///< they share a part, so that the part of a position is the part of its points
     divide     ///< some go to each side, those of lower ranks below; look-ups find one part
+};
+
+/// Cuts that each rank gets if many ranks make the parts, see Options::central_parts.
+enum class HeldCuts {
+    whole,  ///< all, so that every look-up works on every rank: two reductions of 40 bytes a part
+    own     ///< those above its points and its parts, see Cuts::nodes: no memory for each part
 };
 
 /// Lines of a grid across an axis: at origin + k * spacing for whole numbers k, as doubles compute
@@ -72,13 +79,13 @@ struct Options {
     /// Only where cuts are refined and not plain.
     Coincident coincident = Coincident::together;
 
-    /// Parts that rank 0 makes alone, at least 2. Where there are more, and more ranks, it makes as
-    /// many regions, a power of two, and each cut below them is found by a rank of its parts; with
-    /// Refine::exact, and once more where the tolerance is missed, each cut is. A rank then gets
-    /// the cuts between the regions, those of nodes in which it has points, and those on the way to
-    /// its own parts, see Cuts::nodes. No effect with domains other than analytic, with
-    /// CutRule::midpoint, Refine::none, `min_width`, `grid` or `grouped_axes`.
-    int central_parts = 64;
+    /// Parts that rank 0 makes alone, at least 2. Where there are more, and more ranks, it makes
+    /// regions, up to 64 and a power of two, and each cut below them is found by a rank of its
+    /// parts; with Refine::exact, and once more if the tolerance is missed, each cut is. No effect
+    /// with domains other than analytic, with CutRule::midpoint, Refine::none, `min_width`, `grid`
+    /// or `grouped_axes`.
+    int central_parts = 4096;
+    HeldCuts cuts = HeldCuts::whole;  ///< that each rank gets where many ranks make the parts
 
     double sigma_multiplier = 1.5;  ///< sampled: half-width of a cell's sampling box in sigmas, > 0
     double sample_fraction = 1.0;   ///< sampled: points drawn per real point, in (0, 1]

@@ -118,11 +118,12 @@ RRCB_API int rrcb_get_report(const rrcb_balancer* balancer, rrcb_report* report)
 
 /** Shows the cuts, which belong to the balancer until it gets others. Not collective.
  *
- *  An error before the first balance or rrcb_set_cuts, as of all functions that need cuts, and if
- *  the balancer holds a part of them only, see rrcb::Cuts. */
+ *  An error before the first balance or rrcb_set_cuts, as of all functions that need cuts. After
+ *  rrcb_set("cuts", "OWN") also an error of this rank alone if it has some cuts only, see
+ *  rrcb::Cuts; call rrcb_gather_cuts before. */
 RRCB_API int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts);
 
-/** Gives each rank's balancer all cuts, where each holds a part of them, as rrcb::whole_cuts.
+/** Gives each rank's balancer all cuts, if each has some of them, as rrcb::whole_cuts.
  *  Collective. */
 RRCB_API int rrcb_gather_cuts(rrcb_balancer* balancer);
 
@@ -132,15 +133,19 @@ RRCB_API int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts);
 
 /** Parts of any positions by the cuts, arrays as for rrcb_balance. Not collective.
  *
- *  An error where the balancer does not hold the cuts that tell them. */
+ *  After rrcb_set("cuts", "OWN") an error of this rank alone if it lacks a cut above a position;
+ *  call rrcb_assign_all instead. */
 RRCB_API int rrcb_assign(const rrcb_balancer* balancer, size_t count, const double* coordinates,
                          int32_t* parts);
 
-/** The same wherever the cuts are held, as rrcb::locate. Collective. */
-RRCB_API int rrcb_locate(const rrcb_balancer* balancer, size_t count, const double* coordinates,
-                         int32_t* parts);
+/** The same, whichever cuts the ranks have, as the collective rrcb::assign. Collective. */
+RRCB_API int rrcb_assign_all(const rrcb_balancer* balancer, size_t count, const double* coordinates,
+                             int32_t* parts);
 
-/** Region of a part by the cuts: `lower` and `upper` of length 3. Not collective. */
+/** Region of a part by the cuts: `lower` and `upper` of length 3. Not collective.
+ *
+ *  After rrcb_set("cuts", "OWN") an error of this rank alone if it lacks a cut above the part;
+ *  call rrcb_gather_cuts before. */
 RRCB_API int rrcb_box_of(const rrcb_balancer* balancer, int32_t part, double* lower, double* upper);
 
 /** Makes and keeps the plan that brings `count` points to the ranks of their parts, as rrcb::plan;

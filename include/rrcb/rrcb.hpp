@@ -6,7 +6,6 @@
 #include <rrcb/cuts.hpp>
 #include <rrcb/error.hpp>
 #include <rrcb/ghosts.hpp>
-#include <rrcb/locate.hpp>
 #include <rrcb/moments.hpp>
 #include <rrcb/options.hpp>
 #include <rrcb/plan.hpp>

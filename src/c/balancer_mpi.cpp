@@ -2,7 +2,7 @@
 #include "c/balancer.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/duplicate.hpp"
-#include "cuts/locate_mpi.hpp"
+#include "cuts/assign_mpi.hpp"
 #include "cuts/whole_cuts_mpi.hpp"
 #include "lists/plan_mpi.hpp"
 
@@ -114,8 +114,8 @@ int rrcb_assign(const rrcb_balancer* balancer, size_t count, const double* coord
     });
 }
 
-int rrcb_locate(const rrcb_balancer* balancer, size_t count, const double* coordinates,
-                int32_t* parts) {
+int rrcb_assign_all(const rrcb_balancer* balancer, size_t count, const double* coordinates,
+                    int32_t* parts) {
     return guarded(balancer, [&](const auto& own) {
         Participant self{duplicate_of(own.comm)};
         self.attempt([&] {
@@ -123,7 +123,7 @@ int rrcb_locate(const rrcb_balancer* balancer, size_t count, const double* coord
             require_arrays(count, coordinates, parts);
         });
         const rrcb::Points positions = points_of(own.cuts.dimension, count, coordinates, nullptr);
-        std::ranges::copy(rrcb::locate(own.cuts, positions, self), parts);
+        std::ranges::copy(rrcb::assign(own.cuts, positions, self), parts);
     });
 }
 

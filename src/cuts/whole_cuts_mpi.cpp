@@ -7,8 +7,6 @@
 #include "options/request.hpp"
 #include "options/validation.hpp"
 
-#include <rrcb/locate.hpp>
-
 #include <algorithm>
 #include <cstdint>
 #include <vector>

@@ -37,7 +37,7 @@ module rrcb
     procedure :: gather_cuts => balancer_gather_cuts        !< collective
     procedure :: set_cuts => balancer_set_cuts
     procedure :: assign => balancer_assign
-    procedure :: locate => balancer_locate                  !< collective
+    procedure :: assign_all => balancer_assign_all          !< collective
     procedure :: box_of => balancer_box_of
     procedure :: make_plan => balancer_make_plan            !< collective
     procedure :: plan => balancer_plan
@@ -187,12 +187,12 @@ contains
   end subroutine
 
   !> The same wherever the cuts are held.
-  subroutine balancer_locate(self, coordinates, parts, error)
+  subroutine balancer_assign_all(self, coordinates, parts, error)
     class(rrcb_balancer), intent(in) :: self
     real(c_double), intent(in), contiguous :: coordinates(:, :)
     integer(c_int32_t), intent(out), contiguous :: parts(:)
     integer, intent(out) :: error
-    error = c_locate(self%handle, size(parts, kind=c_size_t), coordinates, parts)
+    error = c_assign_all(self%handle, size(parts, kind=c_size_t), coordinates, parts)
   end subroutine
 
   subroutine balancer_box_of(self, part, lower, upper, error)

@@ -124,7 +124,8 @@ module rrcb_c
       integer(c_int32_t), intent(out) :: parts(*)
       integer(c_int) :: code
     end function
-    function c_locate(handle, count, coordinates, parts) bind(c, name="rrcb_locate") result(code)
+    function c_assign_all(handle, count, coordinates, parts) &
+      bind(c, name="rrcb_assign_all") result(code)
       import :: c_double, c_int, c_int32_t, c_ptr, c_size_t
       type(c_ptr), value :: handle
       integer(c_size_t), value :: count

@@ -1,10 +1,11 @@
+#include "lists/quality_mpi.hpp"
+
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "options/rejection.hpp"
 
 #include <rrcb/plan.hpp>
-#include <rrcb/quality.hpp>
 
 #include <array>
 #include <string>
@@ -49,13 +50,18 @@ void sum_over_ranks(std::span<double> sums, MPI_Comm comm) {
 }  // namespace
 
 std::vector<double> part_weights(const Points& points, std::span<const Part> parts, int num_parts,
-                                 MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
+                                 Participant& self) {
     std::vector<double> weights;
     self.attempt([&] { weights = weights_here(points, parts, num_parts); });
     agree_on_parts(num_parts, self);
     sum_over_ranks(weights, self.comm);
     return weights;
+}
+
+std::vector<double> part_weights(const Points& points, std::span<const Part> parts, int num_parts,
+                                 MPI_Comm user) {
+    Participant self{mpi::duplicate_of(user)};
+    return part_weights(points, parts, num_parts, self);
 }
 
 double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,

@@ -98,6 +98,10 @@ inline constexpr Word coincident_words[] = {
     {"DIVIDE", static_cast<int>(Coincident::divide),
      "by number, where cuts are refined and not plain"}};
 
+inline constexpr Word held_cuts_words[] = {
+    {"WHOLE", static_cast<int>(HeldCuts::whole), "all of them"},
+    {"OWN", static_cast<int>(HeldCuts::own), "those above its points and its parts"}};
+
 template <auto field>
 int value_of(const Options& options) {
     return static_cast<int>(options.*field);
@@ -160,6 +164,8 @@ inline constexpr Option option_table[] = {
     {"central_parts", "RRCB_CENTRAL_PARTS",
      "Parts that one rank makes; where there are more, and more ranks, many ranks make them",
      Range<int>{&Options::central_parts, 2, std::numeric_limits<int>::max()}},
+    {"cuts", "", "Cuts that each rank gets where many ranks make the parts",
+     choice_of<HeldCuts, &Options::cuts>(held_cuts_words)},
     {"sigma_multiplier", "RRCB_SIGMA_MULTIPLIER",
      "SAMPLED: half-width of a cell's sampling box in standard deviations",
      Range<double>{&Options::sigma_multiplier, 0, std::numeric_limits<double>::max(), true}},

@@ -105,6 +105,7 @@ TEST(FailingMemory, in_cuts_that_are_spread_over_the_ranks) {
     if (test::num_ranks() < 3) return;
     Options options = refining(Refine::tolerance);
     options.central_parts = 2;
+    options.cuts = HeldCuts::own;
     options.num_parts = 9;
     options.imbalance_tolerance = 1.5;
     std::vector<double> coordinates = cloud_here(2);
@@ -117,7 +118,7 @@ TEST(FailingMemory, in_cuts_that_are_spread_over_the_ranks) {
     const Cuts whole = whole_cuts(cuts, MPI_COMM_WORLD);
     std::vector<Part> expected(points.count);
     assign(whole, points, expected);
-    fail_in([&] { return locate(cuts, points, MPI_COMM_WORLD); },
+    fail_in([&] { return assign(cuts, points, MPI_COMM_WORLD); },
             [&](const std::vector<Part>& parts) { EXPECT_EQ(parts, expected); });
     const auto ghosts_here = [&] { return ghosts(cuts, points, 0.2, MPI_COMM_WORLD); };
     const GhostPlan near = ghosts_here();

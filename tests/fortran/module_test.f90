@@ -55,8 +55,8 @@ program module_test
   call other%assign(x, again, error)
   call expect(error == rrcb_ok .and. all(again == parts), "assign")
   again = -1
-  call other%locate(x, again, error)
-  call expect(error == rrcb_ok .and. all(again == parts), "locate")
+  call other%assign_all(x, again, error)
+  call expect(error == rrcb_ok .and. all(again == parts), "assign_all")
   again = -1
   call other%set("refine", "NONE", error)
   call other%rebalance(x, again, error)

@@ -51,6 +51,7 @@ TEST(GivenAxes, of_each_cut_are_kept_also_by_many_ranks_and_where_nothing_is_to_
     const auto mine = share_of_cloud(3, 2, [](std::size_t, int, double u) { return u; });
     Options options;
     options.central_parts = 2;
+    options.cuts = HeldCuts::own;
     options.num_parts = 2 * num_ranks();
     options.part_sizes.assign(static_cast<std::size_t>(options.num_parts), 1);
     options.part_sizes.front() = 0;

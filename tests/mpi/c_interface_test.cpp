@@ -120,7 +120,8 @@ TEST_F(CInterface, starts_from_cuts_that_it_is_given) {
     EXPECT_EQ(parts, first);
     parts.assign(cloud.count(), -1);
     ASSERT_EQ(rrcb_gather_cuts(other), RRCB_OK);
-    ASSERT_EQ(rrcb_locate(other, cloud.count(), cloud.coordinates.data(), parts.data()), RRCB_OK);
+    ASSERT_EQ(rrcb_assign_all(other, cloud.count(), cloud.coordinates.data(), parts.data()),
+              RRCB_OK);
     EXPECT_EQ(parts, first);
     parts.assign(cloud.count(), -1);
     ASSERT_EQ(rrcb_rebalance(other, 2, cloud.count(), cloud.coordinates.data(),
@@ -187,8 +188,8 @@ TEST_F(CInterface, what_is_wrong_on_one_rank_fails_on_all) {
     if (is_last_rank()) cloud.coordinates.back() = 0.5;
     ASSERT_EQ(call(2, coordinates, parts.data()), RRCB_OK) << rrcb_last_error();
     std::int32_t* none_there = is_last_rank() ? nullptr : parts.data();
-    expect_error_everywhere(rrcb_locate(balancer, cloud.count(), coordinates, none_there), invalid,
-                            "parts is null");
+    expect_error_everywhere(rrcb_assign_all(balancer, cloud.count(), coordinates, none_there),
+                            invalid, "parts is null");
     expect_error_everywhere(
         rrcb_rebalance(balancer, 2, cloud.count(), coordinates, nullptr, none_there), invalid,
         "parts is null");
@@ -271,7 +272,7 @@ TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {
     expect_missing(rrcb_get_plan(balancer, &plan), "plan yet");
     expect_missing(rrcb_box_of(balancer, 0, box.lower.data(), box.upper.data()), "cuts yet");
     expect_missing(rrcb_assign(balancer, 1, x, &part), "cuts yet");
-    expect_missing(rrcb_locate(balancer, 1, x, &part), "cuts yet");
+    expect_missing(rrcb_assign_all(balancer, 1, x, &part), "cuts yet");
     expect_missing(rrcb_gather_cuts(balancer), "cuts yet");
     expect_missing(rrcb_rebalance(balancer, 2, 1, x, nullptr, &part), "cuts yet");
     expect_missing(rrcb_make_plan(balancer, 1, &part), "cuts yet");

@@ -30,7 +30,7 @@ void expect_refusal(MPI_Comm comm, const std::string& text) {
         [&] { moved_fraction(points, parts, 1, comm); },
         [&] { Controller controller(comm); },
         [&] { whole_cuts(cuts, comm); },
-        [&] { locate(cuts, points, comm); },
+        [&] { assign(cuts, points, comm); },
     };
     for (const auto& call : calls) {
         try {

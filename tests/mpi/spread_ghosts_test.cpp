@@ -3,9 +3,9 @@
 #include "partial_trees.hpp"
 
 #include <rrcb/balance.hpp>
+#include <rrcb/cuts.hpp>
 #include <rrcb/error.hpp>
 #include <rrcb/ghosts.hpp>
-#include <rrcb/locate.hpp>
 
 #include <gtest/gtest.h>
 
@@ -99,6 +99,7 @@ TEST(SpreadGhosts, of_points_on_the_ranks_of_their_parts_are_those_by_the_whole_
     Options options;
     options.num_parts = 2 * num_ranks() + 1;
     options.central_parts = 2;
+    options.cuts = HeldCuts::own;
     const Balance balance =
         rrcb::balance(interleaved_points(scattered, 2), options, MPI_COMM_WORLD);
     const Plan lists = plan(balance.parts, options.num_parts, MPI_COMM_WORLD);

@@ -2,8 +2,8 @@
 #include "held_points.hpp"
 #include "reuse_cases.hpp"
 
+#include <rrcb/cuts.hpp>
 #include <rrcb/error.hpp>
-#include <rrcb/locate.hpp>
 #include <rrcb/plan.hpp>
 #include <rrcb/quality.hpp>
 
@@ -25,6 +25,7 @@ using test::Share;
 Options spread_options(int num_parts, double tolerance) {
     Options options = test::with_parts(num_parts, tolerance);
     options.central_parts = 2;
+    options.cuts = HeldCuts::own;
     return options;
 }
 
@@ -170,6 +171,29 @@ TEST(SpreadReuse, counts_points_without_weight_and_keeps_the_cuts_without_points
     EXPECT_EQ(empty.report.rounds, 0);
 }
 
+TEST(SpreadReuse, starts_from_whole_cuts_as_from_those_that_ranks_have_a_part_of) {
+    const HeldPoints all = uneven_cloud(2, true);
+    const Share mine(all);
+    for (const int num_parts : {num_ranks(), 2 * num_ranks() + 1})
+        for (const double tolerance : {1.05, 1000.0}) {
+            Options options = spread_options(num_parts, tolerance);
+            const Balance first = balance(mine.points(), options, MPI_COMM_WORLD);
+            const Cuts whole = whole_cuts(first.cuts, MPI_COMM_WORLD);
+            const Balance own = balance(mine.points(), options, MPI_COMM_WORLD, whole);
+            EXPECT_EQ(own.parts, first.parts);
+            EXPECT_EQ(is_whole(own.cuts), is_whole(first.cuts));
+            options.cuts = HeldCuts::whole;
+            for (const Cuts& previous : {whole, first.cuts}) {
+                const Balance again = balance(mine.points(), options, MPI_COMM_WORLD, previous);
+                EXPECT_EQ(again.parts, first.parts);
+                EXPECT_NEAR(again.report.measured_imbalance, first.report.measured_imbalance,
+                            1e-12);
+                EXPECT_TRUE(test::same_cuts(again.cuts, whole));
+                EXPECT_EQ(std::ssize(again.report.part_weights), num_parts);
+            }
+        }
+}
+
 TEST(SpreadReuse, measures_weights_so_small_that_a_mean_part_is_no_double) {
     HeldPoints all = uneven_cloud(2, true);
     for (double& weight : all.weights) weight = weight > 1.45 ? 5e-324 : 0;
@@ -214,6 +238,10 @@ TEST(SpreadReuse, tells_all_ranks_what_is_wrong_on_one) {
     other = options;
     if (is_last) other.central_parts = 1000;
     expect("central_parts differs", first.cuts, other);
+    expect("central_parts differs", whole_cuts(first.cuts, MPI_COMM_WORLD), other);
+    other = options;
+    if (is_last) other.cuts = HeldCuts::whole;
+    expect("cuts differs", first.cuts, other);
     if (is_last) mine.coordinates[7] = std::nan("");
     expect("is NaN or infinite", first.cuts, options);
 }

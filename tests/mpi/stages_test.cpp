@@ -52,6 +52,7 @@ TEST(Stages, come_again_where_many_ranks_make_the_parts) {
     auto cloud = test::uniform_cloud(500, 2, static_cast<unsigned>(test::rank()));
     Options options;
     options.central_parts = 2;
+    options.cuts = HeldCuts::own;
     options.refine = Refine::exact;
     EXPECT_EQ(stages_seen(options, cloud),
               start_of_call() + " +assignment -assignment +refinement -refinement");
@@ -64,6 +65,8 @@ TEST(Stages, come_again_where_many_ranks_make_the_parts) {
     EXPECT_EQ(stages_seen(options, cloud, &cuts), reuse);
     for (double& x : cloud) x *= x;
     EXPECT_EQ(stages_seen(options, cloud, &cuts), reuse + anew);
+    options.cuts = HeldCuts::whole;
+    EXPECT_EQ(stages_seen(options, cloud), anew + " +broadcast -broadcast");
 }
 
 TEST(Stages, end_when_a_call_fails) {

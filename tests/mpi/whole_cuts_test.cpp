@@ -2,8 +2,8 @@
 #include "cuts/node_cuts_mpi.hpp"
 #include "partial_trees.hpp"
 
+#include <rrcb/cuts.hpp>
 #include <rrcb/error.hpp>
-#include <rrcb/locate.hpp>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "collective/duplicate.hpp"
 #include "held_points.hpp"
 
-#include <rrcb/locate.hpp>
+#include <rrcb/cuts.hpp>
 
 #include <gtest/gtest.h>
 
@@ -22,6 +22,7 @@ using test::Share;
 Options wide_options(double tolerance) {
     Options options;
     options.central_parts = 2;
+    options.cuts = HeldCuts::own;
     options.refine = Refine::tolerance;
     options.imbalance_tolerance = tolerance;
     return options;
@@ -31,7 +32,7 @@ Options wide_options(double tolerance) {
 void expect_cuts_of_all(const HeldPoints& all, const Balance& result) {
     ASSERT_FALSE(is_whole(result.cuts));
     const Points points = interleaved_points(all.coordinates, all.dimension);
-    const std::vector<Part> parts = locate(result.cuts, points, MPI_COMM_WORLD);
+    const std::vector<Part> parts = assign(result.cuts, points, MPI_COMM_WORLD);
     std::size_t num_strays = 0;
     for (std::size_t i = 0; i < parts.size(); ++i) num_strays += parts[i] != all.owners[i] ? 1 : 0;
     if (result.report.coincident_cuts == 0) {

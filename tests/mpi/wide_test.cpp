@@ -33,6 +33,7 @@ double uniform(std::size_t, int, double u) {
 Options wide_options(int central_parts, Refine refine = Refine::exact) {
     Options options;
     options.central_parts = central_parts;
+    options.cuts = HeldCuts::own;
     options.refine = refine;
     return options;
 }
@@ -42,6 +43,12 @@ std::vector<int> central_parts() {
     std::vector<int> numbers;
     for (const int number : {2, 3, 4, 8})
         if (number < num_ranks()) numbers.push_back(number);
+    return numbers;
+}
+
+std::vector<std::int32_t> numbers_up_to(int count) {
+    std::vector<std::int32_t> numbers(static_cast<std::size_t>(count));
+    std::iota(numbers.begin(), numbers.end(), 0);
     return numbers;
 }
 
@@ -307,6 +314,51 @@ TEST(Wide, all_ranks_get_all_cuts_where_the_call_asks_for_something_else) {
     Options planes = wide_options(2);
     planes.plain_cuts = true;
     EXPECT_FALSE(is_whole(balance(points, planes, MPI_COMM_WORLD).cuts));
+}
+
+TEST(Wide, all_ranks_get_all_cuts_and_the_weights_of_all_parts_by_default) {
+    for (const Refine refine : {Refine::exact, Refine::tolerance})
+        for (const int central : central_parts()) {
+            const auto mine =
+                share_of_cloud(3000, 2, [](std::size_t, int, double u) { return u * u; });
+            const Points points = interleaved_points(mine, 2);
+            Options options = wide_options(central, refine);
+            options.num_parts = 2 * num_ranks() + 1;
+            const Balance own = balance(points, options, MPI_COMM_WORLD);
+            options.cuts = Options{}.cuts;
+            const Balance whole = balance(points, options, MPI_COMM_WORLD);
+            EXPECT_EQ(whole.parts, own.parts);
+            ASSERT_TRUE(is_whole(whole.cuts));
+            std::vector<Part> parts(points.count);
+            assign(whole.cuts, points, parts);
+            EXPECT_EQ(parts, whole.parts);
+            EXPECT_EQ(whole.report.part_weights,
+                      part_weights(points, parts, options.num_parts, MPI_COMM_WORLD));
+            EXPECT_TRUE(own.report.part_weights.empty());
+            test::expect_same_cuts_on_all_ranks(
+                {2, options.num_parts, whole.cuts.tree, numbers_up_to(options.num_parts - 1)});
+        }
+}
+
+TEST(Wide, points_in_a_divided_place_are_looked_up_on_every_rank) {
+    // A rank whose points are below such a cut has no other reason to get the cuts above it.
+    const auto mine =
+        share_of_cloud(600, 2, [](std::size_t, int, double u) { return std::floor(3 * u); });
+    const Points points = interleaved_points(mine, 2);
+    for (const Refine refine : {Refine::exact, Refine::tolerance}) {
+        Options options = wide_options(2, refine);
+        options.num_parts = 3 * num_ranks();
+        options.coincident = Coincident::divide;
+        const Balance own = balance(points, options, MPI_COMM_WORLD);
+        EXPECT_GT(own.report.coincident_cuts, 0);
+        std::vector<Part> parts(points.count);
+        ASSERT_NO_THROW(assign(own.cuts, points, parts));
+        options.cuts = HeldCuts::whole;
+        const Balance whole = balance(points, options, MPI_COMM_WORLD);
+        EXPECT_EQ(whole.parts, own.parts);
+        for (LocalIndex i = 0; i < points.count; ++i)
+            EXPECT_EQ(parts[i], part_of(whole.cuts, points.position(i)));
+    }
 }
 
 TEST(Wide, cuts_of_which_ranks_know_some_only_are_made_anew) {

@@ -59,6 +59,7 @@ TEST(OptionTable, writes_what_it_reads) {
         {"coincident", {"TOGETHER", "DIVIDE"}},
         {"imbalance_tolerance", {"1", "1.01", "1e+300"}},
         {"central_parts", {"2", "64", "2147483647"}},
+        {"cuts", {"WHOLE", "OWN"}},
         {"sigma_multiplier", {"0.1", "5e-324", "1.7976931348623157e+308"}},
         {"sample_fraction", {"0.25", "1"}},
         {"seed", {"0", "18446744073709551615"}},
@@ -207,6 +208,7 @@ TEST(Request, differs_in_every_option_by_its_name) {
         {"coincident", [](Options& o) { o.coincident = Coincident::divide; }},
         {"imbalance_tolerance", [](Options& o) { o.imbalance_tolerance = 2; }},
         {"central_parts", [](Options& o) { o.central_parts = 2; }},
+        {"cuts", [](Options& o) { o.cuts = HeldCuts::own; }},
         {"sigma_multiplier", [](Options& o) { o.sigma_multiplier = 2; }},
         {"sample_fraction", [](Options& o) { o.sample_fraction = 0.5; }},
         {"seed", [](Options& o) { o.seed = 2; }}};

@@ -75,8 +75,8 @@ void expect_unknown(LookUp&& look_up) {
         ADD_FAILURE() << "nothing was thrown";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
-        EXPECT_NE(std::string(error.what()).find("locate()"), std::string::npos);
-        EXPECT_NE(std::string(error.what()).find("whole_cuts()"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("assign(cuts, points, comm)"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("whole_cuts(cuts, comm)"), std::string::npos);
     }
 }
 

@@ -41,7 +41,10 @@ mpm::Decomposition decompose(mpm::Positions positions, const rrcb::Options& opti
 
 }  // namespace
 
-mpm::Balancer rrcb_balancer(const rrcb::Options& options) {
+mpm::Balancer rrcb_balancer(const rrcb::Options& asked) {
+    rrcb::Options options = asked;
+    // Every rank has the boxes of all, and looks up owners by itself.
+    options.cuts = rrcb::HeldCuts::whole;
     return [options](mpm::Positions positions, MPI_Comm comm) {
         return decompose(positions, options, comm);
     };

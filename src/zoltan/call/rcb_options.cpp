@@ -51,6 +51,8 @@ Options make_options(const Parameters& parameters, const Layout& layout, int dim
     options.num_parts = layout.map.num_parts;
     options.part_sizes = layout.part_sizes;
     options.plain_cuts = parameters.rectilinear_blocks != 0;
+    // Handles that keep cuts gather them, once for a machine where there are many.
+    options.cuts = HeldCuts::own;
     if (parameters.lock_directions != 0 && previous != nullptr) {
         options.cut_axes = axes_of(previous->tree());
     } else if (parameters.set_directions != 0) {

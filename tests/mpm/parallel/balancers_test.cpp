@@ -1,4 +1,5 @@
 #include "balancers/balancers_mpi.hpp"
+#include "balancers/rrcb_balancer_mpi.hpp"
 #include "scene_file/scene_file_mpi.hpp"
 #include "support.hpp"
 
@@ -55,18 +56,21 @@ State state_of(const Simulation& simulation, MPI_Comm comm) {
     return state;
 }
 
-State run(const Scene& scene, const char* name, MPI_Comm comm) {
-#ifdef RRCB_MPM_ZOLTAN
-    float version = 0;
-    Zoltan_Initialize(0, nullptr, &version);
-#endif
+State run(const Scene& scene, const std::optional<Balancer>& balancer, MPI_Comm comm) {
     Simulation simulation(scene, comm);
-    const std::optional<Balancer> balancer = make_balancer(name, scene);
     for (int step = 0; step < num_steps; ++step) {
         if (balancer && step % every == 0) simulation.rebalance(*balancer);
         simulation.step();
     }
     return state_of(simulation, comm);
+}
+
+State run(const Scene& scene, const char* name, MPI_Comm comm) {
+#ifdef RRCB_MPM_ZOLTAN
+    float version = 0;
+    Zoltan_Initialize(0, nullptr, &version);
+#endif
+    return run(scene, make_balancer(name, scene), comm);
 }
 
 /// The name of a tensor or vector, of which a column is a component. Plastic work is part of the
@@ -108,6 +112,15 @@ TEST(Balancers, do_not_show_in_soil_that_fails) {
     scene.effects.push_back({"local_damping", {{"fraction", 0.3}, {"until", 0.2}}});
     scene.effects.push_back({"energy_audit", {}});
     expect_serial_whatever_the_balancer(scene);
+}
+
+TEST(Balancers, do_not_show_where_many_ranks_make_the_parts) {
+    rrcb::Options options;
+    options.central_parts = 2;
+    options.cuts = rrcb::HeldCuts::own;
+    const Scene scene = shipped("slope", 4);
+    expect_same(run(scene, "none", MPI_COMM_SELF),
+                run(scene, rrcb_balancer(options), MPI_COMM_WORLD));
 }
 
 TEST(Balancers, do_not_show_under_water_where_clay_softens_and_is_dragged) {

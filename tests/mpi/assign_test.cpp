@@ -2,8 +2,8 @@
 #include "../support/clouds.hpp"
 #include "partial_trees.hpp"
 
+#include <rrcb/cuts.hpp>
 #include <rrcb/error.hpp>
-#include <rrcb/locate.hpp>
 
 #include <gtest/gtest.h>
 
@@ -35,13 +35,13 @@ std::vector<double> positions_here(int dimension, int seed) {
 void expect_located(const Cuts& whole, const Cuts& known, int seed) {
     const std::vector<double> coordinates = positions_here(whole.dimension, seed);
     const Points points = interleaved_points(coordinates, whole.dimension);
-    const std::vector<Part> parts = locate(known, points, MPI_COMM_WORLD);
+    const std::vector<Part> parts = assign(known, points, MPI_COMM_WORLD);
     ASSERT_EQ(parts.size(), points.count);
     for (LocalIndex i = 0; i < points.count; ++i)
         EXPECT_EQ(parts[i], part_of(whole, points.position(i)));
 }
 
-TEST(Locate, finds_the_parts_of_positions_anywhere) {
+TEST(AssignTogether, finds_the_parts_of_positions_anywhere) {
     for (const int dimension : {1, 2, 3})
         for (const int num_parts : {2, num_ranks() + 1, 3 * num_ranks(), 64, 300}) {
             SCOPED_TRACE(num_parts);
@@ -52,21 +52,21 @@ TEST(Locate, finds_the_parts_of_positions_anywhere) {
         }
 }
 
-TEST(Locate, finds_the_parts_of_a_tree_of_many_tiers) {
+TEST(AssignTogether, finds_the_parts_of_a_tree_of_many_tiers) {
     const int num_parts = 40000;
     const Cuts whole = test::planes(num_parts);
     std::mt19937_64 engine(static_cast<unsigned>(rank()));
     std::vector<double> x;
     for (int i = 0; i < 200; ++i) x.push_back(test::uniform(engine, 0, num_parts));
     const std::vector<Part> parts =
-        locate(known_here(whole), interleaved_points(x, 1), MPI_COMM_WORLD);
+        assign(known_here(whole), interleaved_points(x, 1), MPI_COMM_WORLD);
     for (std::size_t i = 0; i < x.size(); ++i) EXPECT_EQ(parts[i], static_cast<Part>(x[i]));
 }
 
 /// Expects an Error with this text on every rank, after which the next call works.
 void expect_refusal(const std::string& text, const Cuts& cuts, const Points& points) {
     try {
-        locate(cuts, points, MPI_COMM_WORLD);
+        assign(cuts, points, MPI_COMM_WORLD);
         ADD_FAILURE() << "nothing was thrown";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
@@ -76,7 +76,7 @@ void expect_refusal(const std::string& text, const Cuts& cuts, const Points& poi
     expect_located(whole, known_here(whole), 1);
 }
 
-TEST(Locate, refuses_what_one_rank_gives_wrong_on_all) {
+TEST(AssignTogether, refuses_what_one_rank_gives_wrong_on_all) {
     const Cuts whole = random_cuts(2, 2 * num_ranks() + 5);
     const Cuts right = known_here(whole);
     const std::string last = "rank " + std::to_string(num_ranks() - 1) + ": ";
@@ -84,7 +84,7 @@ TEST(Locate, refuses_what_one_rank_gives_wrong_on_all) {
     const std::span<const double> some(x);
     expect_refusal(last + "coordinate of object 0 on axis 1 is NaN", right,
                    interleaved_points(some.first(2), 2));
-    expect_refusal(last + "positions must have the dimension", right,
+    expect_refusal(last + "points must have the dimension", right,
                    interleaved_points(std::span<const double>(), is_last_rank() ? 3 : 2));
     Cuts cuts = right;
     if (is_last_rank()) {

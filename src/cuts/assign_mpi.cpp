@@ -1,4 +1,4 @@
-#include "cuts/locate_mpi.hpp"
+#include "cuts/assign_mpi.hpp"
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
@@ -14,14 +14,14 @@
 
 namespace rrcb {
 
-std::vector<Part> locate(const Cuts& cuts, const Points& positions, Participant& self) {
+std::vector<Part> assign(const Cuts& cuts, const Points& points, Participant& self) {
     std::vector<Part> parts;
     std::optional<SearchRoom<PathSearch>> room;
     self.attempt([&] {
-        check_positions(positions, cuts);
-        parts.resize(positions.count);
-        if (!assign_known(cuts, positions, parts)) reject_coordinates(positions);
-        if (!is_whole(cuts)) room.emplace(PathSearch(cuts, positions, parts), self.comm);
+        check_positions(points, cuts);
+        parts.resize(points.count);
+        if (!assign_known(cuts, points, parts)) reject_coordinates(points);
+        if (!is_whole(cuts)) room.emplace(PathSearch(cuts, points, parts), self.comm);
     });
     agree(self, {{"the dimension of the cuts", static_cast<std::uint64_t>(cuts.dimension)},
                  {"the number of parts", static_cast<std::uint64_t>(cuts.num_parts)},
@@ -30,9 +30,9 @@ std::vector<Part> locate(const Cuts& cuts, const Points& positions, Participant&
     return parts;
 }
 
-std::vector<Part> locate(const Cuts& cuts, const Points& positions, MPI_Comm user) {
+std::vector<Part> assign(const Cuts& cuts, const Points& points, MPI_Comm user) {
     Participant self{mpi::duplicate_of(user)};
-    return locate(cuts, positions, self);
+    return assign(cuts, points, self);
 }
 
 }  // namespace rrcb

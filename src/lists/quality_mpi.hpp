@@ -1,0 +1,17 @@
+#pragma once
+
+#include "collective/participant.hpp"
+
+#include <rrcb/quality.hpp>
+
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+/// What each part weighs over all ranks, as the public function, over a communicator that is a
+/// duplicate already. Collective.
+std::vector<double> part_weights(const Points& points, std::span<const Part> parts, int num_parts,
+                                 Participant& self);
+
+}  // namespace rrcb

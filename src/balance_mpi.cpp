@@ -1,6 +1,5 @@
 #include "balance_mpi.hpp"
 
-#include "bisection/domain_kinds.hpp"
 #include "bisection/limited_bisection.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/cut_limits.hpp"
@@ -45,9 +44,6 @@ struct Work {
 };
 
 /// Gathers the contributions of all ranks at the root. Collective.
-///
-/// The tree is that of every other call. Points have nothing to gain from a stop on the way, so
-/// they go straight to the root, as in the paper, once it has told all ranks that all ask for this.
 void gather(int dimension, Work& work, Participant& self) {
     const Options& options = work.options;
     Contribution& mine = work.mine;
@@ -55,9 +51,6 @@ void gather(int dimension, Work& work, Participant& self) {
     const std::size_t most = most_cells(options);
     merge_up(mine, dimension, MergeTree{mpi::size_of(self.comm)},
              work.whole ? std::min(most, most_cells_of_regions) : most, self);
-    if (!traits_of(options.domain).sends_points) return;
-    confirm(mine.summary, self);
-    gather_points(mine.points, self);
 }
 
 bool is_known(const Verdict& verdict) {
@@ -72,8 +65,6 @@ void introduce(const Points& points, const Options& given, const Box& box, const
     if (previous) check_previous(*previous, options, points.dimension);
     work.mine.summary = summarize(points, box);
     work.mine.summary.request = request_of(options, points.dimension, previous);
-    // Not before the ranks are compared by what they were given.
-    if (previous) options.domain = DomainKind::analytic;
     if (is_wide(options, mpi::size_of(self.comm))) {
         if (!options.part_sizes.empty()) normalize(options.part_sizes, options.num_parts);
         work.whole = std::exchange(options, region_options(options));
@@ -106,7 +97,7 @@ void prepare(const Points& points, const Options& given, bool may_stay, Work& wo
         work.places.emplace(*work.whole, place_of(points, box, work.mine.summary.weight), may_stay,
                             points.dimension, mpi::rank_of(self.comm));
     work.binned = bin_by_options(points, box, options);
-    add_records(points, work.binned, options, work.mine);
+    add_records(points, work.binned, work.mine);
     if (reads_current && may_stay)
         append_place(place_of(points, box, work.mine.summary.weight), points.dimension,
                      work.mine.places);

@@ -1,6 +1,6 @@
 #include "wide_mpi.hpp"
 
-#include "bisection/domain_kinds.hpp"
+#include "bisection/axis_choice.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/cut_limits.hpp"
@@ -10,6 +10,7 @@
 #include "cuts/tree.hpp"
 #include "cuts/whole_cuts_mpi.hpp"
 #include "lists/quality_mpi.hpp"
+#include "options/validation.hpp"
 #include "stage_scope.hpp"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ RegionTree tree_of(const Options& options, const Verdict& verdict, double weight
     tree.rule.common_weight = verdict.common_weight;
     tree.rule.heaviest = verdict.heaviest;
     tree.rule.is_exact = options.refine == Refine::exact;
-    tree.share_of_longest = traits_of(options.domain).share_of_longest;
+    tree.share_of_longest = near_longest;
     tree.plain_cuts = options.plain_cuts;
     tree.divides_coincident = options.coincident == Coincident::divide;
     return tree;
@@ -93,16 +94,13 @@ Cuts with_cuts_above(const Points& points, const Cuts& known, Participant& self)
 }  // namespace
 
 bool is_wide(const Options& options, int num_ranks) {
-    return std::min(options.num_parts, num_ranks) > options.central_parts &&
-           options.domain == DomainKind::analytic && is_refined(options) &&
+    return std::min(options.num_parts, num_ranks) > options.central_parts && is_refined(options) &&
            options.grouped_axes.empty() && !are_cuts_limited(options);
 }
 
 bool reuses_spread(const Cuts& previous, const Options& options, int num_ranks) {
     if (!is_whole(previous)) return true;
-    Options completed = complete(options, num_ranks);
-    completed.domain = DomainKind::analytic;
-    return is_wide(completed, num_ranks);
+    return is_wide(complete(options, num_ranks), num_ranks);
 }
 
 Options region_options(const Options& options) {

@@ -71,7 +71,8 @@ Row cycle_row(Row key, const StillCall& result, const std::string& error) {
 /// Of our own methods the C++ interface: the plug-in remembers where it sent the points, and leaves
 /// alone what is still there.
 mpm::Balancer memoryless(const Method& method) {
-    return method.options ? rrcb_balancer(*method.options) : *make_balancer(method);
+    if (!method.options) return *make_balancer(method);
+    return std::visit([](const auto& options) { return rrcb_balancer(options); }, *method.options);
 }
 
 /// The rows of one setting; one that tells why where it failed.

@@ -40,8 +40,12 @@ StatisticalDomain counts(const Points& points, int cells_per_axis) {
 
 /// The paper's: as many points as there are, in 1.5 sigma.
 StatisticalDomain samples(const Points& points, int cells_per_axis) {
-    return rrcb::sampled_domain(rrcb::cell_moments(points, mesh_over(points, cells_per_axis)),
-                                points.dimension, rrcb::Options());
+    StatisticalDomain domain{points.dimension, {}};
+    for (const auto& [position, weight] :
+         rrcb::sample_points(rrcb::cell_moments(points, mesh_over(points, cells_per_axis)),
+                             points.dimension, rrcb::PaperOptions()))
+        domain.patches.push_back({position, position, weight});
+    return domain;
 }
 
 int sub_cells_per_axis(int dimension) {
@@ -82,8 +86,7 @@ int cells_for(const DomainMaker& maker, int lean_cells_per_axis, int dimension) 
 }
 
 double measured_imbalance(const Points& points, const StatisticalDomain& domain, int num_parts) {
-    const rrcb::Cuts cuts =
-        rrcb::bisect(domain, num_parts, {}, rrcb::CutRule::weighted_fraction).cuts;
+    const rrcb::Cuts cuts = rrcb::bisect(domain, num_parts, {}).cuts;
     std::vector<rrcb::Part> parts(points.count);
     rrcb::assign(cuts, points, parts);
     std::vector<double> weights(static_cast<std::size_t>(num_parts));

@@ -4,8 +4,8 @@
 #include "gather/lean_cells.hpp"
 #include "gather_mpi.hpp"
 
-#include <rrcb/balance.hpp>
 #include <rrcb/bisection.hpp>
+#include <rrcb/paper.hpp>
 #include <rrcb/quality.hpp>
 
 #include <algorithm>
@@ -53,17 +53,23 @@ rrcb::StatisticalDomain domain_of(const SourceSetting& setting,
     if (setting.source == Source::cells)
         return rrcb::analytic_domain(cells, dimension, box_of(cells));
     if (setting.source == Source::boxes) return box_domain(cells, dimension, setting.k);
-    if (setting.source == Source::in_cells || setting.source == Source::in_all) {
-        std::vector<rrcb::Box> boxes(cells.size(), box_of(cells));
-        if (setting.source == Source::in_cells)
-            std::ranges::transform(cells, boxes.begin(), &rrcb::CellMoments::box);
-        return clamped(box_domain(cells, dimension, setting.k), boxes);
-    }
-    rrcb::Options options;
+    std::vector<rrcb::Box> boxes(cells.size(), box_of(cells));
+    if (setting.source == Source::in_cells)
+        std::ranges::transform(cells, boxes.begin(), &rrcb::CellMoments::box);
+    return clamped(box_domain(cells, dimension, setting.k), boxes);
+}
+
+rrcb::Cuts bisect(const SourceSetting& setting, std::span<const rrcb::CellMoments> cells,
+                  int dimension, int num_parts) {
+    if (setting.source != Source::sampled)
+        return rrcb::bisect(domain_of(setting, cells, dimension), num_parts, {}).cuts;
+    rrcb::PaperOptions options;
     options.sigma_multiplier = setting.k;
     options.sample_fraction = setting.fraction;
     options.seed = setting.seed;
-    return rrcb::sampled_domain(cells, dimension, options);
+    return rrcb::bisect_points(rrcb::sample_points(cells, dimension, options), dimension, num_parts,
+                               {}, rrcb::CutRule::weighted_fraction)
+        .cuts;
 }
 
 /// Cuts of the domain of everybody's cells, on every rank.
@@ -72,11 +78,7 @@ rrcb::Cuts cut_cells(const SourceSetting& setting, const rrcb::Points& points, M
     const int num_parts = size_of(comm);
     const std::vector<rrcb::CellMoments> cells = gather_on_root(cells_of(setting, points), comm);
     rrcb::Cuts cuts{points.dimension, num_parts, {}};
-    if (rank == 0) {
-        cuts = rrcb::bisect(domain_of(setting, cells, points.dimension), num_parts, {},
-                            rrcb::CutRule::weighted_fraction)
-                   .cuts;
-    }
+    if (rank == 0) cuts = bisect(setting, cells, points.dimension, num_parts);
     cuts.tree.resize(static_cast<std::size_t>(num_parts) - 1);
     MPI_Bcast(cuts.tree.data(), static_cast<int>(cuts.tree.size() * sizeof(rrcb::Cut)), MPI_BYTE, 0,
               comm);
@@ -140,9 +142,9 @@ std::vector<double> source_part_weights(const SourceSetting& setting, const rrcb
     const int num_parts = size_of(comm);
     std::vector<rrcb::Part> parts(points.count);
     if (setting.source == Source::points) {
-        rrcb::Options options;
-        options.domain = rrcb::DomainKind::points;
-        parts = rrcb::balance(points, options, comm).parts;
+        rrcb::PaperOptions options;
+        options.domain = rrcb::PaperDomain::points;
+        parts = rrcb::balance_as_in_paper(points, options, comm).parts;
     } else {
         rrcb::assign(cut_cells(setting, points, comm), points, parts);
     }

@@ -32,7 +32,7 @@ std::vector<rrcb::CellMoments> lean_cells(const rrcb::Points& points,
                                           const rrcb::SupportMesh& mesh);
 
 /// A uniform patch in mean +- k sigma per cell, unlike in analytic_domain whatever lies there: what
-/// sampled_domain becomes with ever more points. Not collective.
+/// sample_points become with ever more of them. Not collective.
 rrcb::StatisticalDomain box_domain(std::span<const rrcb::CellMoments> cells, int dimension,
                                    double k);
 

@@ -30,8 +30,8 @@ struct Judgement {
 /// A method under measurement; without a partitioner once it has failed.
 struct Candidate {
     std::unique_ptr<Partitioner> partitioner;
-    std::optional<rrcb::Options> options{};  ///< of our own methods
-    std::vector<std::uint64_t> seeds;        ///< to be used in turn; none where there is no choice
+    std::optional<OwnOptions> options{};  ///< of our own methods
+    std::vector<std::uint64_t> seeds;     ///< to be used in turn; none where there is no choice
     Measurement measurement;
     std::vector<Judgement> judgements;  ///< one per seed
     std::vector<rrcb::Part> before;     ///< parts of the points before they moved last
@@ -42,7 +42,7 @@ struct Candidate {
 std::vector<std::uint64_t> seeds_of(const Method& method) {
     if (!varies_with_seed(method)) return {};
     std::vector<std::uint64_t> seeds(num_judged_seeds);
-    std::iota(seeds.begin(), seeds.end(), method.options->seed);
+    std::iota(seeds.begin(), seeds.end(), method.seed());
     return seeds;
 }
 
@@ -196,7 +196,7 @@ void judge_all(std::span<Candidate> candidates, const Workload& workload, bool d
         }
         if (candidate.partitioner && candidate.options)
             candidate.measurement.rounds =
-                rrcb::balance(workload.points(), *candidate.options, comm).report.rounds;
+                balance(*candidate.options, workload.points(), comm).report.rounds;
     }
 }
 

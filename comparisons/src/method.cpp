@@ -1,18 +1,20 @@
 #include "method.hpp"
 
-#include "bisection/domain_kinds.hpp"
 #include "failure.hpp"
 #include "options/option_table.hpp"
+#include "paper/paper_text.hpp"
 #include "text.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 namespace comparisons {
 
 namespace {
 
-using rrcb::DomainKind;
 using rrcb::Options;
+using rrcb::PaperDomain;
+using rrcb::PaperOptions;
 using rrcb::Refine;
 
 /// A parameter in brackets, and the option it is.
@@ -21,55 +23,99 @@ struct Key {
     std::string_view option;
 };
 
-constexpr Key keys[] = {{"mesh", "support_mesh"},  {"cut", "cut_rule"},
-                        {"refine", "refine"},      {"tol", "imbalance_tolerance"},
-                        {"k", "sigma_multiplier"}, {"fraction", "sample_fraction"},
-                        {"seed", "seed"},          {"central", "central_parts"}};
+constexpr Key keys[] = {{"mesh", "support_mesh"},
+                        {"refine", "refine"},
+                        {"tol", "imbalance_tolerance"},
+                        {"central", "central_parts"}};
+
+/// A parameter in brackets of the paper's methods.
+struct PaperKey {
+    std::string_view name;
+    const char* parameter;  ///< of the plug-in
+    const char* legal;      ///< the values it takes, in words
+    bool (*read)(std::string_view text, PaperOptions& options);
+    std::string (*write)(const PaperOptions& options);
+};
+
+std::string upper_case(std::string_view text) {
+    std::string result(text);
+    for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return result;
+}
+
+template <auto field>
+std::string write_field(const PaperOptions& options) {
+    return write_number(options.*field);
+}
+
+template <auto field, auto read>
+bool read_field(std::string_view text, PaperOptions& options) {
+    return read(options.*field, text);
+}
+
+bool read_mesh(std::string_view text, PaperOptions& options) {
+    Options own;
+    const bool is_legal = rrcb::read_option(*rrcb::find_option("support_mesh"), text, own);
+    if (is_legal && own.support_mesh != 0) options.support_mesh = own.support_mesh;
+    return is_legal && own.support_mesh != 0;
+}
+
+constexpr PaperKey paper_keys[] = {
+    {"mesh", "RRCB_SUPPORT_MESH", "a whole number from 1 to 4096", read_mesh,
+     write_field<&PaperOptions::support_mesh>},
+    {"cut", "RRCB_CUT_RULE", "WEIGHTED or MIDPOINT",
+     read_field<&PaperOptions::cut_rule, rrcb::read_cut_rule>,
+     [](const PaperOptions& options) { return rrcb::name_of(options.cut_rule); }},
+    {"k", "RRCB_SIGMA_MULTIPLIER", "a number above 0",
+     read_field<&PaperOptions::sigma_multiplier, rrcb::read_sigma_multiplier>,
+     write_field<&PaperOptions::sigma_multiplier>},
+    {"fraction", "RRCB_SAMPLE_FRACTION", "a number above 0, at most 1",
+     read_field<&PaperOptions::sample_fraction, rrcb::read_sample_fraction>,
+     write_field<&PaperOptions::sample_fraction>},
+    {"seed", "RRCB_SEED", "a whole number, 0 or more",
+     read_field<&PaperOptions::seed, rrcb::read_seed>, write_field<&PaperOptions::seed>}};
 
 struct Entry {
     std::string_view name;
     std::string_view lb_method;
-    std::optional<DomainKind> domain;
-    Refine refine;
+    std::optional<OwnOptions> options;
     std::vector<std::string_view> keys;
 };
 
-const std::vector<Entry>& entries() {
-    static const std::vector<Entry> table = {
-        {"zoltan-rcb", "RCB", {}, {}, {"reuse", "lock"}},
-        {"zoltan-rib", "RIB", {}, {}, {}},
-        {"zoltan-hsfc", "HSFC", {}, {}, {}},
-#ifdef RRCB_HAS_ZOLTAN2
-        {"zoltan2-mj", multijagged, {}, {}, {}},
-#endif
-        {"root-rcb", "RRCB", DomainKind::points, Refine::none, {"cut"}},
-        {"rrcb-sampled",
-         "RRCB",
-         DomainKind::sampled,
-         Refine::none,
-         {"mesh", "cut", "k", "fraction", "seed"}},
-        {"rrcb",
-         "RRCB",
-         DomainKind::analytic,
-         Refine::automatic,
-         {"mesh", "cut", "refine", "tol", "reuse", "central"}},
-        {"rrcb-exact", "RRCB", DomainKind::analytic, Refine::exact, {"mesh"}},
-        {"rrcb-arrays",
-         on_arrays,
-         DomainKind::analytic,
-         Refine::automatic,
-         {"mesh", "cut", "refine", "tol", "central"}},
-    };
-    return table;
+Options refined(Refine refine) {
+    Options options;
+    options.refine = refine;
+    return options;
 }
 
 // The middle of the meshes and multipliers the paper studies, and all of its points.
-Options paper_options() {
-    Options options;
+PaperOptions of_paper(PaperDomain domain) {
+    PaperOptions options;
+    options.domain = domain;
     options.support_mesh = 4;
     options.sigma_multiplier = 1.5;
     options.sample_fraction = 1;
     return options;
+}
+
+const std::vector<Entry>& entries() {
+    static const std::vector<Entry> table = {
+        {"zoltan-rcb", "RCB", {}, {"reuse", "lock"}},
+        {"zoltan-rib", "RIB", {}, {}},
+        {"zoltan-hsfc", "HSFC", {}, {}},
+#ifdef RRCB_HAS_ZOLTAN2
+        {"zoltan2-mj", multijagged, {}, {}},
+#endif
+        {"root-rcb", "RRCB", of_paper(PaperDomain::points), {"cut"}},
+        {"rrcb-sampled",
+         "RRCB",
+         of_paper(PaperDomain::sampled),
+         {"mesh", "cut", "k", "fraction", "seed"}},
+        {"rrcb", "RRCB", Options{}, {"mesh", "refine", "tol", "reuse", "central"}},
+        {"rrcb-exact", "RRCB", refined(Refine::exact), {"mesh"}},
+        {"rrcb-arrays", on_arrays, Options{}, {"mesh", "refine", "tol", "central"}},
+    };
+    return table;
 }
 
 const Entry& find_entry(std::string_view name) {
@@ -96,36 +142,54 @@ void apply(Method& method, const Entry& entry, std::string_view assignment) {
         (name == "reuse" ? method.reuses : method.locks_axes) = true;
         return;
     }
-    const Key& key = *std::ranges::find(keys, name, &Key::name);
     const std::string_view value =
         equals == assignment.npos ? "" : trim(assignment.substr(equals + 1));
-    const rrcb::Option& option = *rrcb::find_option(key.option);
-    if (!rrcb::read_option(option, value, *method.options)) {
-        throw Failure("--methods: " + method.label + ": " + std::string(name) + " must be " +
-                      rrcb::legal_values(option) + ", not '" + std::string(value) + "'");
+    const auto check = [&](bool is_legal, std::string_view legal) {
+        if (!is_legal)
+            throw Failure("--methods: " + method.label + ": " + std::string(name) + " must be " +
+                          std::string(legal) + ", not '" + std::string(value) + "'");
+    };
+    if (auto* paper = std::get_if<PaperOptions>(&*method.options)) {
+        const PaperKey& key = *std::ranges::find(paper_keys, name, &PaperKey::name);
+        check(key.read(upper_case(value), *paper), key.legal);
+    } else {
+        const Key& key = *std::ranges::find(keys, name, &Key::name);
+        const rrcb::Option& option = *rrcb::find_option(key.option);
+        check(rrcb::read_option(option, value, std::get<Options>(*method.options)),
+              rrcb::legal_values(option));
     }
     if (name == "seed") method.seed_given = true;
 }
 
-/// Words always, numbers where they are not the default; of the random points with them alone.
-void add_options(ZoltanParameters& parameters, const Options& options) {
+/// Words always, numbers if they are not the default.
+void add(const Options& options, ZoltanParameters& parameters) {
     const auto add = [&](std::string_view name, bool always) {
         const rrcb::Option& option = *rrcb::find_option(name);
         const std::string value = rrcb::write_option(option, options);
         if (always || value != rrcb::write_option(option, Options{}))
             parameters.emplace_back(option.parameter, value);
     };
-    add("domain", true);
     add("support_mesh", false);
-    add("cut_rule", true);
     add("refine", true);
     add("imbalance_tolerance", false);
     add("central_parts", false);
-    if (!rrcb::traits_of(options.domain).is_random) return;
-    for (const char* name : {"sigma_multiplier", "sample_fraction", "seed"}) add(name, true);
+}
+
+void add(const PaperOptions& options, ZoltanParameters& parameters) {
+    const bool is_sampled = options.domain == PaperDomain::sampled;
+    parameters.emplace_back("RRCB_DOMAIN", is_sampled ? "SAMPLED" : "POINTS");
+    for (const PaperKey& key : paper_keys)
+        if (is_sampled || key.name == "cut")
+            parameters.emplace_back(key.parameter, key.write(options));
 }
 
 }  // namespace
+
+rrcb::Balance balance(const OwnOptions& options, const rrcb::Points& points, MPI_Comm comm) {
+    if (const auto* paper = std::get_if<PaperOptions>(&options))
+        return rrcb::balance_as_in_paper(points, *paper, comm);
+    return rrcb::balance(points, std::get<Options>(options), comm);
+}
 
 std::string method_names() {
     return joined(entries(), &Entry::name);
@@ -135,12 +199,7 @@ Method read_method(std::string_view text) {
     text = trim(text);
     const std::size_t bracket = text.find('[');
     const Entry& entry = find_entry(text.substr(0, bracket));
-    Method method{std::string(text), std::string(entry.lb_method), std::nullopt};
-    if (entry.domain) {
-        method.options = rrcb::traits_of(*entry.domain).is_random ? paper_options() : Options{};
-        method.options->domain = *entry.domain;
-        method.options->refine = entry.refine;
-    }
+    Method method{std::string(text), std::string(entry.lb_method), entry.options};
     if (bracket == text.npos) return method;
     if (!text.ends_with(']')) {
         throw Failure("--methods: '" + method.label + "' lacks the closing bracket");
@@ -183,12 +242,12 @@ std::vector<Method> default_methods() {
 }
 
 bool varies_with_seed(const Method& method) {
-    return method.options && rrcb::traits_of(method.options->domain).is_random &&
-           !method.seed_given;
+    const auto* paper = method.options ? std::get_if<PaperOptions>(&*method.options) : nullptr;
+    return paper && paper->domain == PaperDomain::sampled && !method.seed_given;
 }
 
 Method with_next_seed(Method method, std::uint64_t offset) {
-    if (varies_with_seed(method)) method.options->seed += offset;
+    if (varies_with_seed(method)) std::get<PaperOptions>(*method.options).seed += offset;
     return method;
 }
 
@@ -204,7 +263,8 @@ ZoltanParameters zoltan_parameters(const Method& method, Lists lists) {
     ZoltanParameters parameters = {
         {"DEBUG_LEVEL", "0"}, {"LB_METHOD", method.lb_method}, {"RETURN_LISTS", lists_name(lists)}};
     if (method.lb_method == on_arrays) parameters = {{"function", on_arrays}};
-    if (method.options) add_options(parameters, *method.options);
+    if (method.options)
+        std::visit([&](const auto& options) { add(options, parameters); }, *method.options);
     if (method.reuses) parameters.emplace_back("RCB_REUSE", "1");
     if (method.locks_axes) parameters.emplace_back("RCB_LOCK_DIRECTIONS", "1");
     if (method.keeps_numbers) parameters.emplace_back("REMAP", "0");

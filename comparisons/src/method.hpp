@@ -1,26 +1,37 @@
 #pragma once
 
 #include <rrcb/options.hpp>
+#include <rrcb/paper.hpp>
 
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace comparisons {
 
-/// A partitioner by name, with what makes it so.
+/// Options of one of the library's methods: its own, or the paper's.
+using OwnOptions = std::variant<rrcb::Options, rrcb::PaperOptions>;
+
+/// A partitioner and its settings.
 struct Method {
-    std::string label;                     ///< as the user wrote it, brackets and all
-    std::string lb_method;                 ///< Zoltan's LB_METHOD
-    std::optional<rrcb::Options> options;  ///< of our own methods; none for Zoltan's
-    bool seed_given = false;               ///< the user chose the seed of its points
-    bool reuses = false;                   ///< starts from the cuts of its last call
-    bool locks_axes = false;               ///< keeps the axes of the cuts of its first call
-    bool keeps_numbers = false;            ///< of parts, where objects stay on their ranks: REMAP=0
+    std::string label;                  ///< as the user wrote it, brackets and all
+    std::string lb_method;              ///< Zoltan's LB_METHOD
+    std::optional<OwnOptions> options;  ///< of the library's methods; none for Zoltan's
+    bool seed_given = false;            ///< the user chose the seed of its points
+    bool reuses = false;                ///< starts from the cuts of its last call
+    bool locks_axes = false;            ///< keeps the axes of the cuts of its first call
+    bool keeps_numbers = false;         ///< of parts, if objects stay on their ranks: REMAP=0
+
+    /// The seed of its pseudo-random points.
+    std::uint64_t seed() const { return std::get<rrcb::PaperOptions>(*options).seed; }
 };
+
+/// Balances points by one of the library's methods. Collective over `comm`.
+rrcb::Balance balance(const OwnOptions& options, const rrcb::Points& points, MPI_Comm comm);
 
 /// `lb_method` of Zoltan2's multijagged, which is none of Zoltan's, and the imbalance asked of it:
 /// that of rrcb.

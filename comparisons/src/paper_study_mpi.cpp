@@ -185,7 +185,7 @@ void write_six_boxes(const Sweep& sweep) {
     const Method method = read_method("rrcb-sampled");
     Measurement measurement;
     measurement.method = method.label;
-    measurement.parts = rrcb::balance(start.points(), *method.options, sweep.comm).parts;
+    measurement.parts = balance(*method.options, start.points(), sweep.comm).parts;
     write_plot_data(sweep.folder, start, std::span(&method, 1), std::span(&measurement, 1),
                     sweep.comm);
 }

@@ -194,7 +194,8 @@ rrcb::Box ZoltanPartitioner::box_of(rrcb::Part part) const {
 std::unique_ptr<Partitioner> make_partitioner(const Method& method, const Workload& workload,
                                               Lists lists, MPI_Comm comm) {
     if (method.lb_method == on_arrays) {
-        return std::make_unique<ArraysPartitioner>(*method.options, workload, comm);
+        return std::make_unique<ArraysPartitioner>(std::get<rrcb::Options>(*method.options),
+                                                   workload, comm);
     }
 #ifdef RRCB_HAS_ZOLTAN2
     if (method.lb_method == multijagged) {
@@ -216,7 +217,8 @@ std::vector<double> interleaved(mpm::Positions positions) {
 }
 
 std::optional<mpm::Balancer> make_balancer(const Method& method) {
-    if (method.lb_method == on_arrays) return rrcb_balancer(*method.options);
+    if (method.lb_method == on_arrays)
+        return rrcb_balancer(std::get<rrcb::Options>(*method.options));
     if (method.lb_method != "RCB" && method.lb_method != "RRCB") return std::nullopt;
     return zoltan_balancer(zoltan_parameters(method, Lists::parts));
 }

@@ -1,6 +1,5 @@
 #include "plot_data_mpi.hpp"
 
-#include "bisection/domain_kinds.hpp"
 #include "failure_mpi.hpp"
 #include "gather_mpi.hpp"
 #include "partitioner_mpi.hpp"
@@ -84,8 +83,8 @@ std::vector<rrcb::Box> part_boxes(const Workload& workload, const Method& method
     const int num_parts = size_of(comm);
     std::vector<rrcb::Box> boxes;
     if (method.options) {
-        const rrcb::Balance balance = rrcb::balance(workload.points(), *method.options, comm);
-        for (int p = 0; p < num_parts; ++p) boxes.push_back(rrcb::box_of(balance.cuts, p));
+        const rrcb::Balance balanced = balance(*method.options, workload.points(), comm);
+        for (int p = 0; p < num_parts; ++p) boxes.push_back(rrcb::box_of(balanced.cuts, p));
     } else if (method.lb_method == "RCB") {
         ZoltanParameters parameters = zoltan_parameters(method, Lists::parts);
         parameters.emplace_back("KEEP_CUTS", "1");
@@ -132,15 +131,14 @@ Row cell_row(const RankCell& of_rank, int dimension) {
 }
 
 std::string statistical_csv(const std::vector<RankCell>& cells, int dimension,
-                            const rrcb::Options& options) {
+                            const rrcb::PaperOptions& options) {
     std::vector<rrcb::CellMoments> moments;
     for (const RankCell& cell : cells) moments.push_back(cell.moments);
-    const rrcb::StatisticalDomain domain = rrcb::sampled_domain(moments, dimension, options);
+    const std::vector<rrcb::MassPoint> points = rrcb::sample_points(moments, dimension, options);
     const std::size_t stride = std::max<std::size_t>(
-        1, (domain.points.size() + max_plotted - 1) / static_cast<std::size_t>(max_plotted));
+        1, (points.size() + max_plotted - 1) / static_cast<std::size_t>(max_plotted));
     std::vector<rrcb::Vector> plotted;
-    for (std::size_t i = 0; i < domain.points.size(); i += stride)
-        plotted.push_back(domain.points[i].position);
+    for (std::size_t i = 0; i < points.size(); i += stride) plotted.push_back(points[i].position);
     return csv_of(plotted, [&](const rrcb::Vector& position) {
         Row row;
         add_axes(row, "", position, dimension);
@@ -149,7 +147,7 @@ std::string statistical_csv(const std::vector<RankCell>& cells, int dimension,
 }
 
 void write_statistics(const ResultsFolder& folder, const Workload& workload,
-                      const rrcb::Options& options, MPI_Comm comm) {
+                      const rrcb::PaperOptions& options, MPI_Comm comm) {
     const int dimension = workload.dimension;
     const rrcb::Points points = workload.points();
     RankCell of_rank{rank_of(comm), {}};
@@ -179,13 +177,13 @@ bool can_be_drawn(const Workload& workload, MPI_Comm comm) {
 }
 
 /// The first sampled method of the comparison, or the one of the paper.
-rrcb::Options sampled_options(std::span<const Method> methods) {
+rrcb::PaperOptions sampled_options(std::span<const Method> methods) {
     for (const Method& method : methods) {
-        if (method.options && rrcb::traits_of(method.options->domain).is_random) {
-            return *method.options;
-        }
+        const auto* paper =
+            method.options ? std::get_if<rrcb::PaperOptions>(&*method.options) : nullptr;
+        if (paper && paper->domain == rrcb::PaperDomain::sampled) return *paper;
     }
-    return *read_method("rrcb-sampled").options;
+    return std::get<rrcb::PaperOptions>(*read_method("rrcb-sampled").options);
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ void SceneRounds::take_result(std::size_t contender, int round, SimulationRun ru
     const std::optional<Method>& method = all_[contender].method;
     run.method = all_[contender].label;
     if (method && varies_with_seed(*method)) {
-        run.seed = method->options->seed + static_cast<unsigned>(round);
+        run.seed = method->seed() + static_cast<unsigned>(round);
     }
     if (round > 0) run.history.clear();
     rounds_[contender].runs.push_back(std::move(run));

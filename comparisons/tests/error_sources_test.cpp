@@ -3,6 +3,7 @@
 
 #include <rrcb/balance.hpp>
 #include <rrcb/bisection.hpp>
+#include <rrcb/paper.hpp>
 #include <rrcb/quality.hpp>
 #include <rrcb/support_mesh.hpp>
 
@@ -26,7 +27,10 @@ class ErrorSources : public testing::Test {
     }
 
     std::vector<double> weights(const rrcb::Options& options) const {
-        const rrcb::Balance balance = rrcb::balance(workload_.points(), options, MPI_COMM_WORLD);
+        return weights(rrcb::balance(workload_.points(), options, MPI_COMM_WORLD));
+    }
+
+    std::vector<double> weights(const rrcb::Balance& balance) const {
         return rrcb::part_weights(workload_.points(), balance.parts, num_ranks_, MPI_COMM_WORLD);
     }
 
@@ -39,11 +43,13 @@ TEST_F(ErrorSources, cells_and_sampled_points_are_those_of_the_library) {
     options.refine = rrcb::Refine::none;
     options.support_mesh = 5;
     EXPECT_EQ(weights({Source::cells, 5}), weights(options));
-    options.domain = rrcb::DomainKind::sampled;
-    options.sigma_multiplier = 2;
-    options.sample_fraction = 0.5;
-    options.seed = 3;
-    EXPECT_EQ(weights({Source::sampled, 5, 2, 0.5, 3}), weights(options));
+    rrcb::PaperOptions paper;
+    paper.support_mesh = 5;
+    paper.sigma_multiplier = 2;
+    paper.sample_fraction = 0.5;
+    paper.seed = 3;
+    EXPECT_EQ(weights({Source::sampled, 5, 2, 0.5, 3}),
+              weights(rrcb::balance_as_in_paper(workload_.points(), paper, MPI_COMM_WORLD)));
 }
 
 TEST_F(ErrorSources, all_points_leave_no_error) {
@@ -95,9 +101,7 @@ double cut_after(double cut, int mesh, double k) {
             points, rrcb::make_support_mesh(rrcb::bounding_box(points), 1, mesh));
         cells.insert(cells.end(), of_side.begin(), of_side.end());
     }
-    return rrcb::bisect(box_domain(cells, 1, k), 2, {}, rrcb::CutRule::weighted_fraction)
-        .cuts.tree.front()
-        .at[0];
+    return rrcb::bisect(box_domain(cells, 1, k), 2, {}).cuts.tree.front().at[0];
 }
 
 /// The same by the model: offsets of the cuts from 1/2.

@@ -89,8 +89,7 @@ TEST_F(MeasurementTest, of_a_drifting_cloud_tells_what_the_last_move_changes) {
 
 TEST_F(MeasurementTest, on_arrays_makes_the_parts_of_the_library) {
     const Method method = read_method("rrcb-arrays[mesh=2,tol=1.05]");
-    const rrcb::Balance expected =
-        rrcb::balance(workload_.points(), *method.options, MPI_COMM_WORLD);
+    const rrcb::Balance expected = balance(*method.options, workload_.points(), MPI_COMM_WORLD);
     EXPECT_EQ(run(std::vector{method}, Lists::parts)[0].parts, expected.parts);
 }
 

@@ -28,7 +28,6 @@ TEST(Method, reads_parameters_in_brackets) {
                                        {"RRCB_DOMAIN", "SAMPLED"},
                                        {"RRCB_SUPPORT_MESH", "6"},
                                        {"RRCB_CUT_RULE", "MIDPOINT"},
-                                       {"RRCB_REFINE", "NONE"},
                                        {"RRCB_SIGMA_MULTIPLIER", "2"},
                                        {"RRCB_SAMPLE_FRACTION", "0.25"},
                                        {"RRCB_SEED", "9"}};
@@ -37,9 +36,10 @@ TEST(Method, reads_parameters_in_brackets) {
 }
 
 TEST(Method, reads_how_far_to_refine) {
-    const ZoltanParameters expected = {{"DEBUG_LEVEL", "0"},          {"LB_METHOD", "RRCB"},
-                                       {"RETURN_LISTS", "PARTS"},     {"RRCB_DOMAIN", "ANALYTIC"},
-                                       {"RRCB_CUT_RULE", "WEIGHTED"}, {"RRCB_REFINE", "TOLERANCE"},
+    const ZoltanParameters expected = {{"DEBUG_LEVEL", "0"},
+                                       {"LB_METHOD", "RRCB"},
+                                       {"RETURN_LISTS", "PARTS"},
+                                       {"RRCB_REFINE", "TOLERANCE"},
                                        {"IMBALANCE_TOL", "1.001"}};
     EXPECT_EQ(zoltan_parameters(read_method("rrcb[refine=tolerance,tol=1.001]"), Lists::parts),
               expected);
@@ -52,11 +52,8 @@ TEST(Method, leaves_zoltan_at_its_defaults) {
 }
 
 TEST(Method, on_arrays_is_told_without_what_zoltan_takes) {
-    const ZoltanParameters expected = {{"function", "rrcb::balance"},
-                                       {"RRCB_DOMAIN", "ANALYTIC"},
-                                       {"RRCB_SUPPORT_MESH", "3"},
-                                       {"RRCB_CUT_RULE", "WEIGHTED"},
-                                       {"RRCB_REFINE", "AUTO"}};
+    const ZoltanParameters expected = {
+        {"function", "rrcb::balance"}, {"RRCB_SUPPORT_MESH", "3"}, {"RRCB_REFINE", "TOLERANCE"}};
     EXPECT_EQ(zoltan_parameters(read_method("rrcb-arrays[mesh=3]"), Lists::all), expected);
 }
 
@@ -85,12 +82,14 @@ TEST(Method, compares_every_method_in_its_best_settings_by_default) {
 TEST(Method, varies_with_the_seed_unless_it_is_given) {
     const Method open = read_method("rrcb-sampled[mesh=2]");
     EXPECT_TRUE(varies_with_seed(open));
-    EXPECT_EQ(with_next_seed(open, 3).options->seed, open.options->seed + 3);
-    for (const char* name : {"rrcb-sampled[seed=1]", "rrcb", "root-rcb", "rrcb-arrays"}) {
+    EXPECT_EQ(with_next_seed(open, 3).seed(), open.seed() + 3);
+    for (const char* name : {"rrcb-sampled[seed=1]", "root-rcb"}) {
         const Method fixed = read_method(name);
         EXPECT_FALSE(varies_with_seed(fixed)) << name;
-        EXPECT_EQ(with_next_seed(fixed, 3).options->seed, fixed.options->seed) << name;
+        EXPECT_EQ(with_next_seed(fixed, 3).seed(), fixed.seed()) << name;
     }
+    for (const char* name : {"rrcb", "rrcb-arrays"})
+        EXPECT_FALSE(varies_with_seed(read_method(name))) << name;
     EXPECT_FALSE(varies_with_seed(read_method("zoltan-rcb")));
 }
 
@@ -110,9 +109,8 @@ TEST(Method, starts_from_its_last_cuts_where_asked) {
 TEST(Method, names_what_is_unknown) {
     EXPECT_EQ(error_of("zoltan-rcb,magic"),
               "--methods: unknown method 'magic'; choose from: " + method_names());
-    EXPECT_EQ(
-        error_of("rrcb[k=2]"),
-        "--methods: rrcb has no parameter 'k'; it takes mesh, cut, refine, tol, reuse, central");
+    EXPECT_EQ(error_of("rrcb[k=2]"),
+              "--methods: rrcb has no parameter 'k'; it takes mesh, refine, tol, reuse, central");
     EXPECT_EQ(error_of("zoltan-rib[mesh=2]"),
               "--methods: zoltan-rib has no parameter 'mesh'; it takes none");
 }
@@ -128,8 +126,11 @@ TEST(Method, names_values_out_of_range) {
               "--methods: rrcb-sampled[k=nan]: k must be a number above 0, not 'nan'");
     EXPECT_EQ(error_of("rrcb-sampled[seed]"),
               "--methods: rrcb-sampled[seed]: seed must be a whole number, 0 or more, not ''");
-    EXPECT_EQ(error_of("rrcb[cut=half]"),
-              "--methods: rrcb[cut=half]: cut must be WEIGHTED or MIDPOINT, not 'half'");
+    EXPECT_EQ(error_of("rrcb-sampled[mesh=auto]"),
+              "--methods: rrcb-sampled[mesh=auto]: mesh must be a whole number from 1 to 4096, "
+              "not 'auto'");
+    EXPECT_EQ(error_of("root-rcb[cut=half]"),
+              "--methods: root-rcb[cut=half]: cut must be WEIGHTED or MIDPOINT, not 'half'");
 }
 
 TEST(Method, names_malformed_lists) {

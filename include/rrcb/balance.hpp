@@ -12,7 +12,7 @@ namespace rrcb {
 /// What the balancer saw and expects; the same on every rank.
 struct Report {
     GlobalCount num_points = 0;        ///< over all ranks
-    GlobalCount num_records = 0;       ///< cells (or points, for DomainKind::points) bisected
+    GlobalCount num_records = 0;       ///< cells bisected
     double total_weight = 0;           ///< over all ranks
     double estimated_imbalance = 1;    ///< as the statistical domain sees it, see quality.hpp; of
                                        ///< regions where many ranks make the parts
@@ -50,8 +50,8 @@ struct Balance {
 ///
 /// Points stay as they lie where that is good enough: where there is a part for each rank, up to
 /// 4096 if rank 0 makes them all, and what the ranks hold is a bisection such as a new one might
-/// be, the cuts are those between the ranks (Report::kept). This holds for DomainKind::analytic
-/// with estimated cuts, also refined to a tolerance, if
+/// be, the cuts are those between the ranks (Report::kept). This holds for estimated cuts, also
+/// refined to a tolerance, if
 /// - the imbalance exceeds 1 by a tenth of what the tolerance allows at most, or
 /// - new cuts, counted, neither reach a tolerance that is missed, nor halve the excess and gain a
 ///   twentieth of what the tolerance allows; where it is missed before and after a refinement, the

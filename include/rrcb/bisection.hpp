@@ -21,15 +21,15 @@ struct Bisection {
     std::vector<double> part_weights;  ///< length num_parts, as the domain sees it
 };
 
-/// Recursive coordinate bisection of a domain, across the longest extent of what each box holds;
-/// with DomainKind::analytic across the first axis that is within a tenth of it.
+/// Bisects a domain recursively, across the first axis that is within a tenth of the longest extent
+/// of what each box holds.
 ///
-/// `part_sizes` are relative, one per part, or empty for equal parts. Cuts lie where `rule` says,
-/// in the ratio of the sizes below and above; those by weight exactly for the piecewise-linear
-/// cumulative weight of the patches. Patches that lie on the plane are divided along the other
-/// axes. Parts of size 0 get an empty region. Not collective. Throws Error for a number of parts
-/// below 1, sizes that Options::part_sizes could not be, or a dimension that is none.
+/// `part_sizes` are relative, one per part, or empty for equal parts. The weights below and above a
+/// cut are in the ratio of the sizes, exactly for the piecewise-linear cumulative weight of the
+/// patches. Patches without extent on the plane are divided along the other axes. Parts of size 0
+/// get an empty region. Not collective. Throws Error for a number of parts below 1, sizes that
+/// Options::part_sizes could not be, or a dimension that is none.
 RRCB_API Bisection bisect(StatisticalDomain domain, int num_parts,
-                          std::span<const double> part_sizes, CutRule rule);
+                          std::span<const double> part_sizes);
 
 }  // namespace rrcb

@@ -7,22 +7,8 @@
 
 namespace rrcb {
 
-/// What the root bisects in place of the points.
-enum class DomainKind {
-    analytic,  ///< each cell a smooth density with the cell's moments: no points, no noise
-    sampled,  ///< pseudo-random points in mean +- multiplier * sigma of each cell: the paper's RRCB
-    points    ///< the points themselves, all gathered at the root: the paper's RCB, for reference
-};
-
-/// Where a box is cut across its longest axis.
-enum class CutRule {
-    weighted_fraction,  ///< where the weight below is the share of the parts below
-    midpoint            ///< at that share of the extent: the literal reading of the paper
-};
-
 /// Accuracy to which the estimated cuts are moved by what the ranks really hold.
 enum class Refine {
-    automatic,  ///< tolerance for analytic domains; none for sampled, the paper's method
     none,       ///< not at all: the estimate from the statistics stands
     tolerance,  ///< until the measured imbalance is within `imbalance_tolerance`
     exact       ///< to the weighted median: each cut within the weight of one object, which goes
@@ -55,10 +41,8 @@ struct Options {
 
     int support_mesh = 0;  ///< cells per axis of each rank's support mesh, up to 4096, in
                            ///< 3-D 256; 0: by its points
-    DomainKind domain = DomainKind::analytic;       ///< what the root bisects
-    CutRule cut_rule = CutRule::weighted_fraction;  ///< where boxes are cut
 
-    Refine refine = Refine::automatic;  ///< no effect on DomainKind::points, CutRule::midpoint
+    Refine refine = Refine::tolerance;  ///< accuracy of the cuts
     double imbalance_tolerance = 1.01;  ///< tolerance: heaviest part / mean part to reach, >= 1,
                                         ///< finite
 
@@ -82,14 +66,9 @@ struct Options {
     /// Parts that rank 0 makes alone, at least 2. Where there are more, and more ranks, it makes
     /// regions, up to 64 and a power of two, and each cut below them is found by a rank of its
     /// parts; with Refine::exact, and once more if the tolerance is missed, each cut is. No effect
-    /// with domains other than analytic, with CutRule::midpoint, Refine::none, `min_width`, `grid`
-    /// or `grouped_axes`.
+    /// with Refine::none, `min_width`, `grid` or `grouped_axes`.
     int central_parts = 4096;
     HeldCuts cuts = HeldCuts::whole;  ///< that each rank gets where many ranks make the parts
-
-    double sigma_multiplier = 1.5;  ///< sampled: half-width of a cell's sampling box in sigmas, > 0
-    double sample_fraction = 1.0;   ///< sampled: points drawn per real point, in (0, 1]
-    std::uint64_t seed = 1;         ///< sampled: the same seed gives the same points
 
     StageObserver* observer = nullptr;  ///< of this rank alone, not compared; borrowed for the call
 };

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <rrcb/moments.hpp>
-#include <rrcb/options.hpp>
 
 #include <span>
 #include <vector>
@@ -21,17 +20,10 @@ struct Patch {
     Vector bow{};       ///< of the density, per axis
 };
 
-/// Weight in one place.
-struct MassPoint {
-    Vector position{};  ///< of the place
-    double weight = 0;  ///< that lies there
-};
-
-/// What the root bisects: an approximation of all points, made of patches or of points.
+/// What the root bisects: an approximation of all points, made of patches.
 struct StatisticalDomain {
-    int dimension = 0;                ///< of the points
-    std::vector<Patch> patches{};     ///< in any order; they may overlap
-    std::vector<MassPoint> points{};  ///< in place of patches
+    int dimension = 0;             ///< of the points
+    std::vector<Patch> patches{};  ///< in any order; they may overlap
 };
 
 /// A patch per cell, or a few, with the cell's mean and standard deviation. Not collective.
@@ -44,16 +36,5 @@ struct StatisticalDomain {
 /// take their place.
 RRCB_API StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension,
                                            const Box& box);
-
-/// Pseudo-random points of equal weight, uniform in mean +- multiplier * sigma of each cell.
-///
-/// `sample_fraction` times the number of real points in all, shared out over the cells in
-/// proportion to their weight by largest remainder, at least one point in all. The same cells,
-/// options and seed give the same points on every machine. Not collective.
-RRCB_API StatisticalDomain sampled_domain(std::span<const CellMoments> cells, int dimension,
-                                          const Options& options);
-
-/// The points themselves. Not collective.
-RRCB_API StatisticalDomain point_domain(const Points& points);
 
 }  // namespace rrcb

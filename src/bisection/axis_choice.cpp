@@ -1,7 +1,5 @@
 #include "bisection/axis_choice.hpp"
 
-#include "bisection/domain_kinds.hpp"
-
 #include <rrcb/cuts.hpp>
 
 #include <algorithm>
@@ -44,9 +42,7 @@ int longest_axis(const Box& box, int dimension, double enough) {
 }
 
 AxisChoice::AxisChoice(const Options& options, const Box& box, int dimension)
-    : cut_axes_(options.cut_axes),
-      dimension_(dimension),
-      enough_(traits_of(options.domain).share_of_longest) {
+    : cut_axes_(options.cut_axes), dimension_(dimension) {
     const int num_levels = std::bit_width(static_cast<unsigned>(options.num_parts - 1));
     if (!options.grouped_axes.empty())
         level_axes_ = group_levels(options.grouped_axes, box, dimension, num_levels);
@@ -55,7 +51,7 @@ AxisChoice::AxisChoice(const Options& options, const Box& box, int dimension)
 int AxisChoice::operator()(std::size_t node, int depth, const Box& box) const {
     if (!cut_axes_.empty()) return cut_axes_[node];
     if (!level_axes_.empty()) return level_axes_[static_cast<std::size_t>(depth)];
-    return longest_axis(box, dimension_, enough_);
+    return longest_axis(box, dimension_, near_longest);
 }
 
 std::vector<int> AxisChoice::given(int num_parts) const {

@@ -7,6 +7,9 @@
 
 namespace rrcb {
 
+/// Share of the greatest extent from which on axes of a statistical domain count as equally long.
+inline constexpr double near_longest = 0.9;
+
 /// The first axis whose extent is at least the share `enough` of the greatest.
 int longest_axis(const Box& box, int dimension, double enough);
 
@@ -35,7 +38,6 @@ class AxisChoice {
     std::vector<int> cut_axes_;
     std::vector<int> level_axes_;
     int dimension_;
-    double enough_;
 };
 
 }  // namespace rrcb

@@ -20,13 +20,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Turns points into patches without extent.
-void make_patches(StatisticalDomain& domain) {
-    for (const MassPoint& point : domain.points)
-        domain.patches.push_back({point.position, point.position, point.weight});
-    domain.points = {};
-}
-
 double weight_below(const StatisticalDomain& domain, const Cut& plane) {
     const auto a = static_cast<std::size_t>(plane.axis);
     double weight = 0;
@@ -107,17 +100,14 @@ Trial trial_at(const StatisticalDomain& domain, const Way& way, double target, c
     return std::abs(beside.below - target) < std::abs(trial.below - target) ? beside : trial;
 }
 
-Trial trial_across(const Piece& piece, const Box& extent, const Way& way, const Task& task) {
-    const double share = share_below(task.sizes_of(piece.at));
-    const auto a = static_cast<std::size_t>(way.axis);
+Trial trial_across(const Piece& piece, const Way& way, const Task& task) {
     const double weight = weight_of(piece.domain);
-    if (weight > 0 && task.options.cut_rule == CutRule::weighted_fraction)
-        return trial_at(piece.domain, way, share * weight, task);
-    const double value = weight > 0 ? std::lerp(extent.lower[a], extent.upper[a], share)
-                                    : way.places.first / 2 + way.places.last / 2;
+    if (weight > 0)
+        return trial_at(piece.domain, way, share_below(task.sizes_of(piece.at)) * weight, task);
+    const double middle = way.places.first / 2 + way.places.last / 2;
     const AxisLimits& limits = task.limits.across(way.axis);
     return trial_in(piece.domain, way.axis,
-                    limits.nearest(value, way.places.first, way.places.last));
+                    limits.nearest(middle, way.places.first, way.places.last));
 }
 
 /// Returns the cut across the first axis on which it is about as good as asked for, or the best.
@@ -129,11 +119,11 @@ Cut cut_in_places(const Piece& piece, int preferred, const Box& extent, Task& ta
     Trial best{};
     double least = infinity;
     for (const Way& way : ways_across(piece.at, piece.region, extent, preferred, task.limits)) {
-        const Trial trial = trial_across(piece, extent, way, task);
+        const Trial trial = trial_across(piece, way, task);
         const double error = std::abs(trial.below - share * weight);
         if (error < least) best = trial;
         least = std::min(least, error);
-        if (least <= bearable * lighter || task.options.cut_rule == CutRule::midpoint) break;
+        if (least <= bearable * lighter) break;
     }
     return best.cut;
 }
@@ -183,7 +173,6 @@ void move_node(CutLimits& limits, const Descent& at, const Box& region, Cuts& cu
 
 Bisection bisect_within(const Box& points, StatisticalDomain domain, const Options& options,
                         bool with_brackets) {
-    make_patches(domain);
     const int dimension = domain.dimension;
     const AxisChoice axis_of(options, points, dimension);
     Task task{options,

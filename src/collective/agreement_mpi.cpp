@@ -10,7 +10,7 @@ namespace rrcb {
 
 namespace {
 
-constexpr std::size_t most_shared = 4;
+constexpr std::size_t most_shared = 11;
 
 /// Throws the same on all ranks; without the text where a rank has no memory for it.
 template <class MakeText>

@@ -29,7 +29,7 @@ struct Shared {
 
 /// Agrees, and throws also where one of `arguments` differs between the ranks.
 ///
-/// Collective: one reduction. All ranks name the same arguments, four at most. The messages that
+/// Collective: one reduction. All ranks name the same arguments, eleven at most. The messages that
 /// follow may depend on them.
 void agree(const Participant& self, std::initializer_list<Shared> arguments);
 

@@ -12,8 +12,8 @@ namespace rrcb {
 
 namespace {
 
-/// What a block of records is made of: cells of a mesh, with a head of its own, or of a lattice.
-enum class Form { lattice, mesh, lean };
+/// What a block of records is made of: cells of a mesh or of a lattice.
+enum class Form { lattice, lean };
 
 /// Head of a block of records.
 struct BlockOfCells {
@@ -22,11 +22,6 @@ struct BlockOfCells {
     double exponent = 0;    ///< of the lattice, or of lean weights
     double are_counts = 0;  ///< in place of lean weights
     double num_packed = 0;  ///< doubles of lean cells
-};
-
-struct BlockOfPoints {
-    double num_points = 0;
-    double has_weights = 0;
 };
 
 template <class T>
@@ -133,13 +128,6 @@ Vector cube_of(const Vector& position, int dimension, int exponent) {
     return cube;
 }
 
-void append_cells(std::span<const CellMoments> cells, const SupportMesh& mesh,
-                  std::vector<double>& records) {
-    append(BlockOfCells{static_cast<double>(cells.size()), double(Form::mesh)}, records);
-    append_mesh(mesh, records);
-    for (const CellMoments& cell : cells) append_cell(cell, mesh.dimension, records);
-}
-
 void append_lean_cells(std::span<const CellMoments> cells, const SupportMesh& mesh,
                        std::vector<double>& records) {
     const LeanCells lean = pack_cells(cells, mesh);
@@ -172,44 +160,10 @@ CellSet read_cells(std::span<const double> records, int dimension) {
             continue;
         }
         const SupportMesh mesh = take_mesh(records, dimension);
-        if (form == Form::lean) {
-            const auto packed = take(records, static_cast<std::size_t>(block.num_packed));
-            unpack_cells({block.are_counts != 0, static_cast<int>(block.exponent)},
-                         std::as_bytes(packed), count, mesh, all.cells);
-        } else {
-            for (std::size_t k = 0; k < count; ++k) {
-                all.cells.push_back(take_cell(records, dimension));
-                all.cells.back().box = cell_box(mesh, all.cells.back().cell);
-            }
-        }
+        const auto packed = take(records, static_cast<std::size_t>(block.num_packed));
+        unpack_cells({block.are_counts != 0, static_cast<int>(block.exponent)},
+                     std::as_bytes(packed), count, mesh, all.cells);
     }
-    return all;
-}
-
-void append_points(const Points& points, std::vector<double>& records) {
-    append(BlockOfPoints{static_cast<double>(points.count), points.weights.empty() ? 0.0 : 1.0},
-           records);
-    for (LocalIndex i = 0; i < points.count; ++i)
-        append(points.position(i), points.dimension, records);
-    records.insert(records.end(), points.weights.begin(), points.weights.end());
-}
-
-StatisticalDomain read_points(std::span<const double> records, int dimension) {
-    StatisticalDomain all{dimension};
-    all.points.reserve(records.size() / static_cast<std::size_t>(dimension));
-    while (!records.empty()) {
-        const auto block = take_block<BlockOfPoints>(records);
-        const auto count = static_cast<std::size_t>(block.num_points);
-        const auto coordinates = take(records, count * static_cast<std::size_t>(dimension));
-        const auto weights = take(records, block.has_weights != 0 ? count : 0);
-        const Points points = interleaved_points(coordinates, dimension, weights);
-        for (LocalIndex i = 0; i < count; ++i)
-            all.points.push_back({points.position(i), points.weight(i)});
-    }
-    const bool weightless =
-        std::ranges::all_of(all.points, [](const MassPoint& point) { return point.weight == 0; });
-    if (weightless)
-        for (MassPoint& point : all.points) point.weight = 1;
     return all;
 }
 

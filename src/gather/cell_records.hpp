@@ -9,11 +9,8 @@
 
 namespace rrcb {
 
-/// Appends the cells of a support mesh to what travels to the root, as plain doubles.
-void append_cells(std::span<const CellMoments> cells, const SupportMesh& mesh,
-                  std::vector<double>& records);
-
-/// The same as LeanCells: a guess of the moments in an eighth of the doubles.
+/// Appends the cells of a support mesh to the records that travel to the root, as LeanCells:
+/// rounded moments in an eighth of the doubles.
 void append_lean_cells(std::span<const CellMoments> cells, const SupportMesh& mesh,
                        std::vector<double>& records);
 
@@ -23,12 +20,6 @@ void append_cells(const CellSet& merged, int dimension, std::vector<double>& rec
 /// Cells in the order appended. A cell of a lattice gets the cube of its mean as its box, or along
 /// an axis mean +- sqrt(3) sigma where that reaches farther.
 CellSet read_cells(std::span<const double> records, int dimension);
-
-/// Appends the points themselves.
-void append_points(const Points& points, std::vector<double>& records);
-
-/// Domain of all points that were appended. Where none has weight, each weighs 1.
-StatisticalDomain read_points(std::span<const double> records, int dimension);
 
 /// Cube of the lattice of `exponent` that holds a position, in units of its edge.
 Vector cube_of(const Vector& position, int dimension, int exponent);

@@ -1,6 +1,5 @@
 #include "gather/contribution.hpp"
 
-#include "bisection/domain_kinds.hpp"
 #include "cuts/cut_limits.hpp"
 #include "gather/cell_records.hpp"
 #include "gather/coarsening.hpp"
@@ -89,9 +88,7 @@ int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options
     const auto per_axis = [&](double cells) { return std::pow(cells, 1.0 / dimension); };
     const double by_parts = per_axis(std::max(least_cells, cells_per_part * options.num_parts));
     const double by_points = per_axis(count / points_per_cell);
-    const bool is_smooth = traits_of(options.domain).has_lean_cells;
-    const double fine = fine_cells(dimension);
-    const double usual = std::max(by_points, is_smooth ? std::min(by_parts, fine) : fine);
+    const double usual = std::max(by_points, std::min(by_parts, fine_cells(dimension)));
     const double filled = per_axis(count / least_points_per_cell);
     const double cells = std::min({most_cells_per_axis(dimension), usual, filled});
     // The root of a cube may come out a bit below the whole number.
@@ -100,7 +97,6 @@ int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options
 }
 
 BinnedPoints bin_by_options(const Points& points, const Box& box, const Options& options) {
-    if (traits_of(options.domain).sends_points) return {};
     const int dimension = points.dimension;
     const bool is_automatic = options.support_mesh == 0;
     if (is_automatic && !options.grid.empty() && points.count > 0)
@@ -128,27 +124,16 @@ Summary summarize(const Points& points, const Box& box) {
     return summary;
 }
 
-void add_records(const Points& points, const BinnedPoints& binned, const Options& options,
-                 Contribution& mine) {
+void add_records(const Points& points, const BinnedPoints& binned, Contribution& mine) {
     if (points.count == 0) return;
-    if (traits_of(options.domain).sends_points) {
-        append_points(points, mine.points);
-        mine.summary.num_cells = mine.summary.num_points;
-    } else {
-        const std::vector<CellMoments> cells = cell_moments(binned);
-        if (traits_of(options.domain).has_lean_cells) {
-            append_lean_cells(cells, binned.mesh, mine.records);
-        } else {
-            append_cells(cells, binned.mesh, mine.records);
-        }
-        mine.summary.num_cells = static_cast<std::int64_t>(cells.size());
-    }
+    const std::vector<CellMoments> cells = cell_moments(binned);
+    append_lean_cells(cells, binned.mesh, mine.records);
+    mine.summary.num_cells = static_cast<std::int64_t>(cells.size());
 }
 
 std::size_t most_cells(const Options& options) {
     constexpr std::size_t most = 8192;
-    const bool may_coarsen = options.support_mesh == 0 && !traits_of(options.domain).sends_points;
-    return may_coarsen ? most : std::numeric_limits<std::size_t>::max();
+    return options.support_mesh == 0 ? most : std::numeric_limits<std::size_t>::max();
 }
 
 void join(Summary& mine, const Summary& next) {
@@ -180,10 +165,8 @@ void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t 
     if (too_many && mine.summary.is_usable()) coarsen_records(mine, dimension, most);
 }
 
-StatisticalDomain build_domain(const Contribution& all, const Options& options, int dimension) {
-    const DomainTraits& traits = traits_of(options.domain);
-    if (traits.sends_points) return read_points(all.points, dimension);
-    return traits.build(read_cells(all.records, dimension), dimension, all.summary.box, options);
+StatisticalDomain build_domain(const Contribution& all, int dimension) {
+    return analytic_domain(read_cells(all.records, dimension).cells, dimension, all.summary.box);
 }
 
 }  // namespace rrcb

@@ -23,7 +23,7 @@ struct Summary {
     std::uint64_t difference = 0;           ///< see name_of_request
     Request request{};                      ///< of the first rank
     std::int64_t num_points = 0;
-    std::int64_t num_cells = 0;  ///< or points, where these are the records
+    std::int64_t num_cells = 0;
     std::int64_t num_doubles = 0;
     std::int64_t num_place_doubles = 0;  ///< of them, behind the cells
     std::int64_t num_total_doubles = 0;  ///< of them, the last ones
@@ -42,23 +42,20 @@ struct Contribution {
     std::vector<double> places{};  ///< of their points, a Place each, where the root wants them
     /// Weights in the parts of earlier cuts, then numbers of points in them, where these count.
     std::vector<double> part_totals{};
-    std::vector<double> points{};  ///< of one rank, in place of cells, until the root wants them
 };
 
 /// Cells per axis of a rank's mesh where the options leave it open: some for each part, as many as
 /// cost little beside the points, not so many that cells are nearly empty.
 int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options& options);
 
-/// Finds the cells of checked points in the support mesh that the options ask for; nothing where
-/// no cells are needed.
+/// Finds the cells of checked points in the support mesh that the options ask for.
 BinnedPoints bin_by_options(const Points& points, const Box& box, const Options& options);
 
 /// Totals of checked points.
 Summary summarize(const Points& points, const Box& box);
 
 /// Reduces checked points to what the root needs of them.
-void add_records(const Points& points, const BinnedPoints& binned, const Options& options,
-                 Contribution& mine);
+void add_records(const Points& points, const BinnedPoints& binned, Contribution& mine);
 
 /// Cells that the options let a merging leave: a fixed number, whatever the number of ranks, unless
 /// the mesh was asked for. Twice as many lean ones may be handed on as they are.
@@ -73,6 +70,6 @@ void join(Summary& mine, const Summary& next);
 void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t most);
 
 /// Domain that the root bisects, from the contributions of all ranks.
-StatisticalDomain build_domain(const Contribution& all, const Options& options, int dimension);
+StatisticalDomain build_domain(const Contribution& all, int dimension);
 
 }  // namespace rrcb

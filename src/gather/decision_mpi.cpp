@@ -1,7 +1,6 @@
 #include "gather/decision_mpi.hpp"
 
 #include "bisection/bisection.hpp"
-#include "bisection/domain_kinds.hpp"
 #include "bisection/limited_bisection.hpp"
 #include "collective/communicator.hpp"
 #include "gather/earlier_cuts.hpp"
@@ -23,13 +22,6 @@
 namespace rrcb {
 
 namespace {
-
-/// Imbalance of a partition with the heaviest point alone in the largest part.
-double least_imbalance(double heaviest, double weight, std::span<const double> part_sizes) {
-    if (!(weight > 0)) return 1;
-    const double sizes = std::accumulate(part_sizes.begin(), part_sizes.end(), 0.0);
-    return std::max(1.0, heaviest / weight * (sizes / *std::ranges::max_element(part_sizes)));
-}
 
 double common_weight_of(const Summary& summary) {
     if (summary.weight == 0) return 1;
@@ -115,7 +107,7 @@ void make_room_for_box(Decision& decision, const Options& options) {
 
 Bisection bisect_gathered(const Contribution& all, const Options& options, int dimension,
                           bool with_brackets) {
-    StatisticalDomain domain = build_domain(all, options, dimension);
+    StatisticalDomain domain = build_domain(all, dimension);
     if (are_cuts_limited(options) && all.summary.num_points > 0)
         return bisect_within(all.summary.box, std::move(domain), options, with_brackets);
     return bisect(std::move(domain), options, with_brackets);
@@ -146,6 +138,12 @@ void weigh_current(const Contribution& all, const Options& options, Decision& de
 
 }  // namespace
 
+double least_imbalance(double heaviest, double weight, std::span<const double> part_sizes) {
+    if (!(weight > 0)) return 1;
+    const double sizes = std::accumulate(part_sizes.begin(), part_sizes.end(), 0.0);
+    return std::max(1.0, heaviest / weight * (sizes / *std::ranges::max_element(part_sizes)));
+}
+
 Report report_of(const Verdict& verdict, int num_parts) {
     Report report;
     report.num_points = verdict.num_points;
@@ -168,8 +166,7 @@ void report_measured(double imbalance, std::vector<double>&& part_weights, const
 }
 
 bool is_refined(const Options& options) {
-    return options.refine != Refine::none && options.cut_rule == CutRule::weighted_fraction &&
-           !traits_of(options.domain).sends_points;
+    return options.refine != Refine::none;
 }
 
 bool counts_earlier_parts(const Options& options) {
@@ -217,17 +214,6 @@ void decide(const Contribution& all, const Options& options, Decision& decision)
     decision.verdict = verdict_of(all.summary, bisection, options.part_sizes);
     if (decision.reuses) weigh_parts(all, options, decision);
     weigh_current(all, options, decision);
-}
-
-void confirm(const Summary& all, Participant& self) {
-    Verdict verdict;
-    if (mpi::rank_of(self.comm) == root) {
-        self.hear_of(all.failing_rank);
-        self.attempt([&] { check_together(all); });
-        verdict.failing_rank = self.failing_rank();
-    }
-    Head head{};
-    broadcast_head(head, verdict, self);
 }
 
 void broadcast(Decision& decision, const Participant& self) {

@@ -46,6 +46,9 @@ struct Decision {
     std::vector<std::byte> message;      ///< either of them on its way
 };
 
+/// Imbalance of a partition with the heaviest point alone in the largest part.
+double least_imbalance(double heaviest, double weight, std::span<const double> part_sizes);
+
 /// Report on a partition that nobody has measured.
 Report report_of(const Verdict& verdict, int num_parts);
 
@@ -53,8 +56,7 @@ Report report_of(const Verdict& verdict, int num_parts);
 void report_measured(double imbalance, std::vector<double>&& part_weights, const Options& options,
                      Report& report);
 
-/// True when the cuts are to be moved by what the ranks count: the literal midpoint has no weight
-/// to aim at, and all points at the root need no second look.
+/// True when the cuts are to be moved by what the ranks count.
 bool is_refined(const Options& options);
 
 /// Makes room for what the root will send: the current parts only where it may read them. Not
@@ -73,11 +75,6 @@ void make_room_to_reuse(Decision& decision, const Options& options, const Cuts& 
 /// Finds out whether the current parts are so good that they stay. Throws Error when the ranks do
 /// not fit together.
 void decide(const Contribution& all, const Options& options, Decision& decision);
-
-/// Tells all ranks that they fit together, before what only some of them may be waiting for; or
-/// throws everywhere why they don't. Collective: the first message of broadcast(), which ranks that
-/// asked for something else are in.
-void confirm(const Summary& all, Participant& self);
 
 /// Gives everybody the root's decision, or throws everywhere why there is none. Collective.
 ///

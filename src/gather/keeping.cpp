@@ -1,6 +1,5 @@
 #include "gather/keeping.hpp"
 
-#include "bisection/domain_kinds.hpp"
 #include "cuts/cut_limits.hpp"
 
 #include <algorithm>
@@ -8,9 +7,7 @@
 namespace rrcb {
 
 bool may_keep_parts(const Options& options, int num_ranks) {
-    return traits_of(options.domain).builds_on_last &&
-           options.cut_rule == CutRule::weighted_fraction && options.refine != Refine::exact &&
-           num_ranks > 1 && options.num_parts == num_ranks;
+    return options.refine != Refine::exact && num_ranks > 1 && options.num_parts == num_ranks;
 }
 
 bool reads_current_parts(const Options& options, int num_ranks) {

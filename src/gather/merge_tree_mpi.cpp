@@ -79,7 +79,7 @@ void merge_up(Contribution& mine, int dimension, const MergeTree& tree, std::siz
     if (rank != 0) send_up(mine, tree.parent(rank), self);
 }
 
-void gather_points(std::vector<double>& records, Participant& self) {
+void gather_records(std::vector<double>& records, Participant& self) {
     std::uint64_t count = records.size();
     const auto length = std::span(&count, 1);
     if (mpi::rank_of(self.comm) != root) {

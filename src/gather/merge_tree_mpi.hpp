@@ -42,10 +42,10 @@ struct MergeTree {
 void merge_up(Contribution& mine, int dimension, const MergeTree& tree, std::size_t most,
               Participant& self);
 
-/// Puts the points of all ranks behind those of the root, by rank. Collective over `comm`, after
-/// the ranks agreed that the root wants them: each sends it how many doubles it has, and those.
+/// Appends the records of all ranks to those of the root, by rank. Collective over `comm`: each
+/// sends the number of its doubles, then these.
 ///
 /// A failure stays with its rank for the next agreement.
-void gather_points(std::vector<double>& records, Participant& self);
+void gather_records(std::vector<double>& records, Participant& self);
 
 }  // namespace rrcb

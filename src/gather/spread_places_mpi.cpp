@@ -1,7 +1,6 @@
 #include "gather/spread_places_mpi.hpp"
 
 #include "bisection/axis_choice.hpp"
-#include "bisection/domain_kinds.hpp"
 #include "cuts/owned_cuts.hpp"
 #include "cuts/part_share.hpp"
 #include "cuts/position_order.hpp"
@@ -144,8 +143,7 @@ std::optional<Cut> SpreadPlaces::cut_of(std::size_t node, const Place& below,
     const Box box = all.box();
     const bool is_given = !options_.cut_axes.empty();
     const int usual =
-        is_given ? options_.cut_axes[node]
-                 : longest_axis(box, dimension_, traits_of(options_.domain).share_of_longest);
+        is_given ? options_.cut_axes[node] : longest_axis(box, dimension_, near_longest);
     for (int k = 0; k < (is_given ? 1 : dimension_); ++k) {
         const auto axis = static_cast<int>(ordering_axis(usual, k));
         if (!is_given && !is_long(box, axis, dimension_)) continue;

@@ -3,7 +3,6 @@
 #include <rrcb/options.hpp>
 
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -70,24 +69,10 @@ struct Option {
     const char* name;       ///< in Options, as errors have it
     const char* parameter;  ///< in the plug-in and in Teuchos' list; empty: in neither
     const char* text;       ///< what it sets
-    std::variant<Range<int>, Range<double>, Range<std::uint64_t>, Choice, Lists, Rows> kind;
+    std::variant<Range<int>, Range<double>, Choice, Lists, Rows> kind;
 };
 
-inline constexpr Word domain_words[] = {
-    {"ANALYTIC", static_cast<int>(DomainKind::analytic),
-     "each cell a smooth density with the cell's moments"},
-    {"SAMPLED", static_cast<int>(DomainKind::sampled),
-     "pseudo-random points with the cell's moments, the paper's RRCB"},
-    {"POINTS", static_cast<int>(DomainKind::points),
-     "the points themselves, all gathered at the root, the paper's RCB"}};
-
-inline constexpr Word cut_rule_words[] = {
-    {"WEIGHTED", static_cast<int>(CutRule::weighted_fraction),
-     "where the weight below is the share of the parts below"},
-    {"MIDPOINT", static_cast<int>(CutRule::midpoint), "at that share of the extent"}};
-
 inline constexpr Word refine_words[] = {
-    {"AUTO", static_cast<int>(Refine::automatic), "TOLERANCE with ANALYTIC, NONE with SAMPLED"},
     {"NONE", static_cast<int>(Refine::none), "the estimate stands"},
     {"TOLERANCE", static_cast<int>(Refine::tolerance),
      "until the imbalance is within IMBALANCE_TOL"},
@@ -141,10 +126,6 @@ inline constexpr Option option_table[] = {
     {"support_mesh", "RRCB_SUPPORT_MESH", "Cells per axis of each rank's support mesh",
      Range<int>{&Options::support_mesh, 1, 4096, false, 256, " cells per axis",
                 "as many as suit the points of the rank"}},
-    {"domain", "RRCB_DOMAIN", "What the root bisects in place of the points",
-     choice_of<DomainKind, &Options::domain>(domain_words)},
-    {"cut_rule", "RRCB_CUT_RULE", "Where a box is cut across its longest axis",
-     choice_of<CutRule, &Options::cut_rule>(cut_rule_words)},
     {"one of grouped_axes, cut_axes, plain_cuts, min_width, grid", "",
      "Which axes are cut, and where", Lists{values_of_places, check_axes}},
     {"min_width", "RRCB_MIN_WIDTH", "Least extent of every part along each axis",
@@ -166,13 +147,6 @@ inline constexpr Option option_table[] = {
      Range<int>{&Options::central_parts, 2, std::numeric_limits<int>::max()}},
     {"cuts", "", "Cuts that each rank gets where many ranks make the parts",
      choice_of<HeldCuts, &Options::cuts>(held_cuts_words)},
-    {"sigma_multiplier", "RRCB_SIGMA_MULTIPLIER",
-     "SAMPLED: half-width of a cell's sampling box in standard deviations",
-     Range<double>{&Options::sigma_multiplier, 0, std::numeric_limits<double>::max(), true}},
-    {"sample_fraction", "RRCB_SAMPLE_FRACTION", "SAMPLED: points drawn per real point",
-     Range<double>{&Options::sample_fraction, 0, 1, true}},
-    {"seed", "RRCB_SEED", "SAMPLED: seed of the points",
-     Range<std::uint64_t>{&Options::seed, 0, std::numeric_limits<std::uint64_t>::max()}},
 };
 
 /// True when the value of the option is compared between ranks by itself.

@@ -19,10 +19,6 @@ std::uint64_t bits_of(int value) {
     return static_cast<std::uint64_t>(value);
 }
 
-std::uint64_t bits_of(std::uint64_t value) {
-    return value;
-}
-
 /// Hash of numbers that are added one by one.
 class Hash {
   public:
@@ -39,14 +35,8 @@ class Hash {
     std::uint64_t hash_;
 };
 
-std::uint64_t hash_of(std::span<const double> values) {
-    Hash hash(values.size());
-    for (const double value : values) hash.add(value);
-    return hash.value();
-}
+}  // namespace
 
-/// Number for how this thread rounds and treats subnormal numbers, found out by computing. Ranks
-/// with different numbers get different results from the same operands.
 std::uint64_t arithmetic_in_use() {
     // Volatile, so that it is computed when called and not when compiled.
     const volatile double one = 1;
@@ -61,7 +51,11 @@ std::uint64_t arithmetic_in_use() {
     return bits;
 }
 
-}  // namespace
+std::uint64_t hash_of(std::span<const double> values) {
+    Hash hash(values.size());
+    for (const double value : values) hash.add(value);
+    return hash.value();
+}
 
 std::uint64_t bits_of(const Option& option, const Options& options) {
     return visit_kind(option, [&]<class Kind>(const Kind& kind) {
@@ -136,9 +130,7 @@ std::string_view name_of_request(std::size_t index) {
     std::size_t at = 0;
     for (const Option& option : option_table)
         if (is_compared(option) && ++at == index) return option.name;
-    return index == num_compared + 1
-               ? "previous"
-               : "the floating-point environment (rounding, subnormal numbers)";
+    return index == num_compared + 1 ? "previous" : name_of_arithmetic;
 }
 
 }  // namespace rrcb

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace rrcb {
@@ -22,6 +23,16 @@ inline constexpr std::size_t num_compared = [] {
 /// holds the dimension, every option that is compared in the order of the table, the cuts of an
 /// earlier call, and how this thread does arithmetic.
 using Request = std::array<std::uint64_t, num_compared + 3>;
+
+/// Number for how this thread rounds and treats subnormal numbers, found out by computing. Ranks
+/// with different numbers get different results from the same operands.
+std::uint64_t arithmetic_in_use();
+
+inline constexpr std::string_view name_of_arithmetic =
+    "the floating-point environment (rounding, subnormal numbers)";
+
+/// Hash of numbers and how many they are.
+std::uint64_t hash_of(std::span<const double> values);
 
 /// The bits of one option, or a hash.
 std::uint64_t bits_of(const Option& option, const Options& options);

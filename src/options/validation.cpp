@@ -58,6 +58,12 @@ bool cross_axes_at_numbers(const Cuts& cuts) {
 
 }  // namespace
 
+Options complete(Options options, int num_ranks) {
+    if (options.num_parts == 0) options.num_parts = num_ranks;
+    if (!options.grid.empty()) options.plain_cuts = true;
+    return options;
+}
+
 void check_part_sizes(const Options& options, int) {
     const std::vector<double>& sizes = options.part_sizes;
     if (sizes.empty()) return;

@@ -8,6 +8,9 @@
 
 namespace rrcb {
 
+/// Options with nothing left to default except the sizes of equal parts.
+Options complete(Options options, int num_ranks);
+
 /// Throws Error naming the option and its range when `options` can't be used.
 void check_options(const Options& options, int dimension);
 

@@ -29,7 +29,7 @@ void add_number(ParameterList& list, const char* name, Number value,
 }
 
 void add_choice(ParameterList& list, const char* name, const Choice& choice,
-                const std::string& documentation) {
+                const std::string& value, const std::string& documentation) {
     Teuchos::Array<std::string> names;
     Teuchos::Array<std::string> documents;
     Teuchos::Array<int> values;
@@ -39,7 +39,7 @@ void add_choice(ParameterList& list, const char* name, const Choice& choice,
         values.append(word.value);
     }
     constexpr bool case_sensitive = false;
-    list.set(name, names[0], documentation,
+    list.set(name, value, documentation,
              Teuchos::rcp(new Teuchos::StringToIntegralParameterEntryValidator<int>(
                  names, documents, values, name, case_sensitive)));
 }
@@ -61,14 +61,9 @@ struct Adder {
         add_number(list, option.parameter, Options{}.*range.field,
                    {least, std::min(range.most, largest)}, documentation(option));
     }
-    /// Teuchos knows no unsigned number of 64 bits.
-    void operator()(const Range<std::uint64_t>& range) const {
-        add_number(list, option.parameter, static_cast<long long>(Options{}.*range.field),
-                   {static_cast<long long>(range.least), std::numeric_limits<long long>::max()},
-                   documentation(option));
-    }
     void operator()(const Choice& choice) const {
-        add_choice(list, option.parameter, choice, documentation(option));
+        add_choice(list, option.parameter, choice, write_option(option, Options{}),
+                   documentation(option));
     }
     void operator()(const Lists&) const {}
     void operator()(const Rows&) const {
@@ -86,9 +81,6 @@ struct Getter {
     void operator()(const Range<Number>& range) const {
         options.*range.field = list.get<Number>(option.parameter);
     }
-    void operator()(const Range<std::uint64_t>& range) const {
-        options.*range.field = static_cast<std::uint64_t>(list.get<long long>(option.parameter));
-    }
     void operator()(const Choice& choice) const {
         choice.set(options, Teuchos::getIntegralValue<int>(list, option.parameter));
     }
@@ -98,12 +90,34 @@ struct Getter {
     }
 };
 
+// The defaults are those of PaperOptions, whose header is C++20.
+void add_parameters_of_paper(ParameterList& list) {
+    static constexpr Word domains[] = {{"ANALYTIC", 0, "RRCB's own method"},
+                                       {"SAMPLED", 1, "the paper's RRCB"},
+                                       {"POINTS", 2, "the paper's RCB"}};
+    static constexpr Word rules[] = {{"WEIGHTED", 0, "the weight below is its parts' share"},
+                                     {"MIDPOINT", 1, "the extent below is its parts' share"}};
+    const double least = std::numeric_limits<double>::denorm_min();
+    add_choice(list, "RRCB_DOMAIN", {domains, std::size(domains), nullptr, nullptr}, "ANALYTIC",
+               "Plug-in only: the method: ANALYTIC, SAMPLED or POINTS.");
+    add_choice(list, "RRCB_CUT_RULE", {rules, std::size(rules), nullptr, nullptr}, "WEIGHTED",
+               "Plug-in only, SAMPLED and POINTS: position of cuts: WEIGHTED or MIDPOINT.");
+    add_number(list, "RRCB_SIGMA_MULTIPLIER", 1.5, {least, largest},
+               "Plug-in only, SAMPLED: half-width of a cell's sampling box in standard deviations: "
+               "a number above 0.");
+    add_number(list, "RRCB_SAMPLE_FRACTION", 1.0, {least, 1.0},
+               "Plug-in only, SAMPLED: points drawn per real point: a number above 0, at most 1.");
+    // Teuchos knows no unsigned number of 64 bits.
+    add_number(list, "RRCB_SEED", 1LL, {0LL, std::numeric_limits<long long>::max()},
+               "Plug-in only, SAMPLED: seed of the points: a whole number, 0 or more.");
+}
+
 void add_parameters_of_plug_in(ParameterList& list) {
     static constexpr Word words[] = {{"FAILURE", 0, "when a call fails"},
                                      {"ALWAYS", 1, "at every call"}};
     list.set("RRCB_DUMP", std::string(),
              "Plug-in only: folder to write the input of calls to: a string; empty: none.");
-    add_choice(list, "RRCB_DUMP_WHEN", {words, std::size(words), nullptr, nullptr},
+    add_choice(list, "RRCB_DUMP_WHEN", {words, std::size(words), nullptr, nullptr}, "FAILURE",
                "Plug-in only: when to write to RRCB_DUMP: FAILURE or ALWAYS.");
 }
 
@@ -201,6 +215,7 @@ Teuchos::RCP<const ParameterList> valid_parameters() {
     static const Teuchos::RCP<const ParameterList> valid = [] {
         const auto list = Teuchos::parameterList("RRCB");
         for (const Option& option : option_table) visit_kind(option, Adder{*list, option});
+        add_parameters_of_paper(*list);
         add_parameters_of_plug_in(*list);
         return list;
     }();

@@ -3,6 +3,7 @@
 #include "clouds.hpp"
 #include "part_ranks.hpp"
 
+#include <rrcb/paper.hpp>
 #include <rrcb/rrcb.hpp>
 
 #include <array>
@@ -64,11 +65,19 @@ Options refining(Refine refine) {
 }
 
 TEST(FailingMemory, in_estimated_cuts) {
-    for (const DomainKind domain :
-         {DomainKind::analytic, DomainKind::sampled, DomainKind::points}) {
-        Options options = refining(Refine::none);
+    fail_in_balance(refining(Refine::none));
+}
+
+TEST(FailingMemory, in_cuts_of_the_paper) {
+    const std::vector<double> coordinates = cloud_here(2);
+    const Points points = interleaved_points(coordinates, 2);
+    for (const PaperDomain domain : {PaperDomain::sampled, PaperDomain::points}) {
+        PaperOptions options;
+        options.num_parts = 6;
         options.domain = domain;
-        fail_in_balance(options);
+        const auto call = [&] { return balance_as_in_paper(points, options, MPI_COMM_WORLD); };
+        const std::vector<Part> expected = call().parts;
+        fail_in(call, [&](const Balance& result) { EXPECT_EQ(result.parts, expected); });
     }
 }
 

@@ -2,6 +2,7 @@
 #include "program.hpp"
 #include "ranks.hpp"
 
+#include <rrcb/paper.hpp>
 #include <rrcb/rrcb.hpp>
 
 #include <gtest/gtest.h>
@@ -51,10 +52,14 @@ void expect_one_code_and_no_lists(Cloud& cloud) {
 }
 
 TEST(FailingMpi, gives_all_ranks_one_code_and_no_lists_and_the_next_call_works) {
-    for (const char* refine : {"NONE", "TOLERANCE", "EXACT"}) {
-        SCOPED_TRACE(refine);
+    for (const auto& [name, value] : {std::pair{"RRCB_REFINE", "NONE"},
+                                      {"RRCB_REFINE", "TOLERANCE"},
+                                      {"RRCB_REFINE", "EXACT"},
+                                      {"RRCB_DOMAIN", "SAMPLED"},
+                                      {"RRCB_DOMAIN", "POINTS"}}) {
+        SCOPED_TRACE(value);
         Cloud cloud;
-        cloud.set("RRCB_REFINE", refine);
+        cloud.set(name, value);
         expect_one_code_and_no_lists(cloud);
     }
 }
@@ -90,6 +95,15 @@ TEST(FailingMpi, reaches_the_caller_of_balance_as_an_error_that_names_the_call) 
     for (Cut& cut : moved.tree) cut.at[static_cast<std::size_t>(cut.axis)] *= 0.9;
     for (const Cuts& previous : {good, moved})
         expect_errors([&] { balance(points, Options{}, MPI_COMM_WORLD, previous); });
+}
+
+TEST(FailingMpi, reaches_the_caller_of_a_method_of_the_paper) {
+    const Cloud cloud;
+    PaperOptions options;
+    for (const PaperDomain domain : {PaperDomain::sampled, PaperDomain::points}) {
+        options.domain = domain;
+        expect_errors([&] { balance_as_in_paper(cloud.points(), options, MPI_COMM_WORLD); });
+    }
 }
 
 TEST(FailingMpi, reaches_the_caller_of_what_follows_a_balance) {

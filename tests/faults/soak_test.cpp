@@ -4,6 +4,7 @@
 #include "mpi_layer.hpp"
 #include "ranks.hpp"
 
+#include <rrcb/paper.hpp>
 #include <rrcb/rrcb.hpp>
 
 #include <gtest/gtest.h>
@@ -121,17 +122,22 @@ bool is_right(const Balance& result, const Round& round) {
 }
 
 Options options_of(const Round& round) {
-    constexpr std::array domains = {DomainKind::analytic, DomainKind::sampled, DomainKind::points};
     constexpr std::array refinements = {Refine::none, Refine::tolerance, Refine::exact};
     Options options;
     options.num_parts = round.num_parts();
-    options.domain = domains[round.drawn() % 3];
     options.refine = refinements[round.drawn() / 3 % 3];
     return options;
 }
 
 bool balances(const Round& round, MPI_Comm comm) {
     return is_right(balance(round.mine().points(), options_of(round), comm), round);
+}
+
+bool balances_as_in_paper(const Round& round, MPI_Comm comm) {
+    PaperOptions options;
+    options.num_parts = round.num_parts();
+    options.domain = round.drawn() % 2 == 0 ? PaperDomain::sampled : PaperDomain::points;
+    return is_right(balance_as_in_paper(round.mine().points(), options, comm), round);
 }
 
 bool balances_twice(const Round& round, MPI_Comm comm) {
@@ -300,8 +306,9 @@ bool meets_a_new_communicator(const Round& round, MPI_Comm comm) {
 using Call = bool (*)(const Round&, MPI_Comm);
 
 Call call_of(const Round& round) {
-    constexpr std::array<Call, 8> usual = {balances,  balances_twice, plans,   moves,
-                                           renumbers, measures,       refuses, fetches_ghosts};
+    constexpr std::array<Call, 9> usual = {
+        balances, balances_as_in_paper, balances_twice, plans, moves, renumbers, measures,
+        refuses,  fetches_ghosts};
     const std::uint64_t drawn = mixed(round.number, call_use);
     // Seldom, since a new communicator takes long to make.
     return drawn % 64 == 0 ? meets_a_new_communicator : usual[drawn / 64 % usual.size()];

@@ -3,7 +3,11 @@
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
+#include <rrcb/paper.hpp>
 
+#include <algorithm>
+#include <array>
+#include <optional>
 #include <vector>
 
 namespace {
@@ -16,28 +20,47 @@ struct Session {
     ~Session() { MPI_Finalize(); }
 };
 
-rrcb::Options take_options(rrcb::fuzz::Input& input) {
-    rrcb::Options options;
-    options.num_parts = 1 + input.take_below(40);
-    options.domain = static_cast<rrcb::DomainKind>(input.take_below(4));
-    options.refine = static_cast<rrcb::Refine>(input.take_below(4));
-    options.cut_rule = static_cast<rrcb::CutRule>(input.take_below(2));
-    options.support_mesh = input.take_below(12);
-    options.plain_cuts = input.take_below(2) == 1;
-    options.imbalance_tolerance = 1 + 0.05 * input.take_below(5);
-    options.part_sizes.resize(input.take_below(4) == 0 ? std::size_t(options.num_parts) : 0);
-    for (double& size : options.part_sizes) size = input.take_below(3);
-    return options;
+/// Options of RRCB's own method, or of one of the paper's.
+struct Request {
+    rrcb::Options own;
+    std::optional<rrcb::PaperOptions> paper;
+
+    rrcb::Balance divide(const rrcb::Points& points) const {
+        return paper ? rrcb::balance_as_in_paper(points, *paper, MPI_COMM_SELF)
+                     : rrcb::balance(points, own, MPI_COMM_SELF);
+    }
+};
+
+Request take_request(rrcb::fuzz::Input& input) {
+    using enum rrcb::Refine;
+    constexpr std::array refinements = {tolerance, none, tolerance, exact};
+    rrcb::Options own;
+    own.num_parts = 1 + input.take_below(40);
+    const int method = input.take_below(4);
+    own.refine = refinements[std::size_t(input.take_below(4))];
+    rrcb::PaperOptions paper;
+    paper.domain = method == 1 ? rrcb::PaperDomain::sampled : rrcb::PaperDomain::points;
+    paper.cut_rule = static_cast<rrcb::CutRule>(input.take_below(2));
+    own.support_mesh = input.take_below(12);
+    own.plain_cuts = input.take_below(2) == 1;
+    own.imbalance_tolerance = 1 + 0.05 * input.take_below(5);
+    own.part_sizes.resize(input.take_below(4) == 0 ? std::size_t(own.num_parts) : 0);
+    for (double& size : own.part_sizes) size = input.take_below(3);
+    paper.num_parts = own.num_parts;
+    paper.part_sizes = own.part_sizes;
+    paper.support_mesh = std::max(1, own.support_mesh);
+    paper.plain_cuts = own.plain_cuts;
+    if (method == 1 || method == 2) return {own, paper};
+    return {own, {}};
 }
 
-void check(const rrcb::Points& points, const rrcb::Options& options) {
-    const rrcb::Balance result = rrcb::balance(points, options, MPI_COMM_SELF);
+void check(const rrcb::Points& points, const Request& request) {
+    const rrcb::Balance result = request.divide(points);
     expect(result.parts.size() == points.count, "a part for each point");
     for (rrcb::LocalIndex i = 0; i < points.count; ++i)
         expect(result.parts[i] == rrcb::part_of(result.cuts, points.position(i)),
                "look-ups find the part");
-    const rrcb::Balance again = rrcb::balance(points, options, MPI_COMM_SELF);
-    expect(again.parts == result.parts, "the same parts twice");
+    expect(request.divide(points).parts == result.parts, "the same parts twice");
 }
 
 }  // namespace
@@ -45,7 +68,7 @@ void check(const rrcb::Points& points, const rrcb::Options& options) {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const Session session;
     rrcb::fuzz::Input input(data, size);
-    const rrcb::Options options = take_options(input);
+    const Request request = take_request(input);
     const int dimension = 1 + input.take_below(3);
     const bool weighted = input.take_below(2) == 1;
     const auto width = static_cast<std::size_t>(dimension) + (weighted ? 1 : 0);
@@ -55,7 +78,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     for (double& x : coordinates) x = input.take<double>();
     for (double& w : weights) w = input.take<double>();
     try {
-        check(rrcb::interleaved_points(coordinates, dimension, weights), options);
+        check(rrcb::interleaved_points(coordinates, dimension, weights), request);
     } catch (const rrcb::Error& error) {
         expect(error.code() == rrcb::ErrorCode::invalid_argument, "the caller's mistake");
     }

@@ -15,9 +15,9 @@ void expect_legal(const rrcb::zoltan::Parameters& parameters) {
     expect(options.support_mesh >= 0 && options.support_mesh <= 4096, "cells in range");
     expect(options.imbalance_tolerance >= 1 && std::isfinite(options.imbalance_tolerance),
            "tolerance in range");
-    expect(options.sigma_multiplier > 0 && std::isfinite(options.sigma_multiplier),
+    expect(parameters.sigma_multiplier > 0 && std::isfinite(parameters.sigma_multiplier),
            "multiplier in range");
-    expect(options.sample_fraction > 0 && options.sample_fraction <= 1, "fraction in range");
+    expect(parameters.sample_fraction > 0 && parameters.sample_fraction <= 1, "fraction in range");
     expect(parameters.num_gid_entries >= 1 && parameters.num_lid_entries >= 0, "widths of ids");
     expect(parameters.weight_dimension >= 0, "number of weights");
 }

@@ -27,9 +27,6 @@ void check(const Teuchos::ParameterList& list) {
     expect(options.support_mesh >= 0 && options.support_mesh <= 4096, "cells in range");
     expect(options.imbalance_tolerance >= 1 && std::isfinite(options.imbalance_tolerance),
            "tolerance in range");
-    expect(options.sigma_multiplier > 0 && std::isfinite(options.sigma_multiplier),
-           "multiplier in range");
-    expect(options.sample_fraction > 0 && options.sample_fraction <= 1, "fraction in range");
     for (const auto& [name, value] : rrcb::teuchos::zoltan_strings(list))
         expect(list.isParameter(name), "names of the list");
 }

@@ -22,30 +22,34 @@ using test::rank;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Expects that `divide` gives every rank the same error, which contains `expected`.
+void expect_same_error(const std::string& expected, const std::function<void()>& divide) {
+    std::array<char, 512> text{};
+    try {
+        divide();
+    } catch (const Error& error) {
+        std::string(error.what()).copy(text.data(), text.size() - 1);
+    }
+    EXPECT_NE(std::string(text.data()).find(expected), std::string::npos)
+        << "instead of " << expected << ": " << text.data();
+    expect_same_on_all_ranks(std::as_bytes(std::span(text)));
+}
+
 /// Every method gives every rank the same error, which holds `expected`, and then works again.
 void expect_error(const std::string& expected,
-                  const std::function<void(Share& share, Options& options)>& break_it) {
+                  const std::function<void(Share& share, Options& options)>& break_it,
+                  std::span<const Method> tried = methods) {
     const Cloud& cloud = find_cloud("weights_across_the_positions");
     const auto owners = owners_of(cloud, 200, Layout::scattered, num_ranks());
     const Share fine = share_of(cloud, owners, rank());
-    for (const Method& method : methods) {
+    for (const Method& method : tried) {
         SCOPED_TRACE(std::string(method.domain_name) + " " + method.refine_name);
-        Options options;
-        options.domain = method.domain;
-        options.refine = method.refine;
         Share broken = fine;
-        Options broken_options = options;
-        break_it(broken, broken_options);
-        std::array<char, 512> text{};
-        try {
-            balance(broken.points(), broken_options, MPI_COMM_WORLD);
-        } catch (const Error& error) {
-            std::string(error.what()).copy(text.data(), text.size() - 1);
-        }
-        EXPECT_NE(std::string(text.data()).find(expected), std::string::npos)
-            << "instead of " << expected << ": " << text.data();
-        expect_same_on_all_ranks(std::as_bytes(std::span(text)));
-        const Balance next = balance(fine.points(), options, MPI_COMM_WORLD);
+        Options options;
+        break_it(broken, options);
+        expect_same_error(expected,
+                          [&] { balance(broken.points(), method, options, MPI_COMM_WORLD); });
+        const Balance next = balance(fine.points(), method, {}, MPI_COMM_WORLD);
         EXPECT_EQ(next.report.num_points, 200);
     }
 }
@@ -103,32 +107,33 @@ std::string ranks_compared(int differing) {
 TEST(Errors, options_that_differ_between_ranks) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     const auto differs = [](const std::string& name, const std::function<void(Options&)>& change) {
-        expect_error(name + " differs " + ranks_compared(num_ranks() - 1),
-                     [&](Share&, Options& options) {
-                         if (is_last_rank()) change(options);
-                     });
+        expect_error(
+            name + " differs " + ranks_compared(num_ranks() - 1),
+            [&](Share&, Options& options) {
+                if (is_last_rank()) change(options);
+            },
+            own_methods);
     };
     differs("num_parts", [](Options& o) { o.num_parts = 99; });
-    differs("cut_rule", [](Options& o) { o.cut_rule = CutRule::midpoint; });
+    differs("support_mesh", [](Options& o) { o.support_mesh = 7; });
     differs("imbalance_tolerance", [](Options& o) { o.imbalance_tolerance = 1.5; });
-    differs("seed", [](Options& o) { o.seed = 77; });
-    differs("domain", [](Options& o) {
-        o.domain = o.domain == DomainKind::points ? DomainKind::analytic : DomainKind::points;
-    });
-    differs("refine",
-            [](Options& o) { o.refine = o.refine == Refine::none ? Refine::exact : Refine::none; });
+    differs("coincident", [](Options& o) { o.coincident = Coincident::divide; });
 }
 
 /// No rank may wait for points that others never send, nor leave any behind.
 TEST(Errors, a_domain_that_differs_on_any_rank) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
+    const Share share =
+        share_of(find_cloud("lattice"),
+                 owners_of(find_cloud("lattice"), 200, Layout::scattered, num_ranks()), rank());
     for (const int faulty : {0, 1, num_ranks() / 2}) {
-        expect_error("domain differs " + ranks_compared(std::max(1, faulty)),
-                     [&](Share&, Options& options) {
-                         const bool asks = options.domain == DomainKind::points;
-                         if (rank() == faulty)
-                             options.domain = asks ? DomainKind::sampled : DomainKind::points;
-                     });
+        PaperOptions options;
+        if (rank() == faulty) options.domain = PaperDomain::points;
+        expect_same_error(
+            "domain differs between rank 0 and rank " + std::to_string(std::max(1, faulty)),
+            [&] { balance_as_in_paper(share.points(), options, MPI_COMM_WORLD); });
+        const Balance next = balance_as_in_paper(share.points(), {}, MPI_COMM_WORLD);
+        EXPECT_EQ(next.report.num_points, 200);
     }
 }
 

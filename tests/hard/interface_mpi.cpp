@@ -19,11 +19,9 @@ namespace {
 using test::num_ranks;
 using test::rank;
 
-Options options_of(const Method& method, int num_parts) {
+Options options_for(int num_parts) {
     Options options;
     options.num_parts = num_parts;
-    options.domain = method.domain;
-    options.refine = method.refine;
     options.imbalance_tolerance = asked_tolerance;
     return options;
 }
@@ -59,8 +57,8 @@ void expect_lists_conserve_points(const Balance& result) {
 void check(const Cloud& cloud, const Method& method, int count, int num_parts) {
     const auto owners = owners_of(cloud, count, Layout::scattered, num_ranks());
     const Share share = share_of(cloud, owners, rank());
-    const Options options = options_of(method, num_parts);
-    const Balance result = balance(share.points(), options, MPI_COMM_WORLD);
+    const Options options = options_for(num_parts);
+    const Balance result = balance(share.points(), method, options, MPI_COMM_WORLD);
     const std::vector<double> numbers = numbers_of(result.cuts);
     expect_same_on_all_ranks(std::as_bytes(std::span(numbers)));
     expect_look_ups_agree(share.points(), result);

@@ -5,6 +5,7 @@
 #include "mpi_handles.hpp"
 
 #include <rrcb/balance.hpp>
+#include <rrcb/paper.hpp>
 #include <rrcb/plan.hpp>
 #include <rrcb/quality.hpp>
 
@@ -23,12 +24,14 @@ TEST(Rebalances, hold_what_they_held) {
         coordinates = moving_cloud(step);
         const Points points = interleaved_points(coordinates, 2, weights);
         const bool reuses = step % 3 == 1;
-        options.domain = step % 5 == 2 ? DomainKind::sampled : DomainKind::analytic;
         options.refine = step % 2 == 0 ? Refine::tolerance : Refine::exact;
         const Balance result = reuses ? balance(points, options, MPI_COMM_WORLD, cuts)
                                       : balance(points, options, MPI_COMM_WORLD);
         cuts = result.cuts;
         plan(result.parts, options.num_parts, MPI_COMM_WORLD);
+        PaperOptions paper;
+        paper.domain = step % 5 == 2 ? PaperDomain::sampled : PaperDomain::points;
+        balance_as_in_paper(points, paper, MPI_COMM_WORLD);
         part_weights(points, result.parts, options.num_parts, MPI_COMM_WORLD);
     });
 }

@@ -24,11 +24,9 @@ constexpr std::array unusual = {
     Arithmetic{"without subnormals", [](FloatingPoint& here) { here.flush_subnormals(); }},
 };
 
-Options options_of(const Method& method) {
+Options one_part_per_rank() {
     Options options;
     options.num_parts = parts_for(test::num_ranks());
-    options.domain = method.domain;
-    options.refine = method.refine;
     options.imbalance_tolerance = asked_tolerance;
     return options;
 }
@@ -53,9 +51,9 @@ TEST_P(HardCloud, gives_the_same_bits_twice) {
     MPI_Comm_dup(MPI_COMM_WORLD, &other);
     for (const Method& method : methods) {
         SCOPED_TRACE(std::string(method.domain_name) + " " + method.refine_name);
-        const Options options = options_of(method);
-        expect_same(balance(share.points(), options, MPI_COMM_WORLD),
-                    balance(share.points(), options, other));
+        const Options options = one_part_per_rank();
+        expect_same(balance(share.points(), method, options, MPI_COMM_WORLD),
+                    balance(share.points(), method, options, other));
     }
     MPI_Comm_free(&other);
 }
@@ -79,11 +77,11 @@ TEST_P(HardCloud, gives_the_cuts_of_one_rank_where_all_points_go_to_the_root) {
     Share all = mine;
     all.coordinates = of_all_ranks(mine.coordinates);
     all.weights = of_all_ranks(mine.weights);
-    Options options;
+    PaperOptions options;
     options.num_parts = parts_for(test::num_ranks());
-    options.domain = DomainKind::points;
-    const Balance result = balance(mine.points(), options, MPI_COMM_WORLD);
-    const Balance alone = balance(all.points(), options, MPI_COMM_SELF);
+    options.domain = PaperDomain::points;
+    const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
+    const Balance alone = balance_as_in_paper(all.points(), options, MPI_COMM_SELF);
     EXPECT_TRUE(same_bits(numbers_of(result.cuts), numbers_of(alone.cuts)));
     EXPECT_EQ(result.report.num_points, alone.report.num_points);
 }
@@ -101,12 +99,12 @@ TEST(Sameness, of_any_arithmetic_is_enough) {
         for (const Arithmetic& arithmetic : unusual) {
             for (const Method& method : methods) {
                 SCOPED_TRACE(std::string(name) + ", " + arithmetic.name);
-                const Options options = options_of(method);
+                const Options options = one_part_per_rank();
                 Balance result;
                 {
                     FloatingPoint here;
                     arithmetic.set(here);
-                    result = balance(share.points(), options, MPI_COMM_WORLD);
+                    result = balance(share.points(), method, options, MPI_COMM_WORLD);
                 }
                 const std::vector<double> numbers = numbers_of(result.cuts);
                 expect_same_on_all_ranks(std::as_bytes(std::span(numbers)));
@@ -130,12 +128,13 @@ TEST(Sameness, of_the_arithmetic_is_asked_for) {
             try {
                 FloatingPoint here;
                 if (test::is_last_rank()) arithmetic.set(here);
-                balance(share.points(), options_of(method), MPI_COMM_WORLD);
+                balance(share.points(), method, one_part_per_rank(), MPI_COMM_WORLD);
             } catch (const Error& error) {
                 text = error.what();
             }
             EXPECT_NE(text.find("rounding, subnormal numbers) differs"), text.npos) << text;
-            EXPECT_EQ(balance(share.points(), options_of(method), MPI_COMM_WORLD).report.num_points,
+            EXPECT_EQ(balance(share.points(), method, one_part_per_rank(), MPI_COMM_WORLD)
+                          .report.num_points,
                       512);
         }
     }

@@ -43,9 +43,7 @@ TEST(Weights, of_zero_lie_in_every_part) {
     Options options;
     options.num_parts = 4;
     for (const Method& method : methods) {
-        options.domain = method.domain;
-        options.refine = method.refine;
-        const Balance result = balance(share.points(), options, MPI_COMM_WORLD);
+        const Balance result = balance(share.points(), method, options, MPI_COMM_WORLD);
         std::array<int, 4> counts{};
         for (std::size_t i = 0; i < share.weights.size(); ++i)
             counts[static_cast<std::size_t>(result.parts[i])] += share.weights[i] == 0 ? 1 : 0;

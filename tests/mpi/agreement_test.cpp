@@ -125,13 +125,8 @@ TEST_F(Agreement, on_options_out_of_range) {
     };
     with([](Options& o) { o.num_parts = -1; }, "num_parts");
     with([](Options& o) { o.support_mesh = 5000; }, "support_mesh must be 1 ... 4096");
-    with([](Options& o) { o.sample_fraction = 0; }, "sample_fraction must be in (0, 1]");
-    with([](Options& o) { o.sigma_multiplier = nan; }, "sigma_multiplier");
-    with([](Options& o) { o.domain = static_cast<DomainKind>(7); }, "domain must be");
-    with([](Options& o) { o.cut_rule = static_cast<CutRule>(5); }, "cut_rule must be WEIGHTED");
-    with([](Options& o) { o.refine = static_cast<Refine>(-3); }, "refine must be AUTO, NONE");
+    with([](Options& o) { o.refine = static_cast<Refine>(-3); }, "refine must be NONE");
     with([](Options& o) { o.coincident = static_cast<Coincident>(7); }, "coincident must be");
-    with([](Options& o) { o.sigma_multiplier = 0; }, "sigma_multiplier must be finite and above 0");
     with([](Options& o) { o.num_parts = 2, o.part_sizes = {1}; }, "part_sizes must hold one");
     with([](Options& o) { o.num_parts = 2, o.part_sizes = {0, 0}; }, "part_sizes must have a");
     with([](Options& o) { o.num_parts = 2, o.part_sizes = {2, -1}; }, "part_sizes must be finite");
@@ -154,11 +149,6 @@ TEST_F(Agreement, on_options_that_differ_between_ranks) {
     };
     with([](Options& o) { o.num_parts = 99; }, "num_parts");
     with([](Options& o) { o.support_mesh = 3; }, "support_mesh");
-    with([](Options& o) { o.domain = DomainKind::points; }, "domain");
-    with([](Options& o) { o.cut_rule = CutRule::midpoint; }, "cut_rule");
-    with([](Options& o) { o.sigma_multiplier = 3; }, "sigma_multiplier");
-    with([](Options& o) { o.sample_fraction = 0.5; }, "sample_fraction");
-    with([](Options& o) { o.seed = 2; }, "seed");
     with([](Options& o) { o.refine = Refine::exact; }, "refine");
     with([](Options& o) { o.imbalance_tolerance = 2; }, "imbalance_tolerance");
     with([](Options& o) { o.plain_cuts = true; },

@@ -42,36 +42,6 @@ TEST(Balance, default_method_balances_a_uniform_cloud_in_every_dimension) {
     }
 }
 
-TEST(Balance, all_points_at_the_root_give_the_exact_median) {
-    const std::vector<double> cloud = my_cloud(1000, 2);
-    const Points points = interleaved_points(cloud, 2);
-    Options options;
-    options.domain = DomainKind::points;
-    options.num_parts = 8;
-    const Balance result = balance(points, options, MPI_COMM_WORLD);
-    const auto weights = part_weights(points, result.parts, 8, MPI_COMM_WORLD);
-    for (const double weight : weights) EXPECT_NEAR(weight, 125.0 * num_ranks(), 1);
-    EXPECT_EQ(result.report.num_records, 1000 * num_ranks());
-}
-
-TEST(Balance, a_finer_mesh_brings_the_sampled_domain_nearer_to_the_points) {
-    // One rank's cloud has a dense corner, which a single cell per rank cannot see.
-    std::vector<double> cloud = my_cloud(20000, 2);
-    for (double& x : cloud) x = x * x * x;
-    const Points points = interleaved_points(cloud, 2);
-    Options options;
-    options.domain = DomainKind::sampled;
-    options.num_parts = 4;
-    const auto imbalance_with = [&](int mesh) {
-        options.support_mesh = mesh;
-        return measured_imbalance(points, balance(points, options, MPI_COMM_WORLD));
-    };
-    const double coarse = imbalance_with(1);
-    const double fine = imbalance_with(16);
-    EXPECT_GT(coarse, 1.2);
-    EXPECT_LT(fine, 1.05);
-}
-
 TEST(Balance, weights_and_part_sizes_are_honoured) {
     const std::vector<double> cloud = my_cloud(20000, 2);
     std::vector<double> weights;
@@ -121,45 +91,34 @@ TEST(Balance, weights_that_are_all_zero_mean_balance_by_count) {
     const std::vector<double> weights(10000, 0.0);
     Options options;
     options.num_parts = 4;
-    for (const DomainKind kind : {DomainKind::analytic, DomainKind::sampled, DomainKind::points}) {
-        options.domain = kind;
-        const Balance result =
-            balance(interleaved_points(cloud, 2, weights), options, MPI_COMM_WORLD);
-        EXPECT_TRUE(result.report.all_weights_zero);
-        EXPECT_LT(measured_imbalance(interleaved_points(cloud, 2), result), 1.05);
-    }
+    const Balance result = balance(interleaved_points(cloud, 2, weights), options, MPI_COMM_WORLD);
+    EXPECT_TRUE(result.report.all_weights_zero);
+    EXPECT_LT(measured_imbalance(interleaved_points(cloud, 2), result), 1.05);
 }
 
 TEST(Balance, points_at_one_place_end_up_in_one_part) {
     const std::vector<double> same(200, 0.25);
-    for (const DomainKind kind : {DomainKind::analytic, DomainKind::sampled, DomainKind::points}) {
-        Options options;
-        options.domain = kind;
-        options.num_parts = 4;
-        const Points points = interleaved_points(same, 2);
-        const Balance result = balance(points, options, MPI_COMM_WORLD);
-        for (const Part part : result.parts) EXPECT_EQ(part, result.parts[0]);
-    }
+    Options options;
+    options.num_parts = 4;
+    const Balance result = balance(interleaved_points(same, 2), options, MPI_COMM_WORLD);
+    for (const Part part : result.parts) EXPECT_EQ(part, result.parts[0]);
 }
 
 TEST(Balance, same_input_gives_the_same_bits_on_all_ranks) {
     const std::vector<double> cloud = my_cloud(5000, 3);
-    for (const DomainKind kind : {DomainKind::analytic, DomainKind::sampled, DomainKind::points}) {
-        Options options;
-        options.domain = kind;
-        options.num_parts = 13;
-        const Points points = interleaved_points(cloud, 3);
-        const Balance first = balance(points, options, MPI_COMM_WORLD);
-        const Balance second = balance(points, options, MPI_COMM_WORLD);
-        EXPECT_EQ(first.parts, second.parts);
-        std::vector<Cut> at_root = first.cuts.tree;
-        MPI_Bcast(at_root.data(), static_cast<int>(at_root.size() * sizeof(Cut)), MPI_BYTE, 0,
-                  MPI_COMM_WORLD);
-        ASSERT_EQ(second.cuts.tree.size(), at_root.size());
-        for (std::size_t k = 0; k < at_root.size(); ++k) {
-            EXPECT_EQ(second.cuts.tree[k].axis, at_root[k].axis);
-            EXPECT_EQ(std::memcmp(&second.cuts.tree[k].at, &at_root[k].at, sizeof(Vector)), 0);
-        }
+    Options options;
+    options.num_parts = 13;
+    const Points points = interleaved_points(cloud, 3);
+    const Balance first = balance(points, options, MPI_COMM_WORLD);
+    const Balance second = balance(points, options, MPI_COMM_WORLD);
+    EXPECT_EQ(first.parts, second.parts);
+    std::vector<Cut> at_root = first.cuts.tree;
+    MPI_Bcast(at_root.data(), static_cast<int>(at_root.size() * sizeof(Cut)), MPI_BYTE, 0,
+              MPI_COMM_WORLD);
+    ASSERT_EQ(second.cuts.tree.size(), at_root.size());
+    for (std::size_t k = 0; k < at_root.size(); ++k) {
+        EXPECT_EQ(second.cuts.tree[k].axis, at_root[k].axis);
+        EXPECT_EQ(std::memcmp(&second.cuts.tree[k].at, &at_root[k].at, sizeof(Vector)), 0);
     }
 }
 
@@ -175,13 +134,8 @@ TEST(Balance, takes_points_at_any_stride_and_from_several_arrays) {
         }
         const Points expected = interleaved_points(cloud, 2);
         const Points points{.dimension = 2, .count = 500, .stride = stride, .axes = {x, y}};
-        for (const DomainKind domain :
-             {DomainKind::analytic, DomainKind::sampled, DomainKind::points}) {
-            Options options;
-            options.domain = domain;
-            const Balance result = balance(points, options, MPI_COMM_WORLD);
-            EXPECT_EQ(result.parts, balance(expected, options, MPI_COMM_WORLD).parts);
-        }
+        const Balance result = balance(points, {}, MPI_COMM_WORLD);
+        EXPECT_EQ(result.parts, balance(expected, {}, MPI_COMM_WORLD).parts);
     }
 }
 

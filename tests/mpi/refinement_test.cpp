@@ -220,16 +220,6 @@ TEST(Refinement, reaches_the_largest_double) {
     expect_look_ups_agree(points, result);
 }
 
-TEST(Refinement, leaves_a_literal_midpoint_alone) {
-    const auto mine = share_of_cloud(4000, 1, [](std::size_t, int, double u) { return u * u; });
-    Options options;
-    options.cut_rule = CutRule::midpoint;
-    options.num_parts = 2;
-    const Balance result = balance(interleaved_points(mine, 1), options, MPI_COMM_WORLD);
-    EXPECT_NEAR(result.cuts.tree[0].at[0], 0.5, 0.01);
-    EXPECT_TRUE(std::isnan(result.report.measured_imbalance));
-}
-
 TEST(Refinement, same_input_gives_the_same_bits) {
     const auto mine =
         share_of_cloud(5000, 2, [](std::size_t, int, double u) { return std::floor(u * 40); });

@@ -165,15 +165,12 @@ TEST(PartSizes, of_zero_keep_a_part_empty_of_weightless_points_too) {
         result = balance(points, options, MPI_COMM_WORLD, result.cuts);
         for (const Part part : result.parts) EXPECT_GT(sizes[static_cast<std::size_t>(part)], 0);
     };
-    for (const DomainKind domain : {DomainKind::analytic, DomainKind::sampled}) {
-        for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
-            Options options;
-            options.domain = domain;
-            options.refine = refine;
-            expect_empty(interleaved_points(many, 2, weights), {2, 1e-4, 0}, options);
-            expect_empty(interleaved_points(many, 2, weights), {0, 3, 0, 0, 1}, options);
-            expect_empty(interleaved_points(few, 1), {1, 0, 2, 2, 2}, options);
-        }
+    for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
+        Options options;
+        options.refine = refine;
+        expect_empty(interleaved_points(many, 2, weights), {2, 1e-4, 0}, options);
+        expect_empty(interleaved_points(many, 2, weights), {0, 3, 0, 0, 1}, options);
+        expect_empty(interleaved_points(few, 1), {1, 0, 2, 2, 2}, options);
     }
 }
 

@@ -53,8 +53,7 @@ void expect_rest(HeldPoints all, const Options& options, int most_moves) {
 TEST(PointsAtRest, of_a_slope_move_in_two_calls_more_at_most) {
     for (const HeldPoints& slope : {test::lattice_slope(0.2121), test::random_slope(54464)})
         for (const int mesh : {0, 4, 8})
-            for (const Refine refine :
-                 {Refine::none, Refine::tolerance, Refine::automatic, Refine::exact}) {
+            for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
                 SCOPED_TRACE(std::to_string(slope.count()) + " points, mesh " +
                              std::to_string(mesh) + ", refine " +
                              std::to_string(static_cast<int>(refine)));

@@ -43,8 +43,6 @@ TEST(Stages, are_seen_in_their_order) {
     EXPECT_EQ(stages_seen(options, cloud), start_of_call() + " +refinement -refinement");
     options.refine = Refine::none;
     EXPECT_EQ(stages_seen(options, cloud), start_of_call() + " +assignment -assignment");
-    options.domain = DomainKind::points;
-    EXPECT_EQ(stages_seen(options, cloud), start_of_call() + " +assignment -assignment");
 }
 
 TEST(Stages, come_again_where_many_ranks_make_the_parts) {

@@ -57,7 +57,7 @@ struct VirtualRanks {
         const Points mine = points_of(rank);
         const Box box = check_points(mine);
         Contribution all{summarize(mine, box), {}};
-        add_records(mine, bin_by_options(mine, box, options), options, all);
+        add_records(mine, bin_by_options(mine, box, options), all);
         all.summary.first_rank = rank;
         MergeTree{num_ranks()}.for_each_child(rank, [&](int child) {
             const Contribution theirs = contribution_of(child);

@@ -292,9 +292,6 @@ TEST(Wide, all_ranks_get_all_cuts_where_the_call_asks_for_something_else) {
         [](Options& o) { o.central_parts = num_ranks(); },
         [](Options& o) { o.num_parts = 2; },
         [](Options& o) { o.refine = Refine::none; },
-        [](Options& o) { o.cut_rule = CutRule::midpoint; },
-        [](Options& o) { o.domain = DomainKind::points; },
-        [](Options& o) { o.domain = DomainKind::sampled; },
         [](Options& o) {
             o.grouped_axes = {1, 0};
         },

@@ -27,10 +27,21 @@ struct Answer {
     explicit Answer(const Case& input) : Answer(input, input.options()) {}
 
     Answer(const Case& input, const Options& asked)
+        : Answer(input, asked,
+                 [&](const Points& points) { return balance(points, asked, MPI_COMM_WORLD); }) {}
+
+    /// By a method of the paper.
+    Answer(const Case& input, const PaperOptions& asked)
+        : Answer(input, input.options(), [&](const Points& points) {
+              return balance_as_in_paper(points, asked, MPI_COMM_WORLD);
+          }) {}
+
+    template <class Divide>
+    Answer(const Case& input, const Options& asked, Divide&& divide)
         : cloud(cloud_of(input, num_ranks())),
           mine(cloud.of_rank(rank())),
           options(asked),
-          result(balance(mine.points(), options, MPI_COMM_WORLD)) {
+          result(divide(mine.points())) {
         parts = gathered(result.parts);
     }
 
@@ -120,8 +131,6 @@ TEST(Balance, divides_points_in_one_place_where_that_is_asked_for) {
     expect_for_all_cases(
         [](const Case& input) -> std::string {
             Options options = input.options();
-            options.domain = DomainKind::analytic;
-            options.cut_rule = CutRule::weighted_fraction;
             options.refine = Refine::exact;
             options.plain_cuts = false;
             options.coincident = Coincident::divide;
@@ -153,6 +162,24 @@ TEST(Balance, gives_the_same_bits_twice_and_on_all_ranks) {
             if (!same_bits(first.result.cuts, at_root)) return "other cuts than at the root";
             if (!same_bits(first.result.cuts, second.result.cuts)) return "other cuts";
             return first.parts == second.parts ? "" : "other parts";
+        },
+        num_cases);
+}
+
+TEST(BalanceAsInPaper, gives_every_point_one_part_that_look_ups_find_and_the_same_twice) {
+    expect_for_all_cases(
+        [](const Case& input) -> std::string {
+            const PaperOptions options = input.paper_options();
+            const Answer answer(input, options);
+            if (!same_bits(answer.result.cuts, Answer(input, options).result.cuts))
+                return "other cuts";
+            const bool is_rcb = options.domain == PaperDomain::points &&
+                                options.cut_rule == CutRule::weighted_fraction;
+            return first_of(
+                {fault_of_range(answer.parts, options.num_parts),
+                 fault_of_look_ups(answer.cloud, answer.parts, answer.result.cuts),
+                 fault_of_report(answer),
+                 is_rcb ? fault_of_exact_cuts(answer.cloud, answer.parts, answer.options) : ""});
         },
         num_cases);
 }
@@ -218,7 +245,7 @@ Cloud migrated(const Answer& answer) {
 /// True where a second call has nothing to mend: the cuts are taken as they are, or they reached
 /// the tolerance. An exact search may choose anew between cuts that are equally near.
 bool is_settled(const Answer& answer) {
-    if (answer.options.domain != DomainKind::analytic || is_exact(answer.options)) return false;
+    if (is_exact(answer.options)) return false;
     if (!is_to_tolerance(answer.options)) return true;
     return answer.result.report.measured_imbalance <= answer.options.imbalance_tolerance;
 }

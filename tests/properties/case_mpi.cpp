@@ -94,12 +94,22 @@ Options Case::options() const {
     Options options;
     options.num_parts = shape.num_parts;
     options.part_sizes.assign(part_sizes.begin(), part_sizes.end());
-    options.domain = shape.domain;
     options.refine = shape.refine;
-    options.cut_rule = shape.cut_rule;
     options.support_mesh = shape.support_mesh;
     options.imbalance_tolerance = shape.tolerance;
     options.plain_cuts = shape.plain_cuts != 0;
+    return options;
+}
+
+PaperOptions Case::paper_options() const {
+    PaperOptions options;
+    options.num_parts = shape.num_parts;
+    options.part_sizes.assign(part_sizes.begin(), part_sizes.end());
+    options.domain = shape.choice % 2 == 0 ? PaperDomain::sampled : PaperDomain::points;
+    options.cut_rule = shape.choice / 2 % 4 == 0 ? CutRule::midpoint : CutRule::weighted_fraction;
+    options.plain_cuts = shape.plain_cuts != 0;
+    if (shape.support_mesh != 0) options.support_mesh = shape.support_mesh;
+    options.sample_fraction = shape.choice / 8 % 2 == 0 ? 1 : 0.25;
     return options;
 }
 
@@ -111,8 +121,7 @@ std::ostream& operator<<(std::ostream& out, const Case& input) {
         << ", owners " << name(shape.owners) << ", copies " << shape.copies << ", parts "
         << shape.num_parts << " of sizes {";
     for (const int size : input.part_sizes) out << ' ' << size;
-    out << " }, domain " << name(shape.domain) << ", refine " << name(shape.refine) << ", cut rule "
-        << name(shape.cut_rule) << ", mesh " << shape.support_mesh << ", tolerance "
+    out << " }, refine " << name(shape.refine) << ", mesh " << shape.support_mesh << ", tolerance "
         << shape.tolerance << ", plain " << shape.plain_cuts << ", choice " << shape.choice
         << ", points {";
     for (const Seed& seed : input.seeds) {

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <rrcb/options.hpp>
-#include <rrcb/points.hpp>
+#include <rrcb/paper.hpp>
 
 #include <mpi.h>
 
@@ -43,9 +42,7 @@ struct Case {
         Weights weights = Weights::none;
         Owners owners = Owners::scattered;
         std::int32_t num_parts = 1;
-        DomainKind domain = DomainKind::analytic;
-        Refine refine = Refine::automatic;
-        CutRule cut_rule = CutRule::weighted_fraction;
+        Refine refine = Refine::tolerance;
         std::int32_t support_mesh = 0;
         double tolerance = 1.01;
         std::int32_t plain_cuts = 0;
@@ -56,6 +53,7 @@ struct Case {
     std::vector<Seed> seeds;
 
     Options options() const;
+    PaperOptions paper_options() const;  ///< the free number chooses what `shape` has no field for
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& input);

@@ -67,15 +67,11 @@ int num_levels(int num_parts) {
 }  // namespace
 
 bool is_exact(const Options& options) {
-    return options.cut_rule == CutRule::weighted_fraction &&
-           (options.refine == Refine::exact || options.domain == DomainKind::points);
+    return options.refine == Refine::exact;
 }
 
 bool is_to_tolerance(const Options& options) {
-    const bool by_default =
-        options.refine == Refine::automatic && options.domain == DomainKind::analytic;
-    return options.cut_rule == CutRule::weighted_fraction &&
-           (is_exact(options) || by_default || options.refine == Refine::tolerance);
+    return options.refine != Refine::none;
 }
 
 std::vector<double> balanced_weights(const Cloud& cloud) {

@@ -134,8 +134,6 @@ void expect_nearly_least(bool on_lines, Refine refine, double tolerance, double 
             const Cloud cloud = cloud_of(input, num_ranks());
             if (cloud.size() == 0) return {};
             Options options = limited_options(input, bounding_box(cloud.points()));
-            options.domain = DomainKind::analytic;
-            options.cut_rule = CutRule::weighted_fraction;
             options.refine = refine;
             options.imbalance_tolerance = tolerance;
             const Cloud mine = cloud.of_rank(rank());

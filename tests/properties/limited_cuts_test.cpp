@@ -193,8 +193,11 @@ Limited any_limited(int most_points, int most_parts) {
 }
 
 Bisection bisection_of(const Limited& input) {
-    return bisect_within(bounding_box(input.points()), point_domain(input.points()), input.options,
-                         false);
+    const Points points = input.points();
+    StatisticalDomain domain{input.dimension};
+    for (LocalIndex i = 0; i < points.count; ++i)
+        domain.patches.push_back({points.position(i), points.position(i), points.weight(i)});
+    return bisect_within(bounding_box(points), domain, input.options, false);
 }
 
 TEST(LimitedCuts, keep_widths_and_lines_and_fail_only_where_nothing_fits) {

@@ -30,6 +30,16 @@ int digit(const Case& input, int place, int base) {
     return (input.shape.choice >> (3 * place)) % base;
 }
 
+const char* domain_of(const Case& input) {
+    constexpr std::array domains = {"ANALYTIC", "ANALYTIC", "SAMPLED", "POINTS"};
+    return domains[static_cast<std::size_t>(digit(input, 3, 4))];
+}
+
+/// Whether RRCB's own method divides the objects, not one of the paper's.
+bool is_own_method(const Case& input) {
+    return domain_of(input) == std::string_view("ANALYTIC");
+}
+
 /// The points as the callbacks tell them: weights are floats.
 Cloud told_cloud(const Case& input) {
     Cloud cloud = cloud_of(input, num_ranks());
@@ -48,15 +58,15 @@ void set_part_sizes(Program& program, const std::vector<std::int32_t>& sizes) {
 }
 
 void set_parameters(Program& program, const Case& input) {
-    constexpr std::array domains = {"ANALYTIC", "SAMPLED", "POINTS"};
-    constexpr std::array refinements = {"AUTO", "NONE", "TOLERANCE", "EXACT"};
+    constexpr std::array refinements = {"NONE", "TOLERANCE", "EXACT"};
     const Case::Shape& shape = input.shape;
     program.set("LB_METHOD", "RRCB");
     program.set("NUM_GLOBAL_PARTS", std::to_string(shape.num_parts));
     program.set("OBJ_WEIGHT_DIM", shape.weights == Weights::none ? "0" : "1");
-    program.set("RRCB_DOMAIN", domains[static_cast<std::size_t>(shape.domain)]);
+    program.set("RRCB_DOMAIN", domain_of(input));
     program.set("RRCB_REFINE", refinements[static_cast<std::size_t>(shape.refine)]);
-    program.set("RRCB_CUT_RULE", shape.cut_rule == CutRule::midpoint ? "MIDPOINT" : "WEIGHTED");
+    if (!is_own_method(input))
+        program.set("RRCB_CUT_RULE", digit(input, 4, 4) == 0 ? "MIDPOINT" : "WEIGHTED");
     program.set("IMBALANCE_TOL", std::to_string(shape.tolerance));
     program.set("RCB_RECTILINEAR_BLOCKS", std::to_string(shape.plain_cuts));
     program.set("KEEP_CUTS", "1");
@@ -178,7 +188,7 @@ TEST(ZoltanCall, is_within_the_tolerance_or_one_object) {
             const auto mine = my_parts(caller.program, caller.call("PARTS").exports);
             if (!mine) throw std::runtime_error("an object is missing, doubled or renamed");
             const std::vector<Part> parts = all_parts(caller.cloud, *mine);
-            if (!is_to_tolerance(caller.options)) return {};
+            if (!is_own_method(input) || !is_to_tolerance(caller.options)) return {};
             const double tolerance =
                 is_exact(caller.options) ? 1 : caller.options.imbalance_tolerance;
             return fault_of_heaviest_part(caller.cloud, parts, caller.options, tolerance);

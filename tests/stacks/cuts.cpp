@@ -1,6 +1,7 @@
 // Prints a line for each of a set of clouds: what the bits of its cuts and parts add up to. The
 // same on every compiler and MPI, which tests/stacks/run compares. With an argument, prints what
 // the library is built with.
+#include <rrcb/paper.hpp>
 #include <rrcb/rrcb.hpp>
 
 #include <mpi.h>
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -49,6 +51,16 @@ constexpr std::array clouds = {
     Cloud{"subnormal", 2, [](double u, int) { return u * 1e-310; }, false},
 };
 
+constexpr int num_parts = 7;
+
+constexpr std::pair<rrcb::Refine, const char*> refinements[] = {
+    {rrcb::Refine::none, "none"},
+    {rrcb::Refine::tolerance, "tolerance"},
+    {rrcb::Refine::exact, "exact"}};
+
+constexpr std::pair<rrcb::PaperDomain, const char*> paper_domains[] = {
+    {rrcb::PaperDomain::sampled, "sampled"}, {rrcb::PaperDomain::points, "points"}};
+
 /// Bits of a balance: cuts, and the parts of all ranks in their order.
 std::uint64_t hash_of(const rrcb::Balance& balance) {
     Hash hash;
@@ -64,7 +76,10 @@ std::uint64_t hash_of(const rrcb::Balance& balance) {
     return hash.value;
 }
 
-void divide(const Cloud& cloud, rrcb::DomainKind domain, rrcb::Refine refine, int rank) {
+/// Prints the bits of a cloud that `balance` divides, a function of points and of their number of
+/// parts.
+template <class Divide>
+void divide(const Cloud& cloud, const char* method, int rank, Divide&& divide_points) {
     Random random{static_cast<std::uint64_t>(rank + 1) * 0x9e3779b97f4a7c15u};
     std::vector<double> coordinates;
     std::vector<double> weights;
@@ -73,15 +88,11 @@ void divide(const Cloud& cloud, rrcb::DomainKind domain, rrcb::Refine refine, in
             coordinates.push_back(cloud.coordinate(random(), axis));
         if (cloud.weighted) weights.push_back(random());
     }
-    rrcb::Options options;
-    options.domain = domain;
-    options.refine = refine;
-    options.num_parts = 7;
-    const rrcb::Points points = rrcb::interleaved_points(coordinates, cloud.dimension, weights);
-    const std::uint64_t hash = hash_of(rrcb::balance(points, options, MPI_COMM_WORLD));
+    const std::uint64_t hash =
+        hash_of(divide_points(rrcb::interleaved_points(coordinates, cloud.dimension, weights)));
     if (rank == 0)
-        std::printf("%-10s domain %d refine %d %016llx\n", cloud.name, static_cast<int>(domain),
-                    static_cast<int>(refine), static_cast<unsigned long long>(hash));
+        std::printf("%-10s %-9s %016llx\n", cloud.name, method,
+                    static_cast<unsigned long long>(hash));
 }
 
 }  // namespace
@@ -92,10 +103,20 @@ int main(int argc, char** argv) {
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     for (const Cloud& cloud : clouds) {
-        for (const auto refine : {rrcb::Refine::none, rrcb::Refine::tolerance, rrcb::Refine::exact})
-            divide(cloud, rrcb::DomainKind::analytic, refine, rank);
-        divide(cloud, rrcb::DomainKind::sampled, rrcb::Refine::none, rank);
-        divide(cloud, rrcb::DomainKind::points, rrcb::Refine::none, rank);
+        for (const auto& [refine, name] : refinements)
+            divide(cloud, name, rank, [&](const rrcb::Points& points) {
+                rrcb::Options options;
+                options.refine = refine;
+                options.num_parts = num_parts;
+                return rrcb::balance(points, options, MPI_COMM_WORLD);
+            });
+        for (const auto& [domain, name] : paper_domains)
+            divide(cloud, name, rank, [&](const rrcb::Points& points) {
+                rrcb::PaperOptions options;
+                options.domain = domain;
+                options.num_parts = num_parts;
+                return rrcb::balance_as_in_paper(points, options, MPI_COMM_WORLD);
+            });
     }
     MPI_Finalize();
 }

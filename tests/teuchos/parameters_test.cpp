@@ -1,4 +1,5 @@
 #include <rrcb/error.hpp>
+#include <rrcb/paper.hpp>
 #include <rrcb/teuchos/parameters.hpp>
 
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <sstream>
 
 namespace rrcb::teuchos {
@@ -41,14 +43,9 @@ void expect_defaults(const Options& options) {
     const Options defaults;
     EXPECT_EQ(options.num_parts, defaults.num_parts);
     EXPECT_EQ(options.support_mesh, defaults.support_mesh);
-    EXPECT_EQ(options.domain, defaults.domain);
-    EXPECT_EQ(options.cut_rule, defaults.cut_rule);
     EXPECT_EQ(options.refine, defaults.refine);
     EXPECT_EQ(options.coincident, defaults.coincident);
     EXPECT_EQ(options.imbalance_tolerance, defaults.imbalance_tolerance);
-    EXPECT_EQ(options.sigma_multiplier, defaults.sigma_multiplier);
-    EXPECT_EQ(options.sample_fraction, defaults.sample_fraction);
-    EXPECT_EQ(options.seed, defaults.seed);
 }
 
 TEST(Parameters, of_an_empty_or_the_valid_list_are_the_defaults) {
@@ -56,17 +53,27 @@ TEST(Parameters, of_an_empty_or_the_valid_list_are_the_defaults) {
     expect_defaults(options_from(*valid_parameters()));
 }
 
+TEST(Parameters, of_the_papers_methods_have_the_defaults_of_these) {
+    const auto valid = valid_parameters();
+    const PaperOptions defaults;
+    EXPECT_EQ(valid->get<double>("RRCB_SIGMA_MULTIPLIER"), defaults.sigma_multiplier);
+    EXPECT_EQ(valid->get<double>("RRCB_SAMPLE_FRACTION"), defaults.sample_fraction);
+    EXPECT_EQ(valid->get<long long>("RRCB_SEED"), static_cast<long long>(defaults.seed));
+}
+
 void expect_all_set(const ParameterList& list) {
     const Options options = options_from(list);
     EXPECT_EQ(options.num_parts, 6);
     EXPECT_EQ(options.support_mesh, 12);
-    EXPECT_EQ(options.domain, DomainKind::sampled);
-    EXPECT_EQ(options.cut_rule, CutRule::midpoint);
     EXPECT_EQ(options.refine, Refine::exact);
     EXPECT_EQ(options.imbalance_tolerance, 2.0);
-    EXPECT_EQ(options.sigma_multiplier, 0.1);
-    EXPECT_EQ(options.sample_fraction, 0.125);
-    EXPECT_EQ(options.seed, 5'000'000'000U);
+    std::map<std::string, std::string> strings;
+    for (const auto& [name, value] : zoltan_strings(list)) strings[name] = value;
+    EXPECT_EQ(strings["RRCB_DOMAIN"], "SAMPLED");
+    EXPECT_EQ(strings["RRCB_CUT_RULE"], "Midpoint");
+    EXPECT_EQ(strings["RRCB_SIGMA_MULTIPLIER"], "0.1");
+    EXPECT_EQ(strings["RRCB_SAMPLE_FRACTION"], "0.125");
+    EXPECT_EQ(strings["RRCB_SEED"], "5000000000");
 }
 
 /// A file that is gone when the test ends.
@@ -163,7 +170,7 @@ TEST(Parameters, out_of_range_are_rejected) {
         expect_error(list_with(name, std::numeric_limits<double>::infinity()), {"inf"});
     }
     expect_error(list_with("RRCB_REFINE", std::string("MORE")),
-                 {"must not be 'MORE'", "AUTO, NONE, TOLERANCE or EXACT"});
+                 {"must not be 'MORE'", "NONE, TOLERANCE or EXACT"});
 }
 
 TEST(Parameters, become_strings_for_zoltan_only_where_they_are_set) {

@@ -12,10 +12,9 @@ Box box_of(double x, double y, double z = 0) {
     return box;
 }
 
-Options options_of(int num_parts, DomainKind domain = DomainKind::analytic) {
+Options options_of(int num_parts) {
     Options options;
     options.num_parts = num_parts;
-    options.domain = domain;
     return options;
 }
 
@@ -34,11 +33,9 @@ TEST(LongestAxis, does_not_overflow) {
     EXPECT_EQ(longest_axis(box, 2, 1), 1);
 }
 
-TEST(AxisChoice, takes_nearly_equal_axes_as_equal_in_an_analytic_domain_alone) {
+TEST(AxisChoice, takes_nearly_equal_axes_as_equal) {
     const Box box = box_of(2.8, 3);
     EXPECT_EQ(AxisChoice(options_of(4), box, 2)(0, 0, box), 0);
-    EXPECT_EQ(AxisChoice(options_of(4, DomainKind::sampled), box, 2)(0, 0, box), 1);
-    EXPECT_EQ(AxisChoice(options_of(4, DomainKind::points), box, 2)(0, 0, box), 1);
 }
 
 TEST(AxisChoice, crosses_the_axes_of_one_group_after_the_other) {

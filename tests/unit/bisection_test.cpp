@@ -1,14 +1,10 @@
-#include "../support/clouds.hpp"
-
 #include <rrcb/bisection.hpp>
 #include <rrcb/error.hpp>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 namespace rrcb {
@@ -24,15 +20,7 @@ StatisticalDomain patches_1d(std::vector<std::array<double, 3>> lower_upper_weig
 }
 
 double cut_in_two(StatisticalDomain domain, std::vector<double> sizes = {1, 1}) {
-    return bisect(std::move(domain), 2, sizes, CutRule::weighted_fraction).cuts.tree[0].at[0];
-}
-
-std::vector<GlobalCount> counts_of(const Cuts& cuts, const Points& points) {
-    std::vector<Part> parts(points.count);
-    assign(cuts, points, parts);
-    std::vector<GlobalCount> counts(static_cast<std::size_t>(cuts.num_parts));
-    for (const Part part : parts) ++counts[static_cast<std::size_t>(part)];
-    return counts;
+    return bisect(std::move(domain), 2, sizes).cuts.tree[0].at[0];
 }
 
 TEST(Bisection, cuts_one_uniform_patch_at_the_fraction) {
@@ -62,7 +50,7 @@ TEST(Bisection, mixes_patches_with_and_without_extent) {
 
 TEST(Bisection, crosses_the_longest_extent_first) {
     StatisticalDomain domain{3, {{{0, 0, 0}, {1, 5, 2}, 1}}};
-    const Cuts cuts = bisect(domain, 2, {}, CutRule::weighted_fraction).cuts;
+    const Cuts cuts = bisect(domain, 2, {}).cuts;
     EXPECT_EQ(cuts.tree[0].axis, 1);
     EXPECT_DOUBLE_EQ(cuts.tree[0].at[1], 2.5);
     EXPECT_EQ(cuts.tree[0].at[0], -infinity);
@@ -70,7 +58,7 @@ TEST(Bisection, crosses_the_longest_extent_first) {
 
 TEST(Bisection, six_parts_of_a_square_hold_a_sixth_each) {
     StatisticalDomain domain{2, {{{0, 0, 0}, {6, 6, 0}, 36}}};
-    const Bisection result = bisect(domain, 6, {}, CutRule::weighted_fraction);
+    const Bisection result = bisect(domain, 6, {});
     ASSERT_EQ(result.part_weights.size(), 6u);
     for (const double weight : result.part_weights) EXPECT_NEAR(weight, 6, 1e-12);
 }
@@ -78,64 +66,12 @@ TEST(Bisection, six_parts_of_a_square_hold_a_sixth_each) {
 TEST(Bisection, honours_relative_part_sizes_with_zeros) {
     StatisticalDomain domain{2, {{{0, 0, 0}, {4, 1, 0}, 8}}};
     const std::vector<double> sizes{1, 0, 0, 2, 5};
-    const Bisection result = bisect(domain, 5, sizes, CutRule::weighted_fraction);
+    const Bisection result = bisect(domain, 5, sizes);
     for (std::size_t p = 0; p < 5; ++p) EXPECT_NEAR(result.part_weights[p], sizes[p], 1e-12);
 }
 
-TEST(Bisection, midpoint_rule_halves_the_extent_whatever_the_weight) {
-    const StatisticalDomain domain = patches_1d({{0, 1, 99}, {1, 10, 1}});
-    const Cuts cuts = bisect(domain, 2, {}, CutRule::midpoint).cuts;
-    EXPECT_DOUBLE_EQ(cuts.tree[0].at[0], 5);
-}
-
-TEST(Bisection, of_points_is_exact_for_every_number_of_parts) {
-    const std::vector<double> cloud = test::uniform_cloud(1000, 2, 23);
-    const Points points = interleaved_points(cloud, 2);
-    for (int parts = 1; parts <= 17; ++parts) {
-        const Cuts cuts = bisect(point_domain(points), parts, {}, CutRule::weighted_fraction).cuts;
-        const auto counts = counts_of(cuts, points);
-        const double ideal = 1000.0 / parts;
-        for (const GlobalCount count : counts)
-            EXPECT_LE(std::abs(static_cast<double>(count) - ideal), 2) << parts << " parts";
-    }
-}
-
-TEST(Bisection, breaks_ties_of_a_lattice_by_position) {
-    // 4 columns of 4 points, 3 parts: no plane leaves a third on one side.
-    std::vector<double> lattice;
-    for (int i = 0; i < 16; ++i) {
-        lattice.push_back(i / 4);
-        lattice.push_back(i % 4);
-    }
-    const Points points = interleaved_points(lattice, 2);
-    for (const int parts : {2, 3, 5, 16}) {
-        const Cuts cuts = bisect(point_domain(points), parts, {}, CutRule::weighted_fraction).cuts;
-        auto counts = counts_of(cuts, points);
-        std::sort(counts.begin(), counts.end());
-        EXPECT_LE(counts.back() - counts.front(), 1) << parts << " parts";
-    }
-}
-
-TEST(Bisection, coincident_points_stay_together) {
-    const std::vector<double> same(20, 1.5);
-    const Points points = interleaved_points(same, 2);
-    const Bisection result = bisect(point_domain(points), 4, {}, CutRule::weighted_fraction);
-    const auto counts = counts_of(result.cuts, points);
-    EXPECT_EQ(*std::max_element(counts.begin(), counts.end()), 10);
-    EXPECT_EQ(std::accumulate(result.part_weights.begin(), result.part_weights.end(), 0.0), 10);
-}
-
-TEST(Bisection, part_weights_agree_with_the_assignment_of_points) {
-    const std::vector<double> cloud = test::uniform_cloud(777, 3, 29);
-    const Points points = interleaved_points(cloud, 3);
-    const Bisection result = bisect(point_domain(points), 11, {}, CutRule::weighted_fraction);
-    const auto counts = counts_of(result.cuts, points);
-    for (std::size_t p = 0; p < counts.size(); ++p)
-        EXPECT_EQ(static_cast<double>(counts[p]), result.part_weights[p]);
-}
-
 TEST(Bisection, of_nothing_leaves_all_parts_empty) {
-    const Bisection result = bisect({2, {}}, 3, {}, CutRule::weighted_fraction);
+    const Bisection result = bisect({2, {}}, 3, {});
     EXPECT_EQ(result.cuts.tree.size(), 2u);
     EXPECT_EQ(result.part_weights, (std::vector<double>{0, 0, 0}));
 }
@@ -148,10 +84,9 @@ TEST(Bisection, survives_the_whole_range_of_double) {
 }
 
 TEST(Bisection, of_arguments_out_of_range_is_refused) {
-    const std::vector<double> x(12, 0.5);
-    StatisticalDomain domain = point_domain(interleaved_points(x, 2));
+    StatisticalDomain domain{2, {{{0, 0, 0}, {1, 1, 0}, 1}}};
     const auto expect_refusal = [&](int num_parts, const std::vector<double>& sizes) {
-        EXPECT_THROW(bisect(domain, num_parts, sizes, CutRule::weighted_fraction), Error);
+        EXPECT_THROW(bisect(domain, num_parts, sizes), Error);
     };
     expect_refusal(0, {});
     expect_refusal(-1, {});
@@ -162,14 +97,11 @@ TEST(Bisection, of_arguments_out_of_range_is_refused) {
     expect_refusal(2, {1, std::numeric_limits<double>::quiet_NaN()});
     domain.dimension = 9;
     expect_refusal(3, {});
-    EXPECT_THROW(point_domain({.dimension = 2, .count = 3}), Error);
+    const std::vector<double> x(12, 0.5);
     EXPECT_THROW(make_support_mesh({}, 2, 0), Error);
     EXPECT_THROW(make_support_mesh({}, 4, 1), Error);
     const SupportMesh mesh = make_support_mesh({{0, 0, 0}, {1, 1, 1}}, 2, 4);
     EXPECT_THROW(cell_moments(interleaved_points(x, 3), mesh), Error);
-    Options options;
-    options.sample_fraction = -1;
-    EXPECT_THROW(sampled_domain({}, 2, options), Error);
     EXPECT_THROW(analytic_domain({}, 9, {}), Error);
 }
 

@@ -1,6 +1,7 @@
 #include "gather/coarsening.hpp"
 
 #include "gather/cell_records.hpp"
+#include "gather/lean_cells.hpp"
 
 #include <gtest/gtest.h>
 
@@ -142,13 +143,16 @@ TEST(CellRecords, come_back_with_their_boxes) {
     const auto cells = cell_moments(points, mesh);
     const CellSet merged = coarsen(uniform_points(100, 5), 2, 16);
     std::vector<double> records;
-    append_cells(cells, mesh, records);
+    append_lean_cells(cells, mesh, records);
     append_cells(merged, 2, records);
     const CellSet read = read_cells(records, 2);
     ASSERT_EQ(read.cells.size(), cells.size() + merged.cells.size());
     EXPECT_EQ(read.exponent, merged.exponent);
+    const LeanCells packed = pack_cells(cells, mesh);
+    std::vector<CellMoments> unpacked;
+    unpack_cells(packed, packed.bytes, cells.size(), mesh, unpacked);
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        EXPECT_EQ(read.cells[i].moments.mean, cells[i].moments.mean);
+        EXPECT_EQ(read.cells[i].moments.mean, unpacked[i].moments.mean);
         EXPECT_EQ(read.cells[i].box.lower, cells[i].box.lower);
         EXPECT_EQ(read.cells[i].box.upper, cells[i].box.upper);
     }

@@ -7,11 +7,9 @@
 namespace rrcb {
 namespace {
 
-int cells_for(int dimension, LocalIndex num_points, int num_parts,
-              DomainKind domain = DomainKind::analytic) {
+int cells_for(int dimension, LocalIndex num_points, int num_parts) {
     Options options;
     options.num_parts = num_parts;
-    options.domain = domain;
     return automatic_cells_per_axis(dimension, num_points, options);
 }
 
@@ -35,7 +33,6 @@ TEST(AutomaticMesh, has_sixty_four_cells_or_sixteen_for_each_part) {
     EXPECT_EQ(cells_for(2, 50'000, 1 << 20), 22) << "no more where there are many ranks";
     EXPECT_EQ(cells_for(3, 50'000, 1 << 20), 10);
     EXPECT_EQ(cells_for(2, 800 * 31 * 31, 4), 31) << "where cells cost little beside the points";
-    EXPECT_EQ(cells_for(2, 50'000, 4, DomainKind::sampled), 22) << "the paper's cells are boxes";
 }
 
 Options asking_for_mesh(int cells) {
@@ -47,9 +44,6 @@ Options asking_for_mesh(int cells) {
 TEST(MostCells, is_a_fixed_number_unless_the_mesh_was_asked_for) {
     EXPECT_EQ(most_cells(Options{}), 8192u);
     EXPECT_GT(most_cells(asking_for_mesh(500)), std::size_t{1} << 62);
-    Options options;
-    options.domain = DomainKind::points;
-    EXPECT_GT(most_cells(options), std::size_t{1} << 62);
 }
 
 Summary summary_of(int rank, int num_parts) {

@@ -4,6 +4,7 @@
 
 #include "../support/clouds.hpp"
 
+#include <rrcb/paper.hpp>
 #include <rrcb/quality.hpp>
 
 #include <gtest/gtest.h>
@@ -33,8 +34,8 @@ struct Example {
 
     /// Cuts the points exactly, and moves each cut by up to `error` of its node's weight.
     void cut(double error, unsigned seed) {
-        Bisection exact = bisect(point_domain(points()), static_cast<int>(sizes.size()), sizes,
-                                 CutRule::weighted_fraction);
+        Bisection exact =
+            bisect_points(mass_points(points()), dimension, static_cast<int>(sizes.size()), sizes);
         cuts = std::move(exact.cuts);
         slabs.resize(cuts.tree.size());
         brackets.resize(cuts.tree.size());

@@ -1,8 +1,8 @@
 #include "../support/clouds.hpp"
 
-#include <rrcb/bisection.hpp>
 #include <rrcb/cuts.hpp>
 #include <rrcb/error.hpp>
+#include <rrcb/paper.hpp>
 
 #include <gtest/gtest.h>
 
@@ -85,7 +85,7 @@ TEST(Cuts, all_look_ups_agree_on_points_on_and_off_the_cuts) {
     for (double& x : cloud) x = std::floor(x * 6);  // many ties
     for (const auto dimension : {1, 2, 3}) {
         const Points points = interleaved_points(cloud, dimension);
-        const Cuts cuts = bisect(point_domain(points), 7, {}, CutRule::weighted_fraction).cuts;
+        const Cuts cuts = bisect_points(mass_points(points), dimension, 7).cuts;
         std::vector<Part> parts(points.count);
         assign(cuts, points, parts);
         for (LocalIndex i = 0; i < points.count; ++i) {
@@ -112,7 +112,7 @@ TEST(Cuts, columns_and_interleaved_points_are_assigned_alike) {
     }
     const std::array<std::span<const double>, 2> columns{x, y};
     const Points points = interleaved_points(cloud, 2);
-    const Cuts cuts = bisect(point_domain(points), 5, {}, CutRule::weighted_fraction).cuts;
+    const Cuts cuts = bisect_points(mass_points(points), 2, 5).cuts;
     std::vector<Part> a(100);
     std::vector<Part> b(100);
     assign(cuts, points, a);
@@ -124,7 +124,7 @@ TEST(Cuts, a_part_of_size_zero_has_no_points_and_an_empty_box) {
     const std::vector<double> cloud = test::uniform_cloud(100, 2, 41);
     const Points points = interleaved_points(cloud, 2);
     const std::vector<double> sizes{0, 1, 1};
-    const Cuts cuts = bisect(point_domain(points), 3, sizes, CutRule::weighted_fraction).cuts;
+    const Cuts cuts = bisect_points(mass_points(points), 2, 3, sizes).cuts;
     std::vector<Part> parts(100);
     assign(cuts, points, parts);
     for (const Part part : parts) EXPECT_NE(part, 0);

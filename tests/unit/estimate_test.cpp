@@ -101,7 +101,7 @@ struct Ranks {
         const Points mine = points_of(rank);
         const Box box = check_points(mine);
         Contribution all{summarize(mine, box), {}};
-        add_records(mine, bin_by_options(mine, box, options), options, all);
+        add_records(mine, bin_by_options(mine, box, options), all);
         MergeTree{num_ranks}.for_each_child(rank, [&](int child) {
             const Contribution theirs = contribution_of(child);
             all.records.insert(all.records.end(), theirs.records.begin(), theirs.records.end());
@@ -112,8 +112,8 @@ struct Ranks {
 
     /// Imbalance of the points under the cuts of the domain.
     double imbalance_of_estimate() const {
-        const Bisection bisection = bisect(build_domain(contribution_of(0), options, 2),
-                                           options.num_parts, {}, options.cut_rule);
+        const Bisection bisection =
+            bisect(build_domain(contribution_of(0), 2), options.num_parts, {});
         const Points points = interleaved_points(coordinates, 2);
         std::vector<Part> parts(points.count);
         assign(bisection.cuts, points, parts);

@@ -25,14 +25,6 @@ TEST(CurrentParts, are_read_up_to_a_number_of_ranks_where_each_has_a_part_to_be_
     EXPECT_TRUE(reads_current_parts(many, 4096));
     many.num_parts = 4097;
     EXPECT_FALSE(reads_current_parts(many, 4097));
-    for (const DomainKind domain : {DomainKind::sampled, DomainKind::points}) {
-        Options other = to(1.01);
-        other.domain = domain;
-        EXPECT_FALSE(reads_current_parts(other, 4));
-    }
-    Options midpoint = to(1.01);
-    midpoint.cut_rule = CutRule::midpoint;
-    EXPECT_FALSE(reads_current_parts(midpoint, 4));
 }
 
 TEST(CurrentParts, stay_at_once_within_a_tenth_of_the_tolerance) {

@@ -4,7 +4,6 @@
 #include "gather/decision_mpi.hpp"
 
 #include <rrcb/bisection.hpp>
-#include <rrcb/support_mesh.hpp>
 
 #include <gtest/gtest.h>
 
@@ -38,17 +37,6 @@ TEST(LargeCounts, add_up_in_moments) {
     EXPECT_DOUBLE_EQ(both.deviation[0], std::sqrt(3.0));
 }
 
-TEST(LargeCounts, are_sampled_by_a_small_fraction) {
-    const std::vector<CellMoments> cells{unit_cell(0, two_to_the_32 * 3),
-                                         unit_cell(5, two_to_the_32)};
-    Options options;
-    options.sample_fraction = 0x1p-29;  // 2^34 points give 2^5, 24 and 8 of them in the two cells
-    const StatisticalDomain domain = sampled_domain(cells, 1, options);
-    ASSERT_EQ(domain.points.size(), 32u);
-    EXPECT_LT(domain.points[23].position[0], 3);
-    EXPECT_GT(domain.points[24].position[0], 3);
-}
-
 TEST(LargeCounts, add_up_over_the_ranks) {
     Summary all;
     all.num_points = two_to_the_32 / 2 + 1;
@@ -67,7 +55,10 @@ Contribution large_contribution(const Options& options) {
     box.lower = {0, 0, 0};
     box.upper = {2, 0, 0};
     const std::vector cells{unit_cell(0, two_to_the_32 * 3), unit_cell(1, two_to_the_32)};
-    append_cells(cells, make_support_mesh(box, 1, 2), all.records);
+    CellSet set;
+    set.cells = cells;
+    set.exponent = 0;
+    append_cells(set, 1, all.records);
     all.summary.request = request_of(options, 1, nullptr);
     all.summary.num_points = two_to_the_32 * 4;
     all.summary.num_cells = 2;

@@ -1,7 +1,5 @@
 #include "bisection/limited_bisection.hpp"
 
-#include "bisection/domain_kinds.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,7 +46,8 @@ Options tight_options(int num_parts, int dimension) {
         options.min_width.push_back(0.95 / along);
         options.grid.push_back({0.001, 0.01 / along});
     }
-    return complete(options, 1);
+    options.plain_cuts = true;
+    return options;
 }
 
 std::size_t allocations_of(int num_parts, int dimension) {

@@ -43,7 +43,7 @@ std::string complaint(Change&& change, int dimension = 2) {
 }
 
 TEST(OptionTable, is_searched_by_the_name_of_an_option_or_of_a_parameter) {
-    EXPECT_EQ(find_option("seed"), find_parameter("RRCB_SEED"));
+    EXPECT_EQ(find_option("refine"), find_parameter("RRCB_REFINE"));
     EXPECT_EQ(find_option("imbalance_tolerance"), find_parameter("IMBALANCE_TOL"));
     EXPECT_EQ(find_option("colour"), nullptr);
     EXPECT_EQ(find_parameter(""), nullptr);
@@ -53,16 +53,11 @@ TEST(OptionTable, writes_what_it_reads) {
     const std::vector<std::pair<std::string_view, std::vector<std::string>>> texts = {
         {"num_parts", {"AUTO", "1", "2147483647"}},
         {"support_mesh", {"AUTO", "1", "4096"}},
-        {"domain", {"ANALYTIC", "SAMPLED", "POINTS"}},
-        {"cut_rule", {"WEIGHTED", "MIDPOINT"}},
-        {"refine", {"AUTO", "NONE", "TOLERANCE", "EXACT"}},
+        {"refine", {"NONE", "TOLERANCE", "EXACT"}},
         {"coincident", {"TOGETHER", "DIVIDE"}},
         {"imbalance_tolerance", {"1", "1.01", "1e+300"}},
         {"central_parts", {"2", "64", "2147483647"}},
         {"cuts", {"WHOLE", "OWN"}},
-        {"sigma_multiplier", {"0.1", "5e-324", "1.7976931348623157e+308"}},
-        {"sample_fraction", {"0.25", "1"}},
-        {"seed", {"0", "18446744073709551615"}},
         {"min_width", {"NONE", "0.1", "0.1 1e-300 5e-324"}},
         {"grid", {"NONE", "0 0.05", "-1.5 0.25, 1e+300 7, 0 1"}}};
     for (const auto& [name, values] : texts) {
@@ -91,17 +86,12 @@ TEST(OptionTable, reads_no_number_beyond_its_range_and_leaves_the_value) {
         EXPECT_FALSE(reads("support_mesh", text)) << text;
     for (const char* text : {"0", "1", "-2", "2.5", "AUTO", "2147483648"})
         EXPECT_FALSE(reads("central_parts", text)) << text;
-    for (const char* text : {"0", "-2", "nan", "inf", "two"})
-        EXPECT_FALSE(reads("sigma_multiplier", text)) << text;
-    for (const char* text : {"0", "1.01", "-0.5", "nan"})
-        EXPECT_FALSE(reads("sample_fraction", text)) << text;
     for (const char* text : {"0.99", "nan", "inf"})
         EXPECT_FALSE(reads("imbalance_tolerance", text)) << text;
-    EXPECT_FALSE(reads("seed", "-1"));
     EXPECT_FALSE(reads("part_sizes", "1"));
     Options options;
-    read_option(named("sample_fraction"), "7", options);
-    EXPECT_EQ(options.sample_fraction, 1);
+    read_option(named("central_parts"), "1", options);
+    EXPECT_EQ(options.central_parts, Options{}.central_parts);
 }
 
 TEST(OptionTable, reads_rows_of_numbers_with_blanks_or_commas_between_them) {
@@ -159,12 +149,6 @@ TEST(Check, refuses_what_lies_beyond_the_range_of_an_option_and_tells_the_range)
         EXPECT_EQ(mesh(most + 1), refusal);
         EXPECT_EQ(mesh(-1), refusal);
     }
-    for (const double value : {0.0, -1.0, std::nan(""), HUGE_VAL})
-        EXPECT_EQ(complaint([&](Options& o) { o.sigma_multiplier = value; }),
-                  "sigma_multiplier must be finite and above 0");
-    for (const double value : {0.0, 1.5, std::nan("")})
-        EXPECT_EQ(complaint([&](Options& o) { o.sample_fraction = value; }),
-                  "sample_fraction must be in (0, 1]");
     for (const double value : {0.99, std::nan(""), HUGE_VAL})
         EXPECT_EQ(complaint([&](Options& o) { o.imbalance_tolerance = value; }),
                   "imbalance_tolerance must be finite and at least 1");
@@ -172,14 +156,11 @@ TEST(Check, refuses_what_lies_beyond_the_range_of_an_option_and_tells_the_range)
 }
 
 TEST(OptionTable, tells_what_each_option_may_be) {
-    EXPECT_EQ(legal_values(named("sample_fraction")), "a number above 0, at most 1");
-    EXPECT_EQ(legal_values(named("sigma_multiplier")), "a number above 0");
     EXPECT_EQ(legal_values(named("imbalance_tolerance")), "a number, 1 or more");
     EXPECT_EQ(legal_values(named("support_mesh")), "a whole number from 1 to 4096");
-    EXPECT_EQ(legal_values(named("seed")), "a whole number, 0 or more");
     EXPECT_EQ(legal_values(named("min_width")), "NONE, or a number above 0 for each axis: 0.1 0.1");
     EXPECT_EQ(legal_values(named("part_sizes")), "a list");
-    EXPECT_EQ(legal_values(named("refine")), "AUTO, NONE, TOLERANCE or EXACT");
+    EXPECT_EQ(legal_values(named("refine")), "NONE, TOLERANCE or EXACT");
     EXPECT_EQ(documentation(named("num_parts")),
               "Parts to make: a whole number, 1 or more; 0: one part per rank.");
 }
@@ -190,8 +171,6 @@ TEST(Request, differs_in_every_option_by_its_name) {
         {"num_parts", [](Options& o) { o.num_parts = 3; }},
         {"part_sizes", [](Options& o) { o.part_sizes = {1}; }},
         {"support_mesh", [](Options& o) { o.support_mesh = 3; }},
-        {"domain", [](Options& o) { o.domain = DomainKind::points; }},
-        {"cut_rule", [](Options& o) { o.cut_rule = CutRule::midpoint; }},
         {"one of grouped_axes, cut_axes, plain_cuts, min_width, grid",
          [](Options& o) { o.plain_cuts = true; }},
         {"one of grouped_axes, cut_axes, plain_cuts, min_width, grid",
@@ -208,10 +187,7 @@ TEST(Request, differs_in_every_option_by_its_name) {
         {"coincident", [](Options& o) { o.coincident = Coincident::divide; }},
         {"imbalance_tolerance", [](Options& o) { o.imbalance_tolerance = 2; }},
         {"central_parts", [](Options& o) { o.central_parts = 2; }},
-        {"cuts", [](Options& o) { o.cuts = HeldCuts::own; }},
-        {"sigma_multiplier", [](Options& o) { o.sigma_multiplier = 2; }},
-        {"sample_fraction", [](Options& o) { o.sample_fraction = 0.5; }},
-        {"seed", [](Options& o) { o.seed = 2; }}};
+        {"cuts", [](Options& o) { o.cuts = HeldCuts::own; }}};
     const Request reference = request_of({}, 2, nullptr);
     EXPECT_EQ(first_difference(reference, request_of({}, 2, nullptr)), std::nullopt);
     for (const auto& [name, change] : changes) {

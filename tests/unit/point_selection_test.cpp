@@ -1,4 +1,4 @@
-#include "bisection/point_selection.hpp"
+#include "paper/point_selection.hpp"
 
 #include "../support/clouds.hpp"
 #include "bisection/weighted_quantile.hpp"

@@ -15,7 +15,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 StatisticalDomain domain_of(const std::vector<Patch>& patches, int dimension = 1) {
-    return {dimension, patches, {}};
+    return {dimension, patches};
 }
 
 double quantile(const std::vector<Patch>& patches, double target) {

@@ -56,7 +56,7 @@ bool differ_somewhere(const std::vector<int>& a, const std::vector<int>& b) {
 const std::vector<Settings> samples = {
     {{"RRCB_REFINE", "none"}},
     {{"RRCB_REFINE", "NONE"}, {"RRCB_SUPPORT_MESH", "2"}},
-    {{"RRCB_REFINE", "NONE"}, {"RRCB_CUT_RULE", "MIDPOINT"}},
+    {{"RRCB_DOMAIN", "POINTS"}, {"RRCB_CUT_RULE", "MIDPOINT"}},
     {{"RRCB_DOMAIN", "POINTS"}},
     {{"RRCB_DOMAIN", "SAMPLED"}},
     {{"RRCB_DOMAIN", "SAMPLED"}, {"RRCB_SEED", "7"}},

@@ -96,7 +96,7 @@ TEST(Handles, copies_keep_method_parameters_sizes_and_cuts) {
     Program program;
     scatter_points(program, 300);
     program.set("LB_METHOD", "RRCB");
-    program.set("RRCB_CUT_RULE", "MIDPOINT");
+    program.set("RRCB_DOMAIN", "SAMPLED");
     program.set("NUM_GLOBAL_PARTS", "5");
     program.set("KEEP_CUTS", "1");
     int part = 1;

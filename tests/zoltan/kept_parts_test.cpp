@@ -56,7 +56,7 @@ void expect_look_ups_find_owners(const Program& program) {
 }
 
 TEST(KeptParts, leave_objects_to_a_new_handle_where_an_old_one_sent_them) {
-    for (const char* refine : {"AUTO", "NONE", "TOLERANCE"}) {
+    for (const char* refine : {"NONE", "TOLERANCE"}) {
         for (const char* remap : {"0", "1"}) {
             SCOPED_TRACE(std::string(refine) + " " + remap);
             Moving program(2);
@@ -74,8 +74,8 @@ TEST(KeptParts, leave_objects_to_a_new_handle_where_an_old_one_sent_them) {
 
 TEST(KeptParts, of_objects_that_drift_are_found_by_look_ups) {
     Moving program(2);
-    come_to_rest(program, "AUTO", "1");
-    use_rrcb(program, "AUTO", "1");
+    come_to_rest(program, "TOLERANCE", "1");
+    use_rrcb(program, "TOLERANCE", "1");
     int num_kept = 0;
     for (int call = 0; call < 8; ++call) {
         for (std::size_t i = 0; i < program.coordinates.size(); i += 2)
@@ -92,9 +92,9 @@ TEST(KeptParts, of_objects_that_drift_are_found_by_look_ups) {
 TEST(KeptParts, do_not_count_where_objects_are_named_other_parts) {
     Moving program(2);
     if (program.num_ranks == 1) GTEST_SKIP() << "needs two ranks";
-    come_to_rest(program, "AUTO", "0");
+    come_to_rest(program, "TOLERANCE", "0");
     Successor named(program);
-    use_rrcb(named, "AUTO", "0");
+    use_rrcb(named, "TOLERANCE", "0");
     named.tell_parts();
     // On one rank alone.
     if (named.rank == 0) std::ranges::fill(named.parts, 1);
@@ -108,9 +108,9 @@ TEST(KeptParts, do_not_count_where_objects_are_named_other_parts) {
 TEST(KeptParts, do_not_count_where_a_rank_has_several) {
     Moving program(2);
     if (program.num_ranks == 1) GTEST_SKIP() << "needs two ranks";
-    come_to_rest(program, "AUTO", "0");
+    come_to_rest(program, "TOLERANCE", "0");
     Successor next(program);
-    use_rrcb(next, "AUTO", "0");
+    use_rrcb(next, "TOLERANCE", "0");
     next.set("NUM_LOCAL_PARTS", next.rank == 0 ? "2" : next.rank == 1 ? "0" : "1");
     next.set("RETURN_LISTS", "PARTS");
     const Outcome outcome = next.partition();

@@ -22,7 +22,7 @@ TEST(Parameters, of_rrcb_are_accepted_in_any_case_with_leading_blanks) {
     for (const char* value : {"AUTO", "auto", "1", "8", "64", "DEFAULT"}) {
         EXPECT_EQ(program.set("RRCB_SUPPORT_MESH", value), ZOLTAN_OK) << value;
     }
-    for (const char* value : {"ANALYTIC", "sampled", "POINTS", "DEFAULT"}) {
+    for (const char* value : {"ANALYTIC", "sampled", "Points", "DEFAULT"}) {
         EXPECT_EQ(program.set("rrcb_domain", value), ZOLTAN_OK) << value;
     }
     EXPECT_EQ(program.set("RRCB_CUT_RULE", "MIDPOINT"), ZOLTAN_OK);
@@ -39,7 +39,10 @@ TEST(Parameters, with_illegal_values_or_unknown_names_warn_as_zoltan_does) {
     for (const char* value : {"0", "-1", "8X", "", "1.5", "99999999999"}) {
         EXPECT_EQ(program.set("RRCB_SUPPORT_MESH", value), ZOLTAN_WARN) << value;
     }
-    EXPECT_EQ(program.set("RRCB_DOMAIN", "LEARNT"), ZOLTAN_WARN);
+    for (const char* value : {"LEARNED", "SAMPLE", "", "1"}) {
+        EXPECT_EQ(program.set("RRCB_DOMAIN", value), ZOLTAN_WARN) << value;
+    }
+    EXPECT_EQ(program.set("RRCB_REFINE", "AUTO"), ZOLTAN_WARN);
     EXPECT_EQ(program.set("RRCB_CUT_RULE", "HALF"), ZOLTAN_WARN);
     for (const char* value : {"0", "-2", "NAN", "INF", "TWO"}) {
         EXPECT_EQ(program.set("RRCB_SIGMA_MULTIPLIER", value), ZOLTAN_WARN) << value;
@@ -75,9 +78,10 @@ TEST(Parameters, of_rrcb_reach_the_balancer) {
     const auto defaults = program.partition().exports.parts;
     EXPECT_TRUE(differ(parts_with(program, "RRCB_SUPPORT_MESH", "2"), defaults));
     EXPECT_FALSE(differ(parts_with(program, "RRCB_SUPPORT_MESH", "NONSENSE"), defaults));
-    EXPECT_TRUE(differ(parts_with(program, "RRCB_CUT_RULE", "MIDPOINT"), defaults));
-    EXPECT_FALSE(differ(parts_with(program, "RRCB_CUT_RULE", "DEFAULT"), defaults));
-    EXPECT_TRUE(differ(parts_with(program, "RRCB_DOMAIN", "POINTS"), defaults));
+    const auto at_root = parts_with(program, "RRCB_DOMAIN", "POINTS");
+    EXPECT_TRUE(differ(at_root, defaults));
+    EXPECT_TRUE(differ(parts_with(program, "RRCB_CUT_RULE", "MIDPOINT"), at_root));
+    EXPECT_FALSE(differ(parts_with(program, "RRCB_CUT_RULE", "DEFAULT"), at_root));
     const auto sampled = parts_with(program, "RRCB_DOMAIN", "SAMPLED");
     EXPECT_TRUE(differ(sampled, defaults));
     EXPECT_TRUE(differ(parts_with(program, "RRCB_SEED", "7"), sampled));
@@ -124,7 +128,7 @@ TEST(Parameters, an_unknown_method_is_fatal_and_keeps_the_old_one) {
     Program program;
     scatter_points(program, 100);
     program.set("LB_METHOD", "RRCB");
-    program.set("RRCB_CUT_RULE", "MIDPOINT");
+    program.set("RRCB_DOMAIN", "SAMPLED");
     program.set("RETURN_LISTS", "PARTS");
     const auto before = program.partition().exports.parts;
     EXPECT_EQ(program.set("LB_METHOD", "NO_SUCH_METHOD"), ZOLTAN_FATAL);

@@ -113,22 +113,6 @@ TEST(Reuse, balances_from_the_cuts_of_the_last_call) {
     }
 }
 
-TEST(Reuse, does_not_stand_in_the_way_of_domains_that_are_not_refined) {
-    for (const char* domain : {"SAMPLED", "POINTS"}) {
-        Program program;
-        fill_box(program, {1, 1, 0}, 3000);
-        program.set("LB_METHOD", "RRCB");
-        program.set("RRCB_DOMAIN", domain);
-        program.set("RCB_REUSE", "1");
-        program.set("RETURN_LISTS", "PARTS");
-        program.partition();
-        for (double& x : program.coordinates) x *= x;
-        const Outcome again = program.partition();
-        program.set("RCB_REUSE", "0");
-        EXPECT_EQ(again.exports.parts, program.partition().exports.parts);
-    }
-}
-
 /// A lattice of `side` x `side` points, dealt out to the ranks, each at the same place for all.
 void fill_lattice(Program& program, int side) {
     for (int i = program.rank; i < side * side; i += program.num_ranks) {

@@ -17,8 +17,7 @@ struct TenParts : Program {
         set("RETURN_LISTS", "PARTS");
         set("NUM_GLOBAL_PARTS", "10");
         // RCB knows nothing of this one: it tells who partitions.
-        set("RRCB_CUT_RULE", "MIDPOINT");
-        set("RRCB_REFINE", "NONE");
+        set("RRCB_DOMAIN", "SAMPLED");
     }
     std::vector<int> parts() { return parts_by_object(partition()); }
 };

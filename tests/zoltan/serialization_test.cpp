@@ -22,7 +22,7 @@ struct Sender : Program {
     Sender() {
         scatter_points(*this, 400);
         set("LB_METHOD", "RRCB");
-        set("RRCB_CUT_RULE", "MIDPOINT");
+        set("RRCB_DOMAIN", "SAMPLED");
         set("KEEP_CUTS", "1");
         set("NUM_GLOBAL_PARTS", "7");
         set("RETURN_LISTS", "PARTS");

@@ -37,13 +37,17 @@ void cut_by_cells(const mpm::Scene& scene, rrcb::Options& options) {
     }
 }
 
-/// Options of the paper's two methods, and of the library's own.
 rrcb::Options options_of(const std::string& name, const mpm::Scene& scene) {
     rrcb::Options options;
     if (name == "rrcb-cells") cut_by_cells(scene, options);
     if (name == "rrcb-exact") options.refine = rrcb::Refine::exact;
-    if (name == "rrcb-sampled") options.domain = rrcb::DomainKind::sampled;
-    if (name == "root-rcb") options.domain = rrcb::DomainKind::points;
+    return options;
+}
+
+/// The paper's RRCB or RCB.
+rrcb::PaperOptions paper_options_of(const std::string& name) {
+    rrcb::PaperOptions options;
+    if (name == "root-rcb") options.domain = rrcb::PaperDomain::points;
     return options;
 }
 
@@ -63,6 +67,7 @@ std::optional<mpm::Balancer> make_balancer(const std::string& name, const mpm::S
     }
     if (std::ranges::find(names, name) == names.end()) refuse(name, "is not known");
     if (name == "none") return std::nullopt;
+    if (name == "rrcb-sampled" || name == "root-rcb") return rrcb_balancer(paper_options_of(name));
     if (name != "zoltan-rcb") return rrcb_balancer(options_of(name, scene));
 #ifdef RRCB_MPM_ZOLTAN
     return zoltan_balancer({{"DEBUG_LEVEL", "0"}, {"LB_METHOD", "RCB"}, {"CHECK_GEOM", "0"}});

@@ -25,12 +25,10 @@ mpm::Box closed_box(const rrcb::Cuts& cuts, rrcb::Part part, bool on_faces) {
     return {box.lower, box.upper};
 }
 
-mpm::Decomposition decompose(mpm::Positions positions, const rrcb::Options& options,
-                             MPI_Comm comm) {
-    rrcb::Balance balance = rrcb::balance(points_of(positions), options, comm);
+mpm::Decomposition decomposition_of(rrcb::Balance balance, bool on_faces) {
     mpm::Decomposition decomposition;
     for (rrcb::Part part = 0; part < balance.cuts.num_parts; ++part)
-        decomposition.boxes.push_back(closed_box(balance.cuts, part, !options.grid.empty()));
+        decomposition.boxes.push_back(closed_box(balance.cuts, part, on_faces));
     decomposition.local_owners = std::move(balance.parts);
     decomposition.owners = [cuts = std::move(balance.cuts)](mpm::Positions at,
                                                             std::span<int> owners) {
@@ -46,6 +44,14 @@ mpm::Balancer rrcb_balancer(const rrcb::Options& asked) {
     // Every rank has the boxes of all, and looks up owners by itself.
     options.cuts = rrcb::HeldCuts::whole;
     return [options](mpm::Positions positions, MPI_Comm comm) {
-        return decompose(positions, options, comm);
+        return decomposition_of(rrcb::balance(points_of(positions), options, comm),
+                                !options.grid.empty());
+    };
+}
+
+mpm::Balancer rrcb_balancer(const rrcb::PaperOptions& options) {
+    return [options](mpm::Positions positions, MPI_Comm comm) {
+        return decomposition_of(rrcb::balance_as_in_paper(points_of(positions), options, comm),
+                                false);
     };
 }

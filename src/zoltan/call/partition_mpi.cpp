@@ -4,6 +4,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/butterfly_mpi.hpp"
 #include "collective/communicator.hpp"
+#include "paper/paper_mpi.hpp"
 #include "wide_mpi.hpp"
 #include "zoltan/call/fortran_mpi.hpp"
 #include "zoltan/call/forwarding.hpp"
@@ -107,6 +108,7 @@ bool is_at_rest(const Call& call, const Placed& placed) {
 /// alone afterwards.
 struct Preparation {
     Options options;
+    PaperOptions paper;              ///< in place of `options` if RRCB_DOMAIN asks for it
     bool is_spread = false;          ///< many ranks make the parts
     const Cuts* previous = nullptr;  ///< to start from
     std::optional<Renumbering> renumbering;
@@ -127,8 +129,9 @@ Preparation prepare(const Call& call, const Layout& layout, const Objects& objec
     self.attempt([&] {
         made.options =
             make_options(parameters, layout, dimension, locks ? &*call.previous : nullptr);
+        if (parameters.paper_domain) made.paper = make_paper_options(parameters, layout);
         const Communicator& comm = *call.state.communicator;
-        made.is_spread = is_wide(made.options, comm.size());
+        made.is_spread = !parameters.paper_domain && is_wide(made.options, comm.size());
         made.renumbering.emplace(parameters, layout, objects, comm, made.is_spread);
         made.kept.emplace(static_cast<std::size_t>(layout.map.num_parts), made.is_spread);
         made.messages.emplace();
@@ -194,13 +197,22 @@ int stay(const Call& call, Objects&& objects, Partition& result) {
     return ZOLTAN_OK;
 }
 
+/// Divides the objects by RRCB's own method, or by one of the paper's. Collective.
+Balance divide(const Call& call, const Layout& layout, const Preparation& prepared,
+               const Objects& objects, Participant& self) {
+    const State& state = call.state;
+    if (state.parameters.paper_domain)
+        return balance_as_in_paper(objects.points, prepared.paper, self);
+    const bool may_stay = are_in_own_part(objects, layout.map, state.communicator->rank());
+    return balance(objects.points, prepared.options, prepared.previous, may_stay, self);
+}
+
 int balance_objects(const Call& call, Objects&& objects, Partition& result) {
     const Parameters& parameters = call.state.parameters;
     Participant self{call.state.communicator->get()};
     Layout layout = make_layout(call.outcome, call.state, self);
     Preparation prepared = prepare(call, layout, objects, self);
-    const bool may_stay = are_in_own_part(objects, layout.map, call.state.communicator->rank());
-    Balance balanced = balance(objects.points, prepared.options, prepared.previous, may_stay, self);
+    Balance balanced = divide(call, layout, prepared, objects, self);
     auto [remap, numbering] =
         prepared.renumbering->run(layout, objects, balanced.parts, *prepared.messages, self);
     list_exports(call, layout, std::move(objects), balanced.parts, result);

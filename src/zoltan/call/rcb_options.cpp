@@ -1,6 +1,5 @@
 #include "zoltan/call/rcb_options.hpp"
 
-#include "bisection/domain_kinds.hpp"
 #include "cuts/cut_limits.hpp"
 #include "cuts/tree.hpp"
 #include "zoltan/call/forwarding.hpp"
@@ -11,6 +10,23 @@
 namespace rrcb::zoltan {
 
 namespace {
+
+/// Parameters that are set and have no effect with the method that RRCB_DOMAIN asks for.
+std::vector<const char*> ignored_parameters(const Parameters& parameters) {
+    std::vector<const char*> names;
+    const auto add_if = [&](bool is_set, const char* name) {
+        if (is_set) names.push_back(name);
+    };
+    if (parameters.paper_domain) {
+        add_if(parameters.set_directions != 0, "RCB_SET_DIRECTIONS");
+        add_if(parameters.lock_directions != 0, "RCB_LOCK_DIRECTIONS");
+        add_if(parameters.reuse_cuts != not_set && parameters.reuse_cuts != 0, "RCB_REUSE");
+        add_if(parameters.options.refine == Refine::exact, "RRCB_REFINE");
+    } else {
+        add_if(parameters.cut_rule != Parameters{}.cut_rule, "RRCB_CUT_RULE");
+    }
+    return names;
+}
 
 /// Axes in the order of RCB_SET_DIRECTIONS, 1 ... 6. Other values count as 1, as in Zoltan.
 std::vector<int> axis_order(int set_directions, int dimension) {
@@ -35,6 +51,11 @@ void check_parameters(const State& state, bool one_part_per_rank) {
         throw ZoltanError(ZOLTAN_FATAL,
                           "RRCB_MIN_WIDTH and RRCB_GRID hold along the axes of the coordinates and "
                           "for one weight; unset REDUCE_DIMENSIONS and OBJ_WEIGHT_DIM above 1");
+    if (parameters.paper_domain && are_cuts_limited(parameters.options))
+        throw ZoltanError(
+            ZOLTAN_FATAL,
+            "RRCB_MIN_WIDTH and RRCB_GRID need RRCB_DOMAIN=ANALYTIC; set it, or unset "
+            "both limits");
     const int global = asked_global_parts(state);
     const int local = parameters.num_local_parts;
     const bool other_global = global != -1 && global != state.communicator->size();
@@ -61,11 +82,23 @@ Options make_options(const Parameters& parameters, const Layout& layout, int dim
     return options;
 }
 
+PaperOptions make_paper_options(const Parameters& parameters, const Layout& layout) {
+    PaperOptions options;
+    options.num_parts = layout.map.num_parts;
+    options.part_sizes = layout.part_sizes;
+    options.domain = *parameters.paper_domain;
+    options.cut_rule = parameters.cut_rule;
+    options.plain_cuts = parameters.rectilinear_blocks != 0;
+    if (parameters.options.support_mesh != 0)
+        options.support_mesh = parameters.options.support_mesh;
+    options.sigma_multiplier = parameters.sigma_multiplier;
+    options.sample_fraction = parameters.sample_fraction;
+    options.seed = parameters.seed;
+    return options;
+}
+
 bool starts_from_previous(const Parameters& parameters) {
-    const Options& options = parameters.options;
-    const bool refines = options.refine != Refine::none &&
-                         traits_of(options.domain).builds_on_last &&
-                         options.cut_rule == CutRule::weighted_fraction;
+    const bool refines = !parameters.paper_domain && parameters.options.refine != Refine::none;
     return reuses_cuts(parameters) && refines;
 }
 
@@ -83,6 +116,9 @@ std::vector<std::string> parameter_warnings(const Parameters& parameters) {
     if (parameters.set_directions < 0 || parameters.set_directions > 6) {
         texts.emplace_back("Parameter RCB_SET_DIRECTIONS out of bounds; reset to 1.");
     }
+    for (const char* name : ignored_parameters(parameters))
+        texts.push_back(std::string("Parameter ") + name + " has no effect with RRCB_DOMAIN=" +
+                        (parameters.paper_domain ? "SAMPLED and POINTS" : "ANALYTIC") + '.');
     return texts;
 }
 

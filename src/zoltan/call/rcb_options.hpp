@@ -22,6 +22,9 @@ void check_parameters(const State& state, bool one_part_per_rank);
 Options make_options(const Parameters& parameters, const Layout& layout, int dimension,
                      const KeptPartition* previous);
 
+/// Options of the paper's method that RRCB_DOMAIN asks for.
+PaperOptions make_paper_options(const Parameters& parameters, const Layout& layout);
+
 /// Whether the search starts from the cuts of the last call (RCB_REUSE). Only a refinement does: it
 /// goes on from there to the balance asked for.
 bool starts_from_previous(const Parameters& parameters);

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "paper/paper_text.hpp"
+
 #include <rrcb/options.hpp>
+#include <rrcb/paper.hpp>
 
 #include <bit>
 #include <cstdint>
@@ -10,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace rrcb::zoltan {
@@ -50,6 +54,12 @@ struct Parameters {
     ReturnLists return_lists = ReturnLists::all;
     Options options = default_options();  ///< RRCB_* only; parts are filled in per call
 
+    std::optional<PaperDomain> paper_domain;  ///< RRCB_DOMAIN; empty: RRCB's own method
+    CutRule cut_rule = PaperOptions{}.cut_rule;
+    double sigma_multiplier = PaperOptions{}.sigma_multiplier;
+    double sample_fraction = PaperOptions{}.sample_fraction;
+    std::uint64_t seed = PaperOptions{}.seed;
+
     std::string dump_folder;   ///< where the inputs of calls go; empty: nowhere
     bool dump_always = false;  ///< the inputs of all calls, not only of failing ones
     std::map<std::string, std::string> given;  ///< all that was set, as it was set
@@ -63,6 +73,7 @@ bool reuses_cuts(const Parameters& parameters);
 // no legal value.
 bool read_integer(int& value, std::string_view text, int least);
 bool read_return_lists(ReturnLists& lists, std::string_view text);
+bool read_paper_domain(std::optional<PaperDomain>& domain, std::string_view text);
 bool read_folder(std::string& folder, std::string_view text);
 bool read_dump_when(bool& always, std::string_view text);
 
@@ -82,8 +93,13 @@ constexpr int number_of(double value) {
 constexpr int number_of(int value) {
     return value;
 }
-constexpr int number_of(ReturnLists value) {
+template <class Enumeration>
+requires std::is_enum_v<Enumeration>
+constexpr int number_of(Enumeration value) {
     return static_cast<int>(value);
+}
+constexpr int number_of(std::optional<PaperDomain> value) {
+    return value ? 1 + static_cast<int>(*value) : 0;
 }
 
 /// Value for DEFAULT and for illegal texts: that of a new handle, but in two cases of Zoltan's.
@@ -151,6 +167,11 @@ inline constexpr ParameterRow parameter_table[] = {
     must_agree<&Parameters::set_directions, read_integer<>>("RCB_SET_DIRECTIONS"),
     flag<&Parameters::rectilinear_blocks>("RCB_RECTILINEAR_BLOCKS"),
     flag<&Parameters::reduce_dimensions>("REDUCE_DIMENSIONS"),
+    must_agree<&Parameters::paper_domain, read_paper_domain>("RRCB_DOMAIN"),
+    must_agree<&Parameters::cut_rule, read_cut_rule>("RRCB_CUT_RULE"),
+    must_agree<&Parameters::sigma_multiplier, read_sigma_multiplier>("RRCB_SIGMA_MULTIPLIER"),
+    must_agree<&Parameters::sample_fraction, read_sample_fraction>("RRCB_SAMPLE_FRACTION"),
+    must_agree<&Parameters::seed, read_seed>("RRCB_SEED"),
     may_differ<&Parameters::num_global_parts, read_integer<1>>("NUM_GLOBAL_PARTS"),
     may_differ<&Parameters::num_global_parts, read_integer<1>>("NUM_GLOBAL_PARTITIONS"),
     may_differ<&Parameters::num_local_parts, read_integer<0>>("NUM_LOCAL_PARTS"),

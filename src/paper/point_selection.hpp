@@ -1,7 +1,6 @@
 #pragma once
 
-#include <rrcb/cuts.hpp>
-#include <rrcb/statistical_domain.hpp>
+#include <rrcb/paper.hpp>
 
 #include <span>
 

@@ -1,4 +1,4 @@
-#include "bisection/point_selection.hpp"
+#include "paper/point_selection.hpp"
 
 #include "cuts/position_order.hpp"
 

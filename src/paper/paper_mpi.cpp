@@ -1,0 +1,150 @@
+#include "paper/paper_mpi.hpp"
+
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
+#include "collective/duplicate.hpp"
+#include "gather/decision_mpi.hpp"
+#include "gather/merge_tree_mpi.hpp"
+#include "options/rejection.hpp"
+#include "options/request.hpp"
+#include "options/validation.hpp"
+#include "paper/paper_checks.hpp"
+#include "paper/paper_records.hpp"
+#include "stage_scope.hpp"
+
+#include <rrcb/quality.hpp>
+#include <rrcb/support_mesh.hpp>
+
+#include <bit>
+#include <utility>
+
+namespace rrcb {
+
+namespace {
+
+void check(const PaperOptions& options, int dimension) {
+    const int most_cells = dimension < 3 ? 4096 : 256;
+    require(options.num_parts >= 1, "num_parts must be positive, or 0 for one part per rank");
+    require(options.support_mesh >= 1 && options.support_mesh <= most_cells,
+            "support_mesh must be 1 ... 4096 cells per axis, in 3-D 1 ... 256");
+    check_sampling(options);
+    check_sizes(options.num_parts, options.part_sizes);
+    require(options.domain == PaperDomain::sampled || options.domain == PaperDomain::points,
+            "domain must be sampled or points");
+    require(options.cut_rule == CutRule::weighted_fraction || options.cut_rule == CutRule::midpoint,
+            "cut_rule must be weighted_fraction or midpoint");
+}
+
+/// Throws on every rank alike if one has failed, or if their options differ. Collective.
+void agree_on(const PaperOptions& options, int dimension, const Participant& self) {
+    agree(self, {{"dimension", static_cast<std::uint64_t>(dimension)},
+                 {"num_parts", static_cast<std::uint64_t>(options.num_parts)},
+                 {"part_sizes", hash_of(options.part_sizes)},
+                 {"domain", static_cast<std::uint64_t>(options.domain)},
+                 {"cut_rule", static_cast<std::uint64_t>(options.cut_rule)},
+                 {"plain_cuts", options.plain_cuts ? 1u : 0u},
+                 {"support_mesh", static_cast<std::uint64_t>(options.support_mesh)},
+                 {"sigma_multiplier", std::bit_cast<std::uint64_t>(options.sigma_multiplier)},
+                 {"sample_fraction", std::bit_cast<std::uint64_t>(options.sample_fraction)},
+                 {"seed", options.seed},
+                 {name_of_arithmetic, arithmetic_in_use()}});
+}
+
+/// Step 1: reduces the points of this rank to the moments of the cells of its support mesh. For the
+/// paper's RCB the points stay as they are.
+std::vector<double> reduce_points(const Points& points, const Box& box,
+                                  const PaperOptions& options) {
+    if (options.domain == PaperDomain::points) return pack_points(points);
+    std::vector<CellMoments> cells;
+    if (points.count > 0)
+        cells =
+            cell_moments(points, make_support_mesh(box, points.dimension, options.support_mesh));
+    return pack_moments(points, cells);
+}
+
+/// Step 2: gathers the cells or points of all ranks on rank 0. Collective.
+void gather(std::vector<double>& packed, StageObserver* observer, Participant& self) {
+    const StageScope stage(observer, Stage::gather);
+    gather_records(packed, self);
+}
+
+/// What rank 0 reports of a bisection.
+Verdict verdict_of(const PaperRecords& all, std::span<const double> part_weights,
+                   const PaperOptions& options) {
+    const bool by_count = all.weight == 0;
+    Verdict verdict;
+    verdict.num_points = all.num_points;
+    verdict.num_records =
+        options.domain == PaperDomain::sampled ? std::ssize(all.cells) : all.num_points;
+    verdict.total_weight = all.weight;
+    verdict.estimated_imbalance = imbalance(part_weights, options.part_sizes);
+    verdict.least_imbalance = least_imbalance(
+        by_count ? 1 : all.heaviest, by_count ? static_cast<double>(all.num_points) : all.weight,
+        options.part_sizes);
+    return verdict;
+}
+
+/// Steps 3 and 4, on rank 0: makes the statistical domain, of points drawn from the cells or of the
+/// real ones, and bisects it.
+Verdict bisect_domain(std::span<const double> packed, PaperOptions options, Cuts& cuts) {
+    const StageScope stage(options.observer, Stage::bisection);
+    normalize(options.part_sizes, options.num_parts);
+    const int dimension = cuts.dimension;
+    const bool draws = options.domain == PaperDomain::sampled;
+    const PaperRecords all =
+        draws ? unpack_moments(packed, dimension) : unpack_points(packed, dimension);
+    std::vector<MassPoint> domain =
+        draws ? sample_points(all.cells, dimension, options)
+              : mass_points(interleaved_points(all.coordinates, dimension, all.weights));
+    Bisection bisection = bisect_points(std::move(domain), dimension, options.num_parts,
+                                        options.part_sizes, options.cut_rule, options.plain_cuts);
+    cuts.tree = std::move(bisection.cuts.tree);
+    return verdict_of(all, bisection.part_weights, options);
+}
+
+/// Step 5: gives every rank the cuts, whose boxes are the parts, or throws on every rank what
+/// failed on one. Collective.
+void broadcast(Verdict& verdict, std::vector<Cut>& tree, StageObserver* observer,
+               Participant& self) {
+    const StageScope stage(observer, Stage::broadcast);
+    if (mpi::rank_of(self.comm) == root) verdict.failing_rank = self.failing_rank();
+    mpi::broadcast(std::as_writable_bytes(std::span(&verdict, 1)), root, self.comm);
+    fail_together(verdict.failing_rank, self);
+    mpi::broadcast(std::as_writable_bytes(std::span(tree)), root, self.comm);
+}
+
+}  // namespace
+
+Balance balance_as_in_paper(const Points& points, const PaperOptions& options, MPI_Comm comm) {
+    Participant self{mpi::duplicate_of(comm)};
+    return balance_as_in_paper(points, options, self);
+}
+
+Balance balance_as_in_paper(const Points& points, const PaperOptions& given, Participant& self) {
+    PaperOptions options = given;
+    if (options.num_parts == 0) options.num_parts = mpi::size_of(self.comm);
+    Balance result;
+    std::vector<double> packed;
+    self.attempt([&] {
+        const StageScope stage(options.observer, Stage::moments);
+        const Box box = check_points(points);
+        check(options, points.dimension);
+        packed = reduce_points(points, box, options);
+        result.cuts = {points.dimension, options.num_parts, {}};
+        result.cuts.tree.resize(static_cast<std::size_t>(options.num_parts) - 1);
+        result.parts.resize(points.count);
+    });
+    agree_on(options, points.dimension, self);
+    gather(packed, options.observer, self);
+    Verdict verdict;
+    if (mpi::rank_of(self.comm) == root)
+        self.attempt([&] { verdict = bisect_domain(packed, options, result.cuts); });
+    broadcast(verdict, result.cuts.tree, options.observer, self);
+    self.throw_alone();
+    result.report = report_of(verdict, options.num_parts);
+    const StageScope stage(options.observer, Stage::assignment);
+    assign(result.cuts, points, result.parts);
+    return result;
+}
+
+}  // namespace rrcb

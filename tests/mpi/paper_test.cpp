@@ -1,0 +1,336 @@
+#include "paper_shares.hpp"
+
+#include <rrcb/paper.hpp>
+#include <rrcb/quality.hpp>
+#include <rrcb/support_mesh.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+using test::crowded_share;
+using test::lattice_share;
+using test::MakeShare;
+using test::num_ranks;
+using test::rank;
+using test::Share;
+using test::weighted_share;
+
+constexpr std::array domains = {PaperDomain::sampled, PaperDomain::points};
+
+/// The points of all ranks, by rank.
+Share all_points(const MakeShare& make) {
+    Share all = make(0);
+    for (int of_rank = 1; of_rank < num_ranks(); ++of_rank) {
+        const Share next = make(of_rank);
+        all.coordinates.insert(all.coordinates.end(), next.coordinates.begin(),
+                               next.coordinates.end());
+        all.weights.insert(all.weights.end(), next.weights.begin(), next.weights.end());
+    }
+    return all;
+}
+
+/// Recursive coordinate bisection of different points by sorting.
+struct SortedBisection {
+    const Points& points;
+    const std::vector<double>& sizes;
+    std::vector<Part> parts;
+
+    double weight_of(std::span<const std::size_t> members) const {
+        double sum = 0;
+        for (const std::size_t i : members) sum += points.weight(i);
+        return sum;
+    }
+
+    /// First axis of the longest extent.
+    int longest(std::span<const std::size_t> members) const {
+        int axis = 0;
+        double extent = -1;
+        for (int a = 0; a < points.dimension; ++a) {
+            const auto at = [&](std::size_t i) { return points.coordinate(i, a); };
+            const auto [lower, upper] = std::ranges::minmax(members, {}, at);
+            if (at(upper) - at(lower) <= extent) continue;
+            axis = a;
+            extent = at(upper) - at(lower);
+        }
+        return axis;
+    }
+
+    void divide(std::span<std::size_t> members, std::size_t first, std::size_t last) {
+        if (last - first == 1) {
+            for (const std::size_t i : members) parts[i] = static_cast<Part>(first);
+            return;
+        }
+        const std::size_t middle = first + static_cast<std::size_t>(lower_parts(int(last - first)));
+        const auto sum = [&](std::size_t from, std::size_t to) {
+            return std::accumulate(sizes.begin() + std::ptrdiff_t(from),
+                                   sizes.begin() + std::ptrdiff_t(to), 0.0);
+        };
+        const double all = sum(first, last);
+        const double share = all > 0 ? sum(first, middle) / all : 0;
+        const std::size_t split = share >= 1 ? members.size() : num_below(members, share);
+        divide(members.first(split), first, middle);
+        divide(members.subspan(split), middle, last);
+    }
+
+    /// Sorts, and returns how many points come nearest to a share of the weight.
+    std::size_t num_below(std::span<std::size_t> members, double share) const {
+        const double target = share * weight_of(members);
+        if (target <= 0) return 0;
+        const int axis = longest(members);
+        std::ranges::sort(members, [&](std::size_t i, std::size_t j) {
+            for (const int a : {axis, 0, 1, 2}) {
+                if (a >= points.dimension) continue;
+                const double x = points.coordinate(i, a);
+                const double y = points.coordinate(j, a);
+                if (x != y) return x < y;
+            }
+            return false;
+        });
+        double below = 0;
+        std::size_t count = 0;
+        for (const std::size_t i : members) {
+            const double weight = points.weight(i);
+            if (below + weight >= target) return count + (target - below >= weight / 2 ? 1 : 0);
+            below += weight;
+            ++count;
+        }
+        return count;
+    }
+};
+
+/// Part of each point of this rank by SortedBisection of the points of all ranks.
+std::vector<Part> sorted_parts(const MakeShare& make, std::vector<double> sizes) {
+    const Share all = all_points(make);
+    const Points points = all.points();
+    SortedBisection bisection{points, sizes, std::vector<Part>(points.count)};
+    std::vector<std::size_t> members(points.count);
+    std::iota(members.begin(), members.end(), std::size_t{0});
+    bisection.divide(members, 0, sizes.size());
+    LocalIndex begin = 0;
+    for (int before = 0; before < rank(); ++before) begin += make(before).points().count;
+    const auto first = bisection.parts.begin() + static_cast<std::ptrdiff_t>(begin);
+    return {first, first + static_cast<std::ptrdiff_t>(make(rank()).points().count)};
+}
+
+TEST(PaperRcb, gives_the_parts_of_a_bisection_by_sorting) {
+    for (const MakeShare make : {crowded_share, weighted_share, lattice_share}) {
+        const Share mine = make(rank());
+        for (const std::vector<double>& sizes :
+             {std::vector<double>(4, 1.0), std::vector<double>(6, 1.0), std::vector<double>(13, 2),
+              std::vector<double>{1, 0, 3, 0.5}, std::vector<double>{0, 2, 0}}) {
+            PaperOptions options;
+            options.domain = PaperDomain::points;
+            options.num_parts = static_cast<int>(sizes.size());
+            options.part_sizes = sizes;
+            const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
+            EXPECT_EQ(result.parts, sorted_parts(make, sizes));
+        }
+    }
+}
+
+TEST(PaperRcb, is_within_one_point_of_ideal_at_every_cut) {
+    const Share mine = crowded_share(rank());
+    PaperOptions options;
+    options.domain = PaperDomain::points;
+    options.num_parts = 8;
+    const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
+    const auto weights = part_weights(mine.points(), result.parts, 8, MPI_COMM_WORLD);
+    for (const double weight : weights) EXPECT_NEAR(weight, 300.0 / 8 * num_ranks(), 1);
+}
+
+bool same_bits(const Cuts& a, const Cuts& b) {
+    return std::ranges::equal(a.tree, b.tree, [](const Cut& one, const Cut& other) {
+        return one.axis == other.axis && std::memcmp(&one.at, &other.at, sizeof one.at) == 0;
+    });
+}
+
+/// Cells of the support meshes of all ranks, by rank.
+std::vector<CellMoments> all_cells(const MakeShare& make, int cells_per_axis) {
+    std::vector<CellMoments> all;
+    for (int of_rank = 0; of_rank < num_ranks(); ++of_rank) {
+        const Share share = make(of_rank);
+        const Points points = share.points();
+        if (points.count == 0) continue;
+        const auto cells = cell_moments(
+            points, make_support_mesh(bounding_box(points), share.dimension, cells_per_axis));
+        all.insert(all.end(), cells.begin(), cells.end());
+    }
+    return all;
+}
+
+TEST(PaperRrcb, bisects_the_sampled_points_of_the_cells_of_all_ranks) {
+    for (const MakeShare make : {crowded_share, weighted_share, lattice_share}) {
+        const Share mine = make(rank());
+        for (const int mesh : {1, 4, 7}) {
+            for (const CutRule rule : {CutRule::weighted_fraction, CutRule::midpoint}) {
+                PaperOptions options;
+                options.num_parts = 6;
+                options.support_mesh = mesh;
+                options.sample_fraction = mesh == 4 ? 0.25 : 1;
+                options.cut_rule = rule;
+                const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
+                const auto cells = all_cells(make, mesh);
+                const Bisection expected = bisect_points(
+                    sample_points(cells, mine.dimension, options), mine.dimension, 6, {}, rule);
+                EXPECT_TRUE(same_bits(result.cuts, expected.cuts));
+                std::vector<Part> parts(result.parts.size());
+                assign(expected.cuts, mine.points(), parts);
+                EXPECT_EQ(result.parts, parts);
+                EXPECT_EQ(result.report.num_records, std::ssize(cells));
+                EXPECT_EQ(result.report.estimated_imbalance, imbalance(expected.part_weights));
+            }
+        }
+    }
+}
+
+TEST(PaperRrcb, gives_the_same_bits_again_and_other_cuts_for_another_seed) {
+    const Share mine = crowded_share(rank());
+    PaperOptions options;
+    options.num_parts = 13;
+    const auto cuts = [&] {
+        return balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD).cuts;
+    };
+    const Cuts first = cuts();
+    EXPECT_TRUE(same_bits(cuts(), first));
+    options.seed = 2;
+    EXPECT_FALSE(same_bits(cuts(), first));
+}
+
+TEST(PaperRrcb, comes_nearer_to_the_points_with_a_finer_mesh) {
+    // A dense corner, which a single cell per rank cannot show.
+    std::vector<double> cloud = test::uniform_cloud(20000, 2, 100 + static_cast<unsigned>(rank()));
+    for (double& x : cloud) x = x * x * x;
+    const Points points = interleaved_points(cloud, 2);
+    const auto imbalance_with = [&](int mesh) {
+        PaperOptions options;
+        options.num_parts = 4;
+        options.support_mesh = mesh;
+        const Balance result = balance_as_in_paper(points, options, MPI_COMM_WORLD);
+        return imbalance(part_weights(points, result.parts, 4, MPI_COMM_WORLD));
+    };
+    EXPECT_GT(imbalance_with(1), 1.2);
+    EXPECT_LT(imbalance_with(16), 1.05);
+}
+
+TEST(Paper, reports_what_it_bisected_and_measures_nothing) {
+    const Share mine = weighted_share(rank());
+    const Share all = all_points(weighted_share);
+    const Points points = all.points();
+    const double total = std::accumulate(all.weights.begin(), all.weights.end(), 0.0);
+    for (const PaperDomain domain : domains) {
+        PaperOptions options;
+        options.domain = domain;
+        options.num_parts = 3;
+        const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
+        const Report& report = result.report;
+        EXPECT_EQ(report.num_points, static_cast<GlobalCount>(points.count));
+        EXPECT_EQ(report.total_weight, total);
+        EXPECT_TRUE(std::isnan(report.measured_imbalance));
+        EXPECT_FALSE(report.within_tolerance || report.kept || report.all_weights_zero);
+        EXPECT_TRUE(report.part_weights.empty());
+        EXPECT_EQ(report.least_imbalance, 1);
+        EXPECT_EQ(report.rounds + report.surplus_parts + report.coincident_cuts, 0);
+        if (domain == PaperDomain::sampled) continue;
+        EXPECT_EQ(report.num_records, report.num_points);
+        const auto weights = part_weights(mine.points(), result.parts, 3, MPI_COMM_WORLD);
+        EXPECT_EQ(report.estimated_imbalance, imbalance(weights));
+    }
+}
+
+TEST(Paper, balances_by_number_if_all_weights_are_zero) {
+    Share mine = crowded_share(rank());
+    mine.weights.assign(300, 0.0);
+    for (const PaperDomain domain : domains) {
+        PaperOptions options;
+        options.domain = domain;
+        options.num_parts = 4;
+        const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
+        EXPECT_TRUE(result.report.all_weights_zero);
+        mine.weights.clear();
+        EXPECT_EQ(balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD).parts, result.parts);
+        mine.weights.assign(300, 0.0);
+    }
+}
+
+TEST(Paper, makes_one_part_per_rank_unless_asked_for_others) {
+    const Share mine = crowded_share(rank());
+    const Balance result = balance_as_in_paper(mine.points(), {}, MPI_COMM_WORLD);
+    EXPECT_EQ(result.cuts.num_parts, num_ranks());
+}
+
+TEST(Paper, leaves_parts_empty_if_there_are_fewer_points) {
+    const std::vector<double> x =
+        rank() == 0 ? std::vector<double>{1, 2, 3} : std::vector<double>();
+    for (const PaperDomain domain : domains) {
+        PaperOptions options;
+        options.domain = domain;
+        options.num_parts = 5;
+        const Balance some = balance_as_in_paper(interleaved_points(x, 1), options, MPI_COMM_WORLD);
+        EXPECT_EQ(some.report.surplus_parts, 2);
+        EXPECT_EQ(some.parts.size(), x.size());
+        const Balance none =
+            balance_as_in_paper(interleaved_points({}, 3), options, MPI_COMM_WORLD);
+        EXPECT_EQ(none.report.num_points, 0);
+        EXPECT_EQ(none.report.surplus_parts, 5);
+        EXPECT_EQ(none.cuts.tree.size(), 4u);
+    }
+}
+
+TEST(Paper, keeps_parts_of_size_zero_empty) {
+    const Share mine = weighted_share(rank());
+    for (const PaperDomain domain : domains) {
+        for (const CutRule rule : {CutRule::weighted_fraction, CutRule::midpoint}) {
+            PaperOptions options;
+            options.domain = domain;
+            options.cut_rule = rule;
+            options.num_parts = 5;
+            options.part_sizes = {0, 3, 0, 0, 1};
+            const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
+            for (const Part part : result.parts) EXPECT_TRUE(part == 1 || part == 4) << part;
+        }
+    }
+}
+
+TEST(Paper, works_on_some_of_the_ranks) {
+    MPI_Comm half = MPI_COMM_NULL;
+    MPI_Comm_split(MPI_COMM_WORLD, rank() % 2, rank(), &half);
+    const Share mine = crowded_share(rank());
+    int size = 0;
+    MPI_Comm_size(half, &size);
+    EXPECT_EQ(balance_as_in_paper(mine.points(), {}, half).cuts.num_parts, size);
+    MPI_Comm_free(&half);
+}
+
+/// Writes "+moments -moments +gather ...".
+struct Recorder : StageObserver {
+    void begin(Stage stage) noexcept override { text += std::string(" +") + name_of(stage); }
+    void end(Stage stage) noexcept override { text += std::string(" -") + name_of(stage); }
+    std::string text;
+};
+
+TEST(Paper, shows_its_stages_in_their_order) {
+    const Share mine = crowded_share(rank());
+    for (const PaperDomain domain : domains) {
+        Recorder recorder;
+        PaperOptions options;
+        options.domain = domain;
+        options.observer = &recorder;
+        balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
+        const std::string bisection = rank() == 0 ? " +bisection -bisection" : "";
+        EXPECT_EQ(recorder.text, " +moments -moments +gather -gather" + bisection +
+                                     " +broadcast -broadcast +assignment -assignment");
+    }
+}
+
+}  // namespace
+}  // namespace rrcb

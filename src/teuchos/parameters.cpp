@@ -46,6 +46,11 @@ void add_choice(ParameterList& list, const char* name, const Choice& choice,
 
 constexpr double largest = std::numeric_limits<double>::max();
 
+/// True for options that have a parameter of the plug-in, as the list is one of its parameters.
+bool is_listed(const Option& option) {
+    return *option.parameter != '\0';
+}
+
 /// Adds an option to a list, under the name of its parameter, with the library's default.
 struct Adder {
     ParameterList& list;
@@ -214,7 +219,8 @@ std::string zoltan_string(const ParameterEntry& entry) {
 Teuchos::RCP<const ParameterList> valid_parameters() {
     static const Teuchos::RCP<const ParameterList> valid = [] {
         const auto list = Teuchos::parameterList("RRCB");
-        for (const Option& option : option_table) visit_kind(option, Adder{*list, option});
+        for (const Option& option : option_table)
+            if (is_listed(option)) visit_kind(option, Adder{*list, option});
         add_parameters_of_paper(*list);
         add_parameters_of_plug_in(*list);
         return list;
@@ -241,7 +247,8 @@ ParameterList read_parameters(const std::string& file) {
 Options options_from(const ParameterList& list) {
     const ParameterList all = completed(list);
     Options options;
-    for (const Option& option : option_table) visit_kind(option, Getter{all, option, options});
+    for (const Option& option : option_table)
+        if (is_listed(option)) visit_kind(option, Getter{all, option, options});
     return options;
 }
 

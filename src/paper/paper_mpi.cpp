@@ -121,12 +121,13 @@ Balance balance_as_in_paper(const Points& points, const PaperOptions& options, M
 }
 
 Balance balance_as_in_paper(const Points& points, const PaperOptions& given, Participant& self) {
-    PaperOptions options = given;
-    if (options.num_parts == 0) options.num_parts = mpi::size_of(self.comm);
+    PaperOptions options;
     Balance result;
     std::vector<double> packed;
     self.attempt([&] {
-        const StageScope stage(options.observer, Stage::moments);
+        const StageScope stage(given.observer, Stage::moments);
+        options = given;
+        if (options.num_parts == 0) options.num_parts = mpi::size_of(self.comm);
         const Box box = check_points(points);
         check(options, points.dimension);
         packed = reduce_points(points, box, options);

@@ -53,8 +53,8 @@ Box sampling_box(const Moments& moments, double multiplier) {
 void check_sampling(const PaperOptions& options) {
     require(options.sigma_multiplier > 0 && std::isfinite(options.sigma_multiplier),
             "sigma_multiplier must be finite and above 0");
-    require(options.sample_fraction > 0 && options.sample_fraction <= 1,
-            "sample_fraction must be in (0, 1]");
+    require(options.sample_fraction > 0 && std::isfinite(options.sample_fraction),
+            "sample_fraction must be finite and above 0");
 }
 
 std::vector<MassPoint> sample_points(std::span<const CellMoments> cells, int dimension,

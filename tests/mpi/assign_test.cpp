@@ -84,7 +84,7 @@ TEST(AssignTogether, refuses_what_one_rank_gives_wrong_on_all) {
     const std::span<const double> some(x);
     expect_refusal(last + "coordinate of object 0 on axis 1 is NaN", right,
                    interleaved_points(some.first(2), 2));
-    expect_refusal(last + "points must have the dimension", right,
+    expect_refusal(last + "positions must have the dimension", right,
                    interleaved_points(std::span<const double>(), is_last_rank() ? 3 : 2));
     Cuts cuts = right;
     if (is_last_rank()) {

@@ -67,10 +67,10 @@ struct Balance {
 /// the first rank of its first part, what it has there, along ceil(log2 R) messages on R ranks, in
 /// which records of one node are joined; the owner answers the same way. Nodes take about two such
 /// rounds a level to a tolerance, four exactly. At the end all ranks get all cuts and the weights
-/// of all parts, by two reductions of 40 bytes a part. With Options::cuts = own they do not, and no
-/// rank holds an array with an entry for each part or rank, but for `part_sizes`: beside the points
-/// and a sorted copy of them a rank has about 1.5 kB for each node of a level in which it has
-/// points, 64 kB for messages, and the owner of a node up to 1024 positions. Whether points may
+/// of all parts, by two reductions, 40 bytes a part together. With Options::cuts = own they do not,
+/// and no rank holds an array with an entry for each part or rank, but for `part_sizes`: beside the
+/// points and a sorted copy of them a rank has about 1.5 kB for each node of a level in which it
+/// has points, 64 kB for messages, and the owner of a node up to 1024 positions. Whether points may
 /// stay as they lie the owners tell in one more round of that kind; part r then is on rank r.
 ///
 /// Cuts lie where Options::min_width and Options::grid let them, those of points that stay as well.

@@ -23,7 +23,7 @@ enum class Coincident {
 
 /// Cuts that each rank gets if many ranks make the parts, see Options::central_parts.
 enum class HeldCuts {
-    whole,  ///< all, so that every look-up works on every rank: two reductions of 40 bytes a part
+    whole,  ///< all, so that look-ups work on every rank: two reductions, 40 bytes a part together
     own     ///< those above its points and its parts, see Cuts::nodes: no memory for each part
 };
 

@@ -51,7 +51,7 @@ struct PaperOptions {
 /// Report::measured_imbalance is NaN, as nothing is counted. Throws Error on every rank alike, as
 /// balance() does.
 ///
-/// Cost: one reduction, one gathering of 2 + 2 * dimension doubles a cell (`dimension` or one more
+/// Cost: two reductions, one gathering of 2 + 2 * dimension doubles a cell (`dimension` or one more
 /// a point, for PaperDomain::points), two broadcasts; rank 0 holds all points drawn or gathered.
 RRCB_API Balance balance_as_in_paper(const Points& points, const PaperOptions& options,
                                      MPI_Comm comm);

@@ -141,10 +141,10 @@ Balance balance_as_in_paper(const Points& points, const PaperOptions& given, Par
     if (mpi::rank_of(self.comm) == root)
         self.attempt([&] { verdict = bisect_domain(packed, options, result.cuts); });
     broadcast(verdict, result.cuts.tree, options.observer, self);
-    self.throw_alone();
     result.report = report_of(verdict, options.num_parts);
     const StageScope stage(options.observer, Stage::assignment);
-    assign(result.cuts, points, result.parts);
+    self.attempt([&] { assign(result.cuts, points, result.parts); });
+    agree(self);
     return result;
 }
 

@@ -27,6 +27,8 @@ void check(const PaperOptions& options, int dimension) {
     require(options.num_parts >= 1, "num_parts must be positive, or 0 for one part per rank");
     require(options.support_mesh >= 1 && options.support_mesh <= most_cells,
             "support_mesh must be 1 ... 4096 cells per axis, in 3-D 1 ... 256");
+    require(options.sample_fraction > 0 && options.sample_fraction <= 1,
+            "sample_fraction must be in (0, 1]");
     check_sampling(options);
     check_sizes(options.num_parts, options.part_sizes);
     require(options.domain == PaperDomain::sampled || options.domain == PaperDomain::points,

@@ -109,7 +109,6 @@ TEST(CallbackErrors, parameters_that_differ_between_ranks) {
                                                               {"RCB_LOCK_DIRECTIONS", "1"},
                                                               {"RCB_SET_DIRECTIONS", "3"},
                                                               {"RCB_RECTILINEAR_BLOCKS", "1"},
-                                                              {"OBJ_WEIGHTS_COMPARABLE", "1"},
                                                               {"IMBALANCE_TOL", "1.3"},
                                                               {"RRCB_DOMAIN", "ANALYTIC"},
                                                               {"RRCB_REFINE", "EXACT"},

@@ -1,29 +1,10 @@
 #include "bisection/limited_bisection.hpp"
 
+#include "../support/memory_layer.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <new>
-
-namespace {
-
-std::size_t num_allocations = 0;
-
-}  // namespace
-
-// Each look at a place allocates, so that allocations measure the work.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    ++num_allocations;
-    if (void* memory = std::malloc(size)) return memory;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
 
 namespace rrcb {
 namespace {
@@ -50,13 +31,14 @@ Options tight_options(int num_parts, int dimension) {
     return options;
 }
 
+/// Each look at a place allocates, so that allocations measure the work.
 std::size_t allocations_of(int num_parts, int dimension) {
     const Options options = tight_options(num_parts, dimension);
     const Box box{{0, 0, 0}, {1, 1, 1}};
-    const std::size_t before = num_allocations;
+    memory_layer::fail_allocation(0);
     const Bisection found = bisect_within(box, two_cells(dimension), options, true);
     EXPECT_EQ(found.part_weights.size(), static_cast<std::size_t>(num_parts));
-    return num_allocations - before;
+    return static_cast<std::size_t>(memory_layer::counted_allocations());
 }
 
 TEST(LimitedBisection, looks_at_a_few_places_for_each_part) {

@@ -1,3 +1,5 @@
+#include "../support/same_error.hpp"
+
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
 
@@ -23,18 +25,7 @@ class Agreement : public testing::Test {
 
     /// Every rank gets the same text, which holds `expected`, and the next call works.
     void expect_error(const Points& points, const Options& options, const std::string& expected) {
-        std::array<char, 512> text{};
-        try {
-            balance(points, options, MPI_COMM_WORLD);
-            ADD_FAILURE() << "expected: " << expected;
-        } catch (const Error& error) {
-            std::string(error.what()).copy(text.data(), text.size() - 1);
-            EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
-            EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
-        }
-        std::array<char, 512> of_root = text;
-        MPI_Bcast(of_root.data(), 512, MPI_CHAR, 0, MPI_COMM_WORLD);
-        EXPECT_STREQ(text.data(), of_root.data());
+        test::expect_same_error([&] { balance(points, options, MPI_COMM_WORLD); }, expected);
 
         const std::vector<double> fine{0.5, 1.5};
         EXPECT_EQ(balance(interleaved_points(fine, 1), {}, MPI_COMM_WORLD).parts.size(), 2u);

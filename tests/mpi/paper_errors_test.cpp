@@ -1,3 +1,4 @@
+#include "../support/same_error.hpp"
 #include "paper_shares.hpp"
 
 #include <rrcb/error.hpp>
@@ -5,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -24,18 +24,8 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Expects the same error, which contains `expected`, on every rank, and that the next call works.
 void expect_error(const Share& share, const PaperOptions& options, const std::string& expected) {
-    std::array<char, 512> text{};
-    try {
-        balance_as_in_paper(share.points(), options, MPI_COMM_WORLD);
-        ADD_FAILURE() << "expected: " << expected;
-    } catch (const Error& error) {
-        std::string(error.what()).copy(text.data(), text.size() - 1);
-        EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
-        EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
-    }
-    std::array<char, 512> of_root = text;
-    MPI_Bcast(of_root.data(), 512, MPI_CHAR, 0, MPI_COMM_WORLD);
-    EXPECT_STREQ(text.data(), of_root.data());
+    test::expect_same_error([&] { balance_as_in_paper(share.points(), options, MPI_COMM_WORLD); },
+                            expected);
     const Share fine = crowded_share(rank());
     EXPECT_EQ(balance_as_in_paper(fine.points(), {}, MPI_COMM_WORLD).parts.size(), 300u);
 }

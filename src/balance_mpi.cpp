@@ -130,10 +130,11 @@ void prepare_to_reuse_spread(const Points& points, const Options& given, const C
     const StageScope stage(given.observer, Stage::assignment);
     check_arrays(points);
     introduce(points, given, Box{}, &previous, work, self);
-    if (!work.whole || work.whole->refine == Refine::exact || !work.whole->cut_axes.empty()) return;
+    if (!work.whole || work.whole->refine == Refine::exact || work.whole->axes.order.is_given())
+        return;
     work.decision.reuses = true;
     work.result.parts.resize(points.count);
-    reuse.emplace(previous, work.options.plain_cuts, points, work.result.parts, self.comm);
+    reuse.emplace(previous, work.options.axes.plain, points, work.result.parts, self.comm);
     if (!reuse->all_finite()) reject_coordinates(points);
 }
 

@@ -66,13 +66,13 @@ RegionTree tree_of(const Options& options, const Verdict& verdict, double weight
     tree.num_ranks = num_ranks;
     tree.weight = weight;
     tree.part_sizes = options.part_sizes;
-    tree.cut_axes = options.cut_axes;
+    if (options.axes.order.is_given()) tree.cut_axes = options.axes.order.axes();
     tree.rule.tolerance = options.imbalance_tolerance;
     tree.rule.common_weight = verdict.common_weight;
     tree.rule.heaviest = verdict.heaviest;
     tree.rule.is_exact = options.refine == Refine::exact;
     tree.share_of_longest = near_longest;
-    tree.plain_cuts = options.plain_cuts;
+    tree.plain_cuts = options.axes.plain;
     tree.divides_coincident = options.coincident == Coincident::divide;
     return tree;
 }
@@ -94,8 +94,8 @@ Cuts with_cuts_above(const Points& points, const Cuts& known, Participant& self)
 }  // namespace
 
 bool is_wide(const Options& options, int num_ranks) {
-    return std::min(options.num_parts, num_ranks) > options.central_parts && is_refined(options) &&
-           options.grouped_axes.empty() && !are_cuts_limited(options);
+    return std::min(options.num_parts, num_ranks) > options.tuning.central_parts &&
+           is_refined(options) && !options.axes.order.is_grouped() && !are_cuts_limited(options);
 }
 
 bool reuses_spread(const Cuts& previous, const Options& options, int num_ranks) {
@@ -104,7 +104,7 @@ bool reuses_spread(const Cuts& previous, const Options& options, int num_ranks) 
 }
 
 Options region_options(const Options& options) {
-    const auto most = static_cast<unsigned>(std::min(options.central_parts, most_regions));
+    const auto most = static_cast<unsigned>(std::min(options.tuning.central_parts, most_regions));
     Options regions = options;
     regions.num_parts =
         options.refine == Refine::exact ? 1 : static_cast<int>(std::bit_floor(most));
@@ -118,10 +118,11 @@ Options region_options(const Options& options) {
                 ? at.num_parts
                 : sum_of(std::span(options.part_sizes).subspan(first, count)));
     });
-    regions.cut_axes.clear();
-    if (!options.cut_axes.empty())
-        append_axes({0, 0, options.num_parts}, regions.num_parts, options.cut_axes,
-                    regions.cut_axes);
+    if (const AxisOrder& order = options.axes.order; order.is_given()) {
+        std::vector<int> axes;
+        append_axes({0, 0, options.num_parts}, regions.num_parts, order.axes(), axes);
+        regions.axes.order = AxisOrder::given(std::move(axes));
+    }
     const auto levels = [](int num_parts) {
         return static_cast<double>(std::bit_width(static_cast<unsigned>(num_parts - 1)));
     };

@@ -10,7 +10,7 @@
 
 namespace rrcb {
 
-/// True when many ranks make the parts below regions, see Options::central_parts; by complete
+/// True when many ranks make the parts below regions, see Tuning::central_parts; by complete
 /// options.
 bool is_wide(const Options& options, int num_ranks);
 

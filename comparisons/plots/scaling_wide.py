@@ -1,4 +1,4 @@
-"""What a call moves where many ranks make the parts (Options::central_parts), by formula; each rank
+"""What a call moves where many ranks make the parts (Tuning::central_parts), by formula; each rank
 gets its own cuts (HeldCuts::own).
 
 Records travel to the owners of cuts, and answers back, along a butterfly of ranks: in each step a

@@ -23,10 +23,10 @@ struct Key {
     std::string_view option;
 };
 
-constexpr Key keys[] = {{"mesh", "support_mesh"},
+constexpr Key keys[] = {{"mesh", "tuning.support_mesh"},
                         {"refine", "refine"},
                         {"tol", "imbalance_tolerance"},
-                        {"central", "central_parts"}};
+                        {"central", "tuning.central_parts"}};
 
 /// A parameter in brackets of the paper's methods.
 struct PaperKey {
@@ -55,9 +55,9 @@ bool read_field(std::string_view text, PaperOptions& options) {
 
 bool read_mesh(std::string_view text, PaperOptions& options) {
     Options own;
-    const bool is_legal = rrcb::read_option(*rrcb::find_option("support_mesh"), text, own);
-    if (is_legal && own.support_mesh != 0) options.support_mesh = own.support_mesh;
-    return is_legal && own.support_mesh != 0;
+    const bool is_legal = rrcb::read_option(*rrcb::find_option("tuning.support_mesh"), text, own);
+    if (is_legal && own.tuning.support_mesh != 0) options.support_mesh = own.tuning.support_mesh;
+    return is_legal && own.tuning.support_mesh != 0;
 }
 
 constexpr PaperKey paper_keys[] = {
@@ -169,10 +169,10 @@ void add(const Options& options, ZoltanParameters& parameters) {
         if (always || value != rrcb::write_option(option, Options{}))
             parameters.emplace_back(option.parameter, value);
     };
-    add("support_mesh", false);
+    add("tuning.support_mesh", false);
     add("refine", true);
     add("imbalance_tolerance", false);
-    add("central_parts", false);
+    add("tuning.central_parts", false);
 }
 
 void add(const PaperOptions& options, ZoltanParameters& parameters) {

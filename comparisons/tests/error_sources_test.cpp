@@ -41,7 +41,7 @@ class ErrorSources : public testing::Test {
 TEST_F(ErrorSources, cells_and_sampled_points_are_those_of_the_library) {
     rrcb::Options options;
     options.refine = rrcb::Refine::none;
-    options.support_mesh = 5;
+    options.tuning.support_mesh = 5;
     EXPECT_EQ(weights({Source::cells, 5}), weights(options));
     rrcb::PaperOptions paper;
     paper.support_mesh = 5;

@@ -62,7 +62,7 @@ struct Balance {
 /// Part r goes to rank r where it lay there, as after the last call; to another where ranks were
 /// renumbered and none is empty.
 ///
-/// Where there are more parts, and more ranks, than Options::central_parts, rank 0 makes regions in
+/// Where there are more parts, and more ranks, than Tuning::central_parts, rank 0 makes regions in
 /// this way, and the cuts below them are made by many ranks. Each rank tells the owner of a node,
 /// the first rank of its first part, what it has there, along ceil(log2 R) messages on R ranks, in
 /// which records of one node are joined; the owner answers the same way. Nodes take about two such
@@ -73,7 +73,7 @@ struct Balance {
 /// has points, 64 kB for messages, and the owner of a node up to 1024 positions. Whether points may
 /// stay as they lie the owners tell in one more round of that kind; part r then is on rank r.
 ///
-/// Cuts lie where Options::min_width and Options::grid let them, those of points that stay as well.
+/// Cuts lie where Axes::min_width and Axes::grid let them, those of points that stay as well.
 /// Each is then in the place nearest to the share of its parts, across another axis if that comes
 /// nearer; the imbalance may stay above the tolerance.
 ///
@@ -96,19 +96,19 @@ RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm 
 /// and not near the mean. Cuts are searched from the top, and what lies below one that moved is
 /// counted once more. With Refine::exact all cuts are searched.
 ///
-/// With Options::min_width or Options::grid, cuts that lie where they may not are moved first: to
+/// With Axes::min_width or Axes::grid, cuts that lie where they may not are moved first: to
 /// the nearest place, or across another axis where there is none. Then the points are counted, and
 /// beyond the tolerance all cuts are searched in their places, to the shares of the parts.
 ///
-/// Where many ranks make the parts, see Options::central_parts, `previous` may be whole or not; the
+/// Where many ranks make the parts, see Tuning::central_parts, `previous` may be whole or not; the
 /// cuts stay while the parts are within the tolerance, and are made from nothing beyond it, with
-/// Refine::exact and with Options::cut_axes. Counts then go to the ranks of the parts, and memory
+/// Refine::exact and with AxisOrder::given(). Counts then go to the ranks of the parts, and memory
 /// follows from `previous` and the parts that the points of a rank are in. Where one rank makes the
 /// parts, cuts that are not whole are made from nothing.
 ///
 /// The other axes of `previous` stay, unless the imbalance ends above 1.25 times the larger of the
 /// tolerance and Report::least_imbalance. Then cuts are made from statistics as well, of other
-/// axes, except with Options::min_width or Options::grid, and replace those if that gains
+/// axes, except with Axes::min_width or Axes::grid, and replace those if that gains
 /// something.
 ///
 /// `previous` must be the same on every rank, or what each rank got by a balance on this

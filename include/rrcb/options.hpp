@@ -3,6 +3,7 @@
 #include <rrcb/stages.hpp>
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace rrcb {
@@ -15,13 +16,13 @@ enum class Refine {
                 ///< to the side that it takes the least beyond its size
 };
 
-/// What becomes of points in one and the same place where the balance asked for divides them.
+/// What becomes of coincident points that a balanced cut would divide.
 enum class Coincident {
     together,  ///< they share a part, so that the part of a position is the part of its points
     divide     ///< some go to each side, those of lower ranks below; look-ups find one part
 };
 
-/// Cuts that each rank gets if many ranks make the parts, see Options::central_parts.
+/// Cuts that each rank gets if many ranks make the parts, see Tuning::central_parts.
 enum class HeldCuts {
     whole,  ///< all, so that look-ups work on every rank: two reductions, 40 bytes a part together
     own     ///< those above its points and its parts, see Cuts::nodes: no memory for each part
@@ -34,41 +35,78 @@ struct GridLines {
     double spacing = 0;  ///< > 0 and finite
 };
 
-/// Options of `balance`; must be the same on every rank, which is checked.
-struct Options {
-    int num_parts = 0;               ///< parts to make; 0: one per rank
-    std::vector<double> part_sizes;  ///< relative weight of each part, >= 0, some > 0; empty: equal
+/// Axis that each box is cut across: its own longest one, or one that the caller chooses.
+class AxisOrder {
+  public:
+    /// Cuts each box across its own longest axis.
+    AxisOrder() = default;
 
-    int support_mesh = 0;  ///< cells per axis of each rank's support mesh, up to 4096, in
-                           ///< 3-D 256; 0: by its points
+    /// Makes all cuts across the first of `axes`, then all across the next, ...; each axis of the
+    /// points is named once.
+    static AxisOrder grouped(std::vector<int> axes) { return {Kind::grouped, std::move(axes)}; }
 
-    Refine refine = Refine::tolerance;  ///< accuracy of the cuts
-    double imbalance_tolerance = 1.01;  ///< tolerance: heaviest part / mean part to reach, >= 1,
-                                        ///< finite
+    /// Makes cut k of Cuts::tree across axes[k]; one axis for each cut, num_parts - 1.
+    static AxisOrder given(std::vector<int> axes) { return {Kind::given, std::move(axes)}; }
 
-    std::vector<int> grouped_axes;  ///< cross all of the first axis' cuts, then the next axis',
-                                    ///< ...; empty: each box across its own longest axis
-    std::vector<int> cut_axes;      ///< axis of each cut in the order of Cuts::tree; empty: free
-    bool plain_cuts = false;        ///< planes only: points on a plane stay together
+    /// True if made by grouped(). Not collective, as all of these.
+    bool is_grouped() const { return kind_ == Kind::grouped; }
+    /// True if made by given().
+    bool is_given() const { return kind_ == Kind::given; }
+    /// Returns the axes that it was made with; none for the longest.
+    const std::vector<int>& axes() const { return axes_; }
+
+  private:
+    enum class Kind { longest, grouped, given };
+
+    AxisOrder(Kind kind, std::vector<int> axes) : kind_(kind), axes_(std::move(axes)) {}
+
+    Kind kind_ = Kind::longest;
+    std::vector<int> axes_;
+};
+
+/// Axes that are cut, and the positions of cuts along them. Each limit holds together with the
+/// others.
+struct Axes {
+    AxisOrder order{};   ///< such as AxisOrder::grouped({0, 1}); default: the longest of each box
+    bool plain = false;  ///< planes only: points on a plane stay together
 
     /// Least extent of every part along each axis, > 0 and finite, one per axis of the points;
     /// empty: any. Between two cuts `upper - lower >= min_width` holds as doubles compute it. On a
     /// side without a cut the extent counts to the bounding box of all points of the call; along an
     /// axis that is not cut there is nothing to keep. Parts of size 0 have no extent.
-    std::vector<double> min_width;
+    std::vector<double> min_width{};
+
     /// Cuts on these lines only, one entry per axis of the points; empty: anywhere. Such cuts are
-    /// plain; each part holds one cell of the grid at least. With min_width as well both hold.
-    std::vector<GridLines> grid;
+    /// plain, whether `plain` is set or not; each part holds one cell of the grid at least.
+    std::vector<GridLines> grid{};
+};
 
-    /// Only where cuts are refined and not plain.
-    Coincident coincident = Coincident::together;
+/// Settings that change the cost of a call; the defaults suit most programs.
+struct Tuning {
+    int support_mesh = 0;  ///< cells per axis of each rank's support mesh, up to 4096, in
+                           ///< 3-D 256; 0: by its points
 
-    /// Parts that rank 0 makes alone, at least 2. Where there are more, and more ranks, it makes
+    /// Parts that rank 0 makes alone, at least 2. If there are more, and more ranks, it makes
     /// regions, up to 64 and a power of two, and each cut below them is found by a rank of its
     /// parts; with Refine::exact, and once more if the tolerance is missed, each cut is. No effect
-    /// with Refine::none, `min_width`, `grid` or `grouped_axes`.
+    /// with Refine::none, Axes::min_width, Axes::grid or AxisOrder::grouped().
     int central_parts = 4096;
-    HeldCuts cuts = HeldCuts::whole;  ///< that each rank gets where many ranks make the parts
+};
+
+/// Options of `balance`; must be the same on every rank, which is checked.
+struct Options {
+    int num_parts = 0;                  ///< parts to make; 0: one per rank
+    std::vector<double> part_sizes;     ///< relative weight of each part, >= 0, some > 0; empty:
+                                        ///< equal
+    double imbalance_tolerance = 1.01;  ///< heaviest part / mean part to reach, >= 1, finite
+    Refine refine = Refine::tolerance;  ///< accuracy of the cuts
+
+    /// No effect with Refine::none and with plain cuts.
+    Coincident coincident = Coincident::together;
+    HeldCuts cuts = HeldCuts::whole;  ///< that each rank gets if many ranks make the parts
+
+    Axes axes{};      ///< that are cut, and where
+    Tuning tuning{};  ///< for experts
 
     StageObserver* observer = nullptr;  ///< of this rank alone, not compared; borrowed for the call
 };

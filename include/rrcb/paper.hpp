@@ -36,7 +36,7 @@ struct PaperOptions {
     std::vector<double> part_sizes{};               ///< as Options::part_sizes
     PaperDomain domain = PaperDomain::sampled;      ///< what rank 0 bisects
     CutRule cut_rule = CutRule::weighted_fraction;  ///< where boxes are cut
-    bool plain_cuts = false;                        ///< as Options::plain_cuts
+    bool plain_cuts = false;                        ///< as Axes::plain
     int support_mesh = 8;           ///< cells per axis of each rank's mesh, 1 to 4096, in 3-D 256
     double sigma_multiplier = 1.5;  ///< half-width of a cell's sampling box in sigmas, > 0
     double sample_fraction = 1.0;   ///< points drawn per real point, in (0, 1]

@@ -93,7 +93,7 @@ RRCB_API int rrcb_create_fortran(MPI_Fint comm, rrcb_balancer** balancer);
 RRCB_API void rrcb_free(rrcb_balancer* balancer);
 
 /** Sets an option by its name in rrcb::Options, to a text as docs/parameters.md lists them:
- *  ("refine", "EXACT"), ("imbalance_tolerance", "1.05"), ("num_parts", "12").
+ *  ("refine", "EXACT"), ("imbalance_tolerance", "1.05"), ("axes.min_width", "0.1 0.1").
  *
  *  Not collective, yet all ranks set the same, which rrcb_balance checks. */
 RRCB_API int rrcb_set(rrcb_balancer* balancer, const char* option, const char* value);

@@ -42,10 +42,11 @@ int longest_axis(const Box& box, int dimension, double enough) {
 }
 
 AxisChoice::AxisChoice(const Options& options, const Box& box, int dimension)
-    : cut_axes_(options.cut_axes), dimension_(dimension) {
+    : dimension_(dimension) {
+    const AxisOrder& order = options.axes.order;
+    if (order.is_given()) cut_axes_ = order.axes();
     const int num_levels = std::bit_width(static_cast<unsigned>(options.num_parts - 1));
-    if (!options.grouped_axes.empty())
-        level_axes_ = group_levels(options.grouped_axes, box, dimension, num_levels);
+    if (order.is_grouped()) level_axes_ = group_levels(order.axes(), box, dimension, num_levels);
 }
 
 int AxisChoice::operator()(std::size_t node, int depth, const Box& box) const {

@@ -34,7 +34,7 @@ Cut choose_cut(const StatisticalDomain& domain, double below, int depth, const T
     // First: a side of size 0 stays empty whatever there is to divide.
     if (below >= 1) return plane(axis, infinity);
     if (below <= 0 || !(weight > 0)) return plane(axis, -infinity);
-    return weighted_quantile(Profile(domain, axis), below * weight, task.options.plain_cuts);
+    return weighted_quantile(Profile(domain, axis), below * weight, task.options.axes.plain);
 }
 
 void bisect_node(StatisticalDomain domain, std::span<const double> sizes, int depth, Task& task) {

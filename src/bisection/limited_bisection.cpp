@@ -87,7 +87,7 @@ Trial trial_in(const StatisticalDomain& domain, int axis, double place) {
 /// Returns the cut in the places of `way` with about the weight `target` below it: of the lines on
 /// both sides of the exact place the one that comes nearer.
 Trial trial_at(const StatisticalDomain& domain, const Way& way, double target, const Task& task) {
-    const bool is_plain = task.options.plain_cuts;
+    const bool is_plain = task.options.axes.plain;
     const AxisLimits& limits = task.limits.across(way.axis);
     const Cut cut = weighted_quantile({domain, way.axis}, target, is_plain);
     const double value = cut.at[static_cast<std::size_t>(way.axis)];

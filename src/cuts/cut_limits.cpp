@@ -17,14 +17,15 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
 bool are_cuts_limited(const Options& options) {
-    return !options.min_width.empty() || !options.grid.empty();
+    return !options.axes.min_width.empty() || !options.axes.grid.empty();
 }
 
 std::array<AxisLimits, max_dimension> axis_limits(const Options& options) {
     std::array<AxisLimits, max_dimension> axes;
-    for (std::size_t a = 0; a < std::max(options.min_width.size(), options.grid.size()); ++a)
-        axes[a] = {options.min_width.empty() ? 0 : options.min_width[a],
-                   options.grid.empty() ? GridLines{} : options.grid[a]};
+    for (std::size_t a = 0; a < std::max(options.axes.min_width.size(), options.axes.grid.size());
+         ++a)
+        axes[a] = {options.axes.min_width.empty() ? 0 : options.axes.min_width[a],
+                   options.axes.grid.empty() ? GridLines{} : options.axes.grid[a]};
     return axes;
 }
 
@@ -35,16 +36,17 @@ CutLimits::CutLimits(const Options& options, const Box& points, int dimension, G
       whole_{0, 0, static_cast<int>(options.part_sizes.size())},
       packing_(options.part_sizes),
       given_(std::move(given)),
-      limiting_(options.grid.empty()        ? "min_width leaves"
-                : options.min_width.empty() ? "grid leaves"
-                                            : "min_width and grid together leave") {
+      limiting_(options.axes.grid.empty()        ? "axes.min_width leaves"
+                : options.axes.min_width.empty() ? "axes.grid leaves"
+                                                 : "axes.min_width and axes.grid together leave") {
     for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
         if (!axes_[a].has_grid()) continue;
         if (!axes_[a].resolves(std::max(std::abs(points.lower[a]), std::abs(points.upper[a]))))
-            reject("grid is finer along axis " + std::to_string(a) +
+            reject("axes.grid is finer along axis " + std::to_string(a) +
                    " than coordinates as large as these can tell; give a larger spacing");
         // A line through the last points has a cell of points above it.
-        if (options.min_width.empty()) region_.upper[a] = std::nextafter(points.upper[a], infinity);
+        if (options.axes.min_width.empty())
+            region_.upper[a] = std::nextafter(points.upper[a], infinity);
     }
 }
 

@@ -98,12 +98,12 @@ int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options
 
 BinnedPoints bin_by_options(const Points& points, const Box& box, const Options& options) {
     const int dimension = points.dimension;
-    const bool is_automatic = options.support_mesh == 0;
-    if (is_automatic && !options.grid.empty() && points.count > 0)
+    const bool is_automatic = options.tuning.support_mesh == 0;
+    if (is_automatic && !options.axes.grid.empty() && points.count > 0)
         if (const auto mesh = mesh_on_lines(box, dimension, options))
             return bin_by_cell(points, *mesh);
     const int cells = is_automatic ? automatic_cells_per_axis(dimension, points.count, options)
-                                   : options.support_mesh;
+                                   : options.tuning.support_mesh;
     return bin_by_cell(points, make_support_mesh(box, dimension, cells));
 }
 
@@ -133,7 +133,7 @@ void add_records(const Points& points, const BinnedPoints& binned, Contribution&
 
 std::size_t most_cells(const Options& options) {
     constexpr std::size_t most = 8192;
-    return options.support_mesh == 0 ? most : std::numeric_limits<std::size_t>::max();
+    return options.tuning.support_mesh == 0 ? most : std::numeric_limits<std::size_t>::max();
 }
 
 void join(Summary& mine, const Summary& next) {

@@ -56,7 +56,7 @@ class Reader {
             const bool as_expected = expected && axis == usual;
             if (!may_cross(axis, usual, as_expected, below, above)) continue;
             const auto cut = cut_between(below, above, axis, estimate_.dimension,
-                                         options_.plain_cuts, may_divide());
+                                         options_.axes.plain, may_divide());
             if (!cut) continue;
             if (are_cuts_limited(options_)) gaps_[at.node] = gap_between(below, above, axis);
             if (gaps_[at.node].empty()) continue;
@@ -96,7 +96,8 @@ class Reader {
     }
 
     bool may_cross(int axis, int usual, bool as_expected, Place all, const Place& above) const {
-        if (!options_.cut_axes.empty() || !options_.grouped_axes.empty()) return axis == usual;
+        if (options_.axes.order.is_given() || options_.axes.order.is_grouped())
+            return axis == usual;
         // Limited cuts lie across whatever axis makes the parts even.
         if (are_cuts_limited(options_)) return true;
         join(all, above, estimate_.dimension);

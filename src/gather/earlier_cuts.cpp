@@ -41,7 +41,7 @@ void fit(const Options& options, const Descent& at, Cuts& cuts) {
     double value = cut.at[axis];
     if (share <= 0) value = -infinity;
     if (share >= 1) value = infinity;
-    if (options.plain_cuts || value != cut.at[axis]) cut.at.fill(-infinity);
+    if (options.axes.plain || value != cut.at[axis]) cut.at.fill(-infinity);
     cut.divides = 0;
     cut.at[axis] = value;
     fit(options, at.lower(), cuts);

@@ -141,13 +141,13 @@ std::optional<Cut> SpreadPlaces::cut_of(std::size_t node, const Place& below,
     Place all = below;
     join(all, above, dimension_);
     const Box box = all.box();
-    const bool is_given = !options_.cut_axes.empty();
-    const int usual =
-        is_given ? options_.cut_axes[node] : longest_axis(box, dimension_, near_longest);
+    const AxisOrder& order = options_.axes.order;
+    const bool is_given = order.is_given();
+    const int usual = is_given ? order.axes()[node] : longest_axis(box, dimension_, near_longest);
     for (int k = 0; k < (is_given ? 1 : dimension_); ++k) {
         const auto axis = static_cast<int>(ordering_axis(usual, k));
         if (!is_given && !is_long(box, axis, dimension_)) continue;
-        const auto cut = cut_between(below, above, axis, dimension_, options_.plain_cuts,
+        const auto cut = cut_between(below, above, axis, dimension_, options_.axes.plain,
                                      options_.coincident == Coincident::divide);
         if (cut) return cut;
     }

@@ -116,7 +116,8 @@ const Option* find_parameter(std::string_view parameter) {
 bool is_legal(const Option& option, const Options& options, int dimension) {
     return visit_kind(option, [&]<class Kind>(const Kind& kind) {
         if constexpr (is_range<Kind>) {
-            return lies_in(kind, dimension < 3 ? kind.most : kind.most_in_3d, options.*kind.field);
+            return lies_in(kind, dimension < 3 ? kind.most : kind.most_in_3d,
+                           kind.field.get(options));
         } else if constexpr (std::is_same_v<Kind, Choice>) {
             return std::ranges::find(kind, kind.get(options), &Word::value) != kind.end();
         } else {
@@ -177,7 +178,7 @@ bool read_option(const Option& option, std::string_view text, Options& options) 
             kind.set(options, word->value);
             return true;
         } else if constexpr (is_range<Kind>) {
-            std::remove_reference_t<decltype(options.*kind.field)> value{};
+            std::remove_const_t<decltype(kind.least)> value{};
             const bool is_automatic = kind.zero != nullptr && equal_words(text, automatic);
             const char* end = text.data() + text.size();
             const auto [stop, error] = std::from_chars(text.data(), end, value);
@@ -185,7 +186,7 @@ bool read_option(const Option& option, std::string_view text, Options& options) 
                                    (value != 0 || kind.zero == nullptr) &&
                                    std::isfinite(static_cast<double>(value));
             if (!is_automatic && !(is_number && lies_in(kind, kind.most, value))) return false;
-            options.*kind.field = is_automatic ? 0 : value;
+            kind.field.set(options, is_automatic ? 0 : value);
             return true;
         } else if constexpr (std::is_same_v<Kind, Rows>) {
             return read_rows(kind, text, options);
@@ -200,8 +201,8 @@ std::string write_option(const Option& option, const Options& options) {
         if constexpr (std::is_same_v<Kind, Choice>) {
             return word_of(kind, options).word;
         } else if constexpr (is_range<Kind>) {
-            const bool is_automatic = kind.zero != nullptr && options.*kind.field == 0;
-            return is_automatic ? std::string(automatic) : text_of(options.*kind.field);
+            const bool is_automatic = kind.zero != nullptr && kind.field.get(options) == 0;
+            return is_automatic ? std::string(automatic) : text_of(kind.field.get(options));
         } else if constexpr (std::is_same_v<Kind, Rows>) {
             return text_of(kind, options);
         } else {
@@ -215,7 +216,7 @@ void copy_option(const Option& option, const Options& from, Options& to) {
         if constexpr (std::is_same_v<Kind, Choice>) {
             kind.set(to, kind.get(from));
         } else if constexpr (is_range<Kind>) {
-            to.*kind.field = from.*kind.field;
+            kind.field.set(to, kind.field.get(from));
         } else if constexpr (std::is_same_v<Kind, Rows>) {
             kind.set(to, kind.get(from));
         }

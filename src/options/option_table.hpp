@@ -6,6 +6,8 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -15,10 +17,30 @@
 
 namespace rrcb {
 
+/// Access to a member of Options, or of a struct in it.
+template <class Value>
+struct Field {
+    Value (*get)(const Options&);
+    void (*set)(Options&, Value);
+};
+
+template <auto... path>
+struct Member {
+    using Value = std::decay_t<decltype((std::declval<Options&>().*....*path))>;
+
+    static Value get(const Options& options) { return (options.*....*path); }
+    static void set(Options& options, Value value) { (options.*....*path) = value; }
+};
+
+/// The member at the end of a path: field<&Options::tuning, &Tuning::support_mesh>.
+template <auto... path>
+inline constexpr Field<typename Member<path...>::Value> field{Member<path...>::get,
+                                                              Member<path...>::set};
+
 /// Values of an option that is a number.
 template <class Number>
 struct Range {
-    Number Options::*field;
+    Field<Number> field;
     Number least;
     Number most;
     bool above_least = false;    ///< `least` itself is not legal
@@ -105,7 +127,7 @@ constexpr Choice choice_of(const Word (&words)[num_words]) {
 std::vector<double> values_of_part_sizes(const Options& options);
 void check_part_sizes(const Options& options, int dimension);
 
-std::vector<double> values_of_places(const Options& options);
+std::vector<double> values_of_axes(const Options& options);
 void check_axes(const Options& options, int dimension);
 
 std::vector<double> min_width_of(const Options& options);
@@ -119,19 +141,19 @@ void check_grid(const Options& options, int dimension);
 /// Every option but the observer, which belongs to its rank alone.
 inline constexpr Option option_table[] = {
     {"num_parts", "NUM_GLOBAL_PARTS", "Parts to make",
-     Range<int>{&Options::num_parts, 1, std::numeric_limits<int>::max(), false,
+     Range<int>{field<&Options::num_parts>, 1, std::numeric_limits<int>::max(), false,
                 std::numeric_limits<int>::max(), "", "one part per rank"}},
     {"part_sizes", "", "Relative weight of each part",
      Lists{values_of_part_sizes, check_part_sizes}},
-    {"support_mesh", "RRCB_SUPPORT_MESH", "Cells per axis of each rank's support mesh",
-     Range<int>{&Options::support_mesh, 1, 4096, false, 256, " cells per axis",
-                "as many as suit the points of the rank"}},
-    {"one of grouped_axes, cut_axes, plain_cuts, min_width, grid", "",
-     "Which axes are cut, and where", Lists{values_of_places, check_axes}},
-    {"min_width", "RRCB_MIN_WIDTH", "Least extent of every part along each axis",
+    {"tuning.support_mesh", "RRCB_SUPPORT_MESH", "Cells per axis of each rank's support mesh",
+     Range<int>{field<&Options::tuning, &Tuning::support_mesh>, 1, 4096, false, 256,
+                " cells per axis", "as many as suit the points of the rank"}},
+    {"one of axes.order, axes.plain, axes.min_width, axes.grid", "",
+     "Which axes are cut, and where", Lists{values_of_axes, check_axes}},
+    {"axes.min_width", "RRCB_MIN_WIDTH", "Least extent of every part along each axis",
      Rows{min_width_of, check_min_width, set_min_width, 1, "a number above 0 for each axis",
           "0.1 0.1"}},
-    {"grid", "RRCB_GRID", "Lines of a grid across each axis that all cuts lie on",
+    {"axes.grid", "RRCB_GRID", "Lines of a grid across each axis that all cuts lie on",
      Rows{grid_of, check_grid, set_grid, 2, "an origin and a spacing above 0 for each axis",
           "0 0.05, 0 0.05"}},
     {"refine", "RRCB_REFINE", "How far the estimated cuts are moved by what the ranks really hold",
@@ -141,10 +163,11 @@ inline constexpr Option option_table[] = {
      choice_of<Coincident, &Options::coincident>(coincident_words)},
     {"imbalance_tolerance", "IMBALANCE_TOL",
      "Heaviest part / mean part to reach with RRCB_REFINE=TOLERANCE",
-     Range<double>{&Options::imbalance_tolerance, 1, std::numeric_limits<double>::max()}},
-    {"central_parts", "RRCB_CENTRAL_PARTS",
+     Range<double>{field<&Options::imbalance_tolerance>, 1, std::numeric_limits<double>::max()}},
+    {"tuning.central_parts", "RRCB_CENTRAL_PARTS",
      "Parts that one rank makes; where there are more, and more ranks, many ranks make them",
-     Range<int>{&Options::central_parts, 2, std::numeric_limits<int>::max()}},
+     Range<int>{field<&Options::tuning, &Tuning::central_parts>, 2,
+                std::numeric_limits<int>::max()}},
     {"cuts", "", "Cuts that each rank gets where many ranks make the parts",
      choice_of<HeldCuts, &Options::cuts>(held_cuts_words)},
 };

@@ -64,7 +64,7 @@ std::uint64_t bits_of(const Option& option, const Options& options) {
         } else if constexpr (std::is_same_v<Kind, Lists> || std::is_same_v<Kind, Rows>) {
             return hash_of(kind.get(options));
         } else {
-            return bits_of(options.*kind.field);
+            return bits_of(kind.field.get(options));
         }
     });
 }
@@ -85,11 +85,11 @@ std::vector<double> values_of_part_sizes(const Options& options) {
     return options.part_sizes;
 }
 
-std::vector<double> values_of_places(const Options& options) {
-    std::vector<double> values{options.plain_cuts ? 1.0 : 0.0};
-    values.insert(values.end(), options.grouped_axes.begin(), options.grouped_axes.end());
-    values.push_back(-1);
-    values.insert(values.end(), options.cut_axes.begin(), options.cut_axes.end());
+std::vector<double> values_of_axes(const Options& options) {
+    const AxisOrder& order = options.axes.order;
+    std::vector<double> values{options.axes.plain ? 1.0 : 0.0, order.is_grouped() ? 1.0 : 0.0,
+                               order.is_given() ? 1.0 : 0.0};
+    values.insert(values.end(), order.axes().begin(), order.axes().end());
     for (const auto& limits : {min_width_of(options), grid_of(options)}) {
         values.push_back(-1);
         values.insert(values.end(), limits.begin(), limits.end());
@@ -98,12 +98,12 @@ std::vector<double> values_of_places(const Options& options) {
 }
 
 std::vector<double> min_width_of(const Options& options) {
-    return options.min_width;
+    return options.axes.min_width;
 }
 
 std::vector<double> grid_of(const Options& options) {
     std::vector<double> numbers;
-    for (const GridLines& lines : options.grid)
+    for (const GridLines& lines : options.axes.grid)
         numbers.insert(numbers.end(), {lines.origin, lines.spacing});
     return numbers;
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -56,11 +57,31 @@ bool cross_axes_at_numbers(const Cuts& cuts) {
     });
 }
 
+void check_grouped(std::span<const int> axes, int dimension) {
+    std::array<bool, max_dimension> named{};
+    for (const int axis : axes) {
+        require(axis >= 0 && axis < max_dimension && !named[static_cast<std::size_t>(axis)],
+                "axes.order must name each axis that it groups once, 0 ... 2");
+        named[static_cast<std::size_t>(axis)] = true;
+    }
+    for (int axis = 0; axis < dimension; ++axis)
+        require(named[static_cast<std::size_t>(axis)],
+                "axes.order must name every axis of the points if it groups them");
+}
+
+void check_given(std::span<const int> axes, int num_parts, int dimension) {
+    require(axes.size() + 1 == static_cast<std::size_t>(num_parts),
+            "axes.order must hold one axis per cut if they are given, one less than there are "
+            "parts");
+    for (const int axis : axes)
+        require(axis >= 0 && axis < dimension, "axes.order must hold axes of the points");
+}
+
 }  // namespace
 
 Options complete(Options options, int num_ranks) {
     if (options.num_parts == 0) options.num_parts = num_ranks;
-    if (!options.grid.empty()) options.plain_cuts = true;
+    if (!options.axes.grid.empty()) options.axes.plain = true;
     return options;
 }
 
@@ -78,20 +99,9 @@ void check_part_sizes(const Options& options, int) {
 }
 
 void check_axes(const Options& options, int dimension) {
-    std::array<bool, max_dimension> named{};
-    for (const int axis : options.grouped_axes) {
-        require(axis >= 0 && axis < max_dimension && !named[static_cast<std::size_t>(axis)],
-                "grouped_axes must name each axis once, 0 ... 2, or be empty");
-        named[static_cast<std::size_t>(axis)] = true;
-    }
-    for (int axis = 0; axis < dimension && !options.grouped_axes.empty(); ++axis)
-        require(named[static_cast<std::size_t>(axis)],
-                "grouped_axes must name every axis of the points, or be empty");
-    require(options.cut_axes.empty() ||
-                options.cut_axes.size() + 1 == static_cast<std::size_t>(options.num_parts),
-            "cut_axes must hold one axis per cut, one less than there are parts, or be empty");
-    for (const int axis : options.cut_axes)
-        require(axis >= 0 && axis < dimension, "cut_axes must be axes of the points");
+    const AxisOrder& order = options.axes.order;
+    if (order.is_grouped()) check_grouped(order.axes(), dimension);
+    if (order.is_given()) check_given(order.axes(), options.num_parts, dimension);
 }
 
 void check_tree(const Cuts& cuts) {
@@ -120,7 +130,7 @@ void check_cuts(const Cuts& cuts) {
 bool set_min_width(Options& options, const std::vector<double>& numbers) {
     const auto is_legal = [](double width) { return width > 0 && std::isfinite(width); };
     if (numbers.size() > max_dimension || !std::ranges::all_of(numbers, is_legal)) return false;
-    options.min_width = numbers;
+    options.axes.min_width = numbers;
     return true;
 }
 
@@ -130,24 +140,26 @@ bool set_grid(Options& options, const std::vector<double>& numbers) {
         grid.push_back({numbers[k], numbers[k + 1]});
     const bool is_complete = numbers.size() % 2 == 0 && grid.size() <= max_dimension;
     if (!is_complete || !std::ranges::all_of(grid, is_grid)) return false;
-    options.grid = std::move(grid);
+    options.axes.grid = std::move(grid);
     return true;
 }
 
 void check_min_width(const Options& options, int dimension) {
     const auto size = static_cast<std::size_t>(dimension);
-    require(options.min_width.empty() || options.min_width.size() == size,
-            "min_width must hold one number per axis of the points, or be empty");
+    const std::vector<double>& min_width = options.axes.min_width;
+    require(min_width.empty() || min_width.size() == size,
+            "axes.min_width must hold one number per axis of the points, or be empty");
     Options unused;
-    require(set_min_width(unused, options.min_width), "min_width must be finite and above 0");
+    require(set_min_width(unused, min_width), "axes.min_width must be finite and above 0");
 }
 
 void check_grid(const Options& options, int dimension) {
     const auto size = static_cast<std::size_t>(dimension);
-    require(options.grid.empty() || options.grid.size() == size,
-            "grid must hold the lines across each axis of the points, or be empty");
-    require(std::ranges::all_of(options.grid, is_grid),
-            "grid must have finite origins, and spacings that are finite and above 0");
+    const std::vector<GridLines>& grid = options.axes.grid;
+    require(grid.empty() || grid.size() == size,
+            "axes.grid must hold the lines across each axis of the points, or be empty");
+    require(std::ranges::all_of(grid, is_grid),
+            "axes.grid must have finite origins, and spacings that are finite and above 0");
 }
 
 void check_previous(const Cuts& previous, const Options& options, int dimension) {

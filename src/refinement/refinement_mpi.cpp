@@ -198,8 +198,8 @@ Places Refinement::places_of(const Node& node) {
 CutSearch Refinement::first_search(const Node& node, const Places& places) const {
     CutSearch search;
     search.cut.axis = estimate_.cuts.tree[node.at.node].axis;
-    search.num_axes = options_.plain_cuts ? 1 : estimate_.cuts.dimension;
-    search.divides = options_.coincident == Coincident::divide && !options_.plain_cuts ? 1 : 0;
+    search.num_axes = options_.axes.plain ? 1 : estimate_.cuts.dimension;
+    search.divides = options_.coincident == Coincident::divide && !options_.axes.plain ? 1 : 0;
     search.cut.at.fill(-infinity);
     const Bracket bracket = bracket_of(node);
     search.lower = bracket.lower;

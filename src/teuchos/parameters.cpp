@@ -58,12 +58,12 @@ struct Adder {
 
     void operator()(const Range<int>& range) const {
         const int least = range.zero == nullptr ? range.least : 0;
-        add_number(list, option.parameter, Options{}.*range.field, {least, range.most},
+        add_number(list, option.parameter, range.field.get(Options{}), {least, range.most},
                    documentation(option));
     }
     void operator()(const Range<double>& range) const {
         const double least = range.above_least ? std::nextafter(range.least, largest) : range.least;
-        add_number(list, option.parameter, Options{}.*range.field,
+        add_number(list, option.parameter, range.field.get(Options{}),
                    {least, std::min(range.most, largest)}, documentation(option));
     }
     void operator()(const Choice& choice) const {
@@ -84,7 +84,7 @@ struct Getter {
 
     template <class Number>
     void operator()(const Range<Number>& range) const {
-        options.*range.field = list.get<Number>(option.parameter);
+        range.field.set(options, list.get<Number>(option.parameter));
     }
     void operator()(const Choice& choice) const {
         choice.set(options, Teuchos::getIntegralValue<int>(list, option.parameter));

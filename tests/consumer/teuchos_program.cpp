@@ -8,5 +8,5 @@ int main() {
     rrcb::Options options = rrcb::teuchos::options_from(list);
     rrcb::teuchos::TimeMonitorObserver observer;
     options.observer = &observer;
-    return options.support_mesh == 6 ? 0 : 1;
+    return options.tuning.support_mesh == 6 ? 0 : 1;
 }

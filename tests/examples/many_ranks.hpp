@@ -8,7 +8,7 @@ namespace rrcb {
 
 struct OptionsOfManyRanks : Options {
     OptionsOfManyRanks() {
-        central_parts = 2;
+        tuning.central_parts = 2;
         cuts = HeldCuts::own;
     }
 };

@@ -93,7 +93,7 @@ TEST(FailingMemory, in_parts_that_many_ranks_make) {
     if (test::num_ranks() < 3) return;
     for (const Refine refine : {Refine::tolerance, Refine::exact}) {
         Options options = refining(refine);
-        options.central_parts = 2;
+        options.tuning.central_parts = 2;
         fail_in_balance(options);
     }
 }
@@ -113,7 +113,7 @@ TEST(FailingMemory, in_cuts_from_an_earlier_call) {
 TEST(FailingMemory, in_cuts_that_are_spread_over_the_ranks) {
     if (test::num_ranks() < 3) return;
     Options options = refining(Refine::tolerance);
-    options.central_parts = 2;
+    options.tuning.central_parts = 2;
     options.cuts = HeldCuts::own;
     options.num_parts = 9;
     options.imbalance_tolerance = 1.5;
@@ -165,7 +165,8 @@ TEST(FailingMemory, in_parts_that_stay) {
             Options options = refining(refine);
             options.num_parts = 0;
             options.imbalance_tolerance = 1.05;
-            options.cut_axes.assign(static_cast<std::size_t>(test::num_ranks() - 1), 0);
+            options.axes.order = AxisOrder::given(
+                std::vector<int>(static_cast<std::size_t>(test::num_ranks() - 1), 0));
             fail_in_balance(options, nullptr, slab_here(surplus));
         }
     }

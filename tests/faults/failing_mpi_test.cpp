@@ -220,7 +220,7 @@ TEST(FailingMpi, of_one_rank_while_cells_travel_reaches_the_callers_of_all) {
 Options wide() {
     Options options;
     options.refine = Refine::exact;
-    options.central_parts = 2;
+    options.tuning.central_parts = 2;
     return options;
 }
 

@@ -41,15 +41,15 @@ Request take_request(rrcb::fuzz::Input& input) {
     rrcb::PaperOptions paper;
     paper.domain = method == 1 ? rrcb::PaperDomain::sampled : rrcb::PaperDomain::points;
     paper.cut_rule = static_cast<rrcb::CutRule>(input.take_below(2));
-    own.support_mesh = input.take_below(12);
-    own.plain_cuts = input.take_below(2) == 1;
+    own.tuning.support_mesh = input.take_below(12);
+    own.axes.plain = input.take_below(2) == 1;
     own.imbalance_tolerance = 1 + 0.05 * input.take_below(5);
     own.part_sizes.resize(input.take_below(4) == 0 ? std::size_t(own.num_parts) : 0);
     for (double& size : own.part_sizes) size = input.take_below(3);
     paper.num_parts = own.num_parts;
     paper.part_sizes = own.part_sizes;
-    paper.support_mesh = std::max(1, own.support_mesh);
-    paper.plain_cuts = own.plain_cuts;
+    paper.support_mesh = std::max(1, own.tuning.support_mesh);
+    paper.plain_cuts = own.axes.plain;
     if (method == 1 || method == 2) return {own, paper};
     return {own, {}};
 }

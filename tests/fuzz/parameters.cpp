@@ -12,7 +12,8 @@ namespace {
 void expect_legal(const rrcb::zoltan::Parameters& parameters) {
     using rrcb::fuzz::expect;
     const rrcb::Options& options = parameters.options;
-    expect(options.support_mesh >= 0 && options.support_mesh <= 4096, "cells in range");
+    expect(options.tuning.support_mesh >= 0 && options.tuning.support_mesh <= 4096,
+           "cells in range");
     expect(options.imbalance_tolerance >= 1 && std::isfinite(options.imbalance_tolerance),
            "tolerance in range");
     expect(parameters.sigma_multiplier > 0 && std::isfinite(parameters.sigma_multiplier),

@@ -115,7 +115,7 @@ TEST(Errors, options_that_differ_between_ranks) {
             own_methods);
     };
     differs("num_parts", [](Options& o) { o.num_parts = 99; });
-    differs("support_mesh", [](Options& o) { o.support_mesh = 7; });
+    differs("tuning.support_mesh", [](Options& o) { o.tuning.support_mesh = 7; });
     differs("imbalance_tolerance", [](Options& o) { o.imbalance_tolerance = 1.5; });
     differs("coincident", [](Options& o) { o.coincident = Coincident::divide; });
 }

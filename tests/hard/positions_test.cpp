@@ -40,7 +40,7 @@ TEST(Positions, that_moments_cannot_tell_are_measured_and_refined) {
     const Share share = scattered_share(cloud);
     Options options;
     options.num_parts = 4;
-    options.support_mesh = 1;
+    options.tuning.support_mesh = 1;
     options.refine = Refine::none;
     const Balance blind = balance(share.points(), options, MPI_COMM_WORLD);
     const auto weights = part_weights(share.points(), blind.parts, 4, MPI_COMM_WORLD);

@@ -115,7 +115,8 @@ TEST_F(Agreement, on_options_out_of_range) {
         expect_error(interleaved_points(x, 1), options, "rank 0: " + expected);
     };
     with([](Options& o) { o.num_parts = -1; }, "num_parts");
-    with([](Options& o) { o.support_mesh = 5000; }, "support_mesh must be 1 ... 4096");
+    with([](Options& o) { o.tuning.support_mesh = 5000; },
+         "tuning.support_mesh must be 1 ... 4096");
     with([](Options& o) { o.refine = static_cast<Refine>(-3); }, "refine must be NONE");
     with([](Options& o) { o.coincident = static_cast<Coincident>(7); }, "coincident must be");
     with([](Options& o) { o.num_parts = 2, o.part_sizes = {1}; }, "part_sizes must hold one");
@@ -123,10 +124,20 @@ TEST_F(Agreement, on_options_out_of_range) {
     with([](Options& o) { o.num_parts = 2, o.part_sizes = {2, -1}; }, "part_sizes must be finite");
     with([](Options& o) { o.imbalance_tolerance = 0.9; },
          "imbalance_tolerance must be finite and at least 1");
-    with([](Options& o) { o.grouped_axes = {0, 0}; }, "grouped_axes must name each axis once");
-    with([](Options& o) { o.grouped_axes = {1, 2}; }, "grouped_axes must name every axis");
-    with([](Options& o) { o.num_parts = 3, o.cut_axes = {0}; }, "cut_axes must hold one axis");
-    with([](Options& o) { o.num_parts = 2, o.cut_axes = {1}; }, "cut_axes must be axes");
+    with(
+        [](Options& o) {
+            o.axes.order = AxisOrder::grouped({0, 0});
+        },
+        "axes.order must name each axis that it groups once");
+    with(
+        [](Options& o) {
+            o.axes.order = AxisOrder::grouped({1, 2});
+        },
+        "axes.order must name every axis");
+    with([](Options& o) { o.num_parts = 3, o.axes.order = AxisOrder::given({0}); },
+         "axes.order must hold one axis");
+    with([](Options& o) { o.num_parts = 2, o.axes.order = AxisOrder::given({1}); },
+         "axes.order must hold axes");
 }
 
 TEST_F(Agreement, on_options_that_differ_between_ranks) {
@@ -139,11 +150,11 @@ TEST_F(Agreement, on_options_that_differ_between_ranks) {
                      name + " differs between rank 0 and rank " + std::to_string(num_ranks_ - 1));
     };
     with([](Options& o) { o.num_parts = 99; }, "num_parts");
-    with([](Options& o) { o.support_mesh = 3; }, "support_mesh");
+    with([](Options& o) { o.tuning.support_mesh = 3; }, "tuning.support_mesh");
     with([](Options& o) { o.refine = Refine::exact; }, "refine");
     with([](Options& o) { o.imbalance_tolerance = 2; }, "imbalance_tolerance");
-    with([](Options& o) { o.plain_cuts = true; },
-         "one of grouped_axes, cut_axes, plain_cuts, min_width, grid");
+    with([](Options& o) { o.axes.plain = true; },
+         "one of axes.order, axes.plain, axes.min_width, axes.grid");
     with([&](Options& o) { o.part_sizes.assign(static_cast<std::size_t>(num_ranks_), 2.0); },
          "part_sizes");
     const std::vector<double> empty;

@@ -22,14 +22,14 @@ TEST(GivenAxes, are_crossed_in_groups) {
     const Points points = interleaved_points(mine, 2);
     Options options;
     options.num_parts = 8;
-    options.grouped_axes = {0, 1};
+    options.axes.order = AxisOrder::grouped({0, 1});
     const Balance tall = balance(points, options, MPI_COMM_WORLD);
     for (const Cut& cut : tall.cuts.tree) EXPECT_EQ(cut.axis, 1);
 
     // A square: two levels across one axis, one across the other, in the order asked for.
     const auto square = share_of_cloud(8000, 2, [](std::size_t, int, double u) { return u; });
     for (const int first : {0, 1}) {
-        options.grouped_axes = {first, 1 - first};
+        options.axes.order = AxisOrder::grouped({first, 1 - first});
         const Balance even = balance(interleaved_points(square, 2), options, MPI_COMM_WORLD);
         EXPECT_EQ(even.cuts.tree[0].axis, first);
         for (const std::size_t leaf_cut : {2u, 3u, 5u, 6u})
@@ -41,21 +41,23 @@ TEST(GivenAxes, of_each_cut_are_kept) {
     const auto mine = share_of_cloud(4000, 3, [](std::size_t, int, double u) { return u; });
     Options options;
     options.num_parts = 4;
-    options.cut_axes = {2, 0, 1};
+    options.axes.order = AxisOrder::given({2, 0, 1});
     const Balance result = balance(interleaved_points(mine, 3), options, MPI_COMM_WORLD);
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(result.cuts.tree[k].axis, options.cut_axes[k]);
+    for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_EQ(result.cuts.tree[k].axis, options.axes.order.axes()[k]);
     EXPECT_LE(result.report.measured_imbalance, 1.01);
 }
 
 TEST(GivenAxes, of_each_cut_are_kept_also_by_many_ranks_and_where_nothing_is_to_be_cut) {
     const auto mine = share_of_cloud(3, 2, [](std::size_t, int, double u) { return u; });
     Options options;
-    options.central_parts = 2;
+    options.tuning.central_parts = 2;
     options.cuts = HeldCuts::own;
     options.num_parts = 2 * num_ranks();
     options.part_sizes.assign(static_cast<std::size_t>(options.num_parts), 1);
     options.part_sizes.front() = 0;
-    options.cut_axes.assign(static_cast<std::size_t>(options.num_parts) - 1, 1);
+    options.axes.order =
+        AxisOrder::given(std::vector<int>(static_cast<std::size_t>(options.num_parts) - 1, 1));
     const Balance result = balance(interleaved_points(mine, 2), options, MPI_COMM_WORLD);
     for (const Cut& cut : result.cuts.tree) EXPECT_EQ(cut.axis, 1);
 }
@@ -66,13 +68,13 @@ TEST(PlainCuts, keep_points_on_a_plane_together) {
     Options options;
     options.refine = Refine::exact;
     options.num_parts = 2;
-    options.plain_cuts = true;
+    options.axes.plain = true;
     const Balance plain = balance(points, options, MPI_COMM_WORLD);
     EXPECT_EQ(part_weights(points, plain.parts, 2, MPI_COMM_WORLD),
               (std::vector<double>{400, 200}));
     EXPECT_EQ(plain.cuts.tree[0].at[1], -std::numeric_limits<double>::infinity());
     EXPECT_EQ(plain.report.coincident_cuts, 1);
-    options.plain_cuts = false;
+    options.axes.plain = false;
     const Balance tilted = balance(points, options, MPI_COMM_WORLD);
     EXPECT_EQ(part_weights(points, tilted.parts, 2, MPI_COMM_WORLD),
               (std::vector<double>{300, 300}));

@@ -104,7 +104,7 @@ TEST(CoincidentPoints, beside_one_that_outweighs_them_are_divided_by_number) {
                 std::vector<double> weights(count, 1.0);
                 if (rank() == num_parts % num_ranks()) weights[count / 2] = heaviest;
                 Options options = dividing(num_parts);
-                options.central_parts = central_parts;
+                options.tuning.central_parts = central_parts;
                 const Balance result =
                     balance(interleaved_points(mine, 1, weights), options, MPI_COMM_WORLD);
                 EXPECT_TRUE(are_cuts_within(part_weights(interleaved_points(mine, 1, weights),
@@ -125,7 +125,7 @@ TEST(CoincidentPoints, stay_together_where_the_tolerance_allows_it) {
     for (const auto& [tolerance, together] : {std::pair{1.03, true}, std::pair{1.01, false}}) {
         Options options = dividing(2, Refine::tolerance);
         options.imbalance_tolerance = tolerance;
-        options.support_mesh = 1;
+        options.tuning.support_mesh = 1;
         const Balance result = balance(points, options, MPI_COMM_WORLD);
         EXPECT_LE(result.report.measured_imbalance, tolerance);
         int places = 0;
@@ -139,7 +139,7 @@ TEST(CoincidentPoints, stay_together_where_the_tolerance_allows_it) {
 TEST(CoincidentPoints, on_a_plain_cut_stay_together) {
     const std::vector<double> mine(600, 0.7);
     Options options = dividing(4);
-    options.plain_cuts = true;
+    options.axes.plain = true;
     const Balance result = balance(interleaved_points(mine, 3), options, MPI_COMM_WORLD);
     for (const Part part : result.parts) EXPECT_EQ(part, result.parts[0]);
 }

@@ -82,7 +82,7 @@ TEST(Correction, of_estimates_that_miss_takes_one_round_more_in_most_clouds) {
         const HeldPoints all = clusters(2 + static_cast<int>(seed % 2), seed);
         const Share mine(all);
         Options options = with_parts(3 + static_cast<int>(seed % 6), 1.01);
-        options.support_mesh = 16;
+        options.tuning.support_mesh = 16;
         if (seed % 3 == 0)
             options.part_sizes.assign(static_cast<std::size_t>(options.num_parts), 1);
         if (seed % 3 == 0) options.part_sizes[1] = 3;
@@ -124,7 +124,7 @@ TEST(Correction, leaves_points_that_share_coordinates_to_the_search) {
         const Balance result = balance(mine.points(), options, MPI_COMM_WORLD);
         EXPECT_LE(result.report.measured_imbalance, 1.01);
         expect_as_looked_up(all, mine.points(), result, options.part_sizes);
-        options.plain_cuts = true;
+        options.axes.plain = true;
         const Balance plain = balance(mine.points(), options, MPI_COMM_WORLD);
         expect_as_looked_up(all, mine.points(), plain, options.part_sizes);
         for (const Cut& cut : plain.cuts.tree) EXPECT_EQ(cut.at[1 - cut.axis], -INFINITY);

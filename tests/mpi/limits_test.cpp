@@ -1,4 +1,4 @@
-// Options::min_width and Options::grid on clouds large enough to be searched round by round.
+// Axes::min_width and Axes::grid on clouds large enough to be searched round by round.
 #include "../support/clouds.hpp"
 #include "../support/ranks.hpp"
 
@@ -80,7 +80,7 @@ TEST(MinWidth, holds_for_every_part_while_the_rest_is_balanced) {
             options.refine = refine;
             options.num_parts = num_parts;
             const Balance free = balance(points, options, MPI_COMM_WORLD);
-            options.min_width = {0.15, 0.1};
+            options.axes.min_width = {0.15, 0.1};
             const Balance wide = balance(points, options, MPI_COMM_WORLD);
             EXPECT_GE(least_width(wide.cuts, box, 0), 0.15) << num_parts;
             EXPECT_GE(least_width(wide.cuts, box, 1), 0.1) << num_parts;
@@ -108,21 +108,21 @@ TEST(MinWidth, of_a_fraction_of_the_extent_leaves_one_place_for_each_cut) {
     for (const double x : dense_corner(500, 2)) coordinates.push_back(2 * x);
     const Points points = interleaved_points(coordinates, 2);
     Options options;
-    options.min_width = {1, 0.5};
+    options.axes.min_width = {1, 0.5};
     options.num_parts = 32;
     const Balance full = balance(points, options, MPI_COMM_WORLD);
     for (const Cut& cut : full.cuts.tree) {
-        const double unit = options.min_width[static_cast<std::size_t>(cut.axis)];
+        const double unit = options.axes.min_width[static_cast<std::size_t>(cut.axis)];
         const double value = cut.at[static_cast<std::size_t>(cut.axis)];
         EXPECT_EQ(value, unit * std::round(value / unit));
     }
     options.num_parts = 33;
     EXPECT_EQ(message_of(points, options),
-              "rank 0: min_width leaves room for 32 parts, but 33 are asked for");
+              "rank 0: axes.min_width leaves room for 32 parts, but 33 are asked for");
     options.num_parts = 32;
-    options.min_width[0] = std::nextafter(1, 2);
+    options.axes.min_width[0] = std::nextafter(1, 2);
     EXPECT_EQ(message_of(points, options),
-              "rank 0: min_width leaves room for 28 parts, but 32 are asked for");
+              "rank 0: axes.min_width leaves room for 28 parts, but 32 are asked for");
 }
 
 TEST(MinWidth, tells_when_the_axes_given_leave_no_room) {
@@ -130,15 +130,15 @@ TEST(MinWidth, tells_when_the_axes_given_leave_no_room) {
     const Points points = interleaved_points(coordinates, 2);
     Options options;
     options.num_parts = 4;
-    options.min_width = {0.3, 0.1};
-    options.cut_axes = {0, 0, 0};
-    EXPECT_EQ(message_of(points, options),
-              "rank 0: min_width leaves room for 3 x 4 parts side by side, not for what the axes "
-              "given to the cuts ask for");
-    options.cut_axes = {0, 1, 1};
+    options.axes.min_width = {0.3, 0.1};
+    options.axes.order = AxisOrder::given({0, 0, 0});
+    EXPECT_EQ(
+        message_of(points, options),
+        "rank 0: axes.min_width leaves room for 3 x 4 parts side by side, not for what the axes "
+        "given to the cuts ask for");
+    options.axes.order = AxisOrder::given({0, 1, 1});
     EXPECT_EQ(message_of(points, options), "");
-    options.cut_axes.clear();
-    options.grouped_axes = {1, 0};
+    options.axes.order = AxisOrder::grouped({1, 0});
     EXPECT_EQ(message_of(points, options), "");
 }
 
@@ -150,11 +150,11 @@ TEST(Grid, holds_all_cuts_on_its_lines) {
             Options options;
             options.num_parts = 7;
             options.refine = refine;
-            options.grid = {{0.1, spacing}, {-7, spacing / 3}};
+            options.axes.grid = {{0.1, spacing}, {-7, spacing / 3}};
             const Balance result = balance(points, options, MPI_COMM_WORLD);
             for (const Cut& cut : result.cuts.tree) {
                 const auto axis = static_cast<std::size_t>(cut.axis);
-                const auto [origin, step] = options.grid[axis];
+                const auto [origin, step] = options.axes.grid[axis];
                 const double k = std::round((cut.at[axis] - origin) / step);
                 EXPECT_EQ(cut.at[axis], origin + k * step);
                 EXPECT_EQ(cut.at[1 - axis], -infinity);
@@ -176,19 +176,21 @@ TEST(Grid, that_coordinates_cannot_tell_apart_is_refused) {
     const Points points = interleaved_points(coordinates, 2);
     Options options;
     options.num_parts = 2;
-    options.grid = {{0, 0.1}, {0, 0.1}};
-    EXPECT_EQ(message_of(points, options),
-              "rank 0: grid is finer along axis 0 than coordinates as large as these can tell; "
-              "give a larger spacing");
+    options.axes.grid = {{0, 0.1}, {0, 0.1}};
+    EXPECT_EQ(
+        message_of(points, options),
+        "rank 0: axes.grid is finer along axis 0 than coordinates as large as these can tell; "
+        "give a larger spacing");
 }
 
 TEST(Limits, that_differ_between_ranks_are_an_error_on_all) {
     if (num_ranks() == 1) GTEST_SKIP();
     const auto coordinates = dense_corner(1000, 5);
     Options options;
-    options.min_width = {0.1, rank() == num_ranks() - 1 ? 0.1 : 0.2};
+    options.axes.min_width = {0.1, rank() == num_ranks() - 1 ? 0.1 : 0.2};
     const std::string message = message_of(interleaved_points(coordinates, 2), options);
-    EXPECT_NE(message.find("min_width, grid differs between rank"), std::string::npos) << message;
+    EXPECT_NE(message.find("axes.min_width, axes.grid differs between rank"), std::string::npos)
+        << message;
 }
 
 TEST(Limits, move_earlier_cuts_that_break_them) {
@@ -200,7 +202,7 @@ TEST(Limits, move_earlier_cuts_that_break_them) {
     const Cuts previous = balance(points, options, MPI_COMM_WORLD).cuts;
     for (const Refine refine : {Refine::none, Refine::tolerance}) {
         options.refine = refine;
-        options.min_width = {0.15, 0.1};
+        options.axes.min_width = {0.15, 0.1};
         const Balance moved = balance(points, options, MPI_COMM_WORLD, previous);
         EXPECT_GE(least_width(moved.cuts, box, 0), 0.15);
         EXPECT_GE(least_width(moved.cuts, box, 1), 0.1);
@@ -229,12 +231,12 @@ TEST(Limits, hold_between_parts_that_stay) {
     options.refine = Refine::tolerance;
     // More than the middles of the gaps leave to the first and the last.
     const double width = num_ranks() > 2 ? 1.3 : 1.2;
-    options.min_width = {width, 1e-3};
+    options.axes.min_width = {width, 1e-3};
     const Balance kept = balance(points, options, MPI_COMM_WORLD);
     EXPECT_TRUE(kept.report.kept);
     EXPECT_GE(least_width(kept.cuts, box, 0), width);
-    options.grid = {{-0.2, 0.75}, {0, 0.1}};
-    options.min_width.clear();
+    options.axes.grid = {{-0.2, 0.75}, {0, 0.1}};
+    options.axes.min_width.clear();
     const Balance on_lines = balance(points, options, MPI_COMM_WORLD);
     EXPECT_TRUE(on_lines.report.kept);
     for (const Cut& cut : on_lines.cuts.tree) {
@@ -242,7 +244,7 @@ TEST(Limits, hold_between_parts_that_stay) {
         EXPECT_EQ(cut.at[0], -0.2 + k * 0.75);
     }
     // No line lies in the gaps: something has to move.
-    options.grid = {{0.5, 1.5}, {0, 0.1}};
+    options.axes.grid = {{0.5, 1.5}, {0, 0.1}};
     EXPECT_FALSE(balance(points, options, MPI_COMM_WORLD).report.kept);
 }
 
@@ -255,9 +257,9 @@ TEST(Limits, hold_where_nothing_has_weight) {
         const Points points = interleaved_points(coordinates, 2, weights);
         Options options;
         options.num_parts = 11;
-        options.support_mesh = 1;
+        options.tuning.support_mesh = 1;
         options.refine = Refine::exact;
-        options.min_width = {0.07, 0.07};
+        options.axes.min_width = {0.07, 0.07};
         const Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
         EXPECT_GE(least_width(cuts, box_of_all(points), 0), 0.07) << seed;
         EXPECT_GE(least_width(cuts, box_of_all(points), 1), 0.07) << seed;
@@ -266,8 +268,8 @@ TEST(Limits, hold_where_nothing_has_weight) {
 
 TEST(Limits, need_no_points) {
     Options options;
-    options.min_width = {1, 1, 1};
-    options.grid = {{0, 1}, {0, 1}, {0, 1}};
+    options.axes.min_width = {1, 1, 1};
+    options.axes.grid = {{0, 1}, {0, 1}, {0, 1}};
     options.num_parts = 9;
     const Balance result = balance(interleaved_points({}, 3), options, MPI_COMM_WORLD);
     EXPECT_EQ(result.cuts.tree.size(), 8u);

@@ -286,7 +286,7 @@ TEST(EarlierCuts, that_were_tilted_are_made_planes_where_planes_are_asked_for) {
     options.num_parts = 2;
     const Balance tilted = balance(points, options, MPI_COMM_WORLD);
     ASSERT_GT(tilted.cuts.tree[0].at[1], -std::numeric_limits<double>::infinity());
-    options.plain_cuts = true;
+    options.axes.plain = true;
     for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
         options.refine = refine;
         const Balance plain = balance(points, options, MPI_COMM_WORLD, tilted.cuts);

@@ -181,7 +181,7 @@ TEST(Report, measures_parts_of_sizes_over_hundreds_of_decades) {
             return std::pow(10, std::uniform_real_distribution(-width, width)(engine));
         };
         Options options;
-        options.central_parts = 2;
+        options.tuning.central_parts = 2;
         options.refine = seed % 2 == 0 ? Refine::exact : Refine::tolerance;
         options.num_parts = 3 + seed % 5;
         for (int part = 0; part < options.num_parts; ++part)

@@ -23,7 +23,7 @@ using test::Step;
 Options with(Refine refine, int support_mesh = 0) {
     Options options;
     options.refine = refine;
-    options.support_mesh = support_mesh;
+    options.tuning.support_mesh = support_mesh;
     return options;
 }
 
@@ -95,13 +95,14 @@ TEST(PointsAtRest, in_parts_of_given_sizes_rest) {
 
 TEST(PointsAtRest, in_given_axes_or_between_planes_rest) {
     Options plain = with(Refine::tolerance);
-    plain.plain_cuts = true;
+    plain.axes.plain = true;
     expect_rest(random_points(9000, 2, 5), plain, 3);
     Options grouped = with(Refine::tolerance);
-    grouped.grouped_axes = {1, 0};
+    grouped.axes.order = AxisOrder::grouped({1, 0});
     expect_rest(random_points(9000, 2, 5), grouped, 3);
     Options given = with(Refine::tolerance);
-    given.cut_axes.assign(static_cast<std::size_t>(num_ranks() - 1), 1);
+    given.axes.order =
+        AxisOrder::given(std::vector<int>(static_cast<std::size_t>(num_ranks() - 1), 1));
     expect_rest(random_points(9000, 2, 5), given, 3);
 }
 
@@ -182,7 +183,8 @@ TEST(PointsAtRest, in_balanced_slabs_become_blocks) {
     EXPECT_FALSE(step.balance.report.kept);
     EXPECT_GT(step.num_moved, 1000u);
     Options given = with(Refine::tolerance);
-    given.cut_axes.assign(static_cast<std::size_t>(num_ranks() - 1), 0);
+    given.axes.order =
+        AxisOrder::given(std::vector<int>(static_cast<std::size_t>(num_ranks() - 1), 0));
     HeldPoints asked_for = slabs(6000);
     EXPECT_EQ(balance_and_move(asked_for, given).num_moved, 0u);
 }

@@ -218,7 +218,7 @@ TEST(Reuse, without_points_tells_what_a_call_from_nothing_does) {
         for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
             Options options = with_parts(3, 1.05);
             options.refine = refine;
-            if (limited) options.min_width = {0.1, 0.1};
+            if (limited) options.axes.min_width = {0.1, 0.1};
             const Cuts cuts = balance(Share(all).points(), options, MPI_COMM_WORLD).cuts;
             const Balance empty = balance(none, options, MPI_COMM_WORLD, cuts);
             EXPECT_TRUE(same_cuts(empty.cuts, cuts));

@@ -98,7 +98,7 @@ TEST(SpreadGhosts, of_points_on_the_ranks_of_their_parts_are_those_by_the_whole_
         test::uniform_cloud(400, 2, static_cast<unsigned>(rank() + 1));
     Options options;
     options.num_parts = 2 * num_ranks() + 1;
-    options.central_parts = 2;
+    options.tuning.central_parts = 2;
     options.cuts = HeldCuts::own;
     const Balance balance =
         rrcb::balance(interleaved_points(scattered, 2), options, MPI_COMM_WORLD);

@@ -24,7 +24,7 @@ using test::Share;
 
 Options spread_options(int num_parts, double tolerance) {
     Options options = test::with_parts(num_parts, tolerance);
-    options.central_parts = 2;
+    options.tuning.central_parts = 2;
     options.cuts = HeldCuts::own;
     return options;
 }
@@ -118,7 +118,7 @@ TEST(SpreadReuse, keeps_points_together_that_a_cut_divided) {
     const Balance first = balance(mine.points(), options, MPI_COMM_WORLD);
     options.imbalance_tolerance = 1000;
     for (const bool plain : {false, true}) {
-        options.plain_cuts = plain;
+        options.axes.plain = plain;
         const Balance again = balance(mine.points(), options, MPI_COMM_WORLD, first.cuts);
         const Cuts after = whole_cuts(again.cuts, MPI_COMM_WORLD);
         expect_parts(mine, after, again);
@@ -148,7 +148,7 @@ TEST(SpreadReuse, balances_anew_beyond_the_tolerance_and_for_exact_cuts) {
         EXPECT_EQ(again.cuts.nodes, fresh.cuts.nodes);
     }
     // As many parts as one rank makes: the cuts are those of a call from nothing as well.
-    options.central_parts = 1000;
+    options.tuning.central_parts = 1000;
     options.refine = Refine::tolerance;
     EXPECT_TRUE(is_whole(balance(mine.points(), options, MPI_COMM_WORLD, first.cuts).cuts));
 }
@@ -236,7 +236,7 @@ TEST(SpreadReuse, tells_all_ranks_what_is_wrong_on_one) {
     if (is_last) other.refine = Refine::exact;
     expect("refine differs", first.cuts, other);
     other = options;
-    if (is_last) other.central_parts = 1000;
+    if (is_last) other.tuning.central_parts = 1000;
     expect("central_parts differs", first.cuts, other);
     expect("central_parts differs", whole_cuts(first.cuts, MPI_COMM_WORLD), other);
     other = options;

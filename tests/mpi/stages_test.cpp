@@ -49,7 +49,7 @@ TEST(Stages, come_again_where_many_ranks_make_the_parts) {
     if (test::num_ranks() < 3) GTEST_SKIP() << "needs three ranks";
     auto cloud = test::uniform_cloud(500, 2, static_cast<unsigned>(test::rank()));
     Options options;
-    options.central_parts = 2;
+    options.tuning.central_parts = 2;
     options.cuts = HeldCuts::own;
     options.refine = Refine::exact;
     EXPECT_EQ(stages_seen(options, cloud),

@@ -21,7 +21,7 @@ using test::Share;
 
 Options wide_options(double tolerance) {
     Options options;
-    options.central_parts = 2;
+    options.tuning.central_parts = 2;
     options.cuts = HeldCuts::own;
     options.refine = Refine::tolerance;
     options.imbalance_tolerance = tolerance;
@@ -95,9 +95,10 @@ TEST(WidePointsAtRest, in_parts_of_given_sizes_rest) {
 
 TEST(WidePointsAtRest, in_given_axes_or_between_planes_rest) {
     Options options = wide_options(1.05);
-    options.plain_cuts = true;
+    options.axes.plain = true;
     expect_rest(random_points(6000, 2, 5), options, 2);
-    options.cut_axes.assign(static_cast<std::size_t>(num_ranks()) - 1, 1);
+    options.axes.order =
+        AxisOrder::given(std::vector<int>(static_cast<std::size_t>(num_ranks()) - 1, 1));
     expect_rest(random_points(6000, 2, 5), options, 2);
 }
 
@@ -117,7 +118,7 @@ TEST(WidePointsAtRest, have_the_cuts_that_rank_0_finds_alone) {
         const Share mine(all);
         Options options = wide_options(2);
         const Balance wide = balance(mine.points(), options, MPI_COMM_WORLD);
-        options.central_parts = 64;
+        options.tuning.central_parts = 64;
         const Balance central = balance(mine.points(), options, MPI_COMM_WORLD);
         ASSERT_TRUE(wide.report.kept);
         ASSERT_TRUE(central.report.kept);

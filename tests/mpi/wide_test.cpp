@@ -1,4 +1,4 @@
-// Parts that many ranks make, see Options::central_parts.
+// Parts that many ranks make, see Tuning::central_parts.
 #include "clouds_of_all_ranks.hpp"
 #include "spread_checks.hpp"
 
@@ -32,7 +32,7 @@ double uniform(std::size_t, int, double u) {
 
 Options wide_options(int central_parts, Refine refine = Refine::exact) {
     Options options;
-    options.central_parts = central_parts;
+    options.tuning.central_parts = central_parts;
     options.cuts = HeldCuts::own;
     options.refine = refine;
     return options;
@@ -146,17 +146,19 @@ TEST(Wide, cuts_lie_across_the_axes_given_to_them) {
             Options options = wide_options(central, refine);
             options.imbalance_tolerance = 1.05;
             const Balance free = balance(points, options, MPI_COMM_WORLD);
+            std::vector<int> axes;
             for (int node = 0; node + 1 < num_ranks(); ++node)
-                options.cut_axes.push_back((node * node + 1) % 3);
+                axes.push_back((node * node + 1) % 3);
+            options.axes.order = AxisOrder::given(axes);
             const Balance result = balance(points, options, MPI_COMM_WORLD);
             EXPECT_LE(imbalance(expect_consistent(points, result)), 1.05);
-            expect_axes(result.cuts, options.cut_axes);
+            expect_axes(result.cuts, axes);
             // Cuts across other axes are made anew.
             const Balance again = balance(points, options, MPI_COMM_WORLD, free.cuts);
-            expect_axes(again.cuts, options.cut_axes);
+            expect_axes(again.cuts, axes);
             EXPECT_EQ(again.parts, result.parts);
             if (refine != Refine::exact) continue;
-            options.central_parts = num_ranks();
+            options.tuning.central_parts = num_ranks();
             EXPECT_EQ(result.parts, balance(points, options, MPI_COMM_WORLD).parts);
         }
 }
@@ -289,17 +291,17 @@ TEST(Wide, all_ranks_get_all_cuts_where_the_call_asks_for_something_else) {
     const auto mine = share_of_cloud(1000, 2, uniform);
     const Points points = interleaved_points(mine, 2);
     const std::vector<std::function<void(Options&)>> changes{
-        [](Options& o) { o.central_parts = num_ranks(); },
+        [](Options& o) { o.tuning.central_parts = num_ranks(); },
         [](Options& o) { o.num_parts = 2; },
         [](Options& o) { o.refine = Refine::none; },
         [](Options& o) {
-            o.grouped_axes = {1, 0};
+            o.axes.order = AxisOrder::grouped({1, 0});
         },
         [](Options& o) {
-            o.min_width = {1e-9, 1e-9};
+            o.axes.min_width = {1e-9, 1e-9};
         },
         [](Options& o) {
-            o.grid = {{0, 1e-6}, {0, 1e-6}};
+            o.axes.grid = {{0, 1e-6}, {0, 1e-6}};
         }};
     for (const auto& change : changes) {
         Options options = wide_options(2);
@@ -309,7 +311,7 @@ TEST(Wide, all_ranks_get_all_cuts_where_the_call_asks_for_something_else) {
         EXPECT_EQ(std::ssize(result.cuts.tree) + 1, result.cuts.num_parts);
     }
     Options planes = wide_options(2);
-    planes.plain_cuts = true;
+    planes.axes.plain = true;
     EXPECT_FALSE(is_whole(balance(points, planes, MPI_COMM_WORLD).cuts));
 }
 
@@ -372,15 +374,15 @@ TEST(Wide, what_is_wrong_on_one_rank_is_told_to_all) {
     const Points points = interleaved_points(mine, 2);
     for (const int faulty : {0, num_ranks() - 1}) {
         Options options = wide_options(2);
-        if (rank() == faulty) options.central_parts = 1;
+        if (rank() == faulty) options.tuning.central_parts = 1;
         try {
             balance(points, options, MPI_COMM_WORLD);
             ADD_FAILURE() << "expected an error";
         } catch (const Error& error) {
-            EXPECT_EQ(error.what(),
-                      "rank " + std::to_string(faulty) + ": central_parts must be at least 2");
+            EXPECT_EQ(error.what(), "rank " + std::to_string(faulty) +
+                                        ": tuning.central_parts must be at least 2");
         }
-        options.central_parts = rank() == faulty ? 2 : 1000;
+        options.tuning.central_parts = rank() == faulty ? 2 : 1000;
         try {
             balance(points, options, MPI_COMM_WORLD);
             ADD_FAILURE() << "expected an error";

@@ -132,7 +132,7 @@ TEST(Balance, divides_points_in_one_place_where_that_is_asked_for) {
         [](const Case& input) -> std::string {
             Options options = input.options();
             options.refine = Refine::exact;
-            options.plain_cuts = false;
+            options.axes.plain = false;
             options.coincident = Coincident::divide;
             const Answer answer(input, options);
             if (answer.cloud.size() == 0) return {};

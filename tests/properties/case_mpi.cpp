@@ -95,9 +95,9 @@ Options Case::options() const {
     options.num_parts = shape.num_parts;
     options.part_sizes.assign(part_sizes.begin(), part_sizes.end());
     options.refine = shape.refine;
-    options.support_mesh = shape.support_mesh;
+    options.tuning.support_mesh = shape.support_mesh;
     options.imbalance_tolerance = shape.tolerance;
-    options.plain_cuts = shape.plain_cuts != 0;
+    options.axes.plain = shape.plain_cuts != 0;
     return options;
 }
 

@@ -29,7 +29,7 @@ Tally tally(const Cloud& cloud, const std::vector<Part>& parts, const Options& o
     result.sizes = options.part_sizes;
     if (result.sizes.empty()) result.sizes.assign(result.part_weights.size(), 1.0);
     result.total = std::accumulate(weights.begin(), weights.end(), 0.0);
-    result.object = heaviest_object(cloud, options.plain_cuts);
+    result.object = heaviest_object(cloud, options.axes.plain);
     return result;
 }
 

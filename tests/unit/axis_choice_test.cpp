@@ -41,7 +41,7 @@ TEST(AxisChoice, takes_nearly_equal_axes_as_equal) {
 TEST(AxisChoice, crosses_the_axes_of_one_group_after_the_other) {
     // Halving the longest extent of 4 x 2 three times: across x, x and y.
     Options options = options_of(8);
-    options.grouped_axes = {1, 0};
+    options.axes.order = AxisOrder::grouped({1, 0});
     const AxisChoice choice(options, box_of(4, 2), 2);
     for (const auto& [depth, axis] : {std::pair{0, 1}, std::pair{1, 0}, std::pair{2, 0}})
         EXPECT_EQ(choice(0, depth, box_of(1, 1)), axis);
@@ -49,7 +49,7 @@ TEST(AxisChoice, crosses_the_axes_of_one_group_after_the_other) {
 
 TEST(AxisChoice, crosses_the_axis_that_a_cut_was_given) {
     Options options = options_of(3);
-    options.cut_axes = {1, 0};
+    options.axes.order = AxisOrder::given({1, 0});
     const AxisChoice choice(options, box_of(4, 2), 2);
     EXPECT_EQ(choice(0, 0, box_of(4, 2)), 1);
     EXPECT_EQ(choice(1, 1, box_of(1, 2)), 0);
@@ -57,7 +57,7 @@ TEST(AxisChoice, crosses_the_axis_that_a_cut_was_given) {
 
 TEST(AxisChoice, leaves_out_axes_of_the_groups_that_the_points_do_not_have) {
     Options options = options_of(8);
-    options.grouped_axes = {2, 1, 0};
+    options.axes.order = AxisOrder::grouped({2, 1, 0});
     const AxisChoice choice(options, box_of(4, 2, 100), 2);
     for (const auto& [depth, axis] : {std::pair{0, 1}, std::pair{1, 0}, std::pair{2, 0}})
         EXPECT_EQ(choice(0, depth, box_of(1, 1)), axis);
@@ -66,18 +66,11 @@ TEST(AxisChoice, leaves_out_axes_of_the_groups_that_the_points_do_not_have) {
 TEST(AxisChoice, has_an_axis_for_every_level_of_the_groups) {
     // Nine parts take four levels: the longest extent of 8 x 8 x 1 is halved across x, y, x and y.
     Options options = options_of(9);
-    options.grouped_axes = {2, 0, 1};
+    options.axes.order = AxisOrder::grouped({2, 0, 1});
     const AxisChoice choice(options, box_of(8, 8, 1), 3);
     for (const auto& [depth, axis] :
          {std::pair{0, 0}, std::pair{1, 0}, std::pair{2, 1}, std::pair{3, 1}})
         EXPECT_EQ(choice(0, depth, box_of(1, 1, 1)), axis);
-}
-
-TEST(AxisChoice, prefers_axes_given_to_groups) {
-    Options options = options_of(3);
-    options.cut_axes = {1, 1};
-    options.grouped_axes = {0, 1};
-    EXPECT_EQ(AxisChoice(options, box_of(4, 2), 2)(0, 0, box_of(4, 2)), 1);
 }
 
 TEST(LongestAxis, of_a_place_is_the_first) {

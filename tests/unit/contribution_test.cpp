@@ -37,7 +37,7 @@ TEST(AutomaticMesh, has_sixty_four_cells_or_sixteen_for_each_part) {
 
 Options asking_for_mesh(int cells) {
     Options options;
-    options.support_mesh = cells;
+    options.tuning.support_mesh = cells;
     return options;
 }
 

@@ -209,9 +209,11 @@ TEST(CurrentParts, across_given_axes_are_read_just_where_some_order_of_the_ranks
         for (std::size_t i = 0; i < 3 + held.size(); ++i)
             held[i % held.size()].push_back(positions[i]);
         Options options = options_for(held.size());
+        std::vector<int> given;
         for (std::size_t node = 0; node + 1 < held.size(); ++node)
-            options.cut_axes.push_back(static_cast<int>(engine() % 2));
-        const Cuts axes = across(options.cut_axes, 2);
+            given.push_back(static_cast<int>(engine() % 2));
+        options.axes.order = AxisOrder::given(given);
+        const Cuts axes = across(given, 2);
         std::vector<int> order(held.size());
         std::iota(order.begin(), order.end(), 0);
         bool expected = false;
@@ -260,10 +262,9 @@ TEST(CurrentParts, may_lie_across_another_axis_that_is_nearly_as_long) {
     EXPECT_FALSE(read(halves(0.7), across({0}, 2)));
     EXPECT_TRUE(read(halves(0.7), across({1}, 2)));
     Options given = options_for(2);
-    given.cut_axes = {0};
+    given.axes.order = AxisOrder::given({0});
     EXPECT_FALSE(read(halves(0.9), across({0}, 2), given));
-    given.cut_axes.clear();
-    given.grouped_axes = {0, 1};
+    given.axes.order = AxisOrder::grouped({0, 1});
     EXPECT_FALSE(read(halves(0.9), across({0}, 2), given));
 }
 
@@ -276,7 +277,7 @@ TEST(CurrentParts,
     ASSERT_TRUE(tie);
     EXPECT_EQ(tie->cuts.tree[0].at, (Vector{1, 3, -infinity}));
     Options plain = options_for(2);
-    plain.plain_cuts = true;
+    plain.axes.plain = true;
     EXPECT_FALSE(read({{{0, 5}, {1, 2}}, {{1, 3}, {4, 0}}}, across({0}, 2), plain));
     const double next = std::nextafter(1.0, 2.0);
     const auto narrow = read({{{1, 0}}, {{next, 0}}}, across({0}, 2), plain);
@@ -291,8 +292,8 @@ TEST(CurrentParts,
 // The gap between the first two ranks holds no line; cuts above it have theirs.
 TEST(CurrentParts, on_lines_are_read_only_where_each_gap_holds_one) {
     Options options = options_for(4);
-    options.plain_cuts = true;
-    options.grid = {{0, 1}, {0, 1}};
+    options.axes.plain = true;
+    options.axes.grid = {{0, 1}, {0, 1}};
     for (const double first : {1.7, 2.1}) {
         const Distribution held{
             {{0.2, 0}, {1.6, 0}}, {{first, 0}, {2.9, 0}}, {{3.1, 0}, {4.5, 0}}, {{5.2, 0}, {6, 0}}};

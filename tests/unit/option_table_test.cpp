@@ -52,14 +52,14 @@ TEST(OptionTable, is_searched_by_the_name_of_an_option_or_of_a_parameter) {
 TEST(OptionTable, writes_what_it_reads) {
     const std::vector<std::pair<std::string_view, std::vector<std::string>>> texts = {
         {"num_parts", {"AUTO", "1", "2147483647"}},
-        {"support_mesh", {"AUTO", "1", "4096"}},
+        {"tuning.support_mesh", {"AUTO", "1", "4096"}},
         {"refine", {"NONE", "TOLERANCE", "EXACT"}},
         {"coincident", {"TOGETHER", "DIVIDE"}},
         {"imbalance_tolerance", {"1", "1.01", "1e+300"}},
-        {"central_parts", {"2", "64", "2147483647"}},
+        {"tuning.central_parts", {"2", "64", "2147483647"}},
         {"cuts", {"WHOLE", "OWN"}},
-        {"min_width", {"NONE", "0.1", "0.1 1e-300 5e-324"}},
-        {"grid", {"NONE", "0 0.05", "-1.5 0.25, 1e+300 7, 0 1"}}};
+        {"axes.min_width", {"NONE", "0.1", "0.1 1e-300 5e-324"}},
+        {"axes.grid", {"NONE", "0 0.05", "-1.5 0.25, 1e+300 7, 0 1"}}};
     for (const auto& [name, values] : texts) {
         for (const std::string& value : values) {
             Options options;
@@ -76,61 +76,61 @@ TEST(OptionTable, reads_words_in_any_case) {
     Options options;
     EXPECT_TRUE(read_option(named("refine"), "exact", options));
     EXPECT_EQ(options.refine, Refine::exact);
-    EXPECT_TRUE(read_option(named("support_mesh"), "auto", options));
+    EXPECT_TRUE(read_option(named("tuning.support_mesh"), "auto", options));
     EXPECT_FALSE(reads("refine", "exactly"));
     EXPECT_FALSE(reads("refine", ""));
 }
 
 TEST(OptionTable, reads_no_number_beyond_its_range_and_leaves_the_value) {
     for (const char* text : {"0", "-1", "4097", "1.5", "8X", "", "99999999999"})
-        EXPECT_FALSE(reads("support_mesh", text)) << text;
+        EXPECT_FALSE(reads("tuning.support_mesh", text)) << text;
     for (const char* text : {"0", "1", "-2", "2.5", "AUTO", "2147483648"})
-        EXPECT_FALSE(reads("central_parts", text)) << text;
+        EXPECT_FALSE(reads("tuning.central_parts", text)) << text;
     for (const char* text : {"0.99", "nan", "inf"})
         EXPECT_FALSE(reads("imbalance_tolerance", text)) << text;
     EXPECT_FALSE(reads("part_sizes", "1"));
     Options options;
-    read_option(named("central_parts"), "1", options);
-    EXPECT_EQ(options.central_parts, Options{}.central_parts);
+    read_option(named("tuning.central_parts"), "1", options);
+    EXPECT_EQ(options.tuning.central_parts, Options{}.tuning.central_parts);
 }
 
 TEST(OptionTable, reads_rows_of_numbers_with_blanks_or_commas_between_them) {
     Options options;
-    EXPECT_TRUE(read_option(named("min_width"), " 1,2 ,\t3 ", options));
-    EXPECT_EQ(options.min_width, (std::vector<double>{1, 2, 3}));
-    EXPECT_TRUE(read_option(named("grid"), "0.5 1 -2 3E-1", options));
-    ASSERT_EQ(options.grid.size(), 2u);
-    EXPECT_EQ(options.grid[1].origin, -2);
-    EXPECT_EQ(options.grid[1].spacing, 0.3);
+    EXPECT_TRUE(read_option(named("axes.min_width"), " 1,2 ,\t3 ", options));
+    EXPECT_EQ(options.axes.min_width, (std::vector<double>{1, 2, 3}));
+    EXPECT_TRUE(read_option(named("axes.grid"), "0.5 1 -2 3E-1", options));
+    ASSERT_EQ(options.axes.grid.size(), 2u);
+    EXPECT_EQ(options.axes.grid[1].origin, -2);
+    EXPECT_EQ(options.axes.grid[1].spacing, 0.3);
     for (const char* text : {"", " ", "0", "-1", "nan", "inf", "1 2 3 4", "1;2", "1x", "1 two"})
-        EXPECT_FALSE(reads("min_width", text)) << text;
+        EXPECT_FALSE(reads("axes.min_width", text)) << text;
     for (const char* text : {"", "1", "0 0", "0 -1", "nan 1", "0 inf", "0 1 0", "0 1 0 1 0 1 0 1"})
-        EXPECT_FALSE(reads("grid", text)) << text;
-    EXPECT_TRUE(read_option(named("grid"), "none", options));
-    EXPECT_TRUE(options.grid.empty());
-    EXPECT_FALSE(options.min_width.empty());
+        EXPECT_FALSE(reads("axes.grid", text)) << text;
+    EXPECT_TRUE(read_option(named("axes.grid"), "none", options));
+    EXPECT_TRUE(options.axes.grid.empty());
+    EXPECT_FALSE(options.axes.min_width.empty());
 }
 
 TEST(Check, refuses_limits_of_cuts_that_are_no_lengths_or_not_one_per_axis) {
     const std::string one_each =
-        "min_width must hold one number per axis of the points, or be empty";
+        "axes.min_width must hold one number per axis of the points, or be empty";
     const auto width = [](std::vector<double> widths, int dimension) {
-        return complaint([&](Options& o) { o.min_width = widths; }, dimension);
+        return complaint([&](Options& o) { o.axes.min_width = widths; }, dimension);
     };
     EXPECT_EQ(width({1, 2}, 2) + width({5e-324}, 1) + width({1e308, 1, 1}, 3), "");
     EXPECT_EQ(width({1}, 2), one_each);
     EXPECT_EQ(width({1, 1, 1}, 2), one_each);
     for (const double value : {0.0, -1.0, std::nan(""), HUGE_VAL})
-        EXPECT_EQ(width({1, value}, 2), "min_width must be finite and above 0");
+        EXPECT_EQ(width({1, value}, 2), "axes.min_width must be finite and above 0");
     const auto grid = [](std::vector<GridLines> lines, int dimension) {
-        return complaint([&](Options& o) { o.grid = lines; }, dimension);
+        return complaint([&](Options& o) { o.axes.grid = lines; }, dimension);
     };
     EXPECT_EQ(grid({{0, 1}, {-1e308, 1e-300}}, 2), "");
     EXPECT_EQ(grid({{0, 1}}, 3),
-              "grid must hold the lines across each axis of the points, or be empty");
+              "axes.grid must hold the lines across each axis of the points, or be empty");
     for (const double value : {0.0, -1.0, std::nan(""), HUGE_VAL})
         EXPECT_EQ(grid({{0, value}}, 1),
-                  "grid must have finite origins, and spacings that are finite and above 0");
+                  "axes.grid must have finite origins, and spacings that are finite and above 0");
     EXPECT_NE(grid({{HUGE_VAL, 1}}, 1), "");
 }
 
@@ -141,10 +141,10 @@ TEST(Check, refuses_what_lies_beyond_the_range_of_an_option_and_tells_the_range)
     for (const int dimension : {1, 2, 3}) {
         const int most = dimension < 3 ? 4096 : 256;
         const auto mesh = [&](int cells) {
-            return complaint([&](Options& o) { o.support_mesh = cells; }, dimension);
+            return complaint([&](Options& o) { o.tuning.support_mesh = cells; }, dimension);
         };
         EXPECT_EQ(mesh(0) + mesh(1) + mesh(most), "");
-        const std::string refusal = "support_mesh must be 1 ... " + std::to_string(most) +
+        const std::string refusal = "tuning.support_mesh must be 1 ... " + std::to_string(most) +
                                     " cells per axis, or 0 for the default";
         EXPECT_EQ(mesh(most + 1), refusal);
         EXPECT_EQ(mesh(-1), refusal);
@@ -157,8 +157,9 @@ TEST(Check, refuses_what_lies_beyond_the_range_of_an_option_and_tells_the_range)
 
 TEST(OptionTable, tells_what_each_option_may_be) {
     EXPECT_EQ(legal_values(named("imbalance_tolerance")), "a number, 1 or more");
-    EXPECT_EQ(legal_values(named("support_mesh")), "a whole number from 1 to 4096");
-    EXPECT_EQ(legal_values(named("min_width")), "NONE, or a number above 0 for each axis: 0.1 0.1");
+    EXPECT_EQ(legal_values(named("tuning.support_mesh")), "a whole number from 1 to 4096");
+    EXPECT_EQ(legal_values(named("axes.min_width")),
+              "NONE, or a number above 0 for each axis: 0.1 0.1");
     EXPECT_EQ(legal_values(named("part_sizes")), "a list");
     EXPECT_EQ(legal_values(named("refine")), "NONE, TOLERANCE or EXACT");
     EXPECT_EQ(documentation(named("num_parts")),
@@ -170,23 +171,23 @@ TEST(Request, differs_in_every_option_by_its_name) {
     const std::vector<std::pair<std::string_view, Change>> changes = {
         {"num_parts", [](Options& o) { o.num_parts = 3; }},
         {"part_sizes", [](Options& o) { o.part_sizes = {1}; }},
-        {"support_mesh", [](Options& o) { o.support_mesh = 3; }},
-        {"one of grouped_axes, cut_axes, plain_cuts, min_width, grid",
-         [](Options& o) { o.plain_cuts = true; }},
-        {"one of grouped_axes, cut_axes, plain_cuts, min_width, grid",
-         [](Options& o) { o.cut_axes = {1}; }},
-        {"one of grouped_axes, cut_axes, plain_cuts, min_width, grid",
-         [](Options& o) { o.grouped_axes = {1}; }},
-        {"one of grouped_axes, cut_axes, plain_cuts, min_width, grid",
-         [](Options& o) { o.min_width = {1}; }},
-        {"one of grouped_axes, cut_axes, plain_cuts, min_width, grid",
+        {"tuning.support_mesh", [](Options& o) { o.tuning.support_mesh = 3; }},
+        {"one of axes.order, axes.plain, axes.min_width, axes.grid",
+         [](Options& o) { o.axes.plain = true; }},
+        {"one of axes.order, axes.plain, axes.min_width, axes.grid",
+         [](Options& o) { o.axes.order = AxisOrder::given({1}); }},
+        {"one of axes.order, axes.plain, axes.min_width, axes.grid",
+         [](Options& o) { o.axes.order = AxisOrder::grouped({1}); }},
+        {"one of axes.order, axes.plain, axes.min_width, axes.grid",
+         [](Options& o) { o.axes.min_width = {1}; }},
+        {"one of axes.order, axes.plain, axes.min_width, axes.grid",
          [](Options& o) {
-             o.grid = {{0, 1}};
+             o.axes.grid = {{0, 1}};
          }},
         {"refine", [](Options& o) { o.refine = Refine::none; }},
         {"coincident", [](Options& o) { o.coincident = Coincident::divide; }},
         {"imbalance_tolerance", [](Options& o) { o.imbalance_tolerance = 2; }},
-        {"central_parts", [](Options& o) { o.central_parts = 2; }},
+        {"tuning.central_parts", [](Options& o) { o.tuning.central_parts = 2; }},
         {"cuts", [](Options& o) { o.cuts = HeldCuts::own; }}};
     const Request reference = request_of({}, 2, nullptr);
     EXPECT_EQ(first_difference(reference, request_of({}, 2, nullptr)), std::nullopt);

@@ -32,8 +32,8 @@ void cut_by_cells(const mpm::Scene& scene, rrcb::Options& options) {
     const int num_nodes = scene.shape_function == mpm::ShapeFunction::linear ? 2 : 3;
     const mpm::GridShape& grid = scene.grid;
     for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a) {
-        options.min_width.push_back(num_nodes * grid.spacing);
-        options.grid.push_back({grid.lower[a], grid.spacing});
+        options.axes.min_width.push_back(num_nodes * grid.spacing);
+        options.axes.grid.push_back({grid.lower[a], grid.spacing});
     }
 }
 

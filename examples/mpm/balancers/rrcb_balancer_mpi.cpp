@@ -45,7 +45,7 @@ mpm::Balancer rrcb_balancer(const rrcb::Options& asked) {
     options.cuts = rrcb::HeldCuts::whole;
     return [options](mpm::Positions positions, MPI_Comm comm) {
         return decomposition_of(rrcb::balance(points_of(positions), options, comm),
-                                !options.grid.empty());
+                                !options.axes.grid.empty());
     };
 }
 

@@ -71,13 +71,13 @@ Options make_options(const Parameters& parameters, const Layout& layout, int dim
     Options options = parameters.options;
     options.num_parts = layout.map.num_parts;
     options.part_sizes = layout.part_sizes;
-    options.plain_cuts = parameters.rectilinear_blocks != 0;
+    options.axes.plain = parameters.rectilinear_blocks != 0;
     // Handles that keep cuts gather them, once for a machine where there are many.
     options.cuts = HeldCuts::own;
     if (parameters.lock_directions != 0 && previous != nullptr) {
-        options.cut_axes = axes_of(previous->tree());
+        options.axes.order = AxisOrder::given(axes_of(previous->tree()));
     } else if (parameters.set_directions != 0) {
-        options.grouped_axes = axis_order(parameters.set_directions, dimension);
+        options.axes.order = AxisOrder::grouped(axis_order(parameters.set_directions, dimension));
     }
     return options;
 }
@@ -89,8 +89,8 @@ PaperOptions make_paper_options(const Parameters& parameters, const Layout& layo
     options.domain = *parameters.paper_domain;
     options.cut_rule = parameters.cut_rule;
     options.plain_cuts = parameters.rectilinear_blocks != 0;
-    if (parameters.options.support_mesh != 0)
-        options.support_mesh = parameters.options.support_mesh;
+    if (parameters.options.tuning.support_mesh != 0)
+        options.support_mesh = parameters.options.tuning.support_mesh;
     options.sigma_multiplier = parameters.sigma_multiplier;
     options.sample_fraction = parameters.sample_fraction;
     options.seed = parameters.seed;

@@ -116,7 +116,7 @@ TEST(Balancers, do_not_show_in_soil_that_fails) {
 
 TEST(Balancers, do_not_show_where_many_ranks_make_the_parts) {
     rrcb::Options options;
-    options.central_parts = 2;
+    options.tuning.central_parts = 2;
     options.cuts = rrcb::HeldCuts::own;
     const Scene scene = shipped("slope", 4);
     expect_same(run(scene, "none", MPI_COMM_SELF),

@@ -3,7 +3,7 @@
 #include "cuts/direct_assignment.hpp"
 
 #include <rrcb/balance.hpp>
-#include <rrcb/moments.hpp>
+#include <rrcb/method/moments.hpp>
 #include <rrcb/plan.hpp>
 
 #include <benchmark/benchmark.h>

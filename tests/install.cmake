@@ -78,7 +78,8 @@ endif()
 find_package(Python3 COMPONENTS Interpreter QUIET)
 if(Python3_FOUND)
   file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/rrcb/*.h
-       ${PROJECT_SOURCE_DIR}/include/rrcb/*.hpp)
+       ${PROJECT_SOURCE_DIR}/include/rrcb/*.hpp
+       ${PROJECT_SOURCE_DIR}/include/rrcb/method/*.hpp)
   add_test(NAME install.symbols
            COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/symbols.py
                    $<TARGET_FILE:rrcb_shared> ${headers})

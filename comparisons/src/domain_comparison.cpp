@@ -2,7 +2,7 @@
 
 #include "error_sources_mpi.hpp"
 
-#include <rrcb/bisection.hpp>
+#include <rrcb/method/bisection.hpp>
 #include <rrcb/quality.hpp>
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 
 #include "row.hpp"
 
+#include <rrcb/method/statistical_domain.hpp>
 #include <rrcb/points.hpp>
-#include <rrcb/statistical_domain.hpp>
 
 #include <string>
 #include <vector>

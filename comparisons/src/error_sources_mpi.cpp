@@ -4,7 +4,7 @@
 #include "gather/lean_cells.hpp"
 #include "gather_mpi.hpp"
 
-#include <rrcb/bisection.hpp>
+#include <rrcb/method/bisection.hpp>
 #include <rrcb/paper.hpp>
 #include <rrcb/quality.hpp>
 

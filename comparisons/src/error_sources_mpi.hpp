@@ -2,9 +2,9 @@
 
 #include "sweep_mpi.hpp"
 
-#include <rrcb/moments.hpp>
-#include <rrcb/statistical_domain.hpp>
-#include <rrcb/support_mesh.hpp>
+#include <rrcb/method/moments.hpp>
+#include <rrcb/method/statistical_domain.hpp>
+#include <rrcb/method/support_mesh.hpp>
 
 namespace comparisons {
 

@@ -6,7 +6,7 @@
 // points of two values.
 #include "counter_random.hpp"
 
-#include <rrcb/moments.hpp>
+#include <rrcb/method/moments.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,10 +2,10 @@
 #include "workload_mpi.hpp"
 
 #include <rrcb/balance.hpp>
-#include <rrcb/bisection.hpp>
+#include <rrcb/method/bisection.hpp>
+#include <rrcb/method/support_mesh.hpp>
 #include <rrcb/paper.hpp>
 #include <rrcb/quality.hpp>
-#include <rrcb/support_mesh.hpp>
 
 #include <gtest/gtest.h>
 

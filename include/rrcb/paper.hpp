@@ -1,8 +1,8 @@
 #pragma once
 
 #include <rrcb/balance.hpp>
-#include <rrcb/bisection.hpp>
-#include <rrcb/moments.hpp>
+#include <rrcb/method/bisection.hpp>
+#include <rrcb/method/moments.hpp>
 #include <rrcb/points.hpp>
 
 #include <mpi.h>

@@ -7,7 +7,7 @@
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 
-#include <rrcb/bisection.hpp>
+#include <rrcb/method/bisection.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/statistical_domain.hpp>
+#include <rrcb/method/statistical_domain.hpp>
 
 #include <span>
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include "cuts/cut_limits.hpp"
 
-#include <rrcb/bisection.hpp>
+#include <rrcb/method/bisection.hpp>
 
 namespace rrcb {
 

@@ -2,8 +2,8 @@
 
 #include "cuts/cut_limits.hpp"
 
-#include <rrcb/bisection.hpp>
-#include <rrcb/statistical_domain.hpp>
+#include <rrcb/method/bisection.hpp>
+#include <rrcb/method/statistical_domain.hpp>
 
 namespace rrcb {
 

@@ -1,7 +1,7 @@
 #include "bisection/cell_patches.hpp"
 #include "options/validation.hpp"
 
-#include <rrcb/statistical_domain.hpp>
+#include <rrcb/method/statistical_domain.hpp>
 
 namespace rrcb {
 

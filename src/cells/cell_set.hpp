@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/moments.hpp>
+#include <rrcb/method/moments.hpp>
 
 #include <cstddef>
 #include <limits>

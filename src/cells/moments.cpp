@@ -4,7 +4,7 @@
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 
-#include <rrcb/moments.hpp>
+#include <rrcb/method/moments.hpp>
 
 #include <algorithm>
 #include <cmath>

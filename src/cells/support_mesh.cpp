@@ -2,7 +2,7 @@
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 
-#include <rrcb/support_mesh.hpp>
+#include <rrcb/method/support_mesh.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "gather/lean_cells.hpp"
 
-#include <rrcb/support_mesh.hpp>
+#include <rrcb/method/support_mesh.hpp>
 
 #include <algorithm>
 #include <cmath>

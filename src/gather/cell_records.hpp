@@ -2,7 +2,7 @@
 
 #include "cells/cell_set.hpp"
 
-#include <rrcb/statistical_domain.hpp>
+#include <rrcb/method/statistical_domain.hpp>
 
 #include <span>
 #include <vector>

@@ -4,7 +4,7 @@
 #include "gather/cell_records.hpp"
 #include "gather/coarsening.hpp"
 
-#include <rrcb/support_mesh.hpp>
+#include <rrcb/method/support_mesh.hpp>
 
 #include <algorithm>
 #include <cmath>

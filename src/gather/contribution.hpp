@@ -4,8 +4,8 @@
 #include "collective/failure.hpp"
 #include "options/request.hpp"
 
+#include <rrcb/method/statistical_domain.hpp>
 #include <rrcb/points.hpp>
-#include <rrcb/statistical_domain.hpp>
 
 #include <cstdint>
 #include <limits>

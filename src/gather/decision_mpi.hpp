@@ -5,7 +5,7 @@
 #include "gather/current_parts.hpp"
 
 #include <rrcb/balance.hpp>
-#include <rrcb/bisection.hpp>
+#include <rrcb/method/bisection.hpp>
 
 #include <mpi.h>
 

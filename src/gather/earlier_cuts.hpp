@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/bisection.hpp>
+#include <rrcb/method/bisection.hpp>
 
 #include <vector>
 

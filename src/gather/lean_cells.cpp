@@ -1,6 +1,6 @@
 #include "gather/lean_cells.hpp"
 
-#include <rrcb/support_mesh.hpp>
+#include <rrcb/method/support_mesh.hpp>
 
 #include <algorithm>
 #include <array>

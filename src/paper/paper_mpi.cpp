@@ -12,8 +12,8 @@
 #include "paper/paper_records.hpp"
 #include "stage_scope.hpp"
 
+#include <rrcb/method/support_mesh.hpp>
 #include <rrcb/quality.hpp>
-#include <rrcb/support_mesh.hpp>
 
 #include <bit>
 #include <utility>

@@ -7,7 +7,7 @@
 #include "refinement/level_search_mpi.hpp"
 #include "refinement/part_sums_mpi.hpp"
 
-#include <rrcb/bisection.hpp>
+#include <rrcb/method/bisection.hpp>
 #include <rrcb/options.hpp>
 
 #include <functional>

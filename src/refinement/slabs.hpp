@@ -3,7 +3,7 @@
 #include "cuts/tree.hpp"
 #include "refinement/target_rule.hpp"
 
-#include <rrcb/bisection.hpp>
+#include <rrcb/method/bisection.hpp>
 
 #include <algorithm>
 #include <bit>

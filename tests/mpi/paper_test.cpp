@@ -1,8 +1,8 @@
 #include "paper_shares.hpp"
 
+#include <rrcb/method/support_mesh.hpp>
 #include <rrcb/paper.hpp>
 #include <rrcb/quality.hpp>
-#include <rrcb/support_mesh.hpp>
 
 #include <gtest/gtest.h>
 

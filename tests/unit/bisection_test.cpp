@@ -1,5 +1,5 @@
-#include <rrcb/bisection.hpp>
 #include <rrcb/error.hpp>
+#include <rrcb/method/bisection.hpp>
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include "gather/merge_tree_mpi.hpp"
 #include "options/validation.hpp"
 
-#include <rrcb/bisection.hpp>
+#include <rrcb/method/bisection.hpp>
 #include <rrcb/quality.hpp>
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include "gather/contribution.hpp"
 #include "gather/decision_mpi.hpp"
 
-#include <rrcb/bisection.hpp>
+#include <rrcb/method/bisection.hpp>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "../support/clouds.hpp"
 
-#include <rrcb/support_mesh.hpp>
+#include <rrcb/method/support_mesh.hpp>
 
 #include <gtest/gtest.h>
 

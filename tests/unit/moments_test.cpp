@@ -1,7 +1,7 @@
 #include "../support/clouds.hpp"
 #include "moments_reference.hpp"
 
-#include <rrcb/moments.hpp>
+#include <rrcb/method/moments.hpp>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <rrcb/eigen.hpp>
 #include <rrcb/error.hpp>
-#include <rrcb/moments.hpp>
+#include <rrcb/method/moments.hpp>
 #include <rrcb/points.hpp>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include <rrcb/statistical_domain.hpp>
-#include <rrcb/support_mesh.hpp>
+#include <rrcb/method/statistical_domain.hpp>
+#include <rrcb/method/support_mesh.hpp>
 
 #include <gtest/gtest.h>
 

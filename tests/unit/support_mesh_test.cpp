@@ -1,4 +1,4 @@
-#include <rrcb/support_mesh.hpp>
+#include <rrcb/method/support_mesh.hpp>
 
 #include <gtest/gtest.h>
 

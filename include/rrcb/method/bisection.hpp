@@ -1,8 +1,8 @@
 #pragma once
 
 #include <rrcb/cuts.hpp>
+#include <rrcb/method/statistical_domain.hpp>
 #include <rrcb/options.hpp>
-#include <rrcb/statistical_domain.hpp>
 
 #include <span>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rrcb/support_mesh.hpp>
+#include <rrcb/method/support_mesh.hpp>
 
 #include <vector>
 

@@ -18,9 +18,10 @@ Key first_key(RecordReader records) {
 
 }  // namespace
 
-Butterfly::Butterfly(int rank, int num_ranks, Join join)
-    : rank_(rank), num_ranks_(num_ranks), join_(join), halves_(halves_of(0, num_ranks)) {
-    while (halves_.end - halves_.begin > 1) halves_at(++num_steps_);
+Butterfly::Butterfly(int rank, int num_ranks, Join join, Way way)
+    : rank_(rank), num_ranks_(num_ranks), join_(join), way_(way), halves_(halves_of(0, num_ranks)) {
+    const auto goes_on = [&] { return way == Way::spread || halves_.begin == 0; };
+    while (halves_.end - halves_.begin > 1 && goes_on()) halves_at(++num_steps_);
 }
 
 const Butterfly::Halves& Butterfly::halves_at(int step) {
@@ -42,6 +43,10 @@ Butterfly::Links Butterfly::links(int step, Direction direction) {
     const Halves& halves = halves_at(step);
     const int mirror = halves.begin + (halves.end - 1 - rank_);
     const bool to = direction == to_owners;
+    if (is_central()) {
+        const bool sends = to == (rank_ >= halves.middle);
+        return {{Link{mirror, sends, !sends}}, mirror == rank_ ? 0U : 1U};
+    }
     // Of an odd number of ranks the last of the lower half has none across from it: it hands its
     // records to the first of the other half, and gets none.
     if (mirror == rank_) return {{Link{halves.middle, to, !to}}, 1};

@@ -42,6 +42,11 @@ inline int failing_rank(const Flags& flags, int num_ranks) {
 /// On the way back the flags go the same ways in reverse order, and so from any rank to any other.
 /// This holds whatever fails on a rank on the way, if it goes on with pack_nothing(). So what fails
 /// during a pass is told by the flags of the next one, and to all alike.
+///
+/// The central way serves few ranks with fewer messages: rank 0 owns all keys, so the upper half of
+/// each halving sends to the lower one, and hears from it on the way back: R - 1 messages a pass.
+/// Rank 0 alone then knows the flags of all after a pass to the owners, and the others learn those
+/// of rank 0 on the way back.
 class Butterfly {
   public:
     /// Appends what the payloads `a` and `b` of one key make together. Null where records of one
@@ -50,6 +55,7 @@ class Butterfly {
                           std::vector<double>& joined);
 
     enum Direction { to_owners, back };
+    enum class Way { spread, central };
 
     /// Whom a rank exchanges messages with in a step, in this order.
     struct Link {
@@ -66,10 +72,11 @@ class Butterfly {
     };
 
     /// Not collective. Never throws.
-    Butterfly(int rank, int num_ranks, Join join);
+    Butterfly(int rank, int num_ranks, Join join, Way way = Way::spread);
 
     int rank() const { return rank_; }
     int num_ranks() const { return num_ranks_; }
+    bool is_central() const { return way_ == Way::central; }
 
     /// Steps that this rank takes part in: in those numbered from 0 on the way to the owners, in
     /// reverse order on the way back.
@@ -154,6 +161,7 @@ class Butterfly {
     int rank_;
     int num_ranks_;
     Join join_;
+    Way way_;
     int num_steps_ = 0;
     Halves halves_;
     int step_of_halves_ = 0;

@@ -22,6 +22,12 @@ std::span<const double> piece_of(std::span<const double> message, std::size_t nu
     return message.subspan(first, std::min(most_in_piece, message.size() - first));
 }
 
+/// Of the caller's flags, and of failures that were heard of before.
+Flags joined(Flags flags, const Flags& heard) {
+    flags[0] = std::max(flags[0], heard[0]);
+    return flags;
+}
+
 void begin_to_send(std::span<const double> piece, int to, MPI_Request& request, Participant& self) {
     self.check(MPI_Isend(piece.data(), static_cast<int>(piece.size()), MPI_DOUBLE, to,
                          mpi::butterfly_tag, self.comm, &request),
@@ -36,6 +42,8 @@ void ButterflyMessages::run(Butterfly& butterfly, Butterfly::Direction direction
                             Participant& self) {
     if (self.failed())
         mark_failed(flags, butterfly.rank(), butterfly.num_ranks(), self.failure.may_follow);
+    if (butterfly.is_central() && direction == Butterfly::back)
+        flags = butterfly.rank() == root ? joined(flags, butterfly.flags()) : Flags{};
     butterfly.start(flags);
     const int num_steps = butterfly.num_steps();
     for (int k = 0; k < num_steps; ++k) {
@@ -43,7 +51,10 @@ void ButterflyMessages::run(Butterfly& butterfly, Butterfly::Direction direction
         for (const Butterfly::Link& link : butterfly.links(step, direction))
             exchange(butterfly, step, direction, link, self);
     }
-    fail_together(failing_rank(butterfly.flags(), butterfly.num_ranks()), self);
+    const int failing = failing_rank(butterfly.flags(), butterfly.num_ranks());
+    // The others hear of it on the way back.
+    if (butterfly.is_central() && direction == Butterfly::to_owners) return self.hear_of(failing);
+    fail_together(failing, self);
 }
 
 /// Sends and receives what a link carries, piece by piece at once in both directions, so that two

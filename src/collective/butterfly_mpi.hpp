@@ -32,7 +32,9 @@ class ButterflyMessages {
     /// message that is longer than a piece takes more. No rank leaves before all have entered, as
     /// it then knows the flags of all. Throws on every rank what failed on one before the pass. A
     /// rank that fails in it goes on without records, which then are missing elsewhere as well,
-    /// until the next pass or agreement tells all ranks.
+    /// until the next pass or agreement tells all ranks. In the central way R - 1 messages in all;
+    /// what failed before a pass to the owners is thrown by the pass back, and `flags` count at all
+    /// ranks to the owners, at rank 0 alone on the way back.
     void run(Butterfly& butterfly, Butterfly::Direction direction, Flags flags, Participant& self);
 
   private:

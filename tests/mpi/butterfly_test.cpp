@@ -141,5 +141,43 @@ TEST_F(ButterflyMessagesTest, end_where_a_rank_fails_in_a_pass_and_tell_of_it_in
     }
 }
 
+TEST_F(ButterflyMessagesTest, tell_all_ranks_by_way_of_rank_0_what_failed_on_one_before) {
+    Butterfly butterfly(rank(), num_ranks(), add_up, Butterfly::Way::central);
+    for (int failing = 0; failing < num_ranks(); ++failing) {
+        Participant mine{self.comm};
+        butterfly.clear();
+        butterfly.add(5, 0, std::vector<double>(2000, 1.0));
+        if (rank() == failing) mine.failure = failure_of(ErrorCode::internal, "broken");
+        messages.run(butterfly, Butterfly::to_owners, {0, 1.0 + rank()}, mine);
+        try {
+            messages.run(butterfly, Butterfly::back, {}, mine);
+            ADD_FAILURE() << "expected an error";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.what(), "rank " + std::to_string(failing) + ": broken");
+        }
+    }
+}
+
+TEST_F(ButterflyMessagesTest, bring_records_to_rank_0_and_what_it_tells_to_all) {
+    Butterfly butterfly(rank(), num_ranks(), add_up, Butterfly::Way::central);
+    for (const std::size_t length : {1U, 0U, 20000U}) {
+        butterfly.clear();
+        butterfly.add(5, 0, std::vector<double>(length, 1.0));
+        messages.run(butterfly, Butterfly::to_owners, {0, 1.0 + rank()}, self);
+        if (rank() == 0) {
+            EXPECT_EQ(butterfly.flags()[1], num_ranks());
+            const Record all = butterfly.owned().read().next();
+            EXPECT_EQ(all.payload.size(), length);
+            EXPECT_EQ(std::ranges::count(all.payload, num_ranks()), std::ssize(all.payload));
+            butterfly.answer(5, std::vector<double>(length + 1, 7.0));
+        }
+        messages.run(butterfly, Butterfly::back, {0, rank() == 0 ? 0.5 : 9}, self);
+        EXPECT_EQ(butterfly.flags()[1], 0.5) << "as rank 0 has it";
+        const Record answer = butterfly.answers().read().next();
+        EXPECT_EQ(answer.payload.size(), length + 1);
+        EXPECT_EQ(std::ranges::count(answer.payload, 7.0), std::ssize(answer.payload));
+    }
+}
+
 }  // namespace
 }  // namespace rrcb

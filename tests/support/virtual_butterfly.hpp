@@ -12,6 +12,7 @@ namespace rrcb::test {
 /// What one pass of all ranks amounted to.
 struct PassCounts {
     int num_steps = 0;
+    std::size_t num_messages = 0;
     std::size_t most_messages = 0;  ///< from one rank
     std::size_t longest = 0;        ///< message, in bytes
     std::size_t most_bytes_in = 0;  ///< into one rank, in all steps
@@ -48,6 +49,7 @@ PassCounts run_pass(std::vector<Butterfly>& all, Butterfly::Direction direction,
                                 {static_cast<int>(rank), false, true},
                                 {message.begin(), message.end()}});
                 ++sent[rank];
+                ++counts.num_messages;
                 counts.longest = std::max(counts.longest, message.size_bytes());
                 bytes_in[mail.back().to] += message.size_bytes();
             }

@@ -17,6 +17,7 @@ namespace rrcb {
 namespace {
 
 using test::run_pass;
+using Way = Butterfly::Way;
 
 constexpr auto nobody_fails = [](int, int) { return false; };
 
@@ -33,14 +34,14 @@ struct Ranks {
     std::vector<std::set<Key>> asked;
     std::map<Key, std::vector<double>> sums;  ///< of each key, added up here one by one
 
-    explicit Ranks(int num, Butterfly::Join join = add_up)
+    explicit Ranks(int num, Butterfly::Join join = add_up, Way way = Way::spread)
         : num_ranks(num), asked(static_cast<std::size_t>(num)) {
-        for (int rank = 0; rank < num; ++rank) all.emplace_back(rank, num, join);
+        for (int rank = 0; rank < num; ++rank) all.emplace_back(rank, num, join, way);
         add_records();
     }
 
     int owner_of(Key key) const {
-        return static_cast<int>((key * 7) % static_cast<Key>(num_ranks));
+        return all[0].is_central() ? 0 : static_cast<int>((key * 7) % static_cast<Key>(num_ranks));
     }
 
     void add_records() {
@@ -74,9 +75,15 @@ std::vector<int> numbers_of_ranks() {
     return numbers;
 }
 
+template <class Visit>
+void for_each_case(Visit&& visit) {
+    for (const int num_ranks : numbers_of_ranks())
+        for (const Way way : {Way::spread, Way::central}) visit(num_ranks, way);
+}
+
 TEST(Butterfly, brings_records_joined_to_their_owners) {
-    for (const int num_ranks : numbers_of_ranks()) {
-        Ranks ranks(num_ranks);
+    for_each_case([](int num_ranks, Way way) {
+        Ranks ranks(num_ranks, add_up, way);
         run_pass(ranks.all, Butterfly::to_owners, ranks.flags(), nobody_fails);
         std::map<Key, std::vector<double>> found;
         for (const Butterfly& rank : ranks.all)
@@ -87,12 +94,12 @@ TEST(Butterfly, brings_records_joined_to_their_owners) {
                 found[record.key] = {record.payload.begin(), record.payload.end()};
             });
         ASSERT_EQ(found, ranks.sums) << num_ranks << " ranks";
-    }
+    });
 }
 
 TEST(Butterfly, brings_answers_back_to_all_that_asked) {
-    for (const int num_ranks : numbers_of_ranks()) {
-        Ranks ranks(num_ranks);
+    for_each_case([](int num_ranks, Way way) {
+        Ranks ranks(num_ranks, add_up, way);
         run_pass(ranks.all, Butterfly::to_owners, ranks.flags(), nobody_fails);
         for (Butterfly& rank : ranks.all)
             rank.owned().for_each([&](const Record& record) {
@@ -110,7 +117,7 @@ TEST(Butterfly, brings_answers_back_to_all_that_asked) {
             });
             EXPECT_TRUE(std::ranges::includes(answered, ranks.asked[rank])) << num_ranks;
         }
-    }
+    });
 }
 
 TEST(Butterfly, takes_a_message_a_step_and_a_step_a_halving) {
@@ -125,9 +132,26 @@ TEST(Butterfly, takes_a_message_a_step_and_a_step_a_halving) {
     }
 }
 
-TEST(Butterfly, sends_along_a_link_what_its_other_end_receives) {
+TEST(Butterfly, sends_one_message_less_than_there_are_ranks_in_a_central_pass) {
     for (const int num_ranks : numbers_of_ranks()) {
-        Ranks ranks(num_ranks);
+        Ranks ranks(num_ranks, add_up, Way::central);
+        for (const auto direction : {Butterfly::to_owners, Butterfly::back}) {
+            auto flags = ranks.flags();
+            for (std::size_t rank = 0; rank < flags.size(); ++rank)
+                flags[rank][1] = rank == 0 ? 1 : 2;
+            const auto counts = run_pass(ranks.all, direction, flags, nobody_fails);
+            EXPECT_EQ(counts.num_steps, log2_up(num_ranks));
+            EXPECT_EQ(counts.num_messages, static_cast<std::size_t>(num_ranks - 1));
+            const bool is_there = direction == Butterfly::to_owners;
+            EXPECT_EQ(ranks.all[0].flags()[1], is_there && num_ranks > 1 ? 2 : 1)
+                << "rank 0 hears of all on the way there, and of none on the way back";
+        }
+    }
+}
+
+TEST(Butterfly, sends_along_a_link_what_its_other_end_receives) {
+    for_each_case([](int num_ranks, Way way) {
+        Ranks ranks(num_ranks, add_up, way);
         // Both forwards and back, as a rank is asked.
         for (const auto direction : {Butterfly::to_owners, Butterfly::back})
             for (Butterfly& rank : ranks.all)
@@ -141,9 +165,10 @@ TEST(Butterfly, sends_along_a_link_what_its_other_end_receives) {
                             matching += there.rank == rank.rank() && there.sends == link.receives &&
                                         there.receives == link.sends;
                         ASSERT_EQ(matching, 1) << num_ranks;
+                        ASSERT_LT(step, other.num_steps());
                     }
                 }
-    }
+    });
 }
 
 TEST(Butterfly, tells_the_largest_flags_to_all_also_where_ranks_send_no_records) {

@@ -77,10 +77,8 @@ void make_room_for_parts(const Points& points, bool counts, Work& work, const Pa
     const Options& options = work.options;
     work.result.parts.resize(points.count);
     if (is_refined(options) || counts) work.sums = PartSums(options.part_sizes.size());
-    if (is_refined(options))
-        work.refinement.emplace(options, points.dimension, mpi::rank_of(self.comm) == root,
-                                work.sums);
-    if (work.whole) work.below_regions.emplace(mpi::rank_of(self.comm), mpi::size_of(self.comm));
+    if (is_refined(options)) work.refinement.emplace(options, self, work.sums);
+    if (work.whole) work.below_regions.emplace(self);
 }
 
 /// Everything before the first message. Not collective.

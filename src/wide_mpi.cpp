@@ -60,8 +60,8 @@ void number_as_in_tree(int num_parts, Balance& result) {
     for (Part& part : result.parts) part = first_parts[static_cast<std::size_t>(part)];
 }
 
-RegionTree tree_of(const Options& options, const Verdict& verdict, double weight, int num_ranks) {
-    RegionTree tree;
+PartTree tree_of(const Options& options, const Verdict& verdict, double weight, int num_ranks) {
+    PartTree tree;
     tree.num_parts = options.num_parts;
     tree.num_ranks = num_ranks;
     tree.weight = weight;

@@ -328,18 +328,4 @@ void decide_among(CutSearch& search, CutTarget& target, std::span<const double> 
     finish(search, middle > last_below[axis] ? middle : first_above[axis], division.below);
 }
 
-GlobalCount limit_gathering(std::span<CutSearch> searches, std::span<const CutTarget> targets) {
-    GlobalCount num_points = 0;
-    for (std::size_t k = 0; k < searches.size(); ++k) {
-        if (searches[k].stage != CutSearch::gathering) continue;
-        const GlobalCount more = targets[k].num_candidates;
-        if (num_points + more <= most_gathered_at_once) {
-            num_points += more;
-        } else {
-            searches[k].stage = CutSearch::sampling;
-        }
-    }
-    return num_points;
-}
-
 }  // namespace rrcb

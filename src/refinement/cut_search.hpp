@@ -104,8 +104,4 @@ inline constexpr GlobalCount most_gathered = 1024;
 /// Number of candidates of all searches up to which they are gathered at once, in a few messages.
 inline constexpr GlobalCount most_gathered_at_once = 64 * most_gathered;
 
-/// Lets searches gather while their candidates are no more than that, and has the others sample
-/// theirs; returns how many candidates are gathered.
-GlobalCount limit_gathering(std::span<CutSearch> searches, std::span<const CutTarget> targets);
-
 }  // namespace rrcb

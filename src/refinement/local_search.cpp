@@ -119,10 +119,9 @@ void LocalSearch::keep_chosen(const CutSearch& before, const CutSearch& after,
     }
 }
 
-void LocalSearch::append_candidates(double list, std::vector<double>& records) const {
+void LocalSearch::append_candidates(std::vector<double>& records) const {
     for (const LocalIndex i : candidates_) {
         const Vector x = points_.position(i);
-        records.push_back(list);
         records.insert(records.end(), x.begin(), x.begin() + points_.dimension());
         records.push_back(points_.weight(i));
     }

@@ -31,8 +31,8 @@ class LocalSearch {
     void keep_chosen(const CutSearch& before, const CutSearch& after,
                      const HistogramLayout& layout);
 
-    /// Adds `list`, position and weight of each candidate.
-    void append_candidates(double list, std::vector<double>& records) const;
+    /// Adds position and weight of each candidate.
+    void append_candidates(std::vector<double>& records) const;
 
   private:
     void count_fragments(const CutSearch& search, const HistogramLayout& layout,

@@ -2,6 +2,8 @@
 
 #include "collective/participant.hpp"
 
+#include <rrcb/points.hpp>
+
 #include <span>
 #include <utility>
 #include <vector>
@@ -27,6 +29,9 @@ class PartSums {
 
     /// Takes what was counted and added up elsewhere.
     void set(std::span<const double> here, std::span<const double> sums);
+
+    /// Takes the sums of the parts from `first` on.
+    void set_sums(Part first, std::span<const double> sums);
 
     /// What was added up last, one entry per part.
     std::span<const double> sums() const { return std::span(sums_).first(sums_.size() - 2); }

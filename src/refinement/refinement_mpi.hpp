@@ -4,8 +4,8 @@
 #include "collective/participant.hpp"
 #include "cuts/cut_limits.hpp"
 #include "refinement/correction_mpi.hpp"
-#include "refinement/level_search_mpi.hpp"
 #include "refinement/part_sums_mpi.hpp"
+#include "refinement/tree_rounds_mpi.hpp"
 
 #include <rrcb/method/bisection.hpp>
 #include <rrcb/options.hpp>
@@ -32,11 +32,11 @@ struct Estimate {
     Box box{};                ///< of all points, if cuts are limited
 };
 
-/// The points by cells, for a search by levels. May throw. Made of a std::ref, it takes no memory.
+/// The points by cells, for a search. May throw. Made of a std::ref, it takes no memory.
 using Bin = std::function<const BinnedPoints&()>;
 
-/// Refined cuts and how even the parts really are; the same on every rank. The weights of the parts
-/// are in the PartSums.
+/// Refined cuts and how even the parts really are; the same on every rank. After a central
+/// refinement the weights of the parts are in the PartSums.
 struct Refined {
     Cuts cuts;
     double imbalance = 1;
@@ -44,29 +44,23 @@ struct Refined {
     int coincident_cuts = 0;  ///< that keep points together which the target divides
 };
 
-/// Moves estimated cuts until the parts of the real points are as even as asked.
+/// Moves estimated cuts of all parts until these are as even as asked, as rank 0 decides.
 ///
 /// To a tolerance, all cuts are first corrected at once, see Correction. Where that does not serve,
-/// the cuts of a level are searched all at once, one level after the other from the root of the
-/// tree. What the messages need is made before the first of them, see LevelSearch.
+/// they are searched, see TreeSearch. What the messages need is made before the first of them.
 class Refinement {
   public:
     /// By complete options. `options` and `sums` are borrowed. Not collective. Throws Error or
     /// std::bad_alloc.
-    Refinement(const Options& options, int dimension, bool is_root, PartSums& sums);
+    Refinement(const Options& options, const Participant& self, PartSums& sums);
 
     /// Refines the cuts of `estimate`, once.
     ///
-    /// Collective. Writes the part of each point into `parts`; where the estimate is not good
-    /// enough, and the current parts neither, and can't be corrected, it works on a sorted copy of
-    /// the points. To a
-    /// tolerance, cuts that divide well enough stay, with what lies below them. Where earlier cuts
-    /// move, the parts below are counted anew, as most cuts there stay. Where a tolerance is missed
-    /// because slack was spent on upper levels that lower ones need, it searches once more,
-    /// exactly, and keeps the better cuts. Limited cuts are all searched in their places, along the
-    /// axes of the estimate, and the estimate is kept where it is better. Without weight anywhere
-    /// the cuts stay. What fails on one rank, before or here, is thrown on all, see
-    /// LevelSearch::run.
+    /// Collective. Writes the part of each point into `parts`; a search works on a sorted copy of
+    /// the points. Where a tolerance is missed because slack was spent on upper levels that lower
+    /// ones need, it searches once more, exactly, and keeps the better cuts. Limited cuts are all
+    /// searched in their places, and the estimate is kept where it is better. Without weight
+    /// anywhere the cuts stay. What fails on one rank, before or here, is thrown on all.
     Refined refine(Estimate&& estimate, const Points& points, const Bin& bin, std::span<Part> parts,
                    Participant& self);
 
@@ -75,35 +69,44 @@ class Refinement {
     bool accept_estimate(const Points& points, std::span<Part> parts, Participant& self);
     bool correct(const Points& points, std::span<Part> parts, Participant& self);
     void search(const Bin& bin, std::span<Part> parts, Participant& self);
-    void search_all_levels(const Bin& bin, std::span<Part> parts, Participant& self);
+    void search_once(const Bin& bin, std::span<Part> parts, Participant& self);
     void search_for_better(const Bin& bin, std::span<Part> parts, Participant& self);
     void measure(const Participant& self);
-    bool needs_search(const Node& node) const;
-    void write_parts(std::span<Part> parts);
-    void start_level();
-    Places places_of(const Node& node);
-    CutSearch first_search(const Node& node, const Places& places) const;
-    void set_aside(const Node& node, Cut& cut);
-    Bracket bracket_of(const Node& node) const;
-    void recount(std::span<Part> parts, Participant& self);
-    void place_in_lots(const Participant& self);
-    void weigh_divided(const Participant& self);
-    void descend(Participant& self);
 
     const Options& options_;
     PartSums& sums_;
+    PartTree tree_;
     Estimate estimate_;
-    std::optional<CutLimits> limits_;  ///< nothing where cuts may lie anywhere
-    TargetRule rule_;
+    std::optional<CutLimits> limits_;       ///< nothing where cuts may lie anywhere
     std::optional<Correction> correction_;  ///< to a tolerance, where cuts may lie anywhere
-    SortedPoints points_;                   ///< where cuts are searched
-    int depth_ = 0;                         ///< cuts above the current level
-    std::vector<Node> nodes_;               ///< of the current level; capacity for any
-    std::vector<Node> children_;            ///< of the next one
-    LevelSearch level_;
-    std::vector<double> lots_;  ///< for each cut that divides a lot, what of it is on lower ranks
-    std::vector<std::size_t> divided_;  ///< children on both sides of these cuts
+    TreeRounds rounds_;
     Refined refined_;
+};
+
+/// Makes the parts below regions, as the owners of nodes decide. What the messages need is made
+/// before the first of them.
+class RegionRefinement {
+  public:
+    /// Not collective. Throws std::bad_alloc.
+    explicit RegionRefinement(const Participant& self);
+
+    /// Finds the cuts below `regions`, of which each rank gets those that it knows, and writes the
+    /// part of each point into `parts`.
+    ///
+    /// Collective. `regions` and `tree` are the same on every rank. A tolerance that is missed has
+    /// it search once more, exactly and without the regions, and keep the better cuts. Throws on
+    /// every rank what failed on one, before or here; but a failure in the last messages stays with
+    /// its rank for the next agreement.
+    Refined refine(const Regions& regions, PartTree tree, const BinnedPoints& binned,
+                   std::span<Part> parts, Participant& self);
+
+    ButterflyMessages& messages() { return rounds_.messages(); }
+
+  private:
+    Refined search(const Regions& regions, const PartTree& tree, SortedPoints& points,
+                   std::span<Part> parts, Participant& self);
+
+    TreeRounds rounds_;
 };
 
 }  // namespace rrcb

@@ -3,7 +3,6 @@
 #include "collective/communicator.hpp"
 #include "mpi_layer.hpp"
 #include "part_ranks.hpp"
-#include "refinement/candidates_mpi.hpp"
 
 #include <rrcb/rrcb.hpp>
 
@@ -85,20 +84,6 @@ TEST(LongMessages, give_the_same_numbers_of_parts_in_pieces) {
     const Remap result = remap(parts, ranks, MPI_COMM_WORLD);
     EXPECT_EQ(result.numbers, expected.numbers);
     EXPECT_EQ(result.kept_after, expected.kept_after);
-}
-
-TEST(LongMessages, of_more_candidates_than_mpi_counts_are_refused_before_they_are_sent) {
-    Candidates candidates(2);
-    candidates.expect(1000, test::num_ranks());
-    for (const GlobalCount too_many : {GlobalCount{1} << 31, GlobalCount{1} << 40}) {
-        try {
-            candidates.expect(too_many, test::num_ranks());
-            ADD_FAILURE() << "room for " << too_many;
-        } catch (const Error& error) {
-            EXPECT_EQ(error.code(), ErrorCode::mpi);
-            EXPECT_NE(std::string(error.what()).find(std::to_string(too_many)), std::string::npos);
-        }
-    }
 }
 
 }  // namespace

@@ -89,11 +89,11 @@ TEST_P(ManyRanks, send_the_root_a_bounded_number_of_cells_and_are_balanced_all_t
     const Points points = ranks.points();
     const BinnedPoints binned = bin_by_options(points, bounding_box(points), ranks.options);
     PartSums sums(ranks.options.part_sizes.size());
-    Refinement refinement(ranks.options, 2, true, sums);
+    Participant self{MPI_COMM_SELF};
+    Refinement refinement(ranks.options, self, sums);
     std::vector<Part> parts(points.count);
     Estimate estimate{decision.bisection.cuts, decision.bisection.brackets,
                       static_cast<double>(points.count), decision.verdict.common_weight};
-    Participant self{MPI_COMM_SELF};
     const auto bin = [&]() -> const BinnedPoints& { return binned; };
     const Refined refined = refinement.refine(std::move(estimate), points, bin, parts, self);
 

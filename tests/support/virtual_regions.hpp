@@ -2,7 +2,7 @@
 // run.
 #pragma once
 
-#include "refinement/region_search.hpp"
+#include "refinement/tree_search.hpp"
 #include "virtual_butterfly.hpp"
 
 #include <algorithm>
@@ -19,12 +19,12 @@ struct SearchCounts {
 };
 
 /// Ends the searches of all ranks.
-inline SearchCounts run_searches(std::vector<std::unique_ptr<RegionSearch>>& searches) {
+inline SearchCounts run_searches(std::vector<std::unique_ptr<TreeSearch>>& searches) {
     const auto none_fails = [](int, int) { return false; };
     std::vector<Butterfly> butterflies;
     for (std::size_t rank = 0; rank < searches.size(); ++rank)
         butterflies.emplace_back(static_cast<int>(rank), static_cast<int>(searches.size()),
-                                 RegionSearch::join);
+                                 TreeSearch::join);
     const std::vector<Flags> flags(searches.size());
     SearchCounts counts;
     const auto is_searching = [](const auto& search) { return search->is_searching(); };

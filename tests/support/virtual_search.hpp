@@ -3,7 +3,7 @@
 
 #include "gather/contribution.hpp"
 #include "memory_layer.hpp"
-#include "refinement/region_search.hpp"
+#include "refinement/tree_search.hpp"
 #include "virtual_cloud.hpp"
 #include "virtual_round.hpp"
 
@@ -47,7 +47,7 @@ class VirtualSearch {
         const std::vector<double> all{static_cast<double>(parts_.size())};
         const Regions regions{std::move(top.cuts), num_regions == 1 ? all : top.report.part_weights,
                               bounding_box(cloud.points())};
-        const RegionTree tree = tree_of(cloud, tolerance);
+        const PartTree tree = tree_of(cloud, tolerance);
         for (int rank = 0; rank < cloud.num_ranks(); ++rank) start(cloud, tree, regions, rank);
     }
 
@@ -97,13 +97,13 @@ class VirtualSearch {
 
   private:
     struct Rank {
-        RegionSearch search;
+        TreeSearch search;
         Butterfly butterfly;
 
-        Rank(const RegionTree& tree, int rank, const Regions& regions, SortedPoints&& points,
+        Rank(const PartTree& tree, int rank, const Regions& regions, SortedPoints&& points,
              std::span<Part> parts)
             : search(tree, rank, regions, std::move(points), parts),
-              butterfly(rank, tree.num_ranks, RegionSearch::join) {}
+              butterfly(rank, tree.num_ranks, TreeSearch::join) {}
     };
     struct Memory {
         std::int64_t now;
@@ -128,8 +128,8 @@ class VirtualSearch {
         return balance(cloud.points(), options, MPI_COMM_SELF);
     }
 
-    RegionTree tree_of(const VirtualCloud& cloud, double tolerance) const {
-        RegionTree tree;
+    PartTree tree_of(const VirtualCloud& cloud, double tolerance) const {
+        PartTree tree;
         tree.num_parts = tree.num_ranks = cloud.num_ranks();
         tree.ones = ones_;
         tree.weight = static_cast<double>(parts_.size());
@@ -139,8 +139,7 @@ class VirtualSearch {
         return tree;
     }
 
-    void start(const VirtualCloud& cloud, const RegionTree& tree, const Regions& regions,
-               int rank) {
+    void start(const VirtualCloud& cloud, const PartTree& tree, const Regions& regions, int rank) {
         const Points mine = cloud.points_of(rank);
         Options options;
         options.num_parts = cloud.num_ranks();

@@ -192,20 +192,6 @@ TEST(DecideAmong, divides_no_lot_where_a_cut_beside_it_is_near_enough) {
     }
 }
 
-TEST(LimitGathering, has_the_searches_behind_sample_that_would_bring_too_many_candidates) {
-    constexpr std::size_t num_fitting = most_gathered_at_once / most_gathered;
-    std::vector<CutSearch> searches(num_fitting + 3, search_in(CutSearch::gathering));
-    std::vector<CutTarget> targets(searches.size());
-    for (CutTarget& target : targets) target.num_candidates = most_gathered;
-    searches[1].stage = CutSearch::over_candidates;  // brings none
-    targets.back().num_candidates = 0;
-    EXPECT_EQ(limit_gathering(searches, targets), most_gathered_at_once);
-    EXPECT_EQ(searches[1].stage, CutSearch::over_candidates);
-    EXPECT_EQ(searches[num_fitting].stage, CutSearch::gathering);
-    EXPECT_EQ(searches[num_fitting + 1].stage, CutSearch::sampling);
-    EXPECT_EQ(searches.back().stage, CutSearch::gathering) << "nothing more is room for nothing";
-}
-
 TEST(LocalSearch, counts_and_keeps_its_candidates_between_splitters) {
     std::vector<double> x(9);
     std::iota(x.begin(), x.end(), 0.0);
@@ -230,8 +216,8 @@ TEST(LocalSearch, counts_and_keeps_its_candidates_between_splitters) {
     after.chosen = 2;
     local.keep_chosen(search, after, layout);
     std::vector<double> records;
-    local.append_candidates(0, records);
-    EXPECT_EQ(records, (std::vector<double>{0, 3, 1, 0, 4, 1, 0, 5, 1}));
+    local.append_candidates(records);
+    EXPECT_EQ(records, (std::vector<double>{3, 1, 4, 1, 5, 1}));
 }
 
 }  // namespace

@@ -106,13 +106,7 @@ class Search {
   private:
     std::vector<double> gather(const std::vector<LocalSearch>& local) const {
         std::vector<double> all;
-        for (const LocalSearch& one : local) {
-            std::vector<double> records;
-            one.append_candidates(0, records);
-            const auto length = static_cast<std::ptrdiff_t>(dimension_ + 2);
-            for (auto at = records.begin(); at != records.end(); at += length)
-                all.insert(all.end(), at + 1, at + length);
-        }
+        for (const LocalSearch& one : local) one.append_candidates(all);
         return all;
     }
 

@@ -258,8 +258,8 @@ TEST(LocalSearch, counts_its_points_then_its_candidates_and_hands_them_over) {
     local.keep_chosen(before, after, layout);
     EXPECT_EQ(count(after), (std::vector<double>{0, 0, 3, 2, 0, 0, 0, 0, 1, 1, 0, 0}));
     std::vector<double> records;
-    local.append_candidates(9, records);
-    EXPECT_EQ(records, (std::vector<double>{9, 1.5, 2, 9, 1.25, 3}));
+    local.append_candidates(records);
+    EXPECT_EQ(records, (std::vector<double>{1.5, 2, 1.25, 3}));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Cuts below regions, found by the ranks that own them, against all points in one place.
-#include "refinement/region_search.hpp"
+#include "refinement/tree_search.hpp"
 
 #include "../support/clouds.hpp"
 #include "../support/virtual_regions.hpp"
@@ -59,7 +59,7 @@ class Global {
     double weight(std::size_t i) const { return weights_.empty() ? 1 : weights_[i]; }
 
     test::SearchCounts run(double tolerance = 1) {
-        RegionTree tree;
+        PartTree tree;
         tree.num_parts = case_.num_parts;
         tree.num_ranks = case_.num_ranks;
         tree.part_sizes = case_.part_sizes;
@@ -257,7 +257,7 @@ class Global {
         }
     }
 
-    void add_search(const RegionTree& tree, int rank) {
+    void add_search(const PartTree& tree, int rank) {
         const auto& mine = members_[static_cast<std::size_t>(rank)];
         std::vector<double> coordinates;
         std::vector<double> weights;
@@ -269,8 +269,8 @@ class Global {
         const Box box = bounding_box(points);
         const BinnedPoints binned = bin_by_cell(points, make_support_mesh(box, case_.dimension, 4));
         local_parts_.emplace_back(mine.size(), -1);
-        searches_.push_back(std::make_unique<RegionSearch>(
-            tree, rank, regions_, sort_by_cell(binned), local_parts_.back()));
+        searches_.push_back(std::make_unique<TreeSearch>(tree, rank, regions_, sort_by_cell(binned),
+                                                         local_parts_.back()));
     }
 
     std::map<std::size_t, Cut> known_by(int rank) const {
@@ -374,7 +374,7 @@ class Global {
     std::vector<double> region_weights_;
     std::vector<std::vector<std::size_t>> members_;  ///< points of each rank
     std::vector<std::vector<Part>> local_parts_;
-    std::vector<std::unique_ptr<RegionSearch>> searches_;
+    std::vector<std::unique_ptr<TreeSearch>> searches_;
     std::vector<Part> parts_;
     std::map<std::size_t, Cut> cuts_;  ///< that any rank knows
 };
@@ -387,7 +387,7 @@ void expect_exact(const Case& one) {
     EXPECT_NEAR(all.told_imbalance(), all.counted_imbalance(), 1e-12 * all.told_imbalance()) << one;
 }
 
-TEST(RegionSearch, cuts_exactly_on_any_number_of_ranks) {
+TEST(TreeSearch, cuts_exactly_on_any_number_of_ranks) {
     for (const int ranks : {3, 4, 5, 6, 7, 9, 10, 12, 16})
         for (const int regions : {1, 2, 4, 8})
             for (const Spread spread : {Spread::sorted, Spread::scattered, Spread::on_few_ranks})
@@ -399,7 +399,7 @@ TEST(RegionSearch, cuts_exactly_on_any_number_of_ranks) {
                                   .weights = ranks % 2 == 0 ? "equal" : "any"});
 }
 
-TEST(RegionSearch, makes_more_parts_than_ranks_and_fewer) {
+TEST(TreeSearch, makes_more_parts_than_ranks_and_fewer) {
     for (const int parts : {3, 5, 8, 13, 40, 64})
         for (const int ranks : {3, 4, 7, 10})
             for (const Spread spread : {Spread::sorted, Spread::scattered})
@@ -410,7 +410,7 @@ TEST(RegionSearch, makes_more_parts_than_ranks_and_fewer) {
                               .weights = "any"});
 }
 
-TEST(RegionSearch, cuts_clouds_of_any_kind) {
+TEST(TreeSearch, cuts_clouds_of_any_kind) {
     for (const int dimension : {1, 2, 3})
         for (const char* cloud : {"uniform", "corner", "lattice", "one place", "decades", "line"})
             for (const char* weights : {"equal", "any", "decades", "some"})
@@ -425,7 +425,7 @@ TEST(RegionSearch, cuts_clouds_of_any_kind) {
                                   .plain_cuts = plain});
 }
 
-TEST(RegionSearch, leaves_parts_of_no_size_empty) {
+TEST(TreeSearch, leaves_parts_of_no_size_empty) {
     for (const auto& sizes : std::vector<std::vector<double>>{{0, 1, 0, 0, 2, 3, 0.5, 0, 1},
                                                               {1, 0, 0, 0, 0, 0, 0, 0, 0},
                                                               {0, 0, 0, 0, 0, 0, 0, 0, 2},
@@ -438,7 +438,7 @@ TEST(RegionSearch, leaves_parts_of_no_size_empty) {
                           .part_sizes = sizes});
 }
 
-TEST(RegionSearch, gathers_no_more_than_it_may_whatever_shares_a_coordinate) {
+TEST(TreeSearch, gathers_no_more_than_it_may_whatever_shares_a_coordinate) {
     // More points in one bin, and in one place, than are gathered: bins by bits, ties, and next to
     // 1 samples as well.
     for (const char* cloud : {"decades", "lattice", "one place", "corner", "next to 1"})
@@ -451,7 +451,7 @@ TEST(RegionSearch, gathers_no_more_than_it_may_whatever_shares_a_coordinate) {
                       .num_points = 30000});
 }
 
-TEST(RegionSearch, gives_the_same_parts_wherever_points_lie) {
+TEST(TreeSearch, gives_the_same_parts_wherever_points_lie) {
     for (const int dimension : {1, 2, 3}) {
         std::vector<std::vector<Part>> parts;
         for (const Spread spread : {Spread::sorted, Spread::scattered, Spread::on_few_ranks})
@@ -469,14 +469,14 @@ TEST(RegionSearch, gives_the_same_parts_wherever_points_lie) {
     }
 }
 
-TEST(RegionSearch, counts_the_cuts_among_points_in_one_place) {
+TEST(TreeSearch, counts_the_cuts_among_points_in_one_place) {
     Global all({.num_ranks = 4, .num_regions = 2, .num_parts = 8, .cloud = "one place"});
     all.run();
     // All points are on one side of all cuts; each cut on the way to their part counts.
     EXPECT_EQ(all.num_coincident(), 2);
 }
 
-TEST(RegionSearch, keeps_to_a_tolerance_in_two_rounds_a_level) {
+TEST(TreeSearch, keeps_to_a_tolerance_in_two_rounds_a_level) {
     for (const int ranks : {16, 64})
         for (const Spread spread : {Spread::sorted, Spread::scattered}) {
             Global all({.num_ranks = ranks,
@@ -494,7 +494,7 @@ TEST(RegionSearch, keeps_to_a_tolerance_in_two_rounds_a_level) {
         }
 }
 
-TEST(RegionSearch, sends_little_where_points_lie_in_their_parts) {
+TEST(TreeSearch, sends_little_where_points_lie_in_their_parts) {
     for (const bool is_exact : {false, true}) {
         Global all({.num_ranks = 1000,
                     .num_regions = is_exact ? 1 : 16,

@@ -192,8 +192,7 @@ def _assumptions(machine: Machine, observed: Observed) -> list[str]:
         " with more parts than these no estimate is within a tolerance. Refined: one round a level and"
         " a histogram a cut, as with 20,000 uniform points a rank here; in clusters it was up to 2.5"
         f" and 1.7. Exact: {observed.rounds_per_level} rounds a level,"
-        f" {observed.bytes_per_list:.0f} bytes of candidates a cut on the average of all cuts, the most"
-        " seen here.",
+        f" {observed.bytes_per_cut:.0f} bytes of records a rank and cut, the most seen here.",
         f"Zoltan's RCB: {observed.iterations:.2f} iterations a median, the mean seen here; half of"
         f" the points move at every level, to one partner; {machine.partners} partners and parts a"
         " rank at the end, as where points hardly move. Points that lie scattered cost far more:"

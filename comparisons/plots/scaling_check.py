@@ -111,14 +111,12 @@ def compare_all(
 
 
 def read_sizes(directory: Path, counted: dict[tuple[str, int], Counted]) -> Sizes | None:
-    """From two ranks, whose refinement takes a histogram a round."""
+    """From two ranks."""
     file = read(directory / "ranks-2" / "message_sizes.csv")
-    if file.empty or not all((method, 2) in counted for method in (NONE, EXACT)):
+    if file.empty or (NONE, 2) not in counted:
         return None
     parts = model.Parts(**file.set_index("name")["bytes"])
-    none, exact = counted[NONE, 2].traffic, counted[EXACT, 2].traffic
-    rounds = (exact["Bcast"].calls - none["Bcast"].calls) // 2 - 1
-    searches = exact["Bcast"].sent - none["Bcast"].sent - model.answer_bytes(2, parts)
+    none = counted[NONE, 2].traffic
     return Sizes(
         parts,
         agreements=none["Allreduce"].sent // 2,
@@ -126,36 +124,27 @@ def read_sizes(directory: Path, counted: dict[tuple[str, int], Counted]) -> Size
         parameters=none["Gather"].sent // 2,
         broadcasts=none["Bcast"].sent - 8 * 2,
         num_broadcasts=none["Bcast"].calls // 2,
-        histogram=exact["Reduce"].sent // 2 - model.look_bytes(2, parts),
-        search=searches // rounds,
     )
 
 
 def read_rounds(row: Counted, sizes: Sizes) -> Rounds:
     """What the refinement did; fractions would mean that the formula does not hold.
 
-    Corrections have messages as long as the cuts near the points ask for: to a tolerance, bytes of
-    counts and answers are taken as they came.
+    Corrections have messages as long as the cuts near the points ask for, and searches those that
+    the points ask for: their bytes are taken as they came.
     """
     traffic, ranks = row.traffic, row.ranks
     looks = model.LOOKS["refined" if row.method == REFINED else "exact"]
     rest = model.beyond_head(ranks, "exact", sizes.parts)
     once = sizes.broadcasts + 8 * ranks + rest + looks * model.answer_bytes(ranks, sizes.parts)
     reduced = traffic["Reduce"].sent - looks * ranks * model.look_bytes(ranks, sizes.parts)
-    broadcasts = _whole(traffic["Bcast"].calls, ranks)
-    rounds = Rounds(
-        rounds=broadcasts - sizes.num_broadcasts - (rest > 0) - looks,
-        counts=_whole(traffic["Reduce"].calls, ranks) - looks,
-        gathers=_whole(traffic["Gather"].calls, ranks) - 1,
-        candidate_bytes=traffic["Gatherv"].sent,
-    )
-    if row.method == REFINED:
-        return rounds._replace(
-            answer_bytes=traffic["Bcast"].sent - once, bin_bytes=_whole(reduced, ranks)
-        )
-    return rounds._replace(
-        searches=_whole(traffic["Bcast"].sent - once, sizes.search),
-        histograms=_whole(reduced, ranks * sizes.histogram),
+    records = traffic["Isend"]
+    return Rounds(
+        rounds=_whole(records.calls, 2 * (ranks - 1)),
+        record_bytes=records.sent - model.HEAD * records.calls,
+        corrections=_whole(traffic["Reduce"].calls, ranks) - looks,
+        answer_bytes=traffic["Bcast"].sent - once,
+        bin_bytes=_whole(reduced, ranks),
     )
 
 
@@ -164,9 +153,9 @@ def _compare_rrcb(row: Counted, sizes: Sizes) -> Comparison:
     refine, rounds, inputs = "none" if row.method == NONE else "accepted", Rounds(), "none"
     if row.method == EXACT or row.method == REFINED and not was_accepted:
         refine = "refined" if row.method == REFINED else "exact"
-        rounds, inputs = read_rounds(row, sizes), "rounds, histograms and candidates"
-    given = (row.ranks, sizes, refine, rounds)
-    return Comparison(row, model.rrcb(*given), model.rrcb_root_bytes(*given), inputs)
+        rounds, inputs = read_rounds(row, sizes), "rounds and bytes of records"
+    root_bytes = model.rrcb_root_bytes(row.ranks, sizes, refine)
+    return Comparison(row, model.rrcb(row.ranks, sizes, refine, rounds), root_bytes, inputs)
 
 
 def read_exchange(row: Counted) -> Exchange:

@@ -18,6 +18,10 @@ RADIX = 8
 MOST_CELLS = 8192
 LOOKS = {"none": 0, "accepted": 1, "refined": 2, "exact": 1}  # at what the parts weigh
 MOST_PLACES = 4096  # ranks that hand them up
+HEAD = 40  # of a message of records: length and flags
+RECORD_HEAD = 16
+HISTOGRAM = RECORD_HEAD + 8 * (1 + 7 + 2 * 66)  # 64 bins and two slots beside them
+ANSWER = RECORD_HEAD + 112  # the state of a search and the weight of its node
 
 
 class Count(NamedTuple):
@@ -86,21 +90,16 @@ class Sizes(NamedTuple):
     parameters: int  # gathered from every rank by the plug-in
     broadcasts: int  # all broadcasts together, but for what grows with the parts, head included
     num_broadcasts: int
-    histogram: int
-    search: int
 
 
 class Rounds(NamedTuple):
-    """What the refinement did: 0 rounds where the estimate was accepted or none was asked for."""
+    """What the refinement did: nothing where the estimate was accepted or none was asked for."""
 
-    rounds: int = 0
-    searches: int = 0  # broadcast, added up over the rounds
-    counts: int = 0  # rounds with histograms
-    histograms: int = 0
-    gathers: int = 0  # rounds with candidates
-    candidate_bytes: int = 0
-    answer_bytes: int = 0  # broadcast, where corrections of all cuts at once go before searches
-    bin_bytes: int = 0  # of a rank, reduced there
+    rounds: int = 0  # of the search: records to rank 0, and answers back
+    record_bytes: int = 0
+    corrections: int = 0  # of all cuts at once, before the search
+    answer_bytes: int = 0  # broadcast by them
+    bin_bytes: int = 0  # of a rank, reduced by them
 
 
 def children(rank: int, ranks: int) -> list[int]:
@@ -171,38 +170,26 @@ def rrcb(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> Tr
         traffic.reduce(ranks, look_bytes(ranks, sizes.parts))
         traffic.broadcast(ranks, answer_bytes(ranks, sizes.parts))
     if refine in ("refined", "exact"):
-        _refine(traffic, ranks, sizes, rounds)
+        _refine(traffic, ranks, rounds)
     return traffic
 
 
-def _refine(traffic: Traffic, ranks: int, sizes: Sizes, rounds: Rounds) -> None:
-    searches = rounds.searches * sizes.search + rounds.answer_bytes
-    traffic.add("Bcast", ranks * rounds.rounds, searches, (ranks - 1) * searches)
-    histograms = rounds.histograms * sizes.histogram + rounds.bin_bytes
-    traffic.add("Reduce", ranks * rounds.counts, ranks * histograms, histograms)
-    counts = 4 * rounds.gathers * ranks
-    traffic.add("Gather", ranks * rounds.gathers, counts, counts)
-    traffic.add("Gatherv", ranks * rounds.gathers, rounds.candidate_bytes, rounds.candidate_bytes)
+def _refine(traffic: Traffic, ranks: int, rounds: Rounds) -> None:
+    answers, bins = rounds.answer_bytes, rounds.bin_bytes
+    traffic.add("Bcast", ranks * rounds.corrections, answers, (ranks - 1) * answers)
+    traffic.add("Reduce", ranks * rounds.corrections, ranks * bins, bins)
+    messages = 2 * (ranks - 1) * rounds.rounds
+    traffic.add("Isend", messages, HEAD * messages + rounds.record_bytes)
 
 
-def rrcb_root_bytes(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> int:
-    """Bytes that rank 0 gets."""
+def rrcb_root_bytes(ranks: int, sizes: Sizes, refine: str) -> int | str:
+    """Bytes that rank 0 gets; of a search nothing is told, as points decide which records meet."""
+    if refine in ("refined", "exact"):
+        return ""
     into = all_agreements(sizes, refine)[1] + ranks * sizes.parameters
     mine = hand_up_bytes(ranks, refine, sizes.parts)
     into += sum(sizes.parts.summary + subtree(child, ranks) * mine for child in children(0, ranks))
-    into += LOOKS[refine] * look_bytes(ranks, sizes.parts)
-    if refine in ("refined", "exact"):
-        into += rounds.histograms * sizes.histogram + 4 * rounds.gathers * ranks
-        into += rounds.candidate_bytes + rounds.bin_bytes
-    return into
-
-
-def expected_rounds(ranks: int, rounds_per_level: int, bytes_per_list: float) -> Rounds:
-    """Every cut counted once, then decided among candidates: the most that was measured."""
-    levels = (ranks - 1).bit_length()
-    cuts = ranks - 1
-    rounds, searches = rounds_per_level * levels, rounds_per_level * cuts
-    return Rounds(rounds, searches, levels, cuts, levels, int(cuts * bytes_per_list))
+    return into + LOOKS[refine] * look_bytes(ranks, sizes.parts)
 
 
 # --- Zoltan's RCB -------------------------------------------------------------------------------

@@ -15,7 +15,7 @@ import pandas as pd
 import scaling_model as model
 import scaling_wide as wide
 from scaling_check import EXACT, JAGGED, ZOLTAN, Counted, read_exchange, read_rounds
-from scaling_model import Rounds, Sizes
+from scaling_model import Sizes
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ class Observed:
 
     sizes: Sizes
     rounds_per_level: int
-    bytes_per_list: float
+    bytes_per_cut: float  # of the records that a rank sends and gets in an exact search
     iterations: float  # of the median search in a set of Zoltan's RCB
     steps: float  # of the search of multijagged in a section
     to_tolerance: Searches | None = None
@@ -86,7 +86,7 @@ def observe(
     return Observed(
         sizes,
         max(ceil(of.rounds / cuts.bit_length()) for cuts, of in refined),
-        max(of.candidate_bytes / cuts for cuts, of in refined),
+        max(of.record_bytes / cuts**2 for cuts, of in refined),
         _mean([read_exchange(row).iterations / sum(model.sets(row.ranks)) for row in zoltan]),
         _mean([_steps(row) for row in jagged]),
         _searches(virtual, is_exact=False),
@@ -139,10 +139,10 @@ def rrcb_path(ranks: int, refine: str, observed: Observed, machine: Machine) -> 
     path.collective(ranks, model.answer_bytes(ranks, sizes.parts), looks)
     if refine == "refined":
         levels = (ranks - 1).bit_length()
-        _refine(path, ranks, sizes, Rounds(levels, ranks - 1, levels, ranks - 1))
+        _refine(path, ranks, levels, model.HISTOGRAM + model.ANSWER)
     if refine == "exact":
-        per_level, per_list = observed.rounds_per_level, observed.bytes_per_list
-        _refine(path, ranks, sizes, model.expected_rounds(ranks, per_level, per_list))
+        rounds = observed.rounds_per_level * (ranks - 1).bit_length()
+        _refine(path, ranks, rounds, observed.bytes_per_cut)
     return path
 
 
@@ -195,14 +195,13 @@ def _climb(
         below *= model.RADIX
 
 
-def _refine(path: CallPath, ranks: int, sizes: Sizes, rounds: Rounds) -> None:
-    histograms = rounds.histograms * sizes.histogram
-    path.collective(ranks, 0, rounds.counts + rounds.rounds + 2 * rounds.gathers)
-    path.bytes += histograms + rounds.searches * sizes.search
-    gathered = 4 * rounds.gathers * ranks + rounds.candidate_bytes
-    path.bytes += gathered
-    path.root_bytes += histograms + gathered
+def _refine(path: CallPath, ranks: int, rounds: int, bytes_per_cut: float) -> None:
+    """Passes to rank 0 and back; every message of a pass is as long, as ranks have points anywhere."""
     levels = (ranks - 1).bit_length()
+    size = levels * (ranks - 1) * bytes_per_cut
+    path.messages += 2 * rounds * levels
+    path.bytes += size + 2 * rounds * levels * model.HEAD
+    path.root_bytes += size
     path.work += levels * path.machine.points * path.machine.per_look
 
 

@@ -12,14 +12,11 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import scaling_model as model
-from scaling_model import Parts, Traffic
+from scaling_model import HEAD, HISTOGRAM, RECORD_HEAD, Parts, Traffic
 
 REGIONS = 64  # at most
 MOST_CELLS = 224  # that are handed on up the tree; coarsened to 112 beyond
-HEAD = 40  # length and flags
-RECORD_HEAD = 16
-HISTOGRAM = RECORD_HEAD + 8 * (1 + 7 + 2 * 66)  # 64 bins and two slots beside them
-ANSWER = RECORD_HEAD + 176
+ANSWER = model.ANSWER + 48  # the box of the node as well
 PLACES = RECORD_HEAD + 8 * 2 * (model.DIMENSION + model.DIMENSION**2)  # below a cut and above it
 CUT = RECORD_HEAD + 32
 BOX, COUNT = 48, 4  # reduced to everybody

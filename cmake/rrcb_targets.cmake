@@ -8,6 +8,13 @@ function(rrcb_set_warnings target)
             $<$<BOOL:${RRCB_WERROR}>:-Werror>)
 endfunction()
 
+# Compiles the headers that nearly every file includes once for a target.
+function(rrcb_precompile target)
+  target_precompile_headers(
+    ${target} PRIVATE <mpi.h> <algorithm> <array> <cmath> <functional> <map> <optional> <span>
+    <string> <vector> ${ARGN})
+endfunction()
+
 # While the first number of the version is 0, a new second one may change the interface.
 function(rrcb_set_soname target)
   set_target_properties(

@@ -40,7 +40,7 @@ const std::map<std::string, std::string>& documentation() {
         {"layout", "how points lie on the ranks: sorted (default) or scattered"},
         {"file", "CSV file of points: x,y[,z][,weight]"},
         {"replay", "folder of a dump of the plug-in's (RRCB_DUMP)"},
-        {"methods", "methods, by commas, parameters in brackets: " + method_names()},
+        {"methods", "methods, by commas, parameters in brackets, or all: " + method_names()},
         {"lists", "lists Zoltan returns: PARTS (default), EXPORT or ALL"},
         {"steps", "steps of the simulation; to the end of the scene"},
         {"every", "steps between rebalances, or auto (default): when they pay"},
@@ -144,6 +144,7 @@ void use_default_sizes(Arguments& arguments) {
 }
 
 std::vector<Method> choose_methods(const Arguments& arguments, const std::string& text) {
+    if (text == "all") return all_methods();
     if (!text.empty()) return read_methods(text);
     if (!arguments.sweep) return default_methods();
     return arguments.quick ? read_methods(method_names()) : cost_settings();

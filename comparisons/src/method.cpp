@@ -222,6 +222,10 @@ std::vector<Method> read_methods(std::string_view text) {
 }
 
 std::vector<Method> default_methods() {
+    return read_methods("zoltan-rcb,rrcb-sampled[mesh=8,k=2,fraction=0.125],rrcb,rrcb-exact");
+}
+
+std::vector<Method> all_methods() {
     std::vector<Method> methods;
     for (const Entry& entry : entries()) {
         const std::string name(entry.name);

@@ -56,9 +56,12 @@ std::vector<Method> read_methods(std::string_view text);
 /// Names of all methods, as in "a, b, c".
 std::string method_names();
 
-/// What is compared unless the user says otherwise: every method, of the paper's the four settings
-/// it names best, of rrcb several tolerances.
+/// What is compared unless the user says otherwise: Zoltan's RCB, the paper's method, and rrcb to a
+/// tolerance and exactly.
 std::vector<Method> default_methods();
+
+/// Every method, of the paper's the four settings it names best, of rrcb several tolerances.
+std::vector<Method> all_methods();
 
 /// Whether its points are pseudo-random and their seed is left open, so that it is to be judged
 /// over several.

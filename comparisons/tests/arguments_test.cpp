@@ -51,6 +51,7 @@ TEST(Arguments, take_a_scene_by_its_name_or_file) {
 TEST(Arguments, compare_settings_unless_methods_are_named) {
     EXPECT_EQ(read({"--cloud=slope"}).methods.size(), default_methods().size());
     EXPECT_EQ(read({"--quick"}).methods.size(), default_methods().size());
+    EXPECT_EQ(read({"--methods=all"}).methods.size(), all_methods().size());
     EXPECT_EQ(read({"--sweep", "--quick"}).methods.size(), read_methods(method_names()).size());
     EXPECT_EQ(read({"--methods=rrcb-arrays[tol=1.1]"}).methods.size(), 1U);
 }

@@ -57,9 +57,17 @@ TEST(Method, on_arrays_is_told_without_what_zoltan_takes) {
     EXPECT_EQ(zoltan_parameters(read_method("rrcb-arrays[mesh=3]"), Lists::all), expected);
 }
 
-TEST(Method, compares_every_method_in_its_best_settings_by_default) {
+TEST(Method, compares_four_by_default) {
     std::vector<std::string> labels;
-    for (const Method& method : default_methods()) {
+    for (const Method& method : default_methods()) labels.push_back(method.label);
+    const std::vector<std::string> expected = {
+        "zoltan-rcb", "rrcb-sampled[mesh=8,k=2,fraction=0.125]", "rrcb", "rrcb-exact"};
+    EXPECT_EQ(labels, expected);
+}
+
+TEST(Method, compares_every_method_in_its_best_settings_if_asked_for_all) {
+    std::vector<std::string> labels;
+    for (const Method& method : all_methods()) {
         if (method.label != "zoltan2-mj") labels.push_back(method.label);
     }
     const std::vector<std::string> expected = {"zoltan-rcb",

@@ -27,14 +27,27 @@ Part first_part_from(int rank, int num_parts, int num_ranks) {
 }  // namespace
 
 PartRange parts_on(int rank, int num_parts, int num_ranks) {
-    const Part end = first_part_from(rank + 1, num_parts, num_ranks);
-    return {std::min(first_part_from(rank, num_parts, num_ranks), end - 1), end};
+    const auto [first, end] = parts_from(rank, num_parts, num_ranks);
+    return {std::min(first, end - 1), end};
+}
+
+PartRange parts_from(int rank, int num_parts, int num_ranks) {
+    return {first_part_from(rank, num_parts, num_ranks),
+            first_part_from(rank + 1, num_parts, num_ranks)};
+}
+
+PartRange parts_from(int rank, std::span<const RankRange> ranks_of_parts) {
+    // Not equal_range, whose answer clang 14 cannot read with GCC's library.
+    const auto first = std::ranges::lower_bound(ranks_of_parts, rank, {}, &RankRange::first_rank);
+    const auto end = std::ranges::upper_bound(ranks_of_parts, rank, {}, &RankRange::first_rank);
+    return {static_cast<Part>(first - ranks_of_parts.begin()),
+            static_cast<Part>(end - ranks_of_parts.begin())};
 }
 
 void for_each_owned(const Cuts& cuts, int rank, int num_ranks,
                     const std::function<void(std::size_t node, const Cut& cut)>& visit) {
-    const Part end = first_part_from(rank + 1, cuts.num_parts, num_ranks);
-    for (Part part = first_part_from(rank, cuts.num_parts, num_ranks); part < end; ++part) {
+    const auto [first, end] = parts_from(rank, cuts.num_parts, num_ranks);
+    for (Part part = first; part < end; ++part) {
         Descent at = root_of(cuts);
         while (!at.is_part()) {
             const bool is_owned = at.first_part == part;

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 
 namespace rrcb {
 
@@ -20,6 +21,11 @@ struct PartRange {
     Part end;
 };
 PartRange parts_on(int rank, int num_parts, int num_ranks);
+
+/// Returns the parts whose first rank is `rank`: as ranks_of_part() lays them out, or as listed,
+/// ascending.
+PartRange parts_from(int rank, int num_parts, int num_ranks);
+PartRange parts_from(int rank, std::span<const RankRange> ranks_of_parts);
 
 /// Calls visit(node, cut) for each cut that a rank owns, in preorder. Throws Error where it lacks
 /// one.

@@ -1,7 +1,8 @@
 #include "lists/number_search.hpp"
 
 #include <algorithm>
-#include <array>
+#include <functional>
+#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -9,261 +10,239 @@ namespace rrcb {
 
 namespace {
 
-constexpr std::int32_t none = -1;
-
-/// The order of offers for one part: count, whether it keeps its number, origin. Doubles, which
-/// hold counts below 2^53 exactly.
-auto rank_among_offers(std::span<const double> offer) {
-    return std::tuple(offer[0], offer[1], -offer[2]);
-}
-
-/// What asks for the largest offer and makes none.
-constexpr std::array<double, 3> question{0, 0, none};
-
-std::array<double, 3> offer_of(const Overlap& overlap, const NumberRule& rule) {
-    return {static_cast<double>(overlap.count),
-            overlap.origin == rule.home_of(overlap.part) ? 1.0 : 0.0,
-            static_cast<double>(overlap.origin)};
+std::size_t length_of(PartRange range) {
+    return static_cast<std::size_t>(range.end - range.first);
 }
 
 }  // namespace
 
-NumberSearch::NumberSearch(int num_parts, int num_ranks, int rank)
-    : rule_{num_parts, num_ranks},
-      rank_(rank),
-      own_(parts_on(rank, num_parts, num_ranks)),
-      origins_of_(static_cast<std::size_t>(own_.end - own_.first), none) {}
+std::int32_t NumberRule::home_of(Part number) const {
+    if (!by_rank) return number;
+    return listed.empty() ? ranks_of_part(number, num_parts, num_ranks).first_rank
+                          : listed[static_cast<std::size_t>(number)].first_rank;
+}
 
-void NumberSearch::start(Origins origins, std::span<const Overlap> overlaps) {
-    rule_.origins = origins;
-    is_lost_.assign(overlaps.size(), false);
-    overlaps_.assign(overlaps.begin(), overlaps.end());
-    std::ranges::sort(overlaps_, [&](const Overlap& a, const Overlap& b) {
-        const bool a_moves = rule_.home_of(a.part) != a.origin;
-        const bool b_moves = rule_.home_of(b.part) != b.origin;
-        return std::tie(a.origin, b.count, a_moves, a.part) <
-               std::tie(b.origin, a.count, b_moves, b.part);
-    });
-    const int num_numbers = origins == Origins::ranks ? own_.end - own_.first : 1;
-    for (std::size_t k = 0; k < overlaps_.size(); ++k) {
-        if (k == 0 || overlaps_[k].origin != overlaps_[k - 1].origin)
-            origins_.push_back({k, k, num_numbers, false});
-        ++origins_.back().end;
+PartRange NumberRule::numbers_of(std::int32_t origin) const {
+    if (!by_rank) return {origin, origin + 1};
+    return listed.empty() ? parts_from(origin, num_parts, num_ranks) : parts_from(origin, listed);
+}
+
+int NumberRule::searcher_of(Part part) const {
+    return is_spread ? ranks_of_part(part, num_parts, num_ranks).first_rank : 0;
+}
+
+PartRange NumberRule::parts_of(int rank) const {
+    if (is_spread) return parts_from(rank, num_parts, num_ranks);
+    return {0, rank == 0 ? num_parts : 0};
+}
+
+NumberSearch::NumberSearch(const NumberRule& rule, int rank)
+    : rule_(rule),
+      parts_(rule.parts_of(rank)),
+      own_numbers_(rule.numbers_at(rank)),
+      wishes_(length_of(parts_)),
+      was_refused_(length_of(parts_)),
+      numbers_(length_of(parts_)),
+      is_used_(length_of(own_numbers_)) {}
+
+void NumberSearch::hand_in(std::span<const Overlap> overlaps, Butterfly& told) const {
+    std::vector<double> origins;
+    for (std::size_t k = 0; k < overlaps.size(); ++k) {
+        const auto& [origin, part, count] = overlaps[k];
+        // An overlap of no point asks for the number of the part.
+        if (count > 0)
+            origins.insert(origins.end(),
+                           {static_cast<double>(origin), static_cast<double>(count)});
+        if (k + 1 < overlaps.size() && overlaps[k + 1].part == part) continue;
+        told.add(static_cast<Key>(part), rule_.searcher_of(part), origins);
+        origins.clear();
     }
 }
 
-/// Makes offers until no number is free that has another to make; returns whether it made any.
-bool NumberSearch::make_offers() {
-    bool made_any = false;
-    const auto origin_of = [&](std::size_t overlap) -> Origin& {
-        return *std::ranges::upper_bound(origins_, overlap, {}, &Origin::end);
-    };
-    std::vector<Origin*> waiting;
-    for (Origin& origin : origins_) waiting.push_back(&origin);
-    while (!waiting.empty()) {
-        Origin& origin = *waiting.back();
-        if (origin.num_free == 0 || origin.next == origin.end) {
-            waiting.pop_back();
-            continue;
+void NumberSearch::start(const Records& told) {
+    told.for_each([&](const Record& record) {
+        const auto part = static_cast<Part>(record.key);
+        if (part < parts_.first || part >= parts_.end) return;
+        std::vector<Wish>& wishes = wishes_[static_cast<std::size_t>(part - parts_.first)];
+        for (std::size_t k = 0; k < record.payload.size(); k += 2) {
+            const auto origin = static_cast<std::int32_t>(record.payload[k]);
+            wishes.push_back({record.payload[k + 1], origin == rule_.home_of(part), origin});
         }
-        const std::size_t mine = origin.next++;
-        if (is_lost_[mine]) continue;
-        const auto [standing, is_first] = offers_.emplace(overlaps_[mine].part, mine);
-        const std::size_t other = standing->second;
-        if (!is_first && rank_among_offers(offer_of(overlaps_[mine], rule_)) <=
-                             rank_among_offers(offer_of(overlaps_[other], rule_)))
-            continue;
-        made_any = true;
-        --origin.num_free;
-        if (is_first) continue;
-        // Two origins of this rank ask for one part.
-        standing->second = mine;
-        ++origin_of(other).num_free;
-        waiting.push_back(&origin_of(other));
-    }
-    return made_any;
-}
-
-NumberSearch::News NumberSearch::offer(Butterfly& offers) {
-    const bool is_new = make_offers();
-    bool moves = false;
-    std::map<Part, std::array<double, 3>> records;
-    for (const auto& [part, overlap] : offers_) {
-        const auto& offer = records[part] = offer_of(overlaps_[overlap], rule_);
-        moves = moves || offer[1] == 0;
-    }
-    for (const Origin& origin : origins_)
-        for (std::size_t k = origin.next; origin.was_refused && k < origin.end; ++k)
-            if (!is_lost_[k]) records.try_emplace(overlaps_[k].part, question);
-    for (const auto& [part, record] : records)
-        offers.add(static_cast<Key>(part), rule_.rank_of(part), record);
-    if (!is_new) return News::none;
-    return moves ? News::elsewhere : News::at_home;
-}
-
-void NumberSearch::choose(Butterfly& offers) {
-    offers.owned().for_each([&](const Record& offer) {
-        origins_of_[index_of(static_cast<Part>(offer.key))] =
-            static_cast<std::int32_t>(offer.payload[2]);
     });
-    answer_all(offers);
+    for (std::size_t i = 0; i < wishes_.size(); ++i) {
+        if (std::ranges::none_of(wishes_[i], &Wish::keeps))
+            wishes_[i].push_back({0, true, rule_.home_of(part_at(i))});
+        std::ranges::sort(wishes_[i], [](const Wish& a, const Wish& b) {
+            return std::tie(b.count, b.keeps, a.origin) < std::tie(a.count, a.keeps, b.origin);
+        });
+    }
+    reset();
+}
+
+NumberSearch::Offer NumberSearch::offer_of(const Wish& wish, Part part) {
+    return {wish.count, wish.keeps ? 1.0 : 0.0, -static_cast<double>(part)};
+}
+
+bool NumberSearch::offer(Butterfly& offers) const {
+    bool any_moves = false;
+    std::map<std::int32_t, std::vector<double>> records;
+    for (std::size_t i = 0; i < wishes_.size(); ++i) {
+        bool is_first = true;
+        for (const Wish& wish : wishes_[i]) {
+            if (wish.is_lost) continue;
+            std::vector<double>& record = records[wish.origin];
+            if (is_first) {
+                const Offer offer = offer_of(wish, part_at(i));
+                record.insert(record.end(), offer.begin(), offer.end());
+                any_moves = any_moves || !wish.keeps;
+                is_first = false;
+            }
+            if (!was_refused_[i]) break;
+        }
+    }
+    for (const auto& [origin, record] : records)
+        offers.add(static_cast<Key>(origin), rule_.searcher_of_origin(origin), record);
+    return any_moves;
+}
+
+std::vector<NumberSearch::Offer> NumberSearch::offers_in(std::span<const double> payload) {
+    std::vector<Offer> offers(payload.size() / std::tuple_size_v<Offer>);
+    for (Offer& offer : offers) {
+        std::ranges::copy(payload.first<std::tuple_size_v<Offer>>(), offer.begin());
+        payload = payload.subspan(offer.size());
+    }
+    return offers;
+}
+
+bool NumberSearch::choose(Butterfly& offers) {
+    bool refuses_any = false;
+    std::fill(is_used_.begin(), is_used_.end(), false);
+    offers.owned().for_each([&](const Record& record) {
+        const PartRange numbers = rule_.numbers_of(static_cast<std::int32_t>(record.key));
+        std::vector<Offer> accepted = offers_in(record.payload);
+        std::ranges::sort(accepted, std::greater<>());
+        refuses_any = refuses_any || accepted.size() > length_of(numbers);
+        Offer least{-1, 0, 0};
+        if (accepted.size() >= length_of(numbers)) {
+            accepted.resize(length_of(numbers));
+            if (!accepted.empty()) least = accepted.back();
+        }
+        std::vector<double> answer(least.begin(), least.end());
+        give_numbers(accepted, numbers, answer);
+        offers.answer(record.key, answer);
+    });
+    return refuses_any;
+}
+
+/// Parts keep their number if they can. The others get the rest, both ascending.
+void NumberSearch::give_numbers(std::vector<Offer>& accepted, PartRange numbers,
+                                std::vector<double>& answer) {
+    std::ranges::sort(accepted, {},
+                      [](const Offer& offer) { return std::pair(-offer[1], -offer[2]); });
+    Part next = numbers.first;
+    const auto is_used = [&](Part number) {
+        return is_used_[static_cast<std::size_t>(number - own_numbers_.first)];
+    };
+    for (const auto& [count, keeps, minus_part] : accepted) {
+        while (keeps == 0 && is_used(next)) ++next;
+        const Part number = keeps == 0 ? next : static_cast<Part>(-minus_part);
+        is_used(number) = true;
+        answer.insert(answer.end(), {-minus_part, static_cast<double>(number)});
+    }
 }
 
 void NumberSearch::follow(const Butterfly& offers) {
-    std::map<Part, std::span<const double>> largest;
+    std::ranges::fill(numbers_, no_part);
+    std::map<std::int32_t, Offer> least;
     offers.answers().for_each([&](const Record& answer) {
-        largest.emplace(static_cast<Part>(answer.key), answer.payload);
+        const auto payload = answer.payload;
+        least[static_cast<std::int32_t>(answer.key)] = {payload[0], payload[1], payload[2]};
+        for (std::size_t k = std::tuple_size_v<Offer>; k < payload.size(); k += 2) {
+            const auto part = static_cast<Part>(payload[k]);
+            if (part >= parts_.first && part < parts_.end)
+                numbers_[static_cast<std::size_t>(part - parts_.first)] =
+                    static_cast<Part>(payload[k + 1]);
+        }
     });
-    // An offer that another is larger than is lost for good, as only larger ones take its place.
-    const auto is_lost = [&](std::size_t overlap) {
-        const auto other = largest.find(overlaps_[overlap].part);
-        return other != largest.end() && rank_among_offers(offer_of(overlaps_[overlap], rule_)) <
-                                             rank_among_offers(other->second);
-    };
-    for (Origin& origin : origins_) {
-        for (std::size_t k = origin.next; origin.was_refused && k < origin.end; ++k)
-            is_lost_[k] = is_lost_[k] || is_lost(k);
-        origin.was_refused = false;
-    }
-    for (auto offer = offers_.begin(); offer != offers_.end();) {
-        const std::size_t mine = offer->second;
-        if (!is_lost(mine)) {
-            ++offer;
-            continue;
+    for (std::size_t i = 0; i < wishes_.size(); ++i) {
+        const auto current = std::ranges::find(wishes_[i], false, &Wish::is_lost);
+        // Only larger offers take the place of accepted ones, so a refusal is final.
+        for (auto wish = current; wish != wishes_[i].end(); ++wish) {
+            const auto found = least.find(wish->origin);
+            wish->is_lost = wish->is_lost ||
+                            (found != least.end() && offer_of(*wish, part_at(i)) < found->second);
         }
-        Origin& origin = *std::ranges::upper_bound(origins_, mine, {}, &Origin::end);
-        ++origin.num_free;
-        origin.was_refused = true;
-        offer = offers_.erase(offer);
+        was_refused_[i] = current != wishes_[i].end() && current->is_lost;
     }
 }
 
-NumberSearch::Counts NumberSearch::settle() {
-    for (const auto& [part, overlap] : offers_)
-        placed_.emplace_back(part, overlaps_[overlap].origin);
-    list_numbers_left();
-    // Both ascend; what is left of the numbers before `number` is in `unused`.
-    std::vector<std::int32_t> unused;
-    auto number = numbers_left_.begin();
-    for (Part part = own_.first; part < own_.end; ++part) {
-        if (origins_of_[index_of(part)] != none) continue;
-        const std::int32_t home = rule_.home_of(part);
-        while (number != numbers_left_.end() && *number < home) unused.push_back(*number++);
-        if (number == numbers_left_.end() || *number != home) {
-            left_.push_back(part);
-            continue;
-        }
-        origins_of_[index_of(part)] = home;
-        placed_.emplace_back(part, home);
-        ++number;
-    }
-    unused.insert(unused.end(), number, numbers_left_.end());
-    numbers_left_ = std::move(unused);
-    std::ranges::sort(placed_);
-    return {std::ssize(left_), std::ssize(numbers_left_)};
+NumberSearch::Counts NumberSearch::left() const {
+    return {std::ranges::count(numbers_, no_part),
+            std::count(is_used_.begin(), is_used_.end(), false)};
 }
 
-void NumberSearch::list_numbers_left() {
-    std::vector<std::int32_t> used;
-    for (const auto& [part, origin] : placed_) used.push_back(origin);
-    std::ranges::sort(used);
-    std::vector<std::int32_t> all;
-    for (Part part = own_.first; part < own_.end; ++part) all.push_back(rule_.home_of(part));
-    std::ranges::set_difference(all, used, std::back_inserter(numbers_left_));
-}
-
-bool NumberSearch::meet(const Counts& before, Butterfly& left) const {
-    std::map<Key, std::array<double, 2>> pairs;  // of a part and an origin
-    const auto pair_at = [&](std::int64_t count) -> std::array<double, 2>& {
-        return pairs.try_emplace(static_cast<Key>(count), std::array<double, 2>{none, none})
-            .first->second;
-    };
-    for (std::int64_t k = 0; k < std::ssize(left_); ++k)
-        pair_at(before.parts + k)[0] = left_[static_cast<std::size_t>(k)];
-    for (std::int64_t k = 0; k < std::ssize(numbers_left_); ++k)
-        pair_at(before.numbers + k)[1] = numbers_left_[static_cast<std::size_t>(k)];
-    for (const auto& [count, pair] : pairs)
-        left.add(count, rule_.rank_of(static_cast<Part>(count)), pair);
-    return !pairs.empty();
+void NumberSearch::meet(const Counts& before, Butterfly& left) const {
+    std::map<std::int64_t, Part> pairs;  // a number or none for the part of this count
+    for (std::int64_t k = 0; k < std::ranges::count(numbers_, no_part); ++k)
+        pairs.emplace(before.parts + k, no_part);
+    std::int64_t next = before.numbers;
+    for (std::size_t i = 0; i < is_used_.size(); ++i)
+        if (!is_used_[i]) pairs[next++] = own_numbers_.first + static_cast<Part>(i);
+    for (const auto& [count, number] : pairs)
+        left.add(static_cast<Key>(count), rule_.searcher_of(static_cast<Part>(count)),
+                 std::array{static_cast<double>(number)});
 }
 
 void NumberSearch::take(const Counts& before, const Butterfly& left) {
-    left.answers().for_each([&](const Record& pair) {
-        const auto count = static_cast<std::int64_t>(pair.key);
-        const bool is_mine =
-            count >= before.numbers && count < before.numbers + std::ssize(numbers_left_);
-        // A failure elsewhere may have lost the part.
-        if (is_mine && pair.payload[0] >= 0)
-            placed_.emplace_back(static_cast<Part>(pair.payload[0]),
-                                 static_cast<std::int32_t>(pair.payload[1]));
+    std::map<std::int64_t, Part> met;
+    left.answers().for_each([&](const Record& answer) {
+        met.emplace(static_cast<std::int64_t>(answer.key), static_cast<Part>(answer.payload[0]));
     });
-    std::ranges::sort(placed_);
+    std::int64_t next = before.parts;
+    // A failure elsewhere may have lost a number.
+    for (Part& number : numbers_)
+        if (const auto found = number == no_part ? met.find(next++) : met.end(); found != met.end())
+            number = found->second;
 }
 
 NumberSearch::Kept NumberSearch::kept() const {
     Kept kept;
-    for (const Overlap& overlap : overlaps_) {
-        if (overlap.origin == rule_.home_of(overlap.part)) kept.before += overlap.count;
-        if (std::ranges::binary_search(placed_, Numbered(overlap.part, overlap.origin)))
-            kept.after += overlap.count;
+    for (std::size_t i = 0; i < wishes_.size(); ++i) {
+        for (const Wish& wish : wishes_[i]) {
+            const auto count = static_cast<GlobalCount>(wish.count);
+            if (wish.keeps) kept.before += count;
+            if (numbers_[i] != no_part && wish.origin == rule_.home_of(numbers_[i]))
+                kept.after += count;
+        }
     }
     return kept;
 }
 
-/// Of the parts that go to origins of this rank, those whose numbers change; ascending by part.
-std::vector<Numbered> NumberSearch::new_numbers() const {
-    std::vector<Numbered> changed;
-    for (const auto& [part, origin] : placed_)
-        if (origin != rule_.home_of(part)) changed.emplace_back(part, origin);
-    if (rule_.origins == Origins::parts) return changed;
-    // Parts that come to this rank get the numbers of those that go, both ascending.
-    auto incoming = changed.begin();
-    for (Part part = own_.first; part < own_.end && incoming != changed.end(); ++part)
-        if (origins_of_[index_of(part)] != rank_) (incoming++)->second = part;
-    return changed;
+void NumberSearch::reset() {
+    std::iota(numbers_.begin(), numbers_.end(), parts_.first);
 }
 
-void NumberSearch::tell(std::span<const Part> parts, Butterfly& numbers) const {
-    std::map<Part, Part> told;
-    for (const Part part : parts) told.emplace(part, none);
-    for (const auto& [part, number] : new_numbers()) told[part] = number;
-    for (const auto& [part, number] : told)
-        numbers.add(static_cast<Key>(part), rule_.rank_of(part),
-                    std::array{static_cast<double>(number)});
+void NumberSearch::add_up(std::span<const double> a, std::span<const double> b,
+                          std::vector<double>& joined) {
+    while (!a.empty() || !b.empty()) {
+        const bool takes_a = !a.empty() && (b.empty() || a[0] <= b[0]);
+        const bool takes_b = !b.empty() && (a.empty() || b[0] <= a[0]);
+        joined.push_back(takes_a ? a[0] : b[0]);
+        joined.push_back((takes_a ? a[1] : 0) + (takes_b ? b[1] : 0));
+        if (takes_a) a = a.subspan(2);
+        if (takes_b) b = b.subspan(2);
+    }
 }
 
-void NumberSearch::conclude(Butterfly& numbers) {
-    numbers_.resize(origins_of_.size());
-    std::iota(numbers_.begin(), numbers_.end(), own_.first);
-    numbers.owned().for_each([&](const Record& told) {
-        Part& number = numbers_[index_of(static_cast<Part>(told.key))];
-        if (told.payload[0] >= 0) number = static_cast<Part>(told.payload[0]);
-        numbers.answer(told.key, std::array{static_cast<double>(number)});
-    });
-}
-
-std::vector<Numbered> NumberSearch::result(const Butterfly& numbers) const {
-    std::vector<Numbered> result;
-    for (Part part = own_.first; part < own_.end; ++part)
-        result.emplace_back(part, numbers_[index_of(part)]);
-    numbers.answers().for_each([&](const Record& answer) {
-        result.emplace_back(static_cast<Part>(answer.key), static_cast<Part>(answer.payload[0]));
-    });
-    std::ranges::sort(result);
-    // Not std::ranges::unique, whose answer clang 14 cannot read with GCC's library.
-    result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
+void NumberSearch::append(std::span<const double> a, std::span<const double> b,
+                          std::vector<double>& joined) {
+    joined.insert(joined.end(), a.begin(), a.end());
+    joined.insert(joined.end(), b.begin(), b.end());
 }
 
 void NumberSearch::keep_larger(std::span<const double> a, std::span<const double> b,
                                std::vector<double>& joined) {
-    const auto larger = rank_among_offers(a) < rank_among_offers(b) ? b : a;
-    joined.insert(joined.end(), larger.begin(), larger.end());
-}
-
-void NumberSearch::unite(std::span<const double> a, std::span<const double> b,
-                         std::vector<double>& joined) {
-    for (std::size_t k = 0; k < a.size(); ++k) joined.push_back(std::max(a[k], b[k]));
+    joined.push_back(std::max(a[0], b[0]));
 }
 
 void answer_all(Butterfly& butterfly) {

@@ -2,148 +2,155 @@
 
 #include "collective/butterfly.hpp"
 #include "cuts/owned_cuts.hpp"
-#include "lists/remap_mpi.hpp"
 
+#include <rrcb/plan.hpp>
+
+#include <array>
 #include <cstdint>
-#include <map>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace rrcb {
 
-/// Rule for where points stay, of parts that lie on the ranks as ranks_of_part() tells, each on
-/// one.
+/// Number of points of one origin, a rank or an earlier part, that go to a part.
+struct Overlap {
+    std::int32_t origin = 0;
+    Part part = 0;
+    GlobalCount count = 0;
+};
+
+/// Where points are to be kept, and which ranks search for the numbers of the parts.
 struct NumberRule {
     int num_parts = 1;
     int num_ranks = 1;
-    Origins origins = Origins::ranks;
+    bool by_rank = true;     ///< origins are ranks; else earlier parts
+    bool is_spread = false;  ///< all ranks search; else rank 0 does
+    /// Ranks of the parts, ascending; the first one of a part counts. Empty: as ranks_of_part().
+    std::span<const RankRange> listed{};
 
-    /// That a rank tells, the largest ones.
-    std::size_t most_overlaps() const {
-        return overlaps_per_part * static_cast<std::size_t>((num_parts - 1) / num_ranks + 1);
+    /// Origin whose points a part of this number keeps.
+    std::int32_t home_of(Part number) const;
+
+    /// Numbers of the parts that keep the points of an origin.
+    PartRange numbers_of(std::int32_t origin) const;
+
+    int searcher_of(Part part) const;
+    int searcher_of_origin(std::int32_t origin) const {
+        return is_spread && by_rank ? origin : searcher_of(origin);
     }
 
-    int rank_of(Part part) const { return ranks_of_part(part, num_parts, num_ranks).first_rank; }
+    /// Parts that a rank searches for, and the numbers of its origins.
+    PartRange parts_of(int rank) const;
+    PartRange numbers_at(int rank) const {
+        return is_spread && by_rank ? numbers_of(rank) : parts_of(rank);
+    }
 
-    /// Origin of which the points of a part stay if it keeps its number.
-    std::int32_t home_of(Part part) const {
-        return origins == Origins::ranks ? rank_of(part) : part;
+    /// Overlaps that a rank hands in, the largest ones: 16 for each part per rank, and 65,536 of
+    /// all ranks.
+    std::size_t most_overlaps() const {
+        return std::size_t{16} * static_cast<std::size_t>((num_parts - 1) / num_ranks + 1) +
+               65536 / static_cast<std::size_t>(num_ranks);
     }
 };
 
-/// A part and its number, or the origin whose number it gets.
-using Numbered = std::pair<Part, std::int32_t>;
-
-/// Search by all ranks for numbers of the parts, so that many points stay: one rank's part in it,
-/// without the messages.
+/// Search for numbers of the parts so that many points are kept: one rank's part in it, without the
+/// messages.
 ///
-/// Each origin takes the parts of its largest overlaps until its numbers are used up, the largest
-/// of all origins first, and the parts left keep their number where they can: what
-/// numbers_by_rank(), and best_numbers() of many parts, find at one place. Overlaps have one order,
-/// so there is one way only to place parts such that no part and origin both have less than what
-/// they could have together. Rounds of offers find it (D. Gale and L. S. Shapley: College
-/// admissions and the stability of marriage, 1962). For each of its numbers the rank of an origin
-/// makes an offer to the rank of a part, the largest first; this keeps the largest of each part;
-/// who is refused makes the next, and asks which others would be refused as well. Offers that are
-/// kept are repeated in each round, so that larger ones can take their place. However many rounds
-/// there were, each number is used once at most.
+/// The numbers are those of the greedy method: the largest overlap of all gets its number first,
+/// which keeps at least half of the most that can be kept. Rounds of offers find them (D. Gale and
+/// L. S. Shapley: College admissions and the stability of marriage, 1962). Each part makes an offer
+/// to the origin of its largest overlap. An origin accepts the largest offers, as many as it has
+/// numbers. A part that is refused offers to its next origin, and asks the later ones which offers
+/// they would refuse. Overlaps have a total order, so the result does not depend on which rank
+/// searches for which part. Last of all a part offers to the origin of its present number.
 ///
-/// What is then left of parts and of numbers is counted through by rank, and meets by its count.
+/// Parts without a number after the rounds are counted over the ranks, as are unused numbers; they
+/// meet by their count.
 ///
-/// Memory and messages follow from the parts that the points of a rank are in, 16 overlaps for
-/// each part of the rank at most, and from its own parts. Not collective. What adds to a butterfly
-/// or takes from it throws std::bad_alloc.
+/// Memory and messages grow with the overlaps that were handed in for the rank's parts. Not
+/// collective. Functions that add to a butterfly or read from it throw std::bad_alloc.
 class NumberSearch {
   public:
     /// Throws std::bad_alloc.
-    NumberSearch(int num_parts, int num_ranks, int rank);
+    NumberSearch(const NumberRule& rule, int rank);
 
     const NumberRule& rule() const { return rule_; }
 
-    /// Begins with the overlaps of this rank's origins, one of a pair.
-    void start(Origins origins, std::span<const Overlap> overlaps);
+    /// Adds overlaps, ascending by part and origin, to be joined by add_up().
+    void hand_in(std::span<const Overlap> overlaps, Butterfly& told) const;
 
-    /// What this rank offers that it has not offered before.
-    enum class News {
-        none,
-        at_home,    ///< all of its offers keep the numbers of parts
-        elsewhere,  ///< some would change one
-    };
+    /// Begins with the overlaps of this rank's parts. The numbers are unchanged.
+    void start(const Records& told);
 
-    /// Adds the offers of this rank, and its questions, to be joined by keep_larger().
-    News offer(Butterfly& offers);
+    /// Adds the offers of this rank's parts, to be joined by append(). Returns whether any would
+    /// change a number.
+    bool offer(Butterfly& offers) const;
 
-    /// Keeps the largest offer for each part of this rank, and answers with it.
-    void choose(Butterfly& offers);
+    /// Answers the offers to this rank's origins. Returns whether any was refused.
+    bool choose(Butterfly& offers);
 
-    /// Takes back the offers that were refused, and drops those that would be.
+    /// Takes the numbers of accepted offers, and drops offers that were or would be refused.
     void follow(const Butterfly& offers);
 
-    /// Parts, and numbers of origins, of one rank or more.
+    /// Parts without a number and unused numbers, of one rank or more.
     struct Counts {
         std::int64_t parts = 0;
         std::int64_t numbers = 0;
     };
+    Counts left() const;
 
-    /// Lets parts of this rank keep their numbers where these are left; then returns what is left.
-    Counts settle();
+    /// Adds both, with `before` on the ranks before this one, to be joined by keep_larger().
+    void meet(const Counts& before, Butterfly& left) const;
 
-    /// Adds what is left here, where that is `before` on the ranks before this one, to be joined by
-    /// unite(). Returns whether there is any.
-    bool meet(const Counts& before, Butterfly& left) const;
-
-    /// Takes the parts that numbers left here met, once answer_all() has answered.
+    /// Takes the numbers that parts met, after answer_all().
     void take(const Counts& before, const Butterfly& left);
 
-    /// Points that stay by the overlaps of this rank's origins, under the old numbers and the new.
+    /// Points of this rank's parts that are kept under the old numbers and the new.
     struct Kept {
         GlobalCount before = 0;
         GlobalCount after = 0;
     };
     Kept kept() const;
 
-    /// Tells ranks the numbers of their parts, and asks for those of `parts`; to be joined by
-    /// unite().
-    void tell(std::span<const Part> parts, Butterfly& numbers) const;
+    /// Leaves the numbers unchanged.
+    void reset();
 
-    /// Takes the numbers of this rank's parts, and answers those who ask.
-    void conclude(Butterfly& numbers);
+    PartRange parts() const { return parts_; }
 
-    /// New numbers of the parts that were asked for, and of those of this rank; ascending.
-    std::vector<Numbered> result(const Butterfly& numbers) const;
+    /// Numbers of this rank's parts.
+    std::span<const Part> numbers() const { return numbers_; }
 
+    static void add_up(std::span<const double> a, std::span<const double> b,
+                       std::vector<double>& joined);
+    static void append(std::span<const double> a, std::span<const double> b,
+                       std::vector<double>& joined);
     static void keep_larger(std::span<const double> a, std::span<const double> b,
                             std::vector<double>& joined);
-    static void unite(std::span<const double> a, std::span<const double> b,
-                      std::vector<double>& joined);
 
   private:
-    /// Offers of one origin, the largest first.
-    struct Origin {
-        std::size_t next;  ///< first one that was not made
-        std::size_t end;
-        int num_free;      ///< numbers without an offer
-        bool was_refused;  ///< in the last round
+    /// An overlap of a part, in the order of its offers.
+    struct Wish {
+        double count = 0;  ///< exact below 2^53
+        bool keeps = false;
+        std::int32_t origin = 0;
+        bool is_lost = false;  ///< the origin has larger offers
     };
 
-    bool make_offers();
-    void list_numbers_left();
-    std::vector<Numbered> new_numbers() const;
-    std::size_t index_of(Part own) const { return static_cast<std::size_t>(own - own_.first); }
+    /// Count, whether the part keeps its number, and -part: larger ones win.
+    using Offer = std::array<double, 3>;
+    static Offer offer_of(const Wish& wish, Part part);
+    static std::vector<Offer> offers_in(std::span<const double> payload);
+    void give_numbers(std::vector<Offer>& accepted, PartRange numbers, std::vector<double>& answer);
+
+    Part part_at(std::size_t index) const { return parts_.first + static_cast<Part>(index); }
 
     NumberRule rule_;
-    int rank_;
-    PartRange own_;
-    std::vector<Overlap> overlaps_;  ///< as origins have them
-    std::vector<bool> is_lost_;      ///< of each: a larger offer was made
-    std::vector<Origin> origins_;
-    std::map<Part, std::size_t> offers_;      ///< that stand: numbers of overlaps by part
-    std::vector<std::int32_t> origins_of_;    ///< that own parts go to
-    std::vector<Numbered> placed_;            ///< parts that go to origins of this rank
-    std::vector<Part> left_;                  ///< own parts without an origin
-    std::vector<std::int32_t> numbers_left_;  ///< origin of each
-    std::vector<Part> numbers_;               ///< new ones of own parts
+    PartRange parts_;
+    PartRange own_numbers_;
+    std::vector<std::vector<Wish>> wishes_;  ///< of each part
+    std::vector<bool> was_refused_;          ///< each part, in the last round
+    std::vector<Part> numbers_;              ///< of each part
+    std::vector<bool> is_used_;              ///< each of own_numbers_
 };
 
 /// Answers each record that came to this rank by itself.

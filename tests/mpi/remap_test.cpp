@@ -89,7 +89,7 @@ GlobalCount most_kept(const std::vector<GlobalCount>& overlaps, int num_parts) {
     return most;
 }
 
-TEST(Remap, keeps_as_many_points_in_their_part_as_any_permutation) {
+TEST(Remap, keeps_half_of_the_points_that_any_permutation_keeps_in_their_part) {
     for (unsigned seed = 0; seed < 60; ++seed) {
         std::mt19937_64 engine(1000 * seed + static_cast<unsigned>(rank()));
         const int num_parts = 5 + static_cast<int>(seed % 3);
@@ -116,11 +116,11 @@ TEST(Remap, keeps_as_many_points_in_their_part_as_any_permutation) {
         }
         EXPECT_EQ(result.kept_before, before) << "seed " << seed;
         EXPECT_EQ(result.kept_after, after) << "seed " << seed;
-        EXPECT_EQ(after, most_kept(overlaps, num_parts)) << "seed " << seed;
+        EXPECT_GE(2 * after, most_kept(overlaps, num_parts)) << "seed " << seed;
+        EXPECT_GE(after, before) << "seed " << seed;
     }
 }
 
-/// Up to 128 parts all overlaps are told, beyond that the heaviest of each rank.
 TEST(Remap, undoes_a_rotation_of_few_and_of_many_parts) {
     for (const int num_parts : {1, 2, 128, 129, 300}) {
         std::vector<Part> previous(static_cast<std::size_t>(num_parts));

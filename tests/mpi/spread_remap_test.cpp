@@ -1,6 +1,6 @@
 // Part numbers by all ranks together, beside those that one rank finds.
-#include "lists/hungarian.hpp"
-#include "lists/spread_remap_mpi.hpp"
+#include "collective/duplicate.hpp"
+#include "lists/remap_mpi.hpp"
 #include "part_ranks.hpp"
 
 #include <rrcb/error.hpp>
@@ -19,11 +19,12 @@ using test::num_ranks;
 using test::rank;
 using test::ranks_of_parts;
 
-/// Lets all ranks search, or one of them decide.
-template <class Call>
-Remap found(bool together, Call&& call) {
-    most_ranks_of_gathered_overlaps = together ? 0 : 1 << 20;
-    return call();
+/// Lets all ranks search, or rank 0 alone.
+Remap found(bool together, std::span<const Part> parts, const PreviousParts& previous,
+            int num_parts) {
+    Participant self{mpi::duplicate_of(MPI_COMM_WORLD)};
+    const auto ranks = ranks_of_parts(num_parts);
+    return remap(parts, previous, ranks, together, self);
 }
 
 void expect_same(const Remap& a, const Remap& b) {
@@ -50,18 +51,13 @@ std::vector<Part> dealt(int num_parts, unsigned seed) {
 
 TEST(SpreadRemap, by_ranks_and_by_parts_finds_what_one_rank_does) {
     for (unsigned seed = 0; seed < 24; ++seed) {
-        const int num_parts = most_parts_exact + 1 + static_cast<int>(37 * (seed % 5));
+        const int num_parts = num_ranks() + static_cast<int>(37 * (seed % 5));
         const std::vector<Part> parts = dealt(num_parts, seed);
         std::vector<Part> previous = dealt(num_parts + 3, seed + 1);
         previous.resize(parts.size());
-        const auto by_rank = [&] {
-            return remap(parts, ranks_of_parts(num_parts), MPI_COMM_WORLD);
-        };
-        const auto by_part = [&] {
-            return remap(parts, previous, ranks_of_parts(num_parts), MPI_COMM_WORLD);
-        };
-        expect_same(found(true, by_rank), found(false, by_rank));
-        expect_same(found(true, by_part), found(false, by_part));
+        for (const PreviousParts& origins : {PreviousParts(), PreviousParts(previous)})
+            expect_same(found(true, parts, origins, num_parts),
+                        found(false, parts, origins, num_parts));
     }
 }
 
@@ -71,32 +67,29 @@ TEST(SpreadRemap, leaves_numbers_that_nobody_gains_by) {
         for (Part part = 0; part < num_parts; ++part)
             if (ranks_of_parts(num_parts)[static_cast<std::size_t>(part)].first_rank == rank())
                 parts.insert(parts.end(), 3, part);
-        const Remap result =
-            found(true, [&] { return remap(parts, ranks_of_parts(num_parts), MPI_COMM_WORLD); });
+        const Remap result = found(true, parts, {}, num_parts);
         EXPECT_TRUE(result.identity);
         EXPECT_EQ(result.num_points, 3 * num_parts);
         EXPECT_EQ(result.kept_before, 3 * num_parts);
         EXPECT_EQ(result.kept_after, 3 * num_parts);
         EXPECT_TRUE(std::ranges::is_sorted(result.numbers));
-        const Remap empty =
-            found(true, [&] { return remap({}, ranks_of_parts(num_parts), MPI_COMM_WORLD); });
+        const Remap empty = found(true, {}, {}, num_parts);
         EXPECT_TRUE(empty.identity);
         EXPECT_EQ(empty.numbers, result.numbers);
     }
 }
 
 TEST(SpreadRemap, refuses_on_all_ranks_what_one_gets_wrong) {
-    most_ranks_of_gathered_overlaps = 0;
     const std::vector<Part> wrong(3, test::is_last_rank() ? 200 : 0);
     for (int k = 0; k < 2; ++k) {
         try {
-            remap(wrong, ranks_of_parts(200), MPI_COMM_WORLD);
+            found(true, wrong, {}, 200);
             ADD_FAILURE() << "expected an error";
         } catch (const Error& error) {
             EXPECT_EQ(error.what(), "rank " + std::to_string(num_ranks() - 1) +
                                         ": part 200 of point 0 is none of the 200 parts");
         }
-        EXPECT_EQ(remap(dealt(200, 1), ranks_of_parts(200), MPI_COMM_WORLD).numbers.size(), 200u);
+        EXPECT_EQ(found(true, dealt(200, 1), {}, 200).numbers.size(), 200u);
     }
 }
 

@@ -171,10 +171,10 @@ MUTATIONS = [
     ),
     Mutation(
         "numbers of parts that lose most are chosen",
-        "src/lists/hungarian.cpp",
-        "= -scale * gain.value;",
-        "= scale * gain.value;",
-        ("unit_hungarian",),
+        "src/lists/number_search.cpp",
+        "return std::tie(b.count, b.keeps, a.origin) < std::tie(a.count, a.keeps, b.origin);",
+        "return std::tie(a.count, b.keeps, a.origin) < std::tie(b.count, a.keeps, b.origin);",
+        ("unit_number_search",),
     ),
     Mutation(
         "infinite weights are let in",

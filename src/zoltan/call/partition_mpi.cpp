@@ -2,7 +2,6 @@
 
 #include "balance_mpi.hpp"
 #include "collective/agreement_mpi.hpp"
-#include "collective/butterfly_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "paper/paper_mpi.hpp"
 #include "wide_mpi.hpp"
@@ -50,6 +49,7 @@ LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Obj
             placed = find_placed(objects, *state.kept, *state.rest, state.communicator->rank());
         LocalStatus status(objects.warned ? ZOLTAN_WARN : ZOLTAN_OK, "");
         status.may_rest = placed.are_known;
+        status.names_parts = objects.names_parts;
         return status;
     } catch (const ZoltanError& error) {
         return {error.code(), error.what()};
@@ -113,13 +113,10 @@ struct Preparation {
     const Cuts* previous = nullptr;  ///< to start from
     std::optional<Renumbering> renumbering;
     std::optional<KeptPartition> kept;
-    std::optional<ButterflyMessages> messages;
 };
 
-Preparation prepare(const Call& call, const Layout& layout, const Objects& objects,
-                    Participant& self) {
+Preparation prepare(const Call& call, const Layout& layout, int dimension, Participant& self) {
     const Parameters& parameters = call.state.parameters;
-    const int dimension = objects.points.dimension;
     const bool fits = call.previous && call.previous->cuts().dimension == dimension &&
                       call.previous->cuts().num_parts == layout.map.num_parts;
     Preparation made;
@@ -132,9 +129,9 @@ Preparation prepare(const Call& call, const Layout& layout, const Objects& objec
         if (parameters.paper_domain) made.paper = make_paper_options(parameters, layout);
         const Communicator& comm = *call.state.communicator;
         made.is_spread = !parameters.paper_domain && is_wide(made.options, comm.size());
-        made.renumbering.emplace(parameters, layout, objects, comm, made.is_spread);
+        made.renumbering.emplace(parameters, layout, call.outcome.any_names_parts, comm,
+                                 made.is_spread);
         made.kept.emplace(static_cast<std::size_t>(layout.map.num_parts), made.is_spread);
-        made.messages.emplace();
     });
     return made;
 }
@@ -211,10 +208,9 @@ int balance_objects(const Call& call, Objects&& objects, Partition& result) {
     const Parameters& parameters = call.state.parameters;
     Participant self{call.state.communicator->get()};
     Layout layout = make_layout(call.outcome, call.state, self);
-    Preparation prepared = prepare(call, layout, objects, self);
+    Preparation prepared = prepare(call, layout, objects.points.dimension, self);
     Balance balanced = divide(call, layout, prepared, objects, self);
-    auto [remap, numbering] =
-        prepared.renumbering->run(layout, objects, balanced.parts, *prepared.messages, self);
+    auto [remap, numbering] = prepared.renumbering->run(objects, balanced.parts, self);
     list_exports(call, layout, std::move(objects), balanced.parts, result);
     if (prepared.is_spread) agree(self);
     select_lists(parameters, result.changes, self, result.imports, result.exports);

@@ -1,7 +1,5 @@
 #include "zoltan/call/renumber_mpi.hpp"
 
-#include "collective/agreement_mpi.hpp"
-
 #include <algorithm>
 #include <functional>
 #include <utility>
@@ -9,11 +7,6 @@
 namespace rrcb::zoltan {
 
 namespace {
-
-/// Whether objects are to keep their part, not only their rank.
-bool by_part(const Layout& layout, const Objects& objects) {
-    return !layout.map.one_each && objects.names_parts;
-}
 
 bool may_change_numbers(const Parameters& parameters, const Layout& layout) {
     const std::vector<double>& sizes = layout.part_sizes;
@@ -26,55 +19,34 @@ bool may_change_numbers(const Parameters& parameters, const Layout& layout) {
 
 }  // namespace
 
-Renumbering::Renumbering(const Parameters& parameters, const Layout& layout, const Objects& objects,
+Renumbering::Renumbering(const Parameters& parameters, const Layout& layout, bool any_names_parts,
                          const Communicator& comm, bool is_spread) {
-    const int num_parts = layout.map.num_parts;
+    const PartMap& map = layout.map;
+    NumberRule rule{map.num_parts, comm.size()};
+    rule.by_rank = map.one_each || !any_names_parts;
+    rule.is_spread = is_spread && map.is_even;
+    rule.listed = map.listed;
     // A single rank keeps its objects under any numbers.
-    const bool matters = comm.size() > 1 || by_part(layout, objects);
+    const bool matters = comm.size() > 1 || !rule.by_rank;
     if (!matters || !may_change_numbers(parameters, layout)) return;
-    if (is_spread && layout.map.is_even) {
-        spread_room_.emplace(num_parts, comm.get());
-        return;
-    }
-    room_ = Room{RemapBuffers(num_parts, comm.size(), comm.rank() == root), {}, {}};
-    room_->boxes.resize(static_cast<std::size_t>(num_parts));
-    for (Part part = 0; part < num_parts; ++part) room_->ranks.push_back(layout.map.ranks_of(part));
+    buffers_.emplace(rule, comm.rank());
+    if (!rule.is_spread) boxes_.resize(static_cast<std::size_t>(map.num_parts));
 }
 
-Renumbered Renumbering::run(const Layout& layout, const Objects& objects, std::span<Part> parts,
-                            ButterflyMessages& messages, Participant& self) {
-    if (!room_ && !spread_room_) return {};
+Renumbered Renumbering::run(const Objects& objects, std::span<Part> parts, Participant& self) {
+    if (!buffers_) return {};
     PreviousParts previous;
-    if (by_part(layout, objects)) previous.emplace(objects.initial_parts.get(), parts.size());
-    if (spread_room_) return run_spread(layout, previous, parts, messages, self);
-    Remap result = remap(parts, previous, room_->ranks, room_->buffers, self);
-    if (result.identity) return {};
-    for (Part& part : parts) part = result.numbers[static_cast<std::size_t>(part)];
-    std::vector<Part> numbers = std::move(result.numbers);
-    return {std::move(result), Numbering::of_all(std::move(numbers), std::move(room_->boxes))};
-}
-
-Renumbered Renumbering::run_spread(const Layout& layout, const PreviousParts& previous,
-                                   std::span<Part> parts, ButterflyMessages& messages,
-                                   Participant& self) {
-    SpreadRemap result = remap_spread(parts, layout.map.one_each ? Origins::ranks : Origins::parts,
-                                      previous, *spread_room_, messages, self);
-    if (result.summary.identity) return {};
-    Renumbered renumbered{std::move(result.summary)};
-    self.attempt([&] {
-        std::vector<Part> boxes;
-        std::vector<Part> numbers;
-        for (const auto& [box, number] : result.numbers) {
-            boxes.push_back(box);
-            numbers.push_back(number);
-        }
-        renumbered.numbering = Numbering::of_some(std::move(boxes), std::move(numbers));
-        // A failure elsewhere, of which no rank has heard yet, may have lost one.
-        for (Part& part : parts)
-            if (const Part number = renumbered.numbering.number_of(part); number != no_part)
-                part = number;
-    });
-    return renumbered;
+    if (objects.names_parts) previous.emplace(objects.initial_parts.get(), parts.size());
+    auto [summary, boxes] = find_numbers(parts, previous, *buffers_, self);
+    if (summary.identity) return {};
+    std::vector<Part> numbers = std::move(summary.numbers);
+    Renumbered result{std::move(summary)};
+    result.numbering = boxes_.empty() ? Numbering::of_some(std::move(boxes), std::move(numbers))
+                                      : Numbering::of_all(std::move(numbers), std::move(boxes_));
+    // A failure elsewhere, which no rank knows of yet, may have lost a number.
+    for (Part& part : parts)
+        if (const Part number = result.numbering.number_of(part); number != no_part) part = number;
+    return result;
 }
 
 }  // namespace rrcb::zoltan

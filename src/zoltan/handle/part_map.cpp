@@ -32,10 +32,7 @@ Asked asked_by(std::span<const int> local_parts) {
 
 PartRange PartMap::parts_on(int rank) const {
     if (is_even) return rrcb::parts_on(rank, num_parts, num_ranks);
-    // Not equal_range, whose answer clang 14 cannot read with GCC's library.
-    const auto first = std::ranges::lower_bound(listed, rank, {}, &RankRange::first_rank);
-    const auto end = std::ranges::upper_bound(listed, rank, {}, &RankRange::first_rank);
-    return {static_cast<Part>(first - listed.begin()), static_cast<Part>(end - listed.begin())};
+    return parts_from(rank, listed);
 }
 
 PartMap even_part_map(int num_parts, int num_ranks) {

@@ -12,11 +12,11 @@ Balance balance(const Points& points, const Options& options, const Cuts* previo
     Outcome reused = balance_once(points, options, previous, may_stay, self);
     if (!reused.may_be_poor) return std::move(reused.balance);
     Balance anew = balance_once(points, options, nullptr, false, self).balance;
-    const double imbalance = reused.balance.report.measured_imbalance;
-    const bool gains = is_worth_moving(imbalance, anew.report.measured_imbalance, options);
-    const int rounds = reused.balance.report.rounds + anew.report.rounds;
+    const double imbalance = reused.balance.report.imbalance;
+    const bool gains = is_worth_moving(imbalance, anew.report.imbalance, options);
+    const int rounds = reused.balance.report.details.rounds + anew.report.details.rounds;
     Balance& best = gains ? anew : reused.balance;
-    best.report.rounds = rounds;
+    best.report.details.rounds = rounds;
     return std::move(best);
 }
 

@@ -143,7 +143,7 @@ void assign_together(const Points& points, Work& work, Participant& self) {
     Balance& result = work.result;
     const bool counts = is_known(work.decision.verdict) || work.decision.reuses;
     Points counted = points;
-    if (result.report.all_weights_zero) counted.weights = {};
+    if (result.report.details.all_weights_zero) counted.weights = {};
     self.attempt([&] {
         if (!counts) return assign(result.cuts, points, result.parts);
         const PartTotals totals = assign_and_count(result.cuts, counted, result.parts);
@@ -161,7 +161,7 @@ void refine_together(const Points& points, const Bin& bin, Work& work, Participa
     Balance& result = work.result;
     Report& report = result.report;
     Points counted = points;
-    if (report.all_weights_zero) counted.weights = work.binned.points.weights = {};
+    if (report.details.all_weights_zero) counted.weights = work.binned.points.weights = {};
     Decision& decision = work.decision;
     Estimate estimate{std::move(result.cuts),
                       std::move(decision.bisection.brackets),
@@ -175,8 +175,8 @@ void refine_together(const Points& points, const Bin& bin, Work& work, Participa
     Refined refined =
         work.refinement->refine(std::move(estimate), counted, bin, result.parts, self);
     report_measured(refined.imbalance, work.sums.take(), options, report);
-    report.rounds = refined.rounds;
-    report.coincident_cuts = refined.coincident_cuts;
+    report.details.rounds = refined.rounds;
+    report.details.coincident_cuts = refined.coincident_cuts;
     result.cuts = std::move(refined.cuts);
 }
 
@@ -188,7 +188,7 @@ void search_from_earlier(const Points& points, const Box& box, const Box& whole,
     // A correction of all cuts at once needs no cells.
     const auto bin = [&]() -> const BinnedPoints& {
         Points counted = points;
-        if (work.result.report.all_weights_zero) counted.weights = {};
+        if (work.result.report.details.all_weights_zero) counted.weights = {};
         if (work.binned.cells.empty()) work.binned = bin_by_options(counted, box, work.options);
         return work.binned;
     };
@@ -209,19 +209,18 @@ void reuse_within_limits(const Points& points, Work& work, Participant& self) {
 void reuse_together(const Points& points, Work& work, Participant& self) {
     const Options& options = work.options;
     Report& report = work.result.report;
-    if (report.num_points == 0) return;
+    if (report.details.num_points == 0) return;
     if (are_cuts_limited(options)) return reuse_within_limits(points, work, self);
-    const bool is_good = report.measured_imbalance <= options.imbalance_tolerance;
+    const bool is_good = report.imbalance <= options.imbalance_tolerance;
     if (is_good || !is_refined(options)) {
-        report.rounds = is_refined(options) ? 1 : 0;
-        report_measured(report.measured_imbalance, std::move(work.decision.part_weights), options,
-                        report);
+        report.details.rounds = is_refined(options) ? 1 : 0;
+        report_measured(report.imbalance, std::move(work.decision.part_weights), options, report);
         return;
     }
     const Box box = bounding_box(points);
     const Box whole = box_together(box, self);
     if (counts_earlier_parts(options))
-        work.sums.set(report.all_weights_zero ? work.totals.counts : work.totals.weights,
+        work.sums.set(report.details.all_weights_zero ? work.totals.counts : work.totals.weights,
                       work.decision.part_weights);
     search_from_earlier(points, box, whole, work, self);
 }
@@ -234,7 +233,7 @@ void stay(Work& work, const Participant& self) {
     std::ranges::fill(result.parts, current.parts[rank]);
     result.cuts = std::move(current.cuts);
     result.report.kept = true;
-    result.report.coincident_cuts = static_cast<int>(
+    result.report.details.coincident_cuts = static_cast<int>(
         std::ranges::count_if(result.cuts.tree, [](const Cut& cut) { return cut.divides != 0; }));
     report_measured(work.decision.verdict.current_imbalance, std::move(current.part_weights),
                     work.options, result.report);
@@ -249,14 +248,14 @@ void divide_together(const Points& points, Work& work, Participant& self) {
         stay(work, self);
         return agree(self);
     }
-    if (is_refined(work.options) && report.num_points > 0) {
+    if (is_refined(work.options) && report.details.num_points > 0) {
         const auto bin = [&]() -> const BinnedPoints& { return work.binned; };
         refine_together(points, std::ref(bin), work, self);
     } else {
         assign_together(points, work, self);
     }
     if (!is_known(verdict)) return;
-    if (is_worth_moving(verdict.current_imbalance, report.measured_imbalance, work.options)) return;
+    if (is_worth_moving(verdict.current_imbalance, report.imbalance, work.options)) return;
     const StageScope stage(work.options.observer, Stage::broadcast);
     broadcast_current(work.decision, self);
     stay(work, self);
@@ -272,19 +271,20 @@ void divide_among_many(const Points& points, Work& work, Participant& self) {
         return stay_spread(options, verdict.heaviest, std::move(*held), result, self);
     divide_together(points, work, self);
     work.refinement.reset();
-    if (result.report.all_weights_zero) work.binned.points.weights = {};
+    if (result.report.details.all_weights_zero) work.binned.points.weights = {};
     refine_regions(options, verdict, work.mine.summary.box, work.binned, *work.below_regions,
                    result, self);
-    if (held && !is_worth_moving(held->imbalance, result.report.measured_imbalance, options))
+    if (held && !is_worth_moving(held->imbalance, result.report.imbalance, options))
         stay_spread(options, verdict.heaviest, std::move(*held), result, self);
 }
 
 /// True when parts are so uneven that the axes of earlier cuts, which stay, may be why.
 bool may_be_poor(const Report& report, const Options& options) {
     constexpr double factor = 1.25;
-    const double within_reach = std::max(options.imbalance_tolerance, report.least_imbalance);
+    const double within_reach =
+        std::max(options.imbalance_tolerance, report.details.least_imbalance);
     return is_refined(options) && !are_cuts_limited(options) &&
-           report.measured_imbalance > factor * within_reach;
+           report.imbalance > factor * within_reach;
 }
 
 /// Ends with earlier cuts where their parts are even enough, or balances from nothing; no rank

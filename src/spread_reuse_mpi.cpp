@@ -120,14 +120,14 @@ Cuts SpreadReuse::kept_cuts(const Options& options) const {
 bool SpreadReuse::ends(const Options& options, double heaviest, Balance& result,
                        Participant& self) {
     Report& report = result.report;
-    const bool by_count = report.all_weights_zero;
+    const bool by_count = report.details.all_weights_zero;
     const double weight = weight_of(report);
     const double imbalance = measure(weight, by_count, options.part_sizes, self);
     report_parts(imbalance, heaviest, weight, options, report);
-    if (report.num_points > 0 && !report.within_tolerance) return false;
+    if (report.details.num_points > 0 && !report.within_tolerance) return false;
     self.attempt([&] { result.cuts = kept_cuts(options); });
     agree(self);
-    report.rounds = report.num_points > 0 ? 1 : 0;
+    report.details.rounds = report.details.num_points > 0 ? 1 : 0;
     return true;
 }
 

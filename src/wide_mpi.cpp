@@ -132,22 +132,24 @@ Options region_options(const Options& options) {
 }
 
 double weight_of(const Report& report) {
-    return report.all_weights_zero ? static_cast<double>(report.num_points) : report.total_weight;
+    return report.details.all_weights_zero ? static_cast<double>(report.details.num_points)
+                                           : report.details.total_weight;
 }
 
 void report_parts(double imbalance, double heaviest, double weight, const Options& options,
                   Report& report) {
-    report.least_imbalance =
+    report.details.least_imbalance =
         weight > 0 ? std::max(1.0, heaviest / weight * parts_in_all(options)) : 1;
-    if (report.num_points == 0) return;
-    report.measured_imbalance = imbalance;
+    if (report.details.num_points == 0) return;
+    report.imbalance = imbalance;
     report.within_tolerance = imbalance <= options.imbalance_tolerance;
 }
 
 std::optional<SpreadParts> read_held(std::optional<SpreadPlaces>& places, const Report& report,
                                      RegionRefinement& refinement, Participant& self) {
-    if (!places || report.num_points == 0) return std::nullopt;
-    return places->read(weight_of(report), report.all_weights_zero, refinement.messages(), self);
+    if (!places || report.details.num_points == 0) return std::nullopt;
+    return places->read(weight_of(report), report.details.all_weights_zero, refinement.messages(),
+                        self);
 }
 
 void stay_spread(const Options& options, double heaviest, SpreadParts&& held, Balance& result,
@@ -158,7 +160,7 @@ void stay_spread(const Options& options, double heaviest, SpreadParts&& held, Ba
     Report& report = result.report;
     report.kept = true;
     report.part_weights.clear();
-    report.coincident_cuts = mpi::sum_of(held.num_divided, self.comm);
+    report.details.coincident_cuts = mpi::sum_of(held.num_divided, self.comm);
     report_parts(held.imbalance, heaviest, weight_of(report), options, report);
 }
 
@@ -173,21 +175,22 @@ void refine_regions(const Options& options, const Verdict& verdict, const Box& b
     self.attempt([&] { weights.resize(static_cast<std::size_t>(result.cuts.num_parts), weight); });
     self.attempt([&] { number_as_in_tree(options.num_parts, result); });
     const Regions regions{std::move(result.cuts), weights, box_together(box, self),
-                          report.coincident_cuts};
+                          report.details.coincident_cuts};
     Refined refined =
         refinement.refine(regions, tree_of(options, verdict, weight, mpi::size_of(self.comm)),
                           binned, result.parts, self);
     agree(self);
     result.cuts = std::move(refined.cuts);
     report_parts(refined.imbalance, verdict.heaviest, weight, options, report);
-    report.rounds += refined.rounds;
-    report.coincident_cuts = refined.coincident_cuts;
+    report.details.rounds += refined.rounds;
+    report.details.coincident_cuts = refined.coincident_cuts;
 }
 
 void hold_cuts(const Points& points, const Options& options, Balance& result, Participant& self) {
     Report& report = result.report;
     const bool gets_all = options.cuts == HeldCuts::whole;
-    const bool divides = options.coincident == Coincident::divide && report.coincident_cuts > 0;
+    const bool divides =
+        options.coincident == Coincident::divide && report.details.coincident_cuts > 0;
     if (!gets_all && !divides) return;
     const StageScope stage(options.observer, Stage::broadcast);
     if (!gets_all) {
@@ -195,9 +198,9 @@ void hold_cuts(const Points& points, const Options& options, Balance& result, Pa
         return;
     }
     if (!is_whole(result.cuts)) result.cuts = whole_cuts(result.cuts, self);
-    if (report.num_points == 0) return;
+    if (report.details.num_points == 0) return;
     Points counted = points;
-    if (report.all_weights_zero) counted.weights = {};
+    if (report.details.all_weights_zero) counted.weights = {};
     report.part_weights = part_weights(counted, result.parts, result.cuts.num_parts, self);
 }
 

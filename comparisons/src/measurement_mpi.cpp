@@ -196,7 +196,7 @@ void judge_all(std::span<Candidate> candidates, const Workload& workload, bool d
         }
         if (candidate.partitioner && candidate.options)
             candidate.measurement.rounds =
-                balance(*candidate.options, workload.points(), comm).report.rounds;
+                balance(*candidate.options, workload.points(), comm).report.details.rounds;
     }
 }
 

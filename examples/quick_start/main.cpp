@@ -42,8 +42,8 @@ int main(int argc, char** argv) {
         rrcb::part_weights(points, balance.parts, num_parts, MPI_COMM_WORLD);
     const double moved = rrcb::moved_fraction(points, balance.parts, num_parts, MPI_COMM_WORLD);
     if (rank == 0) {
-        std::printf("%lld points in %d parts\n", static_cast<long long>(balance.report.num_points),
-                    num_parts);
+        std::printf("%lld points in %d parts\n",
+                    static_cast<long long>(balance.report.details.num_points), num_parts);
         std::printf("imbalance %.4f, moved %.0f %%\n", rrcb::imbalance(weights), 100 * moved);
         std::printf("rank 0 sends %zu points and receives %zu\n", plan.export_indices.size(),
                     plan.import_indices.size());

@@ -48,8 +48,7 @@ int main(int argc, char** argv) {
     rrcb_report report;
     check(rrcb_get_report(balancer, &report));
     if (rank == 0) {
-        printf("%lld points, imbalance %.4f\n", (long long)report.num_points,
-               report.measured_imbalance);
+        printf("%lld points, imbalance %.4f\n", (long long)report.num_points, report.imbalance);
         printf("rank 0 sends %zu points, receives %zu and holds %zu\n", plan.num_exports,
                plan.num_imports, plan.num_points_after);
     }

@@ -35,7 +35,7 @@ program quick_start
   call balancer%report(report, error)
   call check(error)
   if (rank == 0) then
-    print '(i0, a, f6.4)', report%num_points, " points, imbalance ", report%measured_imbalance
+    print '(i0, a, f6.4)', report%num_points, " points, imbalance ", report%imbalance
     print '(3(a, i0))', "rank 0 sends ", size(plan%export_parts), " points, receives ", &
       size(plan%import_parts), " and holds ", size(here, 2)
   end if

@@ -32,8 +32,8 @@ void balance_by(const char* file, int rank) {
     const rrcb::Balance balance = rrcb::balance(points, options, MPI_COMM_WORLD);
     if (rank != 0) return;
     std::printf("%lld points in %d parts, imbalance %.4f\n",
-                static_cast<long long>(balance.report.num_points), balance.cuts.num_parts,
-                balance.report.measured_imbalance);
+                static_cast<long long>(balance.report.details.num_points), balance.cuts.num_parts,
+                balance.report.imbalance);
     for (const rrcb::Stage stage : rrcb::stages) {
         const auto timer =
             Teuchos::TimeMonitor::lookupCounter(std::string("RRCB: ") + rrcb::name_of(stage));

@@ -9,25 +9,30 @@
 
 namespace rrcb {
 
-/// What the balancer saw and expects; the same on every rank.
-struct Report {
-    GlobalCount num_points = 0;        ///< over all ranks
-    GlobalCount num_records = 0;       ///< cells bisected
-    double total_weight = 0;           ///< over all ranks
-    double estimated_imbalance = 1;    ///< as the statistical domain sees it, see quality.hpp; of
-                                       ///< regions where many ranks make the parts
-    double measured_imbalance = 1;     ///< of the points, counted; NaN where they were not
-    bool within_tolerance = false;     ///< measured to be within Options::imbalance_tolerance
-    std::vector<double> part_weights;  ///< over all ranks, counted, one per part, by count where
-                                       ///< all weights are 0; empty where they were not counted,
-                                       ///< and where cuts are not whole
-    double least_imbalance = 1;  ///< no partition is better: of the heaviest point in a part alone
-    int coincident_cuts = 0;  ///< that met points no allowed cut can tell apart, where the balance
-                              ///< asked for divides them; counted by the refinement
-    bool kept = false;  ///< the points stay as they lie: each rank's are one part, see balance()
-    int rounds = 0;     ///< of counting what the ranks hold, for the refinement
+/// Statistics of a call; the same on every rank.
+struct ReportDetails {
+    GlobalCount num_points = 0;      ///< over all ranks
+    GlobalCount num_records = 0;     ///< cells bisected
+    double total_weight = 0;         ///< over all ranks
+    double estimated_imbalance = 1;  ///< of the statistical domain, see quality.hpp; of regions if
+                                     ///< many ranks make the parts
+    /// Lower bound of the imbalance of any partition: the heaviest point in a part alone.
+    double least_imbalance = 1;
+    int coincident_cuts = 0;  ///< that would divide points which no allowed cut tells apart;
+                              ///< counted by the refinement
+    int rounds = 0;                 ///< of counting the points of all ranks, for the refinement
     bool all_weights_zero = false;  ///< balanced by count instead
     int surplus_parts = 0;          ///< parts that must stay empty: more parts than points
+};
+
+/// Result of a call; the same on every rank.
+struct Report {
+    double imbalance = 1;              ///< heaviest part / mean part, counted; NaN if not counted
+    bool within_tolerance = false;     ///< `imbalance` is at most Options::imbalance_tolerance
+    bool kept = false;                 ///< the points stay on their ranks, each rank's are one part
+    std::vector<double> part_weights;  ///< over all ranks, one per part, by count if all weights
+                                       ///< are 0; empty if not counted or if cuts are not whole
+    ReportDetails details{};           ///< statistics
 };
 
 /// The new partition; every rank gets the same cuts, unless Options::cuts asks for its own, and the
@@ -107,15 +112,15 @@ RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm 
 /// parts, cuts that are not whole are made from nothing.
 ///
 /// The other axes of `previous` stay, unless the imbalance ends above 1.25 times the larger of the
-/// tolerance and Report::least_imbalance. Then cuts are made from statistics as well, of other
-/// axes, except with Axes::min_width or Axes::grid, and replace those if that gains
+/// tolerance and ReportDetails::least_imbalance. Then cuts are made from statistics as well, of
+/// other axes, except with Axes::min_width or Axes::grid, and replace those if that gains
 /// something.
 ///
 /// `previous` must be the same on every rank, or what each rank got by a balance on this
 /// communicator, and have the dimension and number of parts asked for. Points in one place that it
 /// divides are counted on the side where the look-up finds them.
-/// Report::kept, estimated_imbalance and num_records tell nothing here. Without any points the cuts
-/// stay, and the report is that of a call from nothing.
+/// Report::kept and ReportDetails::estimated_imbalance and num_records are not set by this call.
+/// Without any points the cuts stay, and the report is that of a call from nothing.
 RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm comm,
                          const Cuts& previous);
 

@@ -48,7 +48,7 @@ struct PaperOptions {
 ///
 /// Collective over `comm`. Every rank reduces its points to the moments of the cells of its support
 /// mesh; rank 0 gathers them, draws random points from them, bisects these and broadcasts the cuts.
-/// Report::measured_imbalance is NaN, as nothing is counted. Throws Error on every rank alike, as
+/// Report::imbalance is NaN, as nothing is counted. Throws Error on every rank alike, as
 /// balance() does.
 ///
 /// Cost: two reductions, one gathering of 2 + 2 * dimension doubles a cell (`dimension` or one more

@@ -48,13 +48,13 @@ typedef struct rrcb_cuts {
 
 /** Of the last balance, as rrcb::Report. */
 typedef struct rrcb_report {
-    int64_t num_points;        /**< over all ranks */
-    double total_weight;       /**< over all ranks */
-    double measured_imbalance; /**< heaviest part / mean part, counted; NaN where it was not */
-    double least_imbalance;    /**< no partition is better */
-    int within_tolerance;      /**< 1: measured to be within the tolerance */
-    int kept;                  /**< 1: the points stay as they lie */
-    int rounds;                /**< of counting, for the refinement */
+    double imbalance;       /**< heaviest part / mean part, counted; NaN if not counted */
+    int within_tolerance;   /**< 1: `imbalance` is within the tolerance */
+    int kept;               /**< 1: the points stay on their ranks */
+    int64_t num_points;     /**< over all ranks */
+    double total_weight;    /**< over all ranks */
+    double least_imbalance; /**< lower bound of the imbalance of any partition */
+    int rounds;             /**< of counting, for the refinement */
 } rrcb_report;
 
 /** Lists of the points whose rank changes, as rrcb::Plan; indices count from 0. */

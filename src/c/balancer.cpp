@@ -122,13 +122,10 @@ int rrcb_get_report(const rrcb_balancer* balancer, rrcb_report* report) {
             throw rrcb::Error(rrcb::ErrorCode::invalid_argument,
                               "the balancer has no report yet; call rrcb_balance");
         const rrcb::Report& from = *own.report;
-        *report = {from.num_points,
-                   from.total_weight,
-                   from.measured_imbalance,
-                   from.least_imbalance,
-                   from.within_tolerance ? 1 : 0,
-                   from.kept ? 1 : 0,
-                   from.rounds};
+        const rrcb::ReportDetails& details = from.details;
+        *report = {from.imbalance,     from.within_tolerance ? 1 : 0, from.kept ? 1 : 0,
+                   details.num_points, details.total_weight,          details.least_imbalance,
+                   details.rounds};
     });
 }
 

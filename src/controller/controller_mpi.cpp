@@ -224,7 +224,7 @@ bool Controller::step(std::int64_t number, double load) {
 }
 
 void Controller::rebalanced(const Report& report, double cost) {
-    state_->report(cost, report.least_imbalance);
+    state_->report(cost, report.details.least_imbalance);
 }
 
 void Controller::rebalanced(double cost) {

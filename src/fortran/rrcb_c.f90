@@ -11,9 +11,11 @@ module rrcb_c
 
   !> Of the last balance, as rrcb_report.
   type, bind(c) :: rrcb_report
+    real(c_double) :: imbalance = 1
+    integer(c_int) :: within_tolerance = 0, kept = 0
     integer(c_int64_t) :: num_points = 0
-    real(c_double) :: total_weight = 0, measured_imbalance = 1, least_imbalance = 1
-    integer(c_int) :: within_tolerance = 0, kept = 0, rounds = 0
+    real(c_double) :: total_weight = 0, least_imbalance = 1
+    integer(c_int) :: rounds = 0
   end type
 
   type, bind(c) :: c_cuts

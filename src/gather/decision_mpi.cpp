@@ -146,21 +146,21 @@ double least_imbalance(double heaviest, double weight, std::span<const double> p
 
 Report report_of(const Verdict& verdict, int num_parts) {
     Report report;
-    report.num_points = verdict.num_points;
-    report.num_records = verdict.num_records;
-    report.total_weight = verdict.total_weight;
-    report.estimated_imbalance = verdict.estimated_imbalance;
-    report.measured_imbalance = verdict.measured_imbalance;
-    report.least_imbalance = verdict.least_imbalance;
-    report.all_weights_zero = verdict.num_points > 0 && verdict.total_weight == 0;
-    report.surplus_parts =
+    report.details.num_points = verdict.num_points;
+    report.details.num_records = verdict.num_records;
+    report.details.total_weight = verdict.total_weight;
+    report.details.estimated_imbalance = verdict.estimated_imbalance;
+    report.imbalance = verdict.measured_imbalance;
+    report.details.least_imbalance = verdict.least_imbalance;
+    report.details.all_weights_zero = verdict.num_points > 0 && verdict.total_weight == 0;
+    report.details.surplus_parts =
         static_cast<int>(std::max(GlobalCount{0}, num_parts - verdict.num_points));
     return report;
 }
 
 void report_measured(double imbalance, std::vector<double>&& part_weights, const Options& options,
                      Report& report) {
-    report.measured_imbalance = imbalance;
+    report.imbalance = imbalance;
     report.within_tolerance = imbalance <= options.imbalance_tolerance;
     report.part_weights = std::move(part_weights);
 }

@@ -146,7 +146,7 @@ TEST(FailingMemory, in_a_correction_of_all_cuts) {
     Cuts moved = balance(points, options, MPI_COMM_WORLD).cuts;
     moved.tree[0].at[static_cast<std::size_t>(moved.tree[0].axis)] += 0.12;
     // A look at the cuts, one at what lies about them, one at them as they were moved.
-    ASSERT_EQ(balance(points, options, MPI_COMM_WORLD, moved).report.rounds, 3);
+    ASSERT_EQ(balance(points, options, MPI_COMM_WORLD, moved).report.details.rounds, 3);
     fail_in_balance(options, &moved, coordinates);
 }
 

@@ -112,11 +112,11 @@ std::vector<double> weights_by(const Cuts& cuts, const Round& round) {
 
 bool is_right(const Balance& result, const Round& round) {
     const Points points = round.mine().points();
-    bool right =
-        result.report.num_points == round.num_points() && result.parts.size() == points.count;
+    bool right = result.report.details.num_points == round.num_points() &&
+                 result.parts.size() == points.count;
     for (std::size_t i = 0; right && i < points.count; ++i)
         right = result.parts[i] == part_of(result.cuts, points.position(i));
-    const double measured = result.report.measured_imbalance;
+    const double measured = result.report.imbalance;
     return right &&
            (std::isnan(measured) || is_near(measured, imbalance(weights_by(result.cuts, round))));
 }

@@ -37,7 +37,7 @@ program module_test
   call expect(all(parts == merge(0, merge(1, 2, numbers <= 200), numbers <= 50)), "parts")
   call balancer%report(report, error)
   call expect(report%num_points == 300 .and. report%total_weight == 600, "report")
-  call expect(report%measured_imbalance == 1 .and. report%within_tolerance == 1, "imbalance")
+  call expect(report%imbalance == 1 .and. report%within_tolerance == 1, "imbalance")
 
   call balancer%gather_cuts(error)
   call expect(error == rrcb_ok, "gather_cuts")

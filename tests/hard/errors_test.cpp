@@ -50,7 +50,7 @@ void expect_error(const std::string& expected,
         expect_same_error(expected,
                           [&] { balance(broken.points(), method, options, MPI_COMM_WORLD); });
         const Balance next = balance(fine.points(), method, {}, MPI_COMM_WORLD);
-        EXPECT_EQ(next.report.num_points, 200);
+        EXPECT_EQ(next.report.details.num_points, 200);
     }
 }
 
@@ -133,7 +133,7 @@ TEST(Errors, a_domain_that_differs_on_any_rank) {
             "domain differs between rank 0 and rank " + std::to_string(std::max(1, faulty)),
             [&] { balance_as_in_paper(share.points(), options, MPI_COMM_WORLD); });
         const Balance next = balance_as_in_paper(share.points(), {}, MPI_COMM_WORLD);
-        EXPECT_EQ(next.report.num_points, 200);
+        EXPECT_EQ(next.report.details.num_points, 200);
     }
 }
 

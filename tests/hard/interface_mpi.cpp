@@ -68,11 +68,11 @@ void check(const Cloud& cloud, const Method& method, int count, int num_parts) {
 
     const double imbalance = imbalance_of(cloud, all, num_parts);
     const Report& report = result.report;
-    EXPECT_EQ(report.num_points, count);
-    EXPECT_EQ(report.surplus_parts, std::max(0, num_parts - count));
-    EXPECT_LE(report.least_imbalance, imbalance * (1 + 1e-12));
-    if (!std::isnan(report.measured_imbalance)) {
-        EXPECT_NEAR(report.measured_imbalance, imbalance, 1e-12 * imbalance);
+    EXPECT_EQ(report.details.num_points, count);
+    EXPECT_EQ(report.details.surplus_parts, std::max(0, num_parts - count));
+    EXPECT_LE(report.details.least_imbalance, imbalance * (1 + 1e-12));
+    if (!std::isnan(report.imbalance)) {
+        EXPECT_NEAR(report.imbalance, imbalance, 1e-12 * imbalance);
     }
     if (!method.keeps_good_cuts() || imbalance > asked_tolerance) return;
     const Share settled = migrated(cloud, all, num_parts);

@@ -39,10 +39,10 @@ bool same_bits(std::span<const double> a, std::span<const double> b) {
 void expect_same(const Balance& a, const Balance& b) {
     EXPECT_TRUE(same_bits(numbers_of(a.cuts), numbers_of(b.cuts)));
     EXPECT_EQ(a.parts, b.parts);
-    const std::array of_a{a.report.estimated_imbalance, a.report.measured_imbalance};
-    const std::array of_b{b.report.estimated_imbalance, b.report.measured_imbalance};
+    const std::array of_a{a.report.details.estimated_imbalance, a.report.imbalance};
+    const std::array of_b{b.report.details.estimated_imbalance, b.report.imbalance};
     EXPECT_TRUE(same_bits(of_a, of_b));
-    EXPECT_EQ(a.report.rounds, b.report.rounds);
+    EXPECT_EQ(a.report.details.rounds, b.report.details.rounds);
 }
 
 TEST_P(HardCloud, gives_the_same_bits_twice) {
@@ -83,7 +83,7 @@ TEST_P(HardCloud, gives_the_cuts_of_one_rank_where_all_points_go_to_the_root) {
     const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
     const Balance alone = balance_as_in_paper(all.points(), options, MPI_COMM_SELF);
     EXPECT_TRUE(same_bits(numbers_of(result.cuts), numbers_of(alone.cuts)));
-    EXPECT_EQ(result.report.num_points, alone.report.num_points);
+    EXPECT_EQ(result.report.details.num_points, alone.report.details.num_points);
 }
 
 INSTANTIATE_TEST_SUITE_P(Positions, HardCloud,
@@ -134,7 +134,7 @@ TEST(Sameness, of_the_arithmetic_is_asked_for) {
             }
             EXPECT_NE(text.find("rounding, subnormal numbers) differs"), text.npos) << text;
             EXPECT_EQ(balance(share.points(), method, one_part_per_rank(), MPI_COMM_WORLD)
-                          .report.num_points,
+                          .report.details.num_points,
                       512);
         }
     }

@@ -45,7 +45,7 @@ TEST(GivenAxes, of_each_cut_are_kept) {
     const Balance result = balance(interleaved_points(mine, 3), options, MPI_COMM_WORLD);
     for (std::size_t k = 0; k < 3; ++k)
         EXPECT_EQ(result.cuts.tree[k].axis, options.axes.order.axes()[k]);
-    EXPECT_LE(result.report.measured_imbalance, 1.01);
+    EXPECT_LE(result.report.imbalance, 1.01);
 }
 
 TEST(GivenAxes, of_each_cut_are_kept_also_by_many_ranks_and_where_nothing_is_to_be_cut) {
@@ -73,12 +73,12 @@ TEST(PlainCuts, keep_points_on_a_plane_together) {
     EXPECT_EQ(part_weights(points, plain.parts, 2, MPI_COMM_WORLD),
               (std::vector<double>{400, 200}));
     EXPECT_EQ(plain.cuts.tree[0].at[1], -std::numeric_limits<double>::infinity());
-    EXPECT_EQ(plain.report.coincident_cuts, 1);
+    EXPECT_EQ(plain.report.details.coincident_cuts, 1);
     options.axes.plain = false;
     const Balance tilted = balance(points, options, MPI_COMM_WORLD);
     EXPECT_EQ(part_weights(points, tilted.parts, 2, MPI_COMM_WORLD),
               (std::vector<double>{300, 300}));
-    EXPECT_EQ(tilted.report.coincident_cuts, 0);
+    EXPECT_EQ(tilted.report.details.coincident_cuts, 0);
 }
 
 }  // namespace

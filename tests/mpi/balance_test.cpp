@@ -36,9 +36,9 @@ TEST(Balance, default_method_balances_a_uniform_cloud_in_every_dimension) {
         options.num_parts = 6;
         const Balance result = balance(points, options, MPI_COMM_WORLD);
         EXPECT_LT(measured_imbalance(points, result), 1.02);
-        EXPECT_NEAR(result.report.estimated_imbalance, 1, 1e-9);
-        EXPECT_EQ(result.report.num_points, 20000 * num_ranks());
-        EXPECT_EQ(result.report.total_weight, 20000.0 * num_ranks());
+        EXPECT_NEAR(result.report.details.estimated_imbalance, 1, 1e-9);
+        EXPECT_EQ(result.report.details.num_points, 20000 * num_ranks());
+        EXPECT_EQ(result.report.details.total_weight, 20000.0 * num_ranks());
     }
 }
 
@@ -65,9 +65,9 @@ TEST(Balance, one_rank_holding_everything_is_relieved) {
 
 TEST(Balance, no_points_anywhere_is_no_error) {
     const Balance result = balance(interleaved_points({}, 3), {}, MPI_COMM_WORLD);
-    EXPECT_EQ(result.report.num_points, 0);
-    EXPECT_EQ(result.report.surplus_parts, num_ranks());
-    EXPECT_EQ(result.report.estimated_imbalance, 1);
+    EXPECT_EQ(result.report.details.num_points, 0);
+    EXPECT_EQ(result.report.details.surplus_parts, num_ranks());
+    EXPECT_EQ(result.report.details.estimated_imbalance, 1);
 }
 
 TEST(Balance, one_point_per_rank_goes_to_parts_of_its_own) {
@@ -83,7 +83,7 @@ TEST(Balance, fewer_points_than_parts_are_reported) {
     Options options;
     options.num_parts = 5;
     const Balance result = balance(interleaved_points(mine, 1), options, MPI_COMM_WORLD);
-    EXPECT_EQ(result.report.surplus_parts, 2);
+    EXPECT_EQ(result.report.details.surplus_parts, 2);
 }
 
 TEST(Balance, weights_that_are_all_zero_mean_balance_by_count) {
@@ -92,7 +92,7 @@ TEST(Balance, weights_that_are_all_zero_mean_balance_by_count) {
     Options options;
     options.num_parts = 4;
     const Balance result = balance(interleaved_points(cloud, 2, weights), options, MPI_COMM_WORLD);
-    EXPECT_TRUE(result.report.all_weights_zero);
+    EXPECT_TRUE(result.report.details.all_weights_zero);
     EXPECT_LT(measured_imbalance(interleaved_points(cloud, 2), result), 1.05);
 }
 

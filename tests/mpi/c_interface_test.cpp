@@ -94,13 +94,13 @@ TEST_F(CInterface, gives_the_parts_cuts_and_report_of_a_call_in_cpp) {
         expect_same_cuts(cuts, expected.cuts);
         rrcb_report report;
         ASSERT_EQ(rrcb_get_report(balancer, &report), RRCB_OK);
-        EXPECT_EQ(report.num_points, expected.report.num_points);
-        EXPECT_EQ(report.total_weight, expected.report.total_weight);
-        EXPECT_EQ(report.measured_imbalance, expected.report.measured_imbalance);
-        EXPECT_EQ(report.least_imbalance, expected.report.least_imbalance);
+        EXPECT_EQ(report.num_points, expected.report.details.num_points);
+        EXPECT_EQ(report.total_weight, expected.report.details.total_weight);
+        EXPECT_EQ(report.imbalance, expected.report.imbalance);
+        EXPECT_EQ(report.least_imbalance, expected.report.details.least_imbalance);
         EXPECT_EQ(report.within_tolerance, expected.report.within_tolerance ? 1 : 0);
         EXPECT_EQ(report.kept, expected.report.kept ? 1 : 0);
-        EXPECT_EQ(report.rounds, expected.report.rounds);
+        EXPECT_EQ(report.rounds, expected.report.details.rounds);
         EXPECT_GT(report.rounds, 0);
     }
 }

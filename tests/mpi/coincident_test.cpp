@@ -32,7 +32,7 @@ TEST(CoincidentPoints, in_one_place_are_divided_by_number) {
         const Balance result = balance(points, dividing(num_parts), MPI_COMM_WORLD);
         for (const double weight : part_weights(points, result.parts, num_parts, MPI_COMM_WORLD))
             EXPECT_LE(std::abs(weight - count / num_parts), 1) << num_parts << " parts";
-        EXPECT_GT(result.report.coincident_cuts, 0);
+        EXPECT_GT(result.report.details.coincident_cuts, 0);
     }
 }
 
@@ -127,7 +127,7 @@ TEST(CoincidentPoints, stay_together_where_the_tolerance_allows_it) {
         options.imbalance_tolerance = tolerance;
         options.tuning.support_mesh = 1;
         const Balance result = balance(points, options, MPI_COMM_WORLD);
-        EXPECT_LE(result.report.measured_imbalance, tolerance);
+        EXPECT_LE(result.report.imbalance, tolerance);
         int places = 0;
         for (LocalIndex i = 0; i < points.count; ++i)
             if (mine[i] == 5000) places |= 1 << result.parts[i];

@@ -60,7 +60,7 @@ TEST(Communicators, of_two_groups_are_refused) {
     MPI_Comm merged = MPI_COMM_NULL;
     MPI_Intercomm_merge(both, 0, &merged);
     const std::vector<double> x{0, 1};
-    EXPECT_EQ(balance(interleaved_points(x, 1), {}, merged).report.num_points,
+    EXPECT_EQ(balance(interleaved_points(x, 1), {}, merged).report.details.num_points,
               2 * test::num_ranks());
     MPI_Comm_free(&merged);
     MPI_Comm_free(&both);

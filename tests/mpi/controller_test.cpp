@@ -87,7 +87,7 @@ TEST(Controller, repeats_what_is_not_heeded) {
 TEST(Controller, does_not_rebalance_above_the_least_imbalance) {
     Controller controller(MPI_COMM_WORLD);
     Report report;
-    report.least_imbalance = 3;  // loads stay below it
+    report.details.least_imbalance = 3;  // loads stay below it
     controller.rebalanced(report, 0.5);
     for (int step = 0; step < 90; ++step) EXPECT_FALSE(controller.step(step, drifting_load(step)));
 }

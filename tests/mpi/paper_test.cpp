@@ -186,8 +186,9 @@ TEST(PaperRrcb, bisects_the_sampled_points_of_the_cells_of_all_ranks) {
                 std::vector<Part> parts(result.parts.size());
                 assign(expected.cuts, mine.points(), parts);
                 EXPECT_EQ(result.parts, parts);
-                EXPECT_EQ(result.report.num_records, std::ssize(cells));
-                EXPECT_EQ(result.report.estimated_imbalance, imbalance(expected.part_weights));
+                EXPECT_EQ(result.report.details.num_records, std::ssize(cells));
+                EXPECT_EQ(result.report.details.estimated_imbalance,
+                          imbalance(expected.part_weights));
             }
         }
     }
@@ -233,17 +234,19 @@ TEST(Paper, reports_what_it_bisected_and_measures_nothing) {
         options.num_parts = 3;
         const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
         const Report& report = result.report;
-        EXPECT_EQ(report.num_points, static_cast<GlobalCount>(points.count));
-        EXPECT_EQ(report.total_weight, total);
-        EXPECT_TRUE(std::isnan(report.measured_imbalance));
-        EXPECT_FALSE(report.within_tolerance || report.kept || report.all_weights_zero);
+        EXPECT_EQ(report.details.num_points, static_cast<GlobalCount>(points.count));
+        EXPECT_EQ(report.details.total_weight, total);
+        EXPECT_TRUE(std::isnan(report.imbalance));
+        EXPECT_FALSE(report.within_tolerance || report.kept || report.details.all_weights_zero);
         EXPECT_TRUE(report.part_weights.empty());
-        EXPECT_EQ(report.least_imbalance, 1);
-        EXPECT_EQ(report.rounds + report.surplus_parts + report.coincident_cuts, 0);
+        EXPECT_EQ(report.details.least_imbalance, 1);
+        EXPECT_EQ(
+            report.details.rounds + report.details.surplus_parts + report.details.coincident_cuts,
+            0);
         if (domain == PaperDomain::sampled) continue;
-        EXPECT_EQ(report.num_records, report.num_points);
+        EXPECT_EQ(report.details.num_records, report.details.num_points);
         const auto weights = part_weights(mine.points(), result.parts, 3, MPI_COMM_WORLD);
-        EXPECT_EQ(report.estimated_imbalance, imbalance(weights));
+        EXPECT_EQ(report.details.estimated_imbalance, imbalance(weights));
     }
 }
 
@@ -255,7 +258,7 @@ TEST(Paper, balances_by_number_if_all_weights_are_zero) {
         options.domain = domain;
         options.num_parts = 4;
         const Balance result = balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD);
-        EXPECT_TRUE(result.report.all_weights_zero);
+        EXPECT_TRUE(result.report.details.all_weights_zero);
         mine.weights.clear();
         EXPECT_EQ(balance_as_in_paper(mine.points(), options, MPI_COMM_WORLD).parts, result.parts);
         mine.weights.assign(300, 0.0);
@@ -276,12 +279,12 @@ TEST(Paper, leaves_parts_empty_if_there_are_fewer_points) {
         options.domain = domain;
         options.num_parts = 5;
         const Balance some = balance_as_in_paper(interleaved_points(x, 1), options, MPI_COMM_WORLD);
-        EXPECT_EQ(some.report.surplus_parts, 2);
+        EXPECT_EQ(some.report.details.surplus_parts, 2);
         EXPECT_EQ(some.parts.size(), x.size());
         const Balance none =
             balance_as_in_paper(interleaved_points({}, 3), options, MPI_COMM_WORLD);
-        EXPECT_EQ(none.report.num_points, 0);
-        EXPECT_EQ(none.report.surplus_parts, 5);
+        EXPECT_EQ(none.report.details.num_points, 0);
+        EXPECT_EQ(none.report.details.surplus_parts, 5);
         EXPECT_EQ(none.cuts.tree.size(), 4u);
     }
 }

@@ -58,7 +58,7 @@ TEST(Reuse, moves_a_cut_no_further_than_the_tolerance_asks_for) {
                 const Balance result =
                     balance(mine.points(), with_parts(2, tolerance), MPI_COMM_WORLD, before);
                 EXPECT_LE(imbalance(weights_by_look_up(all, result.cuts)), tolerance);
-                const double total = result.report.total_weight;
+                const double total = result.report.details.total_weight;
                 // An eighth of what is allowed is room for the search, and points are whole.
                 const double room = total * (tolerance - 1) / 8 + 3;
                 const double least = least_moved(all, before, tolerance);
@@ -155,12 +155,12 @@ TEST(Reuse, takes_other_axes_if_those_of_earlier_cuts_miss_a_tolerance_by_far) {
         const HeldPoints all = heavy_points(dimension, num_parts, engine);
         const Share mine(all);
         const Balance again = balance(mine.points(), options, MPI_COMM_WORLD, first);
-        const double reached = again.report.measured_imbalance;
+        const double reached = again.report.imbalance;
         EXPECT_NEAR(imbalance(weights_by_look_up(all, again.cuts)), reached, 1e-9 * reached);
         options.refine = Refine::exact;
-        const double exact =
-            balance(mine.points(), options, MPI_COMM_WORLD).report.measured_imbalance;
-        const double least = std::max(options.imbalance_tolerance, again.report.least_imbalance);
+        const double exact = balance(mine.points(), options, MPI_COMM_WORLD).report.imbalance;
+        const double least =
+            std::max(options.imbalance_tolerance, again.report.details.least_imbalance);
         // Less than a twentieth of what the tolerance allows is no gain.
         const double no_gain = (options.imbalance_tolerance - 1) / 20 + 1e-9 * exact;
         EXPECT_LE(reached, std::max(1.25 * least, exact + no_gain));

@@ -83,10 +83,10 @@ TEST(Reuse, keeps_cuts_within_the_tolerance_and_tells_what_their_parts_weigh) {
                         ASSERT_EQ(second.parts[i], part_of(first.cuts, points.position(i)));
                     const auto weights = weights_by_look_up(all, first.cuts);
                     EXPECT_EQ(second.report.part_weights, weights);
-                    EXPECT_EQ(second.report.measured_imbalance, imbalance(weights));
+                    EXPECT_EQ(second.report.imbalance, imbalance(weights));
                     EXPECT_TRUE(second.report.within_tolerance);
-                    EXPECT_EQ(second.report.num_points, 3000);
-                    EXPECT_EQ(second.report.all_weights_zero, weight == 0);
+                    EXPECT_EQ(second.report.details.num_points, 3000);
+                    EXPECT_EQ(second.report.details.all_weights_zero, weight == 0);
                 }
             }
 }
@@ -117,7 +117,7 @@ TEST(Reuse, takes_two_collectives_and_no_memory_that_grows_with_the_points) {
         const Balance second = balance(points, options, MPI_COMM_WORLD, first.cuts);
         bytes[count == 1000 ? 0 : 1] = bytes_allocated - before - count * sizeof(Part);
         EXPECT_LE(num_collectives, 2);
-        EXPECT_EQ(second.report.rounds, 1);
+        EXPECT_EQ(second.report.details.rounds, 1);
     }
     EXPECT_EQ(bytes[0], bytes[1]);
 }
@@ -205,10 +205,11 @@ TEST(Reuse, goes_on_where_ranks_are_empty) {
 
 /// What a report tells but of the records.
 auto told(const Report& report) {
-    return std::tuple(report.num_points, report.total_weight, report.estimated_imbalance,
-                      std::isnan(report.measured_imbalance), report.within_tolerance,
-                      report.part_weights, report.least_imbalance, report.coincident_cuts,
-                      report.kept, report.rounds, report.all_weights_zero, report.surplus_parts);
+    return std::tuple(report.details.num_points, report.details.total_weight,
+                      report.details.estimated_imbalance, std::isnan(report.imbalance),
+                      report.within_tolerance, report.part_weights, report.details.least_imbalance,
+                      report.details.coincident_cuts, report.kept, report.details.rounds,
+                      report.details.all_weights_zero, report.details.surplus_parts);
 }
 
 TEST(Reuse, without_points_tells_what_a_call_from_nothing_does) {
@@ -224,8 +225,8 @@ TEST(Reuse, without_points_tells_what_a_call_from_nothing_does) {
             EXPECT_TRUE(same_cuts(empty.cuts, cuts));
             EXPECT_EQ(told(empty.report), told(balance(none, options, MPI_COMM_WORLD).report))
                 << limited << static_cast<int>(refine);
-            EXPECT_EQ(empty.report.estimated_imbalance, 1);
-            EXPECT_TRUE(std::isnan(empty.report.measured_imbalance));
+            EXPECT_EQ(empty.report.details.estimated_imbalance, 1);
+            EXPECT_TRUE(std::isnan(empty.report.imbalance));
         }
     }
 }

@@ -93,7 +93,7 @@ inline std::vector<double> expect_consistent(const Points& points, const Balance
     expect_same_cuts_on_all_ranks(result.cuts);
     EXPECT_TRUE(result.report.part_weights.empty());
     Points counted = points;
-    if (result.report.all_weights_zero) counted.weights = {};
+    if (result.report.details.all_weights_zero) counted.weights = {};
     return part_weights(counted, result.parts, result.cuts.num_parts, MPI_COMM_WORLD);
 }
 

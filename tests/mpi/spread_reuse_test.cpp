@@ -73,11 +73,12 @@ TEST(SpreadReuse, keeps_cuts_while_their_parts_are_within_the_tolerance) {
                 const double expected = imbalance_by_look_up(all, whole);
                 ASSERT_LE(expected, 1.2) << "the cloud drifted too far for this test";
                 expect_parts(mine, whole, again);
-                EXPECT_NEAR(again.report.measured_imbalance, expected, 1e-9);
+                EXPECT_NEAR(again.report.imbalance, expected, 1e-9);
                 EXPECT_TRUE(again.report.within_tolerance);
-                EXPECT_EQ(again.report.rounds, 1);
-                EXPECT_EQ(again.report.num_points, 3000);
-                EXPECT_EQ(again.report.least_imbalance, first.report.least_imbalance);
+                EXPECT_EQ(again.report.details.rounds, 1);
+                EXPECT_EQ(again.report.details.num_points, 3000);
+                EXPECT_EQ(again.report.details.least_imbalance,
+                          first.report.details.least_imbalance);
                 // What the ranks have of them makes the same tree.
                 const Cuts after = whole_cuts(again.cuts, MPI_COMM_WORLD);
                 EXPECT_TRUE(test::same_cuts(after, whole));
@@ -102,8 +103,8 @@ TEST(SpreadReuse, finds_the_parts_of_points_that_have_come_from_anywhere) {
         const Share mine(all);
         const Balance again = balance(mine.points(), options, MPI_COMM_WORLD, settled.cuts);
         expect_parts(mine, whole, again);
-        EXPECT_EQ(again.report.rounds, 1);
-        EXPECT_NEAR(again.report.measured_imbalance, imbalance_by_look_up(all, whole), 1e-9);
+        EXPECT_EQ(again.report.details.rounds, 1);
+        EXPECT_NEAR(again.report.imbalance, imbalance_by_look_up(all, whole), 1e-9);
     }
     EXPECT_TRUE(num_ranks() <= 4 || settled.cuts.tree.size() < whole.tree.size());
 }
@@ -122,7 +123,7 @@ TEST(SpreadReuse, keeps_points_together_that_a_cut_divided) {
         const Balance again = balance(mine.points(), options, MPI_COMM_WORLD, first.cuts);
         const Cuts after = whole_cuts(again.cuts, MPI_COMM_WORLD);
         expect_parts(mine, after, again);
-        EXPECT_EQ(again.report.rounds, 1);
+        EXPECT_EQ(again.report.details.rounds, 1);
         for (const Cut& cut : after.tree) {
             EXPECT_EQ(cut.divides, 0);
             EXPECT_TRUE(!plain ||
@@ -144,7 +145,7 @@ TEST(SpreadReuse, balances_anew_beyond_the_tolerance_and_for_exact_cuts) {
         if (num_ranks() > 2) {
             EXPECT_EQ(again.parts, fresh.parts);
         }
-        EXPECT_LE(again.report.measured_imbalance, 1.05);
+        EXPECT_LE(again.report.imbalance, 1.05);
         EXPECT_EQ(again.cuts.nodes, fresh.cuts.nodes);
     }
     // As many parts as one rank makes: the cuts are those of a call from nothing as well.
@@ -161,14 +162,14 @@ TEST(SpreadReuse, counts_points_without_weight_and_keeps_the_cuts_without_points
     const Balance first = balance(mine.points(), options, MPI_COMM_WORLD);
     const Cuts whole = whole_cuts(first.cuts, MPI_COMM_WORLD);
     const Balance again = balance(mine.points(), options, MPI_COMM_WORLD, first.cuts);
-    EXPECT_TRUE(again.report.all_weights_zero);
+    EXPECT_TRUE(again.report.details.all_weights_zero);
     EXPECT_EQ(again.parts, first.parts);
-    EXPECT_NEAR(again.report.measured_imbalance, imbalance_by_look_up(all, whole), 1e-9);
+    EXPECT_NEAR(again.report.imbalance, imbalance_by_look_up(all, whole), 1e-9);
 
     const std::vector<double> none;
     const Balance empty = balance(interleaved_points(none, 2), options, MPI_COMM_WORLD, first.cuts);
     EXPECT_TRUE(test::same_cuts(whole_cuts(empty.cuts, MPI_COMM_WORLD), whole));
-    EXPECT_EQ(empty.report.rounds, 0);
+    EXPECT_EQ(empty.report.details.rounds, 0);
 }
 
 TEST(SpreadReuse, starts_from_whole_cuts_as_from_those_that_ranks_have_a_part_of) {
@@ -186,8 +187,7 @@ TEST(SpreadReuse, starts_from_whole_cuts_as_from_those_that_ranks_have_a_part_of
             for (const Cuts& previous : {whole, first.cuts}) {
                 const Balance again = balance(mine.points(), options, MPI_COMM_WORLD, previous);
                 EXPECT_EQ(again.parts, first.parts);
-                EXPECT_NEAR(again.report.measured_imbalance, first.report.measured_imbalance,
-                            1e-12);
+                EXPECT_NEAR(again.report.imbalance, first.report.imbalance, 1e-12);
                 EXPECT_TRUE(test::same_cuts(again.cuts, whole));
                 EXPECT_EQ(std::ssize(again.report.part_weights), num_parts);
             }
@@ -201,8 +201,8 @@ TEST(SpreadReuse, measures_weights_so_small_that_a_mean_part_is_no_double) {
     const Options options = spread_options(num_ranks(), 1.2);
     const Balance first = balance(mine.points(), options, MPI_COMM_WORLD);
     const Balance again = balance(mine.points(), options, MPI_COMM_WORLD, first.cuts);
-    EXPECT_EQ(again.report.rounds, 1);
-    EXPECT_NEAR(again.report.measured_imbalance,
+    EXPECT_EQ(again.report.details.rounds, 1);
+    EXPECT_NEAR(again.report.imbalance,
                 imbalance_by_look_up(all, whole_cuts(again.cuts, MPI_COMM_WORLD)), 1e-9);
 }
 

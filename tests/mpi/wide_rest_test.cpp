@@ -35,7 +35,7 @@ void expect_cuts_of_all(const HeldPoints& all, const Balance& result) {
     const std::vector<Part> parts = assign(result.cuts, points, MPI_COMM_WORLD);
     std::size_t num_strays = 0;
     for (std::size_t i = 0; i < parts.size(); ++i) num_strays += parts[i] != all.owners[i] ? 1 : 0;
-    if (result.report.coincident_cuts == 0) {
+    if (result.report.details.coincident_cuts == 0) {
         EXPECT_EQ(num_strays, 0u);
     }
 }
@@ -58,9 +58,9 @@ void expect_rest(HeldPoints all, const Options& options, int most_moves) {
         if (num_moved > 0) {
             EXPECT_LE(call, most_moves) << num_moved << " points";
         }
-        EXPECT_NEAR(result.report.measured_imbalance, now, rounding);
+        EXPECT_NEAR(result.report.imbalance, now, rounding);
         EXPECT_EQ(result.report.within_tolerance,
-                  result.report.measured_imbalance <= options.imbalance_tolerance);
+                  result.report.imbalance <= options.imbalance_tolerance);
         expect_cuts_of_all(all, result);
         before = now;
     }
@@ -122,7 +122,7 @@ TEST(WidePointsAtRest, have_the_cuts_that_rank_0_finds_alone) {
         const Balance central = balance(mine.points(), options, MPI_COMM_WORLD);
         ASSERT_TRUE(wide.report.kept);
         ASSERT_TRUE(central.report.kept);
-        EXPECT_NEAR(wide.report.measured_imbalance, central.report.measured_imbalance, rounding);
+        EXPECT_NEAR(wide.report.imbalance, central.report.imbalance, rounding);
         const Cuts cuts = whole_cuts(wide.cuts, MPI_COMM_WORLD);
         ASSERT_EQ(cuts.tree.size(), central.cuts.tree.size());
         for (std::size_t k = 0; k < cuts.tree.size(); ++k) {

@@ -74,14 +74,16 @@ std::string fault_of_report(const Answer& answer) {
     const std::vector<double> weights = part_weights(answer.mine.points(), answer.result.parts,
                                                      answer.options.num_parts, MPI_COMM_WORLD);
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-    if (report.num_points != static_cast<GlobalCount>(answer.cloud.size())) return "wrong count";
-    if (!(std::abs(report.total_weight - total) <= 1e-12 * total)) return "wrong total weight";
-    if (std::isnan(report.measured_imbalance) || report.all_weights_zero) return {};
+    if (report.details.num_points != static_cast<GlobalCount>(answer.cloud.size()))
+        return "wrong count";
+    if (!(std::abs(report.details.total_weight - total) <= 1e-12 * total))
+        return "wrong total weight";
+    if (std::isnan(report.imbalance) || report.details.all_weights_zero) return {};
     const double measured = imbalance(weights, answer.options.part_sizes);
-    if (measured == report.measured_imbalance) return {};
-    if (std::abs(measured - report.measured_imbalance) <= 1e-9 * measured) return {};
+    if (measured == report.imbalance) return {};
+    if (std::abs(measured - report.imbalance) <= 1e-9 * measured) return {};
     return "imbalance " + std::to_string(measured) + ", reported as " +
-           std::to_string(report.measured_imbalance);
+           std::to_string(report.imbalance);
 }
 
 TEST(Balance, gives_every_point_one_part_that_look_ups_find) {
@@ -117,7 +119,8 @@ std::string fault_of_shares(const Answer& answer) {
     if (sizes.empty()) sizes.assign(num_parts, 1);
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
     const double size = std::accumulate(sizes.begin(), sizes.end(), 0.0);
-    const bool by_count = answer.result.report.all_weights_zero || answer.cloud.weights.empty();
+    const bool by_count =
+        answer.result.report.details.all_weights_zero || answer.cloud.weights.empty();
     const double heaviest = by_count ? 1 : std::ranges::max(answer.cloud.weights);
     const int levels = static_cast<int>(std::bit_width(num_parts - 1));
     for (std::size_t p = 0; p < num_parts; ++p)
@@ -247,7 +250,7 @@ Cloud migrated(const Answer& answer) {
 bool is_settled(const Answer& answer) {
     if (is_exact(answer.options)) return false;
     if (!is_to_tolerance(answer.options)) return true;
-    return answer.result.report.measured_imbalance <= answer.options.imbalance_tolerance;
+    return answer.result.report.imbalance <= answer.options.imbalance_tolerance;
 }
 
 TEST(Balance, moves_nothing_when_called_again_with_its_own_cuts) {

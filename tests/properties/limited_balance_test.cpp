@@ -143,7 +143,7 @@ void expect_nearly_least(bool on_lines, Refine refine, double tolerance, double 
             if (answer.has_value() == std::isinf(least)) return "wrong about the room there is";
             if (!answer) return {};
             ++num_answers;
-            const double ratio = answer->report.measured_imbalance / std::max(least, tolerance);
+            const double ratio = answer->report.imbalance / std::max(least, tolerance);
             num_near += ratio <= 1.05 ? 1 : 0;
             worst = std::max(worst, ratio);
             return {};

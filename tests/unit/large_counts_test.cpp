@@ -78,11 +78,11 @@ TEST(LargeCounts, are_divided_and_reported_by_the_root) {
     // Half of the weight is two thirds of the first cell's.
     EXPECT_DOUBLE_EQ(decision.bisection.cuts.tree[0].at[0], 2.0 / 3);
     const Report report = report_of(decision.verdict, 2);
-    EXPECT_EQ(report.num_points, two_to_the_32 * 4);
-    EXPECT_EQ(report.total_weight, 0x1p34);
-    EXPECT_EQ(report.least_imbalance, 1);
-    EXPECT_EQ(report.surplus_parts, 0);
-    EXPECT_NEAR(report.estimated_imbalance, 1, 1e-15);
+    EXPECT_EQ(report.details.num_points, two_to_the_32 * 4);
+    EXPECT_EQ(report.details.total_weight, 0x1p34);
+    EXPECT_EQ(report.details.least_imbalance, 1);
+    EXPECT_EQ(report.details.surplus_parts, 0);
+    EXPECT_NEAR(report.details.estimated_imbalance, 1, 1e-15);
 }
 
 }  // namespace

@@ -25,8 +25,7 @@ std::string format(const char* text, Arguments... arguments) {
 }
 
 double imbalance_of(const Report& report) {
-    return std::isnan(report.measured_imbalance) ? report.estimated_imbalance
-                                                 : report.measured_imbalance;
+    return std::isnan(report.imbalance) ? report.details.estimated_imbalance : report.imbalance;
 }
 
 /// Whether RCB_OUTPUT_LEVEL or FINAL_OUTPUT is above 0, or DEBUG_LEVEL at least 10, as Zoltan then
@@ -44,7 +43,7 @@ std::string report_line(const Report& report, int num_parts, const Remap& remap)
     std::string text =
         format("RRCB: %lld objects in %d parts, imbalance %.4f (%s), %d rounds",
                static_cast<long long>(summary.num_objects), num_parts, summary.imbalance,
-               summary.is_measured ? "measured" : "estimated", report.rounds);
+               summary.is_measured ? "measured" : "estimated", report.details.rounds);
     if (remap.identity) return text;
     return text + format("; REMAP keeps %.1f %% of the objects in place instead of %.1f %%",
                          percent(remap.kept_after, remap.num_points),
@@ -54,15 +53,15 @@ std::string report_line(const Report& report, int num_parts, const Remap& remap)
 /// Causes that kept the parts from the balance asked for, a sentence each.
 std::vector<std::string> balance_warnings(const Report& report, const Parameters& parameters) {
     std::vector<std::string> texts;
-    if (report.least_imbalance > 1 && report.surplus_parts == 0) {
+    if (report.details.least_imbalance > 1 && report.details.surplus_parts == 0) {
         texts.push_back(format("one object outweighs a part: the imbalance is %.4f, at best %.4f",
-                               imbalance_of(report), report.least_imbalance));
+                               imbalance_of(report), report.details.least_imbalance));
     }
     const bool plain = parameters.rectilinear_blocks != 0;
     const bool divided = parameters.options.coincident == Coincident::divide && !plain;
-    if (report.coincident_cuts > 0 && !divided) {
+    if (report.details.coincident_cuts > 0 && !divided) {
         texts.push_back(format("%d cuts met objects in one %s; the imbalance is %.4f",
-                               report.coincident_cuts,
+                               report.details.coincident_cuts,
                                plain ? "plane, which RCB_RECTILINEAR_BLOCKS keeps together"
                                      : "place, which stay together",
                                imbalance_of(report)));
@@ -71,7 +70,7 @@ std::vector<std::string> balance_warnings(const Report& report, const Parameters
 }
 
 bool leaves_parts_empty(const Report& report) {
-    return report.num_points > 0 && report.surplus_parts > 0;
+    return report.details.num_points > 0 && report.details.surplus_parts > 0;
 }
 
 /// Prints warnings and line. Called on one rank.
@@ -87,9 +86,9 @@ void print_messages(const Report& report, int num_parts, const Remap& remap,
         print_warning(0, function, warning);
     if (leaves_parts_empty(report)) {
         print_warning(0, function,
-                      std::to_string(report.surplus_parts) +
+                      std::to_string(report.details.surplus_parts) +
                           " parts stay empty: there are more parts than objects");
-    } else if (report.all_weights_zero) {
+    } else if (report.details.all_weights_zero) {
         print_warning(0, function, "all weights are zero; balanced by number of objects");
     }
 }
@@ -97,8 +96,8 @@ void print_messages(const Report& report, int num_parts, const Remap& remap,
 }  // namespace
 
 Summary summary_of(const Report& report, int num_parts) {
-    return {report.num_points, num_parts, imbalance_of(report),
-            !std::isnan(report.measured_imbalance)};
+    return {report.details.num_points, num_parts, imbalance_of(report),
+            !std::isnan(report.imbalance)};
 }
 
 void print_notices(const Report& report, int num_parts, const Remap& remap, const State& state,

@@ -40,7 +40,7 @@ Placed find_placed(const Objects& objects, const KeptPartition& kept, const Rest
     std::vector<Part> parts(count, rank);
     if (named != nullptr) std::copy_n(named, count, parts.begin());
     // Cuts that this rank does not know, or that divide objects in one place, put none elsewhere.
-    const bool ask_cuts = is_whole(kept.cuts()) && rest.report.coincident_cuts == 0 &&
+    const bool ask_cuts = is_whole(kept.cuts()) && rest.report.details.coincident_cuts == 0 &&
                           kept.cuts().dimension == objects.points.dimension;
     for (std::size_t i = 0; i < count; ++i) {
         const Part part = parts[i];

@@ -25,7 +25,8 @@ Balance balance(const Points& points, const Options& options, MPI_Comm comm) {
     return balance(points, options, nullptr, true, self);
 }
 
-Balance balance(const Points& points, const Options& options, MPI_Comm comm, const Cuts& previous) {
+Balance rebalance(const Points& points, const Options& options, const Cuts& previous,
+                  MPI_Comm comm) {
     Participant self{mpi::duplicate_of(comm)};
     return balance(points, options, &previous, true, self);
 }

@@ -5,10 +5,10 @@
 #include "collective/communicator.hpp"
 #include "cuts/cut_limits.hpp"
 #include "cuts/direct_assignment.hpp"
+#include "cuts/gather_cuts_mpi.hpp"
 #include "cuts/path_search.hpp"
 #include "cuts/tier_search_mpi.hpp"
 #include "cuts/tree.hpp"
-#include "cuts/whole_cuts_mpi.hpp"
 #include "lists/quality_mpi.hpp"
 #include "options/validation.hpp"
 #include "stage_scope.hpp"
@@ -197,7 +197,7 @@ void hold_cuts(const Points& points, const Options& options, Balance& result, Pa
         result.cuts = with_cuts_above(points, result.cuts, self);
         return;
     }
-    if (!is_whole(result.cuts)) result.cuts = whole_cuts(result.cuts, self);
+    if (!is_whole(result.cuts)) result.cuts = gather_cuts(result.cuts, self);
     if (report.details.num_points == 0) return;
     Points counted = points;
     if (report.details.all_weights_zero) counted.weights = {};

@@ -95,7 +95,7 @@ int main(int argc, char** argv) {
                 controller.rebalanced(balance.report, cost);
                 ++rebalances;
             } else {
-                balance.parts = rrcb::assign(balance.cuts, points, comm);
+                balance.parts = rrcb::assign_all(balance.cuts, points, comm);
             }
             const rrcb::Plan plan = rrcb::plan(balance.parts, balance.cuts.num_parts, comm);
             std::tie(positions, weights) =

@@ -26,13 +26,13 @@ program quick_start
   call balancer%make_plan(parts, error)
   call check(error)
 
-  call balancer%plan(plan, error)
+  call balancer%get_plan(plan, error)
   call check(error)
   allocate (here(2, plan%num_points_after))
   call balancer%transfer(coordinates, here, error)
   call check(error)
 
-  call balancer%report(report, error)
+  call balancer%get_report(report, error)
   call check(error)
   if (rank == 0) then
     print '(i0, a, f6.4)', report%num_points, " points, imbalance ", report%imbalance

@@ -18,8 +18,8 @@ struct ReportDetails {
                                      ///< many ranks make the parts
     /// Lower bound of the imbalance of any partition: the heaviest point in a part alone.
     double least_imbalance = 1;
-    int coincident_cuts = 0;  ///< that would divide points which no allowed cut tells apart;
-                              ///< counted by the refinement
+    int coincident_cuts = 0;        ///< that would divide points which no allowed cut tells apart;
+                                    ///< counted by the refinement
     int rounds = 0;                 ///< of counting the points of all ranks, for the refinement
     bool all_weights_zero = false;  ///< balanced by count instead
     int surplus_parts = 0;          ///< parts that must stay empty: more parts than points
@@ -88,8 +88,8 @@ struct Balance {
 /// can't tell apart, ranks that round differently or treat subnormal numbers differently.
 RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm comm);
 
-/// The same, from the cuts of an earlier call in place of statistics, for points that moved little
-/// since.
+/// Divides the points as balance(), from the cuts of an earlier call in place of statistics, for
+/// points that moved little since.
 ///
 /// Collective over `comm`. Every rank assigns its points by `previous` and counts them in that one
 /// pass; the counts travel up the tree of ranks, and one broadcast tells whether the cuts stay: no
@@ -121,7 +121,7 @@ RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm 
 /// divides are counted on the side where the look-up finds them.
 /// Report::kept and ReportDetails::estimated_imbalance and num_records are not set by this call.
 /// Without any points the cuts stay, and the report is that of a call from nothing.
-RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm comm,
-                         const Cuts& previous);
+RRCB_API Balance rebalance(const Points& points, const Options& options, const Cuts& previous,
+                           MPI_Comm comm);
 
 }  // namespace rrcb

@@ -33,8 +33,8 @@ RRCB_API bool is_above(const Cut& cut, const Vector& position, int dimension);
 /// With Options::cuts = own, where many ranks make the parts, `tree` holds only some cuts: those
 /// above the points and the parts of this rank, and `nodes` contains their numbers, also on a rank
 /// that happens to have all. Then look-ups that need other cuts fail on this rank alone; the
-/// collective assign() and ghosts() work with both kinds, and whole_cuts() makes the one of the
-/// other.
+/// collective assign_all() and ghosts() work with both kinds, and gather_cuts() makes the one of
+/// the other.
 struct Cuts {
     int dimension = 0;      ///< of the points
     int num_parts = 1;      ///< of the whole tree
@@ -69,8 +69,8 @@ RRCB_API Part part_of(const Cuts& cuts, const Vector& position);
 ///
 /// Throws Error if a coordinate is NaN or infinite, arrays have another length, the points another
 /// dimension than the cuts, or the cuts are no tree; `parts` is void then. With cuts that are not
-/// whole also, on this rank alone, if it lacks a cut above a point: call assign(cuts, points, comm)
-/// instead. Weights are not looked at.
+/// whole also, on this rank alone, if it lacks a cut above a point: call assign_all(cuts, points,
+/// comm) instead. Weights are not looked at.
 RRCB_API void assign(const Cuts& cuts, const Points& points, std::span<Part> parts);
 
 /// Returns the region of a part; open sides are +-infinity. Lower faces belong to it, upper faces
@@ -79,7 +79,7 @@ RRCB_API void assign(const Cuts& cuts, const Points& points, std::span<Part> par
 /// The region is the empty box if the cuts leave no position to the part, as they do to parts of
 /// size 0, unless one of them divides points there. Throws Error for a number that is no part and
 /// cuts that are no tree; with cuts that are not whole also, on this rank alone, if it lacks a cut
-/// above the part: call whole_cuts() before.
+/// above the part: call gather_cuts() before.
 RRCB_API Box box_of(const Cuts& cuts, Part part);
 
 /// Returns the parts whose region a closed box touches, ascending; none for an empty box. Not
@@ -88,7 +88,7 @@ RRCB_API Box box_of(const Cuts& cuts, Part part);
 /// Where the box holds the place of points that a cut divides, both sides of it are touched. A part
 /// whose region is empty is never touched. Throws Error for bounds that are NaN and cuts that are
 /// no tree; with cuts that are not whole also, on this rank alone, if it lacks a cut that may cross
-/// the box: call whole_cuts() before.
+/// the box: call gather_cuts() before.
 RRCB_API std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
 
 /// Part of each of any points, by whole cuts or by cuts of which each rank has some.
@@ -101,8 +101,8 @@ RRCB_API std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
 /// after exact cuts, or if a tolerance was missed.
 ///
 /// Throws Error on every rank alike: for coordinates that are NaN or infinite, points of another
-/// dimension than the cuts, cuts that whole_cuts() would refuse, or no memory.
-RRCB_API std::vector<Part> assign(const Cuts& cuts, const Points& points, MPI_Comm comm);
+/// dimension than the cuts, cuts that gather_cuts() would refuse, or no memory.
+RRCB_API std::vector<Part> assign_all(const Cuts& cuts, const Points& points, MPI_Comm comm);
 
 /// The whole tree of cuts of which each rank holds a part.
 ///
@@ -111,6 +111,6 @@ RRCB_API std::vector<Part> assign(const Cuts& cuts, const Points& points, MPI_Co
 /// cuts are no tree, those of the ranks are of trees of other dimensions or numbers of parts, whole
 /// trees differ, a rank lacks the cut of a node whose lowest part begins on this rank, or has no
 /// memory.
-RRCB_API Cuts whole_cuts(const Cuts& cuts, MPI_Comm comm);
+RRCB_API Cuts gather_cuts(const Cuts& cuts, MPI_Comm comm);
 
 }  // namespace rrcb

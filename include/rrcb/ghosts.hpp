@@ -22,9 +22,9 @@ struct GhostPlan {
 ///
 /// Collective over `comm`: ceil(log2 R) messages from each of R ranks, one more from some, to tell
 /// what comes, then one reduction. Where ranks know a part of the cuts each, one such pass more;
-/// and where some lacks cuts near its points, which it then asks the owners for as assign() does,
-/// one to share cuts, two for each time that some rank asks, and the first pass and the reduction
-/// again. The plan is the same as by the whole tree.
+/// and where some lacks cuts near its points, which it then asks the owners for as assign_all()
+/// does, one to share cuts, two for each time that some rank asks, and the first pass and the
+/// reduction again. The plan is the same as by the whole tree.
 ///
 /// A rank needs the points of others whose distance to the region of one of its parts, the closed
 /// box_of(cuts, part), is at most `radius`; none for a part whose region is empty. So of any two
@@ -40,8 +40,8 @@ struct GhostPlan {
 /// of its rank, and otherwise as the number of regions it is near times the depth of the tree.
 ///
 /// Throws Error on every rank alike where one has unusable points, another radius or other cuts
-/// than the others, cuts of another dimension than its points or that whole_cuts() would refuse, or
-/// no memory.
+/// than the others, cuts of another dimension than its points or that gather_cuts() would refuse,
+/// or no memory.
 RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius, MPI_Comm comm);
 
 /// The same where the parts lie on other ranks, as after a remap(): part p on ranks_of_parts[p],

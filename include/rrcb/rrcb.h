@@ -123,7 +123,7 @@ RRCB_API int rrcb_get_report(const rrcb_balancer* balancer, rrcb_report* report)
  *  rrcb::Cuts; call rrcb_gather_cuts before. */
 RRCB_API int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts);
 
-/** Gives each rank's balancer all cuts, if each has some of them, as rrcb::whole_cuts.
+/** Gives each rank's balancer all cuts, if each has some of them, as rrcb::gather_cuts.
  *  Collective. */
 RRCB_API int rrcb_gather_cuts(rrcb_balancer* balancer);
 
@@ -138,7 +138,7 @@ RRCB_API int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts);
 RRCB_API int rrcb_assign(const rrcb_balancer* balancer, size_t count, const double* coordinates,
                          int32_t* parts);
 
-/** The same, whichever cuts the ranks have, as the collective rrcb::assign. Collective. */
+/** The same, whichever cuts the ranks have, as rrcb::assign_all. Collective. */
 RRCB_API int rrcb_assign_all(const rrcb_balancer* balancer, size_t count, const double* coordinates,
                              int32_t* parts);
 

@@ -3,7 +3,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/duplicate.hpp"
 #include "cuts/assign_mpi.hpp"
-#include "cuts/whole_cuts_mpi.hpp"
+#include "cuts/gather_cuts_mpi.hpp"
 #include "lists/plan_mpi.hpp"
 
 #include <algorithm>
@@ -100,7 +100,7 @@ int rrcb_gather_cuts(rrcb_balancer* balancer) {
     return guarded(balancer, [&](auto& own) {
         Participant self{duplicate_of(own.comm)};
         self.attempt([&] { require_cuts(own); });
-        own.cuts = rrcb::whole_cuts(own.cuts, self);
+        own.cuts = rrcb::gather_cuts(own.cuts, self);
     });
 }
 
@@ -123,7 +123,7 @@ int rrcb_assign_all(const rrcb_balancer* balancer, size_t count, const double* c
             require_arrays(count, coordinates, parts);
         });
         const rrcb::Points positions = points_of(own.cuts.dimension, count, coordinates, nullptr);
-        std::ranges::copy(rrcb::assign(own.cuts, positions, self), parts);
+        std::ranges::copy(rrcb::assign_all(own.cuts, positions, self), parts);
     });
 }
 

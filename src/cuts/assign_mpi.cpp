@@ -14,7 +14,7 @@
 
 namespace rrcb {
 
-std::vector<Part> assign(const Cuts& cuts, const Points& points, Participant& self) {
+std::vector<Part> assign_all(const Cuts& cuts, const Points& points, Participant& self) {
     std::vector<Part> parts;
     std::optional<SearchRoom<PathSearch>> room;
     self.attempt([&] {
@@ -30,9 +30,9 @@ std::vector<Part> assign(const Cuts& cuts, const Points& points, Participant& se
     return parts;
 }
 
-std::vector<Part> assign(const Cuts& cuts, const Points& points, MPI_Comm user) {
+std::vector<Part> assign_all(const Cuts& cuts, const Points& points, MPI_Comm user) {
     Participant self{mpi::duplicate_of(user)};
-    return assign(cuts, points, self);
+    return assign_all(cuts, points, self);
 }
 
 }  // namespace rrcb

@@ -87,8 +87,9 @@ bool is_above(const Cut& cut, const Vector& position, int dimension) {
 
 void reject_unknown() {
     reject(
-        "a look-up needs cuts that this rank does not have; call assign(cuts, points, comm) on all "
-        "ranks for the parts of points (rrcb_assign_all in C), or whole_cuts(cuts, comm) before "
+        "a look-up needs cuts that this rank does not have; call assign_all(cuts, points, comm) on "
+        "all "
+        "ranks for the parts of points (rrcb_assign_all in C), or gather_cuts(cuts, comm) before "
         "look-ups of any kind (rrcb_gather_cuts in C), or balance with Options::cuts = whole");
 }
 

@@ -2,8 +2,8 @@
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
+#include "cuts/gather_cuts_mpi.hpp"
 #include "cuts/owned_cuts.hpp"
-#include "cuts/whole_cuts_mpi.hpp"
 
 #include <algorithm>
 #include <cstddef>

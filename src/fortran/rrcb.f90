@@ -32,15 +32,15 @@ module rrcb
     procedure :: set_part_sizes => balancer_set_part_sizes
     procedure :: balance => balancer_balance                !< collective
     procedure :: rebalance => balancer_rebalance            !< collective
-    procedure :: report => balancer_report
-    procedure :: cuts => balancer_cuts
+    procedure :: get_report => balancer_get_report
+    procedure :: get_cuts => balancer_get_cuts
     procedure :: gather_cuts => balancer_gather_cuts        !< collective
     procedure :: set_cuts => balancer_set_cuts
     procedure :: assign => balancer_assign
     procedure :: assign_all => balancer_assign_all          !< collective
     procedure :: box_of => balancer_box_of
     procedure :: make_plan => balancer_make_plan            !< collective
-    procedure :: plan => balancer_plan
+    procedure :: get_plan => balancer_get_plan
     procedure, private :: balancer_transfer_reals, balancer_transfer_vectors, &
       balancer_transfer_integers, balancer_transfer_long_integers
     !> Collective. `to` has room for num_points_after of the plan.
@@ -139,7 +139,7 @@ contains
     if (size(weights) > 0) address = c_loc(weights)
   end function
 
-  subroutine balancer_report(self, report, error)
+  subroutine balancer_get_report(self, report, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_report), intent(inout) :: report
     integer, intent(out) :: error
@@ -148,7 +148,7 @@ contains
 
   !> The cuts belong to the balancer until it gets others. An error before the first, with
   !> `dimension` 0, and if the balancer holds a part of them only.
-  subroutine balancer_cuts(self, dimension, cuts, error)
+  subroutine balancer_get_cuts(self, dimension, cuts, error)
     class(rrcb_balancer), intent(in) :: self
     integer, intent(out) :: dimension
     type(rrcb_cut), pointer, intent(out) :: cuts(:)
@@ -210,7 +210,7 @@ contains
     error = c_make_plan(self%handle, size(parts, kind=c_size_t), parts)
   end subroutine
 
-  subroutine balancer_plan(self, plan, error)
+  subroutine balancer_get_plan(self, plan, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_plan), intent(inout) :: plan
     integer, intent(out) :: error

@@ -120,10 +120,11 @@ void check_positions(const Points& positions, const Cuts& cuts) {
 
 void check_cuts(const Cuts& cuts) {
     check_dimension(cuts.dimension, "cuts");
-    require(cuts.num_parts >= 1 && is_whole(cuts) &&
-                cuts.tree.size() + 1 == static_cast<std::size_t>(cuts.num_parts),
-            "the tree must hold one cut less than there are parts; whole_cuts() gathers them where "
-            "the ranks have a part of it each");
+    require(
+        cuts.num_parts >= 1 && is_whole(cuts) &&
+            cuts.tree.size() + 1 == static_cast<std::size_t>(cuts.num_parts),
+        "the tree must hold one cut less than there are parts; gather_cuts() gathers them where "
+        "the ranks have a part of it each");
     require(cross_axes_at_numbers(cuts), "cuts must cross axes of the points at numbers");
 }
 

@@ -49,7 +49,7 @@ void fail_in_balance(const Options& options, const Cuts* previous = nullptr,
                      const std::vector<double>& coordinates = cloud_here(2)) {
     const Points points = interleaved_points(coordinates, 2);
     const auto call = [&] {
-        return previous ? balance(points, options, MPI_COMM_WORLD, *previous)
+        return previous ? rebalance(points, options, *previous, MPI_COMM_WORLD)
                         : balance(points, options, MPI_COMM_WORLD);
     };
     const std::vector<Part> expected = call().parts;
@@ -124,16 +124,16 @@ TEST(FailingMemory, in_cuts_that_are_spread_over_the_ranks) {
     fail_in_balance(options, &cuts, coordinates);
     options.imbalance_tolerance = 1000;
     fail_in_balance(options, &cuts, coordinates);
-    const Cuts whole = whole_cuts(cuts, MPI_COMM_WORLD);
+    const Cuts whole = gather_cuts(cuts, MPI_COMM_WORLD);
     std::vector<Part> expected(points.count);
     assign(whole, points, expected);
-    fail_in([&] { return assign(cuts, points, MPI_COMM_WORLD); },
+    fail_in([&] { return assign_all(cuts, points, MPI_COMM_WORLD); },
             [&](const std::vector<Part>& parts) { EXPECT_EQ(parts, expected); });
     const auto ghosts_here = [&] { return ghosts(cuts, points, 0.2, MPI_COMM_WORLD); };
     const GhostPlan near = ghosts_here();
     fail_in(ghosts_here,
             [&](const GhostPlan& found) { EXPECT_EQ(found.send_indices, near.send_indices); });
-    fail_in([&] { return whole_cuts(cuts, MPI_COMM_WORLD); },
+    fail_in([&] { return gather_cuts(cuts, MPI_COMM_WORLD); },
             [&](const Cuts& found) { EXPECT_EQ(found.tree.size(), whole.tree.size()); });
 }
 
@@ -146,7 +146,7 @@ TEST(FailingMemory, in_a_correction_of_all_cuts) {
     Cuts moved = balance(points, options, MPI_COMM_WORLD).cuts;
     moved.tree[0].at[static_cast<std::size_t>(moved.tree[0].axis)] += 0.12;
     // A look at the cuts, one at what lies about them, one at them as they were moved.
-    ASSERT_EQ(balance(points, options, MPI_COMM_WORLD, moved).report.details.rounds, 3);
+    ASSERT_EQ(rebalance(points, options, moved, MPI_COMM_WORLD).report.details.rounds, 3);
     fail_in_balance(options, &moved, coordinates);
 }
 

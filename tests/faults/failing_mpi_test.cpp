@@ -94,7 +94,7 @@ TEST(FailingMpi, reaches_the_caller_of_balance_as_an_error_that_names_the_call) 
     Cuts moved = good;
     for (Cut& cut : moved.tree) cut.at[static_cast<std::size_t>(cut.axis)] *= 0.9;
     for (const Cuts& previous : {good, moved})
-        expect_errors([&] { balance(points, Options{}, MPI_COMM_WORLD, previous); });
+        expect_errors([&] { rebalance(points, Options{}, previous, MPI_COMM_WORLD); });
 }
 
 TEST(FailingMpi, reaches_the_caller_of_a_method_of_the_paper) {

@@ -144,7 +144,7 @@ bool balances_twice(const Round& round, MPI_Comm comm) {
     const Options options = options_of(round);
     const Points points = round.mine().points();
     const Balance first = balance(points, options, comm);
-    return is_right(first, round) && is_right(balance(points, options, comm, first.cuts), round);
+    return is_right(first, round) && is_right(rebalance(points, options, first.cuts, comm), round);
 }
 
 bool plans(const Round& round, MPI_Comm comm) {

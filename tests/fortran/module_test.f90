@@ -35,13 +35,13 @@ program module_test
   call expect(error == rrcb_ok, "balance")
   ! Of sizes 1, 3 and 2: points 1 to 50, 51 to 200 and the rest.
   call expect(all(parts == merge(0, merge(1, 2, numbers <= 200), numbers <= 50)), "parts")
-  call balancer%report(report, error)
+  call balancer%get_report(report, error)
   call expect(report%num_points == 300 .and. report%total_weight == 600, "report")
   call expect(report%imbalance == 1 .and. report%within_tolerance == 1, "imbalance")
 
   call balancer%gather_cuts(error)
   call expect(error == rrcb_ok, "gather_cuts")
-  call balancer%cuts(dimension, cuts, error)
+  call balancer%get_cuts(dimension, cuts, error)
   call expect(error == rrcb_ok .and. dimension == 1 .and. size(cuts) == 2, "cuts")
   call expect(cuts(1)%axis == 0 .and. cuts(1)%at(1) > 50 .and. cuts(1)%at(1) <= 51, "first cut")
   call balancer%box_of(1_c_int32_t, lower, upper, error)
@@ -65,7 +65,7 @@ program module_test
 
   call balancer%make_plan(parts, error)
   call expect(error == rrcb_ok, "make_plan")
-  call balancer%plan(plan, error)
+  call balancer%get_plan(plan, error)
   num_points = counts(rank + 1)
   call expect(plan%num_points_after == num_points, "points after")
   call expect(size(plan%export_indices) == merge(250, 0, rank == 0), "exports")

@@ -144,8 +144,8 @@ TEST(Errors, a_tree_of_earlier_cuts_that_differs_between_ranks) {
     Cuts cuts = balance(points, {}, MPI_COMM_WORLD).cuts;
     const Cuts same = cuts;
     if (is_last_rank()) cuts.tree[0].at[0] += 1;
-    EXPECT_THROW(balance(points, {}, MPI_COMM_WORLD, cuts), Error);
-    EXPECT_EQ(balance(points, {}, MPI_COMM_WORLD, same).parts.size(), 2u);
+    EXPECT_THROW(rebalance(points, {}, cuts, MPI_COMM_WORLD), Error);
+    EXPECT_EQ(rebalance(points, {}, same, MPI_COMM_WORLD).parts.size(), 2u);
 }
 
 }  // namespace

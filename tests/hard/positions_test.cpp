@@ -87,7 +87,7 @@ TEST(Positions, outside_every_earlier_box_are_divided_from_earlier_cuts) {
         for (double& x : later.coordinates) x = distance + std::abs(distance) * 1e-3 * x;
         for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
             options.refine = refine;
-            const Balance result = balance(later.points(), options, MPI_COMM_WORLD, cuts);
+            const Balance result = rebalance(later.points(), options, cuts, MPI_COMM_WORLD);
             for (LocalIndex i = 0; i < result.parts.size(); ++i)
                 ASSERT_EQ(result.parts[i], part_of(result.cuts, later.points().position(i)));
             const auto weights =

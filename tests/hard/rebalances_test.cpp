@@ -25,7 +25,7 @@ TEST(Rebalances, hold_what_they_held) {
         const Points points = interleaved_points(coordinates, 2, weights);
         const bool reuses = step % 3 == 1;
         options.refine = step % 2 == 0 ? Refine::tolerance : Refine::exact;
-        const Balance result = reuses ? balance(points, options, MPI_COMM_WORLD, cuts)
+        const Balance result = reuses ? rebalance(points, options, cuts, MPI_COMM_WORLD)
                                       : balance(points, options, MPI_COMM_WORLD);
         cuts = result.cuts;
         plan(result.parts, options.num_parts, MPI_COMM_WORLD);

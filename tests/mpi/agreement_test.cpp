@@ -167,10 +167,10 @@ TEST_F(Agreement, on_earlier_cuts_that_do_not_fit) {
     options.num_parts = 3;
     const Cuts cuts = balance(interleaved_points(x, 2), options, MPI_COMM_WORLD).cuts;
     options.num_parts = last() ? 4 : 3;
-    EXPECT_THROW(balance(interleaved_points(x, 2), options, MPI_COMM_WORLD, cuts), Error);
+    EXPECT_THROW(rebalance(interleaved_points(x, 2), options, cuts, MPI_COMM_WORLD), Error);
     options.num_parts = 3;
-    EXPECT_THROW(balance(interleaved_points(x, 1), options, MPI_COMM_WORLD, cuts), Error);
-    EXPECT_EQ(balance(interleaved_points(x, 2), options, MPI_COMM_WORLD, cuts).parts.size(), 2u);
+    EXPECT_THROW(rebalance(interleaved_points(x, 1), options, cuts, MPI_COMM_WORLD), Error);
+    EXPECT_EQ(rebalance(interleaved_points(x, 2), options, cuts, MPI_COMM_WORLD).parts.size(), 2u);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ std::vector<double> positions_here(int dimension, int seed) {
 void expect_located(const Cuts& whole, const Cuts& known, int seed) {
     const std::vector<double> coordinates = positions_here(whole.dimension, seed);
     const Points points = interleaved_points(coordinates, whole.dimension);
-    const std::vector<Part> parts = assign(known, points, MPI_COMM_WORLD);
+    const std::vector<Part> parts = assign_all(known, points, MPI_COMM_WORLD);
     ASSERT_EQ(parts.size(), points.count);
     for (LocalIndex i = 0; i < points.count; ++i)
         EXPECT_EQ(parts[i], part_of(whole, points.position(i)));
@@ -59,14 +59,14 @@ TEST(AssignTogether, finds_the_parts_of_a_tree_of_many_tiers) {
     std::vector<double> x;
     for (int i = 0; i < 200; ++i) x.push_back(test::uniform(engine, 0, num_parts));
     const std::vector<Part> parts =
-        assign(known_here(whole), interleaved_points(x, 1), MPI_COMM_WORLD);
+        assign_all(known_here(whole), interleaved_points(x, 1), MPI_COMM_WORLD);
     for (std::size_t i = 0; i < x.size(); ++i) EXPECT_EQ(parts[i], static_cast<Part>(x[i]));
 }
 
 /// Expects an Error with this text on every rank, after which the next call works.
 void expect_refusal(const std::string& text, const Cuts& cuts, const Points& points) {
     try {
-        assign(cuts, points, MPI_COMM_WORLD);
+        assign_all(cuts, points, MPI_COMM_WORLD);
         ADD_FAILURE() << "nothing was thrown";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::invalid_argument);

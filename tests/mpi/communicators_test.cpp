@@ -22,15 +22,15 @@ void expect_refusal(MPI_Comm comm, const std::string& text) {
     cuts.num_parts = 1;
     const std::vector<std::function<void()>> calls = {
         [&] { balance(points, {}, comm); },
-        [&] { balance(points, {}, comm, cuts); },
+        [&] { rebalance(points, {}, cuts, comm); },
         [&] { plan(parts, 1, comm); },
         [&] { remap(parts, ranks, comm); },
         [&] { remap(parts, parts, ranks, comm); },
         [&] { part_weights(points, parts, 1, comm); },
         [&] { moved_fraction(points, parts, 1, comm); },
         [&] { Controller controller(comm); },
-        [&] { whole_cuts(cuts, comm); },
-        [&] { assign(cuts, points, comm); },
+        [&] { gather_cuts(cuts, comm); },
+        [&] { assign_all(cuts, points, comm); },
     };
     for (const auto& call : calls) {
         try {

@@ -106,10 +106,10 @@ TEST(Correction, of_earlier_cuts_moves_them_along) {
         const Cuts first = balance(before.points(), options, MPI_COMM_WORLD).cuts;
         for (double& x : all.coordinates) x = std::pow(x + 1, 1.05);
         const Share mine(all);
-        const Balance second = balance(mine.points(), options, MPI_COMM_WORLD, first);
+        const Balance second = rebalance(mine.points(), options, first, MPI_COMM_WORLD);
         EXPECT_LE(second.report.imbalance, 1.02);
         expect_as_looked_up(all, mine.points(), second, options.part_sizes);
-        EXPECT_TRUE(same_bits(second, balance(mine.points(), options, MPI_COMM_WORLD, first)));
+        EXPECT_TRUE(same_bits(second, rebalance(mine.points(), options, first, MPI_COMM_WORLD)));
     }
 }
 

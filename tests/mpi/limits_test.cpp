@@ -203,14 +203,14 @@ TEST(Limits, move_earlier_cuts_that_break_them) {
     for (const Refine refine : {Refine::none, Refine::tolerance}) {
         options.refine = refine;
         options.axes.min_width = {0.15, 0.1};
-        const Balance moved = balance(points, options, MPI_COMM_WORLD, previous);
+        const Balance moved = rebalance(points, options, previous, MPI_COMM_WORLD);
         EXPECT_GE(least_width(moved.cuts, box, 0), 0.15);
         EXPECT_GE(least_width(moved.cuts, box, 1), 0.1);
         EXPECT_EQ(moved.report.part_weights, counts_by_look_up(moved.cuts, points));
         EXPECT_EQ(moved.report.imbalance, imbalance(moved.report.part_weights, {}));
         // What keeps them stays as it is.
         options.refine = Refine::none;
-        const Cuts again = balance(points, options, MPI_COMM_WORLD, moved.cuts).cuts;
+        const Cuts again = rebalance(points, options, moved.cuts, MPI_COMM_WORLD).cuts;
         for (std::size_t k = 0; k < again.tree.size(); ++k)
             EXPECT_EQ(again.tree[k].at, moved.cuts.tree[k].at);
     }

@@ -242,7 +242,7 @@ TEST(EarlierCuts, of_the_same_points_are_found_good_at_one_look) {
     Options options;
     options.num_parts = 6;
     const Balance first = balance(points, options, MPI_COMM_WORLD);
-    const Balance second = balance(points, options, MPI_COMM_WORLD, first.cuts);
+    const Balance second = rebalance(points, options, first.cuts, MPI_COMM_WORLD);
     EXPECT_EQ(second.report.details.rounds, 1);
     EXPECT_EQ(second.report.details.num_records, 0);
     EXPECT_EQ(second.parts, first.parts);
@@ -258,7 +258,7 @@ TEST(EarlierCuts, follow_a_cloud_that_moved) {
         options.num_parts = 5;
         const Balance first = balance(interleaved_points(still, 2), options, MPI_COMM_WORLD);
         const Points points = interleaved_points(moved, 2);
-        const Balance second = balance(points, options, MPI_COMM_WORLD, first.cuts);
+        const Balance second = rebalance(points, options, first.cuts, MPI_COMM_WORLD);
         for (const double weight : part_weights(points, second.parts, 5, MPI_COMM_WORLD))
             EXPECT_LE(std::abs(weight - 800), 1) << "shift " << shift;
         expect_look_ups_agree(points, second);
@@ -273,7 +273,7 @@ TEST(EarlierCuts, make_room_for_other_part_sizes) {
     options.num_parts = 4;
     const Balance first = balance(points, options, MPI_COMM_WORLD);
     options.part_sizes = {0, 2, 1, 1};
-    const Balance second = balance(points, options, MPI_COMM_WORLD, first.cuts);
+    const Balance second = rebalance(points, options, first.cuts, MPI_COMM_WORLD);
     const auto weights = part_weights(points, second.parts, 4, MPI_COMM_WORLD);
     EXPECT_EQ(weights[0], 0);
     EXPECT_NEAR(weights[1], 2000, 1);
@@ -290,7 +290,7 @@ TEST(EarlierCuts, that_were_tilted_are_made_planes_where_planes_are_asked_for) {
     options.axes.plain = true;
     for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
         options.refine = refine;
-        const Balance plain = balance(points, options, MPI_COMM_WORLD, tilted.cuts);
+        const Balance plain = rebalance(points, options, tilted.cuts, MPI_COMM_WORLD);
         EXPECT_EQ(plain.cuts.tree[0].at[1], -std::numeric_limits<double>::infinity());
         expect_look_ups_agree(points, plain);
     }

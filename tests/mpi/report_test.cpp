@@ -162,7 +162,7 @@ TEST(PartSizes, of_zero_keep_a_part_empty_of_weightless_points_too) {
         for (const Part part : result.parts) EXPECT_GT(sizes[static_cast<std::size_t>(part)], 0);
         std::ranges::reverse(options.part_sizes);
         std::ranges::reverse(sizes);
-        result = balance(points, options, MPI_COMM_WORLD, result.cuts);
+        result = rebalance(points, options, result.cuts, MPI_COMM_WORLD);
         for (const Part part : result.parts) EXPECT_GT(sizes[static_cast<std::size_t>(part)], 0);
     };
     for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {

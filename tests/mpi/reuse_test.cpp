@@ -77,7 +77,7 @@ TEST(Reuse, keeps_cuts_within_the_tolerance_and_tells_what_their_parts_weigh) {
                     const Options options = with_parts(num_parts, 1.2);
                     const Balance first = balance(mine.points(), options, MPI_COMM_WORLD);
                     const Points points = mine.points();
-                    const Balance second = balance(points, options, MPI_COMM_WORLD, first.cuts);
+                    const Balance second = rebalance(points, options, first.cuts, MPI_COMM_WORLD);
                     EXPECT_TRUE(same_cuts(second.cuts, first.cuts));
                     for (std::size_t i = 0; i < points.count; ++i)
                         ASSERT_EQ(second.parts[i], part_of(first.cuts, points.position(i)));
@@ -98,7 +98,7 @@ TEST(Reuse, without_refinement_keeps_any_cuts_and_measures_them) {
     options.refine = Refine::none;
     const Cuts poor{
         2, 3, {Cut{0, 0, {0.1, -INFINITY, -INFINITY}}, Cut{1, 0, {-INFINITY, 0.9, -INFINITY}}}};
-    const Balance result = balance(mine.points(), options, MPI_COMM_WORLD, poor);
+    const Balance result = rebalance(mine.points(), options, poor, MPI_COMM_WORLD);
     EXPECT_TRUE(same_cuts(result.cuts, poor));
     EXPECT_EQ(result.report.part_weights, weights_by_look_up(all, poor));
     EXPECT_FALSE(result.report.within_tolerance);
@@ -114,7 +114,7 @@ TEST(Reuse, takes_two_collectives_and_no_memory_that_grows_with_the_points) {
         const Balance first = balance(points, options, MPI_COMM_WORLD);
         num_collectives = 0;
         const std::size_t before = bytes_allocated;
-        const Balance second = balance(points, options, MPI_COMM_WORLD, first.cuts);
+        const Balance second = rebalance(points, options, first.cuts, MPI_COMM_WORLD);
         bytes[count == 1000 ? 0 : 1] = bytes_allocated - before - count * sizeof(Part);
         EXPECT_LE(num_collectives, 2);
         EXPECT_EQ(second.report.details.rounds, 1);
@@ -130,7 +130,7 @@ TEST(Reuse, moves_cuts_beyond_the_tolerance) {
         const Cuts first = balance(before.points(), options, MPI_COMM_WORLD).cuts;
         for (double& x : all.coordinates) x *= x;
         const Share mine(all);
-        const Balance second = balance(mine.points(), options, MPI_COMM_WORLD, first);
+        const Balance second = rebalance(mine.points(), options, first, MPI_COMM_WORLD);
         EXPECT_LE(imbalance(weights_by_look_up(all, second.cuts)), tolerance);
         EXPECT_EQ(second.report.part_weights, weights_by_look_up(all, second.cuts));
         EXPECT_FALSE(same_cuts(second.cuts, first));
@@ -155,7 +155,7 @@ TEST(Reuse, throws_on_every_rank_what_is_wrong_on_one) {
     std::vector<double> mine = test::uniform_cloud(700, 2, static_cast<unsigned>(rank() + 1));
     const Cuts cuts = balance(interleaved_points(mine, 2), options, MPI_COMM_WORLD).cuts;
     const auto call = [&](const Cuts& previous, std::span<const double> weights = {}) {
-        balance(interleaved_points(mine, 2, weights), options, MPI_COMM_WORLD, previous);
+        rebalance(interleaved_points(mine, 2, weights), options, previous, MPI_COMM_WORLD);
     };
     const bool is_last = test::is_last_rank();
     if (num_ranks() > 1) {
@@ -164,8 +164,9 @@ TEST(Reuse, throws_on_every_rank_what_is_wrong_on_one) {
         expect_error([&] { call(others); }, "previous differs between rank");
         expect_error(
             [&] {
-                balance(interleaved_points(mine, 2), with_parts(is_last ? 5 : 4, 1.05),
-                        MPI_COMM_WORLD, is_last ? Cuts{2, 5, {Cut{}, Cut{}, Cut{}, Cut{}}} : cuts);
+                rebalance(interleaved_points(mine, 2), with_parts(is_last ? 5 : 4, 1.05),
+                          is_last ? Cuts{2, 5, {Cut{}, Cut{}, Cut{}, Cut{}}} : cuts,
+                          MPI_COMM_WORLD);
             },
             "num_parts differs between rank");
         expect_error(
@@ -199,7 +200,7 @@ TEST(Reuse, goes_on_where_ranks_are_empty) {
     const Share mine(all);
     const Options options = with_parts(3, 1.05);
     const Cuts cuts = balance(mine.points(), options, MPI_COMM_WORLD).cuts;
-    EXPECT_EQ(balance(mine.points(), options, MPI_COMM_WORLD, cuts).report.part_weights,
+    EXPECT_EQ(rebalance(mine.points(), options, cuts, MPI_COMM_WORLD).report.part_weights,
               weights_by_look_up(all, cuts));
 }
 
@@ -221,7 +222,7 @@ TEST(Reuse, without_points_tells_what_a_call_from_nothing_does) {
             options.refine = refine;
             if (limited) options.axes.min_width = {0.1, 0.1};
             const Cuts cuts = balance(Share(all).points(), options, MPI_COMM_WORLD).cuts;
-            const Balance empty = balance(none, options, MPI_COMM_WORLD, cuts);
+            const Balance empty = rebalance(none, options, cuts, MPI_COMM_WORLD);
             EXPECT_TRUE(same_cuts(empty.cuts, cuts));
             EXPECT_EQ(told(empty.report), told(balance(none, options, MPI_COMM_WORLD).report))
                 << limited << static_cast<int>(refine);

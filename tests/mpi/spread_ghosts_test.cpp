@@ -105,7 +105,7 @@ TEST(SpreadGhosts, of_points_on_the_ranks_of_their_parts_are_those_by_the_whole_
     const Plan lists = plan(balance.parts, options.num_parts, MPI_COMM_WORLD);
     const auto here = transfer(lists, column(scattered, 2), MPI_COMM_WORLD);
     const Points points = interleaved_points(here, 2);
-    const Cuts whole = whole_cuts(balance.cuts, MPI_COMM_WORLD);
+    const Cuts whole = gather_cuts(balance.cuts, MPI_COMM_WORLD);
     ASSERT_FALSE(is_whole(balance.cuts));
     // Cuts that the rank had above scattered points, and those above its own parts alone.
     std::size_t num_sent = 0;

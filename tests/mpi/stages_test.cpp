@@ -32,7 +32,7 @@ std::string stages_seen(const Options& asked, const std::vector<double>& coordin
     Options options = asked;
     options.observer = &recorder;
     const Points points = interleaved_points(coordinates, 2);
-    if (previous) balance(points, options, MPI_COMM_WORLD, *previous);
+    if (previous) rebalance(points, options, *previous, MPI_COMM_WORLD);
     if (!previous) balance(points, options, MPI_COMM_WORLD);
     return recorder.text;
 }

@@ -32,7 +32,7 @@ Options wide_options(double tolerance) {
 void expect_cuts_of_all(const HeldPoints& all, const Balance& result) {
     ASSERT_FALSE(is_whole(result.cuts));
     const Points points = interleaved_points(all.coordinates, all.dimension);
-    const std::vector<Part> parts = assign(result.cuts, points, MPI_COMM_WORLD);
+    const std::vector<Part> parts = assign_all(result.cuts, points, MPI_COMM_WORLD);
     std::size_t num_strays = 0;
     for (std::size_t i = 0; i < parts.size(); ++i) num_strays += parts[i] != all.owners[i] ? 1 : 0;
     if (result.report.details.coincident_cuts == 0) {
@@ -123,7 +123,7 @@ TEST(WidePointsAtRest, have_the_cuts_that_rank_0_finds_alone) {
         ASSERT_TRUE(wide.report.kept);
         ASSERT_TRUE(central.report.kept);
         EXPECT_NEAR(wide.report.imbalance, central.report.imbalance, rounding);
-        const Cuts cuts = whole_cuts(wide.cuts, MPI_COMM_WORLD);
+        const Cuts cuts = gather_cuts(wide.cuts, MPI_COMM_WORLD);
         ASSERT_EQ(cuts.tree.size(), central.cuts.tree.size());
         for (std::size_t k = 0; k < cuts.tree.size(); ++k) {
             EXPECT_EQ(cuts.tree[k].axis, central.cuts.tree[k].axis);

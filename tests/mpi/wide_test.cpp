@@ -154,7 +154,7 @@ TEST(Wide, cuts_lie_across_the_axes_given_to_them) {
             EXPECT_LE(imbalance(expect_consistent(points, result)), 1.05);
             expect_axes(result.cuts, axes);
             // Cuts across other axes are made anew.
-            const Balance again = balance(points, options, MPI_COMM_WORLD, free.cuts);
+            const Balance again = rebalance(points, options, free.cuts, MPI_COMM_WORLD);
             expect_axes(again.cuts, axes);
             EXPECT_EQ(again.parts, result.parts);
             if (refine != Refine::exact) continue;
@@ -366,7 +366,7 @@ TEST(Wide, cuts_of_which_ranks_know_some_only_are_made_anew) {
     const auto mine = share_of_cloud(1000, 2, uniform);
     const Points points = interleaved_points(mine, 2);
     const Balance first = balance(points, wide_options(2), MPI_COMM_WORLD);
-    const Balance again = balance(points, wide_options(2), MPI_COMM_WORLD, first.cuts);
+    const Balance again = rebalance(points, wide_options(2), first.cuts, MPI_COMM_WORLD);
     EXPECT_EQ(again.parts, first.parts);
     expect_consistent(points, again);
 }

@@ -261,7 +261,7 @@ TEST(Balance, moves_nothing_when_called_again_with_its_own_cuts) {
             answer.cloud = migrated(answer);
             const Cloud mine = answer.cloud.of_rank(rank());
             const Balance again =
-                balance(mine.points(), answer.options, MPI_COMM_WORLD, answer.result.cuts);
+                rebalance(mine.points(), answer.options, answer.result.cuts, MPI_COMM_WORLD);
             return answer.gathered(again.parts) == answer.parts ? "" : "points change their parts";
         },
         num_cases);

@@ -98,7 +98,7 @@ TEST(LimitedBalance, keeps_widths_and_lines_whatever_the_points) {
             free.axes.grid.clear();
             const Cuts previous = balance(mine.points(), free, MPI_COMM_WORLD).cuts;
             const auto third = answer_of(
-                [&] { return balance(mine.points(), options, MPI_COMM_WORLD, previous); });
+                [&] { return rebalance(mine.points(), options, previous, MPI_COMM_WORLD); });
             if (!third) return "no third answer";
             fault = fault_of_limits(third->cuts, options, box);
             return fault.empty() ? fault : "from earlier cuts: " + fault;

@@ -75,8 +75,9 @@ void expect_unknown(LookUp&& look_up) {
         ADD_FAILURE() << "nothing was thrown";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
-        EXPECT_NE(std::string(error.what()).find("assign(cuts, points, comm)"), std::string::npos);
-        EXPECT_NE(std::string(error.what()).find("whole_cuts(cuts, comm)"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("assign_all(cuts, points, comm)"),
+                  std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("gather_cuts(cuts, comm)"), std::string::npos);
     }
 }
 

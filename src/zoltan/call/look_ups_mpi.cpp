@@ -2,7 +2,7 @@
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "cuts/whole_cuts_mpi.hpp"
+#include "cuts/gather_cuts_mpi.hpp"
 
 #include <memory>
 #include <utility>
@@ -29,7 +29,7 @@ void make_room(int num_parts, std::unique_ptr<NodeCuts>& room, Participant& self
 void show_all_cuts(const Outcome& outcome, const Cuts& cuts, State& state, KeptPartition& kept,
                    Participant& self) {
     if (!outcome.any_keeps_cuts || is_whole(cuts)) return;
-    if (cuts.num_parts <= most_parts_alone) return kept.show_all(whole_cuts(cuts, self).tree);
+    if (cuts.num_parts <= most_parts_alone) return kept.show_all(gather_cuts(cuts, self).tree);
     make_room(cuts.num_parts, state.node_cuts, self);
     state.node_cuts->gather(cuts, self);
     kept.show_all(state.node_cuts->tree());

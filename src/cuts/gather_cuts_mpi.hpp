@@ -13,6 +13,6 @@ namespace rrcb {
 void join_cuts(std::span<Cut> tree, MPI_Comm comm, Participant& self);
 
 /// The whole tree, as the public function, over a communicator that is a duplicate already.
-Cuts whole_cuts(const Cuts& cuts, Participant& self);
+Cuts gather_cuts(const Cuts& cuts, Participant& self);
 
 }  // namespace rrcb

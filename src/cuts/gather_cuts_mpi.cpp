@@ -1,4 +1,4 @@
-#include "cuts/whole_cuts_mpi.hpp"
+#include "cuts/gather_cuts_mpi.hpp"
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
@@ -27,7 +27,7 @@ void join_cuts(std::span<Cut> tree, MPI_Comm comm, Participant& self) {
     }
 }
 
-Cuts whole_cuts(const Cuts& cuts, Participant& self) {
+Cuts gather_cuts(const Cuts& cuts, Participant& self) {
     Cuts whole;
     std::uint64_t bits_of_cuts = 0;
     self.attempt([&] {
@@ -50,9 +50,9 @@ Cuts whole_cuts(const Cuts& cuts, Participant& self) {
     return whole;
 }
 
-Cuts whole_cuts(const Cuts& cuts, MPI_Comm user) {
+Cuts gather_cuts(const Cuts& cuts, MPI_Comm user) {
     Participant self{mpi::duplicate_of(user)};
-    return whole_cuts(cuts, self);
+    return gather_cuts(cuts, self);
 }
 
 }  // namespace rrcb

@@ -42,11 +42,12 @@ TEST(WholeCuts, are_those_that_each_rank_had_a_part_of) {
     for (const int dimension : {1, 2, 3})
         for (const int num_parts : {2, 3, num_ranks() + 1, 2 * num_ranks() + 1, 100}) {
             const Cuts whole = random_cuts(dimension, num_parts);
-            expect_same(whole_cuts(known_here(whole), MPI_COMM_WORLD), whole);
-            expect_same(whole_cuts(known_here(whole, {rank() % num_parts}), MPI_COMM_WORLD), whole);
-            expect_same(whole_cuts(whole, MPI_COMM_WORLD), whole);
+            expect_same(gather_cuts(known_here(whole), MPI_COMM_WORLD), whole);
+            expect_same(gather_cuts(known_here(whole, {rank() % num_parts}), MPI_COMM_WORLD),
+                        whole);
+            expect_same(gather_cuts(whole, MPI_COMM_WORLD), whole);
         }
-    expect_same(whole_cuts({2, 1, {}}, MPI_COMM_WORLD), {2, 1, {}});
+    expect_same(gather_cuts({2, 1, {}}, MPI_COMM_WORLD), {2, 1, {}});
 }
 
 TEST(WholeCuts, are_held_once_by_the_ranks_of_each_machine) {
@@ -90,14 +91,14 @@ TEST(WholeCuts, once_for_a_machine_are_refused_on_all_ranks_where_one_lacks_some
 /// Expects an Error with this text on every rank, after which the next call works.
 void expect_refusal(const std::string& text, const Cuts& cuts) {
     try {
-        whole_cuts(cuts, MPI_COMM_WORLD);
+        gather_cuts(cuts, MPI_COMM_WORLD);
         ADD_FAILURE() << "nothing was thrown";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
         EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
     }
     const Cuts whole = random_cuts(2, 9);
-    expect_same(whole_cuts(known_here(whole), MPI_COMM_WORLD), whole);
+    expect_same(gather_cuts(known_here(whole), MPI_COMM_WORLD), whole);
 }
 
 TEST(WholeCuts, that_no_balance_left_with_the_ranks_are_refused_on_all_of_them) {

@@ -97,7 +97,7 @@ int main(int argc, char** argv) {
             } else {
                 balance.parts = rrcb::assign_all(balance.cuts, points, comm);
             }
-            const rrcb::Plan plan = rrcb::plan(balance.parts, balance.cuts.num_parts, comm);
+            const rrcb::Plan plan = rrcb::plan(balance, comm);
             std::tie(positions, weights) =
                 rrcb::transfer(plan, rrcb::columns(rrcb::column(positions, 2), weights), comm);
 

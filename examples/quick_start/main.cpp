@@ -28,8 +28,7 @@ int main(int argc, char** argv) {
 
     const rrcb::Points points = rrcb::interleaved_points(coordinates, 2);
     const rrcb::Balance balance = rrcb::balance(points, rrcb::Options{}, MPI_COMM_WORLD);
-    const int num_parts = balance.cuts.num_parts;
-    const rrcb::Plan plan = rrcb::plan(balance.parts, num_parts, MPI_COMM_WORLD);
+    const rrcb::Plan plan = rrcb::plan(balance, MPI_COMM_WORLD);
 
     // Columns of the points that are here now, and copies of those of others within 0.05.
     const std::vector<double> here =
@@ -38,13 +37,12 @@ int main(int argc, char** argv) {
         rrcb::ghosts(balance.cuts, rrcb::interleaved_points(here, 2), 0.05, MPI_COMM_WORLD);
     const std::vector<double> ghosts = rrcb::fetch(near, rrcb::column(here, 2), MPI_COMM_WORLD);
 
-    const std::vector<double> weights =
-        rrcb::part_weights(points, balance.parts, num_parts, MPI_COMM_WORLD);
-    const double moved = rrcb::moved_fraction(points, balance.parts, num_parts, MPI_COMM_WORLD);
+    const double moved = rrcb::moved_fraction(points, balance, MPI_COMM_WORLD);
     if (rank == 0) {
         std::printf("%lld points in %d parts\n",
-                    static_cast<long long>(balance.report.details.num_points), num_parts);
-        std::printf("imbalance %.4f, moved %.0f %%\n", rrcb::imbalance(weights), 100 * moved);
+                    static_cast<long long>(balance.report.details.num_points),
+                    balance.cuts.num_parts);
+        std::printf("imbalance %.4f, moved %.0f %%\n", balance.report.imbalance, 100 * moved);
         std::printf("rank 0 sends %zu points and receives %zu\n", plan.export_indices.size(),
                     plan.import_indices.size());
         std::printf("it holds %zu and knows %zu near them\n", here.size() / 2, ghosts.size() / 2);

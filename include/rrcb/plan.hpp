@@ -9,6 +9,8 @@
 
 namespace rrcb {
 
+struct Balance;
+
 /// Consecutive ranks that hold a part.
 struct RankRange {
     int first_rank = 0;  ///< the lowest of them
@@ -49,5 +51,8 @@ struct Plan {
 /// number of ranks or parts. Throws Error on every rank when some rank names a part outside that
 /// range, another num_parts, or one below 1.
 RRCB_API Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm comm);
+
+/// Makes the same lists from the parts of a balance. Collective over `comm`.
+RRCB_API Plan plan(const Balance& balance, MPI_Comm comm);
 
 }  // namespace rrcb

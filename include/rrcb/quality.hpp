@@ -9,6 +9,8 @@
 
 namespace rrcb {
 
+struct Balance;
+
 /// Heaviest part over mean part: max_p (weight_p / size_p) * sum(size) / sum(weight). Not
 /// collective.
 ///
@@ -38,10 +40,17 @@ RRCB_API double worst_load_unbalance_percent(std::span<const double> part_weight
 RRCB_API std::vector<double> part_weights(const Points& points, std::span<const Part> parts,
                                           int num_parts, MPI_Comm comm);
 
+/// Returns the same for the parts of a balance of these points. Collective over `comm`.
+RRCB_API std::vector<double> part_weights(const Points& points, const Balance& balance,
+                                          MPI_Comm comm);
+
 /// Share of the weight, 0 ... 1, whose rank is not among the ranks of its new part.
 ///
 /// Collective over `comm`: two reductions. `parts` and errors as above. NaN where weights are.
 RRCB_API double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
                                MPI_Comm comm);
+
+/// Returns the same for the parts of a balance of these points. Collective over `comm`.
+RRCB_API double moved_fraction(const Points& points, const Balance& balance, MPI_Comm comm);
 
 }  // namespace rrcb

@@ -6,6 +6,8 @@
 #include "collective/exchange_mpi.hpp"
 #include "options/rejection.hpp"
 
+#include <rrcb/balance.hpp>
+
 #include <algorithm>
 #include <cstring>
 #include <string>
@@ -119,6 +121,10 @@ Plan plan(std::span<const Part> parts, int num_parts, Participant& self) {
 Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm user) {
     Participant self{mpi::duplicate_of(user)};
     return plan(parts, num_parts, self);
+}
+
+Plan plan(const Balance& balance, MPI_Comm comm) {
+    return plan(balance.parts, balance.cuts.num_parts, comm);
 }
 
 }  // namespace rrcb

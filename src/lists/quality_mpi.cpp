@@ -5,6 +5,7 @@
 #include "collective/duplicate.hpp"
 #include "options/rejection.hpp"
 
+#include <rrcb/balance.hpp>
 #include <rrcb/plan.hpp>
 
 #include <array>
@@ -64,6 +65,10 @@ std::vector<double> part_weights(const Points& points, std::span<const Part> par
     return part_weights(points, parts, num_parts, self);
 }
 
+std::vector<double> part_weights(const Points& points, const Balance& balance, MPI_Comm comm) {
+    return part_weights(points, balance.parts, balance.cuts.num_parts, comm);
+}
+
 double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
                       MPI_Comm user) {
     Participant self{mpi::duplicate_of(user)};
@@ -82,6 +87,10 @@ double moved_fraction(const Points& points, std::span<const Part> parts, int num
     agree_on_parts(num_parts, self);
     sum_over_ranks(sums, self.comm);
     return sums[1] == 0 ? 0 : sums[0] / sums[1];
+}
+
+double moved_fraction(const Points& points, const Balance& balance, MPI_Comm comm) {
+    return moved_fraction(points, balance.parts, balance.cuts.num_parts, comm);
 }
 
 }  // namespace rrcb

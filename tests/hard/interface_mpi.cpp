@@ -36,7 +36,7 @@ void expect_look_ups_agree(const Points& points, const Balance& result) {
 }
 
 void expect_lists_conserve_points(const Balance& result) {
-    const Plan lists = plan(result.parts, result.cuts.num_parts, MPI_COMM_WORLD);
+    const Plan lists = plan(result, MPI_COMM_WORLD);
     std::vector<std::uint64_t> leaving;
     std::vector<std::uint64_t> arriving;
     for (std::size_t k = 0; k < lists.export_indices.size(); ++k)

@@ -24,8 +24,7 @@ std::vector<double> my_cloud(std::size_t count, int dimension) {
 
 double measured_imbalance(const Points& points, const Balance& result,
                           std::span<const double> sizes = {}) {
-    return imbalance(part_weights(points, result.parts, result.cuts.num_parts, MPI_COMM_WORLD),
-                     sizes);
+    return imbalance(part_weights(points, result, MPI_COMM_WORLD), sizes);
 }
 
 TEST(Balance, default_method_balances_a_uniform_cloud_in_every_dimension) {

@@ -3,6 +3,7 @@
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
+#include <rrcb/plan.hpp>
 #include <rrcb/quality.hpp>
 
 #include <gtest/gtest.h>
@@ -111,6 +112,23 @@ TEST(Report, measures_parts_of_tiny_sizes_as_they_are) {
             EXPECT_EQ(result.report.part_weights, weights);
         }
     }
+}
+
+TEST(Measures, of_a_balance_are_those_of_its_parts) {
+    const std::vector<double> mine = test::uniform_cloud(500, 2, static_cast<unsigned>(rank() + 1));
+    const Points points = interleaved_points(mine, 2);
+    Options options;
+    options.num_parts = 2 * num_ranks() + 1;
+    const Balance result = balance(points, options, MPI_COMM_WORLD);
+    EXPECT_EQ(part_weights(points, result, MPI_COMM_WORLD),
+              part_weights(points, result.parts, options.num_parts, MPI_COMM_WORLD));
+    EXPECT_EQ(moved_fraction(points, result, MPI_COMM_WORLD),
+              moved_fraction(points, result.parts, options.num_parts, MPI_COMM_WORLD));
+    const Plan lists = plan(result, MPI_COMM_WORLD);
+    const Plan expected = plan(result.parts, options.num_parts, MPI_COMM_WORLD);
+    EXPECT_EQ(lists.num_points, points.count);
+    EXPECT_EQ(lists.export_parts, expected.export_parts);
+    EXPECT_EQ(lists.import_indices, expected.import_indices);
 }
 
 TEST(Measures, refuse_weights_of_another_length_and_do_not_hide_those_that_are_no_numbers) {

@@ -94,7 +94,7 @@ inline std::vector<double> expect_consistent(const Points& points, const Balance
     EXPECT_TRUE(result.report.part_weights.empty());
     Points counted = points;
     if (result.report.details.all_weights_zero) counted.weights = {};
-    return part_weights(counted, result.parts, result.cuts.num_parts, MPI_COMM_WORLD);
+    return part_weights(counted, result, MPI_COMM_WORLD);
 }
 
 }  // namespace rrcb::test

@@ -78,8 +78,7 @@ TEST(Transfer, there_and_back_is_the_identity) {
             const Balance there =
                 balance(interleaved_points(first.coordinates, input.shape.dimension),
                         input.options(), MPI_COMM_WORLD);
-            const Held away =
-                moved(first, plan(there.parts, there.cuts.num_parts, MPI_COMM_WORLD), input);
+            const Held away = moved(first, plan(there, MPI_COMM_WORLD), input);
             const Held back = sorted(
                 moved(away, plan(away.owners, num_ranks(), MPI_COMM_WORLD), input), dimension);
             if (back.owners != first.owners) return "points are lost, or on other ranks";

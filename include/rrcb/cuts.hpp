@@ -22,7 +22,8 @@ struct Cut {
     Vector at{};               ///< where, as told above
 };
 
-/// True when `position` is not below the cut: the one test behind every look-up.
+/// Returns true if `position` is not below the cut: the one test behind every look-up. Not
+/// collective.
 RRCB_API bool is_above(const Cut& cut, const Vector& position, int dimension);
 
 /// The tree of a recursive bisection into `num_parts` parts.
@@ -30,7 +31,7 @@ RRCB_API bool is_above(const Cut& cut, const Vector& position, int dimension);
 /// `tree` holds num_parts - 1 cuts in preorder. A node of n parts leaves `lower_parts(n)` of them,
 /// the lower numbers, below its cut. Same bits on every rank after `balance`.
 ///
-/// With Options::cuts = own, where many ranks make the parts, `tree` holds only some cuts: those
+/// With Options::cuts = own, if many ranks make the parts, `tree` holds only some cuts: those
 /// above the points and the parts of this rank, and `nodes` contains their numbers, also on a rank
 /// that happens to have all. Then look-ups that need other cuts fail on this rank alone; the
 /// collective assign_all() and ghosts() work with both kinds, and gather_cuts() makes the one of
@@ -44,16 +45,16 @@ struct Cuts {
     std::vector<std::int32_t> nodes{};
 };
 
-/// True when cuts are the whole tree, the same on every rank, so that look-ups work everywhere. Not
-/// collective.
+/// Returns true if cuts are the whole tree, the same on every rank, so that look-ups work
+/// everywhere. Not collective.
 inline bool is_whole(const Cuts& cuts) {
     return cuts.nodes.empty();
 }
 
-/// In place of a part that the cuts do not tell.
+/// Stands for a part that the cuts do not determine.
 inline constexpr Part no_part = -1;
 
-/// Number of a node's parts that lie below its cut; `num_parts` >= 2.
+/// Returns the number of a node's parts below its cut; `num_parts` >= 2. Not collective.
 constexpr int lower_parts(int num_parts) {
     return num_parts / 2;
 }
@@ -91,26 +92,22 @@ RRCB_API Box box_of(const Cuts& cuts, Part part);
 /// the box: call gather_cuts() before.
 RRCB_API std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
 
-/// Part of each of any points, by whole cuts or by cuts of which each rank has some.
+/// Returns the part of each of any points, by whole cuts or by cuts of which each rank has some.
 ///
-/// Collective over `comm`, that of the balance; each rank gives points of its own, or none, but
-/// states their dimension. Whole cuts are looked up locally, and one reduction compares errors. If
-/// ranks have some cuts each and one lacks some, ranks share those that they own in one pass of
-/// ceil(log2 R) messages each, and ask the owners, with 5 kB in answer for each 127 cuts that a
-/// rank asks for. In trees of up to 2^20 parts that takes two questions, one after the other; three
-/// after exact cuts, or if a tolerance was missed.
-///
-/// Throws Error on every rank alike: for coordinates that are NaN or infinite, points of another
-/// dimension than the cuts, cuts that gather_cuts() would refuse, or no memory.
+/// Collective over `comm`, that of the balance; each rank gives points of its own, or none, and
+/// states their dimension. Throws Error on every rank alike: for coordinates that are NaN or
+/// infinite, points of another dimension than the cuts, cuts that gather_cuts() would refuse, or no
+/// memory. Cost: with whole cuts a local look-up and one reduction; otherwise the ranks ask the
+/// owners of the cuts that they lack, see docs/many_ranks.md.
 RRCB_API std::vector<Part> assign_all(const Cuts& cuts, const Points& points, MPI_Comm comm);
 
-/// The whole tree of cuts of which each rank holds a part.
+/// Returns the whole tree of cuts of which each rank holds a part; cuts that are whole come back
+/// as they are.
 ///
-/// Collective over `comm`, that of the balance: one reduction of 32 bytes a part, which every rank
-/// has to hold. Cuts that are whole come back as they are. Throws Error on every rank alike: if
-/// cuts are no tree, those of the ranks are of trees of other dimensions or numbers of parts, whole
-/// trees differ, a rank lacks the cut of a node whose lowest part begins on this rank, or has no
-/// memory.
+/// Collective over `comm`, that of the balance. Throws Error on every rank alike: if cuts are no
+/// tree, those of the ranks are of trees of other dimensions or numbers of parts, whole trees
+/// differ, a rank lacks the cut of a node whose lowest part begins on this rank, or has no memory.
+/// Cost: one reduction of 32 bytes a part, which every rank has to hold.
 RRCB_API Cuts gather_cuts(const Cuts& cuts, MPI_Comm comm);
 
 }  // namespace rrcb

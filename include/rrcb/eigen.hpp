@@ -8,7 +8,7 @@ namespace rrcb {
 
 // Needs Eigen, which rrcb::rrcb does not bring along: link Eigen3::Eigen as well.
 
-/// View of a column-major matrix with one point per column as points. Not collective.
+/// Returns a view of a column-major matrix with one point per column as points. Not collective.
 ///
 /// `coordinates` has `dimension` (1 to 3) rows, contiguous columns and must outlive the view;
 /// `weights` is empty or holds one entry per column.

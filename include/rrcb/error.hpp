@@ -20,11 +20,11 @@ enum class ErrorCode {
 /// From a collective function the same code and text reach every rank of the communicator.
 class RRCB_API Error : public std::runtime_error {
   public:
-    /// With a text.
+    /// Makes an error with a text.
     Error(ErrorCode code, const std::string& what) : std::runtime_error(what), code_(code) {}
-    /// Without a text, where there is no memory for one.
+    /// Makes an error without a text, if there is no memory for one.
     explicit Error(ErrorCode code) noexcept : std::runtime_error(""), code_(code) {}
-    /// The kind of error. Not collective.
+    /// Returns the kind of error. Not collective.
     ErrorCode code() const noexcept { return code_; }
 
   private:

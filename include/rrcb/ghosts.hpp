@@ -18,34 +18,24 @@ struct GhostPlan {
     std::vector<RankCount> receive;        ///< how many come from which ranks; ranks ascending
 };
 
-/// The points that other ranks need within a cut-off `radius`, from the cuts alone.
+/// Finds the points that other ranks need within a cut-off `radius`, from the cuts alone.
 ///
-/// Collective over `comm`: ceil(log2 R) messages from each of R ranks, one more from some, to tell
-/// what comes, then one reduction. Where ranks know a part of the cuts each, one such pass more;
-/// and where some lacks cuts near its points, which it then asks the owners for as assign_all()
-/// does, one to share cuts, two for each time that some rank asks, and the first pass and the
-/// reduction again. The plan is the same as by the whole tree.
-///
-/// A rank needs the points of others whose distance to the region of one of its parts, the closed
-/// box_of(cuts, part), is at most `radius`; none for a part whose region is empty. So of any two
-/// points in the regions of their ranks that are that near each rank gets the other's. A distance
-/// of exactly `radius` counts, and to lose none by rounding so do those up to 8 units in the last
-/// place beyond. Points may lie anywhere, also outside the regions of their own rank, and are sent
-/// to each rank once. Ranks that share a part need all the points in it of each other. The radius
+/// Collective over `comm`. A rank needs the points of others whose distance to the region of one of
+/// its parts, the closed box_of(cuts, part), is at most `radius`; a part without a region needs
+/// none. Distances up to 8 units in the last place beyond count too, so that rounding loses no
+/// point. Points may lie outside the regions of their rank, and are sent to each rank once. Ranks
+/// that share a part need all points in it of each other. Parts lie on ranks_of_part(). The radius
 /// is in the unit of the coordinates, finite, 0 or more.
 ///
-/// Parts lie on ranks_of_part. Memory as there are points to send, 100 bytes for each rank that
-/// they go to or come from, and 5 kB for each 127 cuts that the rank asks for: none grows with the
-/// number of ranks or parts. In time O(1) for a point farther than `radius` inside the only part
-/// of its rank, and otherwise as the number of regions it is near times the depth of the tree.
-///
-/// Throws Error on every rank alike where one has unusable points, another radius or other cuts
-/// than the others, cuts of another dimension than its points or that gather_cuts() would refuse,
-/// or no memory.
+/// Throws Error on every rank alike if one has unusable points, another radius or other cuts than
+/// the others, cuts that do not fit or that gather_cuts() would refuse, or no memory. Cost:
+/// ceil(log2 R) messages from each of R ranks, one more from some, and one reduction; if ranks have
+/// some cuts each see docs/many_ranks.md. Memory as there are points to send, and 100 bytes for
+/// each rank that they go to or come from.
 RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius, MPI_Comm comm);
 
-/// The same where the parts lie on other ranks, as after a remap(): part p on ranks_of_parts[p],
-/// given alike on every rank.
+/// Finds the same points if the parts lie on other ranks, as after a remap(): part p on
+/// ranks_of_parts[p], the same on every rank. Collective over `comm`.
 RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
                           std::span<const RankRange> ranks_of_parts, MPI_Comm comm);
 
@@ -56,11 +46,12 @@ RRCB_API void move(const GhostPlan& plan, std::span<const ByteColumn> columns,
 
 }  // namespace detail
 
-/// Columns of the ghosts of this rank: by rank, as in plan.receive, and as they lie there.
+/// Returns columns of the ghosts of this rank: by rank, as in plan.receive, and in their order
+/// there.
 ///
 /// Collective over `comm`, otherwise as transfer(): columns hold one entry, or `components`, for
-/// each of plan.num_points points. To be called with the same plan as long as no point changes its
-/// place in the columns.
+/// each of plan.num_points points. The plan can be used again as long as no point changes its index
+/// in the columns.
 template <class Columns>
 auto fetch(const GhostPlan& plan, const Columns& columns, MPI_Comm comm,
            const TransferLimits& limits = {}, TransferReport* report = nullptr) {

@@ -48,9 +48,9 @@ class AxisOrder {
     /// Makes cut k of Cuts::tree across axes[k]; one axis for each cut, num_parts - 1.
     static AxisOrder given(std::vector<int> axes) { return {Kind::given, std::move(axes)}; }
 
-    /// True if made by grouped(). Not collective, as all of these.
+    /// Returns true if made by grouped(). Not collective, as all of these.
     bool is_grouped() const { return kind_ == Kind::grouped; }
-    /// True if made by given().
+    /// Returns true if made by given().
     bool is_given() const { return kind_ == Kind::given; }
     /// Returns the axes that it was made with; none for the longest.
     const std::vector<int>& axes() const { return axes_; }

@@ -17,7 +17,7 @@ struct RankRange {
     int count = 1;       ///< of ranks
 };
 
-/// Ranks of a part, as Zoltan 13.2 lays them out. Not collective.
+/// Returns the ranks of a part, as Zoltan 13.2 lays them out. Not collective.
 ///
 /// num_parts / num_ranks parts each, the remainder one more each on the last ranks; with fewer
 /// parts than ranks a part spreads over consecutive ranks, the ranks left over one more each for
@@ -42,14 +42,14 @@ struct Plan {
     std::vector<Part> import_parts;          ///< their new parts
 };
 
-/// Export and import lists of the points whose rank changes.
+/// Makes the export and import lists of the points whose rank changes.
 ///
-/// Collective over `comm`: ceil(log2 R) messages from each of R ranks, one more from some, to
-/// announce what comes, one reduction, then one message for each pair between which points move.
-/// `parts` has one entry in 0 ... num_parts - 1 per local point. Memory as there are points that
-/// leave and come, and 100 bytes for each rank that they go to or come from: none grows with the
-/// number of ranks or parts. Throws Error on every rank when some rank names a part outside that
-/// range, another num_parts, or one below 1.
+/// Collective over `comm`. `parts` has one entry in 0 ... num_parts - 1 per local point. Throws
+/// Error on every rank alike if some rank names a part outside that range, another num_parts, or
+/// one below 1. Cost: ceil(log2 R) messages from each of R ranks, one more from some, one
+/// reduction, and one message for each pair between which points move; memory for the points that
+/// leave and come, and 100 bytes for each rank that they go to or come from. None grows with the
+/// number of ranks or parts.
 RRCB_API Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm comm);
 
 /// Makes the same lists from the parts of a balance. Collective over `comm`.

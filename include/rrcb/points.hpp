@@ -47,13 +47,13 @@ struct Points {
     std::array<std::span<const double>, max_dimension> axes{};  ///< from the first point on
     std::span<const double> weights{};                          ///< one per point, or none
 
-    /// Coordinate of point `i` along `axis`. Not collective, as all of these.
+    /// Returns the coordinate of point `i` along `axis`. Not collective, as all of these.
     double coordinate(LocalIndex i, int axis) const {
         return axes[static_cast<std::size_t>(axis)][i * stride];
     }
-    /// Weight of point `i`.
+    /// Returns the weight of point `i`.
     double weight(LocalIndex i) const { return weights.empty() ? 1.0 : weights[i]; }
-    /// Coordinates of point `i`; 0 beyond the dimension.
+    /// Returns the coordinates of point `i`; 0 beyond the dimension.
     Vector position(LocalIndex i) const {
         Vector x{};
         for (int a = 0; a < dimension; ++a) x[static_cast<std::size_t>(a)] = coordinate(i, a);
@@ -61,19 +61,19 @@ struct Points {
     }
 };
 
-/// View of `coordinates` as points stored one after another. Not collective.
+/// Returns a view of `coordinates` as points stored one after another. Not collective.
 ///
 /// Their length is a multiple of `dimension` (1 to 3); `weights` is empty or holds one per point.
 RRCB_API Points interleaved_points(std::span<const double> coordinates, int dimension,
                                    std::span<const double> weights = {});
 
-/// View of one array per axis. Not collective.
+/// Returns a view of one array per axis. Not collective.
 ///
 /// 1 to 3 `columns` of the same length; `weights` is empty or as long as they are.
 RRCB_API Points column_points(std::span<const std::span<const double>> columns,
                               std::span<const double> weights = {});
 
-/// Smallest box that holds all points; the empty box when there are none. Not collective.
+/// Returns the smallest box that holds all points; the empty box if there are none. Not collective.
 ///
 /// NaN on the axes on which a coordinate is NaN or infinite.
 RRCB_API Box bounding_box(const Points& points);

@@ -71,22 +71,24 @@ typedef struct rrcb_plan {
     const int32_t* import_parts;  /**< their new parts */
 } rrcb_plan;
 
-/** Version of the library, as "major.minor.patch". Not collective; the string is static. */
+/** Returns the version of the library, as "major.minor.patch". Not collective; the string is
+ * static. */
 RRCB_API const char* rrcb_version(void);
 
-/** What the library was built from and with, as rrcb::build_info. Not collective; static. */
+/** Returns what the library was built from and with, as rrcb::build_info. Not collective; static.
+ */
 RRCB_API const char* rrcb_build_info(void);
 
-/** What the last function that failed on this thread has to say: the place and the fix. Not
- *  collective; valid until the next one fails, empty where none did. */
+/** Returns the text of the last error on this thread: the place and the fix. Not collective; valid
+ *  until the next error, empty if there was none. */
 RRCB_API const char* rrcb_last_error(void);
 
 /** Makes a balancer with the default options and no cuts, which belongs to the caller.
  *
- *  Collective over `comm`, which must outlive it. Where it fails, `*balancer` stays. */
+ *  Collective over `comm`, which must outlive it. If it fails, `*balancer` is left unchanged. */
 RRCB_API int rrcb_create(MPI_Comm comm, rrcb_balancer** balancer);
 
-/** The same from a communicator as Fortran holds it. */
+/** Makes a balancer from a communicator of Fortran. Collective. */
 RRCB_API int rrcb_create_fortran(MPI_Fint comm, rrcb_balancer** balancer);
 
 /** Frees a balancer, which may be null, and what it has given. Not collective. */
@@ -95,7 +97,7 @@ RRCB_API void rrcb_free(rrcb_balancer* balancer);
 /** Sets an option by its name in rrcb::Options, to a text as docs/parameters.md lists them:
  *  ("refine", "EXACT"), ("imbalance_tolerance", "1.05"), ("axes.min_width", "0.1 0.1").
  *
- *  Not collective, yet all ranks set the same, which rrcb_balance checks. */
+ *  Not collective, but all ranks set the same, which rrcb_balance checks. */
 RRCB_API int rrcb_set(rrcb_balancer* balancer, const char* option, const char* value);
 
 /** Sets the relative weights of the parts; none for equal ones. Not collective, as rrcb_set. */
@@ -109,11 +111,12 @@ RRCB_API int rrcb_set_part_sizes(rrcb_balancer* balancer, size_t count, const do
 RRCB_API int rrcb_balance(rrcb_balancer* balancer, int dimension, size_t count,
                           const double* coordinates, const double* weights, int32_t* parts);
 
-/** The same from the cuts that the balancer has, for points that moved little since. Collective. */
+/** Does the same from the cuts of the balancer, for points that moved little since; as
+ *  rrcb::rebalance. Collective. */
 RRCB_API int rrcb_rebalance(rrcb_balancer* balancer, int dimension, size_t count,
                             const double* coordinates, const double* weights, int32_t* parts);
 
-/** Reads the report of the last balance. Not collective. An error before the first. */
+/** Writes the report of the last balance. Not collective. An error before the first. */
 RRCB_API int rrcb_get_report(const rrcb_balancer* balancer, rrcb_report* report);
 
 /** Shows the cuts, which belong to the balancer until it gets others. Not collective.
@@ -127,22 +130,24 @@ RRCB_API int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts);
  *  Collective. */
 RRCB_API int rrcb_gather_cuts(rrcb_balancer* balancer);
 
-/** Gives the balancer cuts, as of an earlier run; they are copied. Not collective, yet all ranks
+/** Gives the balancer cuts, as of an earlier run; they are copied. Not collective, but all ranks
  *  give the same, which rrcb_rebalance checks. */
 RRCB_API int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts);
 
-/** Parts of any positions by the cuts, arrays as for rrcb_balance. Not collective.
+/** Writes the parts of any positions by the cuts, arrays as for rrcb_balance; as rrcb::assign. Not
+ *  collective.
  *
  *  After rrcb_set("cuts", "OWN") an error of this rank alone if it lacks a cut above a position;
  *  call rrcb_assign_all instead. */
 RRCB_API int rrcb_assign(const rrcb_balancer* balancer, size_t count, const double* coordinates,
                          int32_t* parts);
 
-/** The same, whichever cuts the ranks have, as rrcb::assign_all. Collective. */
+/** Writes the parts of any positions, whichever cuts the ranks have; as rrcb::assign_all.
+ *  Collective. */
 RRCB_API int rrcb_assign_all(const rrcb_balancer* balancer, size_t count, const double* coordinates,
                              int32_t* parts);
 
-/** Region of a part by the cuts: `lower` and `upper` of length 3. Not collective.
+/** Writes the region of a part by the cuts: `lower` and `upper` of length 3. Not collective.
  *
  *  After rrcb_set("cuts", "OWN") an error of this rank alone if it lacks a cut above the part;
  *  call rrcb_gather_cuts before. */

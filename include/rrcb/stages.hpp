@@ -21,24 +21,24 @@ enum class Stage {
 inline constexpr std::array stages = {Stage::moments,   Stage::gather,     Stage::bisection,
                                       Stage::broadcast, Stage::refinement, Stage::assignment};
 
-/// "moments", "gather", ...
+/// Returns "moments", "gather", ... Not collective.
 RRCB_API const char* name_of(Stage stage);
 
-/// Told, on its own rank, when a stage of `balance` begins and when it ends.
+/// Observes on its own rank when a stage of `balance` begins and when it ends.
 ///
 /// Every stage that begins ends before another does, in failing calls too. Some come again in a
-/// call: the broadcast where points stay after new cuts were counted; the refinement where many
+/// call: the broadcast if points stay after new cuts were counted; the refinement if many
 /// ranks make the parts, first of regions, which with Refine::exact are assigned instead; all from
-/// the moments on where earlier cuts that are spread over the ranks do not stay, or may be poor.
+/// the moments on if earlier cuts that are spread over the ranks do not stay, or may be poor.
 /// The functions may not communicate over the communicator of the call, nor throw, since no rank
 /// may fail alone.
 class RRCB_API StageObserver {
   public:
-    /// An observer outlives the calls that it observes.
+    /// Ends an observer, which outlives the calls that it observes.
     virtual ~StageObserver() = default;
-    /// The stage begins now.
+    /// Observes that the stage begins now.
     virtual void begin(Stage stage) noexcept = 0;
-    /// The stage ends now.
+    /// Observes that the stage ends now.
     virtual void end(Stage stage) noexcept = 0;
 };
 

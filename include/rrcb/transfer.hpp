@@ -18,7 +18,8 @@ namespace rrcb {
 /// Borrowed view of a column of the points: `components` consecutive values for each of them.
 ///
 /// Values are trivially copyable, such as numbers or structs of numbers, and not bool, of which a
-/// std::vector is no array.
+/// std::vector is no array. Ranks compare whether values are whole numbers, floating-point numbers
+/// or of another type, their size, and `components`.
 template <class T>
 struct Column {
     static_assert(std::is_trivially_copyable_v<T> && !std::is_same_v<T, bool>);
@@ -27,19 +28,20 @@ struct Column {
     std::size_t components = 1;  ///< values of a point, >= 1
 };
 
-/// View of a vector or an array of any kind. Not collective.
+/// Returns a view of a vector or an array of any kind. Not collective.
 template <std::ranges::contiguous_range Values>
 auto column(const Values& values, std::size_t components = 1) {
     return Column<std::ranges::range_value_t<Values>>{values, components};
 }
 
-/// The same view. Not collective.
+/// Returns the same view. Not collective.
 template <class T>
 Column<T> column(const Column<T>& same) {
     return same;
 }
 
-/// Several columns, to be moved in one message: columns(column(positions, 3), masses, numbers).
+/// Joins several columns, to be moved in one message: columns(column(positions, 3), masses,
+/// numbers).
 template <class... Columns>
 auto columns(const Columns&... each) {
     return std::tuple(column(each)...);
@@ -127,27 +129,20 @@ auto moved(const AnyPlan& plan, const Values& values, MPI_Comm comm, const Trans
 
 }  // namespace detail
 
-/// Moves columns of the points along a plan, and gives those of the points that this rank holds
-/// afterwards: a tuple of vectors for several columns(), and a vector for one column(), or for a
-/// vector or an array with one value for each point.
+/// Moves columns of the points along a plan; returns a tuple of vectors for several columns(), and
+/// a vector for one column(), or for a vector or an array with one value for each point.
 ///
-/// Collective over `comm`, the communicator of the plan: ceil(log2 R) messages from each of R
-/// ranks, one more from some, to compare what comes, one reduction, then one message for each pair
-/// between which points move, however many columns there are; more where it is longer than an
-/// eighth of `limits.bytes` or than MPI counts. Beside those messages there is memory for 8 bytes a
-/// point that leaves, and 100 for each rank that points go to or come from, whatever the number of
-/// ranks. Every rank gives the same columns in the same order: equal are whether values are whole
-/// numbers, floating-point numbers or of another type, their size, and how many a point has. On a
-/// rank without points columns are empty.
+/// Collective over `comm`, that of the plan: every rank gives the same columns in the same order,
+/// empty on a rank without points. The result holds the points that stay, in their order, then
+/// those that come, in the order of the plan's import lists. So columns moved in separate calls fit
+/// each other, and plan.import_parts is the tail of the parts. Nothing is lost if a call fails.
 ///
-/// First come the points that stay, in the order in which they were, then those that come, in the
-/// order of the plan's import lists: by rank, and as they lay there. So columns moved in separate
-/// calls fit each other, and plan.import_parts is the tail of the parts.
-///
-/// `report` may be null. The columns are only read; nothing is lost when a call fails. Throws Error
-/// on every rank alike where one has a column of another length than plan.num_points * components,
-/// lists that no plan of this communicator has or that do not match those of the other ranks, other
-/// columns or limits than they have, or no memory; on that rank alone when a message fails.
+/// Throws Error on every rank alike if one has columns or lists that do not fit the plan or the
+/// other ranks, other limits, or no memory; on one rank alone if a message fails. `report` may be
+/// null. Cost: ceil(log2 R) messages from each of R ranks, one more from some, one reduction, then
+/// one message for each pair between which points move, more if it is longer than an eighth of
+/// `limits.bytes`; 8 bytes for each point that leaves, and 100 for each rank to send to or receive
+/// from.
 template <class Columns>
 auto transfer(const Plan& plan, const Columns& columns, MPI_Comm comm,
               const TransferLimits& limits = {}, TransferReport* report = nullptr) {

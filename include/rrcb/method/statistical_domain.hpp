@@ -26,14 +26,14 @@ struct StatisticalDomain {
     std::vector<Patch> patches{};  ///< in any order; they may overlap
 };
 
-/// A patch per cell, or a few, with the cell's mean and standard deviation. Not collective.
+/// Returns a patch per cell, or a few, with the cell's mean and standard deviation. Not collective.
 ///
 /// Along an axis the density is quadratic on the longest interval inside the cell on which it is
-/// nowhere negative: to second order the one of greatest entropy. Where there is none, two uniform
-/// densities: between the mean and both faces, or, where sigma is greater yet, at both faces. The
-/// cell counts as far as it lies in `box`, which holds all points; a mean outside comes to its
-/// face, and sigma is at most what points at both faces have. Where all weights are 0 the counts
-/// take their place.
+/// nowhere negative: to second order the one of greatest entropy. If there is none, it is two
+/// uniform densities: between the mean and both faces or, if sigma is greater still, at both faces.
+/// The cell counts as far as it lies in `box`, which holds all points; a mean outside comes to its
+/// face, and sigma is at most that of points at both faces. If all weights are 0 the counts take
+/// their place.
 RRCB_API StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension,
                                            const Box& box);
 

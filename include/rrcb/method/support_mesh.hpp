@@ -19,13 +19,14 @@ struct SupportMesh {
 /// one cell, or a dimension that is none.
 RRCB_API SupportMesh make_support_mesh(const Box& box, int dimension, int cells_per_axis);
 
-/// Cells of a mesh, the product over the axes. Not collective.
+/// Returns the number of cells, the product over the axes. Not collective.
 RRCB_API LocalIndex num_cells(const SupportMesh& mesh);
 
-/// Cell of a position inside the box of the mesh; positions outside go to the nearest cell.
+/// Returns the cell of a position; positions outside the mesh go to the nearest cell. Not
+/// collective.
 RRCB_API LocalIndex cell_of(const SupportMesh& mesh, const Vector& position);
 
-/// Box of a cell; neighbouring cells share their faces to the bit.
+/// Returns the box of a cell; adjacent cells share their faces to the bit. Not collective.
 RRCB_API Box cell_box(const SupportMesh& mesh, LocalIndex cell);
 
 }  // namespace rrcb

@@ -11,26 +11,26 @@
 
 namespace rrcb::teuchos {
 
-/// All parameters under their names in the Zoltan plug-in, with defaults, documentation and
+/// Returns all parameters under their names in the Zoltan plug-in, with defaults, documentation and
 /// validators; print it with `print(out, PrintOptions().showDoc(true))`. Not collective.
 RRCB_API Teuchos::RCP<const Teuchos::ParameterList> valid_parameters();
 
 /// Reads a list from a file whose name ends in .xml, .yaml or .yml, as Teuchos writes them.
 ///
-/// Not collective. Throws Error that names the file when it cannot be read; what is in the list is
-/// checked where the list is used.
+/// Not collective. Throws Error that names the file if it cannot be read; the list is checked when
+/// it is used.
 RRCB_API Teuchos::ParameterList read_parameters(const std::string& file);
 
-/// The options that a list asks for; what it does not name keeps its default.
+/// Returns the options that a list asks for; what it does not name keeps its default.
 ///
 /// RRCB_DUMP and RRCB_DUMP_WHEN concern the plug-in alone and are checked only. A
-/// whole number is taken where a real one is due. Not collective; `balance` checks that ranks
+/// whole number may stand for a real one. Not collective; `balance` checks that ranks
 /// agree. Throws Error for an unknown name, a wrong type or a value out of range.
 RRCB_API Options options_from(const Teuchos::ParameterList& list);
 
-/// Names and values of what a list sets, as Zoltan_Set_Param wants them; see zoltan_parameters.hpp.
+/// Returns names and values of what a list sets, for Zoltan_Set_Param; see zoltan_parameters.hpp.
 ///
-/// Throws Error as options_from does.
+/// Not collective. Throws Error as options_from().
 RRCB_API std::vector<std::pair<std::string, std::string>> zoltan_strings(
     const Teuchos::ParameterList& list);
 

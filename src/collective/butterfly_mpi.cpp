@@ -22,9 +22,14 @@ std::span<const double> piece_of(std::span<const double> message, std::size_t nu
     return message.subspan(first, std::min(most_in_piece, message.size() - first));
 }
 
-/// Of the caller's flags, and of failures that were heard of before.
-Flags joined(Flags flags, const Flags& heard) {
-    flags[0] = std::max(flags[0], heard[0]);
+Flags joined(Flags flags, const Flags& others) {
+    for (std::size_t k = 0; k < flags.size(); ++k) flags[k] = std::max(flags[k], others[k]);
+    return flags;
+}
+
+Flags failed_flags(const Butterfly& butterfly, const Participant& self) {
+    Flags flags{};
+    mark_failed(flags, butterfly.rank(), butterfly.num_ranks(), self.failure.may_follow);
     return flags;
 }
 
@@ -36,14 +41,15 @@ void begin_to_send(std::span<const double> piece, int to, MPI_Request& request, 
 
 }  // namespace
 
-ButterflyMessages::ButterflyMessages() : own_room_(usual_room), piece_(own_room_) {}
+ButterflyMessages::ButterflyMessages()
+    : own_room_(std::make_unique_for_overwrite<double[]>(usual_room)),
+      piece_(own_room_.get(), usual_room) {}
 
 void ButterflyMessages::run(Butterfly& butterfly, Butterfly::Direction direction, Flags flags,
                             Participant& self) {
-    if (self.failed())
-        mark_failed(flags, butterfly.rank(), butterfly.num_ranks(), self.failure.may_follow);
+    if (self.failed()) flags = joined(flags, failed_flags(butterfly, self));
     if (butterfly.is_central() && direction == Butterfly::back)
-        flags = butterfly.rank() == root ? joined(flags, butterfly.flags()) : Flags{};
+        flags = butterfly.rank() == root ? joined(flags, {butterfly.flags()[0]}) : Flags{};
     butterfly.start(flags);
     const int num_steps = butterfly.num_steps();
     for (int k = 0; k < num_steps; ++k) {
@@ -63,7 +69,12 @@ void ButterflyMessages::exchange(Butterfly& butterfly, int step, Butterfly::Dire
                                  const Butterfly::Link& link, Participant& self) {
     butterfly.pack_nothing();
     if (link.sends) self.attempt([&] { butterfly.pack(step, direction, link); });
-    if (self.failed()) butterfly.pack_nothing();
+    if (self.failed()) {
+        // On the way to rank 0 a rank sends after all that it receives, so that rank 0 hears of it.
+        if (butterfly.is_central() && direction == Butterfly::to_owners)
+            butterfly.start(joined(failed_flags(butterfly, self), butterfly.flags()));
+        butterfly.pack_nothing();
+    }
     const std::span<const double> sent = butterfly.message();
     const std::size_t num_sent = link.sends ? num_pieces(sent.size(), piece_.size()) : 0;
     std::size_t num_received = link.receives ? 1 : 0;

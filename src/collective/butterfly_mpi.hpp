@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -33,8 +34,8 @@ class ButterflyMessages {
     /// it then knows the flags of all. Throws on every rank what failed on one before the pass. A
     /// rank that fails in it goes on without records, which then are missing elsewhere as well,
     /// until the next pass or agreement tells all ranks. In the central way R - 1 messages in all;
-    /// what failed before a pass to the owners is thrown by the pass back, and `flags` count at all
-    /// ranks to the owners, at rank 0 alone on the way back.
+    /// rank 0 hears in a pass to the owners what failed before or in it, and the pass back throws
+    /// that; `flags` count at all ranks to the owners, at rank 0 alone on the way back.
     void run(Butterfly& butterfly, Butterfly::Direction direction, Flags flags, Participant& self);
 
   private:
@@ -43,7 +44,7 @@ class ButterflyMessages {
 
     std::size_t receive(std::size_t number, int from, Participant& self);
 
-    std::vector<double> own_room_;
+    std::unique_ptr<double[]> own_room_;
     std::span<double> piece_;                            ///< what came last
     std::vector<double> arrived_;                        ///< the message that it belongs to
     std::array<double, Butterfly::head_length> head_{};  ///< of this

@@ -130,15 +130,15 @@ MUTATIONS = [
     Mutation(
         "a rank that has failed does not say so with its records",
         "src/collective/butterfly_mpi.cpp",
-        "mark_failed(flags, butterfly.rank(), butterfly.num_ranks(), self.failure.may_follow);",
-        "flags = Flags{};",
+        "if (self.failed()) flags = joined(flags, failed_flags(butterfly, self));",
+        "",
         ("faults.failing_memory", "mpi_butterfly"),
     ),
     Mutation(
         "rank 0 does not tell the others of a failure that it heard of",
         "src/collective/butterfly_mpi.cpp",
-        "flags[0] = std::max(flags[0], heard[0]);",
-        "",
+        "joined(flags, {butterfly.flags()[0]})",
+        "flags",
         ("faults.failing_memory", "mpi_butterfly"),
     ),
     Mutation(

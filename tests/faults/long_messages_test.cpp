@@ -2,7 +2,7 @@
 #include "clouds.hpp"
 #include "collective/communicator.hpp"
 #include "mpi_layer.hpp"
-#include "part_ranks.hpp"
+#include "ranks.hpp"
 
 #include <rrcb/rrcb.hpp>
 
@@ -71,19 +71,6 @@ TEST(LongMessages, move_the_same_columns_in_pieces) {
     const auto expected = transfer(lists, both, MPI_COMM_WORLD);
     const ShortMessages pieces;
     EXPECT_EQ(transfer(lists, both, MPI_COMM_WORLD), expected);
-}
-
-TEST(LongMessages, give_the_same_numbers_of_parts_in_pieces) {
-    const int num_parts = 7 * test::num_ranks();
-    std::vector<Part> parts(100);
-    std::iota(parts.begin(), parts.end(), 3 * test::rank());
-    for (Part& part : parts) part %= num_parts;
-    const std::vector<RankRange> ranks = test::ranks_of_parts(num_parts);
-    const Remap expected = remap(parts, ranks, MPI_COMM_WORLD);
-    const ShortMessages pieces;
-    const Remap result = remap(parts, ranks, MPI_COMM_WORLD);
-    EXPECT_EQ(result.numbers, expected.numbers);
-    EXPECT_EQ(result.kept_after, expected.kept_after);
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ bool may_keep_parts(const Options& options, int num_ranks) {
 }
 
 bool reads_current_parts(const Options& options, int num_ranks) {
-    constexpr int most_ranks = 4096;
-    return num_ranks <= most_ranks && may_keep_parts(options, num_ranks);
+    // As many as rank 0 divides alone by default.
+    return num_ranks <= Tuning{}.central_parts && may_keep_parts(options, num_ranks);
 }
 
 bool stays_at_once(double current, double tolerance) {

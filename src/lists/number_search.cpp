@@ -46,27 +46,25 @@ NumberSearch::NumberSearch(const NumberRule& rule, int rank)
       is_used_(length_of(own_numbers_)) {}
 
 void NumberSearch::hand_in(std::span<const Overlap> overlaps, Butterfly& told) const {
-    std::vector<double> origins;
+    std::vector<double> payload;
     for (std::size_t k = 0; k < overlaps.size(); ++k) {
         const auto& [origin, part, count] = overlaps[k];
-        // An overlap of no point asks for the number of the part.
-        if (count > 0)
-            origins.insert(origins.end(),
-                           {static_cast<double>(origin), static_cast<double>(count)});
+        payload.insert(payload.end(), {static_cast<double>(origin), static_cast<double>(count)});
         if (k + 1 < overlaps.size() && overlaps[k + 1].part == part) continue;
-        told.add(static_cast<Key>(part), rule_.searcher_of(part), origins);
-        origins.clear();
+        told.add(static_cast<Key>(part), rule_.searcher_of(part), payload);
+        payload.clear();
     }
 }
 
 void NumberSearch::start(const Records& told) {
     told.for_each([&](const Record& record) {
         const auto part = static_cast<Part>(record.key);
-        if (part < parts_.first || part >= parts_.end) return;
-        std::vector<Wish>& wishes = wishes_[static_cast<std::size_t>(part - parts_.first)];
         for (std::size_t k = 0; k < record.payload.size(); k += 2) {
             const auto origin = static_cast<std::int32_t>(record.payload[k]);
-            wishes.push_back({record.payload[k + 1], origin == rule_.home_of(part), origin});
+            const double count = record.payload[k + 1];
+            num_points_ += static_cast<GlobalCount>(count);
+            if (origin == no_origin) continue;
+            wishes_[index_of(part)].push_back({count, origin == rule_.home_of(part), origin});
         }
     });
     for (std::size_t i = 0; i < wishes_.size(); ++i) {
@@ -105,21 +103,14 @@ bool NumberSearch::offer(Butterfly& offers) const {
     return any_moves;
 }
 
-std::vector<NumberSearch::Offer> NumberSearch::offers_in(std::span<const double> payload) {
-    std::vector<Offer> offers(payload.size() / std::tuple_size_v<Offer>);
-    for (Offer& offer : offers) {
-        std::ranges::copy(payload.first<std::tuple_size_v<Offer>>(), offer.begin());
-        payload = payload.subspan(offer.size());
-    }
-    return offers;
-}
-
 bool NumberSearch::choose(Butterfly& offers) {
     bool refuses_any = false;
     std::fill(is_used_.begin(), is_used_.end(), false);
     offers.owned().for_each([&](const Record& record) {
         const PartRange numbers = rule_.numbers_of(static_cast<std::int32_t>(record.key));
-        std::vector<Offer> accepted = offers_in(record.payload);
+        std::vector<Offer> accepted;
+        for (std::size_t k = 0; k < record.payload.size(); k += 3)
+            accepted.push_back({record.payload[k], record.payload[k + 1], record.payload[k + 2]});
         std::ranges::sort(accepted, std::greater<>());
         refuses_any = refuses_any || accepted.size() > length_of(numbers);
         Offer least{-1, 0, 0};
@@ -157,21 +148,16 @@ void NumberSearch::follow(const Butterfly& offers) {
     offers.answers().for_each([&](const Record& answer) {
         const auto payload = answer.payload;
         least[static_cast<std::int32_t>(answer.key)] = {payload[0], payload[1], payload[2]};
-        for (std::size_t k = std::tuple_size_v<Offer>; k < payload.size(); k += 2) {
-            const auto part = static_cast<Part>(payload[k]);
-            if (part >= parts_.first && part < parts_.end)
-                numbers_[static_cast<std::size_t>(part - parts_.first)] =
-                    static_cast<Part>(payload[k + 1]);
-        }
+        for (std::size_t k = 3; k < payload.size(); k += 2)
+            if (const auto part = static_cast<Part>(payload[k]); is_here(part))
+                numbers_[index_of(part)] = static_cast<Part>(payload[k + 1]);
     });
     for (std::size_t i = 0; i < wishes_.size(); ++i) {
         const auto current = std::ranges::find(wishes_[i], false, &Wish::is_lost);
         // Only larger offers take the place of accepted ones, so a refusal is final.
-        for (auto wish = current; wish != wishes_[i].end(); ++wish) {
-            const auto found = least.find(wish->origin);
-            wish->is_lost = wish->is_lost ||
-                            (found != least.end() && offer_of(*wish, part_at(i)) < found->second);
-        }
+        for (auto wish = current; wish != wishes_[i].end(); ++wish)
+            if (const auto found = least.find(wish->origin); found != least.end())
+                wish->is_lost = wish->is_lost || offer_of(*wish, part_at(i)) < found->second;
         was_refused_[i] = current != wishes_[i].end() && current->is_lost;
     }
 }
@@ -182,40 +168,39 @@ NumberSearch::Counts NumberSearch::left() const {
 }
 
 void NumberSearch::meet(const Counts& before, Butterfly& left) const {
-    std::map<std::int64_t, Part> pairs;  // a number or none for the part of this count
-    for (std::int64_t k = 0; k < std::ranges::count(numbers_, no_part); ++k)
-        pairs.emplace(before.parts + k, no_part);
-    std::int64_t next = before.numbers;
+    std::map<std::int64_t, std::vector<double>> numbers;  // of the parts of these counts
+    const auto [num_parts, num_numbers] = this->left();
+    for (std::int64_t k = 0; k < num_parts; ++k) numbers[before[0] + k] = {};
+    std::int64_t next = before[1];
     for (std::size_t i = 0; i < is_used_.size(); ++i)
-        if (!is_used_[i]) pairs[next++] = own_numbers_.first + static_cast<Part>(i);
-    for (const auto& [count, number] : pairs)
-        left.add(static_cast<Key>(count), rule_.searcher_of(static_cast<Part>(count)),
-                 std::array{static_cast<double>(number)});
+        if (!is_used_[i]) numbers[next++] = {own_numbers_.first + static_cast<double>(i)};
+    for (const auto& [count, number] : numbers)
+        left.add(static_cast<Key>(count), rule_.searcher_of(static_cast<Part>(count)), number);
 }
 
 void NumberSearch::take(const Counts& before, const Butterfly& left) {
-    std::map<std::int64_t, Part> met;
+    std::map<Key, Part> met;
     left.answers().for_each([&](const Record& answer) {
-        met.emplace(static_cast<std::int64_t>(answer.key), static_cast<Part>(answer.payload[0]));
+        // A failure elsewhere may have lost a number.
+        if (!answer.payload.empty()) met[answer.key] = static_cast<Part>(answer.payload[0]);
     });
-    std::int64_t next = before.parts;
-    // A failure elsewhere may have lost a number.
+    auto next = static_cast<Key>(before[0]);
     for (Part& number : numbers_)
         if (const auto found = number == no_part ? met.find(next++) : met.end(); found != met.end())
             number = found->second;
 }
 
-NumberSearch::Kept NumberSearch::kept() const {
-    Kept kept;
+std::array<GlobalCount, 3> NumberSearch::count_points() const {
+    std::array<GlobalCount, 3> sums{num_points_, 0, 0};
     for (std::size_t i = 0; i < wishes_.size(); ++i) {
+        const Part number = numbers_[i];
         for (const Wish& wish : wishes_[i]) {
             const auto count = static_cast<GlobalCount>(wish.count);
-            if (wish.keeps) kept.before += count;
-            if (numbers_[i] != no_part && wish.origin == rule_.home_of(numbers_[i]))
-                kept.after += count;
+            if (wish.keeps) sums[1] += count;
+            if (number != no_part && wish.origin == rule_.home_of(number)) sums[2] += count;
         }
     }
-    return kept;
+    return sums;
 }
 
 void NumberSearch::reset() {
@@ -238,16 +223,6 @@ void NumberSearch::append(std::span<const double> a, std::span<const double> b,
                           std::vector<double>& joined) {
     joined.insert(joined.end(), a.begin(), a.end());
     joined.insert(joined.end(), b.begin(), b.end());
-}
-
-void NumberSearch::keep_larger(std::span<const double> a, std::span<const double> b,
-                               std::vector<double>& joined) {
-    joined.push_back(std::max(a[0], b[0]));
-}
-
-void answer_all(Butterfly& butterfly) {
-    butterfly.owned().for_each(
-        [&](const Record& record) { butterfly.answer(record.key, record.payload); });
 }
 
 }  // namespace rrcb

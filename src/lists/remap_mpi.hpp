@@ -20,16 +20,17 @@ using PreviousParts = std::optional<std::span<const Part>>;
 
 /// Memory of one renumbering, allocated before the ranks agree.
 struct RemapBuffers {
-    /// Not collective. Throws std::bad_alloc.
-    RemapBuffers(const NumberRule& rule, int rank);
+    /// Every rank gets the numbers of all parts if `wants_all`, as always if rank 0 searches. Not
+    /// collective. Throws std::bad_alloc.
+    RemapBuffers(const NumberRule& rule, int rank, bool wants_all = true);
 
     NumberSearch search;
     Butterfly told;
     Butterfly offers;
     Butterfly left;
     ButterflyMessages messages;
+    std::vector<Part> numbers;          ///< of all parts, if wanted
     std::vector<GlobalCount> decision;  ///< of rank 0, if it searches
-    std::vector<Part> numbers;          ///< of all parts, likewise
 };
 
 /// New numbers of parts.
@@ -40,14 +41,12 @@ struct NewNumbers {
 
 /// Renumbers as the public functions do, from checked arguments.
 ///
-/// If rank 0 searches, every rank gets the numbers of all parts. Otherwise each rank gets those of
-/// the parts of its points and those that it searched for, and no array is as long as there are
-/// parts or ranks. Some ranks may lack `previous`.
-///
-/// Collective: one pass to rank 0 and one broadcast. If all ranks search: one pass, two for each
-/// round of offers, up to three more and two reductions; two passes and one reduction if nothing
-/// changes. Throws on all ranks a failure on one, also from before the call. If all ranks search, a
-/// failure in the last pass is reported by the next pass or agreement.
+/// Each rank gets the numbers of the parts of its points and of those that it searched for, unless
+/// it wants all; then no array is as long as there are parts or ranks. Some ranks may lack
+/// `previous`. Collective: one pass to rank 0 and one broadcast. If all ranks search: one pass, two
+/// for each round of offers, up to three more and two reductions; two passes and a reduction if
+/// nothing changes. Throws on all ranks a failure on one, also from before the call. If all ranks
+/// search, a failure in the last pass is reported by the next pass or agreement.
 NewNumbers find_numbers(std::span<const Part> parts, const PreviousParts& previous,
                         RemapBuffers& buffers, Participant& self);
 

@@ -29,7 +29,7 @@ Renumbering::Renumbering(const Parameters& parameters, const Layout& layout, boo
     // A single rank keeps its objects under any numbers.
     const bool matters = comm.size() > 1 || !rule.by_rank;
     if (!matters || !may_change_numbers(parameters, layout)) return;
-    buffers_.emplace(rule, comm.rank());
+    buffers_.emplace(rule, comm.rank(), false);
     if (!rule.is_spread) boxes_.resize(static_cast<std::size_t>(map.num_parts));
 }
 

@@ -80,17 +80,10 @@ MUTATIONS = [
     ),
     Mutation(
         "a wrong half-width of the uniform density",
-        "src/bisection/statistical_domain.cpp",
-        "std::sqrt(3.0)",
-        "std::sqrt(2.0)",
-        ("unit_statistical_domain",),
-    ),
-    Mutation(
-        "the shares of two patches exchanged",
-        "src/bisection/statistical_domain.cpp",
-        "reach.above / (reach.below + reach.above)",
-        "reach.below / (reach.below + reach.above)",
-        ("unit_statistical_domain",),
+        "src/gather/cell_records.cpp",
+        "std::sqrt(3.0) * moments",
+        "std::sqrt(2.0) * moments",
+        ("unit_statistical_domain", "unit_cell_records", "unit_contribution"),
     ),
     Mutation(
         "points beyond the last cell of the mesh",
@@ -101,7 +94,7 @@ MUTATIONS = [
     ),
     Mutation(
         "a patch that is divided keeps its weight above",
-        "src/bisection/patches.cpp",
+        "src/bisection/slice.cpp",
         "above.weight -= below.weight;",
         "",
         ("unit_bisection",),
@@ -189,13 +182,6 @@ MUTATIONS = [
         "if (byte > 1) refuse",
         "if (byte > 255) refuse",
         ("zoltan.serialization",),
-    ),
-    Mutation(
-        "weights are not divided by their totals",
-        "src/zoltan/call/weights_mpi.cpp",
-        "comparable || sum == 0 ? 1 : 1 / sum",
-        "1",
-        ("zoltan.rcb_parameters",),
     ),
     Mutation(
         "a piece begins in a place that is still in use",

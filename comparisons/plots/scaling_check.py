@@ -121,7 +121,6 @@ def read_sizes(directory: Path, counted: dict[tuple[str, int], Counted]) -> Size
         parts,
         agreements=none["Allreduce"].sent // 2,
         num_agreements=none["Allreduce"].calls // 2,
-        parameters=none["Gather"].sent // 2,
         broadcasts=none["Bcast"].sent - 8 * 2,
         num_broadcasts=none["Bcast"].calls // 2,
     )
@@ -130,32 +129,36 @@ def read_sizes(directory: Path, counted: dict[tuple[str, int], Counted]) -> Size
 def read_rounds(row: Counted, sizes: Sizes) -> Rounds:
     """What the refinement did; fractions would mean that the formula does not hold.
 
-    Corrections have messages as long as the cuts near the points ask for, and searches those that
-    the points ask for: their bytes are taken as they came.
+    Corrections have messages as long as the cuts near the points ask for, and passes to rank 0 and
+    back those that the points ask for: their bytes are taken as they came.
     """
     traffic, ranks = row.traffic, row.ranks
     looks = model.LOOKS["refined" if row.method == REFINED else "exact"]
     rest = model.beyond_head(ranks, "exact", sizes.parts)
     once = sizes.broadcasts + 8 * ranks + rest + looks * model.answer_bytes(ranks, sizes.parts)
     reduced = traffic["Reduce"].sent - looks * ranks * model.look_bytes(ranks, sizes.parts)
-    records = traffic["Isend"]
-    return Rounds(
-        rounds=_whole(records.calls, 2 * (ranks - 1)),
-        record_bytes=records.sent - model.HEAD * records.calls,
+    return read_records(row)._replace(
         corrections=_whole(traffic["Reduce"].calls, ranks) - looks,
         answer_bytes=traffic["Bcast"].sent - once,
         bin_bytes=_whole(reduced, ranks),
     )
 
 
+def read_records(row: Counted) -> Rounds:
+    """Passes of the search, behind that of the plug-in's overlaps."""
+    records = row.traffic["Isend"]
+    passes = _whole(records.calls, row.ranks - 1)
+    return Rounds(_whole(passes - 1, 2), records.sent - model.HEAD * records.calls)
+
+
 def _compare_rrcb(row: Counted, sizes: Sizes) -> Comparison:
     was_accepted = row.traffic["Reduce"].calls == row.ranks
-    refine, rounds, inputs = "none" if row.method == NONE else "accepted", Rounds(), "none"
+    refine, rounds = "none" if row.method == NONE else "accepted", read_records(row)
     if row.method == EXACT or row.method == REFINED and not was_accepted:
         refine = "refined" if row.method == REFINED else "exact"
-        rounds, inputs = read_rounds(row, sizes), "rounds and bytes of records"
-    root_bytes = model.rrcb_root_bytes(row.ranks, sizes, refine)
-    return Comparison(row, model.rrcb(row.ranks, sizes, refine, rounds), root_bytes, inputs)
+        rounds = read_rounds(row, sizes)
+    predicted = model.rrcb(row.ranks, sizes, refine, rounds)
+    return Comparison(row, predicted, "", "rounds and bytes of records")
 
 
 def read_exchange(row: Counted) -> Exchange:

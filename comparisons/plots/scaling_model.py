@@ -21,6 +21,7 @@ MOST_PLACES = 4096  # ranks that hand them up
 HEAD = 40  # of a message of records: length and flags
 RECORD_HEAD = 16
 HISTOGRAM = RECORD_HEAD + 8 * (1 + 7 + 2 * 66)  # 64 bins and two slots beside them
+OVERLAP = RECORD_HEAD + 16  # of a rank and a part
 ANSWER = RECORD_HEAD + 112  # the state of a search and the weight of its node
 
 
@@ -47,9 +48,6 @@ class Traffic(dict[str, Count]):
 
     def broadcast(self, ranks: int, size: int) -> None:
         self.add("Bcast", ranks, size, (ranks - 1) * size)
-
-    def gather(self, ranks: int, size: int) -> None:
-        self.add("Gather", ranks, ranks * size, ranks * size)
 
     def scatter(self, ranks: int, size: int) -> None:
         self.add("Scatter", ranks, ranks * size, ranks * size)
@@ -87,7 +85,6 @@ class Sizes(NamedTuple):
     parts: Parts
     agreements: int  # all reductions to everybody together
     num_agreements: int
-    parameters: int  # gathered from every rank by the plug-in
     broadcasts: int  # all broadcasts together, but for what grows with the parts, head included
     num_broadcasts: int
 
@@ -96,7 +93,7 @@ class Rounds(NamedTuple):
     """What the refinement did: nothing where the estimate was accepted or none was asked for."""
 
     rounds: int = 0  # of the search: records to rank 0, and answers back
-    record_bytes: int = 0
+    record_bytes: int = 0  # of them, and of the overlaps by which the plug-in numbers parts
     corrections: int = 0  # of all cuts at once, before the search
     answer_bytes: int = 0  # broadcast by them
     bin_bytes: int = 0  # of a rank, reduced by them
@@ -158,7 +155,6 @@ def rrcb(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> Tr
     traffic = Traffic()
     num_agreements, agreements = all_agreements(sizes, refine)
     traffic.add("Allreduce", ranks * num_agreements, ranks * agreements, ranks * agreements)
-    traffic.gather(ranks, sizes.parameters)
     once = sizes.broadcasts + 8 * ranks
     traffic.add("Bcast", ranks * sizes.num_broadcasts, once, (ranks - 1) * once)
     if rest := beyond_head(ranks, refine, sizes.parts):
@@ -169,27 +165,16 @@ def rrcb(ranks: int, sizes: Sizes, refine: str, rounds: Rounds = Rounds()) -> Tr
     for _ in range(LOOKS[refine]):
         traffic.reduce(ranks, look_bytes(ranks, sizes.parts))
         traffic.broadcast(ranks, answer_bytes(ranks, sizes.parts))
-    if refine in ("refined", "exact"):
-        _refine(traffic, ranks, rounds)
+    _add_passes(traffic, ranks, rounds)
     return traffic
 
 
-def _refine(traffic: Traffic, ranks: int, rounds: Rounds) -> None:
+def _add_passes(traffic: Traffic, ranks: int, rounds: Rounds) -> None:
     answers, bins = rounds.answer_bytes, rounds.bin_bytes
     traffic.add("Bcast", ranks * rounds.corrections, answers, (ranks - 1) * answers)
     traffic.add("Reduce", ranks * rounds.corrections, ranks * bins, bins)
-    messages = 2 * (ranks - 1) * rounds.rounds
+    messages = (ranks - 1) * (1 + 2 * rounds.rounds)
     traffic.add("Isend", messages, HEAD * messages + rounds.record_bytes)
-
-
-def rrcb_root_bytes(ranks: int, sizes: Sizes, refine: str) -> int | str:
-    """Bytes that rank 0 gets; of a search nothing is told, as points decide which records meet."""
-    if refine in ("refined", "exact"):
-        return ""
-    into = all_agreements(sizes, refine)[1] + ranks * sizes.parameters
-    mine = hand_up_bytes(ranks, refine, sizes.parts)
-    into += sum(sizes.parts.summary + subtree(child, ranks) * mine for child in children(0, ranks))
-    return into + LOOKS[refine] * look_bytes(ranks, sizes.parts)
 
 
 # --- Zoltan's RCB -------------------------------------------------------------------------------

@@ -126,7 +126,7 @@ def rrcb_path(ranks: int, refine: str, observed: Observed, machine: Machine) -> 
     num_agreements, agreements = model.all_agreements(sizes, refine)
     per_agreement = agreements / num_agreements
     path.collective(ranks, 2 * per_agreement, num_agreements, per_agreement)
-    path.collective(ranks, ranks * sizes.parameters, 1, ranks * sizes.parameters)
+    _number_parts(path, ranks)
     rest = model.beyond_head(ranks, refine, sizes.parts)
     path.collective(ranks, 0, sizes.num_broadcasts + (rest > 0))
     path.bytes += sizes.broadcasts + 8 * ranks + rest
@@ -193,6 +193,14 @@ def _climb(
         path.root_bytes += num_children * size
         path.work += num_children * cells * path.machine.per_cell
         below *= model.RADIX
+
+
+def _number_parts(path: CallPath, ranks: int) -> None:
+    """Overlaps of scattered points to rank 0, which numbers the parts."""
+    overlaps = ranks * min(ranks, 16 + 65536 // ranks)
+    path.messages += (ranks - 1).bit_length()
+    path.bytes += overlaps * model.OVERLAP
+    path.root_bytes += overlaps * model.OVERLAP
 
 
 def _refine(path: CallPath, ranks: int, rounds: int, bytes_per_cut: float) -> None:

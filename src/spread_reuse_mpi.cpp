@@ -2,7 +2,7 @@
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "cuts/known_tree.hpp"
+#include "cuts/packed_tree.hpp"
 #include "cuts/part_share.hpp"
 #include "wide_mpi.hpp"
 
@@ -107,10 +107,10 @@ Cuts SpreadReuse::kept_cuts(const Options& options) const {
     std::ranges::sort(needed);
     Cuts kept{cuts_.dimension, cuts_.num_parts, {}};
     for (std::size_t k = 0; k < cuts_.nodes.size(); ++k) {
-        const Descent at = node_at(cuts_, static_cast<std::size_t>(cuts_.nodes[k]));
+        const auto [at, above] = node_at(cuts_, static_cast<std::size_t>(cuts_.nodes[k]));
         const auto next = std::ranges::lower_bound(needed, at.first_part);
         const bool is_needed = next != needed.end() && *next < at.first_part + at.num_parts;
-        if (!is_needed && depth_of(cuts_, at.node) >= depth) continue;
+        if (!is_needed && above >= depth) continue;
         kept.nodes.push_back(cuts_.nodes[k]);
         kept.tree.push_back(cuts_.tree[k]);
     }

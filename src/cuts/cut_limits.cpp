@@ -139,16 +139,4 @@ Cut plane(int axis, double value) {
     return cut;
 }
 
-Box box_below(Box region, const Cut& cut) {
-    const auto a = static_cast<std::size_t>(cut.axis);
-    region.upper[a] = std::min(region.upper[a], cut.at[a]);
-    return region;
-}
-
-Box box_above(Box region, const Cut& cut) {
-    const auto a = static_cast<std::size_t>(cut.axis);
-    region.lower[a] = std::max(region.lower[a], cut.at[a]);
-    return region;
-}
-
 }  // namespace rrcb

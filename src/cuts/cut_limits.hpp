@@ -86,8 +86,4 @@ class CutLimits {
 /// A cut without ties.
 Cut plane(int axis, double value);
 
-/// The box on either side of a cut.
-Box box_below(Box region, const Cut& cut);
-Box box_above(Box region, const Cut& cut);
-
 }  // namespace rrcb

@@ -20,8 +20,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 const Cut& known_cut(const Cuts& cuts, const Descent& at) {
     const Cut* cut = find_cut(cuts, at.node);
     if (cut == nullptr) reject_unknown();
-    require(cut->axis >= 0 && cut->axis < cuts.dimension &&
-                !std::isnan(cut->at[static_cast<std::size_t>(cut->axis)]),
+    require(cut->axis >= 0 && cut->axis < cuts.dimension && !std::isnan(cut->at[cut->axis]),
             "cuts must cross axes of the points at numbers");
     return *cut;
 }
@@ -40,47 +39,37 @@ void check_shape(const Cuts& cuts) {
 /// cross one axis; null where that side is open.
 bool leave_nothing(const Cut* lower, const Cut* upper, int dimension) {
     if (lower == nullptr && upper == nullptr) return false;
-    if (lower == nullptr) return upper->at[static_cast<std::size_t>(upper->axis)] == -infinity;
-    if (upper == nullptr) return lower->at[static_cast<std::size_t>(lower->axis)] == infinity;
+    if (lower == nullptr) return upper->at[upper->axis] == -infinity;
+    if (upper == nullptr) return lower->at[lower->axis] == infinity;
     const bool holds_divided =
         upper->divides != 0 &&
         std::equal(lower->at.begin(), lower->at.begin() + dimension, upper->at.begin());
     return is_above(*upper, lower->at, dimension) && !holds_divided;
 }
 
-/// Appends the empty parts at or below `at`. Only bounds that meet or are in reverse leave one
-/// empty.
-void append_empty(const Cuts& cuts, const Descent& at, const Box& box, std::vector<Part>& parts) {
-    if (at.is_part()) {
-        bool may_be_empty = false;
-        for (std::size_t a = 0; a < static_cast<std::size_t>(cuts.dimension); ++a)
-            may_be_empty = may_be_empty || !(box.lower[a] < box.upper[a]);
-        if (may_be_empty && is_region_empty(cuts, at.first_part)) parts.push_back(at.first_part);
-        return;
-    }
-    const Cut* cut = find_cut(cuts, at.node);
-    if (cut == nullptr) return;
-    const auto axis = static_cast<std::size_t>(cut->axis);
-    Box below = box;
-    Box above = box;
-    below.upper[axis] = std::min(box.upper[axis], cut->at[axis]);
-    above.lower[axis] = std::max(box.lower[axis], cut->at[axis]);
-    append_empty(cuts, at.lower(), below, parts);
-    append_empty(cuts, at.upper(), above, parts);
+/// Calls visit(part) for the parts at or below `at` that a box touches.
+template <class Visit>
+void visit_touching(const Cuts& cuts, const Descent& at, const Box& box, Visit&& visit) {
+    if (at.is_part()) return visit(at.first_part);
+    const Cut& cut = known_cut(cuts, at);
+    const Sides sides = sides_of(box, cut, cuts.dimension);
+    if (sides.below || holds_divided_points(box, cut, cuts.dimension))
+        visit_touching(cuts, at.lower(), box, visit);
+    if (sides.above) visit_touching(cuts, at.upper(), box, visit);
 }
 
 }  // namespace
 
 bool is_plane(const Cut& cut, int dimension) {
     for (int a = 0; a < dimension; ++a)
-        if (a != cut.axis && cut.at[static_cast<std::size_t>(a)] != -infinity) return false;
+        if (a != cut.axis && cut.at[a] != -infinity) return false;
     return true;
 }
 
 bool is_above(const Cut& cut, const Vector& position, int dimension) {
-    const auto axis = static_cast<std::size_t>(cut.axis);
+    const int axis = cut.axis;
     if (position[axis] != cut.at[axis]) return position[axis] > cut.at[axis];
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+    for (int a = 0; a < dimension; ++a)
         if (a != axis && position[a] != cut.at[a]) return position[a] > cut.at[a];
     return true;
 }
@@ -104,53 +93,50 @@ Descent descend(const Cuts& cuts, const Vector& position, Descent at) {
 
 bool knows_path(const Cuts& cuts, Part part) {
     Descent at = root_of(cuts);
-    while (!at.is_part() && find_cut(cuts, at.node) != nullptr)
-        at = part >= at.upper().first_part ? at.upper() : at.lower();
+    while (!at.is_part() && find_cut(cuts, at.node) != nullptr) at = at.towards(part);
     return at.is_part();
 }
 
-Descent node_at(const Cuts& cuts, std::size_t node) {
-    Descent at = root_of(cuts);
-    while (at.node != node) at = node >= at.upper().node ? at.upper() : at.lower();
-    return at;
+DeepNode node_at(const Cuts& cuts, std::size_t node) {
+    DeepNode deep{root_of(cuts), 0};
+    for (; deep.at.node != node; ++deep.depth)
+        deep.at = node >= deep.at.upper().node ? deep.at.upper() : deep.at.lower();
+    return deep;
 }
 
-int depth_of(const Cuts& cuts, std::size_t node) {
-    int depth = 0;
-    for (Descent at = root_of(cuts); at.node != node; ++depth)
-        at = node >= at.upper().node ? at.upper() : at.lower();
-    return depth;
+Box region_of(const Cuts& cuts, Part part) {
+    Box region = everywhere;
+    for (Descent at = root_of(cuts); !at.is_part(); at = at.towards(part)) {
+        const Cut& cut = known_cut(cuts, at);
+        region = at.is_above(part) ? box_above(region, cut) : box_below(region, cut);
+    }
+    return region;
 }
 
-bool is_region_empty(const Cuts& cuts, Part part) {
+bool is_region_empty(const Cuts& cuts, Part part, const Box& region) {
+    // Only bounds that meet or are in reverse leave nothing.
+    bool may_be_empty = false;
+    for (int a = 0; a < cuts.dimension; ++a)
+        may_be_empty = may_be_empty || !(region.lower[a] < region.upper[a]);
+    if (!may_be_empty) return false;
     // The nearest cuts on both sides, by the order in which they take positions.
     std::array<const Cut*, max_dimension> lower{};
     std::array<const Cut*, max_dimension> upper{};
-    for (Descent at = root_of(cuts); !at.is_part();) {
+    for (Descent at = root_of(cuts); !at.is_part(); at = at.towards(part)) {
         const Cut& cut = known_cut(cuts, at);
-        const auto axis = static_cast<std::size_t>(cut.axis);
-        const bool above = part >= at.upper().first_part;
-        if (above && (!lower[axis] || is_above(*lower[axis], cut.at, cuts.dimension)))
-            lower[axis] = &cut;
-        if (!above && (!upper[axis] || is_above(cut, upper[axis]->at, cuts.dimension)))
-            upper[axis] = &cut;
-        at = above ? at.upper() : at.lower();
+        const Cut*& nearest = (at.is_above(part) ? lower : upper)[cut.axis];
+        const bool is_nearer =
+            nearest == nullptr || (at.is_above(part) ? is_above(*nearest, cut.at, cuts.dimension)
+                                                     : is_above(cut, nearest->at, cuts.dimension));
+        if (is_nearer) nearest = &cut;
     }
     for (std::size_t a = 0; a < max_dimension; ++a)
         if (leave_nothing(lower[a], upper[a], cuts.dimension)) return true;
     return false;
 }
 
-std::vector<Part> empty_parts(const Cuts& cuts) {
-    std::vector<Part> parts;
-    Box everywhere;
-    std::swap(everywhere.lower, everywhere.upper);
-    append_empty(cuts, root_of(cuts), everywhere, parts);
-    return parts;
-}
-
 Part part_of(const Cuts& cuts, const Vector& position) {
-    for (std::size_t a = 0; a < static_cast<std::size_t>(cuts.dimension); ++a)
+    for (int a = 0; a < cuts.dimension; ++a)
         if (std::isnan(position[a])) [[unlikely]]
             return no_part;
     Descent at = root_of(cuts);
@@ -168,25 +154,21 @@ Box box_of(const Cuts& cuts, Part part) {
     if (part < 0 || part >= cuts.num_parts)
         reject("part " + std::to_string(part) + " is none of the " +
                std::to_string(cuts.num_parts) + " parts of the cuts");
-    if (is_region_empty(cuts, part)) return {};
-    return region_below(root_of(cuts), part,
-                        [&](const Descent& at) -> const Cut& { return known_cut(cuts, at); });
+    const Box region = region_of(cuts, part);
+    return is_region_empty(cuts, part, region) ? Box{} : region;
 }
 
 std::vector<Part> parts_touching(const Cuts& cuts, const Box& box) {
     check_shape(cuts);
     std::vector<Part> parts;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(cuts.dimension); ++a) {
+    for (int a = 0; a < cuts.dimension; ++a) {
         require(!std::isnan(box.lower[a]) && !std::isnan(box.upper[a]),
                 "the bounds of the box must be numbers, or infinite on open sides");
         if (box.lower[a] > box.upper[a]) return parts;
     }
-    visit_touching(
-        root_of(cuts), box, cuts.dimension,
-        [&](const Descent& at) -> const Cut& { return known_cut(cuts, at); },
-        [&](Part part) {
-            if (!is_region_empty(cuts, part)) parts.push_back(part);
-        });
+    visit_touching(cuts, root_of(cuts), box, [&](Part part) {
+        if (!is_region_empty(cuts, part, region_of(cuts, part))) parts.push_back(part);
+    });
     return parts;
 }
 

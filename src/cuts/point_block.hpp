@@ -29,9 +29,6 @@ inline constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 /// The coordinates of the points of a block, one array per axis.
 using Columns = std::array<std::array<double, block_length>, max_dimension>;
 
-/// Columns one behind the other, as one array.
-constexpr auto column_length = static_cast<std::int32_t>(block_length);
-
 /// 1 for points of a block that lie on a plane on which position decides.
 using TiedPoints = std::array<std::int32_t, block_length>;
 

@@ -3,7 +3,6 @@
 #include <rrcb/cuts.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -21,6 +20,8 @@ struct Descent {
         const int below = lower_parts(num_parts);
         return {node + static_cast<std::size_t>(below), first_part + below, num_parts - below};
     }
+    bool is_above(Part part) const { return part >= first_part + lower_parts(num_parts); }
+    Descent towards(Part part) const { return is_above(part) ? upper() : lower(); }
 };
 
 inline Descent root_of(const Cuts& cuts) {
@@ -38,11 +39,14 @@ inline const Cut* find_cut(const Cuts& cuts, std::size_t node) {
 /// The part of a position at or below `at`, or the first node on the way to it that is not known.
 Descent descend(const Cuts& cuts, const Vector& position, Descent at);
 
-/// The node of this number in preorder.
-Descent node_at(const Cuts& cuts, std::size_t node);
+/// A node and how many are above it.
+struct DeepNode {
+    Descent at;
+    int depth;
+};
 
-/// Number of nodes above it.
-int depth_of(const Cuts& cuts, std::size_t node);
+/// The node of this number in preorder.
+DeepNode node_at(const Cuts& cuts, std::size_t node);
 
 /// True when all cuts above a part are known.
 bool knows_path(const Cuts& cuts, Part part);
@@ -63,6 +67,16 @@ inline Sides sides_of(const Box& box, const Cut& cut, int dimension) {
     return {!is_above(cut, box.lower, dimension), is_above(cut, box.upper, dimension)};
 }
 
+/// The box on either side of a cut.
+inline Box box_below(Box region, const Cut& cut) {
+    region.upper[cut.axis] = std::min(region.upper[cut.axis], cut.at[cut.axis]);
+    return region;
+}
+inline Box box_above(Box region, const Cut& cut) {
+    region.lower[cut.axis] = std::max(region.lower[cut.axis], cut.at[cut.axis]);
+    return region;
+}
+
 /// Axis of each cut of a whole tree, in preorder.
 inline std::vector<int> axes_of(std::span<const Cut> tree) {
     std::vector<int> axes;
@@ -80,31 +94,16 @@ inline Descent first_crossing(const Cuts& cuts, const Box& box, Descent at) {
     return at;
 }
 
-/// Least box between the cuts above a part at or below `at`, each of which cut_of(node) gives; its
-/// bounds may be in reverse, as box_of() has none.
-template <class CutOf>
-Box region_below(Descent at, Part part, CutOf&& cut_of) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    Box box;
-    box.lower.fill(-infinity);
-    box.upper.fill(infinity);
-    while (!at.is_part()) {
-        const Cut& cut = cut_of(at);
-        const auto axis = static_cast<std::size_t>(cut.axis);
-        const bool above = part >= at.upper().first_part;
-        if (above) box.lower[axis] = std::max(box.lower[axis], cut.at[axis]);
-        if (!above) box.upper[axis] = std::min(box.upper[axis], cut.at[axis]);
-        at = above ? at.upper() : at.lower();
-    }
-    return box;
-}
+/// Without bounds.
+inline constexpr Box everywhere{Box{}.upper, Box{}.lower};
 
-/// True when the cuts above a part, all of which are known, leave no position to its region along
-/// some axis, nor points that a cut divides.
-bool is_region_empty(const Cuts& cuts, Part part);
+/// Least box between the cuts above a part. Its bounds may be in reverse, as box_of() has none.
+/// Throws Error if a cut is not known.
+Box region_of(const Cuts& cuts, Part part);
 
-/// The parts of which this holds, ascending; of a part of a tree those whose cuts are known.
-std::vector<Part> empty_parts(const Cuts& cuts);
+/// True when the cuts above a part, which are known, leave no position to its region along some
+/// axis, nor points that a cut divides. `region` is its region_of().
+bool is_region_empty(const Cuts& cuts, Part part, const Box& region);
 
 /// True when a closed box holds the place of points that lie on both sides of a cut.
 inline bool holds_divided_points(const Box& box, const Cut& cut, int dimension) {
@@ -112,18 +111,6 @@ inline bool holds_divided_points(const Box& box, const Cut& cut, int dimension) 
     for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
         if (!(box.lower[a] <= cut.at[a] && cut.at[a] <= box.upper[a])) return false;
     return true;
-}
-
-/// Calls visit(part) for the parts at or below `at` that a box touches, see parts_touching().
-template <class CutOf, class Visit>
-void visit_touching(const Descent& at, const Box& box, int dimension, CutOf&& cut_of,
-                    Visit&& visit) {
-    if (at.is_part()) return visit(at.first_part);
-    const Cut& cut = cut_of(at);
-    const Sides sides = sides_of(box, cut, dimension);
-    if (sides.below || holds_divided_points(box, cut, dimension))
-        visit_touching(at.lower(), box, dimension, cut_of, visit);
-    if (sides.above) visit_touching(at.upper(), box, dimension, cut_of, visit);
 }
 
 }  // namespace rrcb

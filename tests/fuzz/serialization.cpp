@@ -6,6 +6,7 @@
 #include "fuzzing.hpp"
 #include "zoltan/real/zoltan_error.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace {
@@ -50,7 +51,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         rrcb::zoltan::State state;
         state.parameters.given = parcel.given;
         state.part_sizes = parcel.part_sizes;
-        state.kept = parcel.kept;
+        state.kept = std::move(parcel.kept);
         const std::vector<char> again = rrcb::zoltan::serialize(state, parcel.of_zoltan);
         expect(rrcb::zoltan::serialize(state, parcel.of_zoltan) == again, "the same bytes twice");
         expect(rrcb::zoltan::deserialize(again).given == parcel.given, "the same parameters");

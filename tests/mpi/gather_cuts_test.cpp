@@ -1,5 +1,3 @@
-#include "collective/duplicate.hpp"
-#include "cuts/node_cuts_mpi.hpp"
 #include "partial_trees.hpp"
 
 #include <rrcb/cuts.hpp>
@@ -10,13 +8,6 @@
 #include <algorithm>
 #include <string>
 #include <vector>
-
-// Deals the ranks out to so many machines, as one would not be enough.
-static int num_machines = 1;
-
-extern "C" int MPI_Comm_split_type(MPI_Comm comm, int, int key, MPI_Info, MPI_Comm* machine) {
-    return PMPI_Comm_split(comm, rrcb::test::rank() % num_machines, key, machine);
-}
 
 namespace rrcb {
 namespace {
@@ -48,44 +39,6 @@ TEST(WholeCuts, are_those_that_each_rank_had_a_part_of) {
             expect_same(gather_cuts(whole, MPI_COMM_WORLD), whole);
         }
     expect_same(gather_cuts({2, 1, {}}, MPI_COMM_WORLD), {2, 1, {}});
-}
-
-TEST(WholeCuts, are_held_once_by_the_ranks_of_each_machine) {
-    Participant self{mpi::duplicate_of(MPI_COMM_WORLD)};
-    const int num_parts = 3 * num_ranks() + 70;
-    for (num_machines = 1; num_machines <= std::min(num_ranks(), 3); ++num_machines) {
-        NodeCuts node_cuts;
-        node_cuts.make_room(num_parts, self);
-        for (const int dimension : {3, 1, 2}) {
-            const Cuts whole = random_cuts(dimension, num_parts);
-            node_cuts.gather(known_here(whole, {rank()}), self);
-            const std::span<const Cut> tree = node_cuts.tree();
-            expect_same({dimension, num_parts, {tree.begin(), tree.end()}}, whole);
-        }
-        // What the first rank of a machine writes all of them see.
-        MPI_Barrier(MPI_COMM_WORLD);
-        auto& cut = const_cast<Cut&>(node_cuts.tree().front());
-        if (rank() < num_machines) cut.at[0] = 100 + rank();
-        MPI_Barrier(MPI_COMM_WORLD);
-        EXPECT_EQ(cut.at[0], 100 + rank() % num_machines);
-    }
-    num_machines = 1;
-}
-
-TEST(WholeCuts, once_for_a_machine_are_refused_on_all_ranks_where_one_lacks_some) {
-    Participant self{mpi::duplicate_of(MPI_COMM_WORLD)};
-    const Cuts whole = random_cuts(2, 2 * num_ranks() + 5);
-    Cuts cuts = known_here(whole);
-    if (test::is_last_rank()) {
-        cuts.nodes.pop_back();
-        cuts.tree.pop_back();
-    }
-    NodeCuts node_cuts;
-    node_cuts.make_room(whole.num_parts, self);
-    EXPECT_THROW(node_cuts.gather(cuts, self), Error);
-    Participant again{self.comm};
-    node_cuts.gather(known_here(whole), again);
-    EXPECT_EQ(node_cuts.tree().size(), whole.tree.size());
 }
 
 /// Expects an Error with this text on every rank, after which the next call works.

@@ -17,7 +17,7 @@ class Mutation:
 MUTATIONS = [
     Mutation(
         "a flipped comparison: points on a plane are below it",
-        "src/cuts/direct_assignment.cpp",
+        "src/cuts/packed_tree.cpp",
         "x0[i] >= p0 ? above : below",
         "x0[i] > p0 ? above : below",
         ("unit_direct_assignment", "properties.balance"),
@@ -270,8 +270,8 @@ MUTATIONS = [
     Mutation(
         "cuts that a rank lacks are not asked for",
         "src/cuts/ball_search.hpp",
-        "return lack(at.node);",
-        "return;",
+        "is_unknown(entry) ? lack(unknown_node(entry)) : visit(entry);",
+        "is_unknown(entry) ? void() : visit(entry);",
         ("mpi_spread_ghosts",),
     ),
 ]

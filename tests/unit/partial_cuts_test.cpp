@@ -3,7 +3,7 @@
 
 #include "../support/clouds.hpp"
 #include "cuts/direct_assignment.hpp"
-#include "cuts/known_tree.hpp"
+#include "cuts/packed_tree.hpp"
 
 #include <rrcb/error.hpp>
 

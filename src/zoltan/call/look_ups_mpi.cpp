@@ -2,38 +2,11 @@
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "cuts/gather_cuts_mpi.hpp"
 
-#include <memory>
 #include <utility>
 #include <vector>
 
 namespace rrcb::zoltan {
-
-namespace {
-
-/// Of parts, up to which 256 kB of cuts on each rank cost less than what it takes to share them.
-constexpr int most_parts_alone = 8192;
-
-/// Makes room for the cuts on each machine, where what there is does not fit. Collective.
-void make_room(int num_parts, std::unique_ptr<NodeCuts>& room, Participant& self) {
-    if (room && room->tree().size() + 1 == static_cast<std::size_t>(num_parts)) return;
-    room.reset();
-    self.attempt([&] { room = std::make_unique<NodeCuts>(); });
-    agree(self);
-    room->make_room(num_parts, self);
-}
-
-}  // namespace
-
-void show_all_cuts(const Outcome& outcome, const Cuts& cuts, State& state, KeptPartition& kept,
-                   Participant& self) {
-    if (!outcome.any_keeps_cuts || is_whole(cuts)) return;
-    if (cuts.num_parts <= most_parts_alone) return kept.show_all(gather_cuts(cuts, self).tree);
-    make_room(cuts.num_parts, state.node_cuts, self);
-    state.node_cuts->gather(cuts, self);
-    kept.show_all(state.node_cuts->tree());
-}
 
 Numbering whole_numbering(const Numbering& numbering, const PartMap& map, Participant& self) {
     std::vector<Part> numbers;

@@ -3,6 +3,7 @@
 #include "balance_mpi.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
+#include "cuts/gather_cuts_mpi.hpp"
 #include "paper/paper_mpi.hpp"
 #include "wide_mpi.hpp"
 #include "zoltan/call/fortran_mpi.hpp"
@@ -131,7 +132,8 @@ Preparation prepare(const Call& call, const Layout& layout, int dimension, Parti
         made.is_spread = !parameters.paper_domain && is_wide(made.options, comm.size());
         made.renumbering.emplace(parameters, layout, call.outcome.any_names_parts, comm,
                                  made.is_spread);
-        made.kept.emplace(static_cast<std::size_t>(layout.map.num_parts), made.is_spread);
+        const bool looks_up = !made.is_spread || call.outcome.any_keeps_cuts;
+        made.kept.emplace(looks_up ? static_cast<std::size_t>(layout.map.num_parts) : 0);
     });
     return made;
 }
@@ -215,7 +217,8 @@ int balance_objects(const Call& call, Objects&& objects, Partition& result) {
     if (prepared.is_spread) agree(self);
     select_lists(parameters, result.changes, self, result.imports, result.exports);
     serve_fortran(call, result, self);
-    show_all_cuts(call.outcome, balanced.cuts, call.state, *prepared.kept, self);
+    if (call.outcome.any_keeps_cuts && !is_whole(balanced.cuts))
+        balanced.cuts = gather_cuts(balanced.cuts, self);
     if ((call.outcome.any_keeps_cuts || is_whole(balanced.cuts)) && !numbering.is_whole())
         numbering = whole_numbering(numbering, layout.map, self);
     print_notices(balanced.report, layout.map.num_parts, remap, call.state, call.function);

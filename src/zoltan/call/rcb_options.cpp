@@ -72,10 +72,10 @@ Options make_options(const Parameters& parameters, const Layout& layout, int dim
     options.num_parts = layout.map.num_parts;
     options.part_sizes = layout.part_sizes;
     options.axes.plain = parameters.rectilinear_blocks != 0;
-    // Handles that keep cuts gather them, once for a machine where there are many.
+    // Handles that keep cuts gather them.
     options.cuts = HeldCuts::own;
     if (parameters.lock_directions != 0 && previous != nullptr) {
-        options.axes.order = AxisOrder::given(axes_of(previous->tree()));
+        options.axes.order = AxisOrder::given(axes_of(previous->cuts().tree));
     } else if (parameters.set_directions != 0) {
         options.axes.order = AxisOrder::grouped(axis_order(parameters.set_directions, dimension));
     }

@@ -99,8 +99,8 @@ class Reader {
 
 void write(Writer& writer, const KeptPartition& kept) {
     writer.value(kept.cuts().dimension);
-    writer.value<std::uint64_t>(kept.tree().size());
-    for (const Cut& cut : kept.tree()) {
+    writer.value<std::uint64_t>(kept.cuts().tree.size());
+    for (const Cut& cut : kept.cuts().tree) {
         writer.value(cut.axis);
         writer.value(cut.divides);
         writer.value(cut.at);

@@ -76,7 +76,7 @@ void copy_contents(State& to, const State& from) {
     State copy;
     copy.parameters = from.parameters;
     copy.part_sizes = from.part_sizes;
-    copy.kept = from.kept;
+    if (from.kept) copy.kept = from.kept->copy();
     copy.rest = from.rest;
     copy.zoltan_has_cuts = from.zoltan_has_cuts;
     copy.axes_changed = from.axes_changed;
@@ -84,9 +84,6 @@ void copy_contents(State& to, const State& from) {
     copy.replacement_asked = from.replacement_asked;
     copy.is_verbose = from.is_verbose;
     copy.inside_hier = from.inside_hier;
-    // Cuts are shared by the ranks of one handle.
-    if (copy.kept) copy.kept->keep_shared();
-    copy.node_cuts = std::move(to.node_cuts);
     copy.communicator = std::move(to.communicator);
     to = std::move(copy);
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "cuts/node_cuts_mpi.hpp"
 #include "cuts/owned_cuts.hpp"
 #include "zoltan/handle/kept_partition.hpp"
 #include "zoltan/handle/parameters.hpp"
@@ -61,7 +60,6 @@ struct Rest {
 /// State of a Zoltan_Struct that the plug-in keeps.
 struct State {
     std::unique_ptr<Communicator> communicator;
-    std::unique_ptr<NodeCuts> node_cuts;  ///< that look-ups share
     Parameters parameters;
     std::vector<PartSize> part_sizes;
     std::optional<KeptPartition> kept;  ///< of the last partition

@@ -1,0 +1,132 @@
+#pragma once
+
+#include "cuts/point_block.hpp"
+#include "cuts/tree.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+/// Number in place of a part if the cut of a node above it is not known.
+constexpr Part unknown_below(std::size_t node) {
+    return ~static_cast<Part>(node);
+}
+constexpr bool is_unknown(Part part) {
+    return part < 0;
+}
+constexpr std::size_t unknown_node(Part part) {
+    return static_cast<std::size_t>(~part);
+}
+
+/// In place of a part that a search leaves out.
+inline constexpr Part left_out = std::numeric_limits<Part>::min();
+
+/// The known cuts of a tree in arrays, for many look-ups.
+///
+/// Both nodes below a cut are neighbours. The tree ends at parts and at nodes whose cuts are not
+/// known. A point stays at its end, so that all points of a block take the same number of steps.
+class PackedTree {
+  public:
+    /// Returns the entry for a part, given the box between the cuts above it, see region_of().
+    using EntryOf = std::function<Part(Part part, const Box& region)>;
+
+    PackedTree() = default;
+
+    /// Packs all known cuts. `cuts.tree` must outlive the result, in the same memory.
+    explicit PackedTree(const Cuts& cuts, const EntryOf& entry_of = {}) { pack(cuts, entry_of); }
+
+    /// Packs only the cuts that divide a box.
+    PackedTree(const Cuts& cuts, const Box& box);
+
+    /// Reserves memory for all cuts between so many parts, which may be 0.
+    void reserve(std::size_t num_parts);
+
+    /// As the constructor. Takes no memory beyond what was reserved for so many parts.
+    void pack(const Cuts& cuts, const EntryOf& entry_of);
+
+    /// For each end in ascending order its part, or what stands in place of it.
+    const std::vector<Part>& entries() const { return entries_; }
+
+    /// Finds the number of the end of each point of a block.
+    void find(const Columns& columns, LocalIndex length, std::int32_t* ends) const;
+
+    /// Returns the number of the end of a position, one coordinate per dimension.
+    std::int32_t end_of(const double* position) const {
+        std::int32_t node = 0;
+        for (std::int32_t lower = 0; (lower = lower_of(node)) != node;)
+            // An index in place of a branch, which unordered positions would make unpredictable.
+            node = lower + (is_above(node, position) ? 1 : 0);
+        return items_[node];
+    }
+
+    bool is_end(std::int32_t node) const { return lower_of(node) == node; }
+    Part entry_at(std::int32_t node) const { return entries_[items_[node]]; }
+
+    /// The node below a cut, in front of the one above it.
+    std::int32_t lower_of(std::int32_t node) const { return lowers_[node]; }
+
+    int axis_of(std::int32_t node) const { return axes_[node]; }
+    double plane_of(std::int32_t node) const { return planes_[node]; }
+
+    /// Calls visit(entry) for the ends at or below a node that a box touches, see parts_touching().
+    template <class Visit>
+    void visit_touching(const Box& box, Visit&& visit, std::int32_t node = 0) const {
+        const std::int32_t lower = lower_of(node);
+        if (lower == node) return visit(entry_at(node));
+        if (!is_above(node, box.lower.data()) ||
+            holds_divided_points(box, cuts_[items_[node]], dimension_))
+            visit_touching(box, visit, lower);
+        if (is_above(node, box.upper.data())) visit_touching(box, visit, lower + 1);
+    }
+
+    // For the loops over the points of a block.
+
+    static constexpr int top_levels = 3;
+    static constexpr int num_top_nodes = 7;
+
+    /// The first levels as a heap, with the nodes below them, or their ends if there are no others.
+    struct Top {
+        std::array<double, num_top_nodes> planes;
+        std::array<std::int32_t, num_top_nodes> axes;
+        /// As doubles, which vectors select as fast as they compare.
+        std::array<double, num_top_nodes + 1> exits;
+    };
+
+  private:
+    struct Packing {
+        const Cuts& cuts;
+        const EntryOf& entry_of;
+        bool prunes;  ///< leaves out cuts that do not divide the box
+    };
+    void pack(const Packing& packing, const Box& box);
+    void add(const Packing& packing, Descent at, const Box& box, std::int32_t node, int depth);
+    void add_end(std::int32_t node, Part entry);
+    void resize(std::int32_t num_nodes);
+    bool is_left_out(std::int32_t node) const { return is_end(node) && entry_at(node) == left_out; }
+    void find_top();
+
+    bool is_above(std::int32_t node, const double* position) const {
+        const double x = position[axes_[node]];
+        if (x != planes_[node]) [[likely]]
+            return x > planes_[node];
+        return is_above_exactly(node, position);
+    }
+    bool is_above_exactly(std::int32_t node, const double* position) const;
+
+    std::span<const Cut> cuts_;
+    int dimension_ = 0;
+    std::vector<double> planes_;  ///< NaN at ends
+    std::vector<std::int32_t> axes_;
+    std::vector<std::int32_t> lowers_;  ///< the node below the cut; of an end itself
+    std::vector<std::int32_t> items_;   ///< index of the cut, or number of the end
+    std::vector<Part> entries_;         ///< of ends
+    int depth_ = 0;
+    bool is_plain_ = true;  ///< every cut is a plane, none breaks ties by position
+    Top top_{};
+};
+
+}  // namespace rrcb

@@ -74,13 +74,11 @@ std::string run_record(const Arguments& arguments, const std::string& command, M
 /// What the columns of a table mean, in a few lines.
 std::string definitions() {
     return "imbalance: heaviest part / mean part, the median where 10 seeds were tried.\n"
-           "Lu: (ideal - actual) / ideal of a part.\n"
            "time: slowest rank, median of the repeats, first call left out.\n"
            "95 %: where the true median lies; of 6 repeats or more.\n"
-           "times as fast: zoltan-rcb's time / this method's.\n"
-           "messages, bytes: of one call over all ranks; a message counts once, at its sender;\n"
-           "a collective counts 1 a rank, with the bytes the rank hands in and gets out.\n"
-           "into root: bytes that rank 0 receives. moved: weight that changes rank.\n";
+           "of Zoltan's: this method's time / zoltan-rcb's.\n"
+           "bytes: of one call over all ranks, as handed to MPI and got from it.\n"
+           "table.csv has more columns, run.txt versions, parameters and seeds.\n";
 }
 
 void check_surroundings(const Arguments& arguments, MPI_Comm comm) {
@@ -160,7 +158,6 @@ int compare(const Arguments& arguments, const std::string& command, MPI_Comm com
     Progress progress(arguments.progress && rank_of(comm) == 0);
     const std::string record = run_record(arguments, command, comm);
     folder.write("run.txt", [&] { return record; });
-    if (rank_of(comm) == 0) std::cout << record;
 
     Outcome outcome;
     if (arguments.sweep) {

@@ -153,22 +153,17 @@ Row history_row(const std::string& method, const LoadRecord& record, std::size_t
         .add("moved_fraction", nine_digits(record.moved_fraction));
 }
 
-Row printed_row(const SimulationSummary& summary, const SimulationSummary& first) {
+Row printed_row(const SimulationSummary& summary) {
     const SimulationRun& run = summary.middle;
     Row row;
     row.add("method", run.method);
     if (!run.error.empty()) return row.add_error(run.error);
     const std::optional<Spread>& speed_up = summary.speed_up_critical_path;
     return row.add("wall s", fixed(run.wall_s, 2))
-        .add("times as fast", fixed(first.middle.wall_s / run.wall_s, 2))
         .add("critical path s", fixed(summary.critical_path_s.median, 3))
         .add("times as fast", speed_up ? fixed(speed_up->median, 2) : "-")
-        .add("gain kept %", summary.gain_kept ? fixed(100 * *summary.gain_kept, 1) : "-")
-        .add("mean imbalance", fixed(run.mean_imbalance, 4))
-        .add("worst imbalance", fixed(run.worst_imbalance, 4))
-        .add("moved %", fixed(100 * run.moved_fraction, 2))
-        .add("front at x, m", run.front_m ? fixed(*run.front_m, 2) : "-")
-        .add("moved, m", fixed(run.moved_m, 3));
+        .add("imbalance", fixed(run.mean_imbalance, 4))
+        .add("moved %", fixed(100 * run.moved_fraction, 2));
 }
 
 }  // namespace
@@ -272,9 +267,9 @@ void print_simulations(std::ostream& out, const SimulationPlan& plan, int num_ra
         << summaries.front().repeats << "\n\n";
     std::vector<Row> rows;
     for (const SimulationSummary& summary : summaries) {
-        rows.push_back(printed_row(summary, summaries.front()));
+        rows.push_back(printed_row(summary));
     }
-    print_columns(out, printed_row({}, {}), rows);
+    print_columns(out, printed_row({}), rows);
     const int num_cores = static_cast<int>(std::thread::hardware_concurrency());
     if (num_cores > 0 && num_cores < num_ranks) {
         out << num_ranks << " ranks share " << num_cores

@@ -29,9 +29,9 @@ void add(std::span<const double> a, std::span<const double> b, std::vector<doubl
 /// place, which the look-up keeps together.
 Cuts fitted(Cuts cuts, bool plain_cuts) {
     for (Cut& cut : cuts.tree) {
-        const double plane = cut.at[static_cast<std::size_t>(cut.axis)];
+        const double plane = cut.at[cut.axis];
         if (plain_cuts) cut.at.fill(-std::numeric_limits<double>::infinity());
-        cut.at[static_cast<std::size_t>(cut.axis)] = plane;
+        cut.at[cut.axis] = plane;
         cut.divides = 0;
     }
     if (is_whole(cuts)) {

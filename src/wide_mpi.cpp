@@ -57,7 +57,7 @@ void number_as_in_tree(int num_parts, Balance& result) {
     std::vector<Part> first_parts;
     for_each_region({0, 0, num_parts}, result.cuts.num_parts,
                     [&](const Descent& at) { first_parts.push_back(at.first_part); });
-    for (Part& part : result.parts) part = first_parts[static_cast<std::size_t>(part)];
+    for (Part& part : result.parts) part = first_parts[part];
 }
 
 PartTree tree_of(const Options& options, const Verdict& verdict, double weight, int num_ranks) {

@@ -21,9 +21,7 @@ std::vector<int> group_levels(std::span<const int> order, Box box, int dimension
     std::vector<int> levels;
     for (const int axis : order)
         if (axis < dimension)
-            levels.insert(levels.end(),
-                          static_cast<std::size_t>(cuts_across[static_cast<std::size_t>(axis)]),
-                          axis);
+            levels.insert(levels.end(), static_cast<std::size_t>(cuts_across[axis]), axis);
     return levels;
 }
 
@@ -51,7 +49,7 @@ AxisChoice::AxisChoice(const Options& options, const Box& box, int dimension)
 
 int AxisChoice::operator()(std::size_t node, int depth, const Box& box) const {
     if (!cut_axes_.empty()) return cut_axes_[node];
-    if (!level_axes_.empty()) return level_axes_[static_cast<std::size_t>(depth)];
+    if (!level_axes_.empty()) return level_axes_[depth];
     return longest_axis(box, dimension_, near_longest);
 }
 
@@ -63,7 +61,7 @@ std::vector<int> AxisChoice::given(int num_parts) const {
 
 void AxisChoice::append_given(int num_parts, int depth, std::vector<int>& axes) const {
     if (num_parts == 1) return;
-    axes.push_back(level_axes_[static_cast<std::size_t>(depth)]);
+    axes.push_back(level_axes_[depth]);
     append_given(lower_parts(num_parts), depth + 1, axes);
     append_given(num_parts - lower_parts(num_parts), depth + 1, axes);
 }

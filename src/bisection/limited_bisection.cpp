@@ -90,7 +90,7 @@ Trial trial_at(const StatisticalDomain& domain, const Way& way, double target, c
     const bool is_plain = task.options.axes.plain;
     const AxisLimits& limits = task.limits.across(way.axis);
     const Cut cut = weighted_quantile({domain, way.axis}, target, is_plain);
-    const double value = cut.at[static_cast<std::size_t>(way.axis)];
+    const double value = cut.at[way.axis];
     const double place = limits.nearest(value, way.places.first, way.places.last);
     if (place == value && !is_plain) return {cut, weight_of(split_domain(domain, cut).lower)};
     const Trial trial = trial_in(domain, way.axis, place);

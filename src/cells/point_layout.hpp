@@ -10,9 +10,7 @@ struct PointLayout {
     static constexpr int dimension = Dimension;
     std::array<const double*, Dimension> axes;
 
-    double operator()(LocalIndex i, int axis) const {
-        return axes[static_cast<std::size_t>(axis)][i * Stride];
-    }
+    double operator()(LocalIndex i, int axis) const { return axes[axis][i * Stride]; }
 };
 
 /// Points of any stride, such as members of structs.
@@ -22,9 +20,7 @@ struct StridedLayout {
     std::array<const double*, Dimension> axes;
     std::size_t stride;
 
-    double operator()(LocalIndex i, int axis) const {
-        return axes[static_cast<std::size_t>(axis)][i * stride];
-    }
+    double operator()(LocalIndex i, int axis) const { return axes[axis][i * stride]; }
 };
 
 /// True when all coordinates lie in one array, point after point, without anything else.

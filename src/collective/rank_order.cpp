@@ -23,10 +23,9 @@ RankOrder::RankOrder(std::span<const int> ranks, int num_ranks)
 }
 
 void RankOrder::count_each() {
-    for (const int rank : ranks_) ++next_[static_cast<std::size_t>(rank)];
+    for (const int rank : ranks_) ++next_[rank];
     for (int rank = 0; rank < std::ssize(next_); ++rank)
-        if (const LocalIndex count = next_[static_cast<std::size_t>(rank)]; count > 0)
-            counts_.push_back({rank, count});
+        if (const LocalIndex count = next_[rank]; count > 0) counts_.push_back({rank, count});
     std::exclusive_scan(next_.begin(), next_.end(), next_.begin(), LocalIndex{0});
 }
 

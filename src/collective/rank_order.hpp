@@ -26,8 +26,7 @@ class RankOrder {
     void for_each(Visit&& visit) {
         for (std::size_t place = 0; place < order_.size(); ++place) visit(order_[place], place);
         if (!order_.empty()) return;
-        for (std::size_t k = 0; k < ranks_.size(); ++k)
-            visit(k, next_[static_cast<std::size_t>(ranks_[k])]++);
+        for (std::size_t k = 0; k < ranks_.size(); ++k) visit(k, next_[ranks_[k]]++);
     }
 
   private:

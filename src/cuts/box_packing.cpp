@@ -56,8 +56,7 @@ std::size_t BoxPacking::shape_with(std::size_t lower, std::size_t upper) {
 }
 
 std::size_t BoxPacking::shape_of(const Descent& at) const {
-    return at.is_part() ? shape_of_part_[static_cast<std::size_t>(at.first_part)]
-                        : shape_of_node_[at.node];
+    return at.is_part() ? shape_of_part_[at.first_part] : shape_of_node_[at.node];
 }
 
 bool BoxPacking::fits(std::size_t shape, const Room& room) {
@@ -71,7 +70,7 @@ bool BoxPacking::fits(std::size_t shape, const Room& room) {
 int BoxPacking::least_room(const Descent& at, int axis, Room room, int most) {
     const std::size_t shape = shape_of(at);
     return least_number(1, most, [&](int length) {
-        room[static_cast<std::size_t>(axis)] = length;
+        room[axis] = length;
         return fits(shape, room);
     });
 }

@@ -75,8 +75,7 @@ void CutLimits::require_room() {
                " parts, but " + std::to_string(num_parts) + " are asked for");
     std::string side_by_side;
     for (int axis = 0; axis < dimension_; ++axis)
-        side_by_side +=
-            (axis == 0 ? "" : " x ") + std::to_string(room[static_cast<std::size_t>(axis)]);
+        side_by_side += (axis == 0 ? "" : " x ") + std::to_string(room[axis]);
     reject(limited + " room for " + side_by_side +
            " parts side by side, not for what the axes given to the cuts ask for");
 }
@@ -128,14 +127,14 @@ Places CutLimits::places(const Descent& at, const Box& region, int axis) {
 }
 
 Cut CutLimits::nearest(const Cut& cut, const Places& places) const {
-    const double value = cut.at[static_cast<std::size_t>(cut.axis)];
+    const double value = cut.at[cut.axis];
     const double place = across(cut.axis).nearest(value, places.first, places.last);
     return place == value ? cut : plane(cut.axis, place);
 }
 
 Cut plane(int axis, double value) {
     Cut cut{axis, 0, {-infinity, -infinity, -infinity}};
-    cut.at[static_cast<std::size_t>(axis)] = value;
+    cut.at[axis] = value;
     return cut;
 }
 

@@ -62,7 +62,7 @@ class CutLimits {
     /// `cut` where it lies in one of its places; otherwise the plane in the nearest.
     Cut nearest(const Cut& cut, const Places& places) const;
 
-    const AxisLimits& across(int axis) const { return axes_[static_cast<std::size_t>(axis)]; }
+    const AxisLimits& across(int axis) const { return axes_[axis]; }
 
   private:
     Room room_in(const Box& region, int most) const;

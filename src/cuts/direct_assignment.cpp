@@ -66,9 +66,8 @@ class Counter {
     void add(std::span<const Part> parts) {
         std::size_t i = 0;
         for (; i + num_turns <= parts.size(); i += num_turns)
-            for (std::size_t turn = 0; turn < num_turns; ++turn)
-                ++counts_[static_cast<std::size_t>(parts[i + turn])][turn];
-        for (; i < parts.size(); ++i) ++counts_[static_cast<std::size_t>(parts[i])][0];
+            for (std::size_t turn = 0; turn < num_turns; ++turn) ++counts_[parts[i + turn]][turn];
+        for (; i < parts.size(); ++i) ++counts_[parts[i]][0];
     }
 
     std::vector<double> totals() const {

@@ -43,7 +43,7 @@ RRCB_VECTOR_CLONES std::uint64_t copy_block(const Layout& x, LocalIndex first, L
     for (LocalIndex i = 0; i < length; ++i) {
         for (int axis = 0; axis < Layout::dimension; ++axis) {
             const double value = x(first + i, axis);
-            columns[static_cast<std::size_t>(axis)][i] = value;
+            columns[axis][i] = value;
             // Only the largest exponent, that of infinities and NaN, carries into the sign.
             carries |= (std::bit_cast<std::uint64_t>(value) & magnitude) + lowest_of_exponent;
         }

@@ -180,8 +180,7 @@ void unpack_cells(const LeanCells& head, std::span<const std::byte> packed, std:
     const auto dimension = static_cast<std::size_t>(mesh.dimension);
     const Faces faces(mesh);
     std::array<double, 256> shares;
-    for (int code = 0; code < 256; ++code)
-        shares[static_cast<std::size_t>(code)] = share_of_deviation(code);
+    for (int code = 0; code < 256; ++code) shares[code] = share_of_deviation(code);
     for (CellMoments& cell : std::span(cells).subspan(first)) {
         float lean;
         std::memcpy(&lean, packed.data(), sizeof lean);

@@ -33,8 +33,7 @@ struct Holders {
     int num_ranks;
 
     RankRange operator()(Part part) const {
-        return given ? (*given)[static_cast<std::size_t>(part)]
-                     : ranks_of_part(part, num_parts, num_ranks);
+        return given ? (*given)[part] : ranks_of_part(part, num_parts, num_ranks);
     }
 
     /// The parts that this rank holds alone, in ranges as long as can be.

@@ -19,7 +19,7 @@ std::size_t length_of(PartRange range) {
 std::int32_t NumberRule::home_of(Part number) const {
     if (!by_rank) return number;
     return listed.empty() ? ranks_of_part(number, num_parts, num_ranks).first_rank
-                          : listed[static_cast<std::size_t>(number)].first_rank;
+                          : listed[number].first_rank;
 }
 
 PartRange NumberRule::numbers_of(std::int32_t origin) const {
@@ -131,9 +131,7 @@ void NumberSearch::give_numbers(std::vector<Offer>& accepted, PartRange numbers,
     std::ranges::sort(accepted, {},
                       [](const Offer& offer) { return std::pair(-offer[1], -offer[2]); });
     Part next = numbers.first;
-    const auto is_used = [&](Part number) {
-        return is_used_[static_cast<std::size_t>(number - own_numbers_.first)];
-    };
+    const auto is_used = [&](Part number) { return is_used_[number - own_numbers_.first]; };
     for (const auto& [count, keeps, minus_part] : accepted) {
         while (keeps == 0 && is_used(next)) ++next;
         const Part number = keeps == 0 ? next : static_cast<Part>(-minus_part);

@@ -31,8 +31,7 @@ void check_arguments(const Points& points, std::span<const Part> parts, int num_
 std::vector<double> weights_here(const Points& points, std::span<const Part> parts, int num_parts) {
     check_arguments(points, parts, num_parts);
     std::vector<double> weights(static_cast<std::size_t>(num_parts));
-    for (LocalIndex i = 0; i < points.count; ++i)
-        weights[static_cast<std::size_t>(parts[i])] += points.weight(i);
+    for (LocalIndex i = 0; i < points.count; ++i) weights[parts[i]] += points.weight(i);
     return weights;
 }
 

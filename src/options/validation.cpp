@@ -60,13 +60,12 @@ bool cross_axes_at_numbers(const Cuts& cuts) {
 void check_grouped(std::span<const int> axes, int dimension) {
     std::array<bool, max_dimension> named{};
     for (const int axis : axes) {
-        require(axis >= 0 && axis < max_dimension && !named[static_cast<std::size_t>(axis)],
+        require(axis >= 0 && axis < max_dimension && !named[axis],
                 "axes.order must name each axis that it groups once, 0 ... 2");
-        named[static_cast<std::size_t>(axis)] = true;
+        named[axis] = true;
     }
     for (int axis = 0; axis < dimension; ++axis)
-        require(named[static_cast<std::size_t>(axis)],
-                "axes.order must name every axis of the points if it groups them");
+        require(named[axis], "axes.order must name every axis of the points if it groups them");
 }
 
 void check_given(std::span<const int> axes, int num_parts, int dimension) {

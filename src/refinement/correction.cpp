@@ -31,7 +31,7 @@ class Corrector {
         if (slab.moves()) {
             const Cut& cut = cuts_.tree[at.node];
             double& value = values_[slab.number];
-            value = cut.at[static_cast<std::size_t>(cut.axis)];
+            value = cut.at[cut.axis];
             if (is_changed || !rule_.may_stay(at, part_weights_)) {
                 value = move(at, slab, value);
                 is_changed = true;

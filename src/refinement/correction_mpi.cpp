@@ -76,7 +76,7 @@ void Correction::move(Cuts& cuts) const {
         if (!slabs_[k].moves()) continue;
         Cut& cut = cuts.tree[k];
         const double value = values_[slabs_[k].number];
-        if (value != cut.at[static_cast<std::size_t>(cut.axis)]) cut = plane(cut.axis, value);
+        if (value != cut.at[cut.axis]) cut = plane(cut.axis, value);
     }
 }
 

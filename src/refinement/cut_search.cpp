@@ -120,7 +120,7 @@ Chosen choose(double base, double target, std::span<const double> weights) {
     // All slots before this one together, with the base, weigh less than the target. So the target
     // is in it, or round-off left the target behind all of them and the last slot has to do.
     while (chosen.slot < last) {
-        const double next = chosen.below + weights[static_cast<std::size_t>(chosen.slot)];
+        const double next = chosen.below + weights[chosen.slot];
         if (next >= target) break;
         chosen.below = next;
         ++chosen.slot;
@@ -166,7 +166,7 @@ bool finish_at_limit(CutSearch& search, const CutTarget& target, std::span<const
 void narrow_on_lines(CutSearch& search, const CutTarget& target, const HistogramLayout& layout,
                      const EdgeErrors& errors, double weight) {
     const Bins bins = bins_of(search, layout);
-    const AxisLimits& limits = layout.limits[static_cast<std::size_t>(search.cut.axis)];
+    const AxisLimits& limits = layout.limits[search.cut.axis];
     const int slot = search.chosen;
     const double lower = slot == 0 ? target.places.first : bins.edge(slot - 1);
     const double upper = slot > layout.num_bins ? target.places.last : bins.edge(slot);

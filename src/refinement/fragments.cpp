@@ -160,15 +160,14 @@ void write_parts(const std::vector<Fragment>& fragments, const Cuts& cuts, const
                       0.0);
     for (const Fragment& fragment : fragments) {
         const Descent from = first_crossing(cuts, fragment.box, at);
-        if (from.is_part()) weights[static_cast<std::size_t>(from.first_part)] += fragment.weight;
+        if (from.is_part()) weights[from.first_part] += fragment.weight;
         for (LocalIndex i = fragment.begin; i < fragment.end; ++i) {
             Descent to = from;
             while (!to.is_part())
                 to = is_above(cuts.tree[to.node], points.position(i), cuts.dimension) ? to.upper()
                                                                                       : to.lower();
             parts[points.original[i]] = to.first_part;
-            if (!from.is_part())
-                weights[static_cast<std::size_t>(to.first_part)] += points.weight(i);
+            if (!from.is_part()) weights[to.first_part] += points.weight(i);
         }
     }
 }

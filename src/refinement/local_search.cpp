@@ -27,8 +27,8 @@ class Tally {
     }
 
     void add(std::int32_t slot, double weight, double count) {
-        weights_[static_cast<std::size_t>(slot)] += weight;
-        counts_[static_cast<std::size_t>(slot)] += count;
+        weights_[slot] += weight;
+        counts_[slot] += count;
     }
 
     void round_weights_to(double quantum) {

@@ -32,7 +32,7 @@ class Layer {
     void lay(const Descent& at, int depth, double gain) {
         if (at.is_part()) return;
         const Cut& cut = cuts_.tree[at.node];
-        const double value = cut.at[static_cast<std::size_t>(cut.axis)];
+        const double value = cut.at[cut.axis];
         slabs_[at.node] = {value, value, Slab::stays, 0};
         const double share = rule_.share_below(at);
         if (!(share > 0 && share < 1)) {

@@ -38,8 +38,7 @@ Bracket TreeSearch::bracket_of(const Node& node) const {
     Bracket bracket = guide_->brackets[node.at.node];
     if (tree_.rule.is_exact || guide_->limits) return bracket;
     const Cut& cut = guide_->cuts.tree[node.at.node];
-    const double value =
-        std::clamp(cut.at[static_cast<std::size_t>(cut.axis)], bracket.lower, bracket.upper);
+    const double value = std::clamp(cut.at[cut.axis], bracket.lower, bracket.upper);
     if (node.content.are_parts_counted) {
         const double weight = node.content.weight;
         const double target = tree_.rule.target_of(node.at, weight, node.below).target;

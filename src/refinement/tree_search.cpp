@@ -110,8 +110,7 @@ bool TreeSearch::holds_own_parts(const Descent& at) const {
 void TreeSearch::enter_region(const Regions& regions, const Descent& region, const Descent& at,
                               std::vector<Fragment>&& fragments, const Box& box) {
     if (region.is_part())
-        return enter(at, {std::move(fragments), box,
-                          regions.weights[static_cast<std::size_t>(region.first_part)]});
+        return enter(at, {std::move(fragments), box, regions.weights[region.first_part]});
     const Cut& cut = regions.cuts.tree[region.node];
     note(at.node, cut);
     auto [lower, upper] = cut.divides != 0 ? split_by_parts(fragments, at.upper().first_part)
@@ -244,7 +243,7 @@ void TreeSearch::end_at_cut(Node&& node, const LotAnswer& told) {
 void TreeSearch::end_at_part(const Descent& at, const Content& content) {
     const double weight = write_part(content.fragments, at.first_part, points_, parts_);
     if (is_central()) {
-        guide_->sums.here()[static_cast<std::size_t>(at.first_part)] = weight;
+        guide_->sums.here()[at.first_part] = weight;
     } else if (owner_of(at) == rank_) {
         imbalance_ =
             std::max(imbalance_, over_ideal(content.weight, tree_.weight, ideal_share(at)));

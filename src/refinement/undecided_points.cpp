@@ -68,7 +68,7 @@ class Selection {
 
   private:
     bool is_decided(LocalIndex i) const {
-        const Box& box = boxes_[static_cast<std::size_t>(parts_[i])];
+        const Box& box = boxes_[parts_[i]];
         int is_inside = 1;
         for (std::size_t a = 0; a < dimension; ++a) {
             const double value = x_(i, static_cast<int>(a));
@@ -86,7 +86,7 @@ class Selection {
             undecided[num_undecided] = i;
             num_undecided += decided ? 0 : 1;
             const double weight = Weighted ? points_.weights[i] : 1.0;
-            sums_[static_cast<std::size_t>(parts_[i])] += decided ? weight : 0.0;
+            sums_[parts_[i]] += decided ? weight : 0.0;
         }
         append(std::span(undecided).first(num_undecided));
     }
@@ -174,7 +174,7 @@ void count_in_slabs(const UndecidedPoints& points, const Cuts& cuts, std::span<c
         Vector position{};
         for (std::size_t a = 0; a < d; ++a) position[a] = points.coordinates[i * d + a];
         const Part part = points.parts[i];
-        for (const Step& step : ways[static_cast<std::size_t>(part)]) {
+        for (const Step& step : ways[part]) {
             const Slab& slab = slabs[step.at.node];
             const Cut& cut = cuts.tree[step.at.node];
             const auto axis = static_cast<std::size_t>(cut.axis);
@@ -183,8 +183,8 @@ void count_in_slabs(const UndecidedPoints& points, const Cuts& cuts, std::span<c
             const auto bin = bin_in(counts, step.at, slab, step.above,
                                     bin_of(slab, cut.at[axis], step.above, x));
             const Part across = part_across(cuts, step, position);
-            bin[static_cast<std::size_t>(part - step.at.first_part)] += points.weight(i);
-            bin[static_cast<std::size_t>(across - step.at.first_part)] += points.weight(i);
+            bin[part - step.at.first_part] += points.weight(i);
+            bin[across - step.at.first_part] += points.weight(i);
         }
     }
 }

@@ -45,8 +45,7 @@ void print_tally() {
 /// Objects in a list that change their rank.
 std::int64_t count_moved(const List& list, int rank) {
     std::int64_t moved = 0;
-    for (int i = 0; i < list.count; ++i)
-        moved += list.ranks[static_cast<std::size_t>(i)] != rank ? 1 : 0;
+    for (int i = 0; i < list.count; ++i) moved += list.ranks[i] != rank ? 1 : 0;
     return moved;
 }
 

@@ -30,7 +30,7 @@ void ask_for_sizes(const State& state, int first_here, int first_part, std::span
         if (entry.weight != 0) continue;
         const int part = (entry.global ? 0 : first_here) + entry.part - first_part;
         if (part < 0 || part >= static_cast<int>(sizes.size())) continue;
-        sizes[static_cast<std::size_t>(part)] = static_cast<double>(entry.size);
+        sizes[part] = static_cast<double>(entry.size);
     }
 }
 

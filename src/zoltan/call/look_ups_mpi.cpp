@@ -17,8 +17,7 @@ Numbering whole_numbering(const Numbering& numbering, const PartMap& map, Partic
     });
     agree(self);
     const auto [first, end] = map.parts_on(mpi::rank_of(self.comm));
-    for (Part part = first; part < end; ++part)
-        numbers[static_cast<std::size_t>(part)] = numbering.number_of(part);
+    for (Part part = first; part < end; ++part) numbers[part] = numbering.number_of(part);
     mpi::check(
         MPI_Allreduce(MPI_IN_PLACE, numbers.data(), map.num_parts, MPI_INT, MPI_SUM, self.comm),
         "MPI_Allreduce");

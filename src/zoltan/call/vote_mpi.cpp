@@ -103,7 +103,7 @@ Outcome vote(const LocalStatus& local, const State& state) {
                              state.communicator->get()),
                "MPI_Allreduce");
     Outcome outcome;
-    outcome.code = codes[static_cast<std::size_t>(ballot.severity)];
+    outcome.code = codes[ballot.severity];
     outcome.failing_rank = state.communicator->size() - ballot.failing_rank_from_last;
     outcome.num_global_parts = ballot.num_global_parts;
     outcome.any_local_parts = ballot.any_local_parts != 0;

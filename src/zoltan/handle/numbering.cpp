@@ -13,7 +13,7 @@ Numbering::Numbering(std::vector<Part>&& boxes, std::vector<Part>&& numbers,
 
 Numbering Numbering::of_all(std::vector<Part>&& numbers, std::vector<Part>&& room) noexcept {
     for (std::size_t box = 0; box < numbers.size(); ++box)
-        room[static_cast<std::size_t>(numbers[box])] = static_cast<Part>(box);
+        room[numbers[box]] = static_cast<Part>(box);
     return {std::move(room), std::move(numbers), false};
 }
 
@@ -23,7 +23,7 @@ Numbering Numbering::of_some(std::vector<Part>&& boxes, std::vector<Part>&& numb
 
 Part Numbering::number_of(Part box) const {
     if (is_unchanged()) return box;
-    if (!is_spread_) return numbers_[static_cast<std::size_t>(box)];
+    if (!is_spread_) return numbers_[box];
     const auto found = std::ranges::lower_bound(boxes_, box);
     if (found == boxes_.end() || *found != box) return no_part;
     return numbers_[static_cast<std::size_t>(found - boxes_.begin())];

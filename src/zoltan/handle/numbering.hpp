@@ -27,9 +27,7 @@ class Numbering {
     Part number_of(Part box) const;
 
     /// The box of a part, where all are known.
-    Part box_of(Part number) const {
-        return is_unchanged() ? number : boxes_[static_cast<std::size_t>(number)];
-    }
+    Part box_of(Part number) const { return is_unchanged() ? number : boxes_[number]; }
 
     /// Numbers of all boxes, or of the known ones.
     const std::vector<Part>& numbers() const { return numbers_; }

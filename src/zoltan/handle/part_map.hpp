@@ -20,8 +20,7 @@ struct PartMap {
 
     RankRange ranks_of(Part part) const {
         if (one_each) return {part, 1};
-        return listed.empty() ? ranks_of_part(part, num_parts, num_ranks)
-                              : listed[static_cast<std::size_t>(part)];
+        return listed.empty() ? ranks_of_part(part, num_parts, num_ranks) : listed[part];
     }
 
     /// Parts on a rank.

@@ -88,7 +88,7 @@ bool RollCall::receive_call() {
     MPI_Iprobe(MPI_ANY_SOURCE, roll_call_tag, comm_, &is_there, &status);
     if (is_there == 0) return false;
     MPI_Recv(nullptr, 0, MPI_BYTE, status.MPI_SOURCE, roll_call_tag, comm_, MPI_STATUS_IGNORE);
-    char& flag = present_[static_cast<std::size_t>(status.MPI_SOURCE)];
+    char& flag = present_[status.MPI_SOURCE];
     const bool is_first = flag == 0;
     flag = 1;
     num_present_ += is_first ? 1 : 0;
@@ -98,7 +98,7 @@ bool RollCall::receive_call() {
 bool RollCall::call_ranks(MPI_Request& request, Participant& self) {
     const int rank = mpi::rank_of(comm_);
     present_.assign(static_cast<std::size_t>(mpi::size_of(comm_)), 0);
-    present_[static_cast<std::size_t>(rank)] = 1;
+    present_[rank] = 1;
     num_present_ = 1;
     for (int other = 0; other < mpi::size_of(comm_); ++other)
         if (other != rank) send_call(other, comm_);

@@ -34,6 +34,15 @@ std::vector<Overlap> count_overlaps(std::span<const Part> parts, const PreviousP
                                     const NumberRule& rule, int rank) {
     const auto [first, end] = rule.numbers_of(rank);
     const std::int32_t own = rule.by_rank && first < end ? rank : no_origin;
+    std::vector<Overlap> overlaps;
+    // A table where it is no longer than the list of points: a map takes most of the call.
+    if (rule.by_rank && static_cast<std::size_t>(rule.num_parts) <= parts.size()) {
+        std::vector<GlobalCount> of_parts(static_cast<std::size_t>(rule.num_parts));
+        for (const Part part : parts) ++of_parts[part];
+        for (Part part = 0; part < rule.num_parts; ++part)
+            if (of_parts[part] > 0) overlaps.push_back({own, part, of_parts[part]});
+        return overlaps;
+    }
     std::unordered_map<Key, GlobalCount> counts;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         std::int32_t origin = own;
@@ -41,7 +50,6 @@ std::vector<Overlap> count_overlaps(std::span<const Part> parts, const PreviousP
             origin = (*previous)[i];
         ++counts[(static_cast<Key>(parts[i]) << 32) | static_cast<std::uint32_t>(origin)];
     }
-    std::vector<Overlap> overlaps;
     for (const auto& [pair, count] : counts)
         overlaps.push_back({static_cast<std::int32_t>(pair), static_cast<Part>(pair >> 32), count});
     return overlaps;

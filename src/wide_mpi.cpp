@@ -6,6 +6,7 @@
 #include "cuts/cut_limits.hpp"
 #include "cuts/direct_assignment.hpp"
 #include "cuts/gather_cuts_mpi.hpp"
+#include "cuts/part_share.hpp"
 #include "cuts/path_search.hpp"
 #include "cuts/tier_search_mpi.hpp"
 #include "cuts/tree.hpp"
@@ -16,7 +17,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -40,10 +40,6 @@ void append_axes(const Descent& at, int num_regions, std::span<const int> cut_ax
     axes.push_back(cut_axes[at.node]);
     append_axes(at.lower(), num_regions / 2, cut_axes, axes);
     append_axes(at.upper(), num_regions / 2, cut_axes, axes);
-}
-
-double sum_of(std::span<const double> values) {
-    return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
 /// Sum of the sizes of all parts, in those of the largest.

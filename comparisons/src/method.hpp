@@ -56,8 +56,7 @@ std::vector<Method> read_methods(std::string_view text);
 /// Names of all methods, as in "a, b, c".
 std::string method_names();
 
-/// What is compared unless the user says otherwise: Zoltan's RCB, the paper's method, and rrcb to a
-/// tolerance and exactly.
+/// Default methods: Zoltan's RCB, the paper's method, and rrcb to a tolerance and exactly.
 std::vector<Method> default_methods();
 
 /// Every method, of the paper's the four settings it names best, of rrcb several tolerances.

@@ -34,8 +34,8 @@ class ButterflyMessages {
     /// it then knows the flags of all. Throws on every rank what failed on one before the pass. A
     /// rank that fails in it goes on without records, which then are missing elsewhere as well,
     /// until the next pass or agreement tells all ranks. In the central way R - 1 messages in all;
-    /// rank 0 hears in a pass to the owners what failed before or in it, and the pass back throws
-    /// that; `flags` count at all ranks to the owners, at rank 0 alone on the way back.
+    /// rank 0 hears in a pass to the owners of failures before or in it, which the pass back
+    /// throws; `flags` count at all ranks to the owners, at rank 0 alone on the way back.
     void run(Butterfly& butterfly, Butterfly::Direction direction, Flags flags, Participant& self);
 
   private:

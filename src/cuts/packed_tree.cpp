@@ -81,7 +81,7 @@ void PackedTree::resize(std::int32_t num_nodes) {
     items_.resize(num_nodes);
 }
 
-/// Fills `node` with what is at or below `at`, of which `box` holds all positions.
+/// Fills `node` with the cuts at or below `at`, whose positions all lie in `box`.
 void PackedTree::add(const Packing& packing, Descent at, const Box& box, std::int32_t node,
                      int depth) {
     const Cut* cut = nullptr;

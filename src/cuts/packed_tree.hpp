@@ -45,10 +45,10 @@ class PackedTree {
     /// Reserves memory for all cuts between so many parts, which may be 0.
     void reserve(std::size_t num_parts);
 
-    /// As the constructor. Takes no memory beyond what was reserved for so many parts.
+    /// Packs as the constructor, once, within the memory reserved for so many parts.
     void pack(const Cuts& cuts, const EntryOf& entry_of);
 
-    /// For each end in ascending order its part, or what stands in place of it.
+    /// Part of each end in ascending order, or the number in place of it.
     const std::vector<Part>& entries() const { return entries_; }
 
     /// Finds the number of the end of each point of a block.

@@ -1,8 +1,14 @@
 #pragma once
 
 #include <limits>
+#include <numeric>
+#include <span>
 
 namespace rrcb {
+
+inline double sum_of(std::span<const double> values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
 
 /// Weight of a part over what it should weigh, the share `ideal` of `total`; 0 without weight, and
 /// infinite where nothing should lie.

@@ -1,16 +1,13 @@
 #include "refinement/correction.hpp"
 
+#include "cuts/part_share.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace rrcb {
 
 namespace {
-
-double sum_of(std::span<const double> weights) {
-    return std::accumulate(weights.begin(), weights.end(), 0.0);
-}
 
 class Corrector {
   public:

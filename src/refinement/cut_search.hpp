@@ -13,7 +13,7 @@
 
 namespace rrcb {
 
-/// State of the search for one cut on every rank. The root broadcasts it after each round.
+/// State of the search for one cut, the same on every rank that takes part: the owner's answer.
 ///
 /// The cut lies in [lower, upper) of the axis number `tied` of its axes: its own first, then the
 /// others in ascending order. Along the axes before that one it is already fixed in `cut`. From the
@@ -22,11 +22,10 @@ struct CutSearch {
     enum Stage : std::int32_t {
         over_fragments,   ///< count all points of the node, in bins of the bracket
         over_candidates,  ///< count those in the bracket that are left
-        sampling,         ///< bring a sample of them to the root, which finds splitters in it
+        sampling,         ///< bring a sample of them to the owner, for splitters
         over_splitters,   ///< count them between the splitters
-        gathering,        ///< bring them all to the root
-        done,
-        abandoned
+        gathering,        ///< bring them all to the owner
+        done
     };
     Stage stage = over_fragments;
     std::int32_t tied = 0;
@@ -45,7 +44,7 @@ struct CutSearch {
     double lot_below = 0;         ///< weight of them that belongs below, 0 for none, once done
 };
 
-/// State of a search at the root alone.
+/// State of a search at the owner alone.
 struct CutTarget {
     double target = 0;               ///< weight that belongs below the cut
     double share = 0.5;              ///< of the weight of the node that this is

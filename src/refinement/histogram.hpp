@@ -13,16 +13,15 @@ namespace rrcb {
 /// a bracket or between splitters, or a sample.
 ///
 /// It begins with num_extents entries of which the largest counts: minus the lower ends of the
-/// extent, its upper ends, and the status. The status is 1 where a rank has failed, and more by
-/// twice the dimension where the rest is a sample. Behind them are 2 * num_slots entries to be
-/// summed, or a sample.
+/// extent, its upper ends, and the dimension of the sample, 0 for none. Behind them are
+/// 2 * num_slots entries to be summed, or a sample.
 struct HistogramLayout {
     int num_bins = 64;
     std::array<AxisLimits, max_dimension> limits{};  ///< the edges of bins lie on their grids
 
     std::size_t num_slots() const { return static_cast<std::size_t>(num_bins) + 2; }
-    static constexpr std::size_t status = 2 * max_dimension;
-    static constexpr std::size_t num_extents = status + 1;
+    static constexpr std::size_t sample_dimension = 2 * max_dimension;
+    static constexpr std::size_t num_extents = sample_dimension + 1;
     std::size_t length() const { return num_extents + 2 * num_slots(); }
 };
 
@@ -36,13 +35,6 @@ std::span<double> clear_to_sample(int dimension, std::span<double> histogram);
 inline std::span<const double> sample_in(std::span<const double> histogram) {
     return histogram.subspan(HistogramLayout::num_extents);
 }
-
-/// Tells that this rank has failed.
-inline void mark_failed(std::span<double> histogram) {
-    histogram[HistogramLayout::status] += 1;
-}
-
-bool is_marked_failed(std::span<const double> histogram);
 
 /// Takes in the histogram of other ranks, of the same kind. In any order it gives the same bits
 /// where weights are multiples of a common quantum.

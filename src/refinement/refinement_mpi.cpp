@@ -4,22 +4,14 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/direct_assignment.hpp"
+#include "cuts/part_share.hpp"
 
 #include <rrcb/quality.hpp>
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace rrcb {
-
-namespace {
-
-double sum_of(std::span<const double> values) {
-    return std::accumulate(values.begin(), values.end(), 0.0);
-}
-
-}  // namespace
 
 Refinement::Refinement(const Options& options, const Participant& self, PartSums& sums)
     : options_(options),

@@ -47,7 +47,7 @@ struct Refined {
 /// Moves estimated cuts of all parts until these are as even as asked, as rank 0 decides.
 ///
 /// To a tolerance, all cuts are first corrected at once, see Correction. Where that does not serve,
-/// they are searched, see TreeSearch. What the messages need is made before the first of them.
+/// they are searched, see TreeSearch. Buffers are made before the first message.
 class Refinement {
   public:
     /// By complete options. `options` and `sums` are borrowed. Not collective. Throws Error or
@@ -60,7 +60,7 @@ class Refinement {
     /// the points. Where a tolerance is missed because slack was spent on upper levels that lower
     /// ones need, it searches once more, exactly, and keeps the better cuts. Limited cuts are all
     /// searched in their places, and the estimate is kept where it is better. Without weight
-    /// anywhere the cuts stay. What fails on one rank, before or here, is thrown on all.
+    /// anywhere the cuts stay. A failure on one rank, before or here, is thrown on all.
     Refined refine(Estimate&& estimate, const Points& points, const Bin& bin, std::span<Part> parts,
                    Participant& self);
 
@@ -83,8 +83,8 @@ class Refinement {
     Refined refined_;
 };
 
-/// Makes the parts below regions, as the owners of nodes decide. What the messages need is made
-/// before the first of them.
+/// Makes the parts below regions, as the owners of nodes decide, with buffers made before the first
+/// message.
 class RegionRefinement {
   public:
     /// Not collective. Throws std::bad_alloc.
@@ -95,7 +95,7 @@ class RegionRefinement {
     ///
     /// Collective. `regions` and `tree` are the same on every rank. A tolerance that is missed has
     /// it search once more, exactly and without the regions, and keep the better cuts. Throws on
-    /// every rank what failed on one, before or here; but a failure in the last messages stays with
+    /// every rank the failure of one, before or here; but a failure in the last messages stays with
     /// its rank for the next agreement.
     Refined refine(const Regions& regions, PartTree tree, const BinnedPoints& binned,
                    std::span<Part> parts, Participant& self);

@@ -1,12 +1,12 @@
 #include "refinement/target_rule.hpp"
 
 #include "bisection/bisection.hpp"
+#include "cuts/part_share.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace rrcb {
 
@@ -34,20 +34,16 @@ int num_levels(int num_parts) {
     return std::bit_width(static_cast<unsigned>(num_parts - 1));
 }
 
-double sum(std::span<const double> values) {
-    return std::accumulate(values.begin(), values.end(), 0.0);
-}
-
 }  // namespace
 
 double weight_of(const Descent& at, std::span<const double> part_weights) {
-    return sum(part_weights.subspan(static_cast<std::size_t>(at.first_part),
-                                    static_cast<std::size_t>(at.num_parts)));
+    return sum_of(part_weights.subspan(static_cast<std::size_t>(at.first_part),
+                                       static_cast<std::size_t>(at.num_parts)));
 }
 
 bool TargetRule::are_within(const Descent& at, std::span<const double> part_weights) const {
     // To the bit as the imbalance, which decides at the end.
-    const double sizes = sum(part_sizes);
+    const double sizes = sum_of(part_sizes);
     for (int k = 0; k < at.num_parts; ++k) {
         const auto part = static_cast<std::size_t>(at.first_part + k);
         if (!(part_weights[part] > 0)) continue;
@@ -76,7 +72,7 @@ double TargetRule::most_weight(const Descent& at) const {
     const int all_levels = num_levels(static_cast<int>(part_sizes.size()));
     const double left_below = num_levels(at.num_parts) / (2.0 * all_levels);
     const double excess = (attainable_tolerance(sizes, *this) - 1) * (1 - left_below);
-    return weight_per_size * sum(sizes) * (1 + excess);
+    return weight_per_size * sum_of(sizes) * (1 + excess);
 }
 
 /// The end of the allowed weights below a cut that is nearest to what lies there, but for room to
@@ -117,7 +113,7 @@ CutTarget TargetRule::target_of(const Descent& at, double weight, double below) 
     if (is_earlier && below >= 0) return nearest_target(at, weight, below);
     // A part may end up too heavy by the tolerance in all. What is left of it at this node is
     // shared evenly with the levels below, as factors.
-    const double ideal = weight_per_size * std::accumulate(sizes.begin(), sizes.end(), 0.0);
+    const double ideal = weight_per_size * sum_of(sizes);
     const int levels = num_levels(at.num_parts);
     const double growth =
         std::pow(attainable_tolerance(sizes, *this) * ideal / weight, 1.0 / levels);

@@ -1,4 +1,4 @@
-// What the owner of a node decides.
+// The decisions of the owner of a node.
 #include "refinement/sample.hpp"
 #include "refinement/tree_search.hpp"
 
@@ -13,7 +13,7 @@ namespace rrcb {
 
 namespace {
 
-/// Box that a histogram tells of.
+/// Box of the points in a histogram.
 Box box_in(std::span<const double> histogram) {
     Box box;
     for (std::size_t a = 0; a < max_dimension; ++a) {
@@ -31,7 +31,7 @@ void append(const Value& value, std::vector<double>& doubles) {
     std::memcpy(&doubles[size], &value, sizeof value);
 }
 
-/// Ranks and what they weigh, in the order of the ranks.
+/// Ranks and their weights, in the order of the ranks.
 std::vector<std::pair<double, double>> weights_in(std::span<const double> payload) {
     std::vector<std::pair<double, double>> weights;
     for (std::size_t k = 1; k < payload.size(); k += 2)
@@ -133,7 +133,7 @@ CutTarget TreeSearch::target_of(const Node& node, double weight) const {
     return rule.target_of({0, 0, static_cast<int>(rule.part_sizes.size())}, weight);
 }
 
-/// Moves a search on by what all ranks have told, which is something once points are left to it.
+/// Moves a search on by the records of all ranks, of which some have points left to it.
 CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
     CutSearch search = node.search;
     if (payload.empty()) {
@@ -175,7 +175,7 @@ void TreeSearch::decide_among_candidates(const Node& node, std::span<const doubl
     decide_among(search, target, records, dimension_);
 }
 
-/// The first count tells what the points of the node weigh, and where they lie.
+/// Takes weight and box of the node from the first count.
 void TreeSearch::decide_by_first_count(Node& node, std::span<const double> histogram,
                                        CutSearch& search) {
     const auto weights = histogram.subspan(layout_.num_extents, layout_.num_slots());

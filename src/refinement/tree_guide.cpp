@@ -1,4 +1,4 @@
-// How a central search begins with what is known of its cuts.
+// How a central search starts from known cuts.
 #include "bisection/bisection.hpp"
 #include "refinement/tree_search.hpp"
 
@@ -51,7 +51,7 @@ Bracket TreeSearch::bracket_of(const Node& node) const {
             std::lerp(value, bracket.upper, widths)};
 }
 
-/// Writes the parts below a node by the cuts as they are, and appends what they weigh here.
+/// Writes the parts below a node by the cuts as they are, and appends their weights on this rank.
 void TreeSearch::count_parts(const Node& node, std::vector<double>& payload) {
     const auto& fragments = node.content.fragments;
     const auto here = guide_->sums.here();
@@ -63,7 +63,7 @@ void TreeSearch::count_parts(const Node& node, std::vector<double>& payload) {
     payload.insert(payload.end(), weights.begin(), weights.end());
 }
 
-/// Goes on with a node once all know what its parts weigh.
+/// Goes on with a node once all ranks know the weights of its parts.
 void TreeSearch::take_sums(Node&& node, std::span<const double> sums) {
     guide_->sums.set_sums(node.at.first_part, sums);
     node.content.are_parts_counted = true;

@@ -1,4 +1,4 @@
-// What ranks tell the owners of nodes, and how they follow their answers.
+// The records that ranks send to the owners of nodes, and how they follow the answers.
 #include "refinement/sample.hpp"
 #include "refinement/tree_search.hpp"
 
@@ -31,7 +31,7 @@ void TreeSearch::ask(Butterfly& butterfly) {
     }
 }
 
-/// Appends what this rank has to tell of a node.
+/// Appends the record of this rank for a node.
 void TreeSearch::count(const Node& node, std::vector<double>& payload) {
     if (node.question == Question::parts) return count_parts(node, payload);
     const auto& fragments = node.content.fragments;
@@ -67,8 +67,7 @@ void TreeSearch::join(std::span<const double> a, std::span<const double> b,
     const bool adds = !a.empty() && !b.empty() && a.size() == b.size() &&
                       (a[0] == mark_of_histogram || a[0] == mark_of_parts);
     joined.insert(joined.end(), a.begin(), a.end());
-    // What does not fit together was told after a failure, of which all hear at the end of the
-    // pass.
+    // Records that do not fit together follow a failure, which all ranks hear of after the pass.
     if (!is_alike) return;
     const auto sum = std::span(joined).last(adds ? a.size() - 1 : 0);
     if (!adds) {

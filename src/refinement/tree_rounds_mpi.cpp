@@ -6,7 +6,7 @@ namespace rrcb {
 
 namespace {
 
-/// What a rank tells with its records: that it searches, and how uneven the parts are so far.
+/// Flags of a rank: whether it still searches, and the imbalance of its parts so far.
 Flags flags_of(const std::optional<TreeSearch>& search) {
     if (!search) return {};
     return {0, search->is_searching() ? 1.0 : 0.0, search->imbalance()};
@@ -16,7 +16,7 @@ Flags flags_of(const std::optional<TreeSearch>& search) {
 
 int TreeRounds::run(std::optional<TreeSearch>& search, Participant& self) {
     const bool is_central = butterfly_.is_central();
-    // Rank 0 of a central search knows all nodes, and tells with its answers whether any are left.
+    // Rank 0 of a central search knows all nodes, and says with its answers whether any are left.
     const bool follows_first = is_central && rank() == root;
     // All ranks know the same flags after each round, and so which messages follow.
     for (int rounds = 0;; ++rounds) {

@@ -8,7 +8,7 @@
 
 namespace rrcb {
 
-/// Runs the rounds of searches. What the messages need is made before the first of them.
+/// Runs the rounds of searches, with buffers made before the first message.
 class TreeRounds {
   public:
     /// Not collective. Throws std::bad_alloc.
@@ -18,11 +18,11 @@ class TreeRounds {
     /// Ends a search, which this rank lacks if it has failed; returns in how many rounds.
     ///
     /// Collective: each round is a pass to the owners and one back, and a spread search ends with
-    /// one to the owners. Throws on every rank what failed on one, before or here; but a failure in
+    /// one to the owners. Throws on every rank the failure of one, before or here; but a failure in
     /// the last messages stays with its rank for the next agreement.
     int run(std::optional<TreeSearch>& search, Participant& self);
 
-    /// The largest that a rank told of its parts in the last spread search; the same on every rank.
+    /// Imbalance of all parts after a spread search; the same on every rank.
     double imbalance() const { return butterfly_.flags()[2]; }
 
     int rank() const { return butterfly_.rank(); }

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace rrcb {
@@ -35,7 +34,7 @@ Box box_of(const Fragment& fragment, const SortedPoints& points) {
 
 double sum_of_sizes(const PartTree& tree) {
     if (tree.part_sizes.empty()) return tree.num_parts;
-    return std::accumulate(tree.part_sizes.begin(), tree.part_sizes.end(), 0.0);
+    return sum_of(tree.part_sizes);
 }
 
 }  // namespace
@@ -78,8 +77,6 @@ TreeSearch::TreeSearch(const PartTree& tree, int rank, const Guide& guide, Sorte
       layout_{.limits = tree.limits},
       points_(std::move(points)),
       parts_(parts) {
-    tree_.rule.weight_per_size = tree.weight / all_sizes_;
-    tree_.rule.part_sizes = tree.part_sizes;
     Content content{cell_fragments(points_), Box{}, tree.weight};
     if (guide.limits) content.box = guide.limits->region();
     content.are_parts_counted = guide.is_counted;
@@ -176,8 +173,8 @@ void TreeSearch::divide(const Descent& at, const Content& content, const Cut& cu
     note(at.node, cut);
     auto [lower, upper] = is_central() ? split(content.fragments, cut, lot, points_)
                                        : split_tightly(content.fragments, cut, lot);
-    // A side of a lot that is divided may weigh up to a point more or less than asked for, which
-    // the next count tells; until then the node's weight is a bound.
+    // A side of a divided lot may weigh up to a point more or less than asked for. The next count
+    // finds out; until then the node's weight is a bound.
     const bool divides_lot = lot.below > 0;
     const double above = divides_lot ? content.weight : content.weight - below;
     if (divides_lot) below = content.weight;
@@ -255,8 +252,8 @@ double TreeSearch::ideal_share(const Descent& at) const {
     return (tree_.part_sizes.empty() ? 1.0 : sizes_of(at)[0]) / all_sizes_;
 }
 
-/// Whether the round-off of what a cut left over may be much of what a part should weigh, so that
-/// only its points tell how heavy it is.
+/// Whether the round-off of a remainder may be large beside the weight of a part, so that the part
+/// must be weighed by its points.
 bool TreeSearch::is_tiny(const Descent& part) const {
     constexpr double least_share = 0x1p-20;
     const double share = tree_.part_sizes.empty() ? 1 : ideal_share(part);

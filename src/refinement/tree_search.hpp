@@ -27,7 +27,7 @@ inline Key key_of(const Descent& at) {
            static_cast<Key>(at.num_parts);
 }
 
-/// What the parts are to be; the same on every rank.
+/// The parts to make; the same on every rank.
 struct PartTree {
     int num_parts = 1;
     int num_ranks = 1;
@@ -35,10 +35,10 @@ struct PartTree {
     std::span<const double> part_sizes{};  ///< one per part; empty: equal
     std::span<const int> cut_axes{};       ///< of all cuts in preorder; empty: free
     std::span<const double> ones{};        ///< as many as a region has equal parts; empty: made
-    TargetRule rule{};                     ///< but for the sizes, and the weight per size
-    double share_of_longest = 1;           ///< see longest_axis()
+    TargetRule rule{};            ///< of a spread search without the sizes and the weight per size
+    double share_of_longest = 1;  ///< see longest_axis()
     bool plain_cuts = false;
-    bool divides_coincident = false;  ///< points that no cut tells apart, see Coincident
+    bool divides_coincident = false;                 ///< points in one place, see Coincident
     std::array<AxisLimits, max_dimension> limits{};  ///< of a central search
 
     /// The first rank that holds the first part of a node.
@@ -53,7 +53,7 @@ struct Regions {
     int num_coincident = 0;             ///< cuts between them with points that the target divides
 };
 
-/// What is known of all cuts before they are searched; the same on every rank.
+/// Cuts to start from; the same on every rank.
 struct Guide {
     Cuts& cuts;  ///< whose axes stay; the search moves them
     std::span<const Bracket> brackets;
@@ -64,8 +64,8 @@ struct Guide {
 
 /// One rank's part in the search for the cuts of a tree.
 ///
-/// A node has an owner, who decides on its cut by what the ranks tell of the points they have
-/// there, and answers them. Nodes do not wait for others on their level. In a round each rank asks,
+/// Each rank sends the owner of a node a summary of its points there; the owner decides on the cut
+/// and answers. Nodes do not wait for others on their level. In a round each rank asks,
 /// the butterfly carries that to the owners, they decide, it carries their answers back, and each
 /// rank follows. All rounds of all ranks are over once none is_searching(). Not collective.
 ///
@@ -75,13 +75,13 @@ struct Guide {
 /// a node, and at the owner up to 1024 positions and weights.
 ///
 /// Central: rank 0 owns all nodes, in which all ranks take part. Cuts start from a Guide, which
-/// fixes their axes, and may be limited. A cut that is good enough as counted stays, with what lies
-/// below; where earlier cuts move, the parts below are counted once more.
+/// fixes their axes, and may be limited. A cut that is good enough as counted stays, with all cuts
+/// below; if an earlier cut moves, the parts below are counted once more.
 class TreeSearch {
   public:
-    /// Starts a spread search below the regions; `parts` and what `tree` refers to are borrowed.
-    /// Where a cut between regions divides points in one place, `parts` tells on which side they
-    /// are, by the numbers that parts there have in the whole tree. Throws std::bad_alloc.
+    /// Starts a spread search below the regions; `parts` and the spans of `tree` are borrowed. If a
+    /// cut between regions divides points in one place, `parts` has their sides, by the numbers of
+    /// the whole tree. Throws std::bad_alloc.
     TreeSearch(const PartTree& tree, int rank, const Regions& regions, SortedPoints&& points,
                std::span<Part> parts);
 
@@ -94,7 +94,7 @@ class TreeSearch {
 
     bool is_searching() const { return !nodes_.empty(); }
 
-    /// Adds what this rank has in the nodes that are searched. Throws std::bad_alloc.
+    /// Adds the records of this rank for the nodes that are searched. Throws std::bad_alloc.
     void ask(Butterfly& butterfly);
 
     /// Decides on the nodes that this rank owns. Throws std::bad_alloc.
@@ -104,7 +104,7 @@ class TreeSearch {
     /// which a failure has lost, stays as it is. Throws std::bad_alloc.
     void follow(const Butterfly& butterfly);
 
-    /// What records of a node make together; see Butterfly::Join.
+    /// Joins two records of a node; see Butterfly::Join.
     static void join(std::span<const double> a, std::span<const double> b,
                      std::vector<double>& joined);
 
@@ -123,27 +123,27 @@ class TreeSearch {
     SortedPoints take_points() { return std::move(points_); }
 
   private:
-    /// What ranks tell of a node, where they have any of its points, begins with a mark: a
-    /// histogram, the candidates, the weights of ranks, or those of the parts below.
+    /// A record of a node, from a rank with points there, begins with a mark: for a histogram, the
+    /// candidates, the weights of ranks, or those of the parts below.
     static constexpr double mark_of_histogram = 0;
     static constexpr double mark_of_candidates = 1;
     static constexpr double mark_of_weights = 2;
     static constexpr double mark_of_parts = 3;
 
-    /// What is asked of a node.
+    /// Question of a round about a node.
     enum class Question {
-        cut,    ///< where the cut lies, or of a part what it weighs
-        lot,    ///< who has what of the points at the cut, which is known
-        parts,  ///< what the parts below weigh by the cuts as they are
+        cut,    ///< the place of the cut, or the weight of a part
+        lot,    ///< the weight of each rank at the cut, which is known
+        parts,  ///< the weights of the parts below by the cuts as they are
     };
 
-    /// What is in a node.
+    /// Points and weight of a node.
     struct Content {
         std::vector<Fragment> fragments;
         Box box;                 ///< spread: holds its points on all ranks; central: see CutLimits
         double weight = 0;       ///< over all ranks
         bool is_counted = true;  ///< false where the weight is off by a part of a point's
-        bool are_parts_counted = false;  ///< the guide's sums tell what its parts weigh
+        bool are_parts_counted = false;  ///< the guide's sums hold its parts' weights
         int depth = 0;                   ///< number of cuts above
     };
 
@@ -167,7 +167,7 @@ class TreeSearch {
         Cut cut;
     };
 
-    /// What an owner tells of a node. Behind it stand what the parts below weigh, the sample that
+    /// Answer of an owner. Behind it stand the weights of the parts below, the sample that
     /// splitters come from, a LotAnswer, or the box of a node that was first counted in a spread
     /// search.
     struct Answer {

@@ -21,11 +21,10 @@ std::vector<double> empty() {
 TEST(Histogram, that_is_empty_leaves_another_as_it_is) {
     std::vector<double> histogram(layout.length());
     for (std::size_t k = 0; k < histogram.size(); ++k) histogram[k] = static_cast<double>(k) - 3;
-    histogram[HistogramLayout::status] = 0;
+    histogram[HistogramLayout::sample_dimension] = 0;
     const std::vector<double> before = histogram;
     join_histograms(empty(), histogram);
     EXPECT_EQ(histogram, before);
-    EXPECT_FALSE(is_marked_failed(histogram));
 }
 
 TEST(Histogram, is_joined_by_the_largest_extent_and_the_sums_of_all_slots) {
@@ -45,19 +44,6 @@ TEST(Histogram, is_joined_by_the_largest_extent_and_the_sums_of_all_slots) {
     EXPECT_EQ(one[1], -std::numeric_limits<double>::infinity()) << "nobody told of this axis";
     for (std::size_t k = layout.num_extents; k < layout.length(); ++k)
         EXPECT_EQ(one[k], static_cast<double>(k) + 100);
-}
-
-TEST(Histogram, tells_of_a_failure_on_either_side_also_with_a_sample) {
-    for (const bool holds_sample : {false, true}) {
-        for (const int failing : {0, 1, 2}) {
-            std::vector<std::vector<double>> both(2, empty());
-            for (auto& histogram : both)
-                if (holds_sample) clear_to_sample(2, histogram);
-            if (failing < 2) mark_failed(both[static_cast<std::size_t>(failing)]);
-            join_histograms(both[0], both[1]);
-            EXPECT_EQ(is_marked_failed(both[1]), failing < 2);
-        }
-    }
 }
 
 TEST(Histogram, of_samples_holds_the_positions_of_both) {

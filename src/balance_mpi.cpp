@@ -9,7 +9,7 @@
 #include "gather/keeping.hpp"
 #include "gather/merge_tree_mpi.hpp"
 #include "options/validation.hpp"
-#include "refinement/refinement_mpi.hpp"
+#include "search/refinement_mpi.hpp"
 #include "spread_reuse_mpi.hpp"
 #include "stage_scope.hpp"
 #include "wide_mpi.hpp"

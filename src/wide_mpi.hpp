@@ -2,7 +2,7 @@
 
 #include "gather/decision_mpi.hpp"
 #include "gather/spread_places_mpi.hpp"
-#include "refinement/refinement_mpi.hpp"
+#include "search/refinement_mpi.hpp"
 
 #include <rrcb/balance.hpp>
 

@@ -5,7 +5,7 @@
 #include "collective/rank_counts_mpi.hpp"
 #include "collective/stream_mpi.hpp"
 #include "options/rejection.hpp"
-#include "refinement/mix.hpp"
+#include "search/mix.hpp"
 
 #include <algorithm>
 #include <array>

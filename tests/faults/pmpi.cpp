@@ -52,7 +52,7 @@ int MPI_Comm_free(MPI_Comm* comm) {
     int MPI_##name parameters {                      \
         return message(comm, CALL(name, arguments)); \
     }
-#include "../../comparisons/src/mpi_functions.inc"
+#include "../../comparisons/driver/mpi_functions.inc"
 
 int MPI_Type_contiguous(int count, MPI_Datatype element, MPI_Datatype* type) {
     return local_call([&] { return PMPI_Type_contiguous(count, element, type); });

@@ -5,7 +5,7 @@
 #include "gather/decision_mpi.hpp"
 #include "gather/merge_tree_mpi.hpp"
 #include "options/validation.hpp"
-#include "refinement/refinement_mpi.hpp"
+#include "search/refinement_mpi.hpp"
 
 #include <rrcb/quality.hpp>
 

@@ -108,14 +108,14 @@ MUTATIONS = [
     ),
     Mutation(
         "the farther of two edges of a bin",
-        "src/refinement/cut_search.cpp",
+        "src/search/cut_search.cpp",
         "return lower <= upper",
         "return lower > upper",
         ("mpi_refinement", "properties.balance"),
     ),
     Mutation(
         "the refinement counts points, not weights",
-        "src/refinement/fragments.cpp",
+        "src/search/fragments.cpp",
         "weight += points.weights[i];",
         "weight += 1;",
         ("mpi_refinement", "properties.balance"),

@@ -2,7 +2,7 @@
 // run.
 #pragma once
 
-#include "refinement/tree_search.hpp"
+#include "search/tree_search.hpp"
 #include "virtual_butterfly.hpp"
 
 #include <algorithm>

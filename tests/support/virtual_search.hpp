@@ -3,7 +3,7 @@
 
 #include "gather/contribution.hpp"
 #include "memory_layer.hpp"
-#include "refinement/tree_search.hpp"
+#include "search/tree_search.hpp"
 #include "virtual_cloud.hpp"
 #include "virtual_round.hpp"
 

@@ -1,4 +1,4 @@
-#include "refinement/bins.hpp"
+#include "search/bins.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Corrections of all cuts at once, on the points of one rank: what is left open, what is counted
 // and where the cuts go, against looking up every point.
-#include "refinement/correction.hpp"
+#include "search/correction.hpp"
 
 #include "../support/clouds.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "refinement/local_search.hpp"
+#include "search/local_search.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "refinement/fragments.hpp"
+#include "search/fragments.hpp"
 
 #include "../support/clouds.hpp"
 

@@ -1,6 +1,6 @@
-#include "refinement/histogram.hpp"
+#include "search/histogram.hpp"
 
-#include "refinement/sample.hpp"
+#include "search/sample.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "refinement/sample.hpp"
+#include "search/sample.hpp"
 
 #include <gtest/gtest.h>
 

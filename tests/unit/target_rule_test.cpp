@@ -1,5 +1,5 @@
 // Targets and slack worked out by hand, and that slack spent on every level keeps the tolerance.
-#include "refinement/target_rule.hpp"
+#include "search/target_rule.hpp"
 
 #include <gtest/gtest.h>
 

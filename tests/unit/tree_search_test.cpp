@@ -1,5 +1,5 @@
 // Cuts below regions, found by the ranks that own them, against all points in one place.
-#include "refinement/tree_search.hpp"
+#include "search/tree_search.hpp"
 
 #include "../support/clouds.hpp"
 #include "../support/virtual_regions.hpp"

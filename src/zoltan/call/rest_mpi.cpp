@@ -1,7 +1,7 @@
 #include "zoltan/call/rest_mpi.hpp"
 
 #include "collective/communicator.hpp"
-#include "refinement/mix.hpp"
+#include "search/mix.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "cuts/position_order.hpp"
+#include "search/cut_search.hpp"
+
+#include <rrcb/points.hpp>
+
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+/// A point that may still lie on either side of a cut.
+struct Candidate {
+    Vector position{};
+    double weight = 0;
+};
+
+/// Candidates from records of position and weight.
+std::vector<Candidate> read_candidates(std::span<const double> records, int dimension);
+
+/// Candidates at one position, the first of them and how many, with the weight below them.
+struct Ties {
+    std::size_t begin = 0;
+    std::size_t count = 0;
+    double below = 0;
+    double weight = 0;
+};
+
+/// Candidates in two groups: those below the cut come first.
+struct Division {
+    std::size_t num_below = 0;
+    double below = 0;  ///< weight of the node below the cut
+    Ties ties;         ///< that the target lies in, of several candidates; else empty
+};
+
+/// The division of sorted candidates, all above the base of the target, with the least excess.
+Division best_division(std::span<const Candidate> sorted, const PositionOrder& before,
+                       const CutTarget& target);
+
+}  // namespace rrcb

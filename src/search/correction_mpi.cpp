@@ -1,0 +1,83 @@
+#include "search/correction_mpi.hpp"
+
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
+
+#include <algorithm>
+
+namespace rrcb {
+
+namespace {
+
+/// Corrections that are worth their messages: then what is left is no matter of cuts that move
+/// together, but of points that share coordinates.
+constexpr int most_corrections = 4;
+
+/// Parts above which the messages would be several times as long as those of a search by levels.
+constexpr int most_parts_at_once = 128;
+
+}  // namespace
+
+Correction::Correction(int num_parts, bool is_root) {
+    if (num_parts > most_parts_at_once) return;
+    const SlabTotals most = most_slabs(num_parts);
+    slabs_.resize(most.moving);
+    here_ = std::make_unique_for_overwrite<double[]>(most.counts + 1);
+    if (is_root) joined_ = std::make_unique_for_overwrite<double[]>(most.counts + 1);
+    values_.resize(most.moving + 1);
+    expected_.resize(static_cast<std::size_t>(num_parts));
+}
+
+int Correction::run(const TargetRule& rule, const Points& points, std::span<const Bracket> brackets,
+                    Cuts& cuts, std::span<Part> parts, PartSums& sums, double& imbalance,
+                    Participant& self) {
+    if (slabs_.empty() || !rule.are_points_light()) return 0;
+    totals_ = lay_slabs(rule, cuts, brackets, sums.sums(), slabs_);
+    if (totals_.moving == 0) return 0;
+    self.attempt([&] { points_ = undecided_points(points, parts, cuts, slabs_); });
+    int rounds = 0;
+    double before = 0;
+    do {
+        before = imbalance;
+        correct_together(rule, sums, cuts, self);
+        self.attempt([&] { assign_undecided(cuts, points_, parts, sums.here()); });
+        imbalance = sums.add_up(rule.part_sizes, self);
+        rounds += 2;
+    } while (imbalance > rule.tolerance && rounds < 2 * most_corrections &&
+             imbalance - 1 < (before - 1) / 2);
+    return rounds;
+}
+
+/// Moves the cuts by what all ranks have in their slabs. Collective; throws where one failed.
+void Correction::correct_together(const TargetRule& rule, const PartSums& sums, Cuts& cuts,
+                                  Participant& self) {
+    const std::span here(here_.get(), totals_.counts + 1);
+    std::ranges::fill(here, 0.0);
+    self.attempt([&] { count_in_slabs(points_, cuts, slabs_, here.first(totals_.counts)); });
+    here.back() = self.failed() ? 1 : 0;
+    mpi::check(MPI_Reduce(here.data(), joined_.get(), mpi::to_int(std::ssize(here)), MPI_DOUBLE,
+                          MPI_SUM, root, self.comm),
+               "MPI_Reduce");
+    const auto answer = std::span(values_).first(totals_.moving + 1);
+    if (mpi::rank_of(self.comm) == root) {
+        const std::span<const double> joined(joined_.get(), here.size());
+        answer.back() = joined.back();
+        std::ranges::copy(sums.sums(), expected_.begin());
+        correct(rule, cuts, slabs_, expected_, joined.first(totals_.counts), answer);
+    }
+    mpi::broadcast(std::as_writable_bytes(answer), root, self.comm);
+    if (answer.back() > 0) fail_together(some_rank, self);
+    move(cuts);
+}
+
+/// Moves the cuts to where the root has them.
+void Correction::move(Cuts& cuts) const {
+    for (std::size_t k = 0; k < cuts.tree.size(); ++k) {
+        if (!slabs_[k].moves()) continue;
+        Cut& cut = cuts.tree[k];
+        const double value = values_[slabs_[k].number];
+        if (value != cut.at[cut.axis]) cut = plane(cut.axis, value);
+    }
+}
+
+}  // namespace rrcb

@@ -1,0 +1,185 @@
+#include "search/fragments.hpp"
+
+#include <algorithm>
+
+namespace rrcb {
+
+namespace {
+
+void swap_entries(SortedPoints& points, LocalIndex i, LocalIndex j) {
+    const auto d = static_cast<std::size_t>(points.dimension());
+    std::swap_ranges(&points.coordinates[i * d], &points.coordinates[i * d] + d,
+                     &points.coordinates[j * d]);
+    std::swap(points.original[i], points.original[j]);
+    if (!points.weights.empty()) std::swap(points.weights[i], points.weights[j]);
+}
+
+double weight_of(const SortedPoints& points, LocalIndex begin, LocalIndex end) {
+    if (points.weights.empty()) return static_cast<double>(end - begin);
+    double weight = 0;
+    for (LocalIndex i = begin; i < end; ++i) weight += points.weights[i];
+    return weight;
+}
+
+bool is_at(const Cut& cut, const Vector& position, int dimension) {
+    return std::equal(position.begin(), position.begin() + dimension, cut.at.begin());
+}
+
+bool touches(const Box& box, const Cut& cut, int dimension) {
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+        if (cut.at[a] < box.lower[a] || cut.at[a] > box.upper[a]) return false;
+    return true;
+}
+
+/// On which side of a cut points lie, each to be asked for once: those of a lot are counted.
+class Divider {
+  public:
+    Divider(const Cut& cut, const Lot& lot, const SortedPoints& points)
+        : cut_(cut), lot_(lot), points_(points) {}
+
+    bool crosses(const Fragment& fragment) const {
+        const int dimension = points_.dimension();
+        const Sides sides = sides_of(fragment.box, cut_, dimension);
+        return (sides.below && sides.above) ||
+               (lot_.below > 0 && touches(fragment.box, cut_, dimension));
+    }
+
+    bool is_above(LocalIndex i) {
+        const Vector position = points_.position(i);
+        if (!rrcb::is_above(cut_, position, points_.dimension())) return false;
+        if (!(lot_.below > 0 && is_at(cut_, position, points_.dimension()))) return true;
+        const double weight = points_.weight(i);
+        const bool above = lot_.before + weight / 2 > lot_.below;
+        lot_.before += weight;
+        return above;
+    }
+
+  private:
+    const Cut& cut_;
+    Lot lot_;
+    const SortedPoints& points_;
+};
+
+/// Brings the entries below a cut to the front; returns where those above begin.
+template <class IsAbove>
+LocalIndex partition(const Fragment& fragment, IsAbove&& is_above, SortedPoints& points) {
+    LocalIndex front = fragment.begin;
+    LocalIndex back = fragment.end;
+    // Every entry is asked for once: those in front of `front` and behind `back` were.
+    while (front < back) {
+        if (!is_above(front)) {
+            ++front;
+        } else {
+            swap_entries(points, front, --back);
+        }
+    }
+    return front;
+}
+
+/// Puts the entries on both sides of one where they belong; true when there are any on both.
+bool divide(const Fragment& fragment, LocalIndex middle, const SortedPoints& points,
+            std::vector<Fragment>& lower, std::vector<Fragment>& upper) {
+    if (middle == fragment.end || middle == fragment.begin) {
+        (middle == fragment.end ? lower : upper).push_back(fragment);
+        return false;
+    }
+    const auto share = [&](LocalIndex begin, LocalIndex end) {
+        return Fragment{begin, end, weight_of(points, begin, end), fragment.box};
+    };
+    lower.push_back(share(fragment.begin, middle));
+    upper.push_back(share(middle, fragment.end));
+    return true;
+}
+
+}  // namespace
+
+double weight_of(const std::vector<Fragment>& fragments) {
+    double weight = 0;
+    for (const Fragment& fragment : fragments) weight += fragment.weight;
+    return weight;
+}
+
+std::vector<Fragment> cell_fragments(const SortedPoints& points) {
+    std::vector<Fragment> fragments;
+    for (LocalIndex cell = 0; cell + 1 < points.begins.size(); ++cell) {
+        const LocalIndex begin = points.begins[cell];
+        const LocalIndex end = points.begins[cell + 1];
+        if (begin == end) continue;
+        fragments.push_back(
+            {begin, end, weight_of(points, begin, end), enclosing_box(points.mesh, cell)});
+    }
+    return fragments;
+}
+
+double weight_at(const Cut& cut, const std::vector<Fragment>& fragments,
+                 const SortedPoints& points) {
+    double weight = 0;
+    for (const Fragment& fragment : fragments) {
+        if (!touches(fragment.box, cut, points.dimension())) continue;
+        for (LocalIndex i = fragment.begin; i < fragment.end; ++i)
+            if (is_at(cut, points.position(i), points.dimension())) weight += points.weight(i);
+    }
+    return weight;
+}
+
+std::pair<std::vector<Fragment>, std::vector<Fragment>> split(
+    const std::vector<Fragment>& fragments, const Cut& cut, const Lot& lot, SortedPoints& points) {
+    std::vector<Fragment> lower;
+    std::vector<Fragment> upper;
+    const auto axis = static_cast<std::size_t>(cut.axis);
+    Divider divider(cut, lot, points);
+    for (const Fragment& fragment : fragments) {
+        if (!divider.crosses(fragment)) {
+            const bool above = is_above(cut, fragment.box.upper, points.dimension());
+            (above ? upper : lower).push_back(fragment);
+            continue;
+        }
+        const LocalIndex middle = partition(
+            fragment, [&](LocalIndex i) { return divider.is_above(i); }, points);
+        if (!divide(fragment, middle, points, lower, upper)) continue;
+        lower.back().box.upper[axis] = upper.back().box.lower[axis] = cut.at[axis];
+    }
+    return {std::move(lower), std::move(upper)};
+}
+
+std::pair<std::vector<Fragment>, std::vector<Fragment>> split_by_parts(
+    const std::vector<Fragment>& fragments, Part first_above, std::span<const Part> parts,
+    SortedPoints& points) {
+    std::vector<Fragment> lower;
+    std::vector<Fragment> upper;
+    const auto is_above = [&](LocalIndex i) { return parts[points.original[i]] >= first_above; };
+    for (const Fragment& fragment : fragments)
+        divide(fragment, partition(fragment, is_above, points), points, lower, upper);
+    return {std::move(lower), std::move(upper)};
+}
+
+void write_parts(const std::vector<Fragment>& fragments, const Cuts& cuts, const Descent& at,
+                 const SortedPoints& points, std::span<Part> parts, std::span<double> weights) {
+    std::ranges::fill(weights.subspan(static_cast<std::size_t>(at.first_part),
+                                      static_cast<std::size_t>(at.num_parts)),
+                      0.0);
+    for (const Fragment& fragment : fragments) {
+        const Descent from = first_crossing(cuts, fragment.box, at);
+        if (from.is_part()) weights[from.first_part] += fragment.weight;
+        for (LocalIndex i = fragment.begin; i < fragment.end; ++i) {
+            Descent to = from;
+            while (!to.is_part())
+                to = is_above(cuts.tree[to.node], points.position(i), cuts.dimension) ? to.upper()
+                                                                                      : to.lower();
+            parts[points.original[i]] = to.first_part;
+            if (!from.is_part()) weights[to.first_part] += points.weight(i);
+        }
+    }
+}
+
+double write_part(const std::vector<Fragment>& fragments, Part part, const SortedPoints& points,
+                  std::span<Part> parts) {
+    double weight = 0;
+    for (const Fragment& fragment : fragments) {
+        for (LocalIndex i = fragment.begin; i < fragment.end; ++i) parts[points.original[i]] = part;
+        weight += fragment.weight;
+    }
+    return weight;
+}
+
+}  // namespace rrcb

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "search/cut_search.hpp"
+#include "search/fragments.hpp"
+
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+/// One rank's part in the search for one cut.
+class LocalSearch {
+  public:
+    /// `fragments` and `points` are borrowed and must not change during the search.
+    LocalSearch(std::span<const Fragment> fragments, const SortedPoints& points)
+        : fragments_(fragments), points_(points) {}
+
+    /// Adds what this rank holds to `histogram` (length layout.length()): weights in multiples of
+    /// the quantum of the search, counts and extents.
+    void count(const CutSearch& search, const HistogramLayout& layout,
+               std::span<double> histogram) const;
+
+    /// Adds this rank's candidates to `sample`.
+    void add_candidates(int rank, std::span<double> sample) const;
+
+    /// Keeps the splitters to count between. Throws std::bad_alloc.
+    void take_splitters(std::vector<Vector> splitters) { splitters_ = std::move(splitters); }
+    std::span<const Vector> splitters() const { return splitters_; }
+
+    /// Keeps the points in the slot that the root chose for the search as it was `before`.
+    void keep_chosen(const CutSearch& before, const CutSearch& after,
+                     const HistogramLayout& layout);
+
+    /// Adds position and weight of each candidate.
+    void append_candidates(std::vector<double>& records) const;
+
+  private:
+    void count_fragments(const CutSearch& search, const HistogramLayout& layout,
+                         std::span<double> histogram) const;
+
+    std::span<const Fragment> fragments_;
+    const SortedPoints& points_;
+    std::vector<LocalIndex> candidates_;
+    std::vector<Vector> splitters_;
+};
+
+/// Power of two of which sums of weights up to about `weight` are rounded to multiples, so that
+/// doubles hold sums of them exactly.
+double quantum_for(double weight);
+
+/// `value` in multiples of a quantum.
+double rounded_to(double quantum, double value);
+
+}  // namespace rrcb

@@ -1,0 +1,179 @@
+#include "search/refinement_mpi.hpp"
+
+#include "bisection/bisection.hpp"
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
+#include "cuts/direct_assignment.hpp"
+#include "cuts/part_share.hpp"
+
+#include <rrcb/quality.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace rrcb {
+
+Refinement::Refinement(const Options& options, const Participant& self, PartSums& sums)
+    : options_(options),
+      sums_(sums),
+      rounds_(mpi::rank_of(self.comm), mpi::size_of(self.comm), Butterfly::Way::central) {
+    tree_.num_parts = options.num_parts;
+    tree_.num_ranks = mpi::size_of(self.comm);
+    tree_.part_sizes = options.part_sizes;
+    tree_.plain_cuts = options.axes.plain;
+    tree_.divides_coincident = options.coincident == Coincident::divide;
+    tree_.limits = axis_limits(options);
+    if (options.refine != Refine::exact && !are_cuts_limited(options))
+        correction_.emplace(options.num_parts, rounds_.rank() == root);
+}
+
+Refined Refinement::refine(Estimate&& estimate, const Points& points, const Bin& bin,
+                           std::span<Part> parts, Participant& self) {
+    start(std::move(estimate), self);
+    const bool is_exact = tree_.rule.is_exact;
+    const bool is_known = estimate_.is_counted || (is_exact && !are_cuts_limited(options_));
+    const bool is_accepted = !is_known && accept_estimate(points, parts, self);
+    if (is_exact || !(is_accepted || correct(points, parts, self))) search(bin, parts, self);
+    refined_.cuts = std::move(estimate_.cuts);
+    return std::move(refined_);
+}
+
+/// Searches the cuts, and once more, exactly, where that misses a tolerance. Collective.
+void Refinement::search(const Bin& bin, std::span<Part> parts, Participant& self) {
+    if (limits_) {
+        search_for_better(bin, parts, self);
+    } else {
+        search_once(bin, parts, self);
+    }
+    const bool missed = refined_.imbalance > options_.imbalance_tolerance;
+    if (missed && !std::exchange(tree_.rule.is_exact, true)) search_for_better(bin, parts, self);
+}
+
+/// Takes an estimate, and derives from it what belongs below cuts and where they may lie.
+void Refinement::start(Estimate&& estimate, Participant& self) {
+    const auto& sizes = options_.part_sizes;
+    const bool is_limited = are_cuts_limited(options_);
+    estimate_ = std::move(estimate);
+    tree_.weight = estimate_.total_weight;
+    tree_.rule = {sizes,
+                  options_.imbalance_tolerance,
+                  estimate_.common_weight,
+                  estimate_.heaviest,
+                  estimate_.total_weight / sum_of(sizes),
+                  0,
+                  options_.refine == Refine::exact,
+                  estimate_.is_earlier && !is_limited};
+    if (is_limited)
+        self.attempt([&] {
+            limits_.emplace(options_, estimate_.box, estimate_.cuts.dimension,
+                            GivenAxes{axes_of(estimate_.cuts.tree), {}});
+        });
+    if (estimate_.is_counted) {
+        refined_.rounds = 1;
+        refined_.imbalance = imbalance(sums_.sums(), sizes);
+        tree_.rule.counted_weight = sum_of(sums_.sums());
+    }
+}
+
+/// True when there is nothing to search: the estimated cuts are good enough as they are, and
+/// `parts` is complete, or the current parts are. Collective.
+bool Refinement::accept_estimate(const Points& points, std::span<Part> parts, Participant& self) {
+    self.attempt([&] {
+        const PartTotals totals = assign_and_count(estimate_.cuts, points, parts);
+        std::ranges::copy(totals.weights, sums_.here().begin());
+    });
+    measure(self);
+    ++refined_.rounds;
+    const double tolerance = options_.imbalance_tolerance;
+    return refined_.imbalance <= tolerance || estimate_.current_imbalance <= tolerance;
+}
+
+/// True when counted cuts, corrected all at once, are good enough, and `parts` is complete.
+/// Otherwise the cuts are counted as they are now. Collective.
+bool Refinement::correct(const Points& points, std::span<Part> parts, Participant& self) {
+    if (!correction_) return false;
+    refined_.rounds += correction_->run(tree_.rule, points, estimate_.brackets, estimate_.cuts,
+                                        parts, sums_, refined_.imbalance, self);
+    tree_.rule.counted_weight = sum_of(sums_.sums());
+    return refined_.imbalance <= options_.imbalance_tolerance;
+}
+
+/// Adds up what the parts weigh on all ranks, on every rank. Collective; throws where one failed.
+void Refinement::measure(const Participant& self) {
+    refined_.imbalance = sums_.add_up(options_.part_sizes, self);
+    tree_.rule.counted_weight = sum_of(sums_.sums());
+}
+
+/// Finds all cuts, and the parts at the end. Collective.
+void Refinement::search_once(const Bin& bin, std::span<Part> parts, Participant& self) {
+    const bool is_counted = !tree_.rule.is_exact && !limits_;
+    const Guide guide{estimate_.cuts, estimate_.brackets, limits_ ? &*limits_ : nullptr, sums_,
+                      is_counted};
+    std::optional<TreeSearch> search;
+    self.attempt([&] { search.emplace(tree_, rounds_.rank(), guide, sort_by_cell(bin()), parts); });
+    refined_.rounds += rounds_.run(search, self);
+    refined_.coincident_cuts += search->num_coincident();
+    measure(self);
+}
+
+/// Searches all cuts, and keeps them where they are better than those before. Collective.
+void Refinement::search_for_better(const Bin& bin, std::span<Part> parts, Participant& self) {
+    struct {
+        std::vector<Cut> tree;
+        std::vector<Part> parts;
+        std::vector<double> sums;
+        int coincident_cuts = 0;
+    } before;
+    self.attempt([&] {
+        before = {estimate_.cuts.tree,
+                  {parts.begin(), parts.end()},
+                  sums_.saved(),
+                  std::exchange(refined_.coincident_cuts, 0)};
+    });
+    const double imbalance_before = refined_.imbalance;
+    search_once(bin, parts, self);
+    if (refined_.imbalance < imbalance_before) return;
+    refined_.imbalance = imbalance_before;
+    refined_.coincident_cuts = before.coincident_cuts;
+    estimate_.cuts.tree = std::move(before.tree);
+    sums_.restore(std::move(before.sums));
+    std::ranges::copy(before.parts, parts.begin());
+}
+
+RegionRefinement::RegionRefinement(const Participant& self)
+    : rounds_(mpi::rank_of(self.comm), mpi::size_of(self.comm), Butterfly::Way::spread) {}
+
+Refined RegionRefinement::refine(const Regions& regions, PartTree tree, const BinnedPoints& binned,
+                                 std::span<Part> parts, Participant& self) {
+    SortedPoints points;
+    self.attempt([&] { points = sort_by_cell(binned); });
+    Refined refined = search(regions, tree, points, parts, self);
+    const bool missed = refined.imbalance > tree.rule.tolerance;
+    if (!missed || std::exchange(tree.rule.is_exact, true)) return refined;
+    std::vector<Part> before;
+    self.attempt([&] { before.assign(parts.begin(), parts.end()); });
+    const Regions all_in_one{{regions.cuts.dimension, 1, {}}, {&tree.weight, 1}, regions.box};
+    Refined exact = search(all_in_one, tree, points, parts, self);
+    exact.rounds += refined.rounds;
+    if (exact.imbalance < refined.imbalance) return exact;
+    refined.rounds = exact.rounds;
+    std::ranges::copy(before, parts.begin());
+    return refined;
+}
+
+/// Runs one search; takes the points and gives them back. Collective.
+Refined RegionRefinement::search(const Regions& regions, const PartTree& tree, SortedPoints& points,
+                                 std::span<Part> parts, Participant& self) {
+    std::optional<TreeSearch> search;
+    self.attempt([&] { search.emplace(tree, rounds_.rank(), regions, std::move(points), parts); });
+    Refined refined;
+    refined.rounds = rounds_.run(search, self);
+    refined.imbalance = rounds_.imbalance();
+    refined.coincident_cuts =
+        regions.num_coincident + mpi::sum_of(search->num_coincident(), self.comm);
+    self.attempt([&] { refined.cuts = search->cuts(); });
+    points = search->take_points();
+    return refined;
+}
+
+}  // namespace rrcb

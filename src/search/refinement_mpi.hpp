@@ -1,0 +1,112 @@
+#pragma once
+
+#include "cells/sorted_points.hpp"
+#include "collective/participant.hpp"
+#include "cuts/cut_limits.hpp"
+#include "search/correction_mpi.hpp"
+#include "search/part_sums_mpi.hpp"
+#include "search/tree_rounds_mpi.hpp"
+
+#include <rrcb/method/bisection.hpp>
+#include <rrcb/options.hpp>
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+/// Estimate that the refinement starts from; the same on every rank.
+struct Estimate {
+    Cuts cuts;
+    std::vector<Bracket> brackets;  ///< one per cut
+    double total_weight = 0;        ///< over all ranks
+    double common_weight = 0;       ///< weight of each point where all weigh the same, else 0
+    /// Of the parts that may stay instead; NaN where there are none.
+    double current_imbalance = std::numeric_limits<double>::quiet_NaN();
+    bool is_counted = false;  ///< `parts` and the sums hold what the cuts make, not good enough
+    double heaviest = 0;      ///< weight of the heaviest point
+    bool is_earlier = false;  ///< the cuts are those of an earlier call
+    Box box{};                ///< of all points, if cuts are limited
+};
+
+/// The points by cells, for a search. May throw. Made of a std::ref, it takes no memory.
+using Bin = std::function<const BinnedPoints&()>;
+
+/// Refined cuts and how even the parts really are; the same on every rank. After a central
+/// refinement the weights of the parts are in the PartSums.
+struct Refined {
+    Cuts cuts;
+    double imbalance = 1;
+    int rounds = 0;           ///< of counting and deciding
+    int coincident_cuts = 0;  ///< that keep points together which the target divides
+};
+
+/// Moves estimated cuts of all parts until these are as even as asked, as rank 0 decides.
+///
+/// To a tolerance, all cuts are first corrected at once, see Correction. Where that does not serve,
+/// they are searched, see TreeSearch. Buffers are made before the first message.
+class Refinement {
+  public:
+    /// By complete options. `options` and `sums` are borrowed. Not collective. Throws Error or
+    /// std::bad_alloc.
+    Refinement(const Options& options, const Participant& self, PartSums& sums);
+
+    /// Refines the cuts of `estimate`, once.
+    ///
+    /// Collective. Writes the part of each point into `parts`; a search works on a sorted copy of
+    /// the points. Where a tolerance is missed because slack was spent on upper levels that lower
+    /// ones need, it searches once more, exactly, and keeps the better cuts. Limited cuts are all
+    /// searched in their places, and the estimate is kept where it is better. Without weight
+    /// anywhere the cuts stay. A failure on one rank, before or here, is thrown on all.
+    Refined refine(Estimate&& estimate, const Points& points, const Bin& bin, std::span<Part> parts,
+                   Participant& self);
+
+  private:
+    void start(Estimate&& estimate, Participant& self);
+    bool accept_estimate(const Points& points, std::span<Part> parts, Participant& self);
+    bool correct(const Points& points, std::span<Part> parts, Participant& self);
+    void search(const Bin& bin, std::span<Part> parts, Participant& self);
+    void search_once(const Bin& bin, std::span<Part> parts, Participant& self);
+    void search_for_better(const Bin& bin, std::span<Part> parts, Participant& self);
+    void measure(const Participant& self);
+
+    const Options& options_;
+    PartSums& sums_;
+    PartTree tree_;
+    Estimate estimate_;
+    std::optional<CutLimits> limits_;       ///< nothing where cuts may lie anywhere
+    std::optional<Correction> correction_;  ///< to a tolerance, where cuts may lie anywhere
+    TreeRounds rounds_;
+    Refined refined_;
+};
+
+/// Makes the parts below regions, as the owners of nodes decide, with buffers made before the first
+/// message.
+class RegionRefinement {
+  public:
+    /// Not collective. Throws std::bad_alloc.
+    explicit RegionRefinement(const Participant& self);
+
+    /// Finds the cuts below `regions`, of which each rank gets those that it knows, and writes the
+    /// part of each point into `parts`.
+    ///
+    /// Collective. `regions` and `tree` are the same on every rank. A tolerance that is missed has
+    /// it search once more, exactly and without the regions, and keep the better cuts. Throws on
+    /// every rank the failure of one, before or here; but a failure in the last messages stays with
+    /// its rank for the next agreement.
+    Refined refine(const Regions& regions, PartTree tree, const BinnedPoints& binned,
+                   std::span<Part> parts, Participant& self);
+
+    ButterflyMessages& messages() { return rounds_.messages(); }
+
+  private:
+    Refined search(const Regions& regions, const PartTree& tree, SortedPoints& points,
+                   std::span<Part> parts, Participant& self);
+
+    TreeRounds rounds_;
+};
+
+}  // namespace rrcb

@@ -1,0 +1,124 @@
+#include "search/target_rule.hpp"
+
+#include "bisection/bisection.hpp"
+#include "cuts/part_share.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace rrcb {
+
+namespace {
+
+/// What the smallest of the parts is to weigh.
+double smallest_weight(std::span<const double> sizes, const TargetRule& rule) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const double size : sizes)
+        if (size > 0) smallest = std::min(smallest, size * rule.weight_per_size);
+    return smallest;
+}
+
+/// The tolerance with which the smallest of the parts still holds whole points, where all of them
+/// weigh the same: where 16.16 points are allowed it can have no more than 16.
+double attainable_tolerance(std::span<const double> sizes, const TargetRule& rule) {
+    if (rule.common_weight == 0) return rule.tolerance;
+    const double smallest = smallest_weight(sizes, rule);
+    const double points = std::floor(rule.tolerance * smallest / rule.common_weight);
+    return std::max(1.0, points * rule.common_weight / smallest);
+}
+
+/// Levels of cuts that lead to `num_parts` parts.
+int num_levels(int num_parts) {
+    return std::bit_width(static_cast<unsigned>(num_parts - 1));
+}
+
+}  // namespace
+
+double weight_of(const Descent& at, std::span<const double> part_weights) {
+    return sum_of(part_weights.subspan(static_cast<std::size_t>(at.first_part),
+                                       static_cast<std::size_t>(at.num_parts)));
+}
+
+bool TargetRule::are_within(const Descent& at, std::span<const double> part_weights) const {
+    // To the bit as the imbalance, which decides at the end.
+    const double sizes = sum_of(part_sizes);
+    for (int k = 0; k < at.num_parts; ++k) {
+        const auto part = static_cast<std::size_t>(at.first_part + k);
+        if (!(part_weights[part] > 0)) continue;
+        if (!(part_weights[part] / counted_weight / (part_sizes[part] / sizes) <= tolerance))
+            return false;
+    }
+    return true;
+}
+
+bool TargetRule::are_points_light() const {
+    constexpr double several = 4;
+    return several * heaviest <= (tolerance - 1) * smallest_weight(part_sizes, *this);
+}
+
+bool TargetRule::may_stay(const Descent& at, std::span<const double> part_weights) const {
+    const auto may = [&](const Descent& side) {
+        return are_within(side, part_weights) || weight_of(side, part_weights) <= most_weight(side);
+    };
+    return may(at.lower()) && may(at.upper());
+}
+
+/// The most that a node may weigh so that cuts below, each off by a little, still bring its parts
+/// within the tolerance: the more levels there are, the more of it is left to these, up to half.
+double TargetRule::most_weight(const Descent& at) const {
+    const auto sizes = sizes_of(at);
+    const int all_levels = num_levels(static_cast<int>(part_sizes.size()));
+    const double left_below = num_levels(at.num_parts) / (2.0 * all_levels);
+    const double excess = (attainable_tolerance(sizes, *this) - 1) * (1 - left_below);
+    return weight_per_size * sum_of(sizes) * (1 + excess);
+}
+
+/// The end of the allowed weights below a cut that is nearest to what lies there, but for room to
+/// end the search in.
+CutTarget TargetRule::nearest_target(const Descent& at, double weight, double below) const {
+    constexpr double share_of_room = 16;
+    const double most = std::min(most_weight(at.lower()), weight);
+    const double least = std::max(weight - most_weight(at.upper()), 0.0);
+    const double room = most - least;
+    const double margin = std::max(room / share_of_room, heaviest / 2);
+    CutTarget target;
+    target.slack = std::min(margin, std::max(room / 2, common_weight / 2));
+    if (!(room > 0)) {
+        target.target = share_below(at) * weight;
+    } else if (2 * margin > room) {
+        target.target = least + room / 2;
+    } else {
+        target.target = std::clamp(below, least + margin, most - margin);
+    }
+    return target;
+}
+
+double TargetRule::share_below(const Descent& at) const {
+    return rrcb::share_below(sizes_of(at));
+}
+
+CutTarget TargetRule::target_of(const Descent& at, double weight, double below) const {
+    const auto sizes = sizes_of(at);
+    CutTarget target;
+    target.share = share_below(at);
+    target.target = target.share * weight;
+    // The point on the target goes to one of the sides.
+    const double of_both = 2 * target.share * (1 - target.share);
+    target.slack = of_both * common_weight;
+    // Less by a hair: an odd point goes above the cut, wherever the search began.
+    if (is_exact) target.target = std::max(0.0, target.target - std::ldexp(common_weight, -12));
+    if (is_exact || !(weight > 0)) return target;
+    if (is_earlier && below >= 0) return nearest_target(at, weight, below);
+    // A part may end up too heavy by the tolerance in all. What is left of it at this node is
+    // shared evenly with the levels below, as factors.
+    const double ideal = weight_per_size * sum_of(sizes);
+    const int levels = num_levels(at.num_parts);
+    const double growth =
+        std::pow(attainable_tolerance(sizes, *this) * ideal / weight, 1.0 / levels);
+    target.slack = std::max(target.slack, of_both * (growth - 1) * weight);
+    return target;
+}
+
+}  // namespace rrcb

@@ -1,0 +1,196 @@
+// The decisions of the owner of a node.
+#include "search/sample.hpp"
+#include "search/tree_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <numeric>
+#include <type_traits>
+#include <utility>
+
+namespace rrcb {
+
+namespace {
+
+/// Box of the points in a histogram.
+Box box_in(std::span<const double> histogram) {
+    Box box;
+    for (std::size_t a = 0; a < max_dimension; ++a) {
+        box.lower[a] = -histogram[a];
+        box.upper[a] = histogram[max_dimension + a];
+    }
+    return box;
+}
+
+template <class Value>
+void append(const Value& value, std::vector<double>& doubles) {
+    static_assert(std::is_trivially_copyable_v<Value> && sizeof(Value) % sizeof(double) == 0);
+    const std::size_t size = doubles.size();
+    doubles.resize(size + sizeof(Value) / sizeof(double));
+    std::memcpy(&doubles[size], &value, sizeof value);
+}
+
+/// Ranks and their weights, in the order of the ranks.
+std::vector<std::pair<double, double>> weights_in(std::span<const double> payload) {
+    std::vector<std::pair<double, double>> weights;
+    for (std::size_t k = 1; k < payload.size(); k += 2)
+        weights.emplace_back(payload[k], payload[k + 1]);
+    std::ranges::sort(weights);
+    return weights;
+}
+
+}  // namespace
+
+void TreeSearch::decide(Butterfly& butterfly) {
+    const auto for_each_owned = [&](auto&& visit) {
+        auto node = nodes_.begin();
+        // Both ascend, and an owner takes part in all nodes that it owns.
+        butterfly.owned().for_each([&](const Record& record) {
+            node = std::ranges::find(node, nodes_.end(), record.key,
+                                     [](const Node& one) { return key_of(one.at); });
+            if (node != nodes_.end()) visit(record, *node);
+        });
+    };
+    for_each_owned([&](const Record& record, Node& node) {
+        const bool searches = node.question == Question::cut && !node.at.is_part();
+        node.decided = searches ? decide_on(node, record.payload) : node.search;
+    });
+    limit_gathering();
+    for_each_owned([&](const Record& record, const Node& node) {
+        butterfly.answer(record.key, answer_to(record, node));
+    });
+}
+
+/// Has searches sample their candidates in place of gathering them where these are too many for
+/// one rank.
+void TreeSearch::limit_gathering() {
+    GlobalCount num_points = 0;
+    for (Node& node : nodes_) {
+        if (node.decided.stage != CutSearch::gathering || node.question != Question::cut) continue;
+        const GlobalCount more = node.target.num_candidates;
+        if (num_points + more <= most_gathered_at_once) {
+            num_points += more;
+        } else {
+            node.decided.stage = CutSearch::sampling;
+        }
+    }
+}
+
+std::vector<double> TreeSearch::answer_to(const Record& record, const Node& node) const {
+    std::vector<double> answer;
+    Answer told{node.decided, node.content.weight};
+    if (node.at.is_part() && node.question == Question::cut) {
+        told.weight = 0;
+        for (const auto& [rank, weight] : weights_in(record.payload)) told.weight += weight;
+    }
+    append(told, answer);
+    if (node.question == Question::parts) {
+        const auto sums = record.payload.subspan(record.payload.empty() ? 0 : 1);
+        answer.insert(answer.end(), sums.begin(), sums.end());
+        if (sums.empty())
+            answer.resize(answer.size() + static_cast<std::size_t>(node.at.num_parts));
+    } else if (node.question == Question::lot) {
+        append(place_lot(node, record.payload), answer);
+    } else if (node.search.stage == CutSearch::over_fragments && !is_central()) {
+        append(node.content.box, answer);
+    } else if (node.search.stage == CutSearch::sampling &&
+               node.decided.stage == CutSearch::over_splitters) {
+        const auto sample = sample_in(record.payload.subspan(1));
+        answer.insert(answer.end(), sample.begin(), sample.end());
+    }
+    return answer;
+}
+
+/// Finds the rank that has points of a lot on both sides of its cut.
+TreeSearch::LotAnswer TreeSearch::place_lot(const Node& node,
+                                            std::span<const double> payload) const {
+    LotAnswer answer{1.0 * tree_.num_ranks};
+    for (const auto& [rank, weight] : weights_in(payload)) {
+        if (answer.before + weight > node.search.lot_below) {
+            answer.dividing_rank = rank;
+            break;
+        }
+        answer.before += weight;
+    }
+    return answer;
+}
+
+/// Target of the cut of a node; of a spread search by the rule for a tree of its own.
+CutTarget TreeSearch::target_of(const Node& node, double weight) const {
+    const Descent& at = node.at;
+    if (is_central()) {
+        CutTarget target = tree_.rule.target_of(at, weight, node.below);
+        target.places = node.places;
+        return target;
+    }
+    TargetRule rule = tree_.rule;
+    // Of equal parts an exact cut asks only for how many are on each side.
+    const int below = lower_parts(at.num_parts);
+    const std::array<double, 2> sides{1.0 * below, 1.0 * (at.num_parts - below)};
+    const bool by_sides = tree_.part_sizes.empty() && rule.is_exact;
+    rule.part_sizes = by_sides ? std::span<const double>(sides) : sizes_of(at);
+    return rule.target_of({0, 0, static_cast<int>(rule.part_sizes.size())}, weight);
+}
+
+/// Moves a search on by the records of all ranks, of which some have points left to it.
+CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
+    CutSearch search = node.search;
+    if (payload.empty()) {
+        // The weight was round-off.
+        search.stage = CutSearch::done;
+        if (is_central()) search.cut = guide_->cuts.tree[node.at.node];
+        node.content.weight = 0;
+        return search;
+    }
+    const auto histogram = payload.subspan(1);
+    if (search.stage == CutSearch::over_fragments) {
+        decide_by_first_count(node, histogram, search);
+    } else if (search.stage == CutSearch::over_candidates) {
+        decide_by_bins(search, node.target, layout_, histogram);
+    } else if (search.stage == CutSearch::sampling) {
+        search.stage = CutSearch::over_splitters;
+    } else if (search.stage == CutSearch::over_splitters) {
+        decide_by_splitters(search, node.target, layout_, node.local.splitters(), histogram);
+    } else {
+        decide_among_candidates(node, payload, search);
+    }
+    return search;
+}
+
+/// Decides among candidates in an order that does not depend on the ways that they came.
+void TreeSearch::decide_among_candidates(const Node& node, std::span<const double> payload,
+                                         CutSearch& search) const {
+    const std::size_t length = static_cast<std::size_t>(dimension_) + 1;
+    std::vector<std::span<const double>> candidates;
+    for (payload = payload.subspan(1); !payload.empty(); payload = payload.subspan(length))
+        candidates.push_back(payload.first(length));
+    std::ranges::sort(candidates, [](const auto& a, const auto& b) {
+        return std::ranges::lexicographical_compare(a, b);
+    });
+    std::vector<double> records;
+    for (const auto& candidate : candidates)
+        records.insert(records.end(), candidate.begin(), candidate.end());
+    CutTarget target = node.target;
+    decide_among(search, target, records, dimension_);
+}
+
+/// Takes weight and box of the node from the first count.
+void TreeSearch::decide_by_first_count(Node& node, std::span<const double> histogram,
+                                       CutSearch& search) {
+    const auto weights = histogram.subspan(layout_.num_extents, layout_.num_slots());
+    const double weight = node.content.weight =
+        std::accumulate(weights.begin(), weights.end(), 0.0);
+    if (!is_central()) {
+        node.content.box = box_in(histogram);
+        const CutSearch anew = first_search(node.at, node.content.box, weight);
+        if (anew.cut.axis != search.cut.axis) {
+            search = anew;
+            return;
+        }
+    }
+    node.target = target_of(node, weight);
+    decide_by_bins(search, node.target, layout_, histogram);
+}
+
+}  // namespace rrcb

@@ -1,0 +1,73 @@
+// How a central search starts from known cuts.
+#include "bisection/bisection.hpp"
+#include "search/tree_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace rrcb {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+void TreeSearch::start_from_guide(Node& node) {
+    if (node.content.are_parts_counted)
+        node.below = weight_of(node.at.lower(), guide_->sums.sums());
+    const int axis = guide_->cuts.tree[node.at.node].axis;
+    Bracket bracket = bracket_of(node);
+    if (guide_->limits) {
+        node.places = guide_->limits->places(node.at, node.content.box, axis);
+        const AxisLimits& limits = guide_->limits->across(axis);
+        bracket.lower = limits.nearest(bracket.lower, node.places.first, node.places.last);
+        bracket.upper = limits.nearest(bracket.upper, bracket.lower, node.places.last);
+    }
+    node.search = search_across(axis, bracket, node.content.weight);
+}
+
+/// Where the cut of a node is looked for: to a tolerance in wider bins than for an exact cut, so
+/// that a cut that is far off is found as soon; where it is known how far, on one side of it.
+Bracket TreeSearch::bracket_of(const Node& node) const {
+    constexpr double largest = std::numeric_limits<double>::max();
+    constexpr double caution = 2;
+    double widths = 4;
+    Bracket bracket = guide_->brackets[node.at.node];
+    if (tree_.rule.is_exact || guide_->limits) return bracket;
+    const Cut& cut = guide_->cuts.tree[node.at.node];
+    const double value = std::clamp(cut.at[cut.axis], bracket.lower, bracket.upper);
+    if (node.content.are_parts_counted) {
+        const double weight = node.content.weight;
+        const double target = tree_.rule.target_of(node.at, weight, node.below).target;
+        const double error = (target - node.below) / weight;
+        widths *= std::max(1.0, caution * std::abs(error) / expected_error(node.content.depth));
+        if (error < 0) bracket.upper = std::nextafter(value, infinity);
+        if (error > 0) bracket.lower = value;
+    }
+    return {std::max(std::lerp(value, bracket.lower, widths), -largest),
+            std::lerp(value, bracket.upper, widths)};
+}
+
+/// Writes the parts below a node by the cuts as they are, and appends their weights on this rank.
+void TreeSearch::count_parts(const Node& node, std::vector<double>& payload) {
+    const auto& fragments = node.content.fragments;
+    const auto here = guide_->sums.here();
+    write_parts(fragments, guide_->cuts, node.at, points_, parts_, here);
+    if (fragments.empty()) return;
+    payload.push_back(mark_of_parts);
+    const auto weights = here.subspan(static_cast<std::size_t>(node.at.first_part),
+                                      static_cast<std::size_t>(node.at.num_parts));
+    payload.insert(payload.end(), weights.begin(), weights.end());
+}
+
+/// Goes on with a node once all ranks know the weights of its parts.
+void TreeSearch::take_sums(Node&& node, std::span<const double> sums) {
+    guide_->sums.set_sums(node.at.first_part, sums);
+    node.content.are_parts_counted = true;
+    enter(node.at, std::move(node.content));
+}
+
+}  // namespace rrcb

@@ -1,0 +1,129 @@
+// The records that ranks send to the owners of nodes, and how they follow the answers.
+#include "search/sample.hpp"
+#include "search/tree_search.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <iterator>
+#include <utility>
+
+namespace rrcb {
+
+namespace {
+
+/// The value that doubles begin with.
+template <class Value>
+Value read(std::span<const double> doubles) {
+    Value value;
+    std::memcpy(static_cast<void*>(&value), doubles.data(), sizeof value);
+    return value;
+}
+
+}  // namespace
+
+void TreeSearch::ask(Butterfly& butterfly) {
+    std::vector<double> payload;
+    for (const Node& node : nodes_) {
+        payload.clear();
+        count(node, payload);
+        butterfly.add(key_of(node.at), owner_of(node.at), payload);
+    }
+}
+
+/// Appends the record of this rank for a node.
+void TreeSearch::count(const Node& node, std::vector<double>& payload) {
+    if (node.question == Question::parts) return count_parts(node, payload);
+    const auto& fragments = node.content.fragments;
+    if (fragments.empty()) return;
+    if (node.question == Question::lot || node.at.is_part()) {
+        const bool is_lot = node.question == Question::lot;
+        const double weight =
+            is_lot ? weight_at(node.search.cut, fragments, points_) : weight_of(fragments);
+        const double quantum = is_lot ? node.search.quantum : 0;
+        const double told[] = {mark_of_weights, 1.0 * rank_, rounded_to(quantum, weight)};
+        if (weight > 0) payload.assign(std::begin(told), std::end(told));
+        return;
+    }
+    if (node.search.stage == CutSearch::gathering) {
+        payload.push_back(mark_of_candidates);
+        node.local.append_candidates(payload);
+        return;
+    }
+    payload.resize(1 + layout_.length());
+    payload[0] = mark_of_histogram;
+    const std::span<double> histogram = std::span(payload).subspan(1);
+    if (node.search.stage == CutSearch::sampling) {
+        node.local.add_candidates(rank_, clear_to_sample(dimension_, histogram));
+    } else {
+        clear_histogram(histogram);
+        node.local.count(node.search, layout_, histogram);
+    }
+}
+
+void TreeSearch::join(std::span<const double> a, std::span<const double> b,
+                      std::vector<double>& joined) {
+    const bool is_alike = a.empty() || b.empty() || a[0] == b[0];
+    const bool adds = !a.empty() && !b.empty() && a.size() == b.size() &&
+                      (a[0] == mark_of_histogram || a[0] == mark_of_parts);
+    joined.insert(joined.end(), a.begin(), a.end());
+    // Records that do not fit together follow a failure, which all ranks hear of after the pass.
+    if (!is_alike) return;
+    const auto sum = std::span(joined).last(adds ? a.size() - 1 : 0);
+    if (!adds) {
+        const auto records = a.empty() || b.empty() ? b : b.subspan(1);
+        joined.insert(joined.end(), records.begin(), records.end());
+    } else if (a[0] == mark_of_histogram) {
+        join_histograms(b.subspan(1), sum);
+    } else {
+        std::ranges::transform(sum, b.subspan(1), sum.begin(), std::plus<>());
+    }
+}
+
+void TreeSearch::follow(const Butterfly& butterfly) {
+    std::vector<Node> before = std::exchange(nodes_, {});
+    nodes_.reserve(before.size());
+    RecordReader answers = butterfly.answers().read();
+    Record answer;
+    // Both ascend. Answers to others may have gone through this rank.
+    for (Node& node : before) {
+        while (!answers.at_end() && (answer.payload.empty() || answer.key < key_of(node.at)))
+            answer = answers.next();
+        const bool is_answered = !answer.payload.empty() && answer.key == key_of(node.at);
+        if (is_answered) {
+            follow(std::move(node), answer.payload);
+        } else {
+            nodes_.push_back(std::move(node));
+        }
+    }
+}
+
+/// Follows the answer of the owner of a node.
+void TreeSearch::follow(Node&& node, std::span<const double> payload) {
+    const auto answer = read<Answer>(payload);
+    const auto more = payload.subspan(sizeof answer / sizeof(double));
+    if (node.question == Question::parts) return take_sums(std::move(node), more);
+    node.content.weight = answer.weight;
+    if (node.at.is_part()) return end_at_part(node.at, node.content);
+    if (node.question == Question::lot) return end_at_cut(std::move(node), read<LotAnswer>(more));
+    follow_search(std::move(node), answer.search, more);
+}
+
+/// Searches a node further, or goes on with its children.
+void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<const double> more) {
+    const CutSearch before = std::exchange(node.search, next);
+    if (before.stage == CutSearch::over_fragments) {
+        node.content.is_counted = true;
+        if (!is_central()) node.content.box = read<Box>(more);
+    }
+    const bool is_done = next.stage == CutSearch::done;
+    if (is_done && !(next.lot_below > 0)) return end_at_cut(std::move(node), {});
+    if (is_done) node.question = Question::lot;
+    if (before.stage == CutSearch::sampling)
+        node.local.take_splitters(
+            splitters_of(positions_in(more, dimension_), order_of(next), layout_));
+    if (next.stage != CutSearch::over_fragments) node.local.keep_chosen(before, next, layout_);
+    nodes_.push_back(std::move(node));
+}
+
+}  // namespace rrcb

@@ -1,0 +1,297 @@
+// How a search goes down the tree.
+#include "search/tree_search.hpp"
+
+#include "bisection/axis_choice.hpp"
+#include "bisection/bisection.hpp"
+#include "cuts/owned_cuts.hpp"
+#include "cuts/part_share.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace rrcb {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Box of the entries of a fragment.
+Box box_of(const Fragment& fragment, const SortedPoints& points) {
+    Box box = fragment.box;
+    const auto d = static_cast<std::size_t>(points.dimension());
+    for (std::size_t a = 0; a < d; ++a) {
+        box.lower[a] = infinity;
+        box.upper[a] = -infinity;
+        for (LocalIndex i = fragment.begin; i < fragment.end; ++i) {
+            box.lower[a] = std::min(box.lower[a], points.coordinates[i * d + a]);
+            box.upper[a] = std::max(box.upper[a], points.coordinates[i * d + a]);
+        }
+    }
+    return box;
+}
+
+double sum_of_sizes(const PartTree& tree) {
+    if (tree.part_sizes.empty()) return tree.num_parts;
+    return sum_of(tree.part_sizes);
+}
+
+}  // namespace
+
+int PartTree::first_rank_of(const Descent& at) const {
+    return rrcb::owner_of(at, num_parts, num_ranks);
+}
+
+TreeSearch::TreeSearch(const PartTree& tree, int rank, const Regions& regions,
+                       SortedPoints&& points, std::span<Part> parts)
+    : tree_(tree),
+      rank_(rank),
+      dimension_(regions.cuts.dimension),
+      all_sizes_(sum_of_sizes(tree)),
+      points_(std::move(points)),
+      parts_(parts) {
+    const PartRange own = parts_on(rank, tree.num_parts, tree.num_ranks);
+    first_own_ = own.first;
+    end_own_ = own.end;
+    tree_.rule.weight_per_size = tree.weight / all_sizes_;
+    // A region has one part more than another at most.
+    const auto most_parts = static_cast<std::size_t>(tree.num_parts / regions.cuts.num_parts) + 1;
+    if (tree.part_sizes.empty() && tree.ones.empty() && !tree.rule.is_exact) {
+        ones_.assign(most_parts, 1.0);
+        tree_.ones = ones_;
+    }
+    std::vector<Fragment> fragments = cell_fragments(points_);
+    for (Fragment& fragment : fragments) fragment.box = box_of(fragment, points_);
+    enter_region(regions, root_of(regions.cuts), {0, 0, tree.num_parts}, std::move(fragments),
+                 regions.box);
+}
+
+TreeSearch::TreeSearch(const PartTree& tree, int rank, const Guide& guide, SortedPoints&& points,
+                       std::span<Part> parts)
+    : tree_(tree),
+      guide_(&guide),
+      rank_(rank),
+      dimension_(guide.cuts.dimension),
+      all_sizes_(sum_of_sizes(tree)),
+      layout_{.limits = tree.limits},
+      points_(std::move(points)),
+      parts_(parts) {
+    Content content{cell_fragments(points_), Box{}, tree.weight};
+    if (guide.limits) content.box = guide.limits->region();
+    content.are_parts_counted = guide.is_counted;
+    enter(root_of(guide.cuts), std::move(content));
+}
+
+int TreeSearch::owner_of(const Descent& at) const {
+    return is_central() ? 0 : tree_.first_rank_of(at);
+}
+
+double TreeSearch::share_below(const Descent& at) const {
+    if (tree_.part_sizes.empty()) return 1.0 * lower_parts(at.num_parts) / at.num_parts;
+    return rrcb::share_below(sizes_of(at));
+}
+
+/// Sizes of the parts of a node; of equal ones to a tolerance only.
+std::span<const double> TreeSearch::sizes_of(const Descent& at) const {
+    const auto count = static_cast<std::size_t>(at.num_parts);
+    if (tree_.part_sizes.empty()) return tree_.ones.first(count);
+    return tree_.part_sizes.subspan(static_cast<std::size_t>(at.first_part), count);
+}
+
+bool TreeSearch::holds_own_parts(const Descent& at) const {
+    return at.first_part < end_own_ && first_own_ < at.first_part + at.num_parts;
+}
+
+/// Goes down the cuts between regions, which every rank knows.
+void TreeSearch::enter_region(const Regions& regions, const Descent& region, const Descent& at,
+                              std::vector<Fragment>&& fragments, const Box& box) {
+    if (region.is_part())
+        return enter(at, {std::move(fragments), box, regions.weights[region.first_part]});
+    const Cut& cut = regions.cuts.tree[region.node];
+    note(at.node, cut);
+    auto [lower, upper] = cut.divides != 0 ? split_by_parts(fragments, at.upper().first_part)
+                                           : split_tightly(fragments, cut, {});
+    enter_region(regions, region.lower(), at.lower(), std::move(lower), box_below(box, cut));
+    enter_region(regions, region.upper(), at.upper(), std::move(upper), box_above(box, cut));
+}
+
+/// Begins to search the cut of a node; goes on to its children where counting does not find it.
+void TreeSearch::enter(const Descent& at, Content&& content) {
+    if (ends_at(at, content)) return;
+    if (recounts() && !content.are_parts_counted)
+        return add_node(at, std::move(content), Question::parts);
+    const double share = at.is_part() ? 1 : share_below(at);
+    const bool divides = share > 0 && share < 1;
+    const bool stays = content.are_parts_counted && tree_.rule.may_stay(at, guide_->sums.sums());
+    if (at.is_part() || (content.weight > 0 && divides && !stays))
+        return add_node(at, std::move(content), Question::cut);
+    content.are_parts_counted = content.are_parts_counted && divides;
+    const double below = content.are_parts_counted ? weight_of(at.lower(), guide_->sums.sums())
+                         : share > 0               ? content.weight
+                                                   : 0;
+    divide(at, content, cut_unsearched(at, content, share), {}, below);
+}
+
+/// True when there is nothing to search at a node or below; writes the part that it is.
+bool TreeSearch::ends_at(const Descent& at, Content& content) {
+    if (content.are_parts_counted) {
+        const auto sums = guide_->sums.sums();
+        content.weight = weight_of(at, sums);
+        return at.is_part() || tree_.rule.are_within(at, sums);
+    }
+    if (!is_central() && content.fragments.empty() && !holds_own_parts(at)) return true;
+    const bool ends = at.is_part() && (is_central() || (content.is_counted && !is_tiny(at)));
+    if (ends) end_at_part(at, content);
+    return ends;
+}
+
+/// The cut of a node that counting does not find. Nothing lies on a side without size. In a node
+/// without weight all lies below, unless a guide's cut stays.
+Cut TreeSearch::cut_unsearched(const Descent& at, const Content& content, double share) {
+    if (!is_central())
+        return plane(tree_.cut_axes.empty() ? 0 : tree_.cut_axes[at.node],
+                     share > 0 ? infinity : -infinity);
+    const Cut& cut = guide_->cuts.tree[at.node];
+    if (!(share > 0 && share < 1)) return plane(cut.axis, share > 0 ? infinity : -infinity);
+    if (!guide_->limits) return cut;
+    return guide_->limits->nearest(cut, guide_->limits->places(at, content.box, cut.axis));
+}
+
+void TreeSearch::add_node(const Descent& at, Content&& content, Question question) {
+    // A vector that is moved keeps its entries where they are.
+    const LocalSearch local(content.fragments, points_);
+    Node& node = nodes_.emplace_back(Node{at, std::move(content), question, {}, local});
+    if (question != Question::cut) return;
+    if (is_central()) return start_from_guide(node);
+    node.search = first_search(at, node.content.box, node.content.weight);
+}
+
+/// Goes on below a cut.
+void TreeSearch::divide(const Descent& at, const Content& content, const Cut& cut, const Lot& lot,
+                        double below) {
+    note(at.node, cut);
+    auto [lower, upper] = is_central() ? split(content.fragments, cut, lot, points_)
+                                       : split_tightly(content.fragments, cut, lot);
+    // A side of a divided lot may weigh up to a point more or less than asked for. The next count
+    // finds out; until then the node's weight is a bound.
+    const bool divides_lot = lot.below > 0;
+    const double above = divides_lot ? content.weight : content.weight - below;
+    if (divides_lot) below = content.weight;
+    const auto side = [&](std::vector<Fragment>&& fragments, const Box& box, double weight) {
+        return Content{std::move(fragments),
+                       box,
+                       weight,
+                       content.is_counted && !divides_lot,
+                       content.are_parts_counted,
+                       content.depth + 1};
+    };
+    enter(at.lower(), side(std::move(lower), box_below(content.box, cut), below));
+    enter(at.upper(), side(std::move(upper), box_above(content.box, cut), above));
+}
+
+/// Notes the cut of a node.
+void TreeSearch::note(std::size_t node, const Cut& cut) {
+    if (is_central()) {
+        guide_->cuts.tree[node] = cut;
+    } else {
+        known_.push_back({node, cut});
+    }
+}
+
+/// Splits fragments whose boxes touch their entries; so do those of the halves.
+TreeSearch::Halves TreeSearch::split_tightly(const std::vector<Fragment>& fragments, const Cut& cut,
+                                             const Lot& lot) {
+    Halves halves = split(fragments, cut, lot, points_);
+    const auto axis = static_cast<std::size_t>(cut.axis);
+    for (auto* half : {&halves.first, &halves.second})
+        for (Fragment& fragment : *half)
+            if (fragment.box.lower[axis] == cut.at[axis] ||
+                fragment.box.upper[axis] == cut.at[axis])
+                fragment.box = box_of(fragment, points_);
+    return halves;
+}
+
+/// The same by the parts that points are in.
+TreeSearch::Halves TreeSearch::split_by_parts(const std::vector<Fragment>& fragments,
+                                              Part first_above) {
+    Halves halves = rrcb::split_by_parts(fragments, first_above, parts_, points_);
+    for (auto* half : {&halves.first, &halves.second})
+        for (Fragment& fragment : *half) fragment.box = box_of(fragment, points_);
+    return halves;
+}
+
+/// Goes on below the cut that was found. The points of a lot form one row over all ranks.
+void TreeSearch::end_at_cut(Node&& node, const LotAnswer& told) {
+    if (is_central() || owner_of(node.at) == rank_) num_coincident_ += node.search.coincident;
+    Cut cut = node.search.cut;
+    Lot lot;
+    if (node.question == Question::lot) {
+        cut.divides = 1;
+        lot.below = node.search.lot_below;
+        lot.before = rank_ < told.dividing_rank   ? -infinity
+                     : rank_ > told.dividing_rank ? infinity
+                                                  : told.before;
+    }
+    node.content.are_parts_counted = false;
+    divide(node.at, node.content, cut, lot, node.search.below);
+}
+
+void TreeSearch::end_at_part(const Descent& at, const Content& content) {
+    const double weight = write_part(content.fragments, at.first_part, points_, parts_);
+    if (is_central()) {
+        guide_->sums.here()[at.first_part] = weight;
+    } else if (owner_of(at) == rank_) {
+        imbalance_ =
+            std::max(imbalance_, over_ideal(content.weight, tree_.weight, ideal_share(at)));
+    }
+}
+
+/// Share of the weight that a part should have.
+double TreeSearch::ideal_share(const Descent& at) const {
+    return (tree_.part_sizes.empty() ? 1.0 : sizes_of(at)[0]) / all_sizes_;
+}
+
+/// Whether the round-off of a remainder may be large beside the weight of a part, so that the part
+/// must be weighed by its points.
+bool TreeSearch::is_tiny(const Descent& part) const {
+    constexpr double least_share = 0x1p-20;
+    const double share = tree_.part_sizes.empty() ? 1 : ideal_share(part);
+    return share > 0 && share < least_share;
+}
+
+/// A search for the cut of a node before anything is counted.
+CutSearch TreeSearch::search_across(int axis, const Bracket& bracket, double weight) const {
+    CutSearch search;
+    search.cut.axis = axis;
+    search.num_axes = tree_.plain_cuts ? 1 : dimension_;
+    search.divides = tree_.divides_coincident && !tree_.plain_cuts ? 1 : 0;
+    search.cut.at.fill(-infinity);
+    search.lower = bracket.lower;
+    search.upper = bracket.upper;
+    search.quantum = quantum_for(weight);
+    return search;
+}
+
+/// The search in the box of a node, or to weigh a part.
+CutSearch TreeSearch::first_search(const Descent& at, const Box& box, double weight) const {
+    const int number = tree_.cut_axes.empty() || at.is_part()
+                           ? longest_axis(box, dimension_, tree_.share_of_longest)
+                           : tree_.cut_axes[at.node];
+    const auto axis = static_cast<std::size_t>(number);
+    return search_across(number, {box.lower[axis], std::nextafter(box.upper[axis], infinity)},
+                         weight);
+}
+
+Cuts TreeSearch::cuts() const {
+    std::vector<KnownCut> known = known_;
+    std::ranges::sort(known, {}, &KnownCut::node);
+    Cuts cuts{dimension_, tree_.num_parts, {}, {}};
+    for (const KnownCut& one : known) {
+        cuts.tree.push_back(one.cut);
+        cuts.nodes.push_back(static_cast<std::int32_t>(one.node));
+    }
+    return cuts;
+}
+
+}  // namespace rrcb

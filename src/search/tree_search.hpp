@@ -1,0 +1,239 @@
+#pragma once
+
+#include "cells/sorted_points.hpp"
+#include "collective/butterfly.hpp"
+#include "cuts/cut_limits.hpp"
+#include "search/fragments.hpp"
+#include "search/local_search.hpp"
+#include "search/part_sums_mpi.hpp"
+#include "search/target_rule.hpp"
+
+#include <rrcb/cuts.hpp>
+#include <rrcb/method/bisection.hpp>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace rrcb {
+
+/// Number of a node or a part, in preorder.
+inline Key key_of(const Descent& at) {
+    constexpr Key shift = 32;
+    return (static_cast<Key>(at.first_part) << shift) + std::numeric_limits<std::uint32_t>::max() -
+           static_cast<Key>(at.num_parts);
+}
+
+/// The parts to make; the same on every rank.
+struct PartTree {
+    int num_parts = 1;
+    int num_ranks = 1;
+    double weight = 0;                     ///< of all points
+    std::span<const double> part_sizes{};  ///< one per part; empty: equal
+    std::span<const int> cut_axes{};       ///< of all cuts in preorder; empty: free
+    std::span<const double> ones{};        ///< as many as a region has equal parts; empty: made
+    TargetRule rule{};            ///< of a spread search without the sizes and the weight per size
+    double share_of_longest = 1;  ///< see longest_axis()
+    bool plain_cuts = false;
+    bool divides_coincident = false;                 ///< points in one place, see Coincident
+    std::array<AxisLimits, max_dimension> limits{};  ///< of a central search
+
+    /// The first rank that holds the first part of a node.
+    int first_rank_of(const Descent& at) const;
+};
+
+/// Regions that a tree begins with, their number a power of two; the same on every rank.
+struct Regions {
+    Cuts cuts{};                        ///< between them
+    std::span<const double> weights{};  ///< over all ranks
+    Box box{};                          ///< of all points
+    int num_coincident = 0;             ///< cuts between them with points that the target divides
+};
+
+/// Cuts to start from; the same on every rank.
+struct Guide {
+    Cuts& cuts;  ///< whose axes stay; the search moves them
+    std::span<const Bracket> brackets;
+    CutLimits* limits;  ///< null where cuts may lie anywhere
+    PartSums& sums;     ///< of the parts that the cuts make, if they were counted; moved as well
+    bool is_counted;    ///< the sums and the parts of the points are those of the cuts
+};
+
+/// One rank's part in the search for the cuts of a tree.
+///
+/// Each rank sends the owner of a node a summary of its points there; the owner decides on the cut
+/// and answers. Nodes do not wait for others on their level. In a round each rank asks,
+/// the butterfly carries that to the owners, they decide, it carries their answers back, and each
+/// rank follows. All rounds of all ranks are over once none is_searching(). Not collective.
+///
+/// Spread: a rank takes part in a node in which it has points, or where one of its own parts lies.
+/// The first rank of the first part owns it, and only those that take part know the cut. Axes are
+/// free or given. Memory and messages follow from the nodes that a rank takes part in, about 1.2 kB
+/// a node, and at the owner up to 1024 positions and weights.
+///
+/// Central: rank 0 owns all nodes, in which all ranks take part. Cuts start from a Guide, which
+/// fixes their axes, and may be limited. A cut that is good enough as counted stays, with all cuts
+/// below; if an earlier cut moves, the parts below are counted once more.
+class TreeSearch {
+  public:
+    /// Starts a spread search below the regions; `parts` and the spans of `tree` are borrowed. If a
+    /// cut between regions divides points in one place, `parts` has their sides, by the numbers of
+    /// the whole tree. Throws std::bad_alloc.
+    TreeSearch(const PartTree& tree, int rank, const Regions& regions, SortedPoints&& points,
+               std::span<Part> parts);
+
+    /// Starts a central search; `tree` has part sizes. All is borrowed but the points. Throws
+    /// std::bad_alloc.
+    TreeSearch(const PartTree& tree, int rank, const Guide& guide, SortedPoints&& points,
+               std::span<Part> parts);
+    TreeSearch(const TreeSearch&) = delete;
+    TreeSearch& operator=(const TreeSearch&) = delete;
+
+    bool is_searching() const { return !nodes_.empty(); }
+
+    /// Adds the records of this rank for the nodes that are searched. Throws std::bad_alloc.
+    void ask(Butterfly& butterfly);
+
+    /// Decides on the nodes that this rank owns. Throws std::bad_alloc.
+    void decide(Butterfly& butterfly);
+
+    /// Follows the decisions, and writes the parts that are complete. A node without an answer,
+    /// which a failure has lost, stays as it is. Throws std::bad_alloc.
+    void follow(const Butterfly& butterfly);
+
+    /// Joins two records of a node; see Butterfly::Join.
+    static void join(std::span<const double> a, std::span<const double> b,
+                     std::vector<double>& joined);
+
+    /// The cuts that this rank knows after a spread search, with their numbers, which may be all.
+    /// Throws std::bad_alloc.
+    Cuts cuts() const;
+
+    /// Of the parts that this rank owns, in a spread search; 0 where these are empty.
+    double imbalance() const { return imbalance_; }
+
+    /// Cuts with points in one place that the target divides: of a central search all, of a spread
+    /// one those that this rank owns.
+    int num_coincident() const { return num_coincident_; }
+
+    /// The points, for another search; this one is over. They are in the order of their cells.
+    SortedPoints take_points() { return std::move(points_); }
+
+  private:
+    /// A record of a node, from a rank with points there, begins with a mark: for a histogram, the
+    /// candidates, the weights of ranks, or those of the parts below.
+    static constexpr double mark_of_histogram = 0;
+    static constexpr double mark_of_candidates = 1;
+    static constexpr double mark_of_weights = 2;
+    static constexpr double mark_of_parts = 3;
+
+    /// Question of a round about a node.
+    enum class Question {
+        cut,    ///< the place of the cut, or the weight of a part
+        lot,    ///< the weight of each rank at the cut, which is known
+        parts,  ///< the weights of the parts below by the cuts as they are
+    };
+
+    /// Points and weight of a node.
+    struct Content {
+        std::vector<Fragment> fragments;
+        Box box;                 ///< spread: holds its points on all ranks; central: see CutLimits
+        double weight = 0;       ///< over all ranks
+        bool is_counted = true;  ///< false where the weight is off by a part of a point's
+        bool are_parts_counted = false;  ///< the guide's sums hold its parts' weights
+        int depth = 0;                   ///< number of cuts above
+    };
+
+    /// Node that is searched, or a part that is weighed.
+    struct Node {
+        Descent at;
+        Content content;
+        Question question = Question::cut;
+        CutSearch search{};
+        LocalSearch local;
+        CutTarget target{};          ///< at the owner only
+        CutSearch decided{};         ///< likewise
+        double below = not_counted;  ///< weight below the cut as it is, where that was counted
+        Places places{};             ///< of the cut
+    };
+
+    using Halves = std::pair<std::vector<Fragment>, std::vector<Fragment>>;
+
+    struct KnownCut {
+        std::size_t node;
+        Cut cut;
+    };
+
+    /// Answer of an owner. Behind it stand the weights of the parts below, the sample that
+    /// splitters come from, a LotAnswer, or the box of a node that was first counted in a spread
+    /// search.
+    struct Answer {
+        CutSearch search;
+        double weight = 0;
+    };
+    /// Of a lot those before the dividing rank have theirs below, those after it above.
+    struct LotAnswer {
+        double dividing_rank = 0;
+        double before = 0;  ///< weight on the ranks before it
+    };
+
+    bool is_central() const { return guide_ != nullptr; }
+    bool recounts() const { return tree_.rule.is_earlier && !tree_.rule.is_exact; }
+    int owner_of(const Descent& at) const;
+    double share_below(const Descent& at) const;
+    std::span<const double> sizes_of(const Descent& at) const;
+    CutTarget target_of(const Node& node, double weight) const;
+    double ideal_share(const Descent& part) const;
+    bool is_tiny(const Descent& part) const;
+    bool holds_own_parts(const Descent& at) const;
+    void enter_region(const Regions& regions, const Descent& region, const Descent& at,
+                      std::vector<Fragment>&& fragments, const Box& box);
+    void enter(const Descent& at, Content&& content);
+    bool ends_at(const Descent& at, Content& content);
+    void add_node(const Descent& at, Content&& content, Question question);
+    Cut cut_unsearched(const Descent& at, const Content& content, double share);
+    void divide(const Descent& at, const Content& content, const Cut& cut, const Lot& lot,
+                double below);
+    void note(std::size_t node, const Cut& cut);
+    Halves split_tightly(const std::vector<Fragment>& fragments, const Cut& cut, const Lot& lot);
+    Halves split_by_parts(const std::vector<Fragment>& fragments, Part first_above);
+    void end_at_cut(Node&& node, const LotAnswer& told);
+    void end_at_part(const Descent& at, const Content& content);
+    CutSearch search_across(int axis, const Bracket& bracket, double weight) const;
+    CutSearch first_search(const Descent& at, const Box& box, double weight) const;
+    void start_from_guide(Node& node);
+    Bracket bracket_of(const Node& node) const;
+    void count(const Node& node, std::vector<double>& payload);
+    void count_parts(const Node& node, std::vector<double>& payload);
+    std::vector<double> answer_to(const Record& record, const Node& node) const;
+    LotAnswer place_lot(const Node& node, std::span<const double> payload) const;
+    CutSearch decide_on(Node& node, std::span<const double> payload);
+    void decide_among_candidates(const Node& node, std::span<const double> payload,
+                                 CutSearch& search) const;
+    void decide_by_first_count(Node& node, std::span<const double> histogram, CutSearch& search);
+    void limit_gathering();
+    void follow(Node&& node, std::span<const double> payload);
+    void follow_search(Node&& node, const CutSearch& next, std::span<const double> more);
+    void take_sums(Node&& node, std::span<const double> sums);
+
+    PartTree tree_;
+    const Guide* guide_ = nullptr;  ///< of a central search
+    int rank_;
+    int dimension_;
+    Part first_own_ = 0;        ///< of the parts that this rank holds ...
+    Part end_own_ = 0;          ///< ... the first, and the one behind the last
+    double all_sizes_ = 0;      ///< sum of the sizes of all parts
+    std::vector<double> ones_;  ///< sizes of the parts of a region, see sizes_of()
+    HistogramLayout layout_;
+    SortedPoints points_;
+    std::span<Part> parts_;
+    std::vector<Node> nodes_;  ///< ascending
+    std::vector<KnownCut> known_;
+    double imbalance_ = 0;
+    int num_coincident_ = 0;
+};
+
+}  // namespace rrcb

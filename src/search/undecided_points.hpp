@@ -1,0 +1,39 @@
+#pragma once
+
+#include "search/slabs.hpp"
+
+#include <rrcb/points.hpp>
+
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+/// Copies of one rank's points that lie in slabs, whose parts are open while the cuts move there.
+struct UndecidedPoints {
+    int dimension = 0;
+    std::vector<double> coordinates;      ///< interleaved
+    std::vector<double> weights;          ///< empty when every point weighs 1
+    std::vector<LocalIndex> original;     ///< index each entry had before, ascending
+    std::vector<Part> parts;              ///< by the cuts as they are
+    std::vector<double> decided_weights;  ///< of the other points, one entry per part
+
+    double weight(LocalIndex i) const { return weights.empty() ? 1.0 : weights[i]; }
+    Points points() const { return interleaved_points(coordinates, dimension, weights); }
+};
+
+/// The points whose part is another one than `parts` has, by the cuts as they are, if these end
+/// elsewhere in their slabs. In one pass. Throws std::bad_alloc.
+UndecidedPoints undecided_points(const Points& points, std::span<const Part> parts,
+                                 const Cuts& cuts, std::span<const Slab> slabs);
+
+/// Adds up the undecided points in the bins of slabs, see bin_in. Throws std::bad_alloc.
+void count_in_slabs(const UndecidedPoints& points, const Cuts& cuts, std::span<const Slab> slabs,
+                    std::span<double> counts);
+
+/// Sets the parts of the undecided points, there and in `parts`, by cuts that have moved in their
+/// slabs. Writes what all points of this rank weigh in each part. Throws std::bad_alloc.
+void assign_undecided(const Cuts& cuts, UndecidedPoints& points, std::span<Part> parts,
+                      std::span<double> part_weights);
+
+}  // namespace rrcb

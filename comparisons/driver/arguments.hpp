@@ -39,8 +39,7 @@ struct Arguments {
     std::string out = "comparisons/out";
     bool sweep = false;  ///< the study of settings in place of one comparison
     SweptClouds swept;
-    std::vector<std::string> only{"clouds", "sources",     "snapshots", "cycle",
-                                  "ranks",  "simulations", "paper"};
+    std::vector<std::string> only{"clouds", "snapshots", "cycle", "ranks", "simulations", "paper"};
     bool quick = false;
     bool progress = false;
     std::optional<std::string> help;  ///< print this and stop

@@ -1,6 +1,6 @@
 #include "domain_comparison.hpp"
 
-#include "error_sources_mpi.hpp"
+#include "gather/lean_cells.hpp"
 
 #include <rrcb/method/bisection.hpp>
 #include <rrcb/quality.hpp>
@@ -21,9 +21,27 @@ SupportMesh mesh_over(const Points& points, int cells_per_axis) {
     return rrcb::make_support_mesh(rrcb::bounding_box(points), points.dimension, cells_per_axis);
 }
 
+/// Moments as lean records bring them to the root.
+std::vector<CellMoments> lean_cells(const Points& points, const SupportMesh& mesh) {
+    const std::vector<CellMoments> cells = rrcb::cell_moments(points, mesh);
+    const rrcb::LeanCells packed = rrcb::pack_cells(cells, mesh);
+    std::vector<CellMoments> lean;
+    rrcb::unpack_cells(packed, packed.bytes, cells.size(), mesh, lean);
+    return lean;
+}
+
+/// A uniform patch in mean +- sqrt(3) sigma per cell, wherever the cell ends.
 StatisticalDomain boxes(const Points& points, int cells_per_axis) {
-    return box_domain(rrcb::cell_moments(points, mesh_over(points, cells_per_axis)),
-                      points.dimension, std::sqrt(3.0));
+    StatisticalDomain domain{points.dimension};
+    for (const CellMoments& cell : rrcb::cell_moments(points, mesh_over(points, cells_per_axis))) {
+        rrcb::Patch patch{{}, {}, cell.moments.weight};
+        for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a) {
+            patch.lower[a] = cell.moments.mean[a] - std::sqrt(3.0) * cell.moments.deviation[a];
+            patch.upper[a] = cell.moments.mean[a] + std::sqrt(3.0) * cell.moments.deviation[a];
+        }
+        domain.patches.push_back(patch);
+    }
+    return domain;
 }
 
 StatisticalDomain analytic(const Points& points, int cells_per_axis) {

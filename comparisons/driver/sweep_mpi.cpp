@@ -2,7 +2,6 @@
 
 #include "comparison_mpi.hpp"
 #include "cycle_mpi.hpp"
-#include "error_sources_mpi.hpp"
 #include "failure_mpi.hpp"
 #include "workload_mpi.hpp"
 
@@ -84,7 +83,6 @@ bool run_sweep(const Arguments& arguments, const ResultsFolder& folder, Progress
             return measure_missing(sweep, workload, arguments.methods, rows);
         });
     }
-    if (sweep.includes("sources")) find_error_sources(sweep);
     if (sweep.includes("snapshots")) succeeded = study_snapshots(sweep, rows) && succeeded;
     if (sweep.includes("cycle")) succeeded = study_cycle(sweep) && succeeded;
     if (sweep.includes("ranks")) succeeded = study_ranks(sweep) && succeeded;

@@ -9,7 +9,6 @@ from intervals import NOT_TOLD_APART, ONE, Value, median_of
 from machine import CORES
 from methods import STANDARD, WINNERS, setting_of
 from results import Results
-from sources import mean_excess
 from speed_up import SpeedUp, read_speed_ups
 
 CONFIRMED, REFUTED = "confirmed", "refuted"
@@ -141,21 +140,6 @@ def _larger_unbalance(evidence: Evidence) -> Iterator[Claim]:
             return
 
 
-def _because_of_samples(evidence: Evidence) -> Iterator[Claim]:
-    """Refuted where the boxes alone make more than half of the unbalance with any seed."""
-    rows = evidence.results.sources
-    rows = rows.query("mesh == 4 and k == 1.5") if len(rows) else rows
-    boxes = rows[rows["domain"] == "boxes"] if len(rows) else rows
-    for fraction in (1, 0.125) if len(boxes) else ():
-        sampled = rows[rows["fraction"] == fraction]
-        if len(sampled):
-            without, drawn = mean_excess(boxes).number, mean_excess(sampled)
-            ours = f"mesh 4, 1.5 σ, {100 * fraction:g} %: {drawn.text(2)} % of unbalance with the"
-            ours += f" points, {without:.2f} % with boxes without a random point"
-            verdict = REFUTED if without > drawn.reach[1] / 2 else CONFIRMED
-            yield "... because of the pseudo-random points", ours, verdict, "sources"
-
-
 def _finer_mesh(evidence: Evidence) -> Iterator[Claim]:
     ratios = [
         coarse.excess / fine.excess
@@ -214,7 +198,6 @@ FINDERS = (
     _faster,
     _best_number,
     _larger_unbalance,
-    _because_of_samples,
     _finer_mesh,
     _literal_midpoint,
     _learned,

@@ -28,7 +28,6 @@ from prices import all_prices, exchange_rate
 from results import Results, cases, write_csv
 from sentences import sentences, simulation_sentence
 from simulation import draw_simulation
-from sources import draw_sources, source_table
 from speed_up import (
     KINDS,
     OTHERS,
@@ -52,7 +51,6 @@ PICTURES = {
     "simulation_time.png": draw_simulation,
     "sweep_time.png": draw_sweep_time,
     "sweep_bytes.png": draw_sweep_bytes,
-    "error_sources.png": draw_sources,
     "cycle.png": draw_cycle,
     "figure_2.png": draw_figure_2,
     "study.png": draw_study,
@@ -123,7 +121,6 @@ def sweep_report(results: Results) -> Document:
         document.table("What differs from the paper's set-up", set_up_table(results))
         document.summarise("What the paper says", claims)
     _add_choices(document, results)
-    _add_sources(document, results)
     _add_cycle(document, results)
     document.heading("The failing slope")
     _add_pictures(document, "figure_2.png", "study.png", "speed_up.png", "ranks.png",
@@ -182,16 +179,6 @@ def _add_choices(document: Document, results: Results) -> None:
         document.heading("Is the automatic choice a good one?")
         document.paragraph(automatic_sentence(judged))
         document.summarise("RRCB's own mesh beside the best one tried", [j.texts for j in judged])
-
-
-def _add_sources(document: Document, results: Results) -> None:
-    rows = results.sources
-    if rows.empty:
-        return
-    document.heading("Where the error comes from")
-    caption = f"Imbalance beyond 1 in %, geometric mean of the clouds: {_size(rows)}"
-    document.summarise(caption, source_table(rows))
-    _add_pictures(document, "error_sources.png")
 
 
 def _add_cycle(document: Document, results: Results) -> None:

@@ -83,7 +83,6 @@ class Results:
     swept = _file("sweep.csv", measurements)
     clouds = property(lambda self: self.swept[self.swept["layout"] != "simulation"])
     snapshots = property(lambda self: self.swept[self.swept["layout"] == "simulation"])
-    sources = _file("error_sources.csv", measurements)
     cycle = _file("cycle.csv", last_calls)
     noise = _file("noise.csv", pd.DataFrame)
     runs = _file("simulation.csv", simulations)

@@ -58,8 +58,8 @@ TEST(Arguments, compare_settings_unless_methods_are_named) {
 
 TEST(Arguments, narrow_a_sweep) {
     const Arguments arguments =
-        read({"--sweep", "--only=clouds, sources", "--cloud=slope", "--dim=2", "--layout=sorted"});
-    EXPECT_EQ(arguments.only, (std::vector<std::string>{"clouds", "sources"}));
+        read({"--sweep", "--only=clouds, cycle", "--cloud=slope", "--dim=2", "--layout=sorted"});
+    EXPECT_EQ(arguments.only, (std::vector<std::string>{"clouds", "cycle"}));
     EXPECT_EQ(arguments.swept.names, std::vector<std::string>{"slope"});
     EXPECT_EQ(arguments.swept.dimensions, std::vector<int>{2});
     EXPECT_EQ(arguments.swept.layouts, std::vector<Layout>{Layout::sorted});
@@ -79,7 +79,7 @@ TEST(Arguments, name_what_is_unknown) {
     expect_error({"--lists=NONE"},
                  "--lists: unknown value 'NONE'; choose from: PARTS, EXPORT, ALL");
     expect_error({"--sweep", "--only=clouds,some"},
-                 "--only: unknown part 'some'; choose from: clouds, sources");
+                 "--only: unknown part 'some'; choose from: clouds, snapshots");
 }
 
 TEST(Arguments, name_options_without_a_value) {

@@ -16,7 +16,7 @@ endfunction()
 # Rows of the other parts, which a sweep of all parts must have.
 function(read_others result)
   set(text)
-  foreach(name IN ITEMS error_sources cycle sweep_simulation paper_simulation)
+  foreach(name IN ITEMS cycle sweep_simulation paper_simulation)
     if(EXISTS ${FOLDER}/${name}.csv OR NOT "${COMMAND}" MATCHES "--only")
       file(READ ${FOLDER}/${name}.csv rows)
       string(APPEND text "${rows}")

@@ -96,12 +96,6 @@ method,step,time,part,points,lu_percent,imbalance
 root-rcb,0,0.0,0,3,-50,1.5
 root-rcb,0,0.0,1,1,50,1.5
 """,
-    "error_sources.csv": """\
-workload,layout,dim,points,ranks,domain,mesh,k,fraction,seed,imbalance,lu_max_percent,error
-uniform,sorted,2,4,2,points,0,0,0,0,1,0,
-uniform,sorted,2,4,2,cells,2,0,0,0,1.5,50,
-uniform,sorted,2,4,2,sampled,2,1.5,1,1,2,100,
-""",
     "cycle.csv": """\
 method,ranks,points,seed,call,imbalance,moved_fraction,error
 "rrcb-sampled[mesh=4,k=1.5,fraction=1]",4,9,1,1,1.5,0.5,

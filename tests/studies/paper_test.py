@@ -133,19 +133,6 @@ class ClaimsTest(unittest.TestCase):
         self.write(serial, runs("root-rcb", 2, [6.0] * 6), four, runs("root-rcb", 8, [4.0] * 6))
         self.assertEqual(self.verdicts()["4 processes are best"], "refuted")
 
-    def test_sources_tell_what_the_random_points_add(self) -> None:
-        header = "workload,layout,dim,points,ranks,domain,mesh,k,fraction,seed,imbalance,error\n"
-        rows = "slope,sorted,2,1000,4,boxes,4,1.5,0,0,1.04,\n" + "".join(
-            f"slope,sorted,2,1000,4,sampled,4,1.5,{fraction},{seed},{imbalance},\n"
-            for fraction, imbalance in ((1, 1.041), (0.125, 1.2))
-            for seed in range(1, 11)
-        )
-        (self.directory / "error_sources.csv").write_text(header + rows)
-        table = self.claims()
-        self.assertEqual([row["verdict"] for row in table], ["refuted", "confirmed"])
-        measured = table[0]["measured here, with 95 % intervals"]
-        self.assertIn("4.10 % of unbalance", measured)
-
     def test_comparison_needs_intervals_apart(self) -> None:
         low, high = Value(1, 0.9, 1.1), Value(2, 1.9, 2.1)
         self.assertEqual(claims.compare(high, low), "confirmed")

@@ -3,6 +3,7 @@
 #include "gather/lean_cells.hpp"
 
 #include <rrcb/method/bisection.hpp>
+#include <rrcb/paper.hpp>
 #include <rrcb/quality.hpp>
 
 #include <algorithm>

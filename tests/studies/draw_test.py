@@ -240,7 +240,7 @@ class DrawTest(unittest.TestCase):
 
     def test_every_program_names_the_package_that_it_misses(self) -> None:
         folder = Path(report.__file__).parent
-        for name in ("moments", "paper_methods", "report", "scaling", "scenes"):
+        for name in ("paper_methods", "report", "scaling", "scenes"):
             for missing in ("matplotlib", "pandas"):
                 hide = (
                     "import importlib.util, runpy, sys; find = importlib.util.find_spec;"

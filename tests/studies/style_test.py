@@ -10,7 +10,6 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "studies"))
 
-import moments  # noqa: E402
 import numpy as np  # noqa: E402
 import plot  # noqa: E402
 from matplotlib import pyplot as plt  # noqa: E402
@@ -30,7 +29,6 @@ class StyleTest(unittest.TestCase):
     def test_no_two_colours_are_alike(self) -> None:
         colours = [method.colour for method in plot._METHODS.values()]
         colours += [*plot.PART_COLOURS, *plot.MULTIPLIER_COLOURS]
-        colours += [colour for name, (colour, *_) in moments.STYLES.items() if name != "RRCB"]
         for first, second in itertools.combinations(colours, 2):
             with self.subTest(first=first, second=second):
                 self.assertGreater(np.linalg.norm(cielab(first) - cielab(second)), 14)

@@ -9,6 +9,7 @@
 #include <Teuchos_CommandLineProcessor.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -47,6 +48,8 @@ const std::map<std::string, std::string>& documentation() {
         {"repeats", "timed calls of each method; 7"},
         {"seed", "seed of the cloud; 1"},
         {"drift", "fraction of its extent by which the cloud moves between calls; 0"},
+        {"radius", "cut-off that ghosts are counted by; twice the mean spacing of the points"},
+        {"ranks-per-node", "ranks on each machine, to count ghosts between machines"},
         {"only", "parts of the sweep, by commas: " + joined(Arguments().only)},
         {"out", "folder of the results; comparisons/out"},
     };
@@ -212,6 +215,14 @@ Arguments read_arguments(int argc, char** argv) {
             throw Failure("--drift must be a number from 0 to 1, not '" + texts["drift"] + "'");
         arguments.drift = *drift;
     }
+    if (texts.given("radius")) {
+        arguments.ghosts.radius = read_number<double>(texts["radius"]);
+        if (!arguments.ghosts.radius ||
+            !(*arguments.ghosts.radius > 0 && std::isfinite(*arguments.ghosts.radius)))
+            throw Failure("--radius must be a number above 0, not '" + texts["radius"] + "'");
+    }
+    if (texts.given("ranks-per-node"))
+        read_integer(texts, "ranks-per-node", arguments.ghosts.ranks_per_node.emplace(), 1, many);
     if (texts.given("out")) arguments.out = texts["out"];
     choose_sweep(texts, arguments);
     return arguments;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cell_list.hpp"
 #include "method.hpp"
 #include "workload_mpi.hpp"
 
@@ -36,6 +37,7 @@ struct Arguments {
     int repeats = 7;
     std::uint64_t seed = 1;
     double drift = 0;  ///< of the cloud's points between calls, as a fraction of the extent
+    GhostRule ghosts;
     std::string out = "comparisons/out";
     bool sweep = false;  ///< the study of settings in place of one comparison
     SweptClouds swept;

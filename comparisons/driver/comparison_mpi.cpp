@@ -22,10 +22,23 @@ std::vector<double> reference_times(const Comparison& comparison) {
     return {};
 }
 
+std::optional<double> radius_of(const Comparison& comparison) {
+    for (const Measurement& measurement : comparison.measurements) {
+        if (measurement.ghosts) return measurement.ghosts->radius;
+    }
+    return std::nullopt;
+}
+
 /// A single value is that of all seeds.
 std::optional<Interval> interval_of_seeds(const std::vector<double>& values) {
     if (values.size() == 1) return Interval{values.front(), values.front()};
     return interval95(values);
+}
+
+template <typename Number>
+std::optional<Number> of_ghosts(const Measurement& measurement, Number Ghosts::*number) {
+    if (!measurement.ghosts) return std::nullopt;
+    return (*measurement.ghosts).*number;
 }
 
 /// Behind the key; `reference_ms` are the times of zoltan-rcb.
@@ -53,7 +66,12 @@ Row table_row(Row key, const Measurement& measurement, const std::vector<double>
         .add("seeds", measurement.imbalances.size())
         .add("lu_worst_percent", measurement.worst_unbalance_percent)
         .add("rounds", measurement.rounds)
-        .add_error(measurement.error);
+        .add_error(measurement.error)
+        .add("ghosts", of_ghosts(measurement, &Ghosts::sum))
+        .add("ghosts_max", of_ghosts(measurement, &Ghosts::most))
+        .add("neighbours_max", of_ghosts(measurement, &Ghosts::most_neighbours))
+        .add("off_machine_ghosts",
+             measurement.ghosts ? measurement.ghosts->off_machine : std::nullopt);
 }
 
 Row calls_row(const Comparison& comparison, const std::string& method, const std::string& function,
@@ -79,7 +97,8 @@ Row printed_row(const Measurement& measurement, double reference_ms) {
         .add("time ms", fixed(middle, 2))
         .add("95 %", interval ? fixed(interval->low, 2) + " ... " + fixed(interval->high, 2) : "-")
         .add("of Zoltan's", reference_ms > 0 ? fixed(middle / reference_ms, 2) : "-")
-        .add("bytes", human_bytes(static_cast<double>(measurement.traffic.bytes)));
+        .add("bytes", human_bytes(static_cast<double>(measurement.traffic.bytes)))
+        .add("ghosts", of_ghosts(measurement, &Ghosts::sum));
 }
 
 }  // namespace
@@ -95,7 +114,9 @@ Comparison describe(const Workload& workload, const MeasurementPlan& plan, MPI_C
 Comparison compare_methods(const Workload& workload, const Arguments& arguments,
                            const ResultsFolder& folder, Progress& progress, MPI_Comm comm) {
     Comparison comparison = describe(
-        workload, {arguments.lists, arguments.repeats, arguments.drift, arguments.seed}, comm);
+        workload,
+        {arguments.lists, arguments.repeats, arguments.drift, arguments.seed, arguments.ghosts},
+        comm);
     std::vector<Method> methods = arguments.methods;
     const auto reference = std::ranges::find(methods, "zoltan-rcb", &Method::label);
     const bool is_twice = reference != methods.end();
@@ -178,7 +199,10 @@ void print_table(std::ostream& out, const Comparison& comparison) {
         << comparison.workload << ": " << comparison.num_points << " points, "
         << comparison.dimension << "-D, " << comparison.layout << ", " << comparison.num_ranks
         << " ranks, lists " << lists_name(comparison.plan.lists) << ", median of "
-        << comparison.plan.repeats << "\n\n";
+        << comparison.plan.repeats;
+    if (const std::optional<double> radius = radius_of(comparison))
+        out << ", ghosts within " << nine_digits(*radius);
+    out << "\n\n";
     const double reference_ms = median(reference_times(comparison));
     std::vector<Row> rows;
     for (const Measurement& measurement : comparison.measurements) {

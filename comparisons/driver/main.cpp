@@ -78,6 +78,9 @@ std::string definitions() {
            "95 %: where the true median lies; of 6 repeats or more.\n"
            "of Zoltan's: this method's time / zoltan-rcb's.\n"
            "bytes: of one call over all ranks, as handed to MPI and got from it.\n"
+           "ghosts: copies of points that parts need from others: a point counts once for each "
+           "other\n"
+           "part that has a point within the radius of it.\n"
            "table.csv has more columns, run.txt versions, parameters and seeds.\n";
 }
 

@@ -218,9 +218,11 @@ std::vector<Measurement> measure(const Workload& workload, std::span<const Metho
     progress.start(workload.name + ": methods", num_calls);
     time_in_turns(candidates, plan.repeats, drift, moving, progress, comm);
     judge_all(candidates, moving, drift.moves(), progress, comm);
+    const GhostCounter ghosts(moving, plan.ghosts, comm);
     std::vector<Measurement> measurements;
     for (Candidate& candidate : candidates) {
-        measurements.push_back(concluded(std::move(candidate)));
+        Measurement& result = measurements.emplace_back(concluded(std::move(candidate)));
+        if (result.error.empty()) result.ghosts = ghosts.count(result.parts, size_of(comm));
     }
     return measurements;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ghost_counter_mpi.hpp"
 #include "method.hpp"
 #include "progress.hpp"
 #include "traffic.hpp"
@@ -29,6 +30,7 @@ struct Measurement {
     std::optional<int> rounds;  ///< of counting in a call of our own methods, by the interface: 1
                                 ///< where the estimate was accepted, 0 where none was refined
     std::map<std::string, CallCount> calls;  ///< the same call by MPI function, over all ranks
+    std::optional<Ghosts> ghosts{};          ///< of these parts; none of a method that failed
     std::vector<rrcb::Part> parts;  ///< of this rank's points, as the counted call made them
 };
 
@@ -38,6 +40,7 @@ struct MeasurementPlan {
     double drift = 0;  ///< fraction of the extent by which the points move between two rounds of
                        ///< calls; then the moved fraction is that of the last of these moves
     std::uint64_t seed = 1;  ///< of the drift
+    GhostRule ghosts{};
 };
 
 /// Seeds that a method is judged over when its points are pseudo-random.

@@ -71,6 +71,11 @@ Row& Row::add_error(const std::string& error) {
     return add("error", error);
 }
 
+bool Row::has_failed() const {
+    const auto error = std::ranges::find(columns_, "error", [](auto& c) { return c.first; });
+    return error != columns_.end() && !error->second.empty();
+}
+
 std::string Row::header() const {
     std::string names;
     for (const auto& [name, value] : columns_) names.append(names.empty() ? "" : ",").append(name);

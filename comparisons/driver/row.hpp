@@ -45,13 +45,13 @@ class Row {
     /// The columns so far, the key, tell what was measured.
     Row& end_key();
 
-    /// The last column, `error`; unless it is empty, all values behind the key are.
+    /// The column `error`; unless it is empty, all values from the key to it are.
     Row& add_error(const std::string& error);
 
     std::string header() const;
     std::string key() const;
     std::string text() const;
-    bool has_failed() const { return !columns_.back().second.empty(); }
+    bool has_failed() const;  ///< has a text in the column `error`
 
     /// The same columns with other values. There must be as many.
     Row with_values(const std::vector<std::string>& values) const;

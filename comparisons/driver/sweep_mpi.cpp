@@ -57,8 +57,11 @@ bool on_each_cloud(const Sweep& sweep, rrcb::GlobalCount num_points,
 
 bool measure_missing(const Sweep& sweep, const Workload& workload, std::vector<Method> settings,
                      SavedRows& rows) {
-    Comparison comparison =
-        describe(workload, {sweep.arguments.lists, sweep.arguments.repeats}, sweep.comm);
+    Comparison comparison = describe(workload,
+                                     {.lists = sweep.arguments.lists,
+                                      .repeats = sweep.arguments.repeats,
+                                      .ghosts = sweep.arguments.ghosts},
+                                     sweep.comm);
     std::erase_if(settings,
                   [&](const Method& m) { return rows.has(table_key(comparison, m.label)); });
     sweep.say(workload.name + ", " + std::to_string(workload.dimension) + "-D, " + workload.layout +

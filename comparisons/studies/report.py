@@ -38,7 +38,7 @@ from speed_up import (
     read_speed_ups,
     speed_up_table,
 )
-from tables import choice_matrix, choice_table, method_table, noise_table, simulation_table
+from tables import choice_matrix, choice_table, ghost_table, method_table, noise_table, simulation_table
 
 # Their captions are the docstrings of what draws them.
 PICTURES = {
@@ -79,7 +79,8 @@ def main() -> int:
         " it is too heavy. time: slowest rank, median of the repeats. times as fast: Zoltan RCB's"
         " time / this method's. bytes and"
         " messages: of one call over all ranks. into root: bytes that rank 0 receives."
-        " moved: weight that changes rank. exact: no part holds more than one point above the mean."
+        " moved: weight that changes rank. ghosts: copies of points that parts need from others; a"
+        " point counts once for each other part that has a point within the radius of it. exact: no part holds more than one point above the mean."
         " In brackets: intervals of 95 %; where they overlap, or that of a ratio holds 1, two"
         " methods are not told apart."
     )
@@ -150,6 +151,7 @@ def _begin(document: Document, results: Results, rows: pd.DataFrame, runs: pd.Da
 def _add_methods(document: Document, results: Results, rows: pd.DataFrame) -> None:
     for case, measured in cases(rows).items():
         document.table(f"{case}: {_size(measured)}", method_table(measured))
+        document.table(f"{case}: ghosts, the price of the parts' shape", ghost_table(measured))
     caption = "Noise: a baseline measured twice; less than this is not told apart"
     document.table(caption, noise_table(results.noise))
 

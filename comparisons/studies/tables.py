@@ -27,6 +27,24 @@ def method_table(rows: pd.DataFrame) -> Rows:
     ]
 
 
+def ghost_table(rows: pd.DataFrame) -> Rows:
+    """What the application pays for the shape of the parts; nothing of files without ghosts."""
+    return [_ghosts(row) for row in rows.itertuples()] if "ghosts" in rows else []
+
+
+def _ghosts(row: object) -> dict[str, str]:
+    texts = {
+        "method": row.method,
+        "ghosts": f"{row.ghosts:,.0f}",
+        "% of the points": f"{100 * row.ghosts / row.points:.1f}",
+        "most on a part": f"{row.ghosts_max:,.0f}",
+        "most neighbours": f"{row.neighbours_max:.0f}",
+    }
+    if pd.notna(row.off_machine_ghosts):
+        texts["off the machine %"] = f"{100 * row.off_machine_ghosts / max(1, row.ghosts):.1f}"
+    return texts
+
+
 def _signed(row: object) -> str:
     """Largest |Lu| with its sign, where that was measured."""
     worst = value_of(row, "lu_worst_percent")

@@ -91,6 +91,9 @@ TEST(Arguments, name_values_out_of_range) {
     expect_error({"--cloud=slope", "--points=1e6"},
                  "--points must be an integer from 1 to 2000000000, not '1e6'");
     expect_error({"--cloud=slope", "--dim=4"}, "--dim must be an integer from 2 to 3, not '4'");
+    expect_error({"--radius=0"}, "--radius must be a number above 0, not '0'");
+    expect_error({"--radius=inf"}, "--radius must be a number above 0, not 'inf'");
+    expect_error({"--ranks-per-node=0"}, "--ranks-per-node must be an integer from 1 to");
     expect_error({"--repeats=0"}, "--repeats must be an integer from 1 to 1000, not '0'");
 }
 

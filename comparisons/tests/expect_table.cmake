@@ -12,9 +12,9 @@ if(NOT rows EQUAL ROWS)
 endif()
 foreach(line IN LISTS lines)
   # A name, numbers and words, no intervals of times (there are too few repeats), rounds only of our
-  # own methods, and an empty error.
+  # own methods, an empty error, and ghosts, of one machine.
   string(REGEX REPLACE "^\"[^\"]+\"" "name" plain "${line}")
-  if(NOT plain MATCHES "^([^,]+,)+,,,,([^,]+,)+,?$" OR plain MATCHES "nan|inf")
+  if(NOT plain MATCHES "^([^,]+,)+,,,,([^,]+,)+,?,[0-9]+,[0-9]+,[0-9]+,$" OR plain MATCHES "nan|inf")
     message(FATAL_ERROR "a row of ${TABLE} lacks a value:\n${line}")
   endif()
 endforeach()

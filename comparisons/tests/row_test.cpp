@@ -27,6 +27,7 @@ TEST(Row, of_a_failure_tells_what_failed_and_why) {
     EXPECT_EQ(row.text(), "\"a,b\",,\"it said \"\"no\"\"\"");
     EXPECT_EQ(row.key(), "\"a,b\"");
     EXPECT_TRUE(row.has_failed());
+    EXPECT_TRUE(Row(row).add("more", 1).has_failed()) << "columns may stand behind the error";
     EXPECT_EQ(Row().add("repeat", 2).add(row).key(), "2,\"a,b\"");
 }
 

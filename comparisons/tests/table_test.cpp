@@ -13,6 +13,7 @@ Measurement measured(const std::string& method, std::vector<double> times) {
     measurement.worst_unbalance_percent = -25;
     measurement.moved_fraction = 0.5;
     measurement.traffic = {3, 400, 50, 6, 7};
+    measurement.ghosts = Ghosts{0.5, 90, 40, 2, 30};
     return measurement;
 }
 
@@ -38,14 +39,14 @@ TEST(Table, writes_the_columns_of_the_contract) {
         "time_ms_min,time_ms_max,imbalance,lu_max_percent,messages,bytes,root_bytes_in,"
         "collectives,communicators,moved_fraction,time_vs_zoltan_rcb,time_ms_low,time_ms_high,"
         "time_vs_zoltan_rcb_low,time_vs_zoltan_rcb_high,imbalance_low,imbalance_high,seeds,"
-        "lu_worst_percent,rounds,error\n"
+        "lu_worst_percent,rounds,error,ghosts,ghosts_max,neighbours_max,off_machine_ghosts\n"
         "zoltan-rcb,4,4,1000,2,slope,sorted,ALL,3,8,4,9,1.25,25,3,400,50,6,7,0.5,1,"
-        ",,,,1.25,1.25,1,-25,,\n"
+        ",,,,1.25,1.25,1,-25,,,90,40,2,30\n"
         "rrcb,4,4,1000,2,slope,sorted,ALL,3,2,1,6,1.25,25,3,400,50,6,7,0.5,0.25,"
-        ",,,,1.25,1.25,1,-25,1,\n"
+        ",,,,1.25,1.25,1,-25,1,,90,40,2,30\n"
         "\"rrcb-sampled[mesh=4,k=2]\",4,4,1000,2,slope,sorted,ALL,3,,,,,,,,,,,,,"
         ",,,,,,,,,"
-        "\"it said \"\"no\"\"\"\n");
+        "\"it said \"\"no\"\"\",,,,\n");
 }
 
 TEST(Table, knows_of_failed_methods) {
@@ -67,16 +68,20 @@ TEST(Table, tells_intervals_of_six_repeats_and_ten_seeds) {
     six.measurements[1].imbalances = {1.9, 1.1, 1.8, 1.2, 1.7, 1.3, 1.6, 1.4, 1.5, 1};
     const std::string rows = rows_of(six);
     // Ratios in turn: 1.5, 1, 0.5, 0.5, 1.5, 0.25; that of the medians is 3.5 / 4.
-    EXPECT_NE(rows.find(",3.5,1,6,1.45,25,3,400,50,6,7,0.5,0.875,1,6,0.25,1.5,1.1,1.8,10,-25,,\n"),
-              std::string::npos)
+    EXPECT_NE(
+        rows.find(
+            ",3.5,1,6,1.45,25,3,400,50,6,7,0.5,0.875,1,6,0.25,1.5,1.1,1.8,10,-25,,,90,40,2,30\n"),
+        std::string::npos)
         << rows;
-    EXPECT_NE(rows.find(",0.5,1,2,8,1,1,1.25,1.25,1,-25,,\n"), std::string::npos) << rows;
+    EXPECT_NE(rows.find(",0.5,1,2,8,1,1,1.25,1.25,1,-25,,,90,40,2,30\n"), std::string::npos)
+        << rows;
 }
 
 TEST(Table, leaves_out_ratios_where_zoltan_s_rcb_is_not_there) {
     Comparison alone = comparison();
     alone.measurements.erase(alone.measurements.begin());
-    EXPECT_NE(rows_of(alone).find(",0.5,,,,,,1.25,1.25,1,-25,1,\n"), std::string::npos);
+    alone.measurements[0].ghosts->off_machine.reset();
+    EXPECT_NE(rows_of(alone).find(",0.5,,,,,,1.25,1.25,1,-25,1,,90,40,2,\n"), std::string::npos);
 }
 
 TEST(Table, writes_imbalances_to_all_digits) {

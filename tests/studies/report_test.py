@@ -20,7 +20,7 @@ import report  # noqa: E402
 from document import Document  # noqa: E402
 from results import is_within, measurements, simulations  # noqa: E402
 from sentences import sentences, simulation_sentence  # noqa: E402
-from tables import method_table, simulation_table  # noqa: E402
+from tables import ghost_table, method_table, simulation_table  # noqa: E402
 
 HEADER = (
     "method,ranks,parts,points,dim,workload,layout,lists,repeats,time_ms_median,time_ms_min,"
@@ -107,6 +107,20 @@ class ChoiceTest(unittest.TestCase):
         beaten = measured("zoltan-rib", 9, 1.1)
         names = choice.pareto_front(table(*ROWS, beaten), "time_ms")["method"].tolist()
         self.assertEqual(names, ["rrcb[tol=1.05]", "rrcb-exact", "zoltan-rcb"])
+
+
+class GhostTest(unittest.TestCase):
+    GHOSTS = {"ghosts": 500, "ghosts_max": 200, "neighbours_max": 3, "off_machine_ghosts": 125}
+
+    def test_are_shares_of_the_points_and_of_the_ghosts(self) -> None:
+        (row,) = ghost_table(table(measured("rrcb", 1, 1.0) | self.GHOSTS))
+        self.assertEqual(list(row.values()), ["rrcb", "500", "50.0", "200", "3", "25.0"])
+
+    def test_need_no_machines(self) -> None:
+        one_machine = self.GHOSTS | {"off_machine_ghosts": float("nan")}
+        (row,) = ghost_table(table(measured("rrcb", 1, 1.0) | one_machine))
+        self.assertEqual(list(row)[-1], "most neighbours")
+        self.assertEqual(ghost_table(table(*ROWS)), [])
 
 
 class NoiseTest(unittest.TestCase):

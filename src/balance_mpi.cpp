@@ -2,280 +2,205 @@
 
 #include "bisection/limited_bisection.hpp"
 #include "collective/communicator.hpp"
+#include "collective/duplicate.hpp"
 #include "cuts/cut_limits.hpp"
 #include "cuts/direct_assignment.hpp"
-#include "gather/decision_mpi.hpp"
 #include "gather/earlier_cuts.hpp"
 #include "gather/keeping.hpp"
 #include "gather/merge_tree_mpi.hpp"
+#include "held_parts_mpi.hpp"
+#include "options/stage_scope.hpp"
 #include "options/validation.hpp"
-#include "search/refinement_mpi.hpp"
+#include "settlement_mpi.hpp"
 #include "spread_reuse_mpi.hpp"
-#include "stage_scope.hpp"
-#include "wide_mpi.hpp"
-
-#include <rrcb/balance.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <optional>
 #include <utility>
-#include <vector>
+
+// A call has five steps:
+//   prepare    options, checks, what this rank tells, and memory for all messages
+//   estimate   rank 0 bisects the cells of all ranks, or looks at the parts of earlier cuts
+//   stay       where the parts that the ranks hold, or those of the earlier cuts, are even enough
+//   settle     otherwise the cuts move by what the ranks count
+//   report     how even the parts are
+// Only the first may fail on one rank alone: the estimate tells all.
 
 namespace rrcb {
 
 namespace {
 
-/// State of a call on one rank.
-struct Work {
-    Options options;
-    BinnedPoints binned;
+/// A call on one rank.
+struct Call {
+    Call(const Points& given, StageObserver* observer) : points(given) {
+        options.parts.observer = observer;
+    }
+
+    Points points;  ///< without weights if all of them are 0
+    CallOptions options;
     Contribution mine;
     Decision decision;
-    PartTotals totals;  ///< of this rank, by earlier cuts
-    PartSums sums;      ///< where parts are counted
-    std::optional<Refinement> refinement;
-    /// Where many ranks make the parts, what was asked for: the options above are for regions.
-    std::optional<Options> whole;
-    std::optional<RegionRefinement> below_regions;
-    std::optional<SpreadPlaces> places;  ///< where points may stay as they lie
+    BinnedPoints binned;
+    Settlement settlement;
     Balance result;
 };
 
-/// Gathers the contributions of all ranks at the root. Collective.
-void gather(int dimension, Work& work, Participant& self) {
-    const Options& options = work.options;
-    Contribution& mine = work.mine;
-    const StageScope stage(options.observer, Stage::gather);
-    const std::size_t most = most_cells(options);
-    merge_up(mine, dimension, MergeTree{mpi::size_of(self.comm)},
-             work.whole ? std::min(most, most_cells_of_regions) : most, self);
-}
-
-bool is_known(const Verdict& verdict) {
-    return !std::isnan(verdict.current_imbalance);
-}
-
 /// Completes the options, and tells the other ranks of them and of the points.
-void introduce(const Points& points, const Options& given, const Box& box, const Cuts* previous,
-               Work& work, const Participant& self) {
-    Options& options = work.options = complete(given, mpi::size_of(self.comm));
+void introduce(const Options& given, const Box& box, const Cuts* previous, Call& call,
+               const Participant& self) {
+    const int num_ranks = mpi::size_of(self.comm);
+    const Points& points = call.points;
+    Options options = complete(given, num_ranks);
     check_options(options, points.dimension);
     if (previous) check_previous(*previous, options, points.dimension);
-    work.mine.summary = summarize(points, box);
-    work.mine.summary.request = request_of(options, points.dimension, previous);
-    if (is_wide(options, mpi::size_of(self.comm))) {
-        if (!options.part_sizes.empty()) normalize(options.part_sizes, options.num_parts);
-        work.whole = std::exchange(options, region_options(options));
+    call.mine.summary = summarize(points, box);
+    call.mine.summary.request = request_of(options, points.dimension, previous);
+    call.options = call_options(std::move(options), num_ranks);
+    call.result.parts.resize(points.count);
+}
+
+/// Gives every rank the decision of rank 0, or throws on all what failed on one. Collective.
+void estimate(Call& call, Participant& self) {
+    {
+        const StageScope stage(call.options.parts.observer, Stage::gather);
+        merge_up(call.mine, call.points.dimension, MergeTree{mpi::size_of(self.comm)},
+                 most_merged_cells(call.options), self);
     }
-    normalize(options.part_sizes, options.num_parts);
+    decide_together(call.mine, call.options.central(), call.decision, self);
+    const Options& options = call.options.parts;
+    call.result.report = report_of(call.decision.verdict, options.num_parts, options.part_sizes);
+    call.result.cuts = std::move(call.decision.bisection.cuts);
+    if (call.result.report.details.all_weights_zero)
+        call.points.weights = call.binned.points.weights = {};
 }
 
-/// Makes room for the points' parts and for what a refinement needs.
-void make_room_for_parts(const Points& points, bool counts, Work& work, const Participant& self) {
-    const Options& options = work.options;
-    work.result.parts.resize(points.count);
-    if (is_refined(options) || counts) work.sums = PartSums(options.part_sizes.size());
-    if (is_refined(options)) work.refinement.emplace(options, self, work.sums);
-    if (work.whole) work.below_regions.emplace(self);
-}
-
-/// Everything before the first message. Not collective.
-void prepare(const Points& points, const Options& given, bool may_stay, Work& work,
+/// Prepares a call from nothing. Not collective.
+void prepare(const Options& given, bool may_stay, Call& call, HeldParts& held,
              const Participant& self) {
     const StageScope stage(given.observer, Stage::moments);
+    const Points& points = call.points;
     const Box box = check_points(points);
-    introduce(points, given, box, nullptr, work, self);
-    const Options& options = work.options;
-    const bool reads_current = reads_current_parts(options, mpi::size_of(self.comm));
-    make_room(work.decision, options, points.dimension, reads_current);
-    make_room_for_parts(points, reads_current, work, self);
-    if (work.whole && may_keep_parts(*work.whole, mpi::size_of(self.comm)))
-        work.places.emplace(*work.whole, place_of(points, box, work.mine.summary.weight), may_stay,
-                            points.dimension, mpi::rank_of(self.comm));
-    work.binned = bin_by_options(points, box, options);
-    add_records(points, work.binned, work.mine);
-    if (reads_current && may_stay)
-        append_place(place_of(points, box, work.mine.summary.weight), points.dimension,
-                     work.mine.places);
+    introduce(given, box, nullptr, call, self);
+    const Options& central = call.options.central();
+    held.prepare(call.options, points, may_stay, mpi::rank_of(self.comm), mpi::size_of(self.comm),
+                 call.mine);
+    make_buffers(call.decision, central, points.dimension, held.is_central());
+    call.settlement.prepare(call.options, held.is_central(), self);
+    call.binned = bin_by_options(points, box, central);
+    add_records(points, call.binned, call.mine);
 }
 
-/// The same where earlier cuts may stay: assigns the points by them, and counts the parts.
-void prepare_to_reuse(const Points& points, const Options& given, const Cuts& previous, Work& work,
+/// Makes the parts, by rank 0 and if many ranks make them by these. Collective.
+void settle(Call& call, Participant& self) {
+    Settlement& settlement = call.settlement;
+    const Verdict& verdict = call.decision.verdict;
+    if (is_refined(call.options.central()) && verdict.num_points > 0) {
+        const auto bin = [&]() -> const BinnedPoints& { return call.binned; };
+        settlement.refine(call.points, std::ref(bin), call.decision, call.result, self);
+    } else {
+        settlement.assign(call.points, is_known(verdict.current_imbalance), call.result, self);
+    }
+    if (call.options.is_spread())
+        settlement.divide_regions(call.binned, verdict, call.result, self);
+}
+
+Balance balance_from_nothing(const Points& points, const Options& given, bool may_stay,
+                             Participant& self) {
+    Call call(points, given.observer);
+    HeldParts held;
+    self.attempt([&] { prepare(given, may_stay, call, held, self); });
+    estimate(call, self);
+    const Options& options = call.options.parts;
+    held.read(call.decision.verdict, call.result.report, self);
+    bool stays = held.are_good(options.imbalance_tolerance);
+    if (!stays) {
+        settle(call, self);
+        stays = held.do_as_well_as(call.result.report.imbalance, options);
+    }
+    if (stays) held.keep(call.options, call.decision, call.result, self);
+    if (call.options.is_spread()) hold_cuts(call.points, options, call.result, self);
+    return std::move(call.result);
+}
+
+/// What a call from earlier cuts counts by them.
+struct EarlierParts {
+    PartTotals totals{};                  ///< of this rank, where rank 0 looks at all parts
+    std::optional<SpreadReuse> spread{};  ///< where many ranks do
+};
+
+/// True when a call by these options may begin with earlier cuts.
+bool may_reuse(const Cuts& previous, const CallOptions& options) {
+    if (!options.is_spread()) return is_whole(previous);
+    return options.parts.refine != Refine::exact && !options.parts.axes.order.is_given();
+}
+
+/// Prepares a call from earlier cuts: assigns the points by them, and counts the parts where these
+/// may be good enough. Not collective.
+void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call, EarlierParts& earlier,
                       const Participant& self) {
     const StageScope stage(given.observer, Stage::assignment);
+    const Points& points = call.points;
     check_arrays(points);
-    introduce(points, given, Box{}, &previous, work, self);
-    make_room_to_reuse(work.decision, work.options, previous);
-    make_room_for_parts(points, are_cuts_limited(work.options), work, self);
-    if (!counts_earlier_parts(work.options)) {
-        check_points(points);
-        return;
+    introduce(given, Box{}, &previous, call, self);
+    if (!may_reuse(previous, call.options)) return;
+    const Options& central = call.options.central();
+    std::vector<Part>& parts = call.result.parts;
+    bool all_finite = true;
+    if (call.options.is_spread()) {
+        call.decision.reuses = true;
+        earlier.spread.emplace(previous, call.options, points, parts, self.comm);
+        all_finite = earlier.spread->all_finite();
+    } else {
+        make_buffers_to_reuse(call.decision, central, previous);
+        call.settlement.prepare(call.options, are_cuts_limited(central), self);
+        if (!counts_earlier_parts(central)) {
+            check_points(points);
+            return;
+        }
+        earlier.totals = assign_and_count(call.decision.bisection.cuts, points, parts);
+        all_finite = earlier.totals.all_finite;
+        add_totals(earlier.totals, call.mine);
     }
-    work.totals = assign_and_count(work.decision.bisection.cuts, points, work.result.parts);
-    const PartTotals& totals = work.totals;
-    if (!totals.all_finite) reject_coordinates(points);
-    work.mine.part_totals = totals.weights;
-    work.mine.part_totals.insert(work.mine.part_totals.end(), totals.counts.begin(),
-                                 totals.counts.end());
+    if (!all_finite) reject_coordinates(points);
 }
 
-/// The same where no rank looks at all cuts. Leaves `reuse` empty if the options rule it out.
-void prepare_to_reuse_spread(const Points& points, const Options& given, const Cuts& previous,
-                             Work& work, std::optional<SpreadReuse>& reuse,
-                             const Participant& self) {
-    const StageScope stage(given.observer, Stage::assignment);
-    check_arrays(points);
-    introduce(points, given, Box{}, &previous, work, self);
-    if (!work.whole || work.whole->refine == Refine::exact || work.whole->axes.order.is_given())
-        return;
-    work.decision.reuses = true;
-    work.result.parts.resize(points.count);
-    reuse.emplace(previous, work.options.axes.plain, points, work.result.parts, self.comm);
-    if (!reuse->all_finite()) reject_coordinates(points);
+/// True when the earlier cuts are kept: the report tells how even their parts are. Collective where
+/// many ranks look at them.
+bool keeps_earlier(Call& call, EarlierParts& earlier, Participant& self) {
+    if (earlier.spread) return earlier.spread->ends(call.result, self);
+    const Options& options = call.options.parts;
+    Report& report = call.result.report;
+    if (report.details.num_points == 0) return true;
+    if (are_cuts_limited(options)) return false;
+    if (is_refined(options) && !(report.imbalance <= options.imbalance_tolerance)) return false;
+    report.details.rounds = is_refined(options) ? 1 : 0;
+    report_measured(report.imbalance, options.imbalance_tolerance, report);
+    report.part_weights = std::move(call.decision.part_weights);
+    return true;
 }
 
-/// Assigns the points by the cuts as they are, and counts the parts where the cuts are earlier ones
-/// or the ranks hold parts that may be as good. Collective.
-void assign_together(const Points& points, Work& work, Participant& self) {
-    const StageScope stage(work.options.observer, Stage::assignment);
-    Balance& result = work.result;
-    const bool counts = is_known(work.decision.verdict) || work.decision.reuses;
-    Points counted = points;
-    if (result.report.details.all_weights_zero) counted.weights = {};
-    self.attempt([&] {
-        if (!counts) return assign(result.cuts, points, result.parts);
-        const PartTotals totals = assign_and_count(result.cuts, counted, result.parts);
-        std::ranges::copy(totals.weights, work.sums.here().begin());
-    });
-    if (!counts) return agree(self);
-    const double imbalance = work.sums.add_up(work.options.part_sizes, self);
-    report_measured(imbalance, work.sums.take(), work.options, result.report);
-}
-
-/// Moves the cuts by what the ranks count, and assigns the points by them. Collective.
-void refine_together(const Points& points, const Bin& bin, Work& work, Participant& self) {
-    const Options& options = work.options;
-    const StageScope stage(options.observer, Stage::refinement);
-    Balance& result = work.result;
-    Report& report = result.report;
-    Points counted = points;
-    if (report.details.all_weights_zero) counted.weights = work.binned.points.weights = {};
-    Decision& decision = work.decision;
-    Estimate estimate{std::move(result.cuts),
-                      std::move(decision.bisection.brackets),
-                      weight_of(report),
-                      decision.verdict.common_weight,
-                      decision.verdict.current_imbalance,
-                      !decision.part_weights.empty(),
-                      decision.verdict.heaviest,
-                      decision.reuses,
-                      decision.box.empty() ? Box{} : decision.box[0]};
-    Refined refined =
-        work.refinement->refine(std::move(estimate), counted, bin, result.parts, self);
-    report_measured(refined.imbalance, work.sums.take(), options, report);
-    report.details.rounds = refined.rounds;
-    report.details.coincident_cuts = refined.coincident_cuts;
-    result.cuts = std::move(refined.cuts);
-}
-
-/// Searches cuts from earlier ones on, of points in `box` here and in `whole` on all ranks.
-/// Collective.
-void search_from_earlier(const Points& points, const Box& box, const Box& whole, Work& work,
-                         Participant& self) {
-    bracket_earlier(work.result.cuts, whole, work.decision.bisection.brackets);
+/// Moves the earlier cuts, which lie where limits let them. Collective.
+void settle_from_earlier(Call& call, const EarlierParts& earlier, Participant& self) {
+    const Options& options = call.options.parts;
+    Decision& decision = call.decision;
+    const Box box = bounding_box(call.points);
+    decision.verdict.box = box_together(box, self);
+    const Box& whole = decision.verdict.box;
+    if (are_cuts_limited(options))
+        self.attempt([&] { move_into_places(whole, options, call.result.cuts); });
+    if (!is_refined(options)) return call.settlement.assign(call.points, true, call.result, self);
+    if (counts_earlier_parts(options))
+        call.settlement.take_counts(
+            call.points.weights.empty() ? earlier.totals.counts : earlier.totals.weights,
+            decision.part_weights);
+    bracket_earlier(call.result.cuts, whole, decision.bisection.brackets);
     // A correction of all cuts at once needs no cells.
     const auto bin = [&]() -> const BinnedPoints& {
-        Points counted = points;
-        if (work.result.report.details.all_weights_zero) counted.weights = {};
-        if (work.binned.cells.empty()) work.binned = bin_by_options(counted, box, work.options);
-        return work.binned;
+        if (call.binned.cells.empty()) call.binned = bin_by_options(call.points, box, options);
+        return call.binned;
     };
-    refine_together(points, std::ref(bin), work, self);
-}
-
-/// Moves earlier cuts to where limits let them lie, and searches them there. Collective.
-void reuse_within_limits(const Points& points, Work& work, Participant& self) {
-    const Box box = bounding_box(points);
-    const Box whole = box_together(box, self);
-    self.attempt([&] { move_into_places(whole, work.options, work.result.cuts); });
-    if (!is_refined(work.options)) return assign_together(points, work, self);
-    work.decision.box[0] = whole;
-    search_from_earlier(points, box, whole, work, self);
-}
-
-/// Ends with earlier cuts where their parts are even enough, or moves them. Collective.
-void reuse_together(const Points& points, Work& work, Participant& self) {
-    const Options& options = work.options;
-    Report& report = work.result.report;
-    if (report.details.num_points == 0) return;
-    if (are_cuts_limited(options)) return reuse_within_limits(points, work, self);
-    const bool is_good = report.imbalance <= options.imbalance_tolerance;
-    if (is_good || !is_refined(options)) {
-        report.details.rounds = is_refined(options) ? 1 : 0;
-        report_measured(report.imbalance, std::move(work.decision.part_weights), options, report);
-        return;
-    }
-    const Box box = bounding_box(points);
-    const Box whole = box_together(box, self);
-    if (counts_earlier_parts(options))
-        work.sums.set(report.details.all_weights_zero ? work.totals.counts : work.totals.weights,
-                      work.decision.part_weights);
-    search_from_earlier(points, box, whole, work, self);
-}
-
-/// Leaves the points in the parts that they lie in. Not collective.
-void stay(Work& work, const Participant& self) {
-    CurrentParts& current = work.decision.current;
-    Balance& result = work.result;
-    const auto rank = static_cast<std::size_t>(mpi::rank_of(self.comm));
-    std::ranges::fill(result.parts, current.parts[rank]);
-    result.cuts = std::move(current.cuts);
-    result.report.kept = true;
-    result.report.details.coincident_cuts = static_cast<int>(
-        std::ranges::count_if(result.cuts.tree, [](const Cut& cut) { return cut.divides != 0; }));
-    report_measured(work.decision.verdict.current_imbalance, std::move(current.part_weights),
-                    work.options, result.report);
-}
-
-/// Makes the parts, or leaves them as they are. Collective.
-void divide_together(const Points& points, Work& work, Participant& self) {
-    const Report& report = work.result.report;
-    const Verdict& verdict = work.decision.verdict;
-    if (verdict.stays) {
-        const StageScope stage(work.options.observer, Stage::assignment);
-        stay(work, self);
-        return agree(self);
-    }
-    if (is_refined(work.options) && report.details.num_points > 0) {
-        const auto bin = [&]() -> const BinnedPoints& { return work.binned; };
-        refine_together(points, std::ref(bin), work, self);
-    } else {
-        assign_together(points, work, self);
-    }
-    if (!is_known(verdict)) return;
-    if (is_worth_moving(verdict.current_imbalance, report.imbalance, work.options)) return;
-    const StageScope stage(work.options.observer, Stage::broadcast);
-    broadcast_current(work.decision, self);
-    stay(work, self);
-}
-
-/// Makes the parts by many ranks, or leaves them as they are. Collective.
-void divide_among_many(const Points& points, Work& work, Participant& self) {
-    const Options& options = *work.whole;
-    const Verdict& verdict = work.decision.verdict;
-    Balance& result = work.result;
-    auto held = read_held(work.places, result.report, *work.below_regions, self);
-    if (held && stays_at_once(held->imbalance, options.imbalance_tolerance))
-        return stay_spread(options, verdict.heaviest, std::move(*held), result, self);
-    divide_together(points, work, self);
-    work.refinement.reset();
-    if (result.report.details.all_weights_zero) work.binned.points.weights = {};
-    refine_regions(options, verdict, work.mine.summary.box, work.binned, *work.below_regions,
-                   result, self);
-    if (held && !is_worth_moving(held->imbalance, result.report.imbalance, options))
-        stay_spread(options, verdict.heaviest, std::move(*held), result, self);
+    call.settlement.refine(call.points, std::ref(bin), decision, call.result, self);
 }
 
 /// True when parts are so uneven that the axes of earlier cuts, which stay, may be why.
@@ -287,52 +212,53 @@ bool may_be_poor(const Report& report, const Options& options) {
            report.imbalance > factor * within_reach;
 }
 
-/// Ends with earlier cuts where their parts are even enough, or balances from nothing; no rank
-/// looks at all cuts. Collective.
-Balance reuse_spread(const Points& points, const Options& given, const Cuts& previous,
-                     bool may_stay, Participant& self) {
-    Work work;
-    work.options.observer = given.observer;
-    std::optional<SpreadReuse> reuse;
-    self.attempt([&] { prepare_to_reuse_spread(points, given, previous, work, reuse, self); });
+/// The better of two balances of the same points. Cuts from nothing have to be worth it.
+Balance better(Balance&& reused, Balance&& anew, const Options& options) {
+    const int rounds = reused.report.details.rounds + anew.report.details.rounds;
+    const bool gains = is_worth_moving(reused.report.imbalance, anew.report.imbalance, options);
+    Balance best = gains ? std::move(anew) : std::move(reused);
+    best.report.details.rounds = rounds;
+    return best;
+}
+
+Balance balance_from_earlier(const Points& points, const Options& given, const Cuts& previous,
+                             bool may_stay, Participant& self) {
+    Call call(points, given.observer);
+    EarlierParts earlier;
+    self.attempt([&] { prepare_to_reuse(given, previous, call, earlier, self); });
     // Both begin with the same messages, so that ranks meet there where one has failed.
-    if (!self.failed() && !reuse)
-        return balance_once(points, given, nullptr, may_stay, self).balance;
-    gather(points.dimension, work, self);
-    decide_together(work.mine, work.options, work.decision, self);
-    const Verdict& verdict = work.decision.verdict;
-    work.result.report = report_of(verdict, work.whole->num_parts);
-    if (!reuse->ends(*work.whole, verdict.heaviest, work.result, self))
-        return balance_once(points, given, nullptr, may_stay, self).balance;
-    hold_cuts(points, *work.whole, work.result, self);
-    return std::move(work.result);
+    if (!self.failed() && !may_reuse(previous, call.options))
+        return balance_from_nothing(points, given, may_stay, self);
+    estimate(call, self);
+    const bool is_kept = keeps_earlier(call, earlier, self);
+    if (call.options.is_spread()) {
+        if (!is_kept) return balance_from_nothing(points, given, may_stay, self);
+        hold_cuts(call.points, call.options.parts, call.result, self);
+        return std::move(call.result);
+    }
+    if (!is_kept) settle_from_earlier(call, earlier, self);
+    if (!may_be_poor(call.result.report, call.options.parts)) return std::move(call.result);
+    return better(std::move(call.result), balance_from_nothing(points, given, false, self),
+                  call.options.parts);
 }
 
 }  // namespace
 
-Outcome balance_once(const Points& points, const Options& given, const Cuts* previous,
-                     bool may_stay, Participant& self) {
-    if (previous && reuses_spread(*previous, given, mpi::size_of(self.comm)))
-        return {reuse_spread(points, given, *previous, may_stay, self)};
-    Work work;
-    work.options.observer = given.observer;
-    self.attempt([&] {
-        previous ? prepare_to_reuse(points, given, *previous, work, self)
-                 : prepare(points, given, may_stay, work, self);
-    });
-    gather(points.dimension, work, self);
-    decide_together(work.mine, work.options, work.decision, self);
-    const int num_parts = work.whole ? work.whole->num_parts : work.options.num_parts;
-    work.result.report = report_of(work.decision.verdict, num_parts);
-    work.result.cuts = std::move(work.decision.bisection.cuts);
-    if (work.whole) {
-        divide_among_many(points, work, self);
-        hold_cuts(points, *work.whole, work.result, self);
-    } else {
-        previous ? reuse_together(points, work, self) : divide_together(points, work, self);
-    }
-    const bool is_poor = previous && may_be_poor(work.result.report, work.options);
-    return {std::move(work.result), is_poor};
+Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_stay,
+                Participant& self) {
+    return previous ? balance_from_earlier(points, options, *previous, may_stay, self)
+                    : balance_from_nothing(points, options, may_stay, self);
+}
+
+Balance balance(const Points& points, const Options& options, MPI_Comm comm) {
+    Participant self{mpi::duplicate_of(comm)};
+    return balance(points, options, nullptr, true, self);
+}
+
+Balance rebalance(const Points& points, const Options& options, const Cuts& previous,
+                  MPI_Comm comm) {
+    Participant self{mpi::duplicate_of(comm)};
+    return balance(points, options, &previous, true, self);
 }
 
 }  // namespace rrcb

@@ -14,14 +14,4 @@ namespace rrcb {
 Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_stay,
                 Participant& self);
 
-/// What a search ends with, and whether another set of axes may be much better.
-struct Outcome {
-    Balance balance;
-    bool may_be_poor = false;
-};
-
-/// The same by one search, which keeps the axes of earlier cuts.
-Outcome balance_once(const Points& points, const Options& options, const Cuts* previous,
-                     bool may_stay, Participant& self);
-
 }  // namespace rrcb

@@ -4,7 +4,8 @@
 #include "collective/communicator.hpp"
 #include "cuts/packed_tree.hpp"
 #include "cuts/part_share.hpp"
-#include "wide_mpi.hpp"
+#include "gather/decision_mpi.hpp"
+#include "gather/earlier_cuts.hpp"
 
 #include <rrcb/plan.hpp>
 
@@ -13,7 +14,6 @@
 #include <bit>
 #include <functional>
 #include <iterator>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -25,15 +25,8 @@ void add(std::span<const double> a, std::span<const double> b, std::vector<doubl
     std::ranges::transform(a, b, std::back_inserter(joined), std::plus<>());
 }
 
-/// The cuts as planes where these are asked for, with their numbers. They divide no points of one
-/// place, which the look-up keeps together.
-Cuts fitted(Cuts cuts, bool plain_cuts) {
-    for (Cut& cut : cuts.tree) {
-        const double plane = cut.at[cut.axis];
-        if (plain_cuts) cut.at.fill(-std::numeric_limits<double>::infinity());
-        cut.at[cut.axis] = plane;
-        cut.divides = 0;
-    }
+/// Cuts with their numbers, also if they are all.
+Cuts numbered(Cuts cuts) {
     if (is_whole(cuts)) {
         cuts.nodes.resize(cuts.tree.size());
         std::iota(cuts.nodes.begin(), cuts.nodes.end(), 0);
@@ -43,12 +36,13 @@ Cuts fitted(Cuts cuts, bool plain_cuts) {
 
 }  // namespace
 
-SpreadReuse::SpreadReuse(const Cuts& previous, bool plain_cuts, const Points& points,
+SpreadReuse::SpreadReuse(const Cuts& previous, const CallOptions& options, const Points& points,
                          std::span<Part> parts, MPI_Comm comm)
-    : points_(points),
+    : options_(options),
+      points_(points),
       parts_(parts),
       was_whole_(is_whole(previous)),
-      cuts_(fitted(previous, plain_cuts)),
+      cuts_(numbered(fitted(previous, options.parts))),
       totals_(assign_and_count(cuts_, points, parts)),
       room_(PathSearch(cuts_, points, parts), comm),
       sums_(mpi::rank_of(comm), mpi::size_of(comm), add) {}
@@ -68,9 +62,9 @@ void SpreadReuse::add_up(bool by_count) {
 }
 
 /// Largest weight of a part that this rank owns, over what it should weigh.
-double SpreadReuse::largest_share(double total_weight, std::span<const double> sizes) const {
-    const double all_sizes =
-        sizes.empty() ? cuts_.num_parts : std::accumulate(sizes.begin(), sizes.end(), 0.0);
+double SpreadReuse::largest_share(double total_weight) const {
+    const std::vector<double>& sizes = options_.parts.part_sizes;
+    const double all_sizes = sizes.empty() ? cuts_.num_parts : sum_of(sizes);
     double largest = 0;
     sums_.owned().for_each([&](const Record& part) {
         const double ideal = (sizes.empty() ? 1 : sizes[part.key]) / all_sizes;
@@ -79,15 +73,13 @@ double SpreadReuse::largest_share(double total_weight, std::span<const double> s
     return largest;
 }
 
-/// Imbalance of the parts, the same on every rank. `sizes` has one entry per part, or is empty for
-/// equal ones.
-double SpreadReuse::measure(double total_weight, bool by_count, std::span<const double> sizes,
-                            Participant& self) {
+/// Imbalance of the parts, the same on every rank. Collective.
+double SpreadReuse::measure(double total_weight, bool by_count, Participant& self) {
     search_together(room_, self);
     cuts_ = room_.search.take();
     self.attempt([&] { add_up(by_count); });
     room_.messages.run(sums_, Butterfly::to_owners, {}, self);
-    const double largest = largest_share(total_weight, sizes);
+    const double largest = largest_share(total_weight);
     sums_.clear();
     room_.messages.run(sums_, Butterfly::to_owners, {0, largest}, self);
     return sums_.flags()[1];
@@ -95,10 +87,10 @@ double SpreadReuse::measure(double total_weight, bool by_count, std::span<const 
 
 /// All cuts where each rank has and gets them; otherwise those above the points and the parts of
 /// this rank, and those between regions.
-Cuts SpreadReuse::kept_cuts(const Options& options) const {
-    if (was_whole_ && options.cuts == HeldCuts::whole)
+Cuts SpreadReuse::kept_cuts() const {
+    if (was_whole_ && options_.parts.cuts == HeldCuts::whole)
         return {cuts_.dimension, cuts_.num_parts, cuts_.tree};
-    const auto num_regions = static_cast<unsigned>(region_options(options).num_parts);
+    const auto num_regions = static_cast<unsigned>(options_.central().num_parts);
     const int depth = std::bit_width(num_regions) - 1;
     std::vector<Part> needed;
     const auto [first, end] = parts_on(sums_.rank(), cuts_.num_parts, sums_.num_ranks());
@@ -117,15 +109,14 @@ Cuts SpreadReuse::kept_cuts(const Options& options) const {
     return kept;
 }
 
-bool SpreadReuse::ends(const Options& options, double heaviest, Balance& result,
-                       Participant& self) {
+bool SpreadReuse::ends(Balance& result, Participant& self) {
     Report& report = result.report;
-    const bool by_count = report.details.all_weights_zero;
-    const double weight = weight_of(report);
-    const double imbalance = measure(weight, by_count, options.part_sizes, self);
-    report_parts(imbalance, heaviest, weight, options, report);
-    if (report.details.num_points > 0 && !report.within_tolerance) return false;
-    self.attempt([&] { result.cuts = kept_cuts(options); });
+    const double imbalance = measure(weight_of(report), report.details.all_weights_zero, self);
+    if (report.details.num_points > 0) {
+        report_measured(imbalance, options_.parts.imbalance_tolerance, report);
+        if (!report.within_tolerance) return false;
+    }
+    self.attempt([&] { result.cuts = kept_cuts(); });
     agree(self);
     report.details.rounds = report.details.num_points > 0 ? 1 : 0;
     return true;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "call_options.hpp"
 #include "cuts/direct_assignment.hpp"
 #include "cuts/path_search.hpp"
 #include "cuts/tier_search_mpi.hpp"
@@ -15,10 +16,10 @@ namespace rrcb {
 /// the points of a rank are in, and the cuts above them.
 class SpreadReuse {
   public:
-    /// Assigns the points, whose `parts` it writes. `points` and `parts` outlive it. Not
+    /// Assigns the points, whose `parts` it writes. `options`, `points` and `parts` outlive it. Not
     /// collective; throws std::bad_alloc, and Error where the rank lacks a cut that it owns.
-    SpreadReuse(const Cuts& previous, bool plain_cuts, const Points& points, std::span<Part> parts,
-                MPI_Comm comm);
+    SpreadReuse(const Cuts& previous, const CallOptions& options, const Points& points,
+                std::span<Part> parts, MPI_Comm comm);
 
     /// False where a coordinate is NaN or infinite; then the rest is void.
     bool all_finite() const { return totals_.all_finite; }
@@ -28,17 +29,16 @@ class SpreadReuse {
     /// the parts of this rank and those between regions; false where they are not.
     ///
     /// Collective: one pass through the ranks, or more where one lacks cuts, to find the parts, one
-    /// to add up and one to compare. `options` are those of the call, complete; `heaviest` is the
-    /// weight of a point.
-    bool ends(const Options& options, double heaviest, Balance& result, Participant& self);
+    /// to add up and one to compare.
+    bool ends(Balance& result, Participant& self);
 
   private:
-    double measure(double total_weight, bool by_count, std::span<const double> sizes,
-                   Participant& self);
+    double measure(double total_weight, bool by_count, Participant& self);
     void add_up(bool by_count);
-    double largest_share(double total_weight, std::span<const double> sizes) const;
-    Cuts kept_cuts(const Options& options) const;
+    double largest_share(double total_weight) const;
+    Cuts kept_cuts() const;
 
+    const CallOptions& options_;
     const Points& points_;
     std::span<Part> parts_;
     bool was_whole_;

@@ -131,6 +131,11 @@ void add_records(const Points& points, const BinnedPoints& binned, Contribution&
     mine.summary.num_cells = static_cast<std::int64_t>(cells.size());
 }
 
+void add_totals(const PartTotals& totals, Contribution& mine) {
+    mine.part_totals = totals.weights;
+    mine.part_totals.insert(mine.part_totals.end(), totals.counts.begin(), totals.counts.end());
+}
+
 std::size_t most_cells(const Options& options) {
     constexpr std::size_t most = 8192;
     return options.tuning.support_mesh == 0 ? most : std::numeric_limits<std::size_t>::max();

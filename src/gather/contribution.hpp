@@ -2,6 +2,7 @@
 
 #include "cells/binned_points.hpp"
 #include "collective/failure.hpp"
+#include "cuts/direct_assignment.hpp"
 #include "options/request.hpp"
 
 #include <rrcb/method/statistical_domain.hpp>
@@ -56,6 +57,9 @@ Summary summarize(const Points& points, const Box& box);
 
 /// Reduces checked points to what the root needs of them.
 void add_records(const Points& points, const BinnedPoints& binned, Contribution& mine);
+
+/// Adds what earlier cuts make of the points.
+void add_totals(const PartTotals& totals, Contribution& mine);
 
 /// Cells that the options let a merging leave: a fixed number, whatever the number of ranks, unless
 /// the mesh was asked for. Twice as many lean ones may be handed on as they are.

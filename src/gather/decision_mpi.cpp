@@ -3,9 +3,10 @@
 #include "bisection/bisection.hpp"
 #include "bisection/limited_bisection.hpp"
 #include "collective/communicator.hpp"
+#include "cuts/part_share.hpp"
 #include "gather/earlier_cuts.hpp"
 #include "gather/keeping.hpp"
-#include "stage_scope.hpp"
+#include "options/stage_scope.hpp"
 
 #include <rrcb/error.hpp>
 #include <rrcb/quality.hpp>
@@ -15,7 +16,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -36,14 +36,20 @@ Verdict verdict_of(const Summary& summary, const Bisection& bisection,
     verdict.num_points = summary.num_points;
     verdict.num_records = summary.num_cells;
     verdict.total_weight = summary.weight;
-    verdict.least_imbalance =
-        summary.weight == 0
-            ? least_imbalance(1, static_cast<double>(summary.num_points), part_sizes)
-            : least_imbalance(summary.heaviest, summary.weight, part_sizes);
+    verdict.box = summary.box;
     const bool estimates = !bisection.part_weights.empty() || summary.num_points == 0;
     verdict.estimated_imbalance =
         estimates ? imbalance(bisection.part_weights, part_sizes) : not_known;
     return verdict;
+}
+
+/// Imbalance of a partition with the heaviest point alone in the largest part.
+double least_imbalance(double heaviest, double weight, int num_parts,
+                       std::span<const double> part_sizes) {
+    if (!(weight > 0)) return 1;
+    const double parts =
+        part_sizes.empty() ? num_parts : sum_of(part_sizes) / *std::ranges::max_element(part_sizes);
+    return std::max(1.0, heaviest / weight * parts);
 }
 
 /// Throws Error when the ranks do not fit together.
@@ -69,7 +75,6 @@ void for_each_array(Decision& decision, Visit&& visit) {
     if (stays) visit(std::span(decision.current.part_weights));
     if (stays) visit(std::span(decision.current.parts));
     if (!stays) visit(std::span(decision.bisection.brackets));
-    if (!stays) visit(std::span(decision.box));
 }
 
 /// The message, as long as what it holds.
@@ -99,10 +104,6 @@ void broadcast_head(Head& head, Verdict& verdict, const Participant& self) {
     mpi::broadcast(head, root, self.comm);
     std::memcpy(&verdict, head.data(), sizeof verdict);
     fail_together(verdict.failing_rank, self);
-}
-
-void make_room_for_box(Decision& decision, const Options& options) {
-    decision.box.resize(is_refined(options) && are_cuts_limited(options) ? 1 : 0);
 }
 
 Bisection bisect_gathered(const Contribution& all, const Options& options, int dimension,
@@ -138,31 +139,29 @@ void weigh_current(const Contribution& all, const Options& options, Decision& de
 
 }  // namespace
 
-double least_imbalance(double heaviest, double weight, std::span<const double> part_sizes) {
-    if (!(weight > 0)) return 1;
-    const double sizes = std::accumulate(part_sizes.begin(), part_sizes.end(), 0.0);
-    return std::max(1.0, heaviest / weight * (sizes / *std::ranges::max_element(part_sizes)));
-}
-
-Report report_of(const Verdict& verdict, int num_parts) {
+Report report_of(const Verdict& verdict, int num_parts, std::span<const double> part_sizes) {
     Report report;
     report.details.num_points = verdict.num_points;
     report.details.num_records = verdict.num_records;
     report.details.total_weight = verdict.total_weight;
     report.details.estimated_imbalance = verdict.estimated_imbalance;
     report.imbalance = verdict.measured_imbalance;
-    report.details.least_imbalance = verdict.least_imbalance;
     report.details.all_weights_zero = verdict.num_points > 0 && verdict.total_weight == 0;
+    report.details.least_imbalance =
+        least_imbalance(verdict.heaviest, weight_of(report), num_parts, part_sizes);
     report.details.surplus_parts =
         static_cast<int>(std::max(GlobalCount{0}, num_parts - verdict.num_points));
     return report;
 }
 
-void report_measured(double imbalance, std::vector<double>&& part_weights, const Options& options,
-                     Report& report) {
+void report_measured(double imbalance, double tolerance, Report& report) {
     report.imbalance = imbalance;
-    report.within_tolerance = imbalance <= options.imbalance_tolerance;
-    report.part_weights = std::move(part_weights);
+    report.within_tolerance = imbalance <= tolerance;
+}
+
+double weight_of(const Report& report) {
+    return report.details.all_weights_zero ? static_cast<double>(report.details.num_points)
+                                           : report.details.total_weight;
 }
 
 bool is_refined(const Options& options) {
@@ -173,16 +172,15 @@ bool counts_earlier_parts(const Options& options) {
     return !are_cuts_limited(options) && (!is_refined(options) || options.refine != Refine::exact);
 }
 
-void make_room_to_reuse(Decision& decision, const Options& options, const Cuts& previous) {
+void make_buffers_to_reuse(Decision& decision, const Options& options, const Cuts& previous) {
     decision.reuses = true;
     decision.bisection.cuts = fitted(previous, options);
     decision.bisection.brackets.reserve(is_refined(options) ? previous.tree.size() : 0);
-    make_room_for_box(decision, options);
     decision.part_weights.resize(counts_earlier_parts(options) ? options.part_sizes.size() : 0);
     decision.message.resize(std::span(decision.part_weights).size_bytes());
 }
 
-void make_room(Decision& decision, const Options& options, int dimension, bool may_stay) {
+void make_buffers(Decision& decision, const Options& options, int dimension, bool may_stay) {
     const std::size_t num_parts = options.part_sizes.size();
     const std::size_t num_cuts = num_parts - 1;
     Bisection& bisection = decision.bisection;
@@ -190,14 +188,13 @@ void make_room(Decision& decision, const Options& options, int dimension, bool m
     bisection.cuts.num_parts = static_cast<int>(num_parts);
     bisection.cuts.tree.resize(num_cuts);
     bisection.brackets.resize(is_refined(options) ? num_cuts : 0);
-    make_room_for_box(decision, options);
     if (may_stay) {
         decision.current.cuts = bisection.cuts;
         decision.current.part_weights.resize(num_parts);
         decision.current.parts.resize(num_parts);
     }
     const std::size_t beside_cuts =
-        std::max(bisection.brackets.size() * sizeof(Bracket) + decision.box.size() * sizeof(Box),
+        std::max(bisection.brackets.size() * sizeof(Bracket),
                  decision.current.parts.size() * (sizeof(double) + sizeof(Part)));
     decision.message.resize(num_cuts * sizeof(Cut) + beside_cuts);
 }
@@ -209,7 +206,6 @@ void decide(const Contribution& all, const Options& options, Decision& decision)
         const bool with_brackets = is_refined(options);
         bisection = bisect_gathered(all, options, bisection.cuts.dimension, with_brackets);
         bisection.brackets.resize(with_brackets ? bisection.cuts.tree.size() : 0);
-        if (!decision.box.empty()) decision.box[0] = all.summary.box;
     }
     decision.verdict = verdict_of(all.summary, bisection, options.part_sizes);
     if (decision.reuses) weigh_parts(all, options, decision);

@@ -16,6 +16,10 @@ namespace rrcb {
 
 inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
+inline bool is_known(double imbalance) {
+    return imbalance == imbalance;
+}
+
 /// Verdict of the root, which it tells first: whether there are cuts, and the totals.
 struct Verdict {
     std::int32_t failing_rank = no_rank;
@@ -26,7 +30,7 @@ struct Verdict {
     std::int64_t num_records = 0;
     double total_weight = 0;
     double estimated_imbalance = 1;
-    double least_imbalance = 1;
+    Box box{};                              ///< of all points, where cells were gathered
     double current_imbalance = not_known;   ///< of the parts that the ranks hold, where they do
     double measured_imbalance = not_known;  ///< of the parts of earlier cuts, where all counted
 };
@@ -39,29 +43,27 @@ using Head = std::array<std::byte, 2048>;
 struct Decision {
     Verdict verdict;
     Bisection bisection;
-    std::vector<Box> box{};              ///< of all points, where limited cuts are to be refined
     CurrentParts current{};              ///< on all ranks once they were told that these stay
     bool reuses = false;                 ///< the cuts are earlier ones, which all ranks have
     std::vector<double> part_weights{};  ///< of the parts of these, where all counted
     std::vector<std::byte> message;      ///< either of them on its way
 };
 
-/// Imbalance of a partition with the heaviest point alone in the largest part.
-double least_imbalance(double heaviest, double weight, std::span<const double> part_sizes);
+/// Report on a partition that nobody has measured. No sizes stand for equal ones.
+Report report_of(const Verdict& verdict, int num_parts, std::span<const double> part_sizes);
 
-/// Report on a partition that nobody has measured.
-Report report_of(const Verdict& verdict, int num_parts);
+/// Adds how even the parts are, as counted.
+void report_measured(double imbalance, double tolerance, Report& report);
 
-/// Tells what the parts weigh, as counted.
-void report_measured(double imbalance, std::vector<double>&& part_weights, const Options& options,
-                     Report& report);
+/// Weight of all points, or their number if they are balanced by that.
+double weight_of(const Report& report);
 
 /// True when the cuts are to be moved by what the ranks count.
 bool is_refined(const Options& options);
 
-/// Makes room for what the root will send: the current parts only where it may read them. Not
+/// Makes buffers for what the root will send: the current parts only where it may read them. Not
 /// collective.
-void make_room(Decision& decision, const Options& options, int dimension, bool may_stay);
+void make_buffers(Decision& decision, const Options& options, int dimension, bool may_stay);
 
 /// True when the parts of earlier cuts are counted: they may be good enough, and the cuts lie where
 /// they may.
@@ -69,7 +71,7 @@ bool counts_earlier_parts(const Options& options);
 
 /// The same where earlier cuts are the decision, unless their parts turn out too uneven: takes the
 /// cuts, as the options ask for them. Not collective.
-void make_room_to_reuse(Decision& decision, const Options& options, const Cuts& previous);
+void make_buffers_to_reuse(Decision& decision, const Options& options, const Cuts& previous);
 
 /// Bisects, at the root, what the ranks contributed; or looks at what they counted by earlier cuts.
 /// Finds out whether the current parts are so good that they stay. Throws Error when the ranks do

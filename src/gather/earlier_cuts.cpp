@@ -30,29 +30,29 @@ void bracket_node(const Cuts& cuts, const Descent& at, Box box, int depth,
     bracket_node(cuts, at.upper(), box, depth + 1, brackets);
 }
 
-void fit(const Options& options, const Descent& at, Cuts& cuts) {
-    if (at.is_part()) return;
-    Cut& cut = cuts.tree[at.node];
-    const auto sizes = std::span(options.part_sizes)
-                           .subspan(static_cast<std::size_t>(at.first_part),
-                                    static_cast<std::size_t>(at.num_parts));
-    const double share = share_below(sizes);
+/// Leaves nothing in parts of size 0, and makes the cut a plane where that is asked for.
+void fit(const Options& options, const Descent& at, Cut& cut) {
     const auto axis = static_cast<std::size_t>(cut.axis);
     double value = cut.at[axis];
-    if (share <= 0) value = -infinity;
-    if (share >= 1) value = infinity;
+    if (!options.part_sizes.empty()) {
+        const double share = share_below(std::span(options.part_sizes)
+                                             .subspan(static_cast<std::size_t>(at.first_part),
+                                                      static_cast<std::size_t>(at.num_parts)));
+        if (share <= 0) value = -infinity;
+        if (share >= 1) value = infinity;
+    }
     if (options.axes.plain || value != cut.at[axis]) cut.at.fill(-infinity);
     cut.divides = 0;
     cut.at[axis] = value;
-    fit(options, at.lower(), cuts);
-    fit(options, at.upper(), cuts);
 }
 
 }  // namespace
 
-Cuts fitted(const Cuts& previous, const Options& options) {
-    Cuts cuts = previous;
-    fit(options, root_of(cuts), cuts);
+Cuts fitted(Cuts cuts, const Options& options) {
+    for (std::size_t k = 0; k < cuts.tree.size(); ++k) {
+        const std::size_t node = is_whole(cuts) ? k : static_cast<std::size_t>(cuts.nodes[k]);
+        fit(options, node_at(cuts, node).at, cuts.tree[k]);
+    }
     return cuts;
 }
 

@@ -6,9 +6,10 @@
 
 namespace rrcb {
 
-/// The cuts of an earlier call such as complete options ask for: planes, and nothing in parts of
-/// size 0. They divide no points of one place, which the look-up keeps together.
-Cuts fitted(const Cuts& previous, const Options& options);
+/// The cuts of an earlier call, or those that this rank knows, such as complete options ask for:
+/// planes, and nothing in parts of size 0. They divide no points of one place, which the look-up
+/// keeps together.
+Cuts fitted(Cuts previous, const Options& options);
 
 /// Adds brackets about cuts, as wide as those that estimated cuts of an even cloud in `box` would
 /// have; none where the box is empty. Takes memory for one per cut.

@@ -85,16 +85,15 @@ SpreadPlaces::SpreadPlaces(const Options& options, const Place& mine, bool may_s
       dimension_(dimension),
       butterfly_(rank, options.num_parts, joins[static_cast<std::size_t>(dimension) - 1]) {}
 
-std::optional<SpreadParts> SpreadPlaces::read(double total, bool by_count,
-                                              ButterflyMessages& messages, Participant& self) {
+std::optional<SpreadParts> SpreadPlaces::read(double total, bool by_count, Participant& self) {
     self.attempt([&] { tell_places(); });
-    messages.run(butterfly_, Butterfly::to_owners,
-                 {0, may_stay_ ? 0.0 : 1.0, share(total, by_count)}, self);
+    messages_.run(butterfly_, Butterfly::to_owners,
+                  {0, may_stay_ ? 0.0 : 1.0, share(total, by_count)}, self);
     const double imbalance = butterfly_.flags()[2];
     if (butterfly_.flags()[1] > 0) return std::nullopt;
     bool are_cut = false;
     self.attempt([&] { are_cut = decide_cuts(); });
-    messages.run(butterfly_, Butterfly::back, {0, are_cut ? 0.0 : 1.0}, self);
+    messages_.run(butterfly_, Butterfly::back, {0, are_cut ? 0.0 : 1.0}, self);
     if (butterfly_.flags()[1] > 0) return std::nullopt;
     SpreadParts parts;
     self.attempt([&] { parts = parts_told(); });

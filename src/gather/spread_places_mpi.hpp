@@ -34,8 +34,7 @@ class SpreadPlaces {
     /// message has 16 (1 + dimension + dimension^2) bytes at most for each cut above a part. Throws
     /// on every rank what failed on one before; but a failure in the last messages stays with its
     /// rank for the next agreement.
-    std::optional<SpreadParts> read(double total, bool by_count, ButterflyMessages& messages,
-                                    Participant& self);
+    std::optional<SpreadParts> read(double total, bool by_count, Participant& self);
 
   private:
     double share(double total, bool by_count) const;
@@ -49,6 +48,7 @@ class SpreadPlaces {
     bool may_stay_;
     int dimension_;
     Butterfly butterfly_;
+    ButterflyMessages messages_{};
 };
 
 }  // namespace rrcb

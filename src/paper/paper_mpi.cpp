@@ -7,10 +7,10 @@
 #include "gather/merge_tree_mpi.hpp"
 #include "options/rejection.hpp"
 #include "options/request.hpp"
+#include "options/stage_scope.hpp"
 #include "options/validation.hpp"
 #include "paper/paper_checks.hpp"
 #include "paper/paper_records.hpp"
-#include "stage_scope.hpp"
 
 #include <rrcb/method/support_mesh.hpp>
 #include <rrcb/quality.hpp>
@@ -73,16 +73,13 @@ void gather(std::vector<double>& packed, StageObserver* observer, Participant& s
 /// What rank 0 reports of a bisection.
 Verdict verdict_of(const PaperRecords& all, std::span<const double> part_weights,
                    const PaperOptions& options) {
-    const bool by_count = all.weight == 0;
     Verdict verdict;
     verdict.num_points = all.num_points;
     verdict.num_records =
         options.domain == PaperDomain::sampled ? std::ssize(all.cells) : all.num_points;
     verdict.total_weight = all.weight;
     verdict.estimated_imbalance = imbalance(part_weights, options.part_sizes);
-    verdict.least_imbalance = least_imbalance(
-        by_count ? 1 : all.heaviest, by_count ? static_cast<double>(all.num_points) : all.weight,
-        options.part_sizes);
+    verdict.heaviest = all.weight == 0 ? 1 : all.heaviest;
     return verdict;
 }
 
@@ -138,12 +135,13 @@ Balance balance_as_in_paper(const Points& points, const PaperOptions& given, Par
         result.parts.resize(points.count);
     });
     agree_on(options, points.dimension, self);
+    if (!options.part_sizes.empty()) normalize(options.part_sizes, options.num_parts);
     gather(packed, options.observer, self);
     Verdict verdict;
     if (mpi::rank_of(self.comm) == root)
         self.attempt([&] { verdict = bisect_domain(packed, options, result.cuts); });
     broadcast(verdict, result.cuts.tree, options.observer, self);
-    result.report = report_of(verdict, options.num_parts);
+    result.report = report_of(verdict, options.num_parts, options.part_sizes);
     const StageScope stage(options.observer, Stage::assignment);
     self.attempt([&] { assign(result.cuts, points, result.parts); });
     agree(self);

@@ -100,8 +100,6 @@ class RegionRefinement {
     Refined refine(const Regions& regions, PartTree tree, const BinnedPoints& binned,
                    std::span<Part> parts, Participant& self);
 
-    ButterflyMessages& messages() { return rounds_.messages(); }
-
   private:
     Refined search(const Regions& regions, const PartTree& tree, SortedPoints& points,
                    std::span<Part> parts, Participant& self);

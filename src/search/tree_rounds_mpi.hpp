@@ -26,7 +26,6 @@ class TreeRounds {
     double imbalance() const { return butterfly_.flags()[2]; }
 
     int rank() const { return butterfly_.rank(); }
-    ButterflyMessages& messages() { return messages_; }
 
   private:
     Butterfly butterfly_;

@@ -84,7 +84,7 @@ TEST_P(ManyRanks, send_the_root_a_bounded_number_of_cells_and_are_balanced_all_t
     EXPECT_LE(ranks.root_in, 6 * 7 * most * doubles_per_cell);
 
     Decision decision;
-    make_room(decision, ranks.options, 2, false);
+    make_buffers(decision, ranks.options, 2, false);
     decide(all, ranks.options, decision);
     const Points points = ranks.points();
     const BinnedPoints binned = bin_by_options(points, bounding_box(points), ranks.options);

@@ -1,11 +1,11 @@
 #include "zoltan/call/partition_mpi.hpp"
 
 #include "balance_mpi.hpp"
+#include "call_options.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/gather_cuts_mpi.hpp"
 #include "paper/paper_mpi.hpp"
-#include "wide_mpi.hpp"
 #include "zoltan/call/fortran_mpi.hpp"
 #include "zoltan/call/forwarding.hpp"
 #include "zoltan/call/layout_mpi.hpp"
@@ -129,7 +129,7 @@ Preparation prepare(const Call& call, const Layout& layout, int dimension, Parti
             make_options(parameters, layout, dimension, locks ? &*call.previous : nullptr);
         if (parameters.paper_domain) made.paper = make_paper_options(parameters, layout);
         const Communicator& comm = *call.state.communicator;
-        made.is_spread = !parameters.paper_domain && is_wide(made.options, comm.size());
+        made.is_spread = !parameters.paper_domain && rrcb::is_spread(made.options, comm.size());
         made.renumbering.emplace(parameters, layout, call.outcome.any_names_parts, comm,
                                  made.is_spread);
         const bool looks_up = !made.is_spread || call.outcome.any_keeps_cuts;

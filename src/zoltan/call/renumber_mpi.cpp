@@ -38,7 +38,8 @@ Renumbered Renumbering::run(const Objects& objects, std::span<Part> parts, Parti
     PreviousParts previous;
     if (objects.names_parts) previous.emplace(objects.initial_parts.get(), parts.size());
     auto [summary, boxes] = find_numbers(parts, previous, *buffers_, self);
-    if (summary.identity) return {};
+    // A rank without memory has no numbers; the next agreement tells the others.
+    if (summary.identity || self.failed()) return {};
     std::vector<Part> numbers = std::move(summary.numbers);
     Renumbered result{std::move(summary)};
     result.numbering = boxes_.empty() ? Numbering::of_some(std::move(boxes), std::move(numbers))

@@ -1,0 +1,98 @@
+#include "call_options.hpp"
+
+#include "cuts/cut_limits.hpp"
+#include "cuts/part_share.hpp"
+#include "gather/contribution.hpp"
+#include "gather/decision_mpi.hpp"
+#include "options/validation.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <span>
+#include <utility>
+
+namespace rrcb {
+
+namespace {
+
+/// Regions that rank 0 makes at most. With more it would receive more than a rank that owns nodes.
+constexpr int most_regions = 64;
+
+constexpr std::size_t most_cells_of_regions = 112;
+
+void append_region_nodes(const Descent& at, int num_regions, std::vector<Descent>& nodes) {
+    if (num_regions == 1) return nodes.push_back(at);
+    append_region_nodes(at.lower(), num_regions / 2, nodes);
+    append_region_nodes(at.upper(), num_regions / 2, nodes);
+}
+
+/// Appends the axes of the cuts between regions.
+void append_axes(const Descent& at, int num_regions, std::span<const int> cut_axes,
+                 std::vector<int>& axes) {
+    if (num_regions == 1) return;
+    axes.push_back(cut_axes[at.node]);
+    append_axes(at.lower(), num_regions / 2, cut_axes, axes);
+    append_axes(at.upper(), num_regions / 2, cut_axes, axes);
+}
+
+double levels(int num_parts) {
+    return static_cast<double>(std::bit_width(static_cast<unsigned>(num_parts - 1)));
+}
+
+/// As many regions as the largest power of two up to central_parts and most_regions, and a
+/// tolerance that leaves the levels below theirs. For exact cuts there is one region: rank 0 would
+/// gather a few points about each cut, and a number from each rank.
+Options region_options(const Options& parts) {
+    const auto most = static_cast<unsigned>(std::min(parts.tuning.central_parts, most_regions));
+    const bool is_exact = parts.refine == Refine::exact;
+    Options regions = parts;
+    regions.num_parts = is_exact ? 1 : static_cast<int>(std::bit_floor(most));
+    if (regions.num_parts == 1) regions.refine = Refine::none;
+    regions.part_sizes.clear();
+    for (const Descent& at : region_nodes(parts.num_parts, regions.num_parts)) {
+        const auto first = static_cast<std::size_t>(at.first_part);
+        const auto count = static_cast<std::size_t>(at.num_parts);
+        regions.part_sizes.push_back(
+            parts.part_sizes.empty() ? at.num_parts
+                                     : sum_of(std::span(parts.part_sizes).subspan(first, count)));
+    }
+    normalize(regions.part_sizes, regions.num_parts);
+    if (const AxisOrder& order = parts.axes.order; order.is_given()) {
+        std::vector<int> axes;
+        append_axes({0, 0, parts.num_parts}, regions.num_parts, order.axes(), axes);
+        regions.axes.order = AxisOrder::given(std::move(axes));
+    }
+    regions.imbalance_tolerance =
+        std::pow(parts.imbalance_tolerance, levels(regions.num_parts) / levels(parts.num_parts));
+    return regions;
+}
+
+}  // namespace
+
+bool is_spread(const Options& options, int num_ranks) {
+    return std::min(options.num_parts, num_ranks) > options.tuning.central_parts &&
+           is_refined(options) && !options.axes.order.is_grouped() && !are_cuts_limited(options);
+}
+
+CallOptions call_options(Options options, int num_ranks) {
+    CallOptions call{std::move(options)};
+    const bool spread = is_spread(call.parts, num_ranks);
+    if (!spread || !call.parts.part_sizes.empty())
+        normalize(call.parts.part_sizes, call.parts.num_parts);
+    if (spread) call.regions = region_options(call.parts);
+    return call;
+}
+
+std::size_t most_merged_cells(const CallOptions& options) {
+    const std::size_t most = most_cells(options.parts);
+    return options.is_spread() ? std::min(most, most_cells_of_regions) : most;
+}
+
+std::vector<Descent> region_nodes(int num_parts, int num_regions) {
+    std::vector<Descent> nodes;
+    append_region_nodes({0, 0, num_parts}, num_regions, nodes);
+    return nodes;
+}
+
+}  // namespace rrcb

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "cuts/tree.hpp"
+
+#include <rrcb/options.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace rrcb {
+
+/// Complete options of a call. If it is spread, rank 0 makes regions in place of parts, and the
+/// ranks of the parts make these below them.
+struct CallOptions {
+    Options parts{};                   ///< sizes are normalized; if spread, none for equal ones
+    std::optional<Options> regions{};  ///< if spread
+
+    bool is_spread() const { return regions.has_value(); }
+    /// What rank 0 makes.
+    const Options& central() const { return regions ? *regions : parts; }
+};
+
+/// True if many ranks make the parts, see Tuning::central_parts; `options` are complete.
+bool is_spread(const Options& options, int num_ranks);
+
+/// Adds to complete and checked options what rank 0 makes.
+CallOptions call_options(Options options, int num_ranks);
+
+/// Cells that a merging leaves at most; for regions so few that no rank, which takes in those of
+/// seven others at once, receives more than 64 kB.
+std::size_t most_merged_cells(const CallOptions& options);
+
+/// Nodes of the tree of `num_parts` parts that are the regions: a full level, so a power of two.
+std::vector<Descent> region_nodes(int num_parts, int num_regions);
+
+}  // namespace rrcb

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "call_options.hpp"
+#include "gather/decision_mpi.hpp"
+#include "gather/spread_places_mpi.hpp"
+
+#include <rrcb/balance.hpp>
+
+#include <limits>
+#include <optional>
+
+namespace rrcb {
+
+/// The parts that the ranks hold, one each, in which the points may be kept. Rank 0 reads them from
+/// the places of all ranks, or if many ranks make the parts, these do.
+class HeldParts {
+  public:
+    /// Notes the place of this rank's points, which are checked and add up to `mine`; adds it to
+    /// that if rank 0 reads it. Not collective. Throws std::bad_alloc. `options` outlive this.
+    void prepare(const CallOptions& options, const Points& points, bool may_stay, int rank,
+                 int num_ranks, Contribution& mine);
+
+    /// True if rank 0 may read them.
+    bool is_central() const { return is_central_; }
+
+    /// Finds out how even they are. Collective if many ranks make the parts.
+    void read(const Verdict& verdict, const Report& report, Participant& self);
+
+    /// True if the ranks hold parts, and these are so even that no better ones are searched.
+    bool are_good(double tolerance) const;
+
+    /// True if the ranks hold parts, and those of another `imbalance` are not worth moving points.
+    bool do_as_well_as(double imbalance, const Options& options) const;
+
+    /// Makes them the result. Collective.
+    void keep(const CallOptions& options, Decision& decision, Balance& result, Participant& self);
+
+  private:
+    void keep_central(const CallOptions& options, Decision& decision, Balance& result,
+                      Participant& self) const;
+
+    bool is_central_ = false;
+    std::optional<SpreadPlaces> places_;  ///< if many ranks make the parts
+    SpreadParts spread_;
+    double imbalance_ = not_known;
+};
+
+}  // namespace rrcb

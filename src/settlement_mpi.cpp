@@ -1,0 +1,152 @@
+#include "settlement_mpi.hpp"
+
+#include "bisection/axis_choice.hpp"
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
+#include "cuts/cut_limits.hpp"
+#include "cuts/direct_assignment.hpp"
+#include "cuts/gather_cuts_mpi.hpp"
+#include "cuts/path_search.hpp"
+#include "cuts/tier_search_mpi.hpp"
+#include "lists/quality_mpi.hpp"
+#include "options/stage_scope.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace rrcb {
+
+namespace {
+
+/// Gives points the number of the first part of their region, in place of its own.
+void number_as_in_tree(int num_parts, Balance& result) {
+    const std::vector<Descent> regions = region_nodes(num_parts, result.cuts.num_parts);
+    for (Part& part : result.parts) part = regions[static_cast<std::size_t>(part)].first_part;
+}
+
+PartTree tree_of(const Options& options, const Verdict& verdict, double weight, int num_ranks) {
+    PartTree tree;
+    tree.num_parts = options.num_parts;
+    tree.num_ranks = num_ranks;
+    tree.weight = weight;
+    tree.part_sizes = options.part_sizes;
+    if (options.axes.order.is_given()) tree.cut_axes = options.axes.order.axes();
+    tree.rule.tolerance = options.imbalance_tolerance;
+    tree.rule.common_weight = verdict.common_weight;
+    tree.rule.heaviest = verdict.heaviest;
+    tree.rule.is_exact = options.refine == Refine::exact;
+    tree.share_of_longest = near_longest;
+    tree.plain_cuts = options.axes.plain;
+    tree.divides_coincident = options.coincident == Coincident::divide;
+    return tree;
+}
+
+/// The cuts above each of these points, with what is known. Collective.
+Cuts with_cuts_above(const Points& points, const Cuts& known, Participant& self) {
+    std::vector<Part> parts;
+    std::optional<SearchRoom<PathSearch>> room;
+    self.attempt([&] {
+        parts.resize(points.count);
+        assign_known(known, points, parts);
+        room.emplace(PathSearch(known, points, parts), self.comm);
+    });
+    agree(self);
+    search_together(*room, self);
+    return room->search.take();
+}
+
+}  // namespace
+
+void Settlement::prepare(const CallOptions& options, bool counts, const Participant& self) {
+    options_ = &options;
+    const Options& central = options.central();
+    if (is_refined(central) || counts) sums_ = PartSums(central.part_sizes.size());
+    if (is_refined(central)) refinement_.emplace(central, self, sums_);
+    if (options.is_spread()) below_regions_.emplace(self);
+}
+
+void Settlement::assign(const Points& points, bool counts, Balance& result, Participant& self) {
+    const StageScope stage(options_->parts.observer, Stage::assignment);
+    self.attempt([&] {
+        if (!counts) return rrcb::assign(result.cuts, points, result.parts);
+        const PartTotals totals = assign_and_count(result.cuts, points, result.parts);
+        std::ranges::copy(totals.weights, sums_.here().begin());
+    });
+    if (!counts) return agree(self);
+    const Options& central = options_->central();
+    const double imbalance = sums_.add_up(central.part_sizes, self);
+    report_measured(imbalance, central.imbalance_tolerance, result.report);
+    result.report.part_weights = sums_.take();
+}
+
+void Settlement::take_counts(std::span<const double> here, std::span<const double> sums) {
+    sums_.set(here, sums);
+}
+
+void Settlement::refine(const Points& points, const Bin& bin, Decision& decision, Balance& result,
+                        Participant& self) {
+    const Options& central = options_->central();
+    const StageScope stage(central.observer, Stage::refinement);
+    Report& report = result.report;
+    const Verdict& verdict = decision.verdict;
+    Estimate estimate{std::move(result.cuts),
+                      std::move(decision.bisection.brackets),
+                      weight_of(report),
+                      verdict.common_weight,
+                      verdict.current_imbalance,
+                      !decision.part_weights.empty(),
+                      verdict.heaviest,
+                      decision.reuses,
+                      verdict.box};
+    Refined refined = refinement_->refine(std::move(estimate), points, bin, result.parts, self);
+    report_measured(refined.imbalance, central.imbalance_tolerance, report);
+    report.part_weights = sums_.take();
+    report.details.rounds = refined.rounds;
+    report.details.coincident_cuts = refined.coincident_cuts;
+    result.cuts = std::move(refined.cuts);
+}
+
+void Settlement::divide_regions(const BinnedPoints& binned, const Verdict& verdict, Balance& result,
+                                Participant& self) {
+    const Options& options = options_->parts;
+    const StageScope stage(options.observer, Stage::refinement);
+    refinement_.reset();
+    Report& report = result.report;
+    const double weight = weight_of(report);
+    // Not counted without points, or for one region.
+    std::vector<double> weights = std::exchange(report.part_weights, {});
+    self.attempt([&] { weights.resize(static_cast<std::size_t>(result.cuts.num_parts), weight); });
+    self.attempt([&] { number_as_in_tree(options.num_parts, result); });
+    const Regions regions{std::move(result.cuts), weights, verdict.box,
+                          report.details.coincident_cuts};
+    Refined refined =
+        below_regions_->refine(regions, tree_of(options, verdict, weight, mpi::size_of(self.comm)),
+                               binned, result.parts, self);
+    agree(self);
+    result.cuts = std::move(refined.cuts);
+    if (report.details.num_points > 0)
+        report_measured(refined.imbalance, options.imbalance_tolerance, report);
+    report.details.rounds += refined.rounds;
+    report.details.coincident_cuts = refined.coincident_cuts;
+}
+
+void hold_cuts(const Points& points, const Options& options, Balance& result, Participant& self) {
+    Report& report = result.report;
+    const bool gets_all = options.cuts == HeldCuts::whole;
+    const bool divides =
+        options.coincident == Coincident::divide && report.details.coincident_cuts > 0;
+    if (!gets_all && !divides) return;
+    const StageScope stage(options.observer, Stage::broadcast);
+    if (!gets_all) {
+        result.cuts = with_cuts_above(points, result.cuts, self);
+        return;
+    }
+    if (!is_whole(result.cuts)) result.cuts = gather_cuts(result.cuts, self);
+    if (report.details.num_points == 0) return;
+    Points counted = points;
+    if (report.details.all_weights_zero) counted.weights = {};
+    report.part_weights = part_weights(counted, result.parts, result.cuts.num_parts, self);
+}
+
+}  // namespace rrcb

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "call_options.hpp"
+#include "gather/decision_mpi.hpp"
+#include "search/refinement_mpi.hpp"
+
+#include <rrcb/balance.hpp>
+
+#include <optional>
+#include <span>
+
+namespace rrcb {
+
+/// Makes the parts from the cuts that rank 0 decided on, with buffers made before the first
+/// message.
+class Settlement {
+  public:
+    /// Makes the buffers; `counts` if cuts that stay are counted as well. Borrows `options`. Not
+    /// collective. Throws Error or std::bad_alloc.
+    void prepare(const CallOptions& options, bool counts, const Participant& self);
+
+    /// Assigns the points by the cuts as they are, and `counts` the parts or not. Collective.
+    void assign(const Points& points, bool counts, Balance& result, Participant& self);
+
+    /// Takes counts of the parts of this rank, and of all, that the cuts make.
+    void take_counts(std::span<const double> here, std::span<const double> sums);
+
+    /// Moves the cuts by what the ranks count, and assigns the points by them. Collective.
+    void refine(const Points& points, const Bin& bin, Decision& decision, Balance& result,
+                Participant& self);
+
+    /// Makes the parts below the regions that are the parts of `result`. Collective.
+    void divide_regions(const BinnedPoints& binned, const Verdict& verdict, Balance& result,
+                        Participant& self);
+
+  private:
+    const CallOptions* options_ = nullptr;
+    PartSums sums_;
+    std::optional<Refinement> refinement_;           ///< if cuts may move
+    std::optional<RegionRefinement> below_regions_;  ///< if many ranks make the parts
+};
+
+/// Gives each rank the cuts that Options::cuts asks for after many ranks made the parts; with all
+/// cuts also the weights of all parts.
+///
+/// Collective: two reductions for all cuts. For own ones nothing, unless points in one place are
+/// divided: then as assign(), as look-ups of them go to the upper side of a cut.
+void hold_cuts(const Points& points, const Options& options, Balance& result, Participant& self);
+
+}  // namespace rrcb

@@ -1,53 +1,14 @@
-"""What accuracy costs: of a comparison, of all settings of a sweep, and over the paper's."""
+"""What accuracy costs: of all settings of a sweep, and over the paper's."""
 
 from __future__ import annotations
 
 import pandas as pd
 import plot
 from choice import pareto_front
-from intervals import value_of
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from methods import parse, setting_of, values_of
 from results import Results, cases
-
-
-def draw_cost(results: Results) -> Figure | None:
-    """What accuracy costs: the time of a call against the imbalance it leaves; lower is better
-    balanced, further left is faster. One point more in a part than in the mean is the least that
-    can be told."""
-    table = results.table
-    if table.empty:
-        return None
-    workloads = table.groupby("workload", sort=False)
-    width = max(7.5, 3.7 * len(workloads) + 0.9)
-    figure, grid = plot.panels(1, len(workloads), width, 5.4, sharex=True, sharey=True)
-    styles = plot.distinct_styles(table["method"])
-    for axes, (_, rows) in zip(grid[0], workloads):
-        for row in rows.itertuples():
-            time = value_of(row, "time_ms")
-            low, high = time.reach if time.has_interval else (row.time_ms_min, row.time_ms_max)
-            ends = [[max(row.time_ms - low, 0)], [max(high - row.time_ms, 0)]]
-            axes.errorbar([row.time_ms], [100 * row.excess], xerr=ends, markersize=7,
-                          elinewidth=0.8, alpha=0.9, **styles[row.method].look)  # fmt: skip
-        first = rows.iloc[0]
-        axes.set_title(f"{first['workload']}: {first['points']:,} points, {first['ranks']} ranks")
-        has_intervals = "time_ms_low" in rows and rows["time_ms_low"].notna().all()
-        axes.set_xlabel("time of a call [ms]: " + ("95 %" if has_intervals else "least to most"))
-        axes.grid(True)
-    _set_limits(grid[0, 0], table)
-    grid[0, 0].set_ylabel("heaviest part above the mean [%]")
-    keys = [style.key(name) for name, style in styles.items()]
-    return plot.legend_above(figure, keys, inches=3.6)
-
-
-def _set_limits(axes: Axes, table: pd.DataFrame) -> None:
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlim(table["time_ms_min"].min() / 1.5, table["time_ms_max"].max() * 1.5)
-    axes.set_ylim(50 * table["excess"].min(), 200 * table["excess"].max())
-    for panel in axes.figure.axes:
-        _shade_one_point(panel, table)
 
 
 def _shade_one_point(axes: Axes, rows: pd.DataFrame) -> None:

@@ -1,10 +1,9 @@
-"""What the names of methods say: their parameters, what they are asked for, whose they are."""
+"""What the names of methods say: their parameters, and whose they are."""
 
 from __future__ import annotations
 
 import re
 
-ACROSS = ("none", "zoltan-rcb", "zoltan-hsfc", "zoltan-rib", "zoltan2-mj")  # take no tolerance
 STANDARD = "rrcb-sampled[mesh=4,k=1.5,fraction=1]"  # the paper's RRCB
 WINNERS = (  # the settings with which it was faster than RCB in the paper
     "rrcb-sampled[mesh=2,k=1.5,fraction=0.25]",
@@ -21,27 +20,6 @@ def parse(method: str) -> tuple[str, dict[str, str]]:
 
 def is_ours(method: str) -> bool:
     return parse(method)[0] in ("rrcb", "rrcb-exact")
-
-
-def is_of_the_paper(method: str) -> bool:
-    return parse(method)[0] in ("rrcb-sampled", "root-rcb")
-
-
-def tolerance_asked(method: str) -> str:
-    """Empty of a method that takes no tolerance, or is told not to keep it."""
-    name, parameters = parse(method)
-    if name == "rrcb-exact" and parameters.keys() <= {"mesh"}:
-        return "exact"
-    if name in ("rrcb", "rrcb-arrays") and parameters.keys() <= {"mesh", "tol"}:
-        return parameters.get("tol", "1.01")
-    return ""
-
-
-def family(method: str) -> str:
-    """What one line is drawn of: RRCB with one mesh at every tolerance."""
-    name, parameters = parse(method)
-    name = name.replace("rrcb-exact", "rrcb")
-    return f"{name}[mesh={parameters['mesh']}]" if "mesh" in parameters else name
 
 
 def setting_of(method: str) -> tuple[float, ...]:

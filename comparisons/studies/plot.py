@@ -20,6 +20,7 @@ from matplotlib.figure import Figure  # noqa: E402
 from matplotlib import ticker  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 from matplotlib.patches import Rectangle  # noqa: E402
+from matplotlib.transforms import Bbox  # noqa: E402
 from methods import setting_of, values_of  # noqa: E402
 
 # Three palettes that share no colour: of parts, of the paper's multiplier k, and of methods; any
@@ -283,12 +284,31 @@ def rectangles(boxes: pd.DataFrame, **look) -> list[Rectangle]:
     ]
 
 
-def label_right(axes: Axes, labels: Iterable[tuple[float, str, str]]) -> None:
-    """Writes height, text and colour beside the right end, each clear of the one below."""
+# Where a text may stand: its side of the mark, in points, and how it is aligned.
+_SIDES = [
+    (x * far, y * far, ("right", "center", "left")[x + 1], ("top", "center", "bottom")[y + 1])
+    for far in (8, 18, 30, 45)
+    for x, y in ((1, 0), (-1, 0), (1, 1), (-1, 1), (1, -1), (-1, -1), (0, 1), (0, -1))
+]
+
+
+def label_marks(axes: Axes, marks: Iterable[tuple[float, float, str, str]]) -> None:
+    """Writes x, y, text and colour beside each mark, clear of other marks and texts."""
     axes.figure.canvas.draw()
-    line = 13 / 72 * axes.figure.dpi / axes.get_window_extent().height
-    free = -np.inf
-    for value, text, colour in sorted(labels):
-        place = axes.transAxes.inverted().transform(axes.transData.transform((1, value)))[1]
-        free = max(place, free + line)
-        axes.text(1.01, free, text, color=colour, va="center", fontsize=9, transform=axes.transAxes)
+    marks = list(marks)
+    places = [axes.transData.transform(mark[:2]) for mark in marks]
+    taken = [Bbox.from_bounds(x - 7, y - 7, 14, 14) for x, y in places]
+    for (x, y, text, colour), place in zip(marks, places):
+        written = axes.annotate(text, (x, y), (0, 0), textcoords="offset points", color=colour,
+                                fontsize=8.5)  # fmt: skip
+        boxes = []
+        for dx, dy, horizontal, vertical in _SIDES:
+            written.set(position=(dx, dy), ha=horizontal, va=vertical)
+            box = written.get_window_extent()
+            outside = 10 * (not axes.bbox.x0 < box.x0 < box.x1 < axes.bbox.x1)
+            outside += 10 * (not axes.bbox.y0 < box.y0 < box.y1 < axes.bbox.y1)
+            boxes.append((outside + sum(box.overlaps(other) for other in taken), len(boxes), box))
+        _, best, box = min(boxes, key=lambda found: found[:2])
+        dx, dy, horizontal, vertical = _SIDES[best]
+        written.set(position=(dx, dy), ha=horizontal, va=vertical)
+        taken.append(box)

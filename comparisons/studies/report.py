@@ -15,18 +15,18 @@ import pandas as pd
 import plot
 from choice import EVERYWHERE, automatic_sentence, choices, fronts, judgements
 from claims import claim_table, set_up_table
-from cost import draw_cost, draw_study, draw_sweep_bytes, draw_sweep_time
+from cost import draw_study, draw_sweep_bytes, draw_sweep_time
 from cycle import cycle_table, draw_cycle
 from document import Document
 from domains import draw_domains, draw_support_mesh
+from headline import headline, work_paragraph
 from history import draw_figure_6, draw_history, draw_study_history
 from machine import CORES, add_machine, busy_warning, shared_cores
 from methods import STANDARD, WINNERS
 from parts import draw_figure_2, draw_parts
 from price import draw_price
-from prices import all_prices, exchange_rate
 from results import Results, cases, write_csv
-from sentences import sentences, simulation_sentence
+from sentences import sentences
 from simulation import draw_simulation
 from speed_up import (
     KINDS,
@@ -43,7 +43,6 @@ from tables import choice_matrix, choice_table, ghost_table, method_table, noise
 # Their captions are the docstrings of what draws them.
 PICTURES = {
     "price.png": draw_price,
-    "time_against_imbalance.png": draw_cost,
     "parts.png": draw_parts,
     "support_mesh.png": draw_support_mesh,
     "statistical_domain.png": draw_domains,
@@ -68,7 +67,6 @@ def main() -> int:
     results = Results(directory)
     speed_ups = read_speed_ups(results.swept_runs)
     write_csv(directory / "speed_up.csv", (s.numbers for s in speed_ups))
-    write_csv(directory / "price.csv", (price.numbers for price in all_prices(results)))
     draw(results)
     arguments = results.record.get("arguments", "")
     report = sweep_report if "--sweep" in arguments.split() else comparison_report
@@ -103,11 +101,12 @@ def draw(results: Results) -> None:
 
 def comparison_report(results: Results) -> Document:
     document = Document("RRCB beside Zoltan's balancers", results.folder)
-    _begin(document, results, results.table, results.runs)
-    _add_pictures(document, "time_against_imbalance.png")
+    _begin(document, results, headline(results.table, results.rounds))
     document.heading("Every method on the same points")
     _add_methods(document, results, results.table)
-    _add_simulations(document, results.runs, "none")
+    _add_simulations(document, results.runs, "none", results.rounds)
+    if text := work_paragraph(results.rounds):
+        document.paragraph(text)
     _add_pictures(document, "parts.png", "support_mesh.png", "statistical_domain.png",
                   "unbalance_history.png", "simulation_time.png")  # fmt: skip
     return document
@@ -116,7 +115,7 @@ def comparison_report(results: Results) -> Document:
 def sweep_report(results: Results) -> Document:
     runs = middle_runs(results.swept_runs)
     document = Document("What accuracy costs", results.folder)
-    _begin(document, results, results.swept if results.clouds.empty else results.clouds, runs)
+    _begin(document, results, sentences(results.swept if results.clouds.empty else results.clouds))
     if claims := claim_table(results):
         document.heading("Against the paper")
         document.table("What differs from the paper's set-up", set_up_table(results))
@@ -137,15 +136,16 @@ def _add_pictures(document: Document, *names: str) -> None:
         document.picture(name, " ".join(PICTURES[name].__doc__.split()))
 
 
-def _begin(document: Document, results: Results, rows: pd.DataFrame, runs: pd.DataFrame) -> None:
+def _begin(document: Document, results: Results, texts: list[str]) -> None:
     """The price at a glance, and what must be known of the machine."""
     if busy := busy_warning(results.record):
         document.conclude(busy)
     _add_pictures(document, "price.png")
-    ranks = max([1, *(rank for found in (rows, runs) if len(found) for rank in found["ranks"])])
-    texts = shared_cores(ranks) + sentences(rows)
-    texts += filter(None, (simulation_sentence(runs), exchange_rate(runs)))
-    document.conclude(texts or ["Nothing was measured."])
+    tables = (results.table, results.runs, results.swept, results.swept_runs)
+    ranks = [rank for rows in tables if len(rows) for rank in rows["ranks"]]
+    document.conclude(texts if ranks else ["Nothing was measured."])
+    for text in shared_cores(max(ranks, default=1)):
+        document.paragraph(text)
 
 
 def _add_methods(document: Document, results: Results, rows: pd.DataFrame) -> None:
@@ -224,17 +224,19 @@ def _add_speed_ups(document: Document, results: Results) -> None:
         document.table(caption, speed_up_table(speed_ups))
 
 
-def _add_simulations(document: Document, runs: pd.DataFrame, reference: str) -> None:
+def _add_simulations(
+    document: Document, runs: pd.DataFrame, reference: str, rounds: pd.DataFrame | None = None
+) -> None:
     if runs.empty:
         return
     first = runs.iloc[-1]
     caption = f"Simulations: {first['points']:,} points, {first['steps']:,} steps"
-    document.table(caption, simulation_table(runs, reference))
+    document.table(caption, simulation_table(runs, reference, rounds))
     shared = f" {first['ranks']} ranks share {CORES} cores here, so it hides unbalance."
     document.paragraph(
         "critical path: what the run would take with a core for every rank, the processor time of"
         " the slowest rank of each step and rebalance outside MPI and its messages on a network of"
-        " 1.5 µs and 12 GB/s. gain kept: of what ideal balance without cost would gain. moved: weight"
+        " 1.5 µs and 12 GB/s. Ratios are medians of pairs of one round, which take turns. gain kept: of what ideal balance without cost would gain. moved: weight"
         " that changed rank, of all weight, in a rebalance. wall: by the clock."
         + shared * bool(first["ranks"] > CORES)
     )

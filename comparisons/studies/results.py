@@ -86,6 +86,7 @@ class Results:
     cycle = _file("cycle.csv", last_calls)
     noise = _file("noise.csv", pd.DataFrame)
     runs = _file("simulation.csv", simulations)
+    rounds = _file("simulation_runs.csv", simulations)  # the same, each round by itself
     swept_runs = _file("sweep_simulation.csv", simulations)
     paper_runs = _file("paper_simulation.csv", simulations)  # rebalanced at every step
 

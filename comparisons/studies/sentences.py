@@ -7,7 +7,7 @@ from statistics import geometric_mean
 
 import pandas as pd
 from choice import fastest
-from intervals import NOT_TOLD_APART, ONE, Value, decimals, in_digits, mean_of, value_of
+from intervals import NOT_TOLD_APART, ONE, Value, in_digits, mean_of, value_of
 from methods import is_ours, parse
 from results import cases, is_within, row_of
 
@@ -22,27 +22,12 @@ def sentences(rows: pd.DataFrame) -> list[str]:
     return [sentence(by_case) for sentence in parts if by_case]
 
 
-def simulation_sentence(runs: pd.DataFrame) -> str:
-    """Which method's simulation is the shortest on the critical path, if one is; else empty."""
-    runs = runs[runs["method"] != "serial"] if len(runs) else runs
-    if len(runs) < 2 or runs["ranks"].nunique() > 1:
-        return ""
-    paths = [(value_of(run, "critical_path_s"), run.method) for run in runs.itertuples()]
-    best, method = min(paths, key=lambda path: path[0].number)
-    same = [name for path, name in paths if path is not best and not path.is_apart(best)]
-    seconds = best.text(decimals([best.number], 4))
-    text = f"With a core for every rank the simulation would take {seconds} s under {method}"
-    return f"{text}, " + (
-        f"{NOT_TOLD_APART} from {_list(same)}." if same else f"the least of {len(runs)} methods."
-    )
-
-
 def _cost_of_exactness(by_case: Cases) -> str:
-    pairs = _pairs(by_case, lambda rows: fastest(rows, "1.10"), lambda rows: fastest(rows, "exact"))
+    pairs = _pairs(by_case, lambda rows: fastest(_ours(rows), "1.10"), _fastest_exact_rrcb)
     if not pairs:
-        return "No method balanced any of the workloads exactly, so exactness has no price here."
+        return "No setting of RRCB balanced exactly, so exactness has no price here."
     return (
-        f"Exact balance took {_time_ratio(pairs)} of the fastest setting within"
+        f"Exact balance by RRCB took {_time_ratio(pairs)} of its fastest setting within"
         f" ten per cent ({_mean(exact.time_ms for _, exact in pairs)} ms against"
         f" {_mean(rough.time_ms for rough, _ in pairs)} ms) and"
         f" {_byte_ratio(pairs)} its bytes{_of(pairs, by_case)}."

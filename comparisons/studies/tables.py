@@ -7,6 +7,7 @@ from choice import Choice
 from document import Rows
 from intervals import NOT_TOLD_APART, ONE, Value, decimals, value_of
 from results import row_of
+from rounds import paired, path
 
 
 def method_table(rows: pd.DataFrame) -> Rows:
@@ -96,7 +97,7 @@ def choice_matrix(chosen: list[Choice]) -> Rows:
     return list(table.values())
 
 
-def simulation_table(runs: pd.DataFrame, reference: str) -> Rows:
+def simulation_table(runs: pd.DataFrame, reference: str, rounds: pd.DataFrame | None = None) -> Rows:
     base = row_of(runs, reference)
     digits = decimals(runs["critical_path_s"], 4)
     return [
@@ -105,6 +106,7 @@ def simulation_table(runs: pd.DataFrame, reference: str) -> Rows:
             "ranks": str(run.ranks),
             "critical path s": value_of(run, "critical_path_s").text(digits),
             f"times as fast as {reference}": _speed_up(run, base),
+            **_beside_zoltan(run, rounds),
             "gain kept %": _number(run, "gain_kept", 100, 1),
             "rebalances": _number(run, "rebalances", 1, 0),
             "moved %": _number(run, "moved_fraction", 100, 1),
@@ -113,6 +115,15 @@ def simulation_table(runs: pd.DataFrame, reference: str) -> Rows:
         }
         for run in runs.itertuples()
     ]
+
+
+def _beside_zoltan(run: object, rounds: pd.DataFrame | None) -> dict[str, str]:
+    """The same beside Zoltan's RCB; nothing without its rounds."""
+    if rounds is None or "zoltan-rcb" not in set(rounds.get("method", ())):
+        return {}
+    speed = paired(rounds, 1 / path(rounds), run.method, "zoltan-rcb") or Value(float("nan"))
+    text = _or_same(speed, run.method == "zoltan-rcb")
+    return {"as fast as zoltan-rcb": "–" if pd.isna(speed.number) else text}
 
 
 def _speed_up(run: object, base: object | None) -> str:

@@ -199,7 +199,7 @@ class DrawTest(unittest.TestCase):
         (self.directory / "parts.png").write_text("of an earlier run")
         (self.directory / "holiday.png").write_text("not ours")
         self.assertEqual(self.draw(), 0)
-        kept = ["holiday.png", "price.png", "time_against_imbalance.png"]
+        kept = ["holiday.png", "price.png"]
         self.assertEqual(self.pictures(), kept)
 
     def test_reads_methods_that_succeeded_only(self) -> None:

@@ -1,4 +1,4 @@
-"""The price of accuracy, from tables made by hand."""
+"""The picture and the sentences that a report begins with, from tables made by hand."""
 
 from __future__ import annotations
 
@@ -10,10 +10,11 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "studies"))
 
-import methods  # noqa: E402
+import headline  # noqa: E402
+import pandas as pd  # noqa: E402
 import price  # noqa: E402
-import prices  # noqa: E402
-from results import Results  # noqa: E402
+import rounds  # noqa: E402
+from results import Results, measurements  # noqa: E402
 
 COLUMNS = (
     "method,ranks,points,dim,workload,layout,time_ms_median,time_ms_min,time_ms_max,imbalance,"
@@ -22,117 +23,140 @@ COLUMNS = (
 )
 
 
-def row(method: str, workload: str, time: str, imbalance: str, share: str) -> str:
-    counts = "0,1,1,1,1,0,0"
+def row(method: str, workload: str, time: str, imbalance: str, share: str, size: int = 1) -> str:
+    counts = f"0,1,{size},1,1,0,0"
     return f'"{method}",4,1000,2,{workload},scene,{time},1,9,{imbalance},{counts},{share},\n'
 
 
 TABLE = (
     COLUMNS
     + row("zoltan-rcb", "fog", "8", "1", "1,,")
-    + row("rrcb[tol=1.1]", "fog", "2", "1.05", "0.25,0.2,0.3")
-    + row("rrcb-exact", "fog", "4", "1", "0.5,0.4,0.6")
-    + row("rrcb-sampled[mesh=4]", "fog", "1", "1.21", "0.125,0.1,0.15")
-    + row("rrcb[refine=none]", "fog", "1", "1.3", "0.125,,")
-    + row("zoltan-rcb", "mist", "4", "1", "1,,")
-    + row("rrcb[tol=1.1]", "mist", "4", "1.01", "1,0.9,1.2")
-    + row("rrcb-sampled[mesh=4]", "mist", "1", "1", "0.5,0.4,0.7")
+    + row("rrcb[tol=1.1]", "fog", "2.1", "1.01", "0.26,,", 5)
+    + row("rrcb", "fog", "2", "1.01", "0.25,0.2,0.3", 5)
+    + row("rrcb[tol=1.001]", "fog", "3", "1.0005", "0.4,,", 7)
+    + row("rrcb-exact", "fog", "4", "1", "0.5,0.4,0.6", 10)
+    + row("rrcb-arrays", "fog", "1", "1.01", "0.125,,")
 )
-RUNS = """\
-method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,worst_imbalance,path_points,\
-step_work_s,step_path_s,step_network_s,balance_work_s,balance_path_s,balance_network_s,\
-critical_path_s,critical_path_s_low,critical_path_s_high,rebalances,error
-none,4,1000,10,5,9,0,9,1.6,1.6,4000,4,1.7,0.1,0,0,0,1.8,1.7,1.9,0,
-rrcb[tol=1.1],4,1000,10,5,9,0,9,1.08,1.1,2700,4,1.2,0.1,0,0.1,0.1,1.5,1.4,1.7,2,
-rrcb-exact,4,1000,10,5,9,0,9,1,1,2500,4,1.1,0.1,0,0.2,0.1,1.5,1.4,1.6,2,
-"""
 
 
-class PriceTest(unittest.TestCase):
-    def setUp(self) -> None:
+def simulated(method: str, number: int, path: float, **more: float) -> dict:
+    """Ten steps of 1000 points on 4 ranks: 4 s of work in all."""
+    return {
+        "method": method, "round": number, "ranks": 4, "points": 1000, "steps": 10,
+        "critical_path_s": path, "step_work_s": 4, "step_path_s": 1.1, "path_points": 2500,
+        "balance_path_s": 0.1, "balance_network_s": 0.1, "rebalances": 2,
+    } | more  # fmt: skip
+
+
+# Noise slows a whole round down by up to five times, and no ratio by more than 2 %.
+NOISE = (1, 5, 2, 3, 1.5, 4)
+ROUNDS = pd.DataFrame(
+    run
+    for i, noise in enumerate(NOISE)
+    for run in (
+        simulated("none", i, 2 * noise, rebalances=0, path_points=4000, step_path_s=1.58),
+        simulated("zoltan-rcb", i, noise * (1 + 0.01 * (-1) ** i), balance_path_s=0.5),
+        simulated("rrcb", i, noise),
+        simulated("rrcb-exact", i, 0.5 * noise),
+    )
+)
+
+
+class PictureTest(unittest.TestCase):
+    def results(self, table: str) -> Results:
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
-        self.directory = Path(temporary.name)
+        folder = Path(temporary.name)
+        (folder / "table.csv").write_text(table)
+        return Results(folder)
 
-    def prices(self, table: str, runs: str = "") -> dict[tuple[str, str], prices.Price]:
-        (self.directory / "table.csv").write_text(table)
-        if runs:
-            (self.directory / "simulation.csv").write_text(runs)
-        self.results = Results(self.directory)
-        return {(p.panel, p.method): p for p in prices.all_prices(self.results)}
+    def test_names_each_mark_and_has_no_legend(self) -> None:
+        figure = price.draw_price(self.results(TABLE))
+        (axes,) = figure.axes
+        names = [text.get_text() for text in axes.texts]
+        self.assertEqual(names, ["one point\nor less", "zoltan-rcb", "rrcb, tolerance 1.1, 1.01",
+                                 "rrcb[tol=1.001]", "rrcb-exact", "rrcb-arrays"])
+        self.assertIsNone(axes.get_legend())
+        self.assertEqual(len(figure.legends), 0)
 
-    def check(self, found: prices.Price, *expected: float) -> None:
-        for value, wanted in zip((found.value.number, *found.value.reach), expected, strict=True):
-            self.assertAlmostEqual(value, wanted)
+    def test_stands_at_the_imbalance_that_was_left(self) -> None:
+        axes = price.draw_price(self.results(TABLE)).axes[0]
+        marks = [(line.get_xdata()[0], line.get_ydata()[0])
+                 for line in axes.lines if line.get_marker() == "o"]  # fmt: skip
+        self.assertEqual([(round(x, 6), y) for x, y in marks], [(1.0, 2.0), (0.4, 3.0)])
 
-    def test_of_a_call_is_a_mean_within_the_ends_of_all_intervals(self) -> None:
-        found = self.prices(TABLE)
-        self.check(found["call", "rrcb[tol=1.1]"], (0.25 * 1) ** 0.5, 0.2, 1.2)
-        self.assertEqual(found["call", "rrcb[tol=1.1]"].tolerance, "1.1")
-        self.check(found["call", "rrcb-exact"], 0.5, 0.4, 0.6)  # failed on one of the two
-        self.assertEqual(found["call", "rrcb-exact"].tolerance, "exact")
-        self.assertNotIn(("call", "rrcb[refine=none]"), found)
+    def test_is_of_the_workload_in_the_middle(self) -> None:
+        more = row("rrcb", "mist", "2", "1", "1,,") + row("rrcb", "rain", "2", "1", "1,,")
+        title = price.draw_price(self.results(TABLE + more)).axes[0].get_title()
+        self.assertTrue(title.startswith("mist"))
 
-    def test_stands_at_the_imbalance_that_a_method_of_the_paper_left(self) -> None:
-        found = self.prices(TABLE)["call", "rrcb-sampled[mesh=4]"]
-        self.assertEqual(found.tolerance, "1.100000")  # of 1.21 and 1
+    def test_needs_a_table(self) -> None:
+        self.assertIsNone(price.draw_price(self.results(COLUMNS)))
 
-    def test_is_exact_where_no_part_has_more_than_one_point_above_the_mean(self) -> None:
-        table = TABLE + row("root-rcb", "fog", "2", "1.004", "0.25,,")  # 4 ranks / 1000 points
-        self.assertEqual(self.prices(table)["call", "root-rcb"].tolerance, "exact")
 
-    def test_needs_no_intervals(self) -> None:
-        found = self.prices(TABLE.replace("0.25,0.2,0.3", "0.25,,").replace("1,0.9,1.2", "1,,"))
-        self.check(found["call", "rrcb[tol=1.1]"], 0.5, 0.25, 1)
+class PairTest(unittest.TestCase):
+    def ratio(self, method: str, reference: str) -> tuple[float, float, float]:
+        found = rounds.paired(ROUNDS, rounds.path(ROUNDS), method, reference)
+        return tuple(round(value, 4) for value in (found.number, found.low, found.high))
 
-    def test_of_the_simulation_is_what_unbalance_and_calls_cost(self) -> None:
-        found = self.prices(TABLE, RUNS)
-        self.check(found["steps", "rrcb[tol=1.1]"], 0.08, 0.08, 0.08)
-        self.check(found["calls", "rrcb[tol=1.1]"], 0.2, 0.2, 0.2)
-        self.check(found["simulation", "rrcb[tol=1.1]"], 0.28, 0.18, 0.48)
-        self.check(found["simulation", "none"], 0.6, 0.5, 0.7)
+    def test_noise_of_a_whole_round_widens_no_interval(self) -> None:
+        self.assertEqual(self.ratio("rrcb", "none"), (0.5, 0.5, 0.5))
+        self.assertEqual(self.ratio("zoltan-rcb", "rrcb"), (1.0, 0.99, 1.01))
 
-    def test_optimum_names_what_is_not_told_apart_from_it(self) -> None:
-        best, others = prices.optimum(list(self.prices(TABLE, RUNS).values()))
-        self.assertEqual(best.method, "rrcb[tol=1.1]")
-        self.assertEqual([other.method for other in others], ["rrcb-exact"])
+    def test_rounds_are_paired_by_their_numbers(self) -> None:
+        one_less = ROUNDS[(ROUNDS["method"] != "rrcb") | (ROUNDS["round"] != 1)]
+        found = rounds.paired(one_less, rounds.path(one_less), "rrcb", "none")
+        self.assertEqual((found.number, found.count), (0.5, 5))
+        self.assertIsNone(rounds.paired(ROUNDS, rounds.path(ROUNDS), "rrcb", "nobody"))
 
-    def test_optimum_is_of_rrcb_behind_callbacks(self) -> None:
-        arrays = RUNS + RUNS.splitlines()[2].replace("rrcb[tol=1.1]", "rrcb-arrays") + "\n"
-        best, others = prices.optimum(list(self.prices(TABLE, arrays).values()))
-        self.assertNotIn("rrcb-arrays", [best.method, *(other.method for other in others)])
+    def test_cost_of_uneven_points_is_a_slope_of_measured_times(self) -> None:
+        # The slowest rank: 1.58 of the mean with 1.6 of the points, 1.1 with 1.
+        self.assertAlmostEqual(rounds.slope_of_work(ROUNDS).number, 0.8)
+        text = headline.work_paragraph(ROUNDS)
+        self.assertIn("made the steps 0.80 % longer", text)
+        self.assertIn("held 0.0 % more points", text)
+        self.assertIn("took 10.0 % longer than the mean", text)
 
-    def test_exchange_rate_of_unbalance_and_calls(self) -> None:
-        self.prices(TABLE, RUNS)
-        self.assertEqual(
-            prices.exchange_rate(self.results.runs),
-            "1 % of unbalance costs 1000 µs a step, 5000 µs until the next call (5 steps); an exact"
-            " call costs 50000 µs more than one to 1.1.",
-        )
-        self.prices(TABLE, RUNS.replace(",10,5,", ",10,auto,"))
-        self.assertEqual(
-            prices.exchange_rate(self.results.runs),
-            "1 % of unbalance costs 1000 µs a step; an exact call costs 50000 µs more than one to"
-            " 1.1.",
-        )
-        self.assertIsNotNone(price.draw_price(self.results))
+    def test_even_points_tell_no_cost(self) -> None:
+        self.assertEqual(headline.work_paragraph(ROUNDS[ROUNDS["method"] != "none"]), "")
+        self.assertEqual(headline.work_paragraph(pd.DataFrame()), "")
 
-    def test_file_has_a_row_for_each(self) -> None:
-        row = self.prices(TABLE)["call", "rrcb[tol=1.1]"].numbers
-        self.assertEqual(",".join(row), "panel,method,tolerance,value,low,high")
-        self.assertEqual(",".join(row.values()), "call,rrcb[tol=1.1],1.1,0.5,0.2,1.2")
 
-    def test_picture_is_drawn_with_and_without_a_simulation(self) -> None:
-        for runs, panels in (("", 1), (RUNS, 2)):
-            self.prices(TABLE, runs)
-            self.assertEqual(len(price.draw_price(self.results).axes), panels)
-        self.assertIsNone(price.draw_price(Results(self.directory / "nowhere")))
+class HeadlineTest(unittest.TestCase):
+    def sentences(self, simulations: pd.DataFrame, table: str = TABLE) -> list[str]:
+        with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:
+            file.write(table)
+            file.flush()
+            return headline.headline(measurements(pd.read_csv(file.name)), simulations)
 
-    def test_a_line_is_rrcb_with_one_mesh(self) -> None:
-        self.assertEqual(methods.family("rrcb-exact[mesh=8]"), "rrcb[mesh=8]")
-        self.assertEqual(methods.family("rrcb[tol=1.001]"), "rrcb")
-        self.assertEqual(methods.tolerance_asked("rrcb[mesh=8]"), "1.01")
-        self.assertEqual(methods.tolerance_asked("zoltan-rcb"), "")
+    def test_has_three_sentences(self) -> None:
+        call, gain, matter = self.sentences(ROUNDS)
+        self.assertIn("left an imbalance of 1.01000 and took 0.250 [0.200, 0.300] of the", call)
+        self.assertIn("rrcb-exact took 2.00 times the time of rrcb and 2 times its bytes", call)
+        self.assertIn("took 0.500 of the time without rebalancing", gain)
+        self.assertIn("(not told apart: they differ by 1 % at most)", gain)
+        self.assertIn("rebalances took 200 ms against 600 (pairs of 6 rounds).", gain)
+        # A step takes 100 ms; the 200 ms between the two are 1 % of 200 steps.
+        self.assertIn("took 100 ms under rrcb and 300 ms under Zoltan's RCB", matter)
+        self.assertIn("as long as 1 and 3 steps", matter)
+        self.assertIn("one every 200 steps or more often; here rrcb made 2 in 10.", matter)
+
+    def test_compares_exact_cuts_by_the_same_interface_only(self) -> None:
+        (call,) = self.sentences(pd.DataFrame())
+        self.assertNotIn("rrcb-arrays", call)
+        arrays = row("rrcb-arrays[refine=exact]", "fog", "3", "1", "0.4,,", 4)
+        (call,) = self.sentences(pd.DataFrame(), TABLE + arrays)
+        self.assertIn("rrcb-arrays[refine=exact] took 3.00 times the time of rrcb-arrays", call)
+
+    def test_without_a_simulation_speaks_of_ghosts(self) -> None:
+        lines = TABLE.splitlines()
+        table = "\n".join([lines[0] + ",ghosts", *(f"{line},{i * 50}" for i, line in
+                                                    enumerate(lines[1:], 1))]) + "\n"  # fmt: skip
+        _, ghosts = self.sentences(pd.DataFrame(), table)
+        self.assertIn("15 % of the points, 3 times those of Zoltan's RCB", ghosts)
+
+    def test_is_nothing_without_measurements(self) -> None:
+        self.assertEqual(self.sentences(pd.DataFrame(), COLUMNS), [])
 
 
 if __name__ == "__main__":

@@ -3,7 +3,6 @@
 #include "cloud.hpp"
 #include "failure.hpp"
 #include "scene_choice_mpi.hpp"
-#include "sweep_settings.hpp"
 #include "text.hpp"
 
 #include <Teuchos_CommandLineProcessor.hpp>
@@ -22,7 +21,7 @@ namespace {
 struct Texts {
     std::map<std::string, std::string> values;
     bool quick = false;
-    bool sweep = false;
+    bool data = true;
     bool progress = false;
     bool version = false;
 
@@ -50,7 +49,7 @@ const std::map<std::string, std::string>& documentation() {
         {"drift", "fraction of its extent by which the cloud moves between calls; 0"},
         {"radius", "cut-off that ghosts are counted by; twice the mean spacing of the points"},
         {"ranks-per-node", "ranks on each machine, to count ghosts between machines"},
-        {"only", "parts of the sweep, by commas: " + joined(Arguments().only)},
+        {"only", "of a scene: calls on its snapshots or simulations; both"},
         {"out", "folder of the results; comparisons/out"},
     };
     return texts;
@@ -65,8 +64,7 @@ std::optional<std::string> parse(int argc, char** argv, Texts& texts) {
         processor.setOption(name.c_str(), &texts.values[name], text.c_str());
     }
     processor.setOption("quick", "no-quick", &texts.quick, "a small run that tries everything");
-    processor.setOption("sweep", "no-sweep", &texts.sweep,
-                        "what accuracy costs: a grid of settings on every cloud");
+    processor.setOption("data", "no-data", &texts.data, "write what pictures are drawn from");
     processor.setOption("progress", "no-progress", &texts.progress, "show a progress bar");
     processor.setOption("version", "no-version", &texts.version, "print the versions");
     std::ostringstream output;
@@ -119,55 +117,31 @@ void read_choice(const Texts& texts, const std::string& name, Value& value,
 void check_combination(const Texts& texts) {
     const int sources =
         texts.given("scene") + texts.given("cloud") + texts.given("file") + texts.given("replay");
-    if (texts.sweep && sources > texts.given("cloud")) {
-        throw Failure("--sweep has points of its own; remove --scene, --file or --replay");
-    }
     if (sources > 1) throw Failure("give one of --scene, --cloud, --file and --replay only");
     const auto needs = [&](const std::string& option, bool fits, const std::string& what) {
         if (texts.given(option) && !fits) throw Failure("--" + option + " goes with " + what);
     };
     const bool is_scene = sources == 0 || texts.given("scene");
-    needs("points", texts.given("cloud") || texts.sweep, "--cloud or --sweep only; remove it");
-    needs("dim", texts.given("cloud") || texts.sweep, "--cloud or --sweep only; remove it");
-    needs("drift", texts.given("cloud") && !texts.sweep, "--cloud only; remove it");
-    needs("layout", texts.given("cloud") || texts.given("file") || texts.sweep,
-          "--cloud, --file or --sweep only; remove it");
-    needs("only", texts.sweep, "--sweep only; remove it");
+    needs("points", texts.given("cloud"), "--cloud only; remove it");
+    needs("dim", texts.given("cloud"), "--cloud only; remove it");
+    needs("drift", texts.given("cloud"), "--cloud only; remove it");
+    needs("layout", texts.given("cloud") || texts.given("file"),
+          "--cloud or --file only; remove it");
+    needs("only", is_scene, "--scene only; remove it");
     needs("steps", is_scene, "--scene only; remove it");
     needs("every", is_scene, "--scene only; remove it");
-    if (texts.sweep && texts["every"] == "auto")
-        throw Failure("--every=auto goes with --scene only; give --sweep a number of steps");
 }
 
 void use_default_sizes(Arguments& arguments) {
-    if (arguments.sweep) arguments.points = 200'000;
     if (arguments.quick) arguments.points = 20'000;
-    if (arguments.sweep) arguments.repeats = 6;  // the fewest that have an interval of 95 %
     if (arguments.quick) arguments.repeats = 2;
 }
 
-std::vector<Method> choose_methods(const Arguments& arguments, const std::string& text) {
+/// Without a method a scene runs without rebalancing alone.
+std::vector<Method> choose_methods(const std::string& text) {
     if (text == "all") return all_methods();
-    if (!text.empty()) return read_methods(text);
-    if (!arguments.sweep) return default_methods();
-    return arguments.quick ? read_methods(method_names()) : cost_settings();
-}
-
-/// What of the sweep is asked for.
-void choose_sweep(const Texts& texts, Arguments& arguments) {
-    if (texts.given("cloud")) arguments.swept.names = {arguments.cloud};
-    if (texts.given("dim")) arguments.swept.dimensions = {arguments.dimension};
-    if (texts.given("layout")) arguments.swept.layouts = {arguments.layout};
-    if (!texts.given("only")) return;
-    std::vector<std::string> chosen;
-    for (const std::string_view part : split(texts["only"], ',')) {
-        chosen.emplace_back(trim(part));
-        if (std::ranges::find(arguments.only, chosen.back()) == arguments.only.end()) {
-            throw Failure("--only: unknown part '" + chosen.back() +
-                          "'; choose from: " + joined(arguments.only));
-        }
-    }
-    arguments.only = chosen;
+    if (text == "none") return {};
+    return text.empty() ? default_methods() : read_methods(text);
 }
 
 void check_cloud(const std::string& name) {
@@ -184,7 +158,7 @@ Arguments read_arguments(int argc, char** argv) {
     arguments.version = texts.version;
     if (arguments.help || arguments.version) return arguments;
     check_combination(texts);
-    arguments.sweep = texts.sweep;
+    arguments.data = texts.data;
     arguments.quick = texts.quick;
     arguments.progress = texts.progress;
     use_default_sizes(arguments);
@@ -201,7 +175,7 @@ Arguments read_arguments(int argc, char** argv) {
     read_integer(texts, "dim", arguments.dimension, 2, 3);
     read_choice<Layout>(texts, "layout", arguments.layout,
                         {{"sorted", Layout::sorted}, {"scattered", Layout::scattered}});
-    arguments.methods = choose_methods(arguments, texts["methods"]);
+    arguments.methods = choose_methods(texts["methods"]);
     read_choice<Lists>(texts, "lists", arguments.lists,
                        {{"PARTS", Lists::parts}, {"EXPORT", Lists::exports}, {"ALL", Lists::all}});
     read_integer(texts, "steps", arguments.steps, 1, many);
@@ -224,7 +198,8 @@ Arguments read_arguments(int argc, char** argv) {
     if (texts.given("ranks-per-node"))
         read_integer(texts, "ranks-per-node", arguments.ghosts.ranks_per_node.emplace(), 1, many);
     if (texts.given("out")) arguments.out = texts["out"];
-    choose_sweep(texts, arguments);
+    read_choice<Only>(texts, "only", arguments.only,
+                      {{"calls", Only::calls}, {"simulations", Only::simulations}});
     return arguments;
 }
 

@@ -13,12 +13,8 @@
 
 namespace comparisons {
 
-/// The clouds of a sweep: every combination.
-struct SweptClouds {
-    std::vector<std::string> names{"slope", "clusters", "lattice", "uniform"};
-    std::vector<int> dimensions{2, 3};
-    std::vector<Layout> layouts{Layout::sorted, Layout::scattered};
-};
+/// What of a scene is run.
+enum class Only { all, calls, simulations };
 
 /// What the user asks for; see README.md beside this folder for every option.
 struct Arguments {
@@ -33,15 +29,14 @@ struct Arguments {
     std::vector<Method> methods;
     Lists lists = Lists::parts;
     int steps = 0;  ///< of the simulation; 0: to the end of the scene
-    int every = 0;  ///< steps between rebalances; 0: a controller says when, of a sweep its default
+    int every = 0;  ///< steps between rebalances; 0: a controller says when
     int repeats = 7;
     std::uint64_t seed = 1;
     double drift = 0;  ///< of the cloud's points between calls, as a fraction of the extent
     GhostRule ghosts;
     std::string out = "comparisons/out";
-    bool sweep = false;  ///< the study of settings in place of one comparison
-    SweptClouds swept;
-    std::vector<std::string> only{"clouds", "snapshots", "cycle", "ranks", "simulations", "paper"};
+    Only only = Only::all;
+    bool data = true;  ///< write the points and boxes of which pictures are drawn
     bool quick = false;
     bool progress = false;
     std::optional<std::string> help;  ///< print this and stop

@@ -74,6 +74,30 @@ Row table_row(Row key, const Measurement& measurement, const std::vector<double>
              measurement.ghosts ? measurement.ghosts->off_machine : std::nullopt);
 }
 
+Row table_key(const Comparison& comparison, const std::string& method) {
+    return Row()
+        .add("method", method)
+        .add("ranks", comparison.num_ranks)
+        .add("parts", comparison.num_ranks)
+        .add("points", comparison.num_points)
+        .add("dim", comparison.dimension)
+        .add("workload", comparison.workload)
+        .add("layout", comparison.layout)
+        .add("lists", lists_name(comparison.plan.lists))
+        .add("repeats", comparison.plan.repeats)
+        .end_key();
+}
+
+std::vector<Row> table_rows(const Comparison& comparison) {
+    const std::vector<double> reference_ms = reference_times(comparison);
+    std::vector<Row> rows;
+    for (const Measurement& measurement : comparison.measurements) {
+        rows.push_back(
+            table_row(table_key(comparison, measurement.method), measurement, reference_ms));
+    }
+    return rows;
+}
+
 Row calls_row(const Comparison& comparison, const std::string& method, const std::string& function,
               const CallCount& count) {
     return Row()
@@ -101,8 +125,7 @@ Row printed_row(const Measurement& measurement, double reference_ms) {
         .add("ghosts", of_ghosts(measurement, &Ghosts::sum));
 }
 
-}  // namespace
-
+/// Without measurements yet. Collective over `comm`.
 Comparison describe(const Workload& workload, const MeasurementPlan& plan, MPI_Comm comm) {
     Comparison comparison{
         workload.name, workload.layout, workload.dimension, 0, size_of(comm), plan, {}};
@@ -110,6 +133,8 @@ Comparison describe(const Workload& workload, const MeasurementPlan& plan, MPI_C
     MPI_Allreduce(&count, &comparison.num_points, 1, MPI_INT64_T, MPI_SUM, comm);
     return comparison;
 }
+
+}  // namespace
 
 Comparison compare_methods(const Workload& workload, const Arguments& arguments,
                            const ResultsFolder& folder, Progress& progress, MPI_Comm comm) {
@@ -126,7 +151,8 @@ Comparison compare_methods(const Workload& workload, const Arguments& arguments,
         comparison.second_times_ms = std::move(comparison.measurements.back().times_ms);
         comparison.measurements.pop_back();
     }
-    write_plot_data(folder, workload, arguments.methods, comparison.measurements, comm);
+    if (arguments.data)
+        write_plot_data(folder, workload, arguments.methods, comparison.measurements, comm);
     if (rank_of(comm) == 0) print_table(std::cout, comparison);
     std::cout.flush();
     return comparison;
@@ -146,40 +172,12 @@ std::optional<Noise> noise_of(const Comparison& comparison) {
     return Noise{comparison.workload, "zoltan-rcb", spread_of(ratios)};
 }
 
-Row table_key(const Comparison& comparison, const std::string& method) {
-    return Row()
-        .add("method", method)
-        .add("ranks", comparison.num_ranks)
-        .add("parts", comparison.num_ranks)
-        .add("points", comparison.num_points)
-        .add("dim", comparison.dimension)
-        .add("workload", comparison.workload)
-        .add("layout", comparison.layout)
-        .add("lists", lists_name(comparison.plan.lists))
-        .add("repeats", comparison.plan.repeats)
-        .end_key();
-}
-
-std::vector<Row> table_rows(const Comparison& comparison) {
-    const std::vector<double> reference_ms = reference_times(comparison);
-    std::vector<Row> rows;
-    for (const Measurement& measurement : comparison.measurements) {
-        rows.push_back(
-            table_row(table_key(comparison, measurement.method), measurement, reference_ms));
-    }
-    return rows;
-}
-
-Row table_columns() {
-    return table_row(table_key({}, {}), {}, {});
-}
-
 std::string table_csv(std::span<const Comparison> comparisons) {
     std::vector<Row> rows;
     for (const Comparison& comparison : comparisons) {
         std::ranges::move(table_rows(comparison), std::back_inserter(rows));
     }
-    return csv(table_columns(), rows);
+    return csv(table_row(table_key({}, {}), {}, {}), rows);
 }
 
 std::string calls_csv(std::span<const Comparison> comparisons) {

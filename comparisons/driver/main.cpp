@@ -4,7 +4,6 @@
 #include "machine_load_mpi.hpp"
 #include "replay_mpi.hpp"
 #include "scene_mpi.hpp"
-#include "sweep_mpi.hpp"
 #include "workload_mpi.hpp"
 
 #include <rrcb/error.hpp>
@@ -118,10 +117,13 @@ std::vector<Workload> make_workloads(const Arguments& arguments, const ResultsFo
     if (!arguments.cloud.empty() || !arguments.file.empty() || !arguments.replay.empty()) {
         return {make_workload(arguments, comm)};
     }
+    if (arguments.only == Only::calls)
+        return scene_snapshots(plan_scene(arguments, 1, comm), progress, comm);
     SceneRuns scene = run_scene(arguments, folder, progress, comm);
     outcome.succeeded = std::ranges::all_of(
         scene.methods, [](const auto& rounds) { return rounds.runs.back().error.empty(); });
     outcome.noise = std::move(scene.noise);
+    if (arguments.only == Only::simulations) return {};
     return std::move(scene.snapshots);
 }
 
@@ -137,10 +139,6 @@ Outcome compare_all(const Arguments& arguments, const ResultsFolder& folder, Pro
     }
     folder.write("table.csv", [&] { return table_csv(comparisons); });
     folder.write("calls.csv", [&] { return calls_csv(comparisons); });
-    if (!comparisons.empty()) {
-        folder.write("message_sizes.csv",
-                     [&] { return message_sizes_csv(comparisons.front().dimension); });
-    }
     folder.write("noise.csv", [&] { return csv_of(outcome.noise, noise_row); });
     outcome.succeeded = outcome.succeeded && !has_failures(comparisons);
     return outcome;
@@ -162,12 +160,7 @@ int compare(const Arguments& arguments, const std::string& command, MPI_Comm com
     const std::string record = run_record(arguments, command, comm);
     folder.write("run.txt", [&] { return record; });
 
-    Outcome outcome;
-    if (arguments.sweep) {
-        outcome.succeeded = run_sweep(arguments, folder, progress, comm);
-    } else {
-        outcome = compare_all(arguments, folder, progress, comm);
-    }
+    const Outcome outcome = compare_all(arguments, folder, progress, comm);
     const MachineUse use = watch.use();
     std::ostringstream whole_record;
     whole_record << record;

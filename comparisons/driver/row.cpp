@@ -15,29 +15,6 @@ std::string field(const std::string& text) {
     return quoted;
 }
 
-/// The values of every line.
-std::vector<std::vector<std::string>> read_lines(const std::string& text) {
-    std::vector<std::vector<std::string>> lines;
-    bool is_quoted = false;
-    bool starts_line = true;
-    char before = '\0';
-    for (const char c : text) {
-        if (starts_line) lines.push_back({""});
-        starts_line = c == '\n' && !is_quoted;
-        if (c == '"') {
-            // The second of two in a row stands for itself.
-            if (!is_quoted && before == '"') lines.back().back() += c;
-            is_quoted = !is_quoted;
-        } else if (c == ',' && !is_quoted) {
-            lines.back().emplace_back();
-        } else if (!starts_line) {
-            lines.back().back() += c;
-        }
-        before = c;
-    }
-    return lines;
-}
-
 }  // namespace
 
 Row& Row::add(std::string name, std::string value) {
@@ -55,12 +32,6 @@ Row& Row::add_spread(const std::string& name, const std::optional<Spread>& sprea
     return add_interval(name + '_', spread ? spread->interval95 : std::nullopt);
 }
 
-Row& Row::add(const Row& more) {
-    if (more.key_size_ > 0) key_size_ = size() + more.key_size_;
-    columns_.insert(columns_.end(), more.columns_.begin(), more.columns_.end());
-    return *this;
-}
-
 Row& Row::end_key() {
     key_size_ = size();
     return *this;
@@ -69,11 +40,6 @@ Row& Row::end_key() {
 Row& Row::add_error(const std::string& error) {
     for (std::size_t i = key_size_; !error.empty() && i < size(); ++i) columns_[i].second.clear();
     return add("error", error);
-}
-
-bool Row::has_failed() const {
-    const auto error = std::ranges::find(columns_, "error", [](auto& c) { return c.first; });
-    return error != columns_.end() && !error->second.empty();
 }
 
 std::string Row::header() const {
@@ -87,10 +53,6 @@ std::string Row::values(std::size_t count) const {
     for (std::size_t i = 0; i < count; ++i)
         text.append(i == 0 ? "" : ",").append(field(columns_[i].second));
     return text;
-}
-
-std::string Row::key() const {
-    return values(key_size_);
 }
 
 std::string Row::text() const {
@@ -107,16 +69,6 @@ std::string csv(const Row& columns, const std::vector<Row>& rows) {
     std::string text = columns.header() + '\n';
     for (const Row& row : rows) text += row.text() + '\n';
     return text;
-}
-
-std::vector<Row> read_csv(const std::string& text, const Row& columns) {
-    std::vector<Row> rows;
-    if (!text.starts_with(columns.header() + '\n')) return rows;
-    const std::vector<std::vector<std::string>> lines = read_lines(text);
-    for (std::size_t i = 1; i < lines.size(); ++i) {
-        if (lines[i].size() == columns.size()) rows.push_back(columns.with_values(lines[i]));
-    }
-    return rows;
 }
 
 void print_columns(std::ostream& out, const Row& columns, const std::vector<Row>& rows) {

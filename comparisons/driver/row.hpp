@@ -39,19 +39,14 @@ class Row {
     /// The median as `name`, and its interval as `name`_low and `name`_high.
     Row& add_spread(const std::string& name, const std::optional<Spread>& spread);
 
-    /// The columns of another row behind these; the key of both ends with that of the other one.
-    Row& add(const Row& more);
-
-    /// The columns so far, the key, tell what was measured.
+    /// The columns so far, the key, tell what was measured: add_error keeps them.
     Row& end_key();
 
     /// The column `error`; unless it is empty, all values from the key to it are.
     Row& add_error(const std::string& error);
 
     std::string header() const;
-    std::string key() const;
     std::string text() const;
-    bool has_failed() const;  ///< has a text in the column `error`
 
     /// The same columns with other values. There must be as many.
     Row with_values(const std::vector<std::string>& values) const;
@@ -77,9 +72,6 @@ std::string csv_of(const Items& items, RowOf&& row_of) {
     for (const auto& item : items) rows.push_back(row_of(item));
     return csv(row_of(typename Items::value_type{}), rows);
 }
-
-/// The rows of such a file, but those of another length, cut short; none under another header.
-std::vector<Row> read_csv(const std::string& text, const Row& columns);
 
 /// Rows for people, in columns under the names that `columns` tells: the first to the left, numbers
 /// to the right. A shorter row ends with a text of any length.

@@ -29,12 +29,12 @@ std::vector<Contender> contenders(std::span<const Method> methods) {
     return all;
 }
 
-/// Thinned so that history.csv stays below 5 MB.
+/// Thinned so that history.csv stays below 5 MB; odd, so that a load that alternates shows.
 int record_interval(int num_steps, std::size_t num_runs, MPI_Comm comm) {
     constexpr double max_rows = 60'000;
     const int num_parts = size_of(comm);
     const double rows = static_cast<double>(num_runs) * num_parts * num_steps;
-    return static_cast<int>(rows / max_rows) + 1;
+    return (static_cast<int>(rows / max_rows) + 1) | 1;
 }
 
 void take_snapshots(std::vector<Workload>& snapshots, const SimulationPlan& plan, int steps_done,
@@ -183,7 +183,9 @@ SceneRuns run_scene(const Arguments& arguments, const ResultsFolder& folder, Pro
     std::vector<Contender> all = contenders(arguments.methods);
     const SimulationPlan plan = plan_scene(arguments, all.size(), comm);
     all.push_back(Contender(all.front()));
-    const int num_rounds = std::min(arguments.repeats, max_rounds);
+    const int num_rounds = arguments.only == Only::simulations
+                               ? arguments.repeats
+                               : std::min(arguments.repeats, max_rounds);
     progress.start("simulations", num_rounds * static_cast<int>(all.size()) * plan.num_steps);
     SceneRounds rounds(plan, std::move(all), progress, comm);
     for (int round = 0; round < num_rounds; ++round) rounds.run(round);

@@ -213,17 +213,11 @@ std::vector<Noise> noise_of(const std::string& scene, const SimulationRounds& no
     return noise;
 }
 
-Row simulation_key(const SimulationPlan& plan, int num_ranks, std::int64_t num_points,
-                   const std::string& method) {
-    Row row;
-    row.add("method", method);
-    add_size(row, plan, num_ranks, num_points);
-    return row;
-}
-
 Row simulation_row(const SimulationPlan& plan, int num_ranks, const SimulationSummary& summary) {
     const SimulationRun& run = summary.middle;
-    Row row = simulation_key(plan, num_ranks, run.num_points, run.method);
+    Row row;
+    row.add("method", run.method);
+    add_size(row, plan, num_ranks, run.num_points);
     add_run(row, run);
     return row.add("repeats", summary.repeats)
         .add_interval("wall_s_", summary.wall_s.interval95)

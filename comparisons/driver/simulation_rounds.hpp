@@ -46,10 +46,6 @@ std::vector<SimulationSummary> summarize_all(std::span<const SimulationRounds> m
 std::vector<Noise> noise_of(const std::string& scene, const SimulationRounds& none,
                             const SimulationRounds& again);
 
-/// What of a row of simulation.csv tells what was run.
-Row simulation_key(const SimulationPlan& plan, int num_ranks, std::int64_t num_points,
-                   const std::string& method);
-
 /// A row of simulation.csv, columns as README.md describes them.
 Row simulation_row(const SimulationPlan& plan, int num_ranks, const SimulationSummary& summary);
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import pandas as pd
@@ -18,7 +17,6 @@ TOLERANCES = {  # and RRCB's own setting for each
     "exact": "rrcb-exact",
 }
 EVERYWHERE = "all of these"
-COSTS = ("time_ms", "bytes")
 
 
 @dataclass(frozen=True)
@@ -85,19 +83,10 @@ def _choose(case: str, rows: pd.DataFrame, tolerance: str) -> Choice:
     return replace(best, rivals=tuple(c.setting for c in rivals))
 
 
-def pareto_front(rows: pd.DataFrame, cost: str) -> pd.DataFrame:
-    """The rows that no other beats in both cost and imbalance, cheapest first."""
-    rows = rows.sort_values([cost, "imbalance"], kind="stable")
+def pareto_front(rows: pd.DataFrame) -> pd.DataFrame:
+    """The rows that no other beats in both time and imbalance, fastest first."""
+    rows = rows.sort_values(["time_ms", "imbalance"], kind="stable")
     return rows[rows["imbalance"] < rows["imbalance"].cummin().shift(fill_value=float("inf"))]
-
-
-def fronts(rows: pd.DataFrame) -> Iterator[dict]:
-    """The rows of fronts.csv: the settings on the front of each case, by time and by bytes."""
-    for case, measured in cases(rows).items():
-        for cost in COSTS:
-            for row in pareto_front(measured, cost).itertuples():
-                yield {"case": case, "cost": cost, "setting": row.method,
-                       "value": getattr(row, cost), "imbalance": row.imbalance}  # fmt: skip
 
 
 # --- whether RRCB's own choice of mesh and refinement is near the best setting tried ---

@@ -1,4 +1,4 @@
-"""What the root sees instead of the points: figures 3 and 4 of the paper."""
+"""What the root sees instead of the points."""
 
 from __future__ import annotations
 

@@ -1,8 +1,6 @@
-"""The load unbalance over the steps of simulations: figure 6 of the paper."""
+"""The load unbalance over the steps of simulations."""
 
 from __future__ import annotations
-
-from statistics import mode
 
 import numpy as np
 import pandas as pd
@@ -11,13 +9,10 @@ from intervals import Value
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from methods import WINNERS, setting_of, values_of
 from results import Results
-from speed_up import read_speed_ups
 
 MOST_WINDOWS = 150  # lines that swing at every rebalance would run into one another
 TIME = "time simulated [s]"
-CONFIGURATIONS = ("root-rcb", *WINNERS)
 
 
 def draw_history(results: Results) -> Figure | None:
@@ -34,7 +29,7 @@ def draw_history(results: Results) -> Figure | None:
     top.set_xlabel(TIME)
     for number, (method, history) in enumerate(histories.items()):
         axes = figure.add_subplot(grid[1 + number // 2, number % 2], sharex=top)
-        _draw_parts_of(axes, method, history)
+        draw_parts_of(axes, method, history)
         if number >= len(histories) - 2:
             axes.set_xlabel(TIME)
     parts = 1 + max(history["part"].max() for history in histories.values())
@@ -75,7 +70,7 @@ def draw_worst(axes: Axes, histories: dict[str, pd.DataFrame]) -> None:
     axes.grid(True, axis="y")
 
 
-def _draw_parts_of(axes: Axes, method: str, history: pd.DataFrame) -> None:
+def draw_parts_of(axes: Axes, method: str, history: pd.DataFrame) -> None:
     """Lu of every part, from least to most of each window."""
     times, unbalance = per_part(history)
     axes.axhline(0, color="#999999", linewidth=0.6)
@@ -88,64 +83,3 @@ def _draw_parts_of(axes: Axes, method: str, history: pd.DataFrame) -> None:
     axes.set_ylabel("Lu [%]")
     most = np.nanmax(np.abs(unbalance))
     axes.set_title(f"{method}: |Lu| ≤ {most:.2g} %, a scale of its own", fontsize=9, loc="left")
-
-
-def draw_figure_6(results: Results) -> Figure | None:
-    """Figure 6 of the paper: Lu of every part under its RCB and the four settings of its RRCB that
-    were faster."""
-    histories, every = _configurations(results)
-    if not histories:
-        return None
-    figure, grid = plot.panels(len(histories), 1, 8, 1.6 * len(histories) + 0.8, sharex=True)
-    for axes, (method, history) in zip(grid[:, 0], histories.items()):
-        _draw_parts_of(axes, f"{method}, rebalanced every {every}", history)
-        axes.grid(True, axis="y")
-    grid[-1, 0].set_xlabel(TIME)
-    return figure
-
-
-def _configurations(results: Results) -> tuple[dict[str, pd.DataFrame], str]:
-    """Of the runs that rebalance at every step, where there are any."""
-    for rows, prefix in ((results.paper_runs, "paper_history"), (results.swept_runs, "history")):
-        runs = [s.run for s in read_speed_ups(rows) if s.run.method in CONFIGURATIONS]
-        if runs:
-            found = study_history(results, mode(run.ranks for run in runs), prefix)
-            chosen = {name: found[name] for name in CONFIGURATIONS if name in found}
-            return chosen, "step" if runs[0].every == 1 else f"{runs[0].every} steps"
-    return {}, ""
-
-
-def study_history(
-    results: Results, ranks: int, prefix: str, method: str = ""
-) -> dict[str, pd.DataFrame]:
-    """Of the methods that begin so, on so many ranks, which have a file each."""
-    return results.histories(f"data/{prefix}_{method}*_{ranks}.csv")
-
-
-def draw_study_history(results: Results) -> Figure | None:
-    """Load unbalance over the simulation under all settings, largest |Lu| of the parts."""
-    runs = [s.run for s in read_speed_ups(results.swept_runs) if setting_of(s.run.method)]
-    ranks = mode(run.ranks for run in runs) if runs else 0
-    histories = study_history(results, ranks, "history", "rrcb-sampled_")
-    if not runs or not histories:
-        return None
-    methods = sorted(histories, key=setting_of)
-    meshes, fractions = values_of(methods, 0), values_of(methods, 2)[::-1]
-    width, height = 2.8 * len(fractions) + 0.6, 1.7 * len(meshes) + 0.9
-    shape = (len(meshes), len(fractions))
-    figure, grid = plot.panels(*shape, width, height, sharex=True, sharey=True)
-    handles = {}
-    for method in methods:
-        mesh, k, fraction = setting_of(method)
-        axes = grid[meshes.index(mesh), fractions.index(fraction)]
-        worst = histories[method].set_index("time")["lu_percent"].abs().groupby("time").max()
-        look = {"color": plot.multiplier_colour(k), "linewidth": 0.9, "label": f"k = {k:g}"}
-        (handles[k],) = axes.plot(worst.index, worst, **look)
-    for axes, fraction in zip(grid[0], fractions):
-        axes.set_title(f"{100 * fraction:g} % of the points")
-    for axes in grid.flat:
-        axes.set_yscale("log")
-        axes.grid(True, axis="y")
-    labels = [f"mesh {mesh:g}\nlargest |Lu| [%]" for mesh in meshes]
-    plot.label_edges(grid, [TIME] * len(fractions), labels)
-    return plot.legend_above(figure, [handles[k] for k in sorted(handles)])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+RCB = "root-rcb"  # the paper's
 STANDARD = "rrcb-sampled[mesh=4,k=1.5,fraction=1]"  # the paper's RRCB
 WINNERS = (  # the settings with which it was faster than RCB in the paper
     "rrcb-sampled[mesh=2,k=1.5,fraction=0.25]",

@@ -1,4 +1,4 @@
-"""The points coloured by part, with the boxes and the loads of the parts: figure 2 of the paper."""
+"""The points coloured by part, with the boxes and the loads of the parts."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from results import Results
 
 PANEL_WIDTH = 4.2
 MOST_TEXTS = 8  # parts with their points and Lu written inside; more get their number alone
-SIX = "six-boxes"  # the driver's name of the data of figure 2
 
 
 def draw_parts(results: Results) -> Figure | None:
@@ -97,35 +96,3 @@ def _title(methods: list[str], row: object) -> str:
     lines = [", ".join(methods[i : i + 3]) for i in range(0, len(methods), 3)]
     worst = f"largest |Lu| {row.lu_max_percent:.2f} %"
     return "\n".join([*lines, f"{row.workload}: imbalance {row.imbalance:.5f}, {worst}"])
-
-
-def draw_figure_2(results: Results) -> Figure | None:
-    """Figure 2 of the paper: the statistical domain in a box for each of six processes, and the
-    points in these boxes."""
-    samples = results.data("statistical", SIX)
-    points, boxes = (results.data(kind, SIX, "rrcb-sampled") for kind in ("points", "boxes"))
-    if samples.empty or points.empty or boxes.empty:
-        return None
-    height = plot.length_ratio([points, samples]) * 5.2 + 0.8
-    figure, grid = plot.panels(1, 2, 11, height, sharex=True, sharey=True)
-    for axes, cloud, name in zip(grid[0], (samples, points), ("statistical domain", "points")):
-        shown = plot.draw_cloud(axes, cloud, plot.part_colours(_box_of(cloud, boxes)))
-        for box in plot.rectangles(boxes, fill=False, linewidth=1.2):
-            axes.add_patch(box)
-        axes.set_title(f"{name} in {len(boxes)} boxes ({shown:,} shown)")
-        plot.show_lengths(axes, y_label=axes is grid[0, 0])
-    return figure
-
-
-def _box_of(cloud: pd.DataFrame, boxes: pd.DataFrame) -> np.ndarray:
-    """Part of each point; the outer faces are open, and an inner one belongs to a box beside it."""
-    parts = np.zeros(len(cloud))
-    lowest, highest = boxes.min(), boxes.max()
-    for _, box in boxes.iterrows():
-        inside = np.ones(len(cloud), dtype=bool)
-        for axis in "xy":
-            lower, upper = "lower_" + axis, "upper_" + axis
-            inside &= (cloud[axis] >= box[lower]) | (box[lower] == lowest[lower])
-            inside &= (cloud[axis] <= box[upper]) | (box[upper] == highest[upper])
-        parts[inside] = box["part"]
-    return parts

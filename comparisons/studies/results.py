@@ -60,15 +60,6 @@ def simulations(rows: pd.DataFrame) -> pd.DataFrame:
     return rows
 
 
-def last_calls(rows: pd.DataFrame) -> pd.DataFrame:
-    """Of cycle.csv those on as many points and ranks as the last ones; moved is in percent."""
-    if rows.empty:
-        return rows
-    size = ["ranks", "points"]
-    rows["moved"] = 100 * rows["moved_fraction"]
-    return rows[(rows[size] == rows[size].iloc[-1]).all(axis=1)]
-
-
 def _file(name: str, prepare: Callable[[pd.DataFrame], pd.DataFrame]) -> cached_property:
     return cached_property(lambda results: prepare(read(results.folder / name)))
 
@@ -80,20 +71,9 @@ class Results:
         self.folder = folder
 
     table = _file("table.csv", measurements)
-    swept = _file("sweep.csv", measurements)
-    clouds = property(lambda self: self.swept[self.swept["layout"] != "simulation"])
-    snapshots = property(lambda self: self.swept[self.swept["layout"] == "simulation"])
-    cycle = _file("cycle.csv", last_calls)
     noise = _file("noise.csv", pd.DataFrame)
     runs = _file("simulation.csv", simulations)
     rounds = _file("simulation_runs.csv", simulations)  # the same, each round by itself
-    swept_runs = _file("sweep_simulation.csv", simulations)
-    paper_runs = _file("paper_simulation.csv", simulations)  # rebalanced at every step
-
-    @property
-    def calls(self) -> pd.DataFrame:
-        """Of the table, or of a sweep: of its clouds, without them of its snapshots."""
-        return next((rows for rows in (self.table, self.clouds) if len(rows)), self.swept)
 
     @cached_property
     def record(self) -> dict[str, str]:
@@ -102,9 +82,9 @@ class Results:
         lines = path.read_text().splitlines() if path.exists() else []
         return dict(line.split(": ", 1) for line in lines if ": " in line)
 
-    def histories(self, pattern: str = "history.csv") -> dict[str, pd.DataFrame]:
-        """The rows of each method in the files of that pattern."""
-        rows = pd.concat([pd.DataFrame(), *map(read, sorted(self.folder.glob(pattern)))])
+    def histories(self) -> dict[str, pd.DataFrame]:
+        """The rows of each method in history.csv."""
+        rows = read(self.folder / "history.csv")
         return {} if rows.empty else dict(iter(rows.groupby("method", sort=False)))
 
     def data(self, kind: str, *names: str) -> pd.DataFrame:

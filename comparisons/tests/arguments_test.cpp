@@ -52,18 +52,16 @@ TEST(Arguments, compare_settings_unless_methods_are_named) {
     EXPECT_EQ(read({"--cloud=slope"}).methods.size(), default_methods().size());
     EXPECT_EQ(read({"--quick"}).methods.size(), default_methods().size());
     EXPECT_EQ(read({"--methods=all"}).methods.size(), all_methods().size());
-    EXPECT_EQ(read({"--sweep", "--quick"}).methods.size(), read_methods(method_names()).size());
     EXPECT_EQ(read({"--methods=rrcb-arrays[tol=1.1]"}).methods.size(), 1U);
 }
 
-TEST(Arguments, narrow_a_sweep) {
-    const Arguments arguments =
-        read({"--sweep", "--only=clouds, cycle", "--cloud=slope", "--dim=2", "--layout=sorted"});
-    EXPECT_EQ(arguments.only, (std::vector<std::string>{"clouds", "cycle"}));
-    EXPECT_EQ(arguments.swept.names, std::vector<std::string>{"slope"});
-    EXPECT_EQ(arguments.swept.dimensions, std::vector<int>{2});
-    EXPECT_EQ(arguments.swept.layouts, std::vector<Layout>{Layout::sorted});
-    EXPECT_EQ(arguments.points, 200'000);
+TEST(Arguments, choose_what_of_a_scene_is_run) {
+    EXPECT_EQ(read({}).only, Only::all);
+    EXPECT_EQ(read({"--only=calls"}).only, Only::calls);
+    const Arguments serial = read({"--only=simulations", "--methods=none", "--no-data"});
+    EXPECT_EQ(serial.only, Only::simulations);
+    EXPECT_TRUE(serial.methods.empty());
+    EXPECT_FALSE(serial.data);
 }
 
 TEST(Arguments, name_what_is_unknown) {
@@ -78,8 +76,7 @@ TEST(Arguments, name_what_is_unknown) {
                  "--layout: unknown value 'tidy'; choose from: sorted, scattered");
     expect_error({"--lists=NONE"},
                  "--lists: unknown value 'NONE'; choose from: PARTS, EXPORT, ALL");
-    expect_error({"--sweep", "--only=clouds,some"},
-                 "--only: unknown part 'some'; choose from: clouds, snapshots");
+    expect_error({"--only=some"}, "--only: unknown value 'some'; choose from: calls, simulations");
 }
 
 TEST(Arguments, name_options_without_a_value) {
@@ -98,15 +95,12 @@ TEST(Arguments, name_values_out_of_range) {
 }
 
 TEST(Arguments, name_options_that_do_not_go_together) {
-    expect_error({"--points=10"}, "--points goes with --cloud or --sweep only; remove it");
+    expect_error({"--points=10"}, "--points goes with --cloud only; remove it");
     expect_error({"--cloud=slope", "--scene=slope"},
                  "give one of --scene, --cloud, --file and --replay only");
-    expect_error({"--replay=dump", "--layout=sorted"}, "--layout goes with --cloud, --file or");
-    expect_error({"--sweep", "--every=auto"},
-                 "--every=auto goes with --scene only; give --sweep a number of steps");
+    expect_error({"--replay=dump", "--layout=sorted"}, "--layout goes with --cloud or --file only");
     expect_error({"--replay=dump", "--steps=3"}, "--steps goes with --scene only; remove it");
-    expect_error({"--sweep", "--file=points.csv"}, "--sweep has points of its own; remove");
-    expect_error({"--only=clouds"}, "--only goes with --sweep only; remove it");
+    expect_error({"--cloud=slope", "--only=calls"}, "--only goes with --scene only; remove it");
 }
 
 }  // namespace

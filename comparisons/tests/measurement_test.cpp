@@ -1,5 +1,4 @@
 #include "comparison_mpi.hpp"
-#include "cycle_mpi.hpp"
 #include "partitioner_mpi.hpp"
 #include "workload_mpi.hpp"
 
@@ -116,22 +115,6 @@ TEST_F(MeasurementTest, pseudo_random_points_are_judged_over_ten_seeds) {
     EXPECT_EQ(open.times_ms.size(), 3U);
 }
 
-TEST_F(MeasurementTest, messages_to_the_root_are_made_of_the_sizes_that_are_told) {
-    std::map<std::string, std::int64_t> sizes;
-    const Row columns = Row().add("name", "").add("bytes", 0);
-    for (const Row& row : read_csv(message_sizes_csv(2), columns))
-        sizes[row.columns()[0].second] = read_number<std::int64_t>(row.columns()[1].second).value();
-    // Of every cell of its mesh each rank holds points.
-    const Measurement result = run(read_methods("rrcb[mesh=2,refine=none]"), Lists::parts)[0];
-    const std::int64_t message =
-        sizes["summary"] + sizes["mesh"] + 4 * sizes["cell"] + sizes["place"];
-    const auto sent = result.calls.find("MPI_Send");
-    ASSERT_EQ(sent != result.calls.end(), num_ranks_ > 1);
-    if (num_ranks_ > 1) {
-        EXPECT_EQ(sent->second.bytes_in, (num_ranks_ - 1) * message);
-    }
-}
-
 TEST_F(MeasurementTest, lu_of_largest_size_keeps_its_sign) {
     EXPECT_EQ(largest_by_size(std::vector<double>{1, -3, 2}), -3);
     EXPECT_EQ(largest_by_size(std::vector<double>{1, -2, 2}), -2);
@@ -155,37 +138,6 @@ TEST_F(MeasurementTest, coordinates_that_are_not_finite_fail_on_every_rank) {
     const std::vector<Measurement> results = run(read_methods("rrcb,rrcb-arrays"), Lists::parts);
     EXPECT_EQ(results[0].error, "Zoltan_LB_Partition failed with code -1");
     EXPECT_EQ(results[1].error, "rrcb::balance failed with code -1");
-}
-
-TEST_F(MeasurementTest, still_points_go_to_the_rank_of_their_part_after_every_call) {
-    std::vector<std::vector<double>> seen;
-    const mpm::Balancer to_the_next = [&](mpm::Positions positions, MPI_Comm) {
-        seen.emplace_back(positions.x.begin(), positions.x.end());
-        mpm::Decomposition decomposition;
-        decomposition.local_owners.assign(positions.size(), (rank_ + 1) % num_ranks_);
-        return decomposition;
-    };
-    const std::vector<StillCall> calls =
-        balance_still_points(workload_, to_the_next, num_ranks_ + 1, MPI_COMM_WORLD);
-    ASSERT_EQ(calls.size(), static_cast<std::size_t>(num_ranks_) + 1);
-    for (const StillCall& call : calls) EXPECT_EQ(call.moved_fraction, num_ranks_ > 1 ? 1 : 0);
-    // Once around: every rank has its own points again.
-    EXPECT_EQ(seen.front(), seen.back());
-    const std::size_t mine = seen[1].size();
-    std::size_t all = 0;
-    MPI_Allreduce(&mine, &all, 1, MPI_UNSIGNED_LONG, MPI_SUM, MPI_COMM_WORLD);
-    EXPECT_EQ(all, 1200U);
-}
-
-TEST_F(MeasurementTest, still_points_stay_where_exact_cuts_put_them) {
-    // 1200 points divide evenly by 1, 2, 3 and 4 ranks, and no two share a coordinate.
-    for (const char* name : {"root-rcb", "rrcb-exact"}) {
-        const std::vector<StillCall> calls =
-            balance_still_points(workload_, *make_balancer(read_method(name)), 3, MPI_COMM_WORLD);
-        for (const StillCall& call : calls) EXPECT_EQ(call.imbalance, 1) << name;
-        EXPECT_EQ(calls[1].moved_fraction, 0) << name;
-        EXPECT_EQ(calls[2].moved_fraction, 0) << name;
-    }
 }
 
 }  // namespace

@@ -25,22 +25,6 @@ TEST(Row, values_that_are_none_are_empty) {
 TEST(Row, of_a_failure_tells_what_failed_and_why) {
     const Row row = measured("a,b", 1, "it said \"no\"");
     EXPECT_EQ(row.text(), "\"a,b\",,\"it said \"\"no\"\"\"");
-    EXPECT_EQ(row.key(), "\"a,b\"");
-    EXPECT_TRUE(row.has_failed());
-    EXPECT_TRUE(Row(row).add("more", 1).has_failed()) << "columns may stand behind the error";
-    EXPECT_EQ(Row().add("repeat", 2).add(row).key(), "2,\"a,b\"");
-}
-
-TEST(Row, is_read_as_it_was_written) {
-    const std::vector<Row> rows = {measured("plain", 0.1), measured("a \"b\"", 2),
-                                   measured("two,\nlines", 3, "\"quoted\"")};
-    const std::string text = csv(measured("", 0), rows);
-    const std::vector<Row> read = read_csv(text, measured("", 0));
-    ASSERT_EQ(read.size(), 3U);
-    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(read[i].columns(), rows[i].columns());
-    EXPECT_EQ(read[1].key(), rows[1].key());
-    EXPECT_TRUE(read_csv(text, Row().add("another", 0)).empty());
-    EXPECT_EQ(read_csv(text + "cut,sh", measured("", 0)).size(), 3U);
 }
 
 TEST(Row, people_read_columns_and_reasons_of_any_length) {

@@ -18,7 +18,6 @@ import history  # noqa: E402
 import parts  # noqa: E402
 import pandas as pd  # noqa: E402
 import report  # noqa: E402
-import speed_up  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 from matplotlib.text import Text  # noqa: E402
 from results import Results  # noqa: E402
@@ -63,53 +62,6 @@ rank,cell,lower_x,lower_y,upper_x,upper_y,mean_x,mean_y,sigma_x,sigma_y,count
 1,0,2,0,3,1,2.5,0.5,0.5,0.5,2
 """,
     "data/statistical_slope-start.csv": "x,y\n0.2,0\n2.7,0.4\n",
-    "sweep.csv": """\
-method,ranks,parts,points,dim,workload,layout,lists,repeats,time_ms_median,time_ms_min,time_ms_max,\
-imbalance,lu_max_percent,messages,bytes,root_bytes_in,collectives,communicators,moved_fraction,time_vs_zoltan_rcb,error
-zoltan-rcb,2,2,4,2,uniform,sorted,PARTS,1,2.0,1.5,3.0,1.0,0,1,100,1,1,0,0,1,
-"rrcb-sampled[mesh=2,k=1.5,fraction=0.5]",2,2,4,2,slope-start,simulation,PARTS,1,1,1,1,1.5,50,1,1,1,1,0,0,1,
-"rrcb-sampled[mesh=4,k=1.5,fraction=0.5]",2,2,4,2,slope-start,simulation,PARTS,1,1,1,1,1.2,20,1,1,1,1,0,0,1,
-""",
-    "sweep_simulation.csv": """\
-method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,worst_imbalance,front_x_m,mass_kg,path_points,step_work_s,step_path_s,step_network_s,balance_work_s,balance_path_s,balance_network_s,error
-serial,1,4,10,5,3.0,0.0,3.0,1.0,1.0,60,1,40,2.4,2.4,0,0,0,0,
-"rrcb-sampled[mesh=2,k=1.5,fraction=0.5]",2,4,10,5,2.0,0.1,1.8,1.0,1.1,60,1,20,2.4,1.2,0.1,0.1,0.05,0.01,
-rrcb,2,4,10,5,1.5,0.1,1.4,1.0,1.1,60,1,20,2.4,1.2,0.1,0.1,0.05,0.01,
-rrcb,4,4,10,5,1.2,0.1,1.1,1.0,1.1,60,1,10,2.4,0.7,0.1,0.2,0.1,0.02,
-""",
-    "data/history_rrcb-sampled_mesh_2_k_1.5_fraction_0.5__2.csv": """\
-method,step,time,part,points,lu_percent,imbalance
-"rrcb-sampled[mesh=2,k=1.5,fraction=0.5]",0,0.0,0,3,-50,1.5
-"rrcb-sampled[mesh=2,k=1.5,fraction=0.5]",0,0.0,1,1,50,1.5
-""",
-    "data/history_rrcb-sampled_mesh_2_k_1.5_fraction_0.5__4.csv": """\
-method,step,time,part,points,lu_percent,imbalance
-"rrcb-sampled[mesh=2,k=1.5,fraction=0.5]",0,0.0,0,4,-90,1.9
-""",
-    "paper_simulation.csv": """\
-repeat,method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,worst_imbalance,front_x_m,mass_kg,path_points,step_work_s,step_path_s,step_network_s,balance_work_s,balance_path_s,balance_network_s,error
-1,serial,1,4,10,1,3.0,0.0,3.0,1.0,1.0,60,1,40,2.4,2.4,0,0,0,0,
-1,root-rcb,2,4,10,1,1.5,0.1,1.4,1.0,1.1,60,1,20,2.4,1.2,0.1,0.1,0.05,0.01,
-""",
-    "data/paper_history_root-rcb_2.csv": """\
-method,step,time,part,points,lu_percent,imbalance
-root-rcb,0,0.0,0,3,-50,1.5
-root-rcb,0,0.0,1,1,50,1.5
-""",
-    "cycle.csv": """\
-method,ranks,points,seed,call,imbalance,moved_fraction,error
-"rrcb-sampled[mesh=4,k=1.5,fraction=1]",4,9,1,1,1.5,0.5,
-"rrcb-sampled[mesh=4,k=1.5,fraction=1]",4,9,1,2,1.2,0.1,
-rrcb,4,9,,1,1.1,0.5,
-rrcb,4,9,,2,1.1,0,
-""",
-    "data/points_six-boxes_rrcb-sampled.csv": "x,y,part\n0,0,0\n1,1,1\n2,0,1\n",
-    "data/boxes_six-boxes_rrcb-sampled.csv": """\
-part,lower_x,lower_y,upper_x,upper_y
-0,0,0,0.5,1
-1,0.5,0,2,1
-""",
-    "data/statistical_six-boxes.csv": "x,y\n0.2,0\n1.7,0.4\n",
 }
 
 
@@ -170,30 +122,6 @@ class DrawTest(unittest.TestCase):
                 if axis.get_scale() == "log" and axes.get_visible():
                     self.assertGreaterEqual(sum(ticks), 2, name)
 
-    def test_reckons_speed_ups_over_the_serial_run(self) -> None:
-        self.write("sweep_simulation.csv")
-        speed_ups = speed_up.read_speed_ups(self.results.swept_runs)
-        found = {(s.run.method, s.run.ranks): s.kinds for s in speed_ups}
-        two = found["rrcb", 2]  # rebalanced twice in its ten steps
-        self.assertAlmostEqual(two["critical_path"].number, 2.4 / (1.2 + 0.1 + 0.05 + 0.01))
-        self.assertAlmostEqual(two["every_step"].number, 2.4 / (1.2 + 0.1 + 5 * (0.05 + 0.01)))
-        self.assertAlmostEqual(two["points"].number, 2)
-        self.assertAlmostEqual(two["wall"].number, 2)
-
-    def test_leaves_out_simulations_of_another_length(self) -> None:
-        self.write("sweep_simulation.csv")
-        path = self.directory / "sweep_simulation.csv"
-        path.write_text(path.read_text() + FILES["sweep_simulation.csv"].split("\n")[1].replace(
-            "serial,1,4,10,5", "serial,1,4,20,5") + "\n")
-        found = speed_up.read_speed_ups(self.results.swept_runs)
-        self.assertEqual([s.run.steps for s in found], [20])
-
-    def test_reads_the_history_of_one_number_of_ranks(self) -> None:
-        self.write(*FILES)
-        found = history.study_history(self.results, 2, "history", "rrcb-sampled_")
-        (history_of,) = found.values()
-        self.assertEqual(history_of["lu_percent"].tolist(), [-50, 50])
-
     def test_leaves_out_pictures_without_data_and_removes_old_ones(self) -> None:
         self.write("table.csv")
         (self.directory / "parts.png").write_text("of an earlier run")
@@ -240,7 +168,7 @@ class DrawTest(unittest.TestCase):
 
     def test_every_program_names_the_package_that_it_misses(self) -> None:
         folder = Path(report.__file__).parent
-        for name in ("paper_methods", "report", "scaling", "scenes"):
+        for name in ("paper", "report", "scaling", "scenes"):
             for missing in ("matplotlib", "pandas"):
                 hide = (
                     "import importlib.util, runpy, sys; find = importlib.util.find_spec;"

@@ -11,14 +11,12 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "studies"))
 
+import boxes  # noqa: E402
 import claims  # noqa: E402
-import cycle  # noqa: E402
-import paper_methods  # noqa: E402
-import pandas as pd  # noqa: E402
-import speed_up  # noqa: E402
+import numpy as np  # noqa: E402
+import paper_figures  # noqa: E402
 from intervals import Value  # noqa: E402
 from methods import WINNERS  # noqa: E402
-from results import Results  # noqa: E402
 
 
 def mass_below(x: float, cut: float, mesh: int, multiplier: float) -> float:
@@ -51,43 +49,40 @@ class CycleTest(unittest.TestCase):
             for multiplier in (1.0, 1.5, sqrt(3), 2.0, 2.5):
                 for offset in (-0.004, -0.001, 0.001, 0.004):
                     expected = median_cut(0.5 + offset, mesh, multiplier) - 0.5
-                    found = cycle.next_offset(offset, mesh, multiplier)
+                    found = paper_figures.next_offset(offset, mesh, multiplier)
                     self.assertAlmostEqual(found, expected, places=9)
 
     def test_alternating_cuts_lie_at_the_same_distance(self) -> None:
         for multiplier in (1.0, 1.5, 1.7):
-            offset = cycle.alternating_offset(4, multiplier)
-            self.assertAlmostEqual(cycle.next_offset(offset, 4, multiplier), -offset)
-            self.assertAlmostEqual(cycle.next_offset(-offset, 4, multiplier), offset)
-
-    def test_lasting_values_leave_the_first_calls_out(self) -> None:
-        calls = [
-            ("rrcb", float("nan"), n, 1.5 if n <= 10 else 1 + n % 2 / 10, n) for n in range(1, 13)
-        ]
-        columns = ["method", "seed", "call", "imbalance", "moved"]
-        found = cycle.lasting(pd.DataFrame(calls, columns=columns))["rrcb"]
-        self.assertEqual((found["least"].number, found["most"].number), (1.0, 1.1))
-        self.assertAlmostEqual(found["moved"].number, 11.5)
+            offset = paper_figures.alternating_offset(4, multiplier)
+            self.assertAlmostEqual(paper_figures.next_offset(offset, 4, multiplier), -offset)
+            self.assertAlmostEqual(paper_figures.next_offset(-offset, 4, multiplier), offset)
 
     def test_pictures_of_the_methods_and_the_map_are_drawn(self) -> None:
         with tempfile.TemporaryDirectory() as directory:
-            sys.argv = ["paper_methods.py", directory]
-            self.assertEqual(paper_methods.main(), 0)
-            names = sorted(path.name for path in Path(directory).glob("*.png"))
-        self.assertEqual(names, ["paper_cycle_map.png", "paper_methods.png"])
+            names = paper_figures.draw_all(Path(directory))
+            self.assertTrue(all((Path(directory) / name).exists() for name in names))
+        self.assertEqual(names, ["paper_methods.png", "paper_cycle_map.png"])
 
 
-RUN = (
-    "repeat,method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,worst_imbalance,"
-    "path_points,step_work_s,step_path_s,step_network_s,balance_path_s,balance_network_s,error\n"
+class BoxesTest(unittest.TestCase):
+    def test_of_an_even_square_divide_it_evenly(self) -> None:
+        middles = (np.arange(8) + 0.5) / 8
+        points = np.array([(x, 2 * y) for x in middles for y in middles])
+        half = np.array([1, 2]) / 16
+        found = boxes.divide(points - half, points + half, np.ones(64), points, 4)
+        self.assertEqual(found, [16, 16, 16, 16])
+
+    def test_narrower_than_their_cells_miss_by_the_gap(self) -> None:
+        lower, upper = np.array([[0.0, 0], [3, 0]]), np.array([[1.0, 1], [4, 1]])
+        points = np.array([(x, 0.5) for x in (0.2, 0.4, 0.6, 2.9)])
+        self.assertEqual(boxes.divide(lower, upper, np.array([3.0, 1]), points, 2), [3, 1])
+
+
+HEADER = (
+    "method,round,seed,ranks,points,steps,every,step_path_s,balance_path_s,balance_network_s,"
+    "mean_imbalance,path_points,critical_path_s,error\n"
 )
-
-
-def runs(method: str, ranks: int, paths: list[float], imbalance: float = 1.0) -> str:
-    return "".join(
-        f'{n},"{method}",{ranks},100,10,1,{path},0,0,{imbalance},{imbalance},300,0,{path},0,0,0,\n'
-        for n, path in enumerate(paths, 1)
-    )
 
 
 class ClaimsTest(unittest.TestCase):
@@ -96,41 +91,55 @@ class ClaimsTest(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.directory = Path(temporary.name)
 
-    def write(self, *rows: str) -> None:
-        (self.directory / "sweep_simulation.csv").write_text(RUN + "".join(rows))
-
-    def claims(self) -> list[dict[str, str]]:
-        return claims.claim_table(Results(self.directory))
+    def write(self, folder: str, ranks: int, times: dict[str, list[float]]) -> None:
+        """Runs of ten steps of a hundred points; of the paper's methods 20 % above the mean."""
+        rows = "".join(
+            f'"{method}",{n},,{ranks},100,10,1,{time},1,0,{1.2 if "[" in method else 1},300,{time},\n'
+            for method, paths in times.items()
+            for n, time in enumerate(paths, 1)
+        )
+        (self.directory / folder).mkdir()
+        (self.directory / folder / "simulation_runs.csv").write_text(HEADER + rows)
 
     def verdicts(self) -> dict[str, str]:
-        return {row["the paper says"]: row["verdict"] for row in self.claims()}
+        table = claims.claim_table(self.directory)
+        return {row["the paper says"]: row["verdict"] for row in table}
 
     def test_are_none_without_files(self) -> None:
-        self.assertEqual(self.claims(), [])
+        self.assertEqual(claims.claim_table(self.directory), [])
 
     def test_name_no_winner_within_the_noise(self) -> None:
-        slow, fast = [8.0, 8.1, 8.2, 8.3, 8.4, 8.5], [4.0, 4.1, 4.2, 4.3, 4.4, 4.5]
-        self.write(
-            runs("serial", 1, [10.0] * 6),
-            runs("root-rcb", 4, [5.0, 5.1, 5.2, 5.3, 5.4, 5.5]),
-            runs(WINNERS[0], 4, fast, 1.2),
-            runs(WINNERS[1], 4, slow, 1.2),
-            runs(WINNERS[2], 4, [3.0, 5.1, 5.2, 5.3, 5.4, 9.0], 1.2),
-            runs(WINNERS[3], 4, [1.0], 1.2),
-        )
+        times = {
+            "root-rcb": [5.0, 5.1, 5.2, 5.3, 5.4, 5.5],
+            WINNERS[0]: [4.0, 4.1, 4.2, 4.3, 4.4, 4.5],
+            WINNERS[1]: [8.0, 8.1, 8.2, 8.3, 8.4, 8.5],
+            WINNERS[2]: [3.0, 5.1, 5.2, 5.3, 5.4, 9.0],
+            WINNERS[3]: [1.0],
+        }
+        self.write("simulations", 4, times)
+        self.write("serial", 1, {"none": [10.0] * 6})
         found = self.verdicts()
         self.assertEqual(found["mesh 2 × 2, 1.5 σ, 25 % is faster than RCB"], "confirmed")
         self.assertEqual(found["mesh 4 × 4, 2 σ, 12.5 % is faster than RCB"], "refuted")
         self.assertEqual(found["mesh 6 × 6, 2 σ, 12.5 % is faster than RCB"], "not told apart")
         self.assertEqual(found["mesh 8 × 8, 2 σ, 12.5 % is faster than RCB"], "not told apart")
-        self.assertEqual(found["RRCB's unbalance is clearly worse than RCB's"], "confirmed")
+        self.assertEqual(found["RCB on 4 processes is faster than serial"], "confirmed")
 
-    def test_four_processes_are_best_only_where_no_other_number_is(self) -> None:
-        serial = runs("serial", 1, [10.0] * 6)
-        four = runs("root-rcb", 4, [5.0] * 6)
-        self.write(serial, runs("root-rcb", 2, [6.0] * 6), four)
+    def test_unbalance_is_clearly_worse_only_in_several_runs(self) -> None:
+        claim = "RRCB's unbalance is clearly worse than RCB's"
+        self.write("simulations", 4, {"root-rcb": [5.0], WINNERS[0]: [4.0]})
+        self.assertEqual(self.verdicts()[claim], "not told apart")
+        (self.directory / "simulations/simulation_runs.csv").unlink()
+        (self.directory / "simulations").rmdir()
+        self.write("simulations", 4, {"root-rcb": [5.0] * 10, WINNERS[0]: [4.0] * 10})
+        self.assertEqual(self.verdicts()[claim], "confirmed")
+
+    def test_four_processes_are_best_only_if_no_other_number_is(self) -> None:
+        self.write("ranks-1", 1, {"none": [10.0] * 6})
+        self.write("ranks-2", 2, {"root-rcb": [6.0] * 6})
+        self.write("ranks-4", 4, {"root-rcb": [5.0] * 6})
         self.assertEqual(self.verdicts()["4 processes are best"], "confirmed")
-        self.write(serial, runs("root-rcb", 2, [6.0] * 6), four, runs("root-rcb", 8, [4.0] * 6))
+        self.write("ranks-8", 8, {"root-rcb": [4.0] * 6})
         self.assertEqual(self.verdicts()["4 processes are best"], "refuted")
 
     def test_comparison_needs_intervals_apart(self) -> None:
@@ -138,14 +147,6 @@ class ClaimsTest(unittest.TestCase):
         self.assertEqual(claims.compare(high, low), "confirmed")
         self.assertEqual(claims.compare(low, high), "refuted")
         self.assertEqual(claims.compare(high, Value(1)), "not told apart")
-
-    def test_speed_ups_are_medians_over_the_repeats(self) -> None:
-        self.write(runs("serial", 1, [9.0, 10.0, 11.0]), runs("rrcb", 4, [4.0, 5.0, 2.0]))
-        runs_of = Results(self.directory).swept_runs
-        found = {s.run.method: s for s in speed_up.read_speed_ups(runs_of)}["rrcb"]
-        self.assertAlmostEqual(found.kinds["critical_path"].number, 2.5)
-        self.assertAlmostEqual(found.run.step_path_s, 4.0)
-        self.assertEqual(found.kinds["critical_path"].count, 3)
 
 
 if __name__ == "__main__":

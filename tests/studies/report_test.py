@@ -105,7 +105,7 @@ class ChoiceTest(unittest.TestCase):
 
     def test_keeps_on_the_front_what_none_beats_in_both(self) -> None:
         beaten = measured("zoltan-rib", 9, 1.1)
-        names = choice.pareto_front(table(*ROWS, beaten), "time_ms")["method"].tolist()
+        names = choice.pareto_front(table(*ROWS, beaten))["method"].tolist()
         self.assertEqual(names, ["rrcb[tol=1.05]", "rrcb-exact", "zoltan-rcb"])
 
 
@@ -239,30 +239,6 @@ class ReportTest(unittest.TestCase):
         text = (self.directory / "report.html").read_text()
         self.assertIn('<p class="caption">short</p>', text)
         self.assertIn('<details><summary class="caption">long, 81 rows</summary>', text)
-
-    def test_of_a_sweep_tells_which_setting_for_which_tolerance(self) -> None:
-        rows = "".join(
-            f"rrcb,4,4,1000,2,{cloud},sorted,PARTS,1,1,1,1,1.04,4,1,1,1,1,0,0,,\n"
-            for cloud in ("fog", "mist")
-        )
-        (self.directory / "sweep.csv").write_text(HEADER + rows)
-        output = self.write("--sweep --quick")
-        self.assertRegex(output, r"all of these +1\.05 +rrcb +1\.00")
-        self.assertRegex(output, r"all of these +1\.01 +none")
-        self.assertRegex(output, r"mist 2-D sorted +(rrcb 1\.00\s–×  ){2}none +none +none")
-        written = (self.directory / "choices.csv").read_text().splitlines()
-        self.assertIn("fog 2-D sorted,1.05,rrcb,1.0,,1.04,", written)
-        self.assertIn("fog 2-D sorted,exact,,,,,", written)
-        fronts = (self.directory / "fronts.csv").read_text().splitlines()
-        self.assertEqual(fronts[1:3], ["fog 2-D sorted,time_ms,rrcb,1,1.04",
-                                       "fog 2-D sorted,bytes,rrcb,1,1.04"])
-
-    def test_of_a_sweep_without_clouds_speaks_of_its_snapshots(self) -> None:
-        row = "rrcb-exact,4,4,1000,2,slope-start,simulation,PARTS,1,1,1,1,1,0,1,1,1,1,0,0,,\n"
-        (self.directory / "sweep.csv").write_text(HEADER + row)
-        output = self.write("--sweep --only=snapshots")
-        self.assertIn("Exact balance by RRCB took 1.00 times the time", output)
-        self.assertNotIn("No setting of RRCB balanced", output)
 
     def test_begins_with_a_busy_machine_and_with_shared_cores(self) -> None:
         row = "rrcb,999,999,9990,2,fog,sorted,PARTS,1,1,1,1,1,0,1,1,1,1,0,0,,\n"

@@ -8,7 +8,7 @@
 #include "gather/earlier_cuts.hpp"
 #include "gather/keeping.hpp"
 #include "gather/merge_tree_mpi.hpp"
-#include "held_parts_mpi.hpp"
+#include "kept_parts_mpi.hpp"
 #include "options/stage_scope.hpp"
 #include "options/validation.hpp"
 #include "settlement_mpi.hpp"
@@ -76,17 +76,17 @@ void estimate(Call& call, Participant& self) {
 }
 
 /// Prepares a call from nothing. Not collective.
-void prepare(const Options& given, bool may_stay, Call& call, HeldParts& held,
+void prepare(const Options& given, bool may_keep, Call& call, KeptParts& kept,
              const Participant& self) {
     const StageScope stage(given.observer, Stage::moments);
     const Points& points = call.points;
     const Box box = check_points(points);
     introduce(given, box, nullptr, call, self);
     const Options& central = call.options.central();
-    held.prepare(call.options, points, may_stay, mpi::rank_of(self.comm), mpi::size_of(self.comm),
+    kept.prepare(call.options, points, may_keep, mpi::rank_of(self.comm), mpi::size_of(self.comm),
                  call.mine);
-    make_buffers(call.decision, central, points.dimension, held.is_central());
-    call.settlement.prepare(call.options, held.is_central(), self);
+    make_buffers(call.decision, central, points.dimension, kept.is_central());
+    call.settlement.prepare(call.options, kept.is_central(), self);
     call.binned = bin_by_options(points, box, central);
     add_records(points, call.binned, call.mine);
 }
@@ -99,26 +99,26 @@ void settle(Call& call, Participant& self) {
         const auto bin = [&]() -> const BinnedPoints& { return call.binned; };
         settlement.refine(call.points, std::ref(bin), call.decision, call.result, self);
     } else {
-        settlement.assign(call.points, is_known(verdict.current_imbalance), call.result, self);
+        settlement.assign(call.points, is_known(verdict.kept_imbalance), call.result, self);
     }
     if (call.options.is_spread())
         settlement.divide_regions(call.binned, verdict, call.result, self);
 }
 
-Balance balance_from_nothing(const Points& points, const Options& given, bool may_stay,
+Balance balance_from_nothing(const Points& points, const Options& given, bool may_keep,
                              Participant& self) {
     Call call(points, given.observer);
-    HeldParts held;
-    self.attempt([&] { prepare(given, may_stay, call, held, self); });
+    KeptParts kept;
+    self.attempt([&] { prepare(given, may_keep, call, kept, self); });
     estimate(call, self);
     const Options& options = call.options.parts;
-    held.read(call.decision.verdict, call.result.report, self);
-    bool stays = held.are_good(options.imbalance_tolerance);
-    if (!stays) {
+    kept.read(call.decision.verdict, call.result.report, self);
+    bool is_kept = kept.are_good(options.imbalance_tolerance);
+    if (!is_kept) {
         settle(call, self);
-        stays = held.do_as_well_as(call.result.report.imbalance, options);
+        is_kept = kept.do_as_well_as(call.result.report.imbalance, options);
     }
-    if (stays) held.keep(call.options, call.decision, call.result, self);
+    if (is_kept) kept.keep(call.options, call.decision, call.result, self);
     if (call.options.is_spread()) hold_cuts(call.points, options, call.result, self);
     return std::move(call.result);
 }
@@ -222,17 +222,17 @@ Balance better(Balance&& reused, Balance&& anew, const Options& options) {
 }
 
 Balance balance_from_earlier(const Points& points, const Options& given, const Cuts& previous,
-                             bool may_stay, Participant& self) {
+                             bool may_keep, Participant& self) {
     Call call(points, given.observer);
     EarlierParts earlier;
     self.attempt([&] { prepare_to_reuse(given, previous, call, earlier, self); });
     // Both begin with the same messages, so that ranks meet there where one has failed.
     if (!self.failed() && !may_reuse(previous, call.options))
-        return balance_from_nothing(points, given, may_stay, self);
+        return balance_from_nothing(points, given, may_keep, self);
     estimate(call, self);
     const bool is_kept = keeps_earlier(call, earlier, self);
     if (call.options.is_spread()) {
-        if (!is_kept) return balance_from_nothing(points, given, may_stay, self);
+        if (!is_kept) return balance_from_nothing(points, given, may_keep, self);
         hold_cuts(call.points, call.options.parts, call.result, self);
         return std::move(call.result);
     }
@@ -244,10 +244,10 @@ Balance balance_from_earlier(const Points& points, const Options& given, const C
 
 }  // namespace
 
-Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_stay,
+Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_keep,
                 Participant& self) {
-    return previous ? balance_from_earlier(points, options, *previous, may_stay, self)
-                    : balance_from_nothing(points, options, may_stay, self);
+    return previous ? balance_from_earlier(points, options, *previous, may_keep, self)
+                    : balance_from_nothing(points, options, may_keep, self);
 }
 
 Balance balance(const Points& points, const Options& options, MPI_Comm comm) {

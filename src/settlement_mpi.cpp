@@ -45,15 +45,15 @@ PartTree tree_of(const Options& options, const Verdict& verdict, double weight, 
 /// The cuts above each of these points, with what is known. Collective.
 Cuts with_cuts_above(const Points& points, const Cuts& known, Participant& self) {
     std::vector<Part> parts;
-    std::optional<SearchRoom<PathSearch>> room;
+    std::optional<SearchBuffers<PathSearch>> buffers;
     self.attempt([&] {
         parts.resize(points.count);
         assign_known(known, points, parts);
-        room.emplace(PathSearch(known, points, parts), self.comm);
+        buffers.emplace(PathSearch(known, points, parts), self.comm);
     });
     agree(self);
-    search_together(*room, self);
-    return room->search.take();
+    search_together(*buffers, self);
+    return buffers->search.take();
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ void Settlement::refine(const Points& points, const Bin& bin, Decision& decision
                       std::move(decision.bisection.brackets),
                       weight_of(report),
                       verdict.common_weight,
-                      verdict.current_imbalance,
+                      verdict.kept_imbalance,
                       !decision.part_weights.empty(),
                       verdict.heaviest,
                       decision.reuses,

@@ -44,7 +44,7 @@ SpreadReuse::SpreadReuse(const Cuts& previous, const CallOptions& options, const
       was_whole_(is_whole(previous)),
       cuts_(numbered(fitted(previous, options.parts))),
       totals_(assign_and_count(cuts_, points, parts)),
-      room_(PathSearch(cuts_, points, parts), comm),
+      buffers_(PathSearch(cuts_, points, parts), comm),
       sums_(mpi::rank_of(comm), mpi::size_of(comm), add) {}
 
 /// Adds what was known at once, and the points that were searched one by one.
@@ -53,7 +53,7 @@ void SpreadReuse::add_up(bool by_count) {
     for (std::size_t k = 0; k < known.size(); ++k)
         if (!is_unknown(totals_.parts[k]) && totals_.counts[k] > 0)
             weights_[totals_.parts[k]] += known[k];
-    for (const LocalIndex i : room_.search.searched())
+    for (const LocalIndex i : buffers_.search.searched())
         weights_[parts_[i]] += by_count ? 1 : points_.weight(i);
     for (const auto& [part, weight] : weights_) {
         const RankRange ranks = ranks_of_part(part, cuts_.num_parts, sums_.num_ranks());
@@ -75,13 +75,13 @@ double SpreadReuse::largest_share(double total_weight) const {
 
 /// Imbalance of the parts, the same on every rank. Collective.
 double SpreadReuse::measure(double total_weight, bool by_count, Participant& self) {
-    search_together(room_, self);
-    cuts_ = room_.search.take();
+    search_together(buffers_, self);
+    cuts_ = buffers_.search.take();
     self.attempt([&] { add_up(by_count); });
-    room_.messages.run(sums_, Butterfly::to_owners, {}, self);
+    buffers_.messages.run(sums_, Butterfly::to_owners, {}, self);
     const double largest = largest_share(total_weight);
     sums_.clear();
-    room_.messages.run(sums_, Butterfly::to_owners, {0, largest}, self);
+    buffers_.messages.run(sums_, Butterfly::to_owners, {0, largest}, self);
     return sums_.flags()[1];
 }
 

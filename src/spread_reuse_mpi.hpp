@@ -44,7 +44,7 @@ class SpreadReuse {
     bool was_whole_;
     Cuts cuts_;  ///< with their numbers, also where they are all
     PartTotals totals_;
-    SearchRoom<PathSearch> room_;
+    SearchBuffers<PathSearch> buffers_;
     Butterfly sums_;
     std::map<Part, double> weights_{};  ///< of the points here, in each part
 };

@@ -79,7 +79,7 @@ struct ByteColumn {
     std::size_t value_bytes;
     std::size_t components;
     void* result;
-    std::byte* (*make_room)(void* result, std::size_t num_values);
+    std::byte* (*resize)(void* result, std::size_t num_values);
 };
 
 template <class T>

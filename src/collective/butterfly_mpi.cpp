@@ -9,8 +9,8 @@ namespace rrcb {
 
 namespace {
 
-/// Doubles in one MPI message, unless the caller has another room.
-constexpr std::size_t usual_room = 8192;
+/// Doubles in one MPI message, unless the caller gives another buffer.
+constexpr std::size_t usual_length = 8192;
 
 std::size_t num_pieces(std::size_t length, std::size_t most_in_piece) {
     return (length + most_in_piece - 1) / most_in_piece;
@@ -42,8 +42,8 @@ void begin_to_send(std::span<const double> piece, int to, MPI_Request& request, 
 }  // namespace
 
 ButterflyMessages::ButterflyMessages()
-    : own_room_(std::make_unique_for_overwrite<double[]>(usual_room)),
-      piece_(own_room_.get(), usual_room) {}
+    : own_buffer_(std::make_unique_for_overwrite<double[]>(usual_length)),
+      piece_(own_buffer_.get(), usual_length) {}
 
 void ButterflyMessages::run(Butterfly& butterfly, Butterfly::Direction direction, Flags flags,
                             Participant& self) {

@@ -17,9 +17,9 @@ class ButterflyMessages {
     /// Sends pieces of 64 kB at most. Not collective. Throws std::bad_alloc.
     ButterflyMessages();
 
-    /// Sends pieces of as many doubles as there is room for, on all ranks alike; at least a head's.
-    /// Not collective. Never throws. The room outlives it.
-    explicit ButterflyMessages(std::span<double> room) : piece_(room) {}
+    /// Sends pieces of as many doubles as the buffer holds, on all ranks alike; at least a head's.
+    /// Not collective. Never throws. The buffer outlives it.
+    explicit ButterflyMessages(std::span<double> buffer) : piece_(buffer) {}
 
     ButterflyMessages(const ButterflyMessages&) = delete;
     ButterflyMessages& operator=(const ButterflyMessages&) = delete;
@@ -44,7 +44,7 @@ class ButterflyMessages {
 
     std::size_t receive(std::size_t number, int from, Participant& self);
 
-    std::unique_ptr<double[]> own_room_;
+    std::unique_ptr<double[]> own_buffer_;
     std::span<double> piece_;                            ///< what came last
     std::vector<double> arrived_;                        ///< the message that it belongs to
     std::array<double, Butterfly::head_length> head_{};  ///< of this

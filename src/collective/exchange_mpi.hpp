@@ -26,14 +26,14 @@ class Exchange {
             [&](std::size_t k, std::size_t place) { write(k, &outbox_[record_bytes_ * place]); });
     }
 
-    /// Announces the records to their ranks; returns how many come to this one, which makes room
-    /// for them.
+    /// Announces the records to their ranks; returns how many come to this one, which allocates
+    /// memory for them.
     ///
     /// Collective: one reduction, which no rank leaves before all have entered it; see mpi::Tag.
     /// A rank that failed before sends nothing.
     std::size_t announce(Participant& self);
 
-    /// Sends and receives, after the ranks agreed that all have room.
+    /// Sends and receives, after the ranks agreed that all have memory.
     ///
     /// Collective: one message for each pair of ranks with records, more beyond
     /// mpi::longest_message. Throws Error where one fails, of which no other rank hears.

@@ -14,10 +14,10 @@ namespace {
 RankCounts exchange(RankCounts::Kind kind, std::span<const RankCount> to, Participant& self) {
     RankCounts counts(kind, mpi::rank_of(self.comm), mpi::size_of(self.comm));
     self.attempt([&] { counts.add(to); });
-    // On the stack: there must be room to receive also where memory is short.
-    std::array<double, 1024> room;
+    // On the stack: there must be memory to receive also where memory is short.
+    std::array<double, 1024> buffer;
     const auto piece =
-        std::span(room).first(std::min(room.size(), mpi::longest_message / sizeof(double)));
+        std::span(buffer).first(std::min(buffer.size(), mpi::longest_message / sizeof(double)));
     ButterflyMessages(piece).run(counts.butterfly(), Butterfly::to_owners, {}, self);
     return counts;
 }

@@ -79,7 +79,7 @@ class Records {
         return begin <= lowest_owner_ && highest_owner_ < end;
     }
 
-    /// Makes room for so many bytes of records. Throws std::bad_alloc.
+    /// Allocates memory for so many bytes of records. Throws std::bad_alloc.
     void reserve_bytes(std::size_t size) { words_.reserve(size / sizeof(double)); }
 
     /// Throws std::bad_alloc; then the record is not there.

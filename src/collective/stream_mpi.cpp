@@ -66,8 +66,8 @@ void Stream::make_buffer(Lane& lane) const {
     lane.requests.assign(num_places, MPI_REQUEST_NULL);
 }
 
-void Stream::make_room(std::span<const RankCount> to, std::span<const RankCount> from, int rank,
-                       int num_ranks) {
+void Stream::allocate(std::span<const RankCount> to, std::span<const RankCount> from, int rank,
+                      int num_ranks) {
     if (record_bytes_ == 0) return;
     lay_out(
         to, [&](int there) { return there >= rank ? there - rank : there - rank + num_ranks; },

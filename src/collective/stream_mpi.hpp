@@ -18,16 +18,16 @@ class Stream {
     /// hold a record to send and one to receive.
     Stream(std::size_t record_bytes, std::size_t limit);
 
-    /// Makes room for the records to and from each rank, in ascending order of them.
+    /// Allocates memory for the records to and from each rank, in ascending order of them.
     ///
     /// Not collective. Throws std::bad_alloc.
-    void make_room(std::span<const RankCount> to, std::span<const RankCount> from, int rank,
-                   int num_ranks);
+    void allocate(std::span<const RankCount> to, std::span<const RankCount> from, int rank,
+                  int num_ranks);
 
     std::size_t num_bytes() const { return sends_.buffer.size() + receives_.buffer.size(); }
     std::size_t num_messages() const { return sends_.pieces.size(); }
 
-    /// Sends and receives, after the ranks agreed that all have room.
+    /// Sends and receives, after the ranks agreed that all have memory.
     ///
     /// Collective. pack(first, count, place) writes so many of the records that leave, counted over
     /// all ranks, and unpack(first, count, place) reads those that have come. Throws Error where

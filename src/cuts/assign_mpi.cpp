@@ -16,17 +16,17 @@ namespace rrcb {
 
 std::vector<Part> assign_all(const Cuts& cuts, const Points& points, Participant& self) {
     std::vector<Part> parts;
-    std::optional<SearchRoom<PathSearch>> room;
+    std::optional<SearchBuffers<PathSearch>> buffers;
     self.attempt([&] {
         check_positions(points, cuts);
         parts.resize(points.count);
         if (!assign_known(cuts, points, parts)) reject_coordinates(points);
-        if (!is_whole(cuts)) room.emplace(PathSearch(cuts, points, parts), self.comm);
+        if (!is_whole(cuts)) buffers.emplace(PathSearch(cuts, points, parts), self.comm);
     });
     agree(self, {{"the dimension of the cuts", static_cast<std::uint64_t>(cuts.dimension)},
                  {"the number of parts", static_cast<std::uint64_t>(cuts.num_parts)},
                  {"whether the tree is whole", is_whole(cuts) ? 1u : 0u}});
-    if (room) search_together(*room, self);
+    if (buffers) search_together(*buffers, self);
     return parts;
 }
 

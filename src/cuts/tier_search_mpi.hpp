@@ -10,9 +10,9 @@ namespace rrcb {
 /// What a rank needs to take part in a search for cuts: that of a class derived from TierSearch,
 /// whose ask(asked) asks for what it lacks, and returns whether it does.
 template <class Search>
-struct SearchRoom {
+struct SearchBuffers {
     /// Throws Error where the rank lacks a cut that it owns.
-    SearchRoom(Search made, MPI_Comm comm)
+    SearchBuffers(Search made, MPI_Comm comm)
         : search(std::move(made)),
           shared(mpi::rank_of(comm), mpi::size_of(comm), Search::join_cuts),
           asked(mpi::rank_of(comm), mpi::size_of(comm), Search::join_questions) {
@@ -28,21 +28,21 @@ struct SearchRoom {
 /// Asks until no rank lacks cuts; returns whether any did.
 ///
 /// Collective: a pass through the ranks where none asks. Otherwise one to share cuts, two for each
-/// time that some rank asks, and one to end. All ranks have made their room and agreed on that.
+/// time that some rank asks, and one to end. All ranks have made their buffers and agreed on that.
 template <class Search>
-bool search_together(SearchRoom<Search>& room, Participant& self) {
+bool search_together(SearchBuffers<Search>& buffers, Participant& self) {
     for (bool is_shared = false;; is_shared = true) {
         bool asks = false;
         self.attempt([&] {
-            room.asked.clear();
-            asks = room.search.ask(room.asked);
+            buffers.asked.clear();
+            asks = buffers.search.ask(buffers.asked);
         });
-        room.messages.run(room.asked, Butterfly::to_owners, {0, asks ? 1.0 : 0.0}, self);
-        if (room.asked.flags()[1] == 0) return is_shared;
-        if (!is_shared) room.messages.run(room.shared, Butterfly::to_owners, {}, self);
-        self.attempt([&] { room.search.answer(room.shared, room.asked); });
-        room.messages.run(room.asked, Butterfly::back, {}, self);
-        self.compare([&] { room.search.learn(room.asked); });
+        buffers.messages.run(buffers.asked, Butterfly::to_owners, {0, asks ? 1.0 : 0.0}, self);
+        if (buffers.asked.flags()[1] == 0) return is_shared;
+        if (!is_shared) buffers.messages.run(buffers.shared, Butterfly::to_owners, {}, self);
+        self.attempt([&] { buffers.search.answer(buffers.shared, buffers.asked); });
+        buffers.messages.run(buffers.asked, Butterfly::back, {}, self);
+        self.compare([&] { buffers.search.learn(buffers.asked); });
     }
 }
 

@@ -159,8 +159,8 @@ void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t 
         std::transform(first_total, mine.records.end(), mine.part_totals.begin(),
                        mine.part_totals.begin(), std::plus<>());
     mine.records.erase(first_total, mine.records.end());
-    const auto first_place = mine.records.end() - next.num_place_doubles;
-    mine.places.insert(mine.places.end(), first_place, mine.records.end());
+    const auto first_place = mine.records.end() - next.num_extent_doubles;
+    mine.extents.insert(mine.extents.end(), first_place, mine.records.end());
     mine.records.erase(first_place, mine.records.end());
     join(mine.summary, next);
     if (!mine.summary.is_usable()) mine.records.clear();

@@ -26,8 +26,8 @@ struct Summary {
     std::int64_t num_points = 0;
     std::int64_t num_cells = 0;
     std::int64_t num_doubles = 0;
-    std::int64_t num_place_doubles = 0;  ///< of them, behind the cells
-    std::int64_t num_total_doubles = 0;  ///< of them, the last ones
+    std::int64_t num_extent_doubles = 0;  ///< of them, behind the cells
+    std::int64_t num_total_doubles = 0;   ///< of them, the last ones
     double weight = 0;
     double lightest = std::numeric_limits<double>::infinity();  ///< weight of one point
     double heaviest = 0;
@@ -39,8 +39,8 @@ struct Summary {
 /// Contribution of one rank, or of all ranks of a subtree, to the root; see cell_records.hpp.
 struct Contribution {
     Summary summary;
-    std::vector<double> records;   ///< the moments of their cells
-    std::vector<double> places{};  ///< of their points, a Place each, where the root wants them
+    std::vector<double> records;    ///< the moments of their cells
+    std::vector<double> extents{};  ///< of their points, a Extent each, where the root wants them
     /// Weights in the parts of earlier cuts, then numbers of points in them, where these count.
     std::vector<double> part_totals{};
 };
@@ -68,7 +68,7 @@ std::size_t most_cells(const Options& options);
 /// Adds the totals of the ranks that follow, and what stands in their way.
 void join(Summary& mine, const Summary& next);
 
-/// Takes in the records, places and part totals of the ranks that follow, already at the end of
+/// Takes in the records, extents and part totals of the ranks that follow, already at the end of
 /// `mine.records`: joins the summaries, adds the totals up, and coarsens to `most` cells where
 /// there are more than twice as many. Not collective.
 void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t most);

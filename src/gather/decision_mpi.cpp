@@ -65,16 +65,17 @@ void check_together(const Summary& summary) {
                     "the sum of the weights of all ranks overflows; scale them down");
 }
 
-/// Calls `visit` with each of the arrays that the message holds: of the current parts where they
-/// stay, of the new cuts otherwise; of earlier cuts, which all ranks have, what their parts weigh.
+/// Calls `visit` with each of the arrays that the message holds: of the kept parts where points
+/// are kept, of the new cuts otherwise; of earlier cuts, which all ranks have, what their parts
+/// weigh.
 template <class Visit>
 void for_each_array(Decision& decision, Visit&& visit) {
     if (decision.reuses) return visit(std::span(decision.part_weights));
-    const bool stays = decision.verdict.stays != 0;
-    visit(std::span(stays ? decision.current.cuts.tree : decision.bisection.cuts.tree));
-    if (stays) visit(std::span(decision.current.part_weights));
-    if (stays) visit(std::span(decision.current.parts));
-    if (!stays) visit(std::span(decision.bisection.brackets));
+    const bool keeps = decision.verdict.keeps != 0;
+    visit(std::span(keeps ? decision.kept.cuts.tree : decision.bisection.cuts.tree));
+    if (keeps) visit(std::span(decision.kept.part_weights));
+    if (keeps) visit(std::span(decision.kept.parts));
+    if (!keeps) visit(std::span(decision.bisection.brackets));
 }
 
 /// The message, as long as what it holds.
@@ -124,17 +125,17 @@ void weigh_parts(const Contribution& all, const Options& options, Decision& deci
     decision.verdict.measured_imbalance = imbalance(decision.part_weights, options.part_sizes);
 }
 
-/// Reads the current parts from the places of all ranks, where these are one part each.
-void weigh_current(const Contribution& all, const Options& options, Decision& decision) {
+/// Reads the kept parts from the extents of all ranks, where these are one part each.
+void weigh_kept(const Contribution& all, const Options& options, Decision& decision) {
     const Cuts& estimate = decision.bisection.cuts;
-    const std::vector<Place> places = read_places(all.places, estimate.dimension);
-    if (places.empty() || places.size() != decision.current.parts.size()) return;
+    const std::vector<Extent> extents = read_extents(all.extents, estimate.dimension);
+    if (extents.empty() || extents.size() != decision.kept.parts.size()) return;
     if (all.summary.num_points == 0) return;
-    auto current = read_current(places, estimate, options);
-    if (!current) return;
-    decision.verdict.current_imbalance = current->imbalance;
-    decision.verdict.stays = stays_at_once(current->imbalance, options.imbalance_tolerance) ? 1 : 0;
-    decision.current = std::move(*current);
+    auto kept = read_kept_tree(extents, estimate, options);
+    if (!kept) return;
+    decision.verdict.kept_imbalance = kept->imbalance;
+    decision.verdict.keeps = keeps_at_once(kept->imbalance, options.imbalance_tolerance) ? 1 : 0;
+    decision.kept = std::move(*kept);
 }
 
 }  // namespace
@@ -180,7 +181,7 @@ void make_buffers_to_reuse(Decision& decision, const Options& options, const Cut
     decision.message.resize(std::span(decision.part_weights).size_bytes());
 }
 
-void make_buffers(Decision& decision, const Options& options, int dimension, bool may_stay) {
+void make_buffers(Decision& decision, const Options& options, int dimension, bool may_keep) {
     const std::size_t num_parts = options.part_sizes.size();
     const std::size_t num_cuts = num_parts - 1;
     Bisection& bisection = decision.bisection;
@@ -188,14 +189,14 @@ void make_buffers(Decision& decision, const Options& options, int dimension, boo
     bisection.cuts.num_parts = static_cast<int>(num_parts);
     bisection.cuts.tree.resize(num_cuts);
     bisection.brackets.resize(is_refined(options) ? num_cuts : 0);
-    if (may_stay) {
-        decision.current.cuts = bisection.cuts;
-        decision.current.part_weights.resize(num_parts);
-        decision.current.parts.resize(num_parts);
+    if (may_keep) {
+        decision.kept.cuts = bisection.cuts;
+        decision.kept.part_weights.resize(num_parts);
+        decision.kept.parts.resize(num_parts);
     }
     const std::size_t beside_cuts =
         std::max(bisection.brackets.size() * sizeof(Bracket),
-                 decision.current.parts.size() * (sizeof(double) + sizeof(Part)));
+                 decision.kept.parts.size() * (sizeof(double) + sizeof(Part)));
     decision.message.resize(num_cuts * sizeof(Cut) + beside_cuts);
 }
 
@@ -209,7 +210,7 @@ void decide(const Contribution& all, const Options& options, Decision& decision)
     }
     decision.verdict = verdict_of(all.summary, bisection, options.part_sizes);
     if (decision.reuses) weigh_parts(all, options, decision);
-    weigh_current(all, options, decision);
+    weigh_kept(all, options, decision);
 }
 
 void broadcast(Decision& decision, const Participant& self) {
@@ -254,8 +255,8 @@ Box box_together(Box box, const Participant& self) {
     return {ends[0], ends[1]};
 }
 
-void broadcast_current(Decision& decision, const Participant& self) {
-    decision.verdict.stays = 1;
+void broadcast_kept(Decision& decision, const Participant& self) {
+    decision.verdict.keeps = 1;
     if (mpi::rank_of(self.comm) == root) pack(decision);
     mpi::broadcast(message_of(decision), root, self.comm);
     unpack(decision);

@@ -2,7 +2,7 @@
 
 #include "collective/agreement_mpi.hpp"
 #include "gather/contribution.hpp"
-#include "gather/current_parts.hpp"
+#include "gather/kept_tree.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/method/bisection.hpp>
@@ -23,7 +23,7 @@ inline bool is_known(double imbalance) {
 /// Verdict of the root, which it tells first: whether there are cuts, and the totals.
 struct Verdict {
     std::int32_t failing_rank = no_rank;
-    std::int32_t stays = 0;    ///< 1: the current parts stay
+    std::int32_t keeps = 0;    ///< 1: the points are kept
     double heaviest = 0;       ///< weight of the heaviest point, 1 by count
     double common_weight = 0;  ///< weight of each point where all weigh the same, else 0
     std::int64_t num_points = 0;
@@ -31,7 +31,7 @@ struct Verdict {
     double total_weight = 0;
     double estimated_imbalance = 1;
     Box box{};                              ///< of all points, where cells were gathered
-    double current_imbalance = not_known;   ///< of the parts that the ranks hold, where they do
+    double kept_imbalance = not_known;      ///< of the parts that the ranks hold, where they do
     double measured_imbalance = not_known;  ///< of the parts of earlier cuts, where all counted
 };
 
@@ -43,7 +43,7 @@ using Head = std::array<std::byte, 2048>;
 struct Decision {
     Verdict verdict;
     Bisection bisection;
-    CurrentParts current{};              ///< on all ranks once they were told that these stay
+    KeptTree kept{};                     ///< on all ranks once they were told that these stay
     bool reuses = false;                 ///< the cuts are earlier ones, which all ranks have
     std::vector<double> part_weights{};  ///< of the parts of these, where all counted
     std::vector<std::byte> message;      ///< either of them on its way
@@ -61,9 +61,9 @@ double weight_of(const Report& report);
 /// True when the cuts are to be moved by what the ranks count.
 bool is_refined(const Options& options);
 
-/// Makes buffers for what the root will send: the current parts only where it may read them. Not
+/// Makes buffers for what the root will send: the kept parts only if it may read them. Not
 /// collective.
-void make_buffers(Decision& decision, const Options& options, int dimension, bool may_stay);
+void make_buffers(Decision& decision, const Options& options, int dimension, bool may_keep);
 
 /// True when the parts of earlier cuts are counted: they may be good enough, and the cuts lie where
 /// they may.
@@ -74,8 +74,8 @@ bool counts_earlier_parts(const Options& options);
 void make_buffers_to_reuse(Decision& decision, const Options& options, const Cuts& previous);
 
 /// Bisects, at the root, what the ranks contributed; or looks at what they counted by earlier cuts.
-/// Finds out whether the current parts are so good that they stay. Throws Error when the ranks do
-/// not fit together.
+/// Finds out whether the parts that the ranks hold are so good that the points are kept. Throws
+/// Error when the ranks do not fit together.
 void decide(const Contribution& all, const Options& options, Decision& decision);
 
 /// Gives everybody the root's decision, or throws everywhere why there is none. Collective.
@@ -92,7 +92,7 @@ void decide_together(const Contribution& all, const Options& options, Decision& 
 /// Smallest box that holds those of all ranks. Collective.
 Box box_together(Box box, const Participant& self);
 
-/// Gives everybody the current parts, which the root has read, after all: they stay. Collective.
-void broadcast_current(Decision& decision, const Participant& self);
+/// Gives everybody the parts that the root has read: the points are kept after all. Collective.
+void broadcast_kept(Decision& decision, const Participant& self);
 
 }  // namespace rrcb

@@ -10,25 +10,25 @@ bool may_keep_parts(const Options& options, int num_ranks) {
     return options.refine != Refine::exact && num_ranks > 1 && options.num_parts == num_ranks;
 }
 
-bool reads_current_parts(const Options& options, int num_ranks) {
+bool reads_kept_tree(const Options& options, int num_ranks) {
     // As many as rank 0 divides alone by default.
     return num_ranks <= Tuning{}.central_parts && may_keep_parts(options, num_ranks);
 }
 
-bool stays_at_once(double current, double tolerance) {
-    return current - 1 <= (tolerance - 1) / 10;
+bool keeps_at_once(double kept, double tolerance) {
+    return kept - 1 <= (tolerance - 1) / 10;
 }
 
-bool is_worth_moving(double current, double offered, const Options& options) {
+bool is_worth_moving(double kept, double offered, const Options& options) {
     constexpr double rounding = 1e-12;
     const double tolerance = options.imbalance_tolerance;
-    if (current > tolerance && offered <= tolerance) return true;
-    const bool gains = current - offered > std::max((tolerance - 1) / 20, rounding);
-    const bool is_half = offered - 1 <= (current - 1) / 2;
+    if (kept > tolerance && offered <= tolerance) return true;
+    const bool gains = kept - offered > std::max((tolerance - 1) / 20, rounding);
+    const bool is_half = offered - 1 <= (kept - 1) / 2;
     // What a search found is the best there is, an estimate is as good as chance has it, and so are
     // the axes of limited cuts.
     const bool was_searched =
-        current > tolerance && options.refine != Refine::none && !are_cuts_limited(options);
+        kept > tolerance && options.refine != Refine::none && !are_cuts_limited(options);
     return gains && (is_half || was_searched);
 }
 

@@ -48,7 +48,7 @@ void receive_records(std::vector<double>& records, std::size_t count, int from, 
 void send_up(Contribution& mine, int to, Participant& self) {
     if (!mine.summary.is_usable()) mine.records.clear();
     const bool is_usable = mine.summary.is_usable();
-    mine.summary.num_place_doubles = is_usable ? std::ssize(mine.places) : 0;
+    mine.summary.num_extent_doubles = is_usable ? std::ssize(mine.extents) : 0;
     mine.summary.num_total_doubles = is_usable ? std::ssize(mine.part_totals) : 0;
     mine.summary.num_doubles = static_cast<std::int64_t>(mine.records.size());
     send(std::as_bytes(std::span(&mine.summary, 1)), to, mpi::contribution_tag, self);
@@ -72,7 +72,7 @@ void merge_up(Contribution& mine, int dimension, const MergeTree& tree, std::siz
     if (rank != 0)
         self.attempt([&] {
             std::vector<double>& records = mine.records;
-            records.insert(records.end(), mine.places.begin(), mine.places.end());
+            records.insert(records.end(), mine.extents.begin(), mine.extents.end());
             records.insert(records.end(), mine.part_totals.begin(), mine.part_totals.end());
         });
     if (self.failed()) mine.summary.failing_rank = rank;

@@ -135,8 +135,7 @@ void check_agreement(std::span<const RankCount> expected, std::span<const RankCo
 std::vector<Lane> make_results(std::span<const ByteColumn> columns, LocalIndex num_points) {
     std::vector<Lane> lanes;
     for (const ByteColumn& column : columns)
-        lanes.push_back({column.from,
-                         column.make_room(column.result, num_points * column.components),
+        lanes.push_back({column.from, column.resize(column.result, num_points * column.components),
                          column.value_bytes * column.components});
     return lanes;
 }
@@ -224,8 +223,8 @@ void deliver(const Delivery& delivery, std::span<const ByteColumn> columns,
     std::vector<Lane> lanes;
     self.attempt([&] {
         stream.emplace(point_bytes, limits.bytes);
-        stream->make_room(delivery.to, delivery.from, mpi::rank_of(self.comm),
-                          mpi::size_of(self.comm));
+        stream->allocate(delivery.to, delivery.from, mpi::rank_of(self.comm),
+                         mpi::size_of(self.comm));
         lanes = make_results(columns, delivery.num_kept + total(delivery.from));
     });
     const std::array shared{Shared{"the type of a column", hash_of(columns)},

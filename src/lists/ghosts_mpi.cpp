@@ -160,14 +160,14 @@ class GhostSearch : public TierSearch {
 /// Collective; what went wrong on a rank before is told to all.
 GhostPlan ghosts(const Cuts& cuts, const GhostRequest& request, Participant& self) {
     GhostPlan plan;
-    std::optional<SearchRoom<GhostSearch>> room;
+    std::optional<SearchBuffers<GhostSearch>> buffers;
     std::uint64_t bits_of_cuts = 0;
     std::uint64_t bits_of_holders = 0;
     self.attempt([&] {
         request.check(cuts);
         std::vector<std::size_t> lacking = request.list_sent(cuts, plan);
         if (!is_whole(cuts))
-            room.emplace(GhostSearch(cuts, std::move(lacking), request, plan), self.comm);
+            buffers.emplace(GhostSearch(cuts, std::move(lacking), request, plan), self.comm);
         bits_of_cuts = bits_of(cuts);
         if (request.holders.given) bits_of_holders = hash_of(*request.holders.given);
     });
@@ -175,7 +175,7 @@ GhostPlan ghosts(const Cuts& cuts, const GhostRequest& request, Participant& sel
     agree(self, {{"the tree of cuts", bits_of_cuts},
                  {"the radius", std::bit_cast<std::uint64_t>(request.radius + 0.0)},
                  {"ranks_of_parts", bits_of_holders}});
-    if (!room || !search_together(*room, self)) return plan;
+    if (!buffers || !search_together(*buffers, self)) return plan;
     plan.receive = exchange_counts(plan.send, self);
     agree(self);
     return plan;

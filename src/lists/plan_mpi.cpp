@@ -67,7 +67,7 @@ void post(const Plan& plan, Exchange& exchange) {
     });
 }
 
-void make_room(std::size_t num_imports, Plan& plan) {
+void allocate(std::size_t num_imports, Plan& plan) {
     plan.import_ranks.reserve(num_imports);
     plan.import_indices.reserve(num_imports);
     plan.import_parts.reserve(num_imports);
@@ -111,7 +111,7 @@ Plan plan(std::span<const Part> parts, int num_parts, Participant& self) {
         post(result, exchange);
     });
     const std::size_t num_imports = exchange.announce(self);
-    self.attempt([&] { make_room(num_imports, result); });
+    self.attempt([&] { allocate(num_imports, result); });
     agree(self, {{"num_parts", static_cast<std::uint64_t>(num_parts)}});
     exchange.run(self);
     list_imports(exchange, result);

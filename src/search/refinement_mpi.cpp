@@ -76,7 +76,7 @@ void Refinement::start(Estimate&& estimate, Participant& self) {
 }
 
 /// True when there is nothing to search: the estimated cuts are good enough as they are, and
-/// `parts` is complete, or the current parts are. Collective.
+/// `parts` is complete, or the kept parts are. Collective.
 bool Refinement::accept_estimate(const Points& points, std::span<Part> parts, Participant& self) {
     self.attempt([&] {
         const PartTotals totals = assign_and_count(estimate_.cuts, points, parts);
@@ -85,7 +85,7 @@ bool Refinement::accept_estimate(const Points& points, std::span<Part> parts, Pa
     measure(self);
     ++refined_.rounds;
     const double tolerance = options_.imbalance_tolerance;
-    return refined_.imbalance <= tolerance || estimate_.current_imbalance <= tolerance;
+    return refined_.imbalance <= tolerance || estimate_.kept_imbalance <= tolerance;
 }
 
 /// True when counted cuts, corrected all at once, are good enough, and `parts` is complete.

@@ -75,20 +75,20 @@ double TargetRule::most_weight(const Descent& at) const {
     return weight_per_size * sum_of(sizes) * (1 + excess);
 }
 
-/// The end of the allowed weights below a cut that is nearest to what lies there, but for room to
+/// The end of the allowed weights below a cut that is nearest to what lies there, but for space to
 /// end the search in.
 CutTarget TargetRule::nearest_target(const Descent& at, double weight, double below) const {
-    constexpr double share_of_room = 16;
+    constexpr double share_of_gap = 16;
     const double most = std::min(most_weight(at.lower()), weight);
     const double least = std::max(weight - most_weight(at.upper()), 0.0);
-    const double room = most - least;
-    const double margin = std::max(room / share_of_room, heaviest / 2);
+    const double gap = most - least;
+    const double margin = std::max(gap / share_of_gap, heaviest / 2);
     CutTarget target;
-    target.slack = std::min(margin, std::max(room / 2, common_weight / 2));
-    if (!(room > 0)) {
+    target.slack = std::min(margin, std::max(gap / 2, common_weight / 2));
+    if (!(gap > 0)) {
         target.target = share_below(at) * weight;
-    } else if (2 * margin > room) {
-        target.target = least + room / 2;
+    } else if (2 * margin > gap) {
+        target.target = least + gap / 2;
     } else {
         target.target = std::clamp(below, least + margin, most - margin);
     }

@@ -25,17 +25,17 @@ std::vector<char> with_head(std::span<const char> body) {
     return bytes;
 }
 
-void look_up(const rrcb::zoltan::KeptPartition& kept) {
-    const int num_parts = kept.cuts().num_parts;
+void look_up(const rrcb::zoltan::LastPartition& last) {
+    const int num_parts = last.cuts().num_parts;
     std::vector<rrcb::Part> touched(static_cast<std::size_t>(num_parts));
     for (const double x : {-1e300, 0.0, 0.5, 3.0}) {
         const rrcb::Vector position{x, -x, x / 2};
-        const rrcb::Part part = kept.part_of(position.data());
+        const rrcb::Part part = last.part_of(position.data());
         expect(part >= 0 && part < num_parts, "parts that there are");
-        const int count = kept.parts_touching({position, position}, touched.data());
+        const int count = last.parts_touching({position, position}, touched.data());
         expect(count == 1 && touched[0] == part, "one part touches a position");
     }
-    for (rrcb::Part part = 0; part < num_parts; ++part) kept.region_of(part);
+    for (rrcb::Part part = 0; part < num_parts; ++part) last.region_of(part);
 }
 
 }  // namespace
@@ -47,11 +47,11 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         data[0] % 2 == 1 ? std::vector<char>(rest.begin(), rest.end()) : with_head(rest);
     try {
         rrcb::zoltan::Parcel parcel = rrcb::zoltan::deserialize(bytes);
-        if (parcel.kept) look_up(*parcel.kept);
+        if (parcel.last) look_up(*parcel.last);
         rrcb::zoltan::State state;
         state.parameters.given = parcel.given;
         state.part_sizes = parcel.part_sizes;
-        state.kept = std::move(parcel.kept);
+        state.last = std::move(parcel.last);
         const std::vector<char> again = rrcb::zoltan::serialize(state, parcel.of_zoltan);
         expect(rrcb::zoltan::serialize(state, parcel.of_zoltan) == again, "the same bytes twice");
         expect(rrcb::zoltan::deserialize(again).given == parcel.given, "the same parameters");

@@ -97,15 +97,15 @@ TEST(Summaries, tell_the_first_two_ranks_that_differ) {
     EXPECT_EQ(name_of_request(all.difference), "num_parts");
 }
 
-TEST(Places, are_taken_off_the_records_in_the_order_of_the_ranks) {
+TEST(Extents, are_taken_off_the_records_in_the_order_of_the_ranks) {
     Contribution all{summary_of(0, 4), {}, {1, 2}};
     Summary next = summary_of(1, 4);
     next.num_doubles = 5;
-    next.num_place_doubles = 4;
+    next.num_extent_doubles = 4;
     all.records = {10, 3, 4, 5, 6};
     absorb(all, next, 2, most_cells(Options{}));
     EXPECT_EQ(all.records, (std::vector<double>{10}));
-    EXPECT_EQ(all.places, (std::vector<double>{1, 2, 3, 4, 5, 6}));
+    EXPECT_EQ(all.extents, (std::vector<double>{1, 2, 3, 4, 5, 6}));
 }
 
 }  // namespace

@@ -15,23 +15,23 @@ Options to(double tolerance, Refine refine = Refine::tolerance) {
     return options;
 }
 
-TEST(CurrentParts, are_read_up_to_a_number_of_ranks_where_each_has_a_part_to_be_estimated) {
-    EXPECT_TRUE(reads_current_parts(to(1.01), 4));
-    EXPECT_TRUE(reads_current_parts(to(1.01, Refine::none), 4));
-    EXPECT_FALSE(reads_current_parts(to(1.01, Refine::exact), 4));
-    EXPECT_FALSE(reads_current_parts(to(1.01), 3));
+TEST(KeptTree, are_read_up_to_a_number_of_ranks_where_each_has_a_part_to_be_estimated) {
+    EXPECT_TRUE(reads_kept_tree(to(1.01), 4));
+    EXPECT_TRUE(reads_kept_tree(to(1.01, Refine::none), 4));
+    EXPECT_FALSE(reads_kept_tree(to(1.01, Refine::exact), 4));
+    EXPECT_FALSE(reads_kept_tree(to(1.01), 3));
     Options many = to(1.01);
     many.num_parts = 4096;
-    EXPECT_TRUE(reads_current_parts(many, 4096));
+    EXPECT_TRUE(reads_kept_tree(many, 4096));
     many.num_parts = 4097;
-    EXPECT_FALSE(reads_current_parts(many, 4097));
+    EXPECT_FALSE(reads_kept_tree(many, 4097));
 }
 
-TEST(CurrentParts, stay_at_once_within_a_tenth_of_the_tolerance) {
-    EXPECT_TRUE(stays_at_once(1.0009, 1.01));
-    EXPECT_FALSE(stays_at_once(1.0011, 1.01));
-    EXPECT_TRUE(stays_at_once(1, 1));
-    EXPECT_FALSE(stays_at_once(1 + 1e-9, 1));
+TEST(KeptTree, stay_at_once_within_a_tenth_of_the_tolerance) {
+    EXPECT_TRUE(keeps_at_once(1.0009, 1.01));
+    EXPECT_FALSE(keeps_at_once(1.0011, 1.01));
+    EXPECT_TRUE(keeps_at_once(1, 1));
+    EXPECT_FALSE(keeps_at_once(1 + 1e-9, 1));
 }
 
 TEST(Move, from_above_the_tolerance_to_within_it_is_worth_it) {
@@ -59,7 +59,7 @@ TEST(Move, above_the_tolerance_is_worth_what_a_search_gains_or_half_the_excess_o
 TEST(Move, of_an_endless_tolerance_is_never_worth_it) {
     const double endless = std::numeric_limits<double>::infinity();
     EXPECT_FALSE(is_worth_moving(3, 1, to(endless)));
-    EXPECT_TRUE(stays_at_once(3, endless));
+    EXPECT_TRUE(keeps_at_once(3, endless));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // The checksum by which a repeated call knows its objects and their parts again.
-#include "zoltan/call/rest_mpi.hpp"
+#include "zoltan/call/kept_objects_mpi.hpp"
 
 #include <gtest/gtest.h>
 

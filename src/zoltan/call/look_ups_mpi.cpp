@@ -10,10 +10,10 @@ namespace rrcb::zoltan {
 
 Numbering whole_numbering(const Numbering& numbering, const PartMap& map, Participant& self) {
     std::vector<Part> numbers;
-    std::vector<Part> room;
+    std::vector<Part> buffer;
     self.attempt([&] {
         numbers.resize(static_cast<std::size_t>(map.num_parts));
-        room.resize(numbers.size());
+        buffer.resize(numbers.size());
     });
     agree(self);
     const auto [first, end] = map.parts_on(mpi::rank_of(self.comm));
@@ -21,7 +21,7 @@ Numbering whole_numbering(const Numbering& numbering, const PartMap& map, Partic
     mpi::check(
         MPI_Allreduce(MPI_IN_PLACE, numbers.data(), map.num_parts, MPI_INT, MPI_SUM, self.comm),
         "MPI_Allreduce");
-    return Numbering::of_all(std::move(numbers), std::move(room));
+    return Numbering::of_all(std::move(numbers), std::move(buffer));
 }
 
 }  // namespace rrcb::zoltan

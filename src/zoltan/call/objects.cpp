@@ -48,7 +48,7 @@ class Collector {
             read_ids_and_weights(count);
             read_coordinates(count);
             read_initial_parts(count);
-            make_room(count);
+            allocate(count);
         }
         return std::move(objects_);
     }
@@ -196,8 +196,8 @@ class Collector {
         }
     }
 
-    /// Makes room for later steps: they run between messages, where no rank may fail alone.
-    void make_room(std::size_t count) {
+    /// Allocates memory for later steps: they run between messages, where no rank may fail alone.
+    void allocate(std::size_t count) {
         if (parameters_.return_lists == ReturnLists::none) return;
         objects_.new_ranks = ZoltanArray<int>(count);
         objects_.new_parts = ZoltanArray<int>(count);

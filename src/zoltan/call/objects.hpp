@@ -41,7 +41,7 @@ struct Objects {
     ZoltanArray<IdWord> global_ids;
     ZoltanArray<IdWord> local_ids;   ///< null when ids have no local part
     ZoltanArray<int> initial_parts;  ///< null when no callback tells them
-    ZoltanArray<int> new_ranks;      ///< room for where each object goes, while a failure
+    ZoltanArray<int> new_ranks;      ///< buffer for where each object goes, while a failure
     ZoltanArray<int> new_parts;      ///< can still be agreed on; null when not asked for
     Points points;                   ///< borrowed from the workspace
 };

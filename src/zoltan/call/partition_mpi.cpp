@@ -8,13 +8,13 @@
 #include "paper/paper_mpi.hpp"
 #include "zoltan/call/fortran_mpi.hpp"
 #include "zoltan/call/forwarding.hpp"
+#include "zoltan/call/kept_objects_mpi.hpp"
 #include "zoltan/call/layout_mpi.hpp"
 #include "zoltan/call/lists_mpi.hpp"
 #include "zoltan/call/look_ups_mpi.hpp"
 #include "zoltan/call/notices.hpp"
 #include "zoltan/call/rcb_options.hpp"
 #include "zoltan/call/renumber_mpi.hpp"
-#include "zoltan/call/rest_mpi.hpp"
 #include "zoltan/call/vote_mpi.hpp"
 #include "zoltan/dump/dump_mpi.hpp"
 #include "zoltan/real/message.hpp"
@@ -46,10 +46,10 @@ LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Obj
         if (forwards(state.parameters)) return {};
         objects = collect_objects(zz, state.parameters, state.workspace);
         const bool asks_for_lists = state.parameters.return_lists != ReturnLists::none;
-        if (state.rest && state.kept && asks_for_lists)
-            placed = find_placed(objects, *state.kept, *state.rest, state.communicator->rank());
+        if (state.kept && state.last && asks_for_lists)
+            placed = find_placed(objects, *state.last, *state.kept, state.communicator->rank());
         LocalStatus status(objects.warned ? ZOLTAN_WARN : ZOLTAN_OK, "");
-        status.may_rest = placed.are_known;
+        status.may_keep = placed.are_known;
         status.names_parts = objects.names_parts;
         return status;
     } catch (const ZoltanError& error) {
@@ -82,27 +82,27 @@ struct Call {
     const char* function;
     const CallerLists& to;
     const Outcome& outcome;
-    std::optional<KeptPartition> previous = {};
+    std::optional<LastPartition> previous = {};
 };
 
 /// Takes the last partition out of the state: should this call fail, the next one must not build on
 /// it.
 void take_previous(Call& call) {
-    call.state.rest.reset();
-    call.previous = std::exchange(call.state.kept, std::nullopt);
+    call.state.kept.reset();
+    call.previous = std::exchange(call.state.last, std::nullopt);
     if (!call.outcome.all_kept_cuts) call.previous.reset();
 }
 
 /// Whether no object and no parameter has changed on any rank since the last partition. Collective
 /// where the objects may rest: one reduction.
-bool is_at_rest(const Call& call, const Placed& placed) {
+bool are_kept(const Call& call, const Placed& placed) {
     const State& state = call.state;
-    const bool may_rest = call.outcome.may_rest && !call.outcome.failed() &&
+    const bool may_keep = call.outcome.may_keep && !call.outcome.failed() &&
                           call.outcome.differing == nullptr &&
-                          (!call.outcome.any_keeps_cuts || state.kept->shows_all());
+                          (!call.outcome.any_keeps_cuts || state.last->shows_all());
     std::uint64_t checksum = placed.checksum;
-    if (may_rest) add_up(false, checksum, state.communicator->get());
-    return may_rest && checksum == state.rest->checksum;
+    if (may_keep) add_up(false, checksum, state.communicator->get());
+    return may_keep && checksum == state.kept->checksum;
 }
 
 /// Options and memory of a call, made before the ranks agree for the last time: no rank may fail
@@ -113,7 +113,7 @@ struct Preparation {
     bool is_spread = false;          ///< many ranks make the parts
     const Cuts* previous = nullptr;  ///< to start from
     std::optional<Renumbering> renumbering;
-    std::optional<KeptPartition> kept;
+    std::optional<LastPartition> last;
 };
 
 Preparation prepare(const Call& call, const Layout& layout, int dimension, Participant& self) {
@@ -133,7 +133,7 @@ Preparation prepare(const Call& call, const Layout& layout, int dimension, Parti
         made.renumbering.emplace(parameters, layout, call.outcome.any_names_parts, comm,
                                  made.is_spread);
         const bool looks_up = !made.is_spread || call.outcome.any_keeps_cuts;
-        made.kept.emplace(looks_up ? static_cast<std::size_t>(layout.map.num_parts) : 0);
+        made.last.emplace(looks_up ? static_cast<std::size_t>(layout.map.num_parts) : 0);
     });
     return made;
 }
@@ -148,20 +148,20 @@ void list_exports(const Call& call, const Layout& layout, Objects&& objects,
         return;
     }
     const Communicator& comm = *call.state.communicator;
-    Rest rest{{}, checksum_of(objects.points, parts)};
+    KeptObjects kept{{}, checksum_of(objects.points, parts)};
     Exports exports = make_exports(std::move(objects), parameters, parts, layout.map, comm.rank());
     result.exports = std::move(exports.list);
-    result.changes = add_up(exports.moves, rest.checksum, comm.get());
-    call.state.rest = std::move(rest);
+    result.changes = add_up(exports.moves, kept.checksum, comm.get());
+    call.state.kept = std::move(kept);
 }
 
 /// Keeps cuts, numbers of parts and report for look-ups and for the next call.
 void keep(Preparation&& prepared, Balance&& balanced, PartMap&& map, Numbering&& numbering,
           State& state) {
-    prepared.kept->keep(std::move(balanced.cuts), std::move(map), std::move(numbering));
-    prepared.kept->answer_look_ups(keeps_cuts(state.parameters));
-    state.kept = std::move(prepared.kept);
-    if (state.rest) state.rest->report = std::move(balanced.report);
+    prepared.last->keep(std::move(balanced.cuts), std::move(map), std::move(numbering));
+    prepared.last->answer_look_ups(keeps_cuts(state.parameters));
+    state.last = std::move(prepared.last);
+    if (state.kept) state.kept->report = std::move(balanced.report);
     state.axes_changed = false;
 }
 
@@ -184,15 +184,15 @@ bool are_in_own_part(const Objects& objects, const PartMap& map, int rank) {
 
 /// Answers a call where the objects stay where the last partition put them. Collective as
 /// serve_fortran is.
-int stay(const Call& call, Objects&& objects, Partition& result) {
+int keep_objects(const Call& call, Objects&& objects, Partition& result) {
     State& state = call.state;
     if (state.parameters.return_lists == ReturnLists::parts)
         result.exports = list_in_place(std::move(objects), state.communicator->rank());
     Participant self{state.communicator->get()};
     serve_fortran(call, result, self);
-    state.kept->answer_look_ups(keeps_cuts(state.parameters));
-    print_notices(state.rest->report, state.kept->map().num_parts, Remap{}, state, call.function);
-    result.summary = summary_of(state.rest->report, state.kept->map().num_parts);
+    state.last->answer_look_ups(keeps_cuts(state.parameters));
+    print_notices(state.kept->report, state.last->map().num_parts, Remap{}, state, call.function);
+    result.summary = summary_of(state.kept->report, state.last->map().num_parts);
     return ZOLTAN_OK;
 }
 
@@ -202,8 +202,8 @@ Balance divide(const Call& call, const Layout& layout, const Preparation& prepar
     const State& state = call.state;
     if (state.parameters.paper_domain)
         return balance_as_in_paper(objects.points, prepared.paper, self);
-    const bool may_stay = are_in_own_part(objects, layout.map, state.communicator->rank());
-    return balance(objects.points, prepared.options, prepared.previous, may_stay, self);
+    const bool may_keep = are_in_own_part(objects, layout.map, state.communicator->rank());
+    return balance(objects.points, prepared.options, prepared.previous, may_keep, self);
 }
 
 int balance_objects(const Call& call, Objects&& objects, Partition& result) {
@@ -264,8 +264,8 @@ int refuse_difference(const Call& call, const Objects& objects, Partition& resul
 /// Leaves a call to the real Zoltan. The cuts of an earlier one are of no use afterwards.
 int leave_to_zoltan(const Call& call, Partition& result) {
     print_forwarding(call.state, call.function);
+    call.state.last.reset();
     call.state.kept.reset();
-    call.state.rest.reset();
     result.is_zoltans = true;
     return ZOLTAN_OK;
 }
@@ -283,16 +283,16 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
     if (!outcome.failed() && outcome.differing == nullptr && forwards(state.parameters))
         return leave_to_zoltan(call, result);
     dump_inputs(DumpReason::asked, call, objects, local);
-    const bool stays = is_at_rest(call, placed);
-    if (!stays) take_previous(call);
+    const bool is_kept = are_kept(call, placed);
+    if (!is_kept) take_previous(call);
     if (outcome.failed()) {
         fail(call, objects, {local.code, local.text.data(), outcome.failing_rank}, result);
         return outcome.code;
     }
     if (outcome.differing != nullptr) return refuse_difference(call, objects, result);
     try {
-        const int code = stays ? stay(call, std::move(objects), result)
-                               : balance_objects(call, std::move(objects), result);
+        const int code = is_kept ? keep_objects(call, std::move(objects), result)
+                                 : balance_objects(call, std::move(objects), result);
         return code == ZOLTAN_OK ? outcome.code : code;
     } catch (const ZoltanError& error) {
         return fail(call, objects, {error.code(), error.what()}, result);

@@ -67,7 +67,7 @@ void check_parameters(const State& state, bool one_part_per_rank) {
 }
 
 Options make_options(const Parameters& parameters, const Layout& layout, int dimension,
-                     const KeptPartition* previous) {
+                     const LastPartition* previous) {
     Options options = parameters.options;
     options.num_parts = layout.map.num_parts;
     options.part_sizes = layout.part_sizes;

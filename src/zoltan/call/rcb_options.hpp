@@ -20,7 +20,7 @@ void check_parameters(const State& state, bool one_part_per_rank);
 ///
 /// RCB_LOCK_DIRECTIONS takes their axes; otherwise RCB_SET_DIRECTIONS names the order of axes.
 Options make_options(const Parameters& parameters, const Layout& layout, int dimension,
-                     const KeptPartition* previous);
+                     const LastPartition* previous);
 
 /// Options of the paper's method that RRCB_DOMAIN asks for.
 PaperOptions make_paper_options(const Parameters& parameters, const Layout& layout);

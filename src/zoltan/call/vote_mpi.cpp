@@ -58,7 +58,7 @@ struct Ballot {
     int keeps_cuts = 0;
     int lacks_cuts = 0;
     int axes_changed = 0;
-    int may_not_rest = 0;
+    int may_not_keep = 0;
     int names_parts = 0;
     int dumping_rank_from_last = 0;  ///< ranks - lowest rank with a folder
     int dump_always = 0;
@@ -78,9 +78,9 @@ Ballot ballot_of(const LocalStatus& local, const State& state) {
     ballot.any_part_sizes = state.part_sizes.empty() ? 0 : 1;
     ballot.any_fortran = is_fortran_used() ? 1 : 0;
     ballot.keeps_cuts = keeps_cuts(parameters) ? 1 : 0;
-    ballot.lacks_cuts = state.kept ? 0 : 1;
+    ballot.lacks_cuts = state.last ? 0 : 1;
     ballot.axes_changed = state.axes_changed ? 1 : 0;
-    ballot.may_not_rest = local.may_rest ? 0 : 1;
+    ballot.may_not_keep = local.may_keep ? 0 : 1;
     ballot.names_parts = local.names_parts ? 1 : 0;
     if (!parameters.dump_folder.empty()) {
         ballot.dumping_rank_from_last = state.communicator->size() - state.communicator->rank();
@@ -112,7 +112,7 @@ Outcome vote(const LocalStatus& local, const State& state) {
     outcome.any_keeps_cuts = ballot.keeps_cuts != 0;
     outcome.all_kept_cuts = ballot.lacks_cuts == 0;
     outcome.axes_changed = ballot.axes_changed != 0;
-    outcome.may_rest = ballot.may_not_rest == 0;
+    outcome.may_keep = ballot.may_not_keep == 0;
     outcome.any_names_parts = ballot.names_parts != 0;
     if (ballot.dumping_rank_from_last > 0)
         outcome.dump.rank = state.communicator->size() - ballot.dumping_rank_from_last;

@@ -19,7 +19,7 @@ struct LocalStatus {
     }
 
     int code = ZOLTAN_OK;
-    bool may_rest = false;         ///< the last partition has put all objects where they are
+    bool may_keep = false;         ///< the last partition has put all objects where they are
     bool names_parts = false;      ///< a callback returns the part of each object
     std::array<char, 512> text{};  ///< ends with a 0
 };
@@ -35,7 +35,7 @@ struct Outcome {
     bool any_keeps_cuts = false;   ///< for look-ups
     bool all_kept_cuts = false;    ///< of the last call, on every rank
     bool axes_changed = false;  ///< a parameter that chooses axes was changed somewhere since then
-    bool may_rest = false;      ///< see LocalStatus, on every rank
+    bool may_keep = false;      ///< see LocalStatus, on every rank
     bool any_names_parts = false;  ///< see LocalStatus, on some rank
     DumpWish dump;
     const char* differing = nullptr;  ///< name of a parameter that differs between ranks

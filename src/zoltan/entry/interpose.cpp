@@ -63,7 +63,7 @@ void note_change(State& state, const std::string& name, int code, const char* ra
         entry->second = raw_value;
     }
     // These two decide on what is handed out, not on the parts.
-    if (name != "RETURN_LISTS" && name != "KEEP_CUTS") state.rest.reset();
+    if (name != "RETURN_LISTS" && name != "KEEP_CUTS") state.kept.reset();
     if (chooses_axes(name)) state.axes_changed = true;
 }
 
@@ -79,7 +79,7 @@ int set_parameter(Zoltan_Struct* zz, const char* raw_name, const char* raw_value
         if (index >= 0) name += '[' + std::to_string(index) + ']';
         note_change(*state, name, code, raw_value);
         if (!state->parameters.rrcb) {
-            state->kept.reset();
+            state->last.reset();
             state->zoltan_has_cuts = false;
         }
         return code;
@@ -241,7 +241,7 @@ RRCB_EXPORT int Zoltan_LB_Set_Part_Sizes(Zoltan_Struct* zz, int global_num, int 
     State* state = find_state(zz);
     if (state == nullptr || code != ZOLTAN_OK) return code;
     return guarded("Zoltan_LB_Set_Part_Sizes", state, [&] {
-        state->rest.reset();
+        state->kept.reset();
         if (length == -1) state->part_sizes.clear();
         for (int i = 0; i < length; ++i) {
             const int weight = weight_indices == nullptr ? 0 : weight_indices[i];

@@ -91,7 +91,7 @@ RRCB_EXPORT int Zoltan_RCB_Box(Zoltan_Struct* zz, int part, int* dimension, doub
     *xmax = *ymax = *zmax = DBL_MAX;
     return guarded("Zoltan_RCB_Box", state, [&] {
         const rrcb::Box region = region_of(*state, part);
-        *dimension = kept_by(*state).cuts().dimension;
+        *dimension = last_of(*state).cuts().dimension;
         *xmin = region.lower[0], *ymin = region.lower[1], *zmin = region.lower[2];
         *xmax = region.upper[0], *ymax = region.upper[1], *zmax = region.upper[2];
         return ZOLTAN_OK;

@@ -32,7 +32,7 @@ int unpack_zoltans(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     const int code = real(zz, parcel.of_zoltan.size(), parcel.of_zoltan.data());
     state.parameters = std::move(parameters);
     state.part_sizes = std::move(parcel.part_sizes);
-    state.kept.reset();
+    state.last.reset();
     state.zoltan_has_cuts = code == ZOLTAN_OK;
     return code;
 }
@@ -43,7 +43,7 @@ int unpack(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     state.parameters = Parameters{};
     state.parameters.replace_rcb = replace_rcb;
     read_environment(state);
-    state.rest.reset();
+    state.kept.reset();
     state.deserialized = false;
     Zoltan_LB_Set_Part_Sizes(zz, 1, -1, nullptr, nullptr, nullptr);
     for (const auto& [name, value] : parcel.given) {
@@ -57,7 +57,7 @@ int unpack(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
         if (code != ZOLTAN_OK && code != ZOLTAN_WARN) return code;
     }
     state.parameters.rrcb = true;
-    state.kept = std::move(parcel.kept);
+    state.last = std::move(parcel.last);
     state.zoltan_has_cuts = false;
     return ZOLTAN_OK;
 }
@@ -119,7 +119,7 @@ RRCB_EXPORT int Zoltan_Deserialize(Zoltan_Struct* zz, size_t size, char* buffer)
             tell_if_left_to_zoltan(*state);
             state->parameters.rrcb = false;
             state->deserialized = true;
-            state->kept.reset();
+            state->last.reset();
             state->zoltan_has_cuts = false;
         }
         return real(zz, size, buffer);

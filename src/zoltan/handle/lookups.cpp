@@ -27,43 +27,43 @@ int write_ranks(const PartMap& map, const Part* parts, int num_parts, int* ranks
 
 }  // namespace
 
-const KeptPartition& kept_by(const State& state) {
-    if (!state.kept || !state.kept->answers_look_ups()) {
+const LastPartition& last_of(const State& state) {
+    if (!state.last || !state.last->answers_look_ups()) {
         throw ZoltanError(ZOLTAN_FATAL,
                           "No Decomposition Data available; use KEEP_CUTS parameter.");
     }
-    return *state.kept;
+    return *state.last;
 }
 
 Place place_of(const State& state, const double* coordinates) {
-    const KeptPartition& kept = kept_by(state);
-    const Part part = kept.part_of(coordinates);
-    return {kept.map().ranks_of(part).first_rank, part};
+    const LastPartition& last = last_of(state);
+    const Part part = last.part_of(coordinates);
+    return {last.map().ranks_of(part).first_rank, part};
 }
 
 void find_touched(const State& state, const Box& box, const Touched& touched) {
-    const KeptPartition& kept = kept_by(state);
+    const LastPartition& last = last_of(state);
     // Kept between calls: programs make tens of thousands of them.
     thread_local std::vector<Part> unasked;
     Part* parts = touched.parts;
     if (parts == nullptr) {
-        unasked.resize(static_cast<std::size_t>(kept.map().num_parts));
+        unasked.resize(static_cast<std::size_t>(last.map().num_parts));
         parts = unasked.data();
     }
-    const int count = kept.parts_touching(box, parts);
+    const int count = last.parts_touching(box, parts);
     if (touched.parts != nullptr) *touched.num_parts = count;
     if (touched.ranks == nullptr) return;
-    *touched.num_ranks = write_ranks(kept.map(), parts, count, touched.ranks);
+    *touched.num_ranks = write_ranks(last.map(), parts, count, touched.ranks);
 }
 
 Box region_of(const State& state, int part) {
-    const KeptPartition& kept = kept_by(state);
-    if (part < 0 || part >= kept.cuts().num_parts) {
+    const LastPartition& last = last_of(state);
+    if (part < 0 || part >= last.cuts().num_parts) {
         throw ZoltanError(ZOLTAN_FATAL, "Invalid part number " + std::to_string(part));
     }
-    Box box = kept.region_of(part);
+    Box box = last.region_of(part);
     for (std::size_t a = 0; a < max_dimension; ++a) {
-        const bool used = static_cast<int>(a) < kept.cuts().dimension;
+        const bool used = static_cast<int>(a) < last.cuts().dimension;
         box.lower[a] = used ? std::max(box.lower[a], -DBL_MAX) : -DBL_MAX;
         box.upper[a] = used ? std::min(box.upper[a], DBL_MAX) : DBL_MAX;
     }
@@ -71,15 +71,15 @@ Box region_of(const State& state, int part) {
 }
 
 TreeNode tree_node_of(const State& state, int node) {
-    const KeptPartition& kept = kept_by(state);
-    if (node < 0 || node >= kept.cuts().num_parts) {
+    const LastPartition& last = last_of(state);
+    if (node < 0 || node >= last.cuts().num_parts) {
         throw ZoltanError(ZOLTAN_FATAL, "Invalid tree node " + std::to_string(node));
     }
-    return kept.tree_node(node);
+    return last.tree_node(node);
 }
 
 void require_one_part_per_rank(const State& state, const char* alternative) {
-    if (kept_by(state).map().one_each) return;
+    if (last_of(state).map().one_each) return;
     throw ZoltanError(ZOLTAN_FATAL,
                       std::string("Non-uniform distribution of parts over processors is specified; "
                                   "use ") +

@@ -7,7 +7,7 @@
 namespace rrcb::zoltan {
 
 /// Last partition, for look-ups. Throws ZoltanError where no cuts were kept. Not collective.
-const KeptPartition& kept_by(const State& state);
+const LastPartition& last_of(const State& state);
 
 /// Part and lowest rank of a position; `coordinates` has one entry per dimension. Not collective.
 /// All look-ups throw ZoltanError where no cuts were kept.

@@ -11,10 +11,10 @@ Numbering::Numbering(std::vector<Part>&& boxes, std::vector<Part>&& numbers,
                      bool is_spread) noexcept
     : numbers_(std::move(numbers)), boxes_(std::move(boxes)), is_spread_(is_spread) {}
 
-Numbering Numbering::of_all(std::vector<Part>&& numbers, std::vector<Part>&& room) noexcept {
+Numbering Numbering::of_all(std::vector<Part>&& numbers, std::vector<Part>&& buffer) noexcept {
     for (std::size_t box = 0; box < numbers.size(); ++box)
-        room[numbers[box]] = static_cast<Part>(box);
-    return {std::move(room), std::move(numbers), false};
+        buffer[numbers[box]] = static_cast<Part>(box);
+    return {std::move(buffer), std::move(numbers), false};
 }
 
 Numbering Numbering::of_some(std::vector<Part>&& boxes, std::vector<Part>&& numbers) noexcept {

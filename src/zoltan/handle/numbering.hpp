@@ -12,8 +12,8 @@ class Numbering {
     /// A part has the number of its box.
     Numbering() = default;
 
-    /// By the number of each box; `room` has as many entries.
-    static Numbering of_all(std::vector<Part>&& numbers, std::vector<Part>&& room) noexcept;
+    /// By the number of each box; `buffer` has as many entries.
+    static Numbering of_all(std::vector<Part>&& numbers, std::vector<Part>&& buffer) noexcept;
 
     /// By the numbers of some boxes, one at least, which ascend.
     static Numbering of_some(std::vector<Part>&& boxes, std::vector<Part>&& numbers) noexcept;

@@ -97,16 +97,16 @@ class Reader {
     std::span<const char> bytes_;
 };
 
-void write(Writer& writer, const KeptPartition& kept) {
-    writer.value(kept.cuts().dimension);
-    writer.value<std::uint64_t>(kept.cuts().tree.size());
-    for (const Cut& cut : kept.cuts().tree) {
+void write(Writer& writer, const LastPartition& last) {
+    writer.value(last.cuts().dimension);
+    writer.value<std::uint64_t>(last.cuts().tree.size());
+    for (const Cut& cut : last.cuts().tree) {
         writer.value(cut.axis);
         writer.value(cut.divides);
         writer.value(cut.at);
     }
-    writer.list(kept.numbering().numbers());
-    const PartMap& map = kept.map();
+    writer.list(last.numbering().numbers());
+    const PartMap& map = last.map();
     writer.value(map.num_parts);
     writer.value(map.num_ranks);
     writer.value(map.one_each);
@@ -144,7 +144,7 @@ bool is_consistent(const Cuts& cuts, const PartMap& map, const std::vector<Part>
            std::ranges::all_of(cuts.tree, valid_cut) && is_permutation(numbers);
 }
 
-KeptPartition read_kept(Reader& reader) {
+LastPartition read_last(Reader& reader) {
     Cuts cuts;
     cuts.dimension = reader.value<int>();
     for (auto left = reader.value<std::uint64_t>(); left > 0; --left) {
@@ -161,11 +161,11 @@ KeptPartition read_kept(Reader& reader) {
     map.listed = reader.list<RankRange>();
     cuts.num_parts = map.num_parts;
     if (!is_consistent(cuts, map, numbers)) refuse("inconsistent");
-    KeptPartition kept(static_cast<std::size_t>(map.num_parts));
+    LastPartition last(static_cast<std::size_t>(map.num_parts));
     std::vector<Part> room(numbers.size());
-    kept.keep(std::move(cuts), std::move(map),
+    last.keep(std::move(cuts), std::move(map),
               Numbering::of_all(std::move(numbers), std::move(room)));
-    return kept;
+    return last;
 }
 
 }  // namespace
@@ -185,9 +185,9 @@ std::vector<char> serialize(const State& state, const std::vector<char>& of_zolt
         body.value(entry.weight);
     }
     body.list(of_zoltan);
-    const bool has_cuts = state.kept && state.kept->answers_look_ups();
+    const bool has_cuts = state.last && state.last->answers_look_ups();
     body.value(has_cuts);
-    if (has_cuts) write(body, *state.kept);
+    if (has_cuts) write(body, *state.last);
 
     const Header header{signature, body.bytes().size(), checksum_of(body.bytes())};
     std::vector<char> bytes(sizeof header + body.bytes().size());
@@ -220,7 +220,7 @@ Parcel deserialize(std::span<const char> bytes) {
         parcel.part_sizes.push_back({part, global, size, reader.value<int>()});
     }
     parcel.of_zoltan = reader.list<char>();
-    if (reader.flag()) parcel.kept = read_kept(reader);
+    if (reader.flag()) parcel.last = read_last(reader);
     return parcel;
 }
 

@@ -15,7 +15,7 @@ namespace rrcb::zoltan {
 struct Parcel {
     std::map<std::string, std::string> given;  ///< see Parameters::given
     std::vector<PartSize> part_sizes;
-    std::optional<KeptPartition> kept;
+    std::optional<LastPartition> last;
     std::vector<char> of_zoltan;  ///< buffer of the real Zoltan; empty: it has no cuts
 };
 

@@ -76,8 +76,8 @@ void copy_contents(State& to, const State& from) {
     State copy;
     copy.parameters = from.parameters;
     copy.part_sizes = from.part_sizes;
-    if (from.kept) copy.kept = from.kept->copy();
-    copy.rest = from.rest;
+    if (from.last) copy.last = from.last->copy();
+    copy.kept = from.kept;
     copy.zoltan_has_cuts = from.zoltan_has_cuts;
     copy.axes_changed = from.axes_changed;
     copy.deserialized = from.deserialized;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cuts/owned_cuts.hpp"
-#include "zoltan/handle/kept_partition.hpp"
+#include "zoltan/handle/last_partition.hpp"
 #include "zoltan/handle/parameters.hpp"
 #include "zoltan/handle/workspace.hpp"
 
@@ -52,7 +52,7 @@ struct PartSize {
 
 /// Result of the last partition. It stands while the objects are in the parts they were sent to and
 /// are the same: a program that balances until nothing changes comes to an end.
-struct Rest {
+struct KeptObjects {
     Report report;
     std::uint64_t checksum = 0;  ///< of the objects of all ranks and their parts
 };
@@ -62,8 +62,8 @@ struct State {
     std::unique_ptr<Communicator> communicator;
     Parameters parameters;
     std::vector<PartSize> part_sizes;
-    std::optional<KeptPartition> kept;  ///< of the last partition
-    std::optional<Rest> rest;           ///< of the same; none once a parameter was changed
+    std::optional<LastPartition> last;  ///< of the last partition
+    std::optional<KeptObjects> kept;    ///< of the same; none once a parameter was changed
     bool zoltan_has_cuts = false;       ///< of the last partition, which the real Zoltan made
     bool axes_changed = false;          ///< a parameter that chooses axes was changed since
     bool deserialized = false;          ///< Zoltan's parameters were set behind the plug-in's back

@@ -1,4 +1,4 @@
-#include "gather/current_parts.hpp"
+#include "gather/kept_tree.hpp"
 
 #include "cuts/cut_limits.hpp"
 #include "cuts/position_order.hpp"
@@ -19,26 +19,26 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class Reader {
   public:
-    Reader(std::span<const Place> places, const Cuts& estimate, const Options& options,
+    Reader(std::span<const Extent> extents, const Cuts& estimate, const Options& options,
            bool by_number)
-        : places_(places),
+        : extents_(extents),
           estimate_(estimate),
           options_(options),
           by_number_(by_number),
-          by_count_(std::ranges::all_of(places, [](const Place& p) { return p.weight == 0; })),
-          ranks_(places.size()) {
+          by_count_(std::ranges::all_of(extents, [](const Extent& p) { return p.weight == 0; })),
+          ranks_(extents.size()) {
         std::iota(ranks_.begin(), ranks_.end(), std::size_t{0});
-        current_.cuts = estimate;
+        kept_.cuts = estimate;
         gaps_.resize(estimate.tree.size());
-        current_.parts.resize(places.size());
-        current_.part_weights.resize(places.size());
+        kept_.parts.resize(extents.size());
+        kept_.part_weights.resize(extents.size());
     }
 
-    std::optional<CurrentParts> read() {
+    std::optional<KeptTree> read() {
         if (!read_node(root_of(estimate_), ranks_, true)) return std::nullopt;
         if (are_cuts_limited(options_) && !move_into_places()) return std::nullopt;
-        current_.imbalance = imbalance(current_.part_weights, options_.part_sizes);
-        return std::move(current_);
+        kept_.imbalance = imbalance(kept_.part_weights, options_.part_sizes);
+        return std::move(kept_);
     }
 
   private:
@@ -51,8 +51,8 @@ class Reader {
         for (int k = 0; k < estimate_.dimension; ++k) {
             const auto axis = static_cast<int>(ordering_axis(usual, k));
             if (!by_number_) sort_across(axis, ranks);
-            const Place below = joined(ranks.first(num_below));
-            const Place above = joined(ranks.subspan(num_below));
+            const Extent below = joined(ranks.first(num_below));
+            const Extent above = joined(ranks.subspan(num_below));
             const bool as_expected = expected && axis == usual;
             if (!may_cross(axis, usual, as_expected, below, above)) continue;
             const auto cut = cut_between(below, above, axis, estimate_.dimension,
@@ -60,7 +60,7 @@ class Reader {
             if (!cut) continue;
             if (are_cuts_limited(options_)) gaps_[at.node] = gap_between(below, above, axis);
             if (gaps_[at.node].empty()) continue;
-            current_.cuts.tree[at.node] = *cut;
+            kept_.cuts.tree[at.node] = *cut;
             return read_node(at.lower(), ranks.first(num_below), as_expected) &&
                    read_node(at.upper(), ranks.subspan(num_below), as_expected);
         }
@@ -68,7 +68,7 @@ class Reader {
     }
 
     /// Where a cut between the points of two groups may lie: behind the last, not behind the first.
-    Places gap_between(const Place& below, const Place& above, int axis) const {
+    Places gap_between(const Extent& below, const Extent& above, int axis) const {
         const auto a = static_cast<std::size_t>(axis);
         const double last = below.last[a][a];
         const double first = above.first[a][a];
@@ -81,7 +81,7 @@ class Reader {
     /// Moves the cuts into places within their gaps; false where these are not enough.
     bool move_into_places() {
         CutLimits limits(options_, joined(ranks_).box(), estimate_.dimension,
-                         {axes_of(current_.cuts.tree), gaps_});
+                         {axes_of(kept_.cuts.tree), gaps_});
         if (!limits.has_room()) return false;
         move_node(root_of(estimate_), limits.region(), limits);
         return true;
@@ -89,13 +89,13 @@ class Reader {
 
     void move_node(const Descent& at, const Box& region, CutLimits& limits) {
         if (at.is_part()) return;
-        Cut& cut = current_.cuts.tree[at.node];
+        Cut& cut = kept_.cuts.tree[at.node];
         if (limits.divides(at)) cut = limits.nearest(cut, limits.places(at, region, cut.axis));
         move_node(at.lower(), box_below(region, cut), limits);
         move_node(at.upper(), box_above(region, cut), limits);
     }
 
-    bool may_cross(int axis, int usual, bool as_expected, Place all, const Place& above) const {
+    bool may_cross(int axis, int usual, bool as_expected, Extent all, const Extent& above) const {
         if (options_.axes.order.is_given() || options_.axes.order.is_grouped())
             return axis == usual;
         // Limited cuts lie across whatever axis makes the parts even.
@@ -108,15 +108,15 @@ class Reader {
         const PositionOrder is_before(axis, 0, estimate_.dimension);
         const auto a = static_cast<std::size_t>(axis);
         std::ranges::sort(ranks, [&](std::size_t i, std::size_t j) {
-            const Vector& one = places_[i].first[a];
-            const Vector& other = places_[j].first[a];
+            const Vector& one = extents_[i].first[a];
+            const Vector& other = extents_[j].first[a];
             return is_before(one, other) || (!is_before(other, one) && i < j);
         });
     }
 
-    Place joined(std::span<const std::size_t> ranks) const {
-        Place all;
-        for (const std::size_t rank : ranks) join(all, places_[rank], estimate_.dimension);
+    Extent joined(std::span<const std::size_t> ranks) const {
+        Extent all;
+        for (const std::size_t rank : ranks) join(all, extents_[rank], estimate_.dimension);
         return all;
     }
 
@@ -129,20 +129,20 @@ class Reader {
     /// Gives the points of a rank their part; returns false where the part must stay empty.
     bool settle(Part part, std::size_t rank) {
         const auto index = static_cast<std::size_t>(part);
-        const Place& place = places_[rank];
-        current_.parts[rank] = part;
-        current_.part_weights[index] = by_count_ ? place.count : place.weight;
-        return place.count == 0 || options_.part_sizes[index] > 0;
+        const Extent& extent = extents_[rank];
+        kept_.parts[rank] = part;
+        kept_.part_weights[index] = by_count_ ? extent.count : extent.weight;
+        return extent.count == 0 || options_.part_sizes[index] > 0;
     }
 
-    std::span<const Place> places_;
+    std::span<const Extent> extents_;
     const Cuts& estimate_;
     const Options& options_;
     bool by_number_;
     bool by_count_;
     std::vector<std::size_t> ranks_;  ///< in the order of the parts, as far as read
     std::vector<Places> gaps_;        ///< between the points on both sides of each cut
-    CurrentParts current_;
+    KeptTree kept_;
 };
 
 }  // namespace
@@ -158,7 +158,7 @@ bool is_long(const Box& box, int axis, int dimension) {
     return true;
 }
 
-std::optional<Cut> cut_between(const Place& below, const Place& above, int axis, int dimension,
+std::optional<Cut> cut_between(const Extent& below, const Extent& above, int axis, int dimension,
                                bool plain_cuts, bool may_divide) {
     const auto a = static_cast<std::size_t>(axis);
     if (below.count == 0) return plane(axis, -infinity);
@@ -176,11 +176,12 @@ std::optional<Cut> cut_between(const Place& below, const Place& above, int axis,
     return cut;
 }
 
-std::optional<CurrentParts> read_current(std::span<const Place> places, const Cuts& estimate,
-                                         const Options& options) {
-    if (auto current = Reader(places, estimate, options, true).read()) return current;
-    if (std::ranges::any_of(places, [](const Place& place) { return place.count == 0; })) return {};
-    return Reader(places, estimate, options, false).read();
+std::optional<KeptTree> read_kept_tree(std::span<const Extent> extents, const Cuts& estimate,
+                                       const Options& options) {
+    if (auto kept = Reader(extents, estimate, options, true).read()) return kept;
+    if (std::ranges::any_of(extents, [](const Extent& extent) { return extent.count == 0; }))
+        return {};
+    return Reader(extents, estimate, options, false).read();
 }
 
 }  // namespace rrcb

@@ -1,4 +1,4 @@
-#include "gather/current_parts.hpp"
+#include "gather/kept_tree.hpp"
 
 #include "cuts/position_order.hpp"
 #include "cuts/tree.hpp"
@@ -23,12 +23,12 @@ using Positions = std::vector<Vector>;
 /// What each rank holds.
 using Distribution = std::vector<Positions>;
 
-Place place_of(const Positions& positions, int dimension) {
+Extent extent_of(const Positions& positions, int dimension) {
     std::vector<double> coordinates;
     for (const Vector& x : positions)
         coordinates.insert(coordinates.end(), x.begin(), x.begin() + dimension);
     const Points points = interleaved_points(coordinates, dimension);
-    return rrcb::place_of(points, bounding_box(points), static_cast<double>(points.count));
+    return rrcb::extent_of(points, bounding_box(points), static_cast<double>(points.count));
 }
 
 Options options_for(std::size_t num_parts) {
@@ -46,19 +46,19 @@ Cuts across(std::vector<int> axes, int dimension) {
     return cuts;
 }
 
-std::optional<CurrentParts> read(const Distribution& held, const Cuts& estimate,
-                                 const Options& options) {
-    std::vector<Place> places;
+std::optional<KeptTree> read(const Distribution& held, const Cuts& estimate,
+                             const Options& options) {
+    std::vector<Extent> extents;
     for (const Positions& positions : held)
-        places.push_back(place_of(positions, estimate.dimension));
-    return read_current(places, estimate, options);
+        extents.push_back(extent_of(positions, estimate.dimension));
+    return read_kept_tree(extents, estimate, options);
 }
 
-std::optional<CurrentParts> read(const Distribution& held, const Cuts& estimate) {
+std::optional<KeptTree> read(const Distribution& held, const Cuts& estimate) {
     return read(held, estimate, options_for(held.size()));
 }
 
-void expect_cuts_give_every_rank_its_part(const Distribution& held, const CurrentParts& current) {
+void expect_cuts_give_every_rank_its_part(const Distribution& held, const KeptTree& current) {
     for (std::size_t rank = 0; rank < held.size(); ++rank)
         for (const Vector& x : held[rank])
             EXPECT_EQ(part_of(current.cuts, x), current.parts[rank]) << "rank " << rank;
@@ -123,7 +123,7 @@ Cuts divide(const Positions& positions, int num_parts, int dimension, bool acros
     return cuts;
 }
 
-TEST(CurrentParts, of_a_bisection_across_the_axes_of_the_estimate_are_read) {
+TEST(KeptTree, of_a_bisection_across_the_axes_of_the_estimate_are_read) {
     std::mt19937_64 engine(1);
     for (int trial = 0; trial < 300; ++trial) {
         const int dimension = 1 + trial % 3;
@@ -144,7 +144,7 @@ TEST(CurrentParts, of_a_bisection_across_the_axes_of_the_estimate_are_read) {
     }
 }
 
-TEST(CurrentParts, across_the_longest_axes_are_read_whatever_the_estimate_and_the_ranks_numbers) {
+TEST(KeptTree, across_the_longest_axes_are_read_whatever_the_estimate_and_the_ranks_numbers) {
     std::mt19937_64 engine(2);
     for (int trial = 0; trial < 300; ++trial) {
         const int dimension = 2 + trial % 2;
@@ -158,7 +158,7 @@ TEST(CurrentParts, across_the_longest_axes_are_read_whatever_the_estimate_and_th
     }
 }
 
-TEST(CurrentParts, of_renumbered_ranks_are_read_with_the_part_of_each) {
+TEST(KeptTree, of_renumbered_ranks_are_read_with_the_part_of_each) {
     std::mt19937_64 engine(3);
     for (int trial = 0; trial < 300; ++trial) {
         Distribution held;
@@ -198,7 +198,7 @@ bool is_bisection(const Distribution& held, std::span<const int> order, const Cu
            is_bisection(held, order.subspan(below), axes, at.upper());
 }
 
-TEST(CurrentParts, across_given_axes_are_read_just_where_some_order_of_the_ranks_is_a_bisection) {
+TEST(KeptTree, across_given_axes_are_read_just_where_some_order_of_the_ranks_is_a_bisection) {
     std::mt19937_64 engine(5);
     int num_read = 0;
     int num_refused = 0;
@@ -229,7 +229,7 @@ TEST(CurrentParts, across_given_axes_are_read_just_where_some_order_of_the_ranks
     EXPECT_GT(num_refused, 300);
 }
 
-TEST(CurrentParts, that_no_bisection_has_are_not_read) {
+TEST(KeptTree, that_no_bisection_has_are_not_read) {
     std::mt19937_64 engine(4);
     for (int trial = 0; trial < 200; ++trial) {
         Distribution held;
@@ -247,14 +247,14 @@ TEST(CurrentParts, that_no_bisection_has_are_not_read) {
     for (const int axis : {0, 1}) EXPECT_FALSE(read(mill, across({axis, axis, axis, axis}, 2)));
 }
 
-TEST(CurrentParts, in_slabs_of_a_square_are_not_read) {
+TEST(KeptTree, in_slabs_of_a_square_are_not_read) {
     Distribution slabs(4);
     for (const Vector& x : lattice(8, 2)) slabs[static_cast<std::size_t>(x[0]) / 2].push_back(x);
     EXPECT_FALSE(read(slabs, across({0, 1, 1}, 2)));
     EXPECT_TRUE(read(slabs, across({0, 0, 0}, 2)));
 }
 
-TEST(CurrentParts, may_lie_across_another_axis_that_is_nearly_as_long) {
+TEST(KeptTree, may_lie_across_another_axis_that_is_nearly_as_long) {
     const auto halves = [](double height) {
         return Distribution{{{0, 0}, {1, 0.4 * height}}, {{0, 0.6 * height}, {1, height}}};
     };
@@ -268,8 +268,7 @@ TEST(CurrentParts, may_lie_across_another_axis_that_is_nearly_as_long) {
     EXPECT_FALSE(read(halves(0.9), across({0}, 2), given));
 }
 
-TEST(CurrentParts,
-     are_cut_in_the_middle_of_a_gap_and_at_the_first_point_above_where_there_is_none) {
+TEST(KeptTree, are_cut_in_the_middle_of_a_gap_and_at_the_first_point_above_where_there_is_none) {
     const auto gap = read({{{0, 5}, {1, 5}}, {{4, 0}}}, across({0}, 2));
     ASSERT_TRUE(gap);
     EXPECT_EQ(gap->cuts.tree[0].at, (Vector{2.5, -infinity, -infinity}));
@@ -290,7 +289,7 @@ TEST(CurrentParts,
 }
 
 // The gap between the first two ranks holds no line; cuts above it have theirs.
-TEST(CurrentParts, on_lines_are_read_only_where_each_gap_holds_one) {
+TEST(KeptTree, on_lines_are_read_only_where_each_gap_holds_one) {
     Options options = options_for(4);
     options.axes.plain = true;
     options.axes.grid = {{0, 1}, {0, 1}};
@@ -303,7 +302,7 @@ TEST(CurrentParts, on_lines_are_read_only_where_each_gap_holds_one) {
     }
 }
 
-TEST(CurrentParts, in_one_place_are_read_only_where_a_search_may_divide_them) {
+TEST(KeptTree, in_one_place_are_read_only_where_a_search_may_divide_them) {
     const Distribution held{{{0, 0}, {1, 1}}, {{1, 1}, {2, 0}}};
     EXPECT_FALSE(read(held, across({0}, 2)));
     Options options = options_for(2);
@@ -318,7 +317,7 @@ TEST(CurrentParts, in_one_place_are_read_only_where_a_search_may_divide_them) {
     EXPECT_FALSE(read(held, across({0}, 2), options));
 }
 
-TEST(CurrentParts, of_ranks_without_points_are_read_by_number_alone) {
+TEST(KeptTree, of_ranks_without_points_are_read_by_number_alone) {
     const Distribution held{{{0, 0}}, {}, {{2, 0}}, {{3, 0}}};
     const auto current = read(held, across({0, 0, 0}, 2));
     ASSERT_TRUE(current);
@@ -327,7 +326,7 @@ TEST(CurrentParts, of_ranks_without_points_are_read_by_number_alone) {
     EXPECT_FALSE(read({{{3, 0}}, {}, {{2, 0}}, {{0, 0}}}, across({0, 0, 0}, 2)));
 }
 
-TEST(CurrentParts, leave_parts_of_size_zero_empty) {
+TEST(KeptTree, leave_parts_of_size_zero_empty) {
     Options options = options_for(4);
     options.part_sizes = {1, 0, 1, 1};
     const auto current = read({{{0, 0}}, {}, {{2, 0}}, {{3, 0}}}, across({0, 0, 0}, 2), options);
@@ -337,13 +336,13 @@ TEST(CurrentParts, leave_parts_of_size_zero_empty) {
     EXPECT_FALSE(read({{{0, 0}}, {{1, 0}}, {{2, 0}}, {{3, 0}}}, across({0, 0, 0}, 2), options));
 }
 
-TEST(CurrentParts, weigh_what_the_ranks_do_or_count_where_nothing_weighs) {
-    std::vector<Place> places{place_of({{0, 0}}, 2), place_of({{1, 0}, {2, 0}}, 2)};
-    places[0].weight = 3.5;
-    EXPECT_EQ(read_current(places, across({0}, 2), options_for(2))->part_weights,
+TEST(KeptTree, weigh_what_the_ranks_do_or_count_where_nothing_weighs) {
+    std::vector<Extent> extents{extent_of({{0, 0}}, 2), extent_of({{1, 0}, {2, 0}}, 2)};
+    extents[0].weight = 3.5;
+    EXPECT_EQ(read_kept_tree(extents, across({0}, 2), options_for(2))->part_weights,
               (std::vector<double>{3.5, 2}));
-    places[0].weight = places[1].weight = 0;
-    EXPECT_EQ(read_current(places, across({0}, 2), options_for(2))->part_weights,
+    extents[0].weight = extents[1].weight = 0;
+    EXPECT_EQ(read_kept_tree(extents, across({0}, 2), options_for(2))->part_weights,
               (std::vector<double>{1, 2}));
 }
 

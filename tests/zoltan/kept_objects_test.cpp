@@ -107,7 +107,7 @@ void ask(Program& program, const Way& way) {
     program.set("RRCB_REFINE", way.refine);
 }
 
-TEST(Rest, is_reached_with_the_second_call) {
+TEST(KeptObjects, are_found_by_the_second_call) {
     for (const Cloud& cloud : clouds) {
         for (const Way& way : ways) {
             if (cloud.is_coincident && std::string(way.method) == "RCB") continue;
@@ -124,7 +124,7 @@ TEST(Rest, is_reached_with_the_second_call) {
     }
 }
 
-TEST(Rest, is_reached_by_parts_that_callbacks_name) {
+TEST(KeptObjects, are_found_by_parts_that_callbacks_name) {
     const int num_ranks = Program().num_ranks;
     for (const int num_parts : {(num_ranks + 1) / 2, num_ranks, 2 * num_ranks + 1, 200}) {
         for (const Way& way : ways) {
@@ -151,7 +151,7 @@ struct AtRest : Moving {
     }
 };
 
-TEST(Rest, lists_every_object_in_its_part_where_parts_are_asked_for) {
+TEST(KeptObjects, are_listed_every_object_in_its_part_where_parts_are_asked_for) {
     AtRest program;
     program.set("RETURN_LISTS", "PARTS");
     const Outcome outcome = program.partition();
@@ -162,7 +162,7 @@ TEST(Rest, lists_every_object_in_its_part_where_parts_are_asked_for) {
     for (const int rank : outcome.exports.ranks) EXPECT_EQ(rank, program.rank);
 }
 
-TEST(Rest, keeps_look_ups) {
+TEST(KeptObjects, keep_look_ups) {
     AtRest program;
     for (int i = 0; i < program.size(); ++i) {
         int rank = -1, part = -1;
@@ -173,7 +173,7 @@ TEST(Rest, keeps_look_ups) {
     }
 }
 
-TEST(Rest, ends_on_all_ranks_when_one_changes_anything) {
+TEST(KeptObjects, end_on_all_ranks_when_one_changes_anything) {
     const int num_ranks = Program().num_ranks;
     if (num_ranks == 1) GTEST_SKIP() << "needs two ranks";
     using Change = void (*)(Program&);
@@ -194,7 +194,7 @@ TEST(Rest, ends_on_all_ranks_when_one_changes_anything) {
     }
 }
 
-TEST(Rest, ends_when_something_else_is_asked_for) {
+TEST(KeptObjects, end_when_something_else_is_asked_for) {
     const int num_ranks = Program().num_ranks;
     if (num_ranks == 1) GTEST_SKIP() << "needs two ranks";
     constexpr std::array<std::array<const char*, 2>, 3> changes = {
@@ -211,7 +211,7 @@ TEST(Rest, ends_when_something_else_is_asked_for) {
     EXPECT_EQ(program.partition().changes, 1);
 }
 
-TEST(Rest, does_not_hide_faults) {
+TEST(KeptObjects, do_not_hide_faults) {
     AtRest program;
     const bool last = program.rank == program.num_ranks - 1;
     const double good = program.coordinates[3];
@@ -221,7 +221,7 @@ TEST(Rest, does_not_hide_faults) {
     EXPECT_EQ(program.partition().code, ZOLTAN_OK);
 }
 
-TEST(Rest, gives_no_look_ups_without_keep_cuts) {
+TEST(KeptObjects, give_no_look_ups_without_keep_cuts) {
     Moving program(2);
     scatter_points(program, 100);
     program.set("LB_METHOD", "RRCB");

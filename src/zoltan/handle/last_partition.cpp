@@ -1,11 +1,11 @@
-#include "zoltan/handle/kept_partition.hpp"
+#include "zoltan/handle/last_partition.hpp"
 
 #include <algorithm>
 #include <utility>
 
 namespace rrcb::zoltan {
 
-void KeptPartition::keep(Cuts&& cuts, PartMap&& map, Numbering&& numbering) noexcept {
+void LastPartition::keep(Cuts&& cuts, PartMap&& map, Numbering&& numbering) noexcept {
     cuts_ = std::move(cuts);
     map_ = std::move(map);
     numbering_ = std::move(numbering);
@@ -13,14 +13,14 @@ void KeptPartition::keep(Cuts&& cuts, PartMap&& map, Numbering&& numbering) noex
     tree_.pack(cuts_, [this](Part part, const Box&) { return numbering_.number_of(part); });
 }
 
-KeptPartition KeptPartition::copy() const {
-    KeptPartition copy(shows_all() ? static_cast<std::size_t>(cuts_.num_parts) : 0);
+LastPartition LastPartition::copy() const {
+    LastPartition copy(shows_all() ? static_cast<std::size_t>(cuts_.num_parts) : 0);
     copy.keep(Cuts(cuts_), PartMap(map_), Numbering(numbering_));
     copy.answers_look_ups_ = answers_look_ups_;
     return copy;
 }
 
-TreeNode KeptPartition::tree_node(int node) const {
+TreeNode LastPartition::tree_node(int node) const {
     Descent at = root_of(cuts_);
     if (node == 0) return {0, 0, at.is_part() ? 0 : at.upper().first_part};
     // A node has the number of the first part above its cut.
@@ -35,7 +35,7 @@ TreeNode KeptPartition::tree_node(int node) const {
     return {parent, name(at.lower()), name(at.upper())};
 }
 
-int KeptPartition::parts_touching(const Box& box, Part* parts) const {
+int LastPartition::parts_touching(const Box& box, Part* parts) const {
     for (int a = 0; a < cuts_.dimension; ++a) {
         if (!(box.lower[a] <= box.upper[a])) return 0;
     }

@@ -2,7 +2,7 @@
 
 #include "collective/butterfly_mpi.hpp"
 #include "collective/participant.hpp"
-#include "gather/place.hpp"
+#include "gather/extent.hpp"
 
 #include <rrcb/cuts.hpp>
 #include <rrcb/options.hpp>
@@ -12,20 +12,21 @@
 namespace rrcb {
 
 /// The parts that the ranks hold.
-struct SpreadParts {
+struct SpreadKeptTree {
     Cuts cuts;  ///< those above the part of this rank
     double imbalance = 1;
     int num_divided = 0;  ///< cuts that this rank owns and that divide points in one place
 };
 
-/// The place of this rank's points, which owners of nodes read with those of the others as a
-/// bisection, part r being on rank r. As read_current(), but where axes are free a cut may lie
+/// The extent of this rank's points, which owners of nodes read with those of the others as a
+/// bisection, part r being on rank r. As read_kept_tree(), but where axes are free a cut may lie
 /// across any long one of the points that it divides.
-class SpreadPlaces {
+class SpreadExtents {
   public:
-    /// By complete options that ask for a part for each rank and outlive this. `may_stay` may
+    /// By complete options that ask for a part for each rank and outlive this. `may_keep` may
     /// differ between ranks; nothing is read unless all may. Not collective. Throws std::bad_alloc.
-    SpreadPlaces(const Options& options, const Place& mine, bool may_stay, int dimension, int rank);
+    SpreadExtents(const Options& options, const Extent& mine, bool may_keep, int dimension,
+                  int rank);
 
     /// The parts that the ranks hold, of the weight `total` together or, `by_count`, of as many
     /// points; nothing where they are no bisection.
@@ -34,18 +35,18 @@ class SpreadPlaces {
     /// message has 16 (1 + dimension + dimension^2) bytes at most for each cut above a part. Throws
     /// on every rank what failed on one before; but a failure in the last messages stays with its
     /// rank for the next agreement.
-    std::optional<SpreadParts> read(double total, bool by_count, Participant& self);
+    std::optional<SpreadKeptTree> read(double total, bool by_count, Participant& self);
 
   private:
     double share(double total, bool by_count) const;
-    void tell_places();
+    void tell_extents();
     bool decide_cuts();
-    std::optional<Cut> cut_of(std::size_t node, const Place& below, const Place& above) const;
-    SpreadParts parts_told() const;
+    std::optional<Cut> cut_of(std::size_t node, const Extent& below, const Extent& above) const;
+    SpreadKeptTree parts_told() const;
 
     const Options& options_;
-    Place mine_;
-    bool may_stay_;
+    Extent mine_;
+    bool may_keep_;
     int dimension_;
     Butterfly butterfly_;
     ButterflyMessages messages_{};

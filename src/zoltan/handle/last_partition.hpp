@@ -19,15 +19,15 @@ struct TreeNode {
 };
 
 /// Last partition, for look-ups and for the next one.
-class KeptPartition {
+class LastPartition {
   public:
     /// Reserves memory for look-ups by all cuts between so many parts, 0 if there will be none.
-    explicit KeptPartition(std::size_t num_parts) { tree_.reserve(num_parts); }
-    KeptPartition(KeptPartition&&) = default;
-    KeptPartition& operator=(KeptPartition&&) = default;
+    explicit LastPartition(std::size_t num_parts) { tree_.reserve(num_parts); }
+    LastPartition(LastPartition&&) = default;
+    LastPartition& operator=(LastPartition&&) = default;
 
     /// Returns a copy, which look-ups do not slow down. Throws std::bad_alloc.
-    KeptPartition copy() const;
+    LastPartition copy() const;
 
     /// Keeps the cuts without asking for memory.
     void keep(Cuts&& cuts, PartMap&& map, Numbering&& numbering) noexcept;

@@ -2,7 +2,7 @@
 
 #include "call_options.hpp"
 #include "gather/decision_mpi.hpp"
-#include "gather/spread_places_mpi.hpp"
+#include "gather/spread_extents_mpi.hpp"
 
 #include <rrcb/balance.hpp>
 
@@ -12,12 +12,12 @@
 namespace rrcb {
 
 /// The parts that the ranks hold, one each, in which the points may be kept. Rank 0 reads them from
-/// the places of all ranks, or if many ranks make the parts, these do.
-class HeldParts {
+/// the extents of all ranks, or if many ranks make the parts, these do.
+class KeptParts {
   public:
-    /// Notes the place of this rank's points, which are checked and add up to `mine`; adds it to
+    /// Notes the extent of this rank's points, which are checked and add up to `mine`; adds it to
     /// that if rank 0 reads it. Not collective. Throws std::bad_alloc. `options` outlive this.
-    void prepare(const CallOptions& options, const Points& points, bool may_stay, int rank,
+    void prepare(const CallOptions& options, const Points& points, bool may_keep, int rank,
                  int num_ranks, Contribution& mine);
 
     /// True if rank 0 may read them.
@@ -40,8 +40,8 @@ class HeldParts {
                       Participant& self) const;
 
     bool is_central_ = false;
-    std::optional<SpreadPlaces> places_;  ///< if many ranks make the parts
-    SpreadParts spread_;
+    std::optional<SpreadExtents> extents_;  ///< if many ranks make the parts
+    SpreadKeptTree spread_;
     double imbalance_ = not_known;
 };
 

@@ -23,7 +23,8 @@ struct Placed {
 /// Finds the parts of the objects of this rank, by a callback or, with a part on each rank, by the
 /// rank. Finds none if the last cuts put an object elsewhere. Throws std::bad_alloc. Not
 /// collective.
-Placed find_placed(const Objects& objects, const KeptPartition& kept, const Rest& rest, int rank);
+Placed find_placed(const Objects& objects, const LastPartition& last, const KeptObjects& kept,
+                   int rank);
 
 /// Returns whether an object moves on any rank, and adds up the checksums of all ranks. Collective:
 /// one reduction.

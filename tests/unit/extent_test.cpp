@@ -1,4 +1,4 @@
-#include "gather/place.hpp"
+#include "gather/extent.hpp"
 
 #include "cuts/position_order.hpp"
 
@@ -19,72 +19,72 @@ std::vector<double> lattice_cloud(std::size_t count, int dimension, int width) {
     return coordinates;
 }
 
-Place place_of_all(const Points& points) {
-    return place_of(points, bounding_box(points), static_cast<double>(points.count));
+Extent extent_of_all(const Points& points) {
+    return extent_of(points, bounding_box(points), static_cast<double>(points.count));
 }
 
-void expect_ends(const Points& points, const Place& place) {
+void expect_ends(const Points& points, const Extent& extent) {
     for (int axis = 0; axis < points.dimension; ++axis) {
         std::vector<Vector> positions;
         for (LocalIndex i = 0; i < points.count; ++i) positions.push_back(points.position(i));
         std::ranges::sort(positions, PositionOrder(axis, 0, points.dimension));
         for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a) {
-            EXPECT_EQ(place.first[static_cast<std::size_t>(axis)][a], positions.front()[a]);
-            EXPECT_EQ(place.last[static_cast<std::size_t>(axis)][a], positions.back()[a]);
+            EXPECT_EQ(extent.first[static_cast<std::size_t>(axis)][a], positions.front()[a]);
+            EXPECT_EQ(extent.last[static_cast<std::size_t>(axis)][a], positions.back()[a]);
         }
     }
 }
 
-TEST(Place, has_the_first_and_last_position_in_the_order_across_each_axis) {
+TEST(Extent, has_the_first_and_last_position_in_the_order_across_each_axis) {
     for (const int dimension : {1, 2, 3}) {
         for (const std::size_t count : {1u, 2u, 255u, 256u, 257u, 1000u}) {
             for (const int width : {1, 3, 100}) {
                 const auto coordinates = lattice_cloud(count, dimension, width);
                 const Points points = interleaved_points(coordinates, dimension);
-                expect_ends(points, place_of_all(points));
+                expect_ends(points, extent_of_all(points));
             }
         }
     }
 }
 
-TEST(Place, is_the_same_for_columns_and_members_of_structs) {
+TEST(Extent, is_the_same_for_columns_and_members_of_structs) {
     const auto coordinates = lattice_cloud(600, 3, 5);
     Points of_structs = interleaved_points(coordinates, 3);
     of_structs.dimension = 2;
-    expect_ends(of_structs, place_of_all(of_structs));
+    expect_ends(of_structs, extent_of_all(of_structs));
     const std::array<std::span<const double>, 2> columns{std::span(coordinates).first(600),
                                                          std::span(coordinates).last(600)};
     const Points of_columns = column_points(columns);
-    expect_ends(of_columns, place_of_all(of_columns));
+    expect_ends(of_columns, extent_of_all(of_columns));
 }
 
-TEST(Place, of_two_is_that_of_their_points_together) {
+TEST(Extent, of_two_is_that_of_their_points_together) {
     const auto coordinates = lattice_cloud(90, 3, 4);
     const std::span all(coordinates);
-    Place both = place_of_all(interleaved_points(all.first(120), 3));
-    join(both, place_of_all(interleaved_points(all.subspan(120), 3)), 3);
-    join(both, Place{}, 3);
+    Extent both = extent_of_all(interleaved_points(all.first(120), 3));
+    join(both, extent_of_all(interleaved_points(all.subspan(120), 3)), 3);
+    join(both, Extent{}, 3);
     EXPECT_EQ(both.count, 90);
     EXPECT_EQ(both.weight, 90);
     expect_ends(interleaved_points(all, 3), both);
 }
 
-TEST(Place, travels_as_doubles) {
+TEST(Extent, travels_as_doubles) {
     const auto coordinates = lattice_cloud(50, 2, 9);
-    const Place place = place_of(interleaved_points(coordinates, 2),
-                                 bounding_box(interleaved_points(coordinates, 2)), 12.5);
+    const Extent extent = extent_of(interleaved_points(coordinates, 2),
+                                    bounding_box(interleaved_points(coordinates, 2)), 12.5);
     std::vector<double> doubles;
-    append_place(place, 2, doubles);
-    append_place(Place{}, 2, doubles);
+    append_extent(extent, 2, doubles);
+    append_extent(Extent{}, 2, doubles);
     EXPECT_EQ(doubles.size(), 20u);
-    const std::vector<Place> places = read_places(doubles, 2);
-    ASSERT_EQ(places.size(), 2u);
-    EXPECT_EQ(places[0].count, 50);
-    EXPECT_EQ(places[0].weight, 12.5);
-    expect_ends(interleaved_points(coordinates, 2), places[0]);
-    EXPECT_EQ(places[1].count, 0);
-    Place still_empty = places[1];
-    join(still_empty, places[0], 2);
+    const std::vector<Extent> extents = read_extents(doubles, 2);
+    ASSERT_EQ(extents.size(), 2u);
+    EXPECT_EQ(extents[0].count, 50);
+    EXPECT_EQ(extents[0].weight, 12.5);
+    expect_ends(interleaved_points(coordinates, 2), extents[0]);
+    EXPECT_EQ(extents[1].count, 0);
+    Extent still_empty = extents[1];
+    join(still_empty, extents[0], 2);
     expect_ends(interleaved_points(coordinates, 2), still_empty);
 }
 

@@ -1,10 +1,10 @@
-#include "gather/spread_places_mpi.hpp"
+#include "gather/spread_extents_mpi.hpp"
 
 #include "bisection/axis_choice.hpp"
 #include "cuts/owned_cuts.hpp"
 #include "cuts/part_share.hpp"
 #include "cuts/position_order.hpp"
-#include "gather/current_parts.hpp"
+#include "gather/kept_tree.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,8 +23,8 @@ using CutWords = std::array<double, sizeof(Cut) / sizeof(double)>;
 
 /// The points below a cut and those above it, as far as cuts show: of each side the ends that face
 /// the other, the box, and as count whether there are any.
-struct FacingPlaces {
-    Place below, above;
+struct FacingExtents {
+    Extent below, above;
 };
 
 /// Calls `visit` with each of the 2 dimension (dimension + 1) doubles that tell the sides.
@@ -40,23 +40,23 @@ void for_each_double(AnyPlaces& sides, int dimension, Visit&& visit) {
     }
 }
 
-void append_facing(const FacingPlaces& sides, int dimension, std::vector<double>& doubles) {
+void append_facing(const FacingExtents& sides, int dimension, std::vector<double>& doubles) {
     for_each_double(sides, dimension, [&](double value) { doubles.push_back(value); });
 }
 
-FacingPlaces read_facing(std::span<const double> doubles, int dimension) {
-    FacingPlaces sides;
+FacingExtents read_facing(std::span<const double> doubles, int dimension) {
+    FacingExtents sides;
     auto from = doubles.begin();
     for_each_double(sides, dimension, [&](double& value) { value = *from++; });
-    for (Place* side : {&sides.below, &sides.above})
+    for (Extent* side : {&sides.below, &sides.above})
         side->count = std::isfinite(side->first[0][0]) ? 1 : 0;
     return sides;
 }
 
 template <int dimension>
 void join_sides(std::span<const double> a, std::span<const double> b, std::vector<double>& joined) {
-    FacingPlaces sides = read_facing(a, dimension);
-    const FacingPlaces others = read_facing(b, dimension);
+    FacingExtents sides = read_facing(a, dimension);
+    const FacingExtents others = read_facing(b, dimension);
     join(sides.below, others.below, dimension);
     join(sides.above, others.above, dimension);
     append_facing(sides, dimension, joined);
@@ -77,32 +77,32 @@ void for_each_above(Part part, int num_parts, Visit&& visit) {
 
 }  // namespace
 
-SpreadPlaces::SpreadPlaces(const Options& options, const Place& mine, bool may_stay, int dimension,
-                           int rank)
+SpreadExtents::SpreadExtents(const Options& options, const Extent& mine, bool may_keep,
+                             int dimension, int rank)
     : options_(options),
       mine_(mine),
-      may_stay_(may_stay),
+      may_keep_(may_keep),
       dimension_(dimension),
       butterfly_(rank, options.num_parts, joins[static_cast<std::size_t>(dimension) - 1]) {}
 
-std::optional<SpreadParts> SpreadPlaces::read(double total, bool by_count, Participant& self) {
-    self.attempt([&] { tell_places(); });
+std::optional<SpreadKeptTree> SpreadExtents::read(double total, bool by_count, Participant& self) {
+    self.attempt([&] { tell_extents(); });
     messages_.run(butterfly_, Butterfly::to_owners,
-                  {0, may_stay_ ? 0.0 : 1.0, share(total, by_count)}, self);
+                  {0, may_keep_ ? 0.0 : 1.0, share(total, by_count)}, self);
     const double imbalance = butterfly_.flags()[2];
     if (butterfly_.flags()[1] > 0) return std::nullopt;
     bool are_cut = false;
     self.attempt([&] { are_cut = decide_cuts(); });
     messages_.run(butterfly_, Butterfly::back, {0, are_cut ? 0.0 : 1.0}, self);
     if (butterfly_.flags()[1] > 0) return std::nullopt;
-    SpreadParts parts;
+    SpreadKeptTree parts;
     self.attempt([&] { parts = parts_told(); });
     parts.imbalance = imbalance;
     return parts;
 }
 
 /// What this rank holds, over what its part should weigh.
-double SpreadPlaces::share(double total, bool by_count) const {
+double SpreadExtents::share(double total, bool by_count) const {
     const double weight = by_count ? mine_.count : mine_.weight;
     const auto& sizes = options_.part_sizes;
     const double all_sizes =
@@ -112,21 +112,21 @@ double SpreadPlaces::share(double total, bool by_count) const {
     return over_ideal(weight, total, size / all_sizes);
 }
 
-void SpreadPlaces::tell_places() {
+void SpreadExtents::tell_extents() {
     std::vector<double> payload;
     for_each_above(butterfly_.rank(), options_.num_parts, [&](const Descent& at, bool is_above) {
         payload.clear();
-        append_facing({is_above ? Place{} : mine_, is_above ? mine_ : Place{}}, dimension_,
+        append_facing({is_above ? Extent{} : mine_, is_above ? mine_ : Extent{}}, dimension_,
                       payload);
         butterfly_.add(at.node, owner_of(at, options_.num_parts, options_.num_parts), payload);
     });
 }
 
 /// Answers with the cuts of the nodes that this rank owns; false where one has none.
-bool SpreadPlaces::decide_cuts() {
+bool SpreadExtents::decide_cuts() {
     bool are_cut = true;
     butterfly_.owned().for_each([&](const Record& record) {
-        const FacingPlaces sides = read_facing(record.payload, dimension_);
+        const FacingExtents sides = read_facing(record.payload, dimension_);
         const std::optional<Cut> cut = cut_of(record.key, sides.below, sides.above);
         are_cut = are_cut && cut;
         if (cut) butterfly_.answer(record.key, std::bit_cast<CutWords>(*cut));
@@ -135,9 +135,9 @@ bool SpreadPlaces::decide_cuts() {
 }
 
 /// Across the axis that a new cut would have, if one may be there, or else another long one.
-std::optional<Cut> SpreadPlaces::cut_of(std::size_t node, const Place& below,
-                                        const Place& above) const {
-    Place all = below;
+std::optional<Cut> SpreadExtents::cut_of(std::size_t node, const Extent& below,
+                                         const Extent& above) const {
+    Extent all = below;
     join(all, above, dimension_);
     const Box box = all.box();
     const AxisOrder& order = options_.axes.order;
@@ -154,9 +154,9 @@ std::optional<Cut> SpreadPlaces::cut_of(std::size_t node, const Place& below,
 }
 
 /// The cuts above the part of this rank, of the answers, which may be to others too.
-SpreadParts SpreadPlaces::parts_told() const {
+SpreadKeptTree SpreadExtents::parts_told() const {
     const int num_parts = options_.num_parts;
-    SpreadParts parts{{dimension_, num_parts, {}, {}}};
+    SpreadKeptTree parts{{dimension_, num_parts, {}, {}}};
     RecordReader answers = butterfly_.answers().read();
     for_each_above(butterfly_.rank(), num_parts, [&](const Descent& at, bool) {
         while (!answers.at_end()) {

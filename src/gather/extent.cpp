@@ -1,4 +1,4 @@
-#include "gather/place.hpp"
+#include "gather/extent.hpp"
 
 #include "cells/running_sums.hpp"
 #include "cuts/position_order.hpp"
@@ -19,7 +19,7 @@ Points range_of(const Points& points, LocalIndex first, LocalIndex last) {
 }
 
 /// Looks for the ends across `axis` of the order of the points in `box`.
-void widen(const Points& points, const Box& box, int axis, Place& place) {
+void widen(const Points& points, const Box& box, int axis, Extent& extent) {
     const auto a = static_cast<std::size_t>(axis);
     const PositionOrder is_before(axis, 1, points.dimension);
     for (LocalIndex i = 0; i < points.count; ++i) {
@@ -28,29 +28,29 @@ void widen(const Points& points, const Box& box, int axis, Place& place) {
         const Vector position = points.position(i);
         const bool is_first = value == box.lower[a];
         const bool is_last = value == box.upper[a];
-        if (is_first && (place.first[a][a] != value || is_before(position, place.first[a])))
-            place.first[a] = position;
-        if (is_last && (place.last[a][a] != value || is_before(place.last[a], position)))
-            place.last[a] = position;
+        if (is_first && (extent.first[a][a] != value || is_before(position, extent.first[a])))
+            extent.first[a] = position;
+        if (is_last && (extent.last[a][a] != value || is_before(extent.last[a], position)))
+            extent.last[a] = position;
     }
 }
 
-/// Calls `visit` with each of the doubles that make up a place.
-template <class AnyPlace, class Visit>
-void for_each_double(AnyPlace& place, int dimension, Visit&& visit) {
-    visit(place.count);
-    visit(place.weight);
+/// Calls `visit` with each of the doubles that make up an extent.
+template <class AnyExtent, class Visit>
+void for_each_double(AnyExtent& extent, int dimension, Visit&& visit) {
+    visit(extent.count);
+    visit(extent.weight);
     for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
         for (std::size_t b = 0; b < static_cast<std::size_t>(dimension); ++b) {
-            visit(place.first[a][b]);
-            visit(place.last[a][b]);
+            visit(extent.first[a][b]);
+            visit(extent.last[a][b]);
         }
     }
 }
 
 }  // namespace
 
-Box Place::box() const {
+Box Extent::box() const {
     Box box;
     for (std::size_t a = 0; a < max_dimension; ++a) {
         box.lower[a] = first[a][a];
@@ -59,11 +59,11 @@ Box Place::box() const {
     return box;
 }
 
-Place place_of(const Points& points, const Box& box, double weight) {
+Extent extent_of(const Points& points, const Box& box, double weight) {
     constexpr LocalIndex block_length = 256;
-    Place place;
-    place.count = static_cast<double>(points.count);
-    place.weight = weight;
+    Extent extent;
+    extent.count = static_cast<double>(points.count);
+    extent.weight = weight;
     // The faces of the box hold few points, and their blocks are found at the cost of its own.
     in_ranges(points.count, block_length, [&](LocalIndex first, LocalIndex last) {
         const Points block = range_of(points, first, last);
@@ -71,34 +71,34 @@ Place place_of(const Points& points, const Box& box, double weight) {
         for (int axis = 0; axis < points.dimension; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
             if (its_own.lower[a] == box.lower[a] || its_own.upper[a] == box.upper[a])
-                widen(block, box, axis, place);
+                widen(block, box, axis, extent);
         }
     });
-    return place;
+    return extent;
 }
 
-void join(Place& place, const Place& other, int dimension) {
-    place.count += other.count;
-    place.weight += other.weight;
+void join(Extent& extent, const Extent& other, int dimension) {
+    extent.count += other.count;
+    extent.weight += other.weight;
     for (int axis = 0; axis < dimension; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         const PositionOrder is_before(axis, 0, dimension);
-        place.first[a] = std::min(place.first[a], other.first[a], is_before);
-        place.last[a] = std::max(place.last[a], other.last[a], is_before);
+        extent.first[a] = std::min(extent.first[a], other.first[a], is_before);
+        extent.last[a] = std::max(extent.last[a], other.last[a], is_before);
     }
 }
 
-void append_place(const Place& place, int dimension, std::vector<double>& doubles) {
-    for_each_double(place, dimension, [&](double value) { doubles.push_back(value); });
+void append_extent(const Extent& extent, int dimension, std::vector<double>& doubles) {
+    for_each_double(extent, dimension, [&](double value) { doubles.push_back(value); });
 }
 
-std::vector<Place> read_places(std::span<const double> doubles, int dimension) {
-    std::vector<Place> places;
+std::vector<Extent> read_extents(std::span<const double> doubles, int dimension) {
+    std::vector<Extent> extents;
     for (auto from = doubles.begin(); from != doubles.end();) {
-        Place& place = places.emplace_back();
-        for_each_double(place, dimension, [&](double& value) { value = *from++; });
+        Extent& extent = extents.emplace_back();
+        for_each_double(extent, dimension, [&](double& value) { value = *from++; });
     }
-    return places;
+    return extents;
 }
 
 }  // namespace rrcb

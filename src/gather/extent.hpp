@@ -8,11 +8,11 @@
 
 namespace rrcb {
 
-/// Place and weight of the points of a rank, or of several.
+/// Extent and weight of the points of a rank, or of several.
 ///
 /// `first[a]` and `last[a]` are the ends of their positions in the order across axis a, see
 /// position_order.hpp: infinite where there are no points.
-struct Place {
+struct Extent {
     double count = 0;
     double weight = 0;
     std::array<Vector, max_dimension> first = all_at(std::numeric_limits<double>::infinity());
@@ -27,16 +27,16 @@ struct Place {
     }
 };
 
-/// Place of checked points that weigh `weight` and span `box`.
-Place place_of(const Points& points, const Box& box, double weight);
+/// Extent of checked points that weigh `weight` and span `box`.
+Extent extent_of(const Points& points, const Box& box, double weight);
 
-/// Takes in the points of another place.
-void join(Place& place, const Place& other, int dimension);
+/// Takes in the points of another extent.
+void join(Extent& extent, const Extent& other, int dimension);
 
-/// Appends a place as 2 + 2 dimension^2 doubles.
-void append_place(const Place& place, int dimension, std::vector<double>& doubles);
+/// Appends an extent as 2 + 2 dimension^2 doubles.
+void append_extent(const Extent& extent, int dimension, std::vector<double>& doubles);
 
 /// Places in the order appended.
-std::vector<Place> read_places(std::span<const double> doubles, int dimension);
+std::vector<Extent> read_extents(std::span<const double> doubles, int dimension);
 
 }  // namespace rrcb

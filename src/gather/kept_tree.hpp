@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gather/place.hpp"
+#include "gather/extent.hpp"
 
 #include <rrcb/cuts.hpp>
 #include <rrcb/options.hpp>
@@ -12,7 +12,7 @@
 namespace rrcb {
 
 /// The distribution that the ranks hold, as a bisection.
-struct CurrentParts {
+struct KeptTree {
     Cuts cuts;
     std::vector<Part> parts;           ///< of each rank's points
     std::vector<double> part_weights;  ///< by count where all weights are 0
@@ -26,10 +26,10 @@ bool is_long(const Box& box, int axis, int dimension);
 /// The cut between the points of two groups of ranks, in the middle of the gap where there is one;
 /// nothing where none may be. It divides points in one place only where `may_divide`, as those of
 /// lower ranks then are below.
-std::optional<Cut> cut_between(const Place& below, const Place& above, int axis, int dimension,
+std::optional<Cut> cut_between(const Extent& below, const Extent& above, int axis, int dimension,
                                bool plain_cuts, bool may_divide);
 
-/// Reads the places of the ranks, one each, as a bisection into the parts that the complete
+/// Reads the extents of the ranks, one each, as a bisection into the parts that the complete
 /// `options` ask for, one per rank; nothing where they are none. Not collective.
 ///
 /// The cuts give each point the part of its rank, but for those in one place that a cut divides,
@@ -40,7 +40,7 @@ std::optional<Cut> cut_between(const Place& below, const Place& above, int axis,
 /// those above it, or a long axis of what it divides. So slabs of a cube are no bisection, and a
 /// box whose sides are nearly the same is one either way. Limited cuts count across any axis, if
 /// there are places for them between the ranks.
-std::optional<CurrentParts> read_current(std::span<const Place> places, const Cuts& estimate,
-                                         const Options& options);
+std::optional<KeptTree> read_kept_tree(std::span<const Extent> extents, const Cuts& estimate,
+                                       const Options& options);
 
 }  // namespace rrcb

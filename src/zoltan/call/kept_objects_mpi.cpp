@@ -1,4 +1,4 @@
-#include "zoltan/call/rest_mpi.hpp"
+#include "zoltan/call/kept_objects_mpi.hpp"
 
 #include "collective/communicator.hpp"
 #include "search/mix.hpp"
@@ -32,22 +32,23 @@ std::uint64_t checksum_of(const Points& points, std::span<const Part> parts) {
     return sum;
 }
 
-Placed find_placed(const Objects& objects, const KeptPartition& kept, const Rest& rest, int rank) {
-    const PartMap& map = kept.map();
+Placed find_placed(const Objects& objects, const LastPartition& last, const KeptObjects& kept,
+                   int rank) {
+    const PartMap& map = last.map();
     if (!map.one_each && !objects.names_parts) return {};
     const auto count = static_cast<std::size_t>(objects.count);
     const int* named = objects.initial_parts.get();
     std::vector<Part> parts(count, rank);
     if (named != nullptr) std::copy_n(named, count, parts.begin());
     // Cuts that this rank does not know, or that divide objects in one place, put none elsewhere.
-    const bool ask_cuts = is_whole(kept.cuts()) && rest.report.details.coincident_cuts == 0 &&
-                          kept.cuts().dimension == objects.points.dimension;
+    const bool ask_cuts = is_whole(last.cuts()) && kept.report.details.coincident_cuts == 0 &&
+                          last.cuts().dimension == objects.points.dimension;
     for (std::size_t i = 0; i < count; ++i) {
         const Part part = parts[i];
         if (part < 0 || part >= map.num_parts) return {};
         const RankRange range = map.ranks_of(part);
         if (rank < range.first_rank || rank >= range.first_rank + range.count) return {};
-        if (ask_cuts && kept.part_of(objects.points.position(i).data()) != part) return {};
+        if (ask_cuts && last.part_of(objects.points.position(i).data()) != part) return {};
     }
     return {true, checksum_of(objects.points, parts)};
 }

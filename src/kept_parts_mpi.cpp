@@ -1,0 +1,74 @@
+#include "kept_parts_mpi.hpp"
+
+#include "collective/agreement_mpi.hpp"
+#include "collective/communicator.hpp"
+#include "gather/keeping.hpp"
+#include "options/stage_scope.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace rrcb {
+
+void KeptParts::prepare(const CallOptions& options, const Points& points, bool may_keep, int rank,
+                        int num_ranks, Contribution& mine) {
+    is_central_ = reads_kept_tree(options.central(), num_ranks);
+    const bool is_spread = options.is_spread() && may_keep_parts(options.parts, num_ranks);
+    if (!is_spread && !(is_central_ && may_keep)) return;
+    const Extent extent = extent_of(points, mine.summary.box, mine.summary.weight);
+    if (is_spread) {
+        extents_.emplace(options.parts, extent, may_keep, points.dimension, rank);
+    } else {
+        append_extent(extent, points.dimension, mine.extents);
+    }
+}
+
+void KeptParts::read(const Verdict& verdict, const Report& report, Participant& self) {
+    imbalance_ = verdict.kept_imbalance;
+    if (!extents_ || report.details.num_points == 0) return;
+    auto parts = extents_->read(weight_of(report), report.details.all_weights_zero, self);
+    if (!parts) return;
+    spread_ = std::move(*parts);
+    imbalance_ = spread_.imbalance;
+}
+
+bool KeptParts::are_good(double tolerance) const {
+    return keeps_at_once(imbalance_, tolerance);
+}
+
+bool KeptParts::do_as_well_as(double imbalance, const Options& options) const {
+    return is_known(imbalance_) && !is_worth_moving(imbalance_, imbalance, options);
+}
+
+void KeptParts::keep(const CallOptions& options, Decision& decision, Balance& result,
+                     Participant& self) {
+    Report& report = result.report;
+    report.kept = true;
+    report_measured(imbalance_, options.parts.imbalance_tolerance, report);
+    if (!extents_) return keep_central(options, decision, result, self);
+    agree(self);
+    std::ranges::fill(result.parts, static_cast<Part>(mpi::rank_of(self.comm)));
+    result.cuts = std::move(spread_.cuts);
+    report.part_weights.clear();
+    report.details.coincident_cuts = mpi::sum_of(spread_.num_divided, self.comm);
+}
+
+void KeptParts::keep_central(const CallOptions& options, Decision& decision, Balance& result,
+                             Participant& self) const {
+    const bool was_told = decision.verdict.keeps != 0;
+    const StageScope stage(options.parts.observer, was_told ? Stage::assignment : Stage::broadcast);
+    if (was_told) {
+        agree(self);
+    } else {
+        broadcast_kept(decision, self);
+    }
+    KeptTree& kept = decision.kept;
+    const auto rank = static_cast<std::size_t>(mpi::rank_of(self.comm));
+    std::ranges::fill(result.parts, kept.parts[rank]);
+    result.cuts = std::move(kept.cuts);
+    result.report.part_weights = std::move(kept.part_weights);
+    result.report.details.coincident_cuts = static_cast<int>(
+        std::ranges::count_if(result.cuts.tree, [](const Cut& cut) { return cut.divides != 0; }));
+}
+
+}  // namespace rrcb

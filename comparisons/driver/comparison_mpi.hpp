@@ -38,7 +38,7 @@ bool has_failures(std::span<const Comparison> comparisons);
 /// zoltan-rcb beside itself; none where it was not measured twice.
 std::optional<Noise> noise_of(const Comparison& comparison);
 
-/// table.csv, columns as README.md describes them.
+/// table.csv, columns as columns.md describes them.
 std::string table_csv(std::span<const Comparison> comparisons);
 
 /// calls.csv: what each method's call moved by MPI function, summed over the ranks.

@@ -46,7 +46,7 @@ std::vector<SimulationSummary> summarize_all(std::span<const SimulationRounds> m
 std::vector<Noise> noise_of(const std::string& scene, const SimulationRounds& none,
                             const SimulationRounds& again);
 
-/// A row of simulation.csv, columns as README.md describes them.
+/// A row of simulation.csv, columns as columns.md describes them.
 Row simulation_row(const SimulationPlan& plan, int num_ranks, const SimulationSummary& summary);
 
 /// simulation_runs.csv: one row per method and round.

@@ -1,6 +1,6 @@
 """Reads the files that the comparison driver writes, by the names of their columns.
 
-A file that is not there has no rows; rows that tell of an error are left out. README.md defines the
+A file that is not there has no rows; rows that tell of an error are left out. columns.md defines the
 columns.
 """
 

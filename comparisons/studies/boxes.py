@@ -1,47 +1,66 @@
-"""The paper's statistical domain without its random points: the boxes they are drawn from."""
+"""The paper's RRCB with and without its random points, call after call on points that stand still."""
 
 from __future__ import annotations
+
+from statistics import mean
 
 import numpy as np
 from methods import setting_of
 from results import Results
 
-AXES = ("x", "y")
+AXES = ["x", "y"]
+CALLS, FIRST = 12, 4  # each starts from the parts of the one before; those counted
 
 
-def excess_of_boxes(results: Results, workload: str, setting: str) -> float:
-    """How far the fullest part is above the mean if the boxes of mean ± k σ are bisected."""
-    cells = results.data("cells", workload)
-    points = results.data("points", workload, setting)[list(AXES)].to_numpy()
-    k = setting_of(setting)[1]
-    mean, sigma = (cells[[f"{of}_{a}" for a in AXES]].to_numpy() for of in ("mean", "sigma"))
-    weight = cells["weight"].to_numpy(float)
-    sizes = divide(mean - k * sigma, mean + k * sigma, weight, points, cells["rank"].nunique())
-    return max(sizes) * len(sizes) / len(points) - 1
+def excesses(
+    points: np.ndarray, setting: str, parts: int, random: np.random.Generator | None
+) -> float:
+    """Mean excess of the fullest part over the mean; with boxes alone if nothing is random."""
+    mesh, k, fraction = setting_of(setting)
+    owners = np.argsort(np.argsort(points[:, 0], kind="stable")) * parts // len(points)
+    found = []
+    for _ in range(CALLS):
+        cells = [cells_of(points[owners == part], int(mesh)) for part in range(parts)]
+        count, center, sigma = (np.concatenate(of) for of in zip(*cells))
+        lower, upper = center - k * sigma, center + k * sigma
+        if random is not None:
+            drawn = np.repeat(np.arange(len(count)), np.round(count * fraction).astype(int))
+            lower = upper = random.uniform(lower[drawn], upper[drawn])
+            count = np.ones(len(drawn))
+        owners = divide(lower, upper, count, points, parts)
+        found.append(np.bincount(owners, minlength=parts).max() * parts / len(points) - 1)
+    return mean(found[FIRST:])
+
+
+def cells_of(points: np.ndarray, mesh: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Count, mean and standard deviation in each non-empty cell of a mesh over the points."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    places = np.minimum(((points - low) / (high - low) * mesh).astype(int), mesh - 1)
+    _, cell, count = np.unique(places @ (mesh, 1), return_inverse=True, return_counts=True)
+    center = np.stack([np.bincount(cell, x) / count for x in points.T], axis=1)
+    square = (points - center[cell]) ** 2
+    return count, center, np.sqrt(np.stack([np.bincount(cell, x) / count for x in square.T], axis=1))
 
 
 def divide(
     lower: np.ndarray, upper: np.ndarray, weight: np.ndarray, points: np.ndarray, parts: int
-) -> list[int]:
-    """Numbers of points in each part of the bisection of evenly filled boxes."""
+) -> np.ndarray:
+    """The part of each point in the bisection of evenly filled boxes."""
     if parts == 1:
-        return [len(points)]
+        return np.zeros(len(points), int)
     axis = int(np.argmax(upper.max(axis=0) - lower.min(axis=0)))
-    low, high = lower[:, axis], upper[:, axis]
     below = parts // 2
-    cut = _quantile(low, high, weight, below / parts)
-    share = _share_below(low, high, cut)
-    sides = []
-    for is_upper, of_side in ((False, share), (True, 1 - share)):
+    cut = _quantile(lower[:, axis], upper[:, axis], weight, below / parts)
+    share = _share_below(lower[:, axis], upper[:, axis], cut)
+    is_upper, owners = points[:, axis] >= cut, np.zeros(len(points), int)
+    for side, of_side, number in ((False, share, below), (True, 1 - share, parts - below)):
         kept = of_side * weight > 0
-        ends = [lower[kept].copy(), upper[kept].copy()]
-        ends[1 - is_upper][:, axis] = (np.maximum if is_upper else np.minimum)(
-            ends[1 - is_upper][:, axis], cut
-        )
-        inside = points[(points[:, axis] >= cut) == is_upper]
-        number = parts - below if is_upper else below
-        sides += divide(*ends, (of_side * weight)[kept], inside, number)
-    return sides
+        ends = lower[kept].copy(), upper[kept].copy()
+        clip, end = (np.maximum, ends[0]) if side else (np.minimum, ends[1])
+        end[:, axis] = clip(end[:, axis], cut)
+        inside = is_upper == side
+        owners[inside] = below * side + divide(*ends, (of_side * weight)[kept], points[inside], number)
+    return owners
 
 
 def _share_below(low: np.ndarray, high: np.ndarray, cut: float) -> np.ndarray:
@@ -62,11 +81,14 @@ def _quantile(low: np.ndarray, high: np.ndarray, weight: np.ndarray, share: floa
 
 def drawn_outside(results: Results, workload: str, side: float = 1.0) -> float:
     """Share of the drawn points that lie in squares without a material point; NaN without files."""
-    drawn = results.data("statistical", workload)
-    files = sorted((results.folder / "data").glob(f"points_{workload}_*.csv"))
-    if drawn.empty or not files:
+    drawn, real = results.data("statistical", workload), material_points(results, workload)
+    if drawn.empty or not len(real):
         return float("nan")
-    real = np.loadtxt(files[0], delimiter=",", skiprows=1, usecols=(0, 1))
     squares = {tuple(square) for square in np.floor(real / side).astype(int)}
-    places = np.floor(drawn[list(AXES)].to_numpy() / side).astype(int)
+    places = np.floor(drawn[AXES].to_numpy() / side).astype(int)
     return float(np.mean([tuple(place) not in squares for place in places]))
+
+
+def material_points(results: Results, workload: str) -> np.ndarray:
+    files = sorted((results.folder / "data").glob(f"points_{workload}_*.csv"))
+    return np.loadtxt(files[0], delimiter=",", skiprows=1, usecols=(0, 1)) if files else np.empty(0)

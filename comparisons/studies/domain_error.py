@@ -119,9 +119,7 @@ def main() -> None:
     errors = errors_of(read_all(directory / "domains.csv"))
     plot.use_style()
     plot.save(draw_errors(mean_errors(errors)), directory / "domains.png")
-    text = table_of(errors) + "\n"
-    (directory / "domains.md").write_text(text)
-    print(text)
+    print(table_of(errors))
 
 
 if __name__ == "__main__":

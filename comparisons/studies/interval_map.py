@@ -1,5 +1,4 @@
-"""What rebalances and unbalance cost over the interval between rebalances, and where the choice of
-the balancer matters.
+"""What rebalances and unbalance cost over the interval between rebalances.
 
 interval_map.py DIRECTORY with the files of rrcb_intervals
 """
@@ -18,7 +17,6 @@ from matplotlib.figure import Figure
 from results import read_all
 
 REFERENCE, NONE, CONTROLLER = "zoltan-rcb", "none", "auto"
-LEAST_DIFFERENCE = 0.01  # of the ideal time, for a choice to matter
 COLUMNS = 4  # panels beside one another
 CASE = ["scene", "ranks"]
 GREY = "#666666"
@@ -27,38 +25,6 @@ GREY = "#666666"
 def predicted(best: pd.Series, every: float) -> float:
     """Overhead of linear growth: see docs/rebalancing.md."""
     return best["cost_steps"] / every + best["floor"] + best["growth"] * (every - 1) / 2
-
-
-def choices(bests: pd.DataFrame) -> pd.DataFrame:
-    """Of each method but the reference in each case what it saves, each at its best interval, and
-    whether it matters: by more than LEAST_DIFFERENCE and more than the spread of both."""
-    pairs = bests[bests["method"] != REFERENCE].merge(
-        bests[bests["method"] == REFERENCE], on=CASE, suffixes=("", "_of_reference")
-    )
-    saved = pairs["overhead_of_reference"] - pairs["overhead"]
-    is_apart = (pairs["overhead_high"] < pairs["overhead_low_of_reference"]) | (
-        pairs["overhead_low"] > pairs["overhead_high_of_reference"]
-    )
-    return pairs[["method", *CASE]].assign(
-        saved=saved, matters=is_apart & (saved.abs() > LEAST_DIFFERENCE)
-    )
-
-
-def verdicts(bests: pd.DataFrame) -> list[str]:
-    """A sentence for each method but the reference."""
-    texts = []
-    for method, rows in choices(bests).groupby("method", sort=False):
-        where, not_where = (_listed(rows[rows["matters"] == does]) for does in (True, False))
-        texts.append(
-            f"`{method}` in place of `{REFERENCE}`, each at its best interval, matters in {where};"
-            f" it does not in {not_where}."
-        )
-    return texts
-
-
-def _listed(rows: pd.DataFrame) -> str:
-    names = (f"{row.scene} on {row.ranks} ({100 * row.saved:+.2f})" for row in rows.itertuples())
-    return ", ".join(names) or "none"
 
 
 def misses(bests: pd.DataFrame) -> pd.Series:
@@ -81,20 +47,6 @@ def table_of(bests: pd.DataFrame, overheads: pd.DataFrame) -> str:
         ]
         lines.append([case[0], str(case[1]), *texts, f"{100 * none[case]:.1f}"])
     return markdown_table(lines)
-
-
-def text_of(bests: pd.DataFrame, overheads: pd.DataFrame) -> str:
-    missed = 100 * misses(bests)
-    lines = [
-        "Overhead is what rebalances and unbalance cost on the critical path, over the ideal time.",
-        f"A choice matters by more than {100 * LEAST_DIFFERENCE:g} % of that and more than the"
-        " spread of the costs; in parentheses what it saves, in % of the ideal time.\n",
-        *(f"- {text}" for text in verdicts(bests)),
-        f"- The prediction of linear growth misses the best overhead by {missed.median():.0f} % of"
-        f" it in the median, by at most {missed.max():.0f} %.\n",
-        table_of(bests, overheads),
-    ]
-    return "\n".join(lines) + "\n"
 
 
 def draw_map(bests: pd.DataFrame, overheads: pd.DataFrame) -> Figure:
@@ -121,6 +73,7 @@ def draw_map(bests: pd.DataFrame, overheads: pd.DataFrame) -> Figure:
         plot.key("its best", color=GREY, marker="o", markersize=8, markerfacecolor="none"),
         plot.key(CONTROLLER, color=GREY, marker="_", markersize=12, markeredgewidth=2),
     ]
+    figure.supxlabel("Points of a replay, counted in parts: without the noise of measured steps")
     return plot.legend_above(figure, handles)
 
 
@@ -185,9 +138,9 @@ def main() -> None:
     plot.save(draw_map(bests, overheads), directory / "intervals.png")
     steps = read_all(directory / "intervals_steps.csv")
     plot.save(draw_steps(steps), directory / "intervals_steps.png")
-    text = text_of(bests, overheads)
-    (directory / "intervals.md").write_text(text)
-    print(text)
+    missed = 100 * misses(bests)
+    print(table_of(bests, overheads))
+    print(f"Prediction / best - 1: median {missed.median():.0f} %, at most {missed.max():.0f} %")
 
 
 if __name__ == "__main__":

@@ -27,24 +27,6 @@ def moved(rows: pd.DataFrame, column: str = "moved_fraction") -> Value:
     return median_of(rows[column])
 
 
-def totals(rows: pd.DataFrame) -> list[str]:
-    """A sentence for each cube: the points that each method moves in all calls."""
-    texts = []
-    cubes = rows[rows["scene"].str.startswith("cube") & (rows["between"] == "stay")]
-    for (scene, ranks), case in cubes.groupby(CASE, sort=False):
-        counts = [
-            f"{moved(of_method, 'moved_points').text(0)} under `{method}`"
-            for method, of_method in case.groupby("method", sort=False)
-        ]
-        texts.append(
-            f"{scene} of the side a call, {ranks} ranks, {case['points'].iloc[0]} points that wait"
-            f" for the call: {case['calls'].iloc[0]} calls move {', '.join(counts)};"
-            f" {moved(case[case['method'] == REUSING], 'crossed_points').text(0)} had crossed its"
-            " cuts."
-        )
-    return texts
-
-
 def table_of(rows: pd.DataFrame, between: str) -> str:
     """Markdown: a row per case, and of each method what a call moves on average; of the one that
     starts from its last cuts what had crossed these, and over that of the one from nothing."""
@@ -61,17 +43,11 @@ def table_of(rows: pd.DataFrame, between: str) -> str:
     return markdown_table(lines)
 
 
-def text_of(rows: pd.DataFrame) -> str:
-    parts = ["\n".join(f"- {text}" for text in totals(rows))]
-    parts += [f"{title}\n\n{table_of(rows, between)}" for between, title in TITLES.items()]
-    return "\n\n".join(parts) + "\n"
-
-
 def main() -> None:
     directory = Path(sys.argv[1])
-    text = text_of(read_all(directory / "migration.csv"))
-    (directory / "migration.md").write_text(text)
-    print(text)
+    rows = read_all(directory / "migration.csv")
+    for between, title in TITLES.items():
+        print(f"{title}\n\n{table_of(rows, between)}\n")
 
 
 if __name__ == "__main__":

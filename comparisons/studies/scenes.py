@@ -1,7 +1,7 @@
 """The balance of every method in several scenes: scenes.py DIRECTORY SCENE ...
 
-DIRECTORY/<scene> has the files of a comparison. Writes scenes.md, a table of the imbalance over the
-steps, and scenes.png, its history.
+DIRECTORY/<scene> has the files of a comparison. Prints a table of the imbalance over the steps and
+writes scenes.png, its history.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ def table(scenes: dict[str, Results]) -> str:
         }
     ).fillna("")
     lines = [[f"`{method}`", *row] for method, *row in texts.itertuples()]
-    return markdown_table([["method", *scenes], *lines]) + "\n"
+    return markdown_table([["method", *scenes], *lines])
 
 
 def draw(scenes: dict[str, Results]) -> Figure:
@@ -50,10 +50,9 @@ def main() -> int:
         print(f"{directory}: no simulations of these scenes", file=sys.stderr)
         return 1
     plot.use_style()
-    (directory / "scenes.md").write_text(table(scenes))
     plot.save(draw(scenes), directory / "scenes.png")
     print(f"\nImbalance, mean over the steps (worst)\n\n{table(scenes)}")
-    print(f"Table: {directory / 'scenes.md'}\nPicture: {directory / 'scenes.png'}")
+    print(f"Picture: {directory / 'scenes.png'}")
     return 0
 
 

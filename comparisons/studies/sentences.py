@@ -70,8 +70,14 @@ def _beside_the_paper(by_case: Cases) -> str:
     if not pairs:
         return "The paper's RRCB was not measured beside a setting of RRCB at least as balanced."
     number = f"{len(means)} measured setting" + "s" * (len(means) > 1)
+    left = {
+        name: mean_of(value_of(row, "imbalance") for row in of.itertuples())
+        for name, of in rows.groupby("method", sort=False)
+    }
+    rivals = sum(name != best and not left[name].is_apart(left[best]) for name in left)
+    same = f" ({NOT_TOLD_APART} from {rivals} over the seeds)" * (rivals > 0)
     return (
-        f"Of the {number} of the paper's RRCB, {best} was the most accurate and left an imbalance"
+        f"Of the {number} of the paper's RRCB, {best} was the most accurate{same} and left an imbalance"
         f" of {_mean((paper.imbalance for paper, _ in pairs), 5)}; RRCB at least as balanced took"
         f" {_time_ratio(pairs, 'its time')} and left"
         f" {_mean((ours.imbalance for _, ours in pairs), 5)}{_of(pairs, by_case)}."

@@ -54,16 +54,6 @@ class IntervalMapTest(unittest.TestCase):
         (self.directory / name).write_text("\n".join(lines) + "\n")
         return read_all(self.directory / name)
 
-    def test_choice_matters_beyond_a_hundredth_and_the_spread(self) -> None:
-        matters = interval_map.choices(self.bests).set_index(["method", "ranks"])["matters"]
-        self.assertTrue(matters["rrcb", 4])
-        self.assertFalse(matters["rrcb-arrays", 4])
-        self.assertFalse(matters["rrcb", 8])
-        self.assertTrue(matters["rrcb-arrays", 8])
-        ours, arrays = interval_map.verdicts(self.bests)
-        self.assertIn("matters in pile on 4 (+3.00); it does not in pile on 8 (+0.85).", ours)
-        self.assertIn("matters in pile on 8 (-2.00); it does not in pile on 4 (+2.00).", arrays)
-
     def test_prediction_is_the_formula_of_the_documentation(self) -> None:
         best = self.bests.iloc[1]
         self.assertAlmostEqual(interval_map.predicted(best, 100), 0.02 + 0.001 + 0.0004 * 99 / 2)

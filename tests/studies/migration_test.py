@@ -40,11 +40,6 @@ class MigrationTest(unittest.TestCase):
             path.write_text("\n".join(lines) + "\n")
             self.rows = read_all(path)
 
-    def test_totals_are_those_of_the_cubes_whose_points_wait(self) -> None:
-        (text,) = migration.totals(self.rows)
-        self.assertIn("10 calls move 503 [500, 506] under `zoltan-rcb`, 43 [40, 46]", text)
-        self.assertIn("13 [10, 16] under `rrcb[reuse]`; 7 had crossed", text)
-
     def test_table_has_a_row_per_case(self) -> None:
         lines = migration.table_of(self.rows, "follow").splitlines()
         self.assertEqual(len(lines), 2 + 2)

@@ -13,6 +13,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "studies"))
 
 import scenes  # noqa: E402
+from results import Results  # noqa: E402
 
 HEADER = (
     "method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,worst_imbalance,front_x_m,"
@@ -52,11 +53,12 @@ class ScenesTest(unittest.TestCase):
         self.write("slope", [none, rrcb])
         self.write("beam", [none, failed])
         self.assertEqual(self.run_script("slope", "beam", "not_run"), 0)
+        found = {name: Results(self.directory / name) for name in ("slope", "beam")}
         self.assertEqual(
-            (self.directory / "scenes.md").read_text(),
+            scenes.table(found),
             "| method | slope | beam |\n|---|---|---|\n"
             "| `none` | 1.5000 (1.750) | 1.5000 (1.750) |\n"
-            "| `rrcb` | 1.0625 (1.250) |  |\n",
+            "| `rrcb` | 1.0625 (1.250) |  |",
         )
         self.assertEqual((self.directory / "scenes.png").read_bytes()[:4], b"\x89PNG")
 

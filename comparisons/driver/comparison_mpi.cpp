@@ -111,6 +111,17 @@ Row calls_row(const Comparison& comparison, const std::string& method, const std
         .add("bytes_out", count.bytes_out);
 }
 
+Row time_row(const Comparison& comparison, const std::string& method, std::size_t turn,
+             double time_ms) {
+    return Row()
+        .add("method", method)
+        .add("ranks", comparison.num_ranks)
+        .add("workload", comparison.workload)
+        .add("layout", comparison.layout)
+        .add("turn", turn)
+        .add("time_ms", time_ms);
+}
+
 Row printed_row(const Measurement& measurement, double reference_ms) {
     Row row;
     row.add("method", measurement.method);
@@ -190,6 +201,18 @@ std::string calls_csv(std::span<const Comparison> comparisons) {
         }
     }
     return csv(calls_row({}, {}, {}, {}), rows);
+}
+
+std::string call_times_csv(std::span<const Comparison> comparisons) {
+    std::vector<Row> rows;
+    for (const Comparison& comparison : comparisons) {
+        for (const Measurement& measurement : comparison.measurements) {
+            std::size_t turn = 0;
+            for (const double time_ms : measurement.times_ms)
+                rows.push_back(time_row(comparison, measurement.method, ++turn, time_ms));
+        }
+    }
+    return csv(time_row({}, {}, 0, 0), rows);
 }
 
 void print_table(std::ostream& out, const Comparison& comparison) {

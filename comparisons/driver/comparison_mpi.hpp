@@ -44,6 +44,9 @@ std::string table_csv(std::span<const Comparison> comparisons);
 /// calls.csv: what each method's call moved by MPI function, summed over the ranks.
 std::string calls_csv(std::span<const Comparison> comparisons);
 
+/// call_times.csv: every timed call; those of one turn may be compared in pairs.
+std::string call_times_csv(std::span<const Comparison> comparisons);
+
 /// table.csv for people, numbers they compare first.
 void print_table(std::ostream& out, const Comparison& comparison);
 

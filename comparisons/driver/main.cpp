@@ -112,33 +112,41 @@ struct Outcome {
     std::vector<Noise> noise;
 };
 
-std::vector<Workload> make_workloads(const Arguments& arguments, const ResultsFolder& folder,
-                                     Progress& progress, Outcome& outcome, MPI_Comm comm) {
+/// Calls `compare` with the points asked for; of a scene with its snapshots, and runs it.
+Outcome visit_workloads(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
+                        const SnapshotVisitor& compare, MPI_Comm comm) {
     if (!arguments.cloud.empty() || !arguments.file.empty() || !arguments.replay.empty()) {
-        return {make_workload(arguments, comm)};
+        compare(std::vector{make_workload(arguments, comm)});
+        return {};
     }
-    if (arguments.only == Only::calls)
-        return scene_snapshots(plan_scene(arguments, 1, comm), progress, comm);
-    SceneRuns scene = run_scene(arguments, folder, progress, comm);
-    outcome.succeeded = std::ranges::all_of(
+    if (arguments.only == Only::calls) {
+        compare(scene_snapshots(plan_scene(arguments, 1, comm), progress, comm));
+        return {};
+    }
+    const SnapshotVisitor nothing = [](std::span<const Workload>) {};
+    const SceneRuns scene = run_scene(
+        arguments, folder, progress, arguments.only == Only::simulations ? nothing : compare, comm);
+    const bool succeeded = std::ranges::all_of(
         scene.methods, [](const auto& rounds) { return rounds.runs.back().error.empty(); });
-    outcome.noise = std::move(scene.noise);
-    if (arguments.only == Only::simulations) return {};
-    return std::move(scene.snapshots);
+    return {succeeded, scene.noise};
 }
 
 /// Every method on the points asked for.
 Outcome compare_all(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
                     MPI_Comm comm) {
-    Outcome outcome;
     std::vector<Comparison> comparisons;
-    for (const Workload& workload : make_workloads(arguments, folder, progress, outcome, comm)) {
-        comparisons.push_back(compare_methods(workload, arguments, folder, progress, comm));
-        const std::optional<Noise> noise = noise_of(comparisons.back());
+    const auto compare = [&](std::span<const Workload> workloads) {
+        for (const Workload& workload : workloads)
+            comparisons.push_back(compare_methods(workload, arguments, folder, progress, comm));
+    };
+    Outcome outcome = visit_workloads(arguments, folder, progress, compare, comm);
+    for (const Comparison& comparison : comparisons) {
+        const std::optional<Noise> noise = noise_of(comparison);
         if (noise) outcome.noise.push_back(*noise);
     }
     folder.write("table.csv", [&] { return table_csv(comparisons); });
     folder.write("calls.csv", [&] { return calls_csv(comparisons); });
+    folder.write("call_times.csv", [&] { return call_times_csv(comparisons); });
     folder.write("noise.csv", [&] { return csv_of(outcome.noise, noise_row); });
     outcome.succeeded = outcome.succeeded && !has_failures(comparisons);
     return outcome;

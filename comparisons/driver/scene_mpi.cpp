@@ -4,6 +4,8 @@
 #include "partitioner_mpi.hpp"
 #include "scene_choice_mpi.hpp"
 
+#include <mpm/slope.hpp>
+
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -70,7 +72,8 @@ class SceneRounds {
     void run(int round);
 
     std::vector<SimulationRounds> rounds() && { return std::move(rounds_); }
-    std::vector<Workload> snapshots() && { return std::move(snapshots_); }
+    /// Of the first simulation of the first round.
+    const std::vector<Workload>& snapshots() const { return snapshots_; }
 
   private:
     bool has_failed(std::size_t contender) const {
@@ -89,6 +92,8 @@ class SceneRounds {
 };
 
 void SceneRounds::run(int round) {
+    progress_.start("simulations, round " + std::to_string(round + 1),
+                    static_cast<int>(all_.size()) * plan_.num_steps);
     std::vector<std::unique_ptr<TimedSimulation>> simulations;
     for (std::size_t i = 0; i < all_.size(); ++i) {
         simulations.push_back(has_failed(i) ? nullptr : start(i, round));
@@ -136,6 +141,14 @@ void print_and_write(const SimulationPlan& plan, const SceneRuns& scene,
     folder.write("history.csv", [&] { return history_csv(first_round); });
 }
 
+/// Steps until the front of the slope lies still, within 0.2 m of where it ends.
+int steps_of_failure(MPI_Comm comm) {
+    constexpr double end_of_failure_s = 5.5;
+    mpm::Scene scene = mpm::slope_scene();
+    scene.end_time = end_of_failure_s;
+    return steps_to_end(scene, comm);
+}
+
 }  // namespace
 
 SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_Comm comm) {
@@ -179,18 +192,21 @@ std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& prog
 }
 
 SceneRuns run_scene(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
-                    MPI_Comm comm) {
+                    const SnapshotVisitor& visit, MPI_Comm comm) {
     std::vector<Contender> all = contenders(arguments.methods);
-    const SimulationPlan plan = plan_scene(arguments, all.size(), comm);
+    SimulationPlan plan = plan_scene(arguments, all.size(), comm);
+    const bool is_main_job = arguments.scene == "slope" && arguments.only == Only::all;
+    if (is_main_job && arguments.steps == 0 && !arguments.quick)
+        plan.num_steps = steps_of_failure(comm);
     all.push_back(Contender(all.front()));
     const int num_rounds = arguments.only == Only::simulations
                                ? arguments.repeats
                                : std::min(arguments.repeats, max_rounds);
-    progress.start("simulations", num_rounds * static_cast<int>(all.size()) * plan.num_steps);
     SceneRounds rounds(plan, std::move(all), progress, comm);
-    for (int round = 0; round < num_rounds; ++round) rounds.run(round);
+    rounds.run(0);
+    visit(rounds.snapshots());
+    for (int round = 1; round < num_rounds; ++round) rounds.run(round);
     SceneRuns scene;
-    scene.snapshots = std::move(rounds).snapshots();
     scene.methods = std::move(rounds).rounds();
     const SimulationRounds again = std::move(scene.methods.back());
     scene.methods.pop_back();

@@ -8,6 +8,8 @@
 #include <mpi.h>
 
 #include <cstddef>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,10 +19,11 @@ namespace comparisons {
 struct SceneRuns {
     std::vector<SimulationRounds> methods;  ///< the first without rebalancing
     std::vector<Noise> noise;               ///< of that one, run twice in every round
-    /// Points at the start, middle and end of the run without rebalancing, as they lie on its
-    /// ranks: a distribution that favours no method.
-    std::vector<Workload> snapshots;
 };
+
+/// Is called with the points at the start, middle and end of the run without rebalancing, as they
+/// lie on its ranks: a distribution that favours no method.
+using SnapshotVisitor = std::function<void(std::span<const Workload> snapshots)>;
 
 /// How the scene asked for is run: the options, or what they leave to the scene. `num_runs`
 /// simulations share the space of the history. Collective over `comm`; throws Failure as
@@ -30,7 +33,7 @@ SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_
 /// Where the points lie now, as a workload of that name. Not collective.
 Workload snapshot(const std::string& name, const mpm::Simulation& simulation);
 
-/// The snapshots of SceneRuns, from a run without rebalancing alone. Collective over `comm`.
+/// The same snapshots, from a run without rebalancing alone. Collective over `comm`.
 ///
 /// Throws Failure when the simulation fails.
 std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& progress,
@@ -42,8 +45,10 @@ std::vector<std::string> snapshot_names(const mpm::Scene& scene);
 /// Runs the scene under every method that cuts along the axes, several rounds of all of them,
 /// prints and writes their times and loads. Collective over `comm`.
 ///
+/// The slope ends when its front lies still, unless steps or simulations only are asked for.
+/// `visit` is called behind the first round, so that nobody waits for all of them to see a table.
 /// Methods that vary with the seed take another one each round.
 SceneRuns run_scene(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
-                    MPI_Comm comm);
+                    const SnapshotVisitor& visit, MPI_Comm comm);
 
 }  // namespace comparisons

@@ -15,8 +15,9 @@ INTERFACES = {"rrcb": "rrcb-exact", "rrcb-arrays": "rrcb-arrays[refine=exact]"}
 ZOLTAN = "zoltan-rcb"
 
 
-def headline(rows: pd.DataFrame, rounds: pd.DataFrame) -> list[str]:
-    texts = [_call(rows), *(_exactness(rows, *names) for names in INTERFACES.items())]
+def headline(rows: pd.DataFrame, turns: pd.DataFrame, rounds: pd.DataFrame) -> list[str]:
+    """Of table.csv, call_times.csv and simulation_runs.csv."""
+    texts = [_call(rows), *(_exactness(rows, turns, *names) for names in INTERFACES.items())]
     texts = [" ".join(filter(None, texts)), _gain(rounds), _matter(rounds) or _ghosts(rows)]
     return list(filter(None, texts))
 
@@ -33,10 +34,12 @@ def _call(rows: pd.DataFrame) -> str:
     )
 
 
-def _exactness(rows: pd.DataFrame, method: str, exact: str) -> str:
-    if not (pairs := _pairs(rows, exact, method)):
+def _exactness(rows: pd.DataFrame, turns: pd.DataFrame, method: str, exact: str) -> str:
+    pairs = _pairs(rows, exact, method)
+    if not pairs or turns.empty:
         return ""
-    time = mean_of(value_of(a, "time_ms") / value_of(b, "time_ms") for a, b in pairs)
+    calls = [turns[turns["workload"] == a.workload] for a, _ in pairs]
+    time = mean_of(by_round.paired(c, c["time_ms"], exact, method, "turn") for c in calls)
     size = geometric_mean([a.bytes / b.bytes for a, b in pairs])
     return (
         f"{exact} took {_ratio(time)} the time of {method} and {in_digits(size, 3)} times its bytes,"

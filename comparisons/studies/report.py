@@ -74,7 +74,7 @@ def draw(results: Results) -> None:
 
 def comparison_report(results: Results) -> Document:
     document = Document("RRCB beside Zoltan's balancers", results.folder)
-    _begin(document, results, headline(results.table, results.rounds))
+    _begin(document, results, headline(results.table, results.turns, results.rounds))
     document.heading("Every method on the same points")
     _add_methods(document, results, results.table)
     _add_simulations(document, results.runs, "none", results.rounds)

@@ -73,6 +73,7 @@ class Results:
     table = _file("table.csv", measurements)
     noise = _file("noise.csv", pd.DataFrame)
     runs = _file("simulation.csv", simulations)
+    turns = _file("call_times.csv", pd.DataFrame)  # every timed call
     rounds = _file("simulation_runs.csv", simulations)  # the same, each round by itself
 
     @cached_property

@@ -1,5 +1,5 @@
-"""Simulations of one round take turns, so what noise there is slows all of them: they are compared
-in pairs, round by round, and never by medians over the rounds."""
+"""Simulations of one round take turns, and so do calls, so what noise there is slows all of them:
+they are compared in pairs and never by medians over the rounds."""
 
 from __future__ import annotations
 
@@ -8,9 +8,13 @@ import pandas as pd
 from intervals import Value, median_of
 
 
-def paired(rounds: pd.DataFrame, values: pd.Series, method: str, reference: str) -> Value | None:
-    """Median over the rounds of the method's value over the reference's, with its interval."""
-    found = [values[rounds["method"] == m].set_axis(_numbers(rounds, m)) for m in (method, reference)]
+def paired(
+    rounds: pd.DataFrame, values: pd.Series, method: str, reference: str, number: str = "round"
+) -> Value | None:
+    """Median over the rounds of the method's value over the reference's, with its interval. Calls
+    of one turn are paired in the same way; none where a method is not there."""
+    chosen = [rounds["method"] == m for m in (method, reference)]
+    found = [values[c].set_axis(rounds.loc[c, number]) for c in chosen]
     ratios = (found[0] / found[1]).dropna()
     ratios = ratios[np.isfinite(ratios)]
     return median_of(ratios) if len(ratios) else None
@@ -58,7 +62,3 @@ def slope_of_work(rounds: pd.DataFrame) -> Value | None:
         if len(simulated) > 2 and points.max() - points.min() > 0.01:
             slopes.append(np.polyfit(points, work, 1)[0])
     return median_of(slopes) if slopes else None
-
-
-def _numbers(rounds: pd.DataFrame, method: str) -> pd.Series:
-    return rounds.loc[rounds["method"] == method, "round"]

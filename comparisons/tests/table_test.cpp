@@ -49,6 +49,14 @@ TEST(Table, writes_the_columns_of_the_contract) {
         "\"it said \"\"no\"\"\",,,,\n");
 }
 
+TEST(Table, lists_the_calls_of_each_turn) {
+    EXPECT_EQ(call_times_csv(std::vector{comparison()}),
+              "method,ranks,workload,layout,turn,time_ms\n"
+              "zoltan-rcb,4,slope,sorted,1,4\nzoltan-rcb,4,slope,sorted,2,9\n"
+              "zoltan-rcb,4,slope,sorted,3,8\nrrcb,4,slope,sorted,1,2\n"
+              "rrcb,4,slope,sorted,2,1\nrrcb,4,slope,sorted,3,6\n");
+}
+
 TEST(Table, knows_of_failed_methods) {
     Comparison sound = comparison();
     EXPECT_TRUE(has_failures(std::vector{sound}));

@@ -62,6 +62,13 @@ ROUNDS = pd.DataFrame(
 )
 
 
+def calls(rows: pd.DataFrame) -> pd.DataFrame:
+    """Six turns of noise as in the rounds."""
+    turns = [rows.assign(turn=turn, time_ms=rows.get("time_ms", 0) * noise)
+             for turn, noise in enumerate(NOISE)]  # fmt: skip
+    return pd.concat(turns, ignore_index=True)
+
+
 class PictureTest(unittest.TestCase):
     def results(self, table: str) -> Results:
         temporary = tempfile.TemporaryDirectory()
@@ -127,7 +134,8 @@ class HeadlineTest(unittest.TestCase):
         with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:
             file.write(table)
             file.flush()
-            return headline.headline(measurements(pd.read_csv(file.name)), simulations)
+            rows = measurements(pd.read_csv(file.name))
+        return headline.headline(rows, calls(rows), simulations)
 
     def test_has_three_sentences(self) -> None:
         call, gain, matter = self.sentences(ROUNDS)

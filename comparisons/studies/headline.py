@@ -42,8 +42,8 @@ def _exactness(rows: pd.DataFrame, turns: pd.DataFrame, method: str, exact: str)
     time = mean_of(by_round.paired(c, c["time_ms"], exact, method, "turn") for c in calls)
     size = geometric_mean([a.bytes / b.bytes for a, b in pairs])
     return (
-        f"{exact} took {_ratio(time)} the time of {method} and {in_digits(size, 3)} times its bytes,"
-        f" and left {_imbalance(a for a, _ in pairs)}."
+        f"{exact} took {_ratio(time)} the time of {method} and {in_digits(size, 3)} times its"
+        f" bytes, and left {_imbalance(a for a, _ in pairs)}."
     )
 
 
@@ -57,7 +57,8 @@ def _gain(rounds: pd.DataFrame) -> str:
         if zoltan.has_interval and not zoltan.is_apart(ONE):
             most = 100 * max(1 - zoltan.low, zoltan.high - 1)
             text += f" ({NOT_TOLD_APART}: they differ by {in_digits(most, 2)} % at most)"
-        seconds = [by_round.of_method(rounds, by_round.balancing(rounds), m) for m in ("rrcb", ZOLTAN)]
+        seconds = by_round.balancing(rounds)
+        seconds = [by_round.of_method(rounds, seconds, m) for m in ("rrcb", ZOLTAN)]
         ours, theirs = (in_digits(1e3 * s.number, 3) for s in seconds)
         text += f"; all rebalances took {ours} ms against {theirs}"
     return f"{text} (pairs of {gain.count} rounds)."
@@ -78,8 +79,8 @@ def _matter(rounds: pd.DataFrame) -> str:
     steps = [in_digits(v.number / step, 2) for v in (ours, theirs)]
     often = abs(theirs.number - ours.number) / (0.01 * step)
     return (
-        f"One rebalance with all that it moves took {times[0]} under rrcb and {times[1]} under Zoltan's"
-        f" RCB, as long as {steps[0]} and {steps[1]} steps: the choice of the balancer matters by"
+        f"One rebalance with all that it moves took {times[0]} under rrcb and {times[1]} under"
+        f" Zoltan's RCB, as long as {steps[0]} and {steps[1]} steps: the choice of the balancer matters by"
         f" more than 1 % where points need one every {often:.0f} steps or more often; here rrcb made"
         f" {run.rebalances:.0f} in {run.steps:,}."
     )
@@ -105,8 +106,8 @@ def work_paragraph(rounds: pd.DataFrame) -> str:
         return ""
     points = by_round.uneven_points(rounds)
     text = (
-        f"1 % more points on the fullest rank made the steps {slope.text(2)} % longer, by lines through"
-        f" the measured times of the methods of each of {slope.count} rounds, whose mean imbalance was"
+        f"1 % more points on the fullest rank made the steps {slope.text(2)} % longer, by lines"
+        f" through the measured times of the methods of each of {slope.count} rounds, whose mean imbalance was"
         f" {points.min():.3f} to {points.max():.3f}."
     )
     if "rrcb-exact" in set(rounds["method"]):

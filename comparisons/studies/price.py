@@ -43,7 +43,7 @@ def _partitions(rows: pd.DataFrame) -> list[tuple[str, object]]:
     the default setting where it is among them."""
     groups: dict[tuple, list] = {}
     for row in rows.itertuples():
-        same = (parse(row.method)[0], row.imbalance, row.bytes) if _has_tolerance(row) else row.Index
+        same = (row.imbalance, row.bytes) if _has_tolerance(row) else row.Index
         groups.setdefault(same, []).append(row)
     found = []
     for group in groups.values():

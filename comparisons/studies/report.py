@@ -21,7 +21,6 @@ from machine import CORES, add_machine, busy_warning, shared_cores
 from parts import draw_parts
 from price import draw_price
 from results import Results, cases
-from sentences import sentences
 from simulation import draw_simulation
 from tables import ghost_table, method_table, noise_table, simulation_table
 
@@ -51,7 +50,7 @@ def main() -> int:
         " time / this method's. bytes and"
         " messages: of one call over all ranks. into root: bytes that rank 0 receives."
         " moved: weight that changes rank. ghosts: copies of points that parts need from others; a"
-        " point counts once for each other part that has a point within the radius of it. exact: no part holds more than one point above the mean."
+        " point counts once for each other part that has a point within the radius of it."
         " In brackets: intervals of 95 %; where they overlap, or that of a ratio holds 1, two"
         " methods are not told apart."
     )
@@ -77,9 +76,7 @@ def comparison_report(results: Results) -> Document:
     _begin(document, results, headline(results.table, results.turns, results.rounds))
     document.heading("Every method on the same points")
     _add_methods(document, results, results.table)
-    _add_simulations(document, results.runs, "none", results.rounds)
-    if text := work_paragraph(results.rounds):
-        document.paragraph(text)
+    _add_simulations(document, results.runs, results.rounds)
     _add_pictures(document, "parts.png", "support_mesh.png", "statistical_domain.png",
                   "unbalance_history.png", "simulation_time.png")  # fmt: skip
     return document
@@ -114,22 +111,23 @@ def _size(rows: pd.DataFrame) -> str:
     return f"{rows['points'].iloc[0]:,} points, {rows['ranks'].iloc[0]} ranks"
 
 
-def _add_simulations(
-    document: Document, runs: pd.DataFrame, reference: str, rounds: pd.DataFrame | None = None
-) -> None:
+def _add_simulations(document: Document, runs: pd.DataFrame, rounds: pd.DataFrame) -> None:
     if runs.empty:
         return
     first = runs.iloc[-1]
     caption = f"Simulations: {first['points']:,} points, {first['steps']:,} steps"
-    document.table(caption, simulation_table(runs, reference, rounds))
+    document.table(caption, simulation_table(runs, "none", rounds))
     shared = f" {first['ranks']} ranks share {CORES} cores here, so it hides unbalance."
     document.paragraph(
         "critical path: what the run would take with a core for every rank, the processor time of"
         " the slowest rank of each step and rebalance outside MPI and its messages on a network of"
-        " 1.5 µs and 12 GB/s. Ratios are medians of pairs of one round, which take turns. gain kept: of what ideal balance without cost would gain. moved: weight"
+        " 1.5 µs and 12 GB/s. Ratios are medians of pairs of one round, which take turns. gain kept: of"
+        " what ideal balance without cost would gain. moved: weight"
         " that changed rank, of all weight, in a rebalance. wall: by the clock."
         + shared * bool(first["ranks"] > CORES)
     )
+    if text := work_paragraph(rounds):
+        document.paragraph(text)
 
 
 if __name__ == "__main__":

@@ -97,7 +97,9 @@ def choice_matrix(chosen: list[Choice]) -> Rows:
     return list(table.values())
 
 
-def simulation_table(runs: pd.DataFrame, reference: str, rounds: pd.DataFrame | None = None) -> Rows:
+def simulation_table(
+    runs: pd.DataFrame, reference: str, rounds: pd.DataFrame | None = None
+) -> Rows:
     base = row_of(runs, reference)
     digits = decimals(runs["critical_path_s"], 4)
     return [

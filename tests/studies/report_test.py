@@ -1,4 +1,4 @@
-"""Chooses settings and computes sentences from small tables; writes a report and reads it."""
+"""Chooses settings and fills tables from small ones; writes a report and reads it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,6 @@ import pandas as pd  # noqa: E402
 import report  # noqa: E402
 from document import Document  # noqa: E402
 from results import is_within, measurements, simulations  # noqa: E402
-from sentences import sentences  # noqa: E402
 from tables import ghost_table, method_table, simulation_table  # noqa: E402
 
 HEADER = (
@@ -141,10 +140,6 @@ class NoiseTest(unittest.TestCase):
         self.assertEqual(cells["close"], "1.05 [0.96, 1.17], not told apart")
         self.assertEqual(cells["fast"], "2.00 [1.82, 2.22]")
 
-    def test_says_so_in_sentences(self) -> None:
-        rows = [measured("zoltan-rcb", 8, 1.0), measured("rrcb-exact", 7.6, 1.0, spread=0.1)]
-        self.assertIn("times the time (not told apart)", sentences(table(*rows))[1])
-
     def test_shows_the_sign_of_the_largest_unbalance_where_it_is_known(self) -> None:
         row = measured("a", 1, 1.2)
         for worst, text in (({}, "±20.000"), (-20.0, "-20.000"), (-0.0, "0.000")):
@@ -166,29 +161,6 @@ class NoiseTest(unittest.TestCase):
         (row,) = simulation_table(runs(run), "none")
         self.assertEqual((row["critical path s"], row["wall s"]), ("0.01235", "0.50000"))
 
-
-
-class SentencesTest(unittest.TestCase):
-    def test_compute_their_numbers(self) -> None:
-        exactness, zoltan, fewest, paper = sentences(table(*ROWS))
-        self.assertIn("2.00 times the time", exactness)
-        self.assertIn("2 times its bytes", exactness)
-        self.assertIn("4.00 times the time", zoltan)
-        self.assertIn("20 times its bytes", zoltan)
-        self.assertIn("rrcb-exact moved the fewest bytes.", fewest)
-        self.assertIn("0.50 times its time and left 1.04000", paper)
-
-    def test_name_the_method_that_moves_the_fewest_bytes(self) -> None:
-        fewest = sentences(table(*ROWS, measured("zoltan-hsfc", 9, 1.0, 50)))[2]
-        self.assertIn("zoltan-hsfc moved the fewest bytes, 0.25 times those of that RRCB", fewest)
-
-    def test_name_the_best_measured_setting_of_the_paper(self) -> None:
-        worse = measured("rrcb-sampled[mesh=2,k=1.5,fraction=0.25]", 1, 1.3)
-        paper = sentences(table(*ROWS, worse))[3]
-        self.assertIn("Of the 2 measured settings of the paper's RRCB, rrcb-sampled was", paper)
-
-    def test_are_none_without_measurements(self) -> None:
-        self.assertEqual(sentences(table()), [])
 
 
 class Tags(html.parser.HTMLParser):

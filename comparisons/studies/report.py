@@ -18,6 +18,7 @@ from domains import draw_domains, draw_support_mesh
 from headline import headline, work_paragraph
 from history import draw_history
 from machine import CORES, add_machine, busy_warning, shared_cores
+from moving_boxes import draw_moving_boxes
 from parts import draw_parts
 from price import draw_price
 from results import Results, cases
@@ -28,6 +29,7 @@ from tables import ghost_table, method_table, noise_table, simulation_table
 PICTURES = {
     "price.png": draw_price,
     "parts.png": draw_parts,
+    "moving_boxes.png": draw_moving_boxes,
     "support_mesh.png": draw_support_mesh,
     "statistical_domain.png": draw_domains,
     "unbalance_history.png": draw_history,
@@ -77,7 +79,7 @@ def comparison_report(results: Results) -> Document:
     document.heading("Every method on the same points")
     _add_methods(document, results, results.table)
     _add_simulations(document, results.runs, results.rounds)
-    _add_pictures(document, "parts.png", "support_mesh.png", "statistical_domain.png",
+    _add_pictures(document, "moving_boxes.png", "parts.png", "support_mesh.png", "statistical_domain.png",
                   "unbalance_history.png", "simulation_time.png")  # fmt: skip
     return document
 

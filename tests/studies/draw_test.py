@@ -15,6 +15,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "studies"))
 
 import history  # noqa: E402
+import moving_boxes  # noqa: E402
 import parts  # noqa: E402
 import pandas as pd  # noqa: E402
 import report  # noqa: E402
@@ -30,6 +31,7 @@ zoltan-rcb,2,2,4,2,slope-start,scene,PARTS,1,2.0,1.5,3.0,1.0,0,1,1,1,1,0,0,1,
 rrcb-exact,2,2,4,2,slope-start,scene,PARTS,1,1.0,0.5,1.5,1.0,0,1,1,1,1,0,0,0.5,
 zoltan-hsfc,2,2,4,2,slope-start,scene,PARTS,1,,,,,,,,,,,,,failed
 """
+BOXES = "part,lower_x,lower_y,upper_x,upper_y\n"
 FILES = {
     "table.csv": TABLE,
     "history.csv": """\
@@ -61,6 +63,10 @@ rank,cell,lower_x,lower_y,upper_x,upper_y,mean_x,mean_y,sigma_x,sigma_y,count
 0,0,0,0,1,1,0.5,0,0.5,0,2
 1,0,2,0,3,1,2.5,0.5,0.5,0.5,2
 """,
+    "data/boxes_slope-start_rrcb.csv": BOXES + "0,0,0,1,2\n1,1,0,2,2\n",
+    "data/boxes_slope-middle_rrcb.csv": BOXES + "0,0,0,4,2\n1,4,0,8,2\n",
+    "data/points_slope-start_rrcb.csv": "x,y,part\n0,0,0\n0,1,0\n1,1,1\n2,2,1\n",
+    "data/points_slope-middle_rrcb.csv": "x,y,part\n2,0,0\n3,1,0\n4,1,1\n8,2,1\n",
     "data/statistical_slope-start.csv": "x,y\n0.2,0\n2.7,0.4\n",
 }
 
@@ -129,6 +135,14 @@ class DrawTest(unittest.TestCase):
         self.assertEqual(self.draw(), 0)
         kept = ["holiday.png", "price.png"]
         self.assertEqual(self.pictures(), kept)
+
+    def test_shows_points_that_have_left_the_boxes_of_the_start(self) -> None:
+        self.write(*FILES)
+        figure = moving_boxes.draw_moving_boxes(self.results)
+        titles = [axes.get_title() for axes in figure.axes]
+        self.assertEqual(titles, ["start, after a call: fullest rank 1.0000 × mean",
+                                  "later, before a call: fullest rank 2.00 × mean",
+                                  "later, after a call: fullest rank 1.0000 × mean"])  # fmt: skip
 
     def test_reads_methods_that_succeeded_only(self) -> None:
         self.write("table.csv")

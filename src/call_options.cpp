@@ -36,21 +36,25 @@ void append_axes(const Descent& at, int num_regions, std::span<const int> cut_ax
     append_axes(at.upper(), num_regions / 2, cut_axes, axes);
 }
 
-double levels(int num_parts) {
-    return static_cast<double>(std::bit_width(static_cast<unsigned>(num_parts - 1)));
+/// The most levels below `at`, up to `most`, on which no node is a part.
+int full_levels(const Descent& at, int most) {
+    if (most == 0 || at.is_part()) return 0;
+    return 1 + std::min(full_levels(at.lower(), most - 1), full_levels(at.upper(), most - 1));
 }
 
-/// As many regions as the largest power of two up to central_parts and most_regions, and a
+/// As many regions as the lowest full level up to central_parts and most_regions has nodes, and a
 /// tolerance that leaves the levels below theirs. For exact cuts there is one region: rank 0 would
 /// gather a few points about each cut, and a number from each rank.
 Options region_options(const Options& parts) {
     const auto most = static_cast<unsigned>(std::min(parts.tuning.central_parts, most_regions));
     const bool is_exact = parts.refine == Refine::exact;
+    const Descent top = root_of(parts.num_parts, parts.tree);
     Options regions = parts;
-    regions.num_parts = is_exact ? 1 : static_cast<int>(std::bit_floor(most));
+    regions.tree = {};
+    regions.num_parts = is_exact ? 1 : 1 << full_levels(top, std::bit_width(most) - 1);
     if (regions.num_parts == 1) regions.refine = Refine::none;
     regions.part_sizes.clear();
-    for (const Descent& at : region_nodes(parts.num_parts, regions.num_parts)) {
+    for (const Descent& at : region_nodes(parts, regions.num_parts)) {
         const auto first = static_cast<std::size_t>(at.first_part);
         const auto count = static_cast<std::size_t>(at.num_parts);
         regions.part_sizes.push_back(
@@ -60,11 +64,12 @@ Options region_options(const Options& parts) {
     normalize(regions.part_sizes, regions.num_parts);
     if (const AxisOrder& order = parts.axes.order; order.is_given()) {
         std::vector<int> axes;
-        append_axes({0, 0, parts.num_parts}, regions.num_parts, order.axes(), axes);
+        append_axes(top, regions.num_parts, order.axes(), axes);
         regions.axes.order = AxisOrder::given(std::move(axes));
     }
+    const double levels = num_levels(regions.tree, regions.num_parts);
     regions.imbalance_tolerance =
-        std::pow(parts.imbalance_tolerance, levels(regions.num_parts) / levels(parts.num_parts));
+        std::pow(parts.imbalance_tolerance, levels / num_levels(parts.tree, parts.num_parts));
     return regions;
 }
 
@@ -89,9 +94,9 @@ std::size_t most_merged_cells(const CallOptions& options) {
     return options.is_spread() ? std::min(most, most_cells_of_regions) : most;
 }
 
-std::vector<Descent> region_nodes(int num_parts, int num_regions) {
+std::vector<Descent> region_nodes(const Options& parts, int num_regions) {
     std::vector<Descent> nodes;
-    append_region_nodes({0, 0, num_parts}, num_regions, nodes);
+    append_region_nodes(root_of(parts.num_parts, parts.tree), num_regions, nodes);
     return nodes;
 }
 

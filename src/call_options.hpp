@@ -31,7 +31,7 @@ CallOptions call_options(Options options, int num_ranks);
 /// seven others at once, receives more than 64 kB.
 std::size_t most_merged_cells(const CallOptions& options);
 
-/// Nodes of the tree of `num_parts` parts that are the regions: a full level, so a power of two.
-std::vector<Descent> region_nodes(int num_parts, int num_regions);
+/// Nodes of the tree of these parts that are the regions: a full level, so a power of two.
+std::vector<Descent> region_nodes(const Options& parts, int num_regions);
 
 }  // namespace rrcb

@@ -20,8 +20,8 @@ namespace rrcb {
 namespace {
 
 /// Gives points the number of the first part of their region, in place of its own.
-void number_as_in_tree(int num_parts, Balance& result) {
-    const std::vector<Descent> regions = region_nodes(num_parts, result.cuts.num_parts);
+void number_as_in_tree(const Options& options, Balance& result) {
+    const std::vector<Descent> regions = region_nodes(options, result.cuts.num_parts);
     for (Part& part : result.parts) part = regions[static_cast<std::size_t>(part)].first_part;
 }
 
@@ -29,6 +29,7 @@ PartTree tree_of(const Options& options, const Verdict& verdict, double weight, 
     PartTree tree;
     tree.num_parts = options.num_parts;
     tree.num_ranks = num_ranks;
+    tree.shape = options.tree;
     tree.weight = weight;
     tree.part_sizes = options.part_sizes;
     if (options.axes.order.is_given()) tree.cut_axes = options.axes.order.axes();
@@ -117,7 +118,7 @@ void Settlement::divide_regions(const BinnedPoints& binned, const Verdict& verdi
     // Not counted without points, or for one region.
     std::vector<double> weights = std::exchange(report.part_weights, {});
     self.attempt([&] { weights.resize(static_cast<std::size_t>(result.cuts.num_parts), weight); });
-    self.attempt([&] { number_as_in_tree(options.num_parts, result); });
+    self.attempt([&] { number_as_in_tree(options, result); });
     const Regions regions{std::move(result.cuts), weights, verdict.box,
                           report.details.coincident_cuts};
     Refined refined =

@@ -89,7 +89,7 @@ double SpreadReuse::measure(double total_weight, bool by_count, Participant& sel
 /// this rank, and those between regions.
 Cuts SpreadReuse::kept_cuts() const {
     if (was_whole_ && options_.parts.cuts == HeldCuts::whole)
-        return {cuts_.dimension, cuts_.num_parts, cuts_.tree};
+        return {cuts_.dimension, cuts_.num_parts, cuts_.tree, {}, cuts_.shape};
     const auto num_regions = static_cast<unsigned>(options_.central().num_parts);
     const int depth = std::bit_width(num_regions) - 1;
     std::vector<Part> needed;
@@ -97,7 +97,7 @@ Cuts SpreadReuse::kept_cuts() const {
     for (Part part = first; part < end; ++part) needed.push_back(part);
     for (const auto& [part, weight] : weights_) needed.push_back(part);
     std::ranges::sort(needed);
-    Cuts kept{cuts_.dimension, cuts_.num_parts, {}};
+    Cuts kept{cuts_.dimension, cuts_.num_parts, {}, {}, cuts_.shape};
     for (std::size_t k = 0; k < cuts_.nodes.size(); ++k) {
         const auto [at, above] = node_at(cuts_, static_cast<std::size_t>(cuts_.nodes[k]));
         const auto next = std::ranges::lower_bound(needed, at.first_part);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rrcb/points.hpp>
+#include <rrcb/tree_shape.hpp>
 
 #include <mpi.h>
 
@@ -28,8 +29,8 @@ RRCB_API bool is_above(const Cut& cut, const Vector& position, int dimension);
 
 /// The tree of a recursive bisection into `num_parts` parts.
 ///
-/// `tree` holds num_parts - 1 cuts in preorder. A node of n parts leaves `lower_parts(n)` of them,
-/// the lower numbers, below its cut. Same bits on every rank after `balance`.
+/// `tree` holds num_parts - 1 cuts in preorder. A node of n parts leaves shape.lower_parts(n) of
+/// them, the lower numbers, below its cut. Same bits on every rank after `balance`.
 ///
 /// With Options::cuts = own, if many ranks make the parts, `tree` holds only some cuts: those
 /// above the points and the parts of this rank, and `nodes` contains their numbers, also on a rank
@@ -43,6 +44,7 @@ struct Cuts {
     /// Number in preorder of each cut of `tree`, ascending, where it holds some of them only;
     /// empty: all.
     std::vector<std::int32_t> nodes{};
+    TreeShape shape{};  ///< of the whole tree
 };
 
 /// Returns true if cuts are the whole tree, the same on every rank, so that look-ups work
@@ -53,11 +55,6 @@ inline bool is_whole(const Cuts& cuts) {
 
 /// Stands for a part that the cuts do not determine.
 inline constexpr Part no_part = -1;
-
-/// Returns the number of a node's parts below its cut; `num_parts` >= 2. Not collective.
-constexpr int lower_parts(int num_parts) {
-    return num_parts / 2;
-}
 
 /// Returns the part of a position; no_part if a coordinate is NaN, or if the cuts that decide are
 /// not known.

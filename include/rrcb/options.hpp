@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rrcb/stages.hpp>
+#include <rrcb/tree_shape.hpp>
 
 #include <cstdint>
 #include <utility>
@@ -105,8 +106,9 @@ struct Options {
     Coincident coincident = Coincident::together;
     HeldCuts cuts = HeldCuts::whole;  ///< that each rank gets if many ranks make the parts
 
-    Axes axes{};      ///< that are cut, and where
-    Tuning tuning{};  ///< for experts
+    Axes axes{};       ///< that are cut, and where
+    TreeShape tree{};  ///< of the cuts; groups keep the parts of a machine together
+    Tuning tuning{};   ///< for experts
 
     StageObserver* observer = nullptr;  ///< of this rank alone, not compared; borrowed for the call
 };

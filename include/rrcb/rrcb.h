@@ -39,7 +39,7 @@ typedef struct rrcb_cut {
     double at[3];    /**< a plane at at[axis]; ties are broken by the others */
 } rrcb_cut;
 
-/** The tree of cuts, as rrcb::Cuts: num_parts - 1 of them in preorder. */
+/** The tree of cuts, as rrcb::Cuts of the default shape: num_parts - 1 of them in preorder. */
 typedef struct rrcb_cuts {
     int dimension;        /**< of the points */
     int num_parts;        /**< of the whole tree */

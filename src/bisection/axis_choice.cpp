@@ -1,9 +1,6 @@
 #include "bisection/axis_choice.hpp"
 
-#include <rrcb/cuts.hpp>
-
 #include <algorithm>
-#include <bit>
 
 namespace rrcb {
 
@@ -43,8 +40,9 @@ AxisChoice::AxisChoice(const Options& options, const Box& box, int dimension)
     : dimension_(dimension) {
     const AxisOrder& order = options.axes.order;
     if (order.is_given()) cut_axes_ = order.axes();
-    const int num_levels = std::bit_width(static_cast<unsigned>(options.num_parts - 1));
-    if (order.is_grouped()) level_axes_ = group_levels(order.axes(), box, dimension, num_levels);
+    if (order.is_grouped())
+        level_axes_ =
+            group_levels(order.axes(), box, dimension, num_levels(options.tree, options.num_parts));
 }
 
 int AxisChoice::operator()(std::size_t node, int depth, const Box& box) const {
@@ -53,17 +51,17 @@ int AxisChoice::operator()(std::size_t node, int depth, const Box& box) const {
     return longest_axis(box, dimension_, near_longest);
 }
 
-std::vector<int> AxisChoice::given(int num_parts) const {
+std::vector<int> AxisChoice::given(const Descent& root) const {
     std::vector<int> axes = cut_axes_;
-    if (axes.empty() && !level_axes_.empty()) append_given(num_parts, 0, axes);
+    if (axes.empty() && !level_axes_.empty()) append_given(root, 0, axes);
     return axes;
 }
 
-void AxisChoice::append_given(int num_parts, int depth, std::vector<int>& axes) const {
-    if (num_parts == 1) return;
+void AxisChoice::append_given(const Descent& at, int depth, std::vector<int>& axes) const {
+    if (at.is_part()) return;
     axes.push_back(level_axes_[depth]);
-    append_given(lower_parts(num_parts), depth + 1, axes);
-    append_given(num_parts - lower_parts(num_parts), depth + 1, axes);
+    append_given(at.lower(), depth + 1, axes);
+    append_given(at.upper(), depth + 1, axes);
 }
 
 }  // namespace rrcb

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "cuts/tree.hpp"
+
 #include <rrcb/options.hpp>
 #include <rrcb/points.hpp>
 
@@ -29,11 +31,11 @@ class AxisChoice {
     /// True when the axis of a cut does not depend on what it divides.
     bool is_given() const { return !cut_axes_.empty() || !level_axes_.empty(); }
 
-    /// The axes of the cuts among this many parts, in preorder; empty where they are not given.
-    std::vector<int> given(int num_parts) const;
+    /// The axes of the cuts below the root of a tree, in preorder; empty if they are not given.
+    std::vector<int> given(const Descent& root) const;
 
   private:
-    void append_given(int num_parts, int depth, std::vector<int>& axes) const;
+    void append_given(const Descent& at, int depth, std::vector<int>& axes) const;
 
     std::vector<int> cut_axes_;
     std::vector<int> level_axes_;

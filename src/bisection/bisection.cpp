@@ -37,26 +37,26 @@ Cut choose_cut(const StatisticalDomain& domain, double below, int depth, const T
     return weighted_quantile(Profile(domain, axis), below * weight, task.options.axes.plain);
 }
 
-void bisect_node(StatisticalDomain domain, std::span<const double> sizes, int depth, Task& task) {
-    if (sizes.size() == 1) {
+void bisect_node(StatisticalDomain domain, const Descent& at, int depth, Task& task) {
+    if (at.is_part()) {
         task.result.part_weights.push_back(weight_of(domain));
         return;
     }
-    const auto num_below = static_cast<std::size_t>(lower_parts(static_cast<int>(sizes.size())));
-    const double below = share_below(sizes);
+    const auto sizes = std::span(task.options.part_sizes).subspan(at.first_part, at.num_parts);
+    const double below = share_below(sizes, at.lower_parts());
     const Cut cut = choose_cut(domain, below, depth, task);
     task.result.cuts.tree.push_back(cut);
     if (task.with_brackets) task.result.brackets.push_back(bracket_of(domain, cut, below, depth));
     Halves halves = split_domain(domain, cut);
     domain.patches = {};
-    bisect_node(std::move(halves.lower), sizes.first(num_below), depth + 1, task);
-    bisect_node(std::move(halves.upper), sizes.subspan(num_below), depth + 1, task);
+    bisect_node(std::move(halves.lower), at.lower(), depth + 1, task);
+    bisect_node(std::move(halves.upper), at.upper(), depth + 1, task);
 }
 
 }  // namespace
 
-double share_below(std::span<const double> sizes) {
-    const auto middle = sizes.begin() + lower_parts(static_cast<int>(sizes.size()));
+double share_below(std::span<const double> sizes, int num_below) {
+    const auto middle = sizes.begin() + num_below;
     const double below = std::accumulate(sizes.begin(), middle, 0.0);
     const double all = below + std::accumulate(middle, sizes.end(), 0.0);
     return all > 0 ? below / all : 0;
@@ -70,7 +70,8 @@ Bisection bisect(StatisticalDomain domain, const Options& options, bool with_bra
     Task task{options, {options, extent_of(domain), domain.dimension}, with_brackets, {}};
     task.result.cuts.dimension = domain.dimension;
     task.result.cuts.num_parts = options.num_parts;
-    bisect_node(std::move(domain), options.part_sizes, 0, task);
+    task.result.cuts.shape = options.tree;
+    bisect_node(std::move(domain), root_of(task.result.cuts), 0, task);
     return std::move(task.result);
 }
 

@@ -72,10 +72,9 @@ struct Task {
     bool with_brackets;
     Bisection result;
 
-    std::span<const double> sizes_of(const Descent& at) const {
-        return std::span(options.part_sizes)
-            .subspan(static_cast<std::size_t>(at.first_part),
-                     static_cast<std::size_t>(at.num_parts));
+    double share_below(const Descent& at) const {
+        const std::span sizes(options.part_sizes);
+        return rrcb::share_below(sizes.subspan(at.first_part, at.num_parts), at.lower_parts());
     }
 };
 
@@ -102,8 +101,7 @@ Trial trial_at(const StatisticalDomain& domain, const Way& way, double target, c
 
 Trial trial_across(const Piece& piece, const Way& way, const Task& task) {
     const double weight = weight_of(piece.domain);
-    if (weight > 0)
-        return trial_at(piece.domain, way, share_below(task.sizes_of(piece.at)) * weight, task);
+    if (weight > 0) return trial_at(piece.domain, way, task.share_below(piece.at) * weight, task);
     const double middle = way.places.first / 2 + way.places.last / 2;
     const AxisLimits& limits = task.limits.across(way.axis);
     return trial_in(piece.domain, way.axis,
@@ -114,7 +112,7 @@ Trial trial_across(const Piece& piece, const Way& way, const Task& task) {
 Cut cut_in_places(const Piece& piece, int preferred, const Box& extent, Task& task) {
     constexpr double bearable = 0.005;
     const double weight = weight_of(piece.domain);
-    const double share = share_below(task.sizes_of(piece.at));
+    const double share = task.share_below(piece.at);
     const double lighter = std::min(share, 1 - share) * weight;
     Trial best{};
     double least = infinity;
@@ -133,7 +131,7 @@ Cut choose_cut(const Piece& piece, Task& task) {
     const Box extent = extent_of(piece.domain);
     const int axis = task.axis_of(piece.at.node, piece.depth, extent);
     if (task.limits.divides(piece.at)) return cut_in_places(piece, axis, extent, task);
-    return plane(axis, share_below(task.sizes_of(piece.at)) > 0 ? infinity : -infinity);
+    return plane(axis, task.share_below(piece.at) > 0 ? infinity : -infinity);
 }
 
 void bisect_piece(Piece piece, Task& task) {
@@ -145,7 +143,7 @@ void bisect_piece(Piece piece, Task& task) {
     task.result.cuts.tree.push_back(cut);
     Halves halves = split_domain(piece.domain, cut);
     if (task.with_brackets) {
-        const double below = share_below(task.sizes_of(piece.at));
+        const double below = task.share_below(piece.at);
         task.result.brackets.push_back(bracket_of(piece.domain, cut, below, piece.depth));
     }
     piece.domain.patches = {};
@@ -175,13 +173,14 @@ Bisection bisect_within(const Box& points, StatisticalDomain domain, const Optio
                         bool with_brackets) {
     const int dimension = domain.dimension;
     const AxisChoice axis_of(options, points, dimension);
+    const Descent root = root_of(options.num_parts, options.tree);
     Task task{options,
               axis_of,
-              {options, points, dimension, {axis_of.given(options.num_parts), {}}},
+              {options, points, dimension, {axis_of.given(root), {}}},
               with_brackets,
-              {{dimension, options.num_parts, {}}, {}, {}}};
+              {{dimension, options.num_parts, {}, {}, options.tree}, {}, {}}};
     task.limits.require_room();
-    bisect_piece({std::move(domain), root_of(task.result.cuts), task.limits.region(), 0}, task);
+    bisect_piece({std::move(domain), root, task.limits.region(), 0}, task);
     return std::move(task.result);
 }
 

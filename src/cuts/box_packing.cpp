@@ -31,18 +31,17 @@ int least_number(int first, int last, Holds&& holds) {
 
 }  // namespace
 
-BoxPacking::BoxPacking(std::span<const double> sizes)
+BoxPacking::BoxPacking(std::span<const double> sizes, const TreeShape& shape)
     : shapes_{{}, {empty, empty, 1, 0}}, shape_of_node_(sizes.size() - 1) {
     shape_of_part_.reserve(sizes.size());
-    add_node(sizes, 0);
+    add_node(sizes, root_of(static_cast<int>(sizes.size()), shape));
 }
 
-std::size_t BoxPacking::add_node(std::span<const double> sizes, std::size_t first_node) {
-    if (sizes.size() == 1) return shape_of_part_.emplace_back(sizes[0] > 0 ? single : empty);
-    const auto num_below = static_cast<std::size_t>(lower_parts(static_cast<int>(sizes.size())));
-    const std::size_t lower = add_node(sizes.first(num_below), first_node + 1);
-    const std::size_t upper = add_node(sizes.subspan(num_below), first_node + num_below);
-    return shape_of_node_[first_node] = shape_with(lower, upper);
+std::size_t BoxPacking::add_node(std::span<const double> sizes, const Descent& at) {
+    if (at.is_part()) return shape_of_part_.emplace_back(sizes[at.first_part] > 0 ? single : empty);
+    const std::size_t lower = add_node(sizes, at.lower());
+    const std::size_t upper = add_node(sizes, at.upper());
+    return shape_of_node_[at.node] = shape_with(lower, upper);
 }
 
 std::size_t BoxPacking::shape_with(std::size_t lower, std::size_t upper) {
@@ -106,12 +105,12 @@ int BoxPacking::shared_length(const Shape& shape, int width, int height) {
     return crossing > 1 ? std::min(longer(crossing), longer(crossing - 1)) : longer(crossing);
 }
 
-int most_parts(const Room& room, int most) {
+int most_parts(const Room& room, const TreeShape& shape, int most) {
     std::int64_t units = 1;
     for (const int count : room) units = std::min<std::int64_t>(units * count, most);
     const auto too_many = [&](int num_parts) {
         const std::vector<double> sizes(static_cast<std::size_t>(num_parts), 1.0);
-        return !BoxPacking(sizes).fits({0, 0, num_parts}, room);
+        return !BoxPacking(sizes, shape).fits(root_of(num_parts, shape), room);
     };
     return least_number(1, static_cast<int>(units), too_many) - 1;
 }

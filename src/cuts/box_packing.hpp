@@ -17,11 +17,11 @@ using Room = std::array<int, max_dimension>;
 /// The room along an axis is divided by a cut across it: i units lie below, the others above. A
 /// node fits when there is an axis and a division that fit both children; more room never harms,
 /// so there is a least room along one axis for what there is along the others. Found by recursion
-/// over the shapes of nodes: two per level, where no part has size 0.
+/// over the shapes of nodes: two per level of halving, if no part has size 0.
 class BoxPacking {
   public:
     /// Of the tree that bisects parts of these relative sizes; those of size 0 take no room.
-    explicit BoxPacking(std::span<const double> sizes);
+    BoxPacking(std::span<const double> sizes, const TreeShape& shape);
 
     int num_parts(const Descent& at) const { return shapes_[shape_of(at)].num_parts; }
 
@@ -41,7 +41,7 @@ class BoxPacking {
     static constexpr std::size_t empty = 0;
     static constexpr std::size_t single = 1;
 
-    std::size_t add_node(std::span<const double> sizes, std::size_t first_node);
+    std::size_t add_node(std::span<const double> sizes, const Descent& at);
     std::size_t shape_with(std::size_t lower, std::size_t upper);
     std::size_t shape_of(const Descent& at) const;
     bool fits(std::size_t shape, const Room& room);
@@ -55,7 +55,7 @@ class BoxPacking {
     std::map<std::array<std::size_t, 3>, int> lengths_;  ///< found so far
 };
 
-/// The most parts of equal size, up to `most`, that there is room for.
-int most_parts(const Room& room, int most);
+/// The most parts of equal size, up to `most`, that there is room for in a tree of this shape.
+int most_parts(const Room& room, const TreeShape& shape, int most);
 
 }  // namespace rrcb

@@ -33,8 +33,8 @@ CutLimits::CutLimits(const Options& options, const Box& points, int dimension, G
     : axes_(axis_limits(options)),
       region_(points),
       dimension_(dimension),
-      whole_{0, 0, static_cast<int>(options.part_sizes.size())},
-      packing_(options.part_sizes),
+      whole_(root_of(static_cast<int>(options.part_sizes.size()), options.tree)),
+      packing_(options.part_sizes, options.tree),
       given_(std::move(given)),
       limiting_(options.axes.grid.empty()        ? "axes.min_width leaves"
                 : options.axes.min_width.empty() ? "axes.grid leaves"
@@ -71,7 +71,7 @@ void CutLimits::require_room() {
     const Room room = room_in(region_, num_parts);
     const std::string limited(limiting_);
     if (given_.axes.empty())
-        reject(limited + " room for " + std::to_string(most_parts(room, num_parts)) +
+        reject(limited + " room for " + std::to_string(most_parts(room, whole_.shape, num_parts)) +
                " parts, but " + std::to_string(num_parts) + " are asked for");
     std::string side_by_side;
     for (int axis = 0; axis < dimension_; ++axis)

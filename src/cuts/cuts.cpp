@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -80,6 +81,14 @@ void reject_unknown() {
         "all "
         "ranks for the parts of points (rrcb_assign_all in C), or gather_cuts(cuts, comm) before "
         "look-ups of any kind (rrcb_gather_cuts in C), or balance with Options::cuts = whole");
+}
+
+int num_levels(const TreeShape& shape, int num_parts) {
+    const auto halvings = [](int number) {
+        return std::bit_width(static_cast<unsigned>(number - 1));
+    };
+    const int in_group = std::min(shape.group_size, num_parts);
+    return halvings((num_parts - 1) / shape.group_size + 1) + halvings(in_group);
 }
 
 Descent descend(const Cuts& cuts, const Vector& position, Descent at) {

@@ -35,8 +35,11 @@ Cuts gather_cuts(const Cuts& cuts, Participant& self) {
         bits_of_cuts = bits_of(cuts);
         whole = is_whole(cuts)
                     ? cuts
-                    : Cuts{cuts.dimension, cuts.num_parts,
-                           std::vector<Cut>(static_cast<std::size_t>(cuts.num_parts) - 1)};
+                    : Cuts{cuts.dimension,
+                           cuts.num_parts,
+                           std::vector<Cut>(static_cast<std::size_t>(cuts.num_parts) - 1),
+                           {},
+                           cuts.shape};
         if (!is_whole(cuts))
             for_each_owned(cuts, mpi::rank_of(self.comm), mpi::size_of(self.comm),
                            [&](std::size_t node, const Cut& cut) { whole.tree[node] = cut; });

@@ -13,20 +13,29 @@ struct Descent {
     std::size_t node = 0;
     Part first_part = 0;
     int num_parts = 1;
+    TreeShape shape{};
 
     bool is_part() const { return num_parts == 1; }
-    Descent lower() const { return {node + 1, first_part, lower_parts(num_parts)}; }
+    int lower_parts() const { return shape.lower_parts(num_parts); }
+    Descent lower() const { return {node + 1, first_part, lower_parts(), shape}; }
     Descent upper() const {
-        const int below = lower_parts(num_parts);
-        return {node + static_cast<std::size_t>(below), first_part + below, num_parts - below};
+        const int below = lower_parts();
+        return {node + static_cast<std::size_t>(below), first_part + below, num_parts - below,
+                shape};
     }
-    bool is_above(Part part) const { return part >= first_part + lower_parts(num_parts); }
+    bool is_above(Part part) const { return part >= first_part + lower_parts(); }
     Descent towards(Part part) const { return is_above(part) ? upper() : lower(); }
 };
 
-inline Descent root_of(const Cuts& cuts) {
-    return {0, 0, cuts.num_parts};
+inline Descent root_of(int num_parts, const TreeShape& shape) {
+    return {0, 0, num_parts, shape};
 }
+inline Descent root_of(const Cuts& cuts) {
+    return root_of(cuts.num_parts, cuts.shape);
+}
+
+/// Levels of cuts that lead to the parts of a node.
+int num_levels(const TreeShape& shape, int num_parts);
 
 /// The cut of a node; null where the tree is not whole and does not hold it.
 inline const Cut* find_cut(const Cuts& cuts, std::size_t node) {

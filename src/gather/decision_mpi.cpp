@@ -187,6 +187,7 @@ void make_buffers(Decision& decision, const Options& options, int dimension, boo
     Bisection& bisection = decision.bisection;
     bisection.cuts.dimension = dimension;
     bisection.cuts.num_parts = static_cast<int>(num_parts);
+    bisection.cuts.shape = options.tree;
     bisection.cuts.tree.resize(num_cuts);
     bisection.brackets.resize(is_refined(options) ? num_cuts : 0);
     if (may_keep) {

@@ -35,9 +35,9 @@ void fit(const Options& options, const Descent& at, Cut& cut) {
     const auto axis = static_cast<std::size_t>(cut.axis);
     double value = cut.at[axis];
     if (!options.part_sizes.empty()) {
-        const double share = share_below(std::span(options.part_sizes)
-                                             .subspan(static_cast<std::size_t>(at.first_part),
-                                                      static_cast<std::size_t>(at.num_parts)));
+        const std::span sizes(options.part_sizes);
+        const double share =
+            share_below(sizes.subspan(at.first_part, at.num_parts), at.lower_parts());
         if (share <= 0) value = -infinity;
         if (share >= 1) value = infinity;
     }

@@ -67,12 +67,10 @@ constexpr std::array<Butterfly::Join, max_dimension> joins{join_sides<1>, join_s
 
 /// Calls visit(node, is_above) for each node with a cut above a part; the keys ascend.
 template <class Visit>
-void for_each_above(Part part, int num_parts, Visit&& visit) {
-    for (Descent at{0, 0, num_parts}; !at.is_part();) {
-        const bool is_above = part >= at.upper().first_part;
-        visit(at, is_above);
-        at = is_above ? at.upper() : at.lower();
-    }
+void for_each_above(Part part, const Options& options, Visit&& visit) {
+    for (Descent at = root_of(options.num_parts, options.tree); !at.is_part();
+         at = at.towards(part))
+        visit(at, at.is_above(part));
 }
 
 }  // namespace
@@ -114,7 +112,7 @@ double SpreadExtents::share(double total, bool by_count) const {
 
 void SpreadExtents::tell_extents() {
     std::vector<double> payload;
-    for_each_above(butterfly_.rank(), options_.num_parts, [&](const Descent& at, bool is_above) {
+    for_each_above(butterfly_.rank(), options_, [&](const Descent& at, bool is_above) {
         payload.clear();
         append_facing({is_above ? Extent{} : mine_, is_above ? mine_ : Extent{}}, dimension_,
                       payload);
@@ -155,10 +153,9 @@ std::optional<Cut> SpreadExtents::cut_of(std::size_t node, const Extent& below,
 
 /// The cuts above the part of this rank, of the answers, which may be to others too.
 SpreadKeptTree SpreadExtents::parts_told() const {
-    const int num_parts = options_.num_parts;
-    SpreadKeptTree parts{{dimension_, num_parts, {}, {}}};
+    SpreadKeptTree parts{{dimension_, options_.num_parts, {}, {}, options_.tree}};
     RecordReader answers = butterfly_.answers().read();
-    for_each_above(butterfly_.rank(), num_parts, [&](const Descent& at, bool) {
+    for_each_above(butterfly_.rank(), options_, [&](const Descent& at, bool) {
         while (!answers.at_end()) {
             const Record answer = answers.next();
             if (answer.key != at.node) continue;

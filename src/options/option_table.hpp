@@ -127,8 +127,8 @@ constexpr Choice choice_of(const Word (&words)[num_words]) {
 std::vector<double> values_of_part_sizes(const Options& options);
 void check_part_sizes(const Options& options, int dimension);
 
-std::vector<double> values_of_axes(const Options& options);
-void check_axes(const Options& options, int dimension);
+std::vector<double> values_of_tree(const Options& options);
+void check_tree_options(const Options& options, int dimension);
 
 std::vector<double> min_width_of(const Options& options);
 bool set_min_width(Options& options, const std::vector<double>& numbers);
@@ -148,8 +148,8 @@ inline constexpr Option option_table[] = {
     {"tuning.support_mesh", "RRCB_SUPPORT_MESH", "Cells per axis of each rank's support mesh",
      Range<int>{field<&Options::tuning, &Tuning::support_mesh>, 1, 4096, false, 256,
                 " cells per axis", "as many as suit the points of the rank"}},
-    {"one of axes.order, axes.plain, axes.min_width, axes.grid", "",
-     "Which axes are cut, and where", Lists{values_of_axes, check_axes}},
+    {"one of tree, axes.order, axes.plain, axes.min_width, axes.grid", "",
+     "Which tree of cuts, across which axes, and where", Lists{values_of_tree, check_tree_options}},
     {"axes.min_width", "RRCB_MIN_WIDTH", "Least extent of every part along each axis",
      Rows{min_width_of, check_min_width, set_min_width, 1, "a number above 0 for each axis",
           "0.1 0.1"}},

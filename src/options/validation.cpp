@@ -43,7 +43,7 @@ void check_weights(const Points& points) {
 /// Whether the tree holds all of its cuts, or some and their numbers.
 bool has_its_cuts(const Cuts& cuts) {
     const std::vector<std::int32_t>& nodes = cuts.nodes;
-    if (cuts.num_parts < 1) return false;
+    if (cuts.num_parts < 1 || cuts.shape.group_size < 1) return false;
     if (is_whole(cuts)) return cuts.tree.size() + 1 == static_cast<std::size_t>(cuts.num_parts);
     return nodes.size() == cuts.tree.size() && nodes.front() >= 0 &&
            nodes.back() < cuts.num_parts - 1 &&
@@ -97,7 +97,8 @@ void check_part_sizes(const Options& options, int) {
     require(sum > 0 && std::isfinite(sum), "part_sizes must have a positive, finite sum");
 }
 
-void check_axes(const Options& options, int dimension) {
+void check_tree_options(const Options& options, int dimension) {
+    require(options.tree.group_size >= 1, "tree.group_size must be at least 1");
     const AxisOrder& order = options.axes.order;
     if (order.is_grouped()) check_grouped(order.axes(), dimension);
     if (order.is_given()) check_given(order.axes(), options.num_parts, dimension);
@@ -164,8 +165,8 @@ void check_grid(const Options& options, int dimension) {
 
 void check_previous(const Cuts& previous, const Options& options, int dimension) {
     require(previous.dimension == dimension && previous.num_parts == options.num_parts &&
-                has_its_cuts(previous),
-            "previous cuts must have the dimension and number of parts asked for");
+                previous.shape == options.tree && has_its_cuts(previous),
+            "previous cuts must have the dimension, number of parts and shape of tree asked for");
     require(cross_axes_at_numbers(previous),
             "previous cuts must cross axes of the points at numbers");
 }

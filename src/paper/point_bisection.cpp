@@ -67,10 +67,10 @@ void bisect_node(std::span<MassPoint> points, std::span<const double> sizes, Tas
         task.result.part_weights.push_back(weight_of(points));
         return;
     }
-    const auto num_parts_below =
-        static_cast<std::size_t>(lower_parts(static_cast<int>(sizes.size())));
+    const int num_parts_below = TreeShape{}.lower_parts(static_cast<int>(sizes.size()));
     Cut cut;
-    const std::size_t num_below = cut_points(points, share_below(sizes), task, cut);
+    const std::size_t num_below =
+        cut_points(points, share_below(sizes, num_parts_below), task, cut);
     task.result.cuts.tree.push_back(cut);
     bisect_node(points.first(num_below), sizes.first(num_parts_below), task);
     bisect_node(points.subspan(num_below), sizes.subspan(num_parts_below), task);

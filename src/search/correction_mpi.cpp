@@ -18,9 +18,9 @@ constexpr int most_parts_at_once = 128;
 
 }  // namespace
 
-Correction::Correction(int num_parts, bool is_root) {
+Correction::Correction(int num_parts, const TreeShape& shape, bool is_root) {
     if (num_parts > most_parts_at_once) return;
-    const SlabTotals most = most_slabs(num_parts);
+    const SlabTotals most = most_slabs(num_parts, shape);
     slabs_.resize(most.moving);
     here_ = std::make_unique_for_overwrite<double[]>(most.counts + 1);
     if (is_root) joined_ = std::make_unique_for_overwrite<double[]>(most.counts + 1);

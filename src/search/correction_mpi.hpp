@@ -16,7 +16,7 @@ namespace rrcb {
 class Correction {
   public:
     /// Not collective. Throws std::bad_alloc.
-    Correction(int num_parts, bool is_root);
+    Correction(int num_parts, const TreeShape& shape, bool is_root);
 
     /// Moves `cuts`, whose parts are too uneven, until these are within the tolerance, as counted;
     /// or until that gets on no further. Returns in how many rounds, 0 where nothing was moved.

@@ -18,13 +18,14 @@ Refinement::Refinement(const Options& options, const Participant& self, PartSums
       sums_(sums),
       rounds_(mpi::rank_of(self.comm), mpi::size_of(self.comm), Butterfly::Way::central) {
     tree_.num_parts = options.num_parts;
+    tree_.shape = options.tree;
     tree_.num_ranks = mpi::size_of(self.comm);
     tree_.part_sizes = options.part_sizes;
     tree_.plain_cuts = options.axes.plain;
     tree_.divides_coincident = options.coincident == Coincident::divide;
     tree_.limits = axis_limits(options);
     if (options.refine != Refine::exact && !are_cuts_limited(options))
-        correction_.emplace(options.num_parts, rounds_.rank() == root);
+        correction_.emplace(options.num_parts, options.tree, rounds_.rank() == root);
 }
 
 Refined Refinement::refine(Estimate&& estimate, const Points& points, const Bin& bin,

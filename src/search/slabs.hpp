@@ -34,7 +34,7 @@ struct SlabTotals {
 };
 
 /// The most that slabs of a tree of so many parts need.
-SlabTotals most_slabs(int num_parts);
+SlabTotals most_slabs(int num_parts, const TreeShape& shape);
 
 /// Slabs of all cuts, into `slabs` (length of the tree), by what the parts were counted to weigh
 /// and where brackets expect how much weight about the cuts.

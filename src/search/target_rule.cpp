@@ -4,7 +4,6 @@
 #include "cuts/part_share.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -27,11 +26,6 @@ double attainable_tolerance(std::span<const double> sizes, const TargetRule& rul
     const double smallest = smallest_weight(sizes, rule);
     const double points = std::floor(rule.tolerance * smallest / rule.common_weight);
     return std::max(1.0, points * rule.common_weight / smallest);
-}
-
-/// Levels of cuts that lead to `num_parts` parts.
-int num_levels(int num_parts) {
-    return std::bit_width(static_cast<unsigned>(num_parts - 1));
 }
 
 }  // namespace
@@ -69,8 +63,8 @@ bool TargetRule::may_stay(const Descent& at, std::span<const double> part_weight
 /// within the tolerance: the more levels there are, the more of it is left to these, up to half.
 double TargetRule::most_weight(const Descent& at) const {
     const auto sizes = sizes_of(at);
-    const int all_levels = num_levels(static_cast<int>(part_sizes.size()));
-    const double left_below = num_levels(at.num_parts) / (2.0 * all_levels);
+    const int all_levels = num_levels(at.shape, static_cast<int>(part_sizes.size()));
+    const double left_below = num_levels(at.shape, at.num_parts) / (2.0 * all_levels);
     const double excess = (attainable_tolerance(sizes, *this) - 1) * (1 - left_below);
     return weight_per_size * sum_of(sizes) * (1 + excess);
 }
@@ -96,7 +90,7 @@ CutTarget TargetRule::nearest_target(const Descent& at, double weight, double be
 }
 
 double TargetRule::share_below(const Descent& at) const {
-    return rrcb::share_below(sizes_of(at));
+    return rrcb::share_below(sizes_of(at), at.lower_parts());
 }
 
 CutTarget TargetRule::target_of(const Descent& at, double weight, double below) const {
@@ -114,7 +108,7 @@ CutTarget TargetRule::target_of(const Descent& at, double weight, double below) 
     // A part may end up too heavy by the tolerance in all. What is left of it at this node is
     // shared evenly with the levels below, as factors.
     const double ideal = weight_per_size * sum_of(sizes);
-    const int levels = num_levels(at.num_parts);
+    const int levels = num_levels(at.shape, at.num_parts);
     const double growth =
         std::pow(attainable_tolerance(sizes, *this) * ideal / weight, 1.0 / levels);
     target.slack = std::max(target.slack, of_both * (growth - 1) * weight);

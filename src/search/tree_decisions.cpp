@@ -126,11 +126,11 @@ CutTarget TreeSearch::target_of(const Node& node, double weight) const {
     }
     TargetRule rule = tree_.rule;
     // Of equal parts an exact cut asks only for how many are on each side.
-    const int below = lower_parts(at.num_parts);
+    const int below = at.lower_parts();
     const std::array<double, 2> sides{1.0 * below, 1.0 * (at.num_parts - below)};
     const bool by_sides = tree_.part_sizes.empty() && rule.is_exact;
     rule.part_sizes = by_sides ? std::span<const double>(sides) : sizes_of(at);
-    return rule.target_of({0, 0, static_cast<int>(rule.part_sizes.size())}, weight);
+    return rule.target_of(root_of(static_cast<int>(rule.part_sizes.size()), tree_.shape), weight);
 }
 
 /// Moves a search on by the records of all ranks, of which some have points left to it.

@@ -55,16 +55,17 @@ TreeSearch::TreeSearch(const PartTree& tree, int rank, const Regions& regions,
     first_own_ = own.first;
     end_own_ = own.end;
     tree_.rule.weight_per_size = tree.weight / all_sizes_;
-    // A region has one part more than another at most.
-    const auto most_parts = static_cast<std::size_t>(tree.num_parts / regions.cuts.num_parts) + 1;
+    Descent largest = root_of(tree.num_parts, tree.shape);
+    for (int left = regions.cuts.num_parts; left > 1; left /= 2)
+        largest = std::ranges::max(largest.lower(), largest.upper(), {}, &Descent::num_parts);
     if (tree.part_sizes.empty() && tree.ones.empty() && !tree.rule.is_exact) {
-        ones_.assign(most_parts, 1.0);
+        ones_.assign(largest.num_parts, 1.0);
         tree_.ones = ones_;
     }
     std::vector<Fragment> fragments = cell_fragments(points_);
     for (Fragment& fragment : fragments) fragment.box = box_of(fragment, points_);
-    enter_region(regions, root_of(regions.cuts), {0, 0, tree.num_parts}, std::move(fragments),
-                 regions.box);
+    enter_region(regions, root_of(regions.cuts), root_of(tree.num_parts, tree.shape),
+                 std::move(fragments), regions.box);
 }
 
 TreeSearch::TreeSearch(const PartTree& tree, int rank, const Guide& guide, SortedPoints&& points,
@@ -88,8 +89,8 @@ int TreeSearch::owner_of(const Descent& at) const {
 }
 
 double TreeSearch::share_below(const Descent& at) const {
-    if (tree_.part_sizes.empty()) return 1.0 * lower_parts(at.num_parts) / at.num_parts;
-    return rrcb::share_below(sizes_of(at));
+    if (tree_.part_sizes.empty()) return 1.0 * at.lower_parts() / at.num_parts;
+    return rrcb::share_below(sizes_of(at), at.lower_parts());
 }
 
 /// Sizes of the parts of a node; of equal ones to a tolerance only.
@@ -286,7 +287,7 @@ CutSearch TreeSearch::first_search(const Descent& at, const Box& box, double wei
 Cuts TreeSearch::cuts() const {
     std::vector<KnownCut> known = known_;
     std::ranges::sort(known, {}, &KnownCut::node);
-    Cuts cuts{dimension_, tree_.num_parts, {}, {}};
+    Cuts cuts{dimension_, tree_.num_parts, {}, {}, tree_.shape};
     for (const KnownCut& one : known) {
         cuts.tree.push_back(one.cut);
         cuts.nodes.push_back(static_cast<std::int32_t>(one.node));

@@ -31,6 +31,7 @@ inline Key key_of(const Descent& at) {
 struct PartTree {
     int num_parts = 1;
     int num_ranks = 1;
+    TreeShape shape{};
     double weight = 0;                     ///< of all points
     std::span<const double> part_sizes{};  ///< one per part; empty: equal
     std::span<const int> cut_axes{};       ///< of all cuts in preorder; empty: free

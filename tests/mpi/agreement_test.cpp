@@ -154,7 +154,7 @@ TEST_F(Agreement, on_options_that_differ_between_ranks) {
     with([](Options& o) { o.refine = Refine::exact; }, "refine");
     with([](Options& o) { o.imbalance_tolerance = 2; }, "imbalance_tolerance");
     with([](Options& o) { o.axes.plain = true; },
-         "one of axes.order, axes.plain, axes.min_width, axes.grid");
+         "one of tree, axes.order, axes.plain, axes.min_width, axes.grid");
     with([&](Options& o) { o.part_sizes.assign(static_cast<std::size_t>(num_ranks_), 2.0); },
          "part_sizes");
     const std::vector<double> empty;

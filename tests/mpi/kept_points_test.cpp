@@ -106,6 +106,14 @@ TEST(PointsAtRest, in_given_axes_or_between_planes_rest) {
     expect_rest(random_points(9000, 2, 5), given, 3);
 }
 
+TEST(PointsAtRest, in_groups_of_parts_rest) {
+    Options options = with(Refine::tolerance);
+    for (const TreeShape tree : {TreeShape{2, true}, TreeShape{3, false}}) {
+        options.tree = tree;
+        expect_rest(random_points(9000, 2, 5), options, 3);
+    }
+}
+
 TEST(PointsAtRest, fewer_than_parts_rest) {
     for (const std::size_t count : {1u, 2u, 3u, 5u})
         for (const Refine refine : {Refine::none, Refine::tolerance})

@@ -70,7 +70,7 @@ struct SortedBisection {
             for (const std::size_t i : members) parts[i] = static_cast<Part>(first);
             return;
         }
-        const std::size_t middle = first + static_cast<std::size_t>(lower_parts(int(last - first)));
+        const std::size_t middle = first + (last - first) / 2;
         const auto sum = [&](std::size_t from, std::size_t to) {
             return std::accumulate(sizes.begin() + std::ptrdiff_t(from),
                                    sizes.begin() + std::ptrdiff_t(to), 0.0);

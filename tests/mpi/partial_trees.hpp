@@ -12,11 +12,11 @@
 
 namespace rrcb::test {
 
-/// The same tree on every rank, with zeros, infinities and both signs.
+/// The same tree on every rank, with zeros, infinities and both signs, in groups of 1 to 3 parts.
 inline Cuts random_cuts(int dimension, int num_parts) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     std::mt19937_64 engine(static_cast<unsigned>(num_parts));
-    Cuts cuts{dimension, num_parts, {}};
+    Cuts cuts{dimension, num_parts, {}, {}, {1 + num_parts % 3, num_parts % 2 == 0}};
     for (int k = 1; k < num_parts; ++k) {
         Cut cut;
         cut.axis = static_cast<std::int32_t>(engine() % static_cast<unsigned>(dimension));
@@ -34,7 +34,7 @@ inline Cuts planes(int num_parts) {
     Cuts cuts{1, num_parts, {}};
     const std::function<void(Part, int)> divide = [&](Part first, int count) {
         if (count == 1) return;
-        const int below = lower_parts(count);
+        const int below = cuts.shape.lower_parts(count);
         cuts.tree.push_back({0, 0, {static_cast<double>(first + below), -infinity, -infinity}});
         divide(first, below);
         divide(first + below, count - below);

@@ -15,7 +15,7 @@ inline Cuts slabs() {
     Cuts cuts{2, num_ranks(), {}};
     const std::function<void(int, int)> cut = [&](int first, int count) {
         if (count == 1) return;
-        const int below = lower_parts(count);
+        const int below = cuts.shape.lower_parts(count);
         cuts.tree.push_back({0, 0, {static_cast<double>(first + below), -infinity, -infinity}});
         cut(first, below);
         cut(first + below, count - below);

@@ -36,6 +36,8 @@ rc::Gen<Case::Shape> any_shape() {
         gen::set(&Shape::support_mesh, gen::element<std::int32_t>(0, 0, 1, 3, 9)),
         gen::set(&Shape::tolerance, gen::element(1.01, 1.0, 1.1, 2.0)),
         gen::set(&Shape::plain_cuts, gen::element<std::int32_t>(0, 0, 0, 1)),
+        gen::set(&Shape::group_size, gen::element<std::int32_t>(1, 1, 1, 2, 3, 5)),
+        gen::set(&Shape::larger_below, gen::element<std::int32_t>(0, 0, 1)),
         gen::set(&Shape::choice, gen::inRange<std::int32_t>(0, end_of_numbers)));
 }
 

@@ -98,6 +98,7 @@ Options Case::options() const {
     options.tuning.support_mesh = shape.support_mesh;
     options.imbalance_tolerance = shape.tolerance;
     options.axes.plain = shape.plain_cuts != 0;
+    options.tree = {shape.group_size, shape.larger_below != 0};
     return options;
 }
 
@@ -122,8 +123,8 @@ std::ostream& operator<<(std::ostream& out, const Case& input) {
         << shape.num_parts << " of sizes {";
     for (const int size : input.part_sizes) out << ' ' << size;
     out << " }, refine " << name(shape.refine) << ", mesh " << shape.support_mesh << ", tolerance "
-        << shape.tolerance << ", plain " << shape.plain_cuts << ", choice " << shape.choice
-        << ", points {";
+        << shape.tolerance << ", plain " << shape.plain_cuts << ", groups of " << shape.group_size
+        << ", larger below " << shape.larger_below << ", choice " << shape.choice << ", points {";
     for (const Seed& seed : input.seeds) {
         out << " (";
         for (const int number : seed.position) out << number << ' ';

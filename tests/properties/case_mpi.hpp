@@ -46,6 +46,8 @@ struct Case {
         std::int32_t support_mesh = 0;
         double tolerance = 1.01;
         std::int32_t plain_cuts = 0;
+        std::int32_t group_size = 1;
+        std::int32_t larger_below = 0;
         std::int32_t choice = 0;  ///< free for a property: lists, ids, ...
     };
     Shape shape;

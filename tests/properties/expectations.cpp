@@ -16,6 +16,7 @@ constexpr double rounding = 1e-12;
 struct Tally {
     std::vector<double> part_weights;
     std::vector<double> sizes;
+    TreeShape tree;
     double total = 0;
     double object = 0;
 };
@@ -27,6 +28,7 @@ Tally tally(const Cloud& cloud, const std::vector<Part>& parts, const Options& o
     for (LocalIndex i = 0; i < parts.size(); ++i)
         result.part_weights[static_cast<std::size_t>(parts[i])] += weights[i];
     result.sizes = options.part_sizes;
+    result.tree = options.tree;
     if (result.sizes.empty()) result.sizes.assign(result.part_weights.size(), 1.0);
     result.total = std::accumulate(weights.begin(), weights.end(), 0.0);
     result.object = heaviest_object(cloud, options.axes.plain);
@@ -39,7 +41,8 @@ double sum(std::span<const double> values) {
 
 std::string fault_of_node(std::size_t first, std::size_t last, const Tally& tally) {
     if (last - first < 2) return {};
-    const auto num_below = static_cast<std::size_t>(lower_parts(static_cast<int>(last - first)));
+    const auto num_below =
+        static_cast<std::size_t>(tally.tree.lower_parts(static_cast<int>(last - first)));
     const std::span<const double> weights(tally.part_weights);
     const std::span<const double> sizes(tally.sizes);
     const double all = sum(weights.subspan(first, last - first));
@@ -58,10 +61,10 @@ std::string fault_of_node(std::size_t first, std::size_t last, const Tally& tall
     return fault.empty() ? fault_of_node(first + num_below, last, tally) : fault;
 }
 
-int num_levels(int num_parts) {
-    int levels = 0;
-    while ((1 << levels) < num_parts) ++levels;
-    return levels;
+int num_levels(const TreeShape& tree, int num_parts) {
+    if (num_parts < 2) return 0;
+    const int below = tree.lower_parts(num_parts);
+    return 1 + std::max(num_levels(tree, below), num_levels(tree, num_parts - below));
 }
 
 }  // namespace
@@ -106,7 +109,8 @@ std::string fault_of_heaviest_part(const Cloud& cloud, const std::vector<Part>& 
     const double share = result.total / sum(result.sizes);
     for (std::size_t p = 0; p < result.sizes.size(); ++p) {
         const double most = tolerance * share * result.sizes[p] +
-                            num_levels(options.num_parts) * result.object + rounding * result.total;
+                            num_levels(options.tree, options.num_parts) * result.object +
+                            rounding * result.total;
         if (result.part_weights[p] <= most) continue;
         std::ostringstream text;
         text << "part " << p << " weighs " << result.part_weights[p] << ", more than " << most;

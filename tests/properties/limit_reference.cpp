@@ -120,7 +120,7 @@ class Reference {
         Box upper = region;
         lower.upper[static_cast<std::size_t>(axis)] = value;
         upper.lower[static_cast<std::size_t>(axis)] = value;
-        const int num_below = lower_parts(num_parts);
+        const int num_below = options_.tree.lower_parts(num_parts);
         const double of_lower = heaviest_part(below, lower, num_below, enough);
         if (of_lower >= enough) return enough;
         return std::max(of_lower, heaviest_part(above, upper, num_parts - num_below, enough));

@@ -131,7 +131,7 @@ TEST(AxisLimits, count_as_many_boxes_from_either_end) {
 }
 
 /// By trying every cut.
-bool fits(int num_parts, const Room& room) {
+bool fits(int num_parts, const TreeShape& shape, const Room& room) {
     if (num_parts == 1) return true;
     for (std::size_t a = 0; a < max_dimension; ++a) {
         for (int below = 1; below < room[a]; ++below) {
@@ -139,8 +139,8 @@ bool fits(int num_parts, const Room& room) {
             Room upper = room;
             lower[a] = below;
             upper[a] = room[a] - below;
-            if (fits(lower_parts(num_parts), lower) &&
-                fits(num_parts - lower_parts(num_parts), upper))
+            const int num_below = shape.lower_parts(num_parts);
+            if (fits(num_below, shape, lower) && fits(num_parts - num_below, shape, upper))
                 return true;
         }
     }
@@ -148,14 +148,17 @@ bool fits(int num_parts, const Room& room) {
 }
 
 TEST(BoxPacking, fits_what_some_bisection_fits) {
-    for (int num_parts = 1; num_parts <= 12; ++num_parts) {
-        BoxPacking packing(std::vector<double>(static_cast<std::size_t>(num_parts), 1.0));
-        for (int x = 1; x <= 5; ++x)
-            for (int y = 1; y <= 5; ++y)
-                for (int z = 1; z <= 3; ++z)
-                    EXPECT_EQ(packing.fits({0, 0, num_parts}, {x, y, z}),
-                              fits(num_parts, {x, y, z}))
-                        << num_parts << " in " << x << " x " << y << " x " << z;
+    for (const TreeShape shape : {TreeShape{}, TreeShape{3, false}, TreeShape{4, true}}) {
+        for (int num_parts = 1; num_parts <= 12; ++num_parts) {
+            const std::vector<double> sizes(static_cast<std::size_t>(num_parts), 1.0);
+            BoxPacking packing(sizes, shape);
+            for (int x = 1; x <= 5; ++x)
+                for (int y = 1; y <= 5; ++y)
+                    for (int z = 1; z <= 3; ++z)
+                        EXPECT_EQ(packing.fits(root_of(num_parts, shape), {x, y, z}),
+                                  fits(num_parts, shape, {x, y, z}))
+                            << num_parts << " in " << x << " x " << y << " x " << z;
+        }
     }
 }
 

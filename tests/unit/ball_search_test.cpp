@@ -20,7 +20,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Of few values, so that cuts and points often meet; some cuts have nothing on one side.
 Cuts random_cuts(int dimension, int num_parts, std::mt19937_64& engine) {
-    Cuts cuts{dimension, num_parts, {}};
+    Cuts cuts{dimension, num_parts, {}, {}, {1 + num_parts % 3, num_parts % 2 == 0}};
     for (int k = 1; k < num_parts; ++k) {
         Cut cut;
         cut.axis = static_cast<std::int32_t>(engine() % static_cast<unsigned>(dimension));

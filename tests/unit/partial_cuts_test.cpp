@@ -126,7 +126,7 @@ TEST(PartialCuts, count_what_each_known_part_holds_and_what_is_below_each_unknow
             const Part whole = part_of(data.whole, data.points.position(i));
             Part part = whole;
             if (!knows(data.some, whole)) {
-                for (const std::int32_t node : test::path_to(whole, data.whole.num_parts))
+                for (const std::int32_t node : test::path_to(whole, data.whole.num_parts, {}))
                     if (!std::ranges::binary_search(data.some.nodes, node)) {
                         part = -1 - node;
                         break;

@@ -13,7 +13,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-constexpr std::array<char, 8> signature = {'R', 'R', 'C', 'B', 'h', 'n', 'd', '5'};
+constexpr std::array<char, 8> signature = {'R', 'R', 'C', 'B', 'h', 'n', 'd', '6'};
 
 struct Header {
     std::array<char, 8> signature = zoltan::signature;
@@ -99,6 +99,8 @@ class Reader {
 
 void write(Writer& writer, const LastPartition& last) {
     writer.value(last.cuts().dimension);
+    writer.value(last.cuts().shape.group_size);
+    writer.value(last.cuts().shape.larger_below);
     writer.value<std::uint64_t>(last.cuts().tree.size());
     for (const Cut& cut : last.cuts().tree) {
         writer.value(cut.axis);
@@ -138,8 +140,8 @@ bool is_consistent(const Cuts& cuts, const PartMap& map, const std::vector<Part>
         return cut.axis >= 0 && cut.axis < cuts.dimension &&
                std::ranges::none_of(cut.at, [](double x) { return std::isnan(x); });
     };
-    return cuts.dimension >= 1 && cuts.dimension <= max_dimension && is_consistent(map) &&
-           cuts.tree.size() + 1 == static_cast<std::size_t>(map.num_parts) &&
+    return cuts.dimension >= 1 && cuts.dimension <= max_dimension && cuts.shape.group_size >= 1 &&
+           is_consistent(map) && cuts.tree.size() + 1 == static_cast<std::size_t>(map.num_parts) &&
            (numbers.empty() || numbers.size() == cuts.tree.size() + 1) &&
            std::ranges::all_of(cuts.tree, valid_cut) && is_permutation(numbers);
 }
@@ -147,6 +149,8 @@ bool is_consistent(const Cuts& cuts, const PartMap& map, const std::vector<Part>
 LastPartition read_last(Reader& reader) {
     Cuts cuts;
     cuts.dimension = reader.value<int>();
+    cuts.shape.group_size = reader.value<int>();
+    cuts.shape.larger_below = reader.flag();
     for (auto left = reader.value<std::uint64_t>(); left > 0; --left) {
         const auto axis = reader.value<std::int32_t>();
         const auto divides = reader.value<std::int32_t>();

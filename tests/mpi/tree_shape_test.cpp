@@ -1,0 +1,225 @@
+// Cuts by groups of parts, such as those of one machine.
+#include "clouds_of_all_ranks.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/error.hpp>
+#include <rrcb/ghosts.hpp>
+#include <rrcb/plan.hpp>
+#include <rrcb/quality.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+using test::num_ranks;
+using test::rank;
+using test::share_of_cloud;
+
+struct Machines {
+    int count;
+    int parts_each;
+};
+
+constexpr Machines machines[] = {{3, 4}, {5, 3}, {6, 2}, {3, 28}};
+
+Options options_for(const Machines& all, bool larger_below) {
+    Options options;
+    options.num_parts = all.count * all.parts_each;
+    options.tree = {all.parts_each, larger_below};
+    return options;
+}
+
+std::vector<double> cloud_here(int dimension) {
+    return share_of_cloud(6000, dimension,
+                          [](std::size_t, int axis, double u) { return std::pow(u, 1 + axis); });
+}
+
+/// The parts of each node in preorder, as the documentation of TreeShape describes it.
+struct Node {
+    Part first;
+    int num_below;
+    int num_parts;
+};
+
+void append_nodes(Part first, int num_parts, const Machines& all, bool larger_below,
+                  std::vector<Node>& nodes) {
+    if (num_parts == 1) return;
+    const bool has_groups = num_parts > all.parts_each;
+    const int halved = has_groups ? num_parts / all.parts_each : num_parts;
+    const int half = larger_below ? (halved + 1) / 2 : halved / 2;
+    const int below = has_groups ? half * all.parts_each : half;
+    nodes.push_back({first, below, num_parts});
+    append_nodes(first, below, all, larger_below, nodes);
+    append_nodes(first + below, num_parts - below, all, larger_below, nodes);
+}
+
+std::vector<Node> nodes_of(const Machines& all, bool larger_below) {
+    std::vector<Node> nodes;
+    append_nodes(0, all.count * all.parts_each, all, larger_below, nodes);
+    return nodes;
+}
+
+/// Whether all cuts have the position on the side of a part.
+bool leave_to(Part part, const Cuts& cuts, const std::vector<Node>& nodes, const Vector& x) {
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const Node& node = nodes[k];
+        if (part < node.first || part >= node.first + node.num_parts) continue;
+        const bool is_part_above = part >= node.first + node.num_below;
+        if (is_above(cuts.tree[k], x, cuts.dimension) != is_part_above) return false;
+    }
+    return true;
+}
+
+/// Calls check(machines, larger_below) for each shape of tree.
+template <class Check>
+void for_each_shape(Check&& check) {
+    for (const Machines& all : machines) {
+        for (const bool larger_below : {false, true}) {
+            SCOPED_TRACE(std::to_string(all.count) + " x " + std::to_string(all.parts_each) +
+                         (larger_below ? ", larger below" : ""));
+            check(all, larger_below);
+        }
+    }
+}
+
+TEST(TreeShape, halves_parts_by_default) {
+    for (int num_parts = 2; num_parts < 100; ++num_parts)
+        EXPECT_EQ(TreeShape{}.lower_parts(num_parts), num_parts / 2);
+}
+
+TEST(TreeShape, leaves_the_last_group_as_many_parts_as_there_are) {
+    const TreeShape by_four{4};
+    EXPECT_EQ(by_four.lower_parts(5), 4);
+    EXPECT_EQ(by_four.lower_parts(11), 4);
+    EXPECT_EQ(by_four.lower_parts(13), 8);
+    EXPECT_EQ((TreeShape{4, true}.lower_parts(11)), 8);
+    EXPECT_EQ((TreeShape{4, true}.lower_parts(3)), 2);
+}
+
+TEST(TreeShape, each_point_is_where_the_cuts_of_whole_groups_put_it) {
+    for_each_shape([](const Machines& all, bool larger_below) {
+        for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
+            Options options = options_for(all, larger_below);
+            options.refine = refine;
+            const std::vector<double> coordinates = cloud_here(2);
+            const Points points = interleaved_points(coordinates, 2);
+            const Balance result = balance(points, options, MPI_COMM_WORLD);
+            EXPECT_EQ(result.cuts.shape, options.tree);
+            const std::vector<Node> nodes = nodes_of(all, larger_below);
+            ASSERT_EQ(result.cuts.tree.size(), nodes.size());
+            for (LocalIndex i = 0; i < points.count; ++i) {
+                const Vector x = points.position(i);
+                ASSERT_TRUE(leave_to(result.parts[i], result.cuts, nodes, x));
+                ASSERT_EQ(part_of(result.cuts, x), result.parts[i]);
+                ASSERT_EQ(parts_touching(result.cuts, {x, x}), std::vector{result.parts[i]});
+            }
+            if (refine == Refine::none) continue;
+            EXPECT_TRUE(result.report.within_tolerance) << result.report.imbalance;
+        }
+    });
+}
+
+/// Of 6,000 points, the second part being twice as large as each other.
+void expect_exact(const Balance& result, const Points& points) {
+    const int num_parts = result.cuts.num_parts;
+    const std::vector<double> weights =
+        part_weights(points, result.parts, num_parts, MPI_COMM_WORLD);
+    for (std::size_t p = 0; p < weights.size(); ++p)
+        EXPECT_NEAR(weights[p], (p == 1 ? 2 : 1) * 6000.0 / (num_parts + 1), 2);
+}
+
+TEST(TreeShape, exact_leaves_each_part_within_two_points_of_the_ideal) {
+    for_each_shape([](const Machines& all, bool larger_below) {
+        Options options = options_for(all, larger_below);
+        options.refine = Refine::exact;
+        options.part_sizes.assign(static_cast<std::size_t>(options.num_parts), 1);
+        options.part_sizes[1] = 2;
+        const std::vector<double> coordinates = cloud_here(3);
+        const Points points = interleaved_points(coordinates, 3);
+        expect_exact(balance(points, options, MPI_COMM_WORLD), points);
+        options.tuning.central_parts = 2;
+        expect_exact(balance(points, options, MPI_COMM_WORLD), points);
+    });
+}
+
+TEST(TreeShape, is_that_of_cuts_by_many_ranks) {
+    if (num_ranks() < 3) GTEST_SKIP() << "rank 0 makes two parts and more alone";
+    for_each_shape([](const Machines& all, bool larger_below) {
+        Options options = options_for(all, larger_below);
+        options.tuning.central_parts = 2;
+        options.cuts = HeldCuts::own;
+        const std::vector<double> coordinates = cloud_here(3);
+        const Points points = interleaved_points(coordinates, 3);
+        const Balance spread = balance(points, options, MPI_COMM_WORLD);
+        EXPECT_TRUE(spread.report.within_tolerance) << spread.report.imbalance;
+        const Cuts whole = gather_cuts(spread.cuts, MPI_COMM_WORLD);
+        const std::vector<Node> nodes = nodes_of(all, larger_below);
+        for (LocalIndex i = 0; i < points.count; ++i)
+            ASSERT_TRUE(leave_to(spread.parts[i], whole, nodes, points.position(i)));
+        EXPECT_EQ(assign_all(spread.cuts, points, MPI_COMM_WORLD), spread.parts);
+        const Balance again = rebalance(points, options, spread.cuts, MPI_COMM_WORLD);
+        EXPECT_EQ(again.parts, spread.parts);
+    });
+}
+
+TEST(TreeShape, is_that_of_earlier_cuts) {
+    Options options;
+    options.tree = {2, true};
+    const std::vector<double> coordinates = cloud_here(2);
+    const Points points = interleaved_points(coordinates, 2);
+    const Balance first = balance(points, options, MPI_COMM_WORLD);
+    const Balance again = rebalance(points, options, first.cuts, MPI_COMM_WORLD);
+    EXPECT_EQ(again.parts, first.parts);
+    EXPECT_EQ(again.cuts.shape, options.tree);
+    Options other = options;
+    other.tree = {};
+    if (num_ranks() == 1) return;
+    EXPECT_THROW(rebalance(points, other, first.cuts, MPI_COMM_WORLD), Error);
+}
+
+TEST(TreeShape, of_no_parts_in_a_group_is_refused) {
+    Options options;
+    options.tree.group_size = 0;
+    EXPECT_THROW(balance(interleaved_points({}, 2), options, MPI_COMM_WORLD), Error);
+}
+
+TEST(TreeShape, ghosts_are_the_points_near_the_boxes_of_other_ranks) {
+    constexpr double radius = 0.05;
+    for_each_shape([](const Machines& all, bool larger_below) {
+        const Options options = options_for(all, larger_below);
+        const std::vector<double> coordinates = cloud_here(2);
+        const Points points = interleaved_points(coordinates, 2);
+        const Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
+        const GhostPlan found = ghosts(cuts, points, radius, MPI_COMM_WORLD);
+        std::vector<std::size_t> expected;
+        for (int to = 0; to < num_ranks(); ++to) {
+            for (LocalIndex i = 0; i < points.count && to != rank(); ++i) {
+                bool is_near = false;
+                for (Part part = 0; part < options.num_parts && !is_near; ++part) {
+                    const RankRange ranks = ranks_of_part(part, options.num_parts, num_ranks());
+                    if (to < ranks.first_rank || to >= ranks.first_rank + ranks.count) continue;
+                    const Box box = box_of(cuts, part);
+                    const Vector x = points.position(i);
+                    double square = 0;
+                    for (std::size_t a = 0; a < 2; ++a) {
+                        const double gap =
+                            std::max({0.0, box.lower[a] - x[a], x[a] - box.upper[a]});
+                        square += gap * gap;
+                    }
+                    is_near = square <= radius * radius;
+                }
+                if (is_near) expected.push_back(i);
+            }
+        }
+        EXPECT_EQ(found.send_indices, expected);
+    });
+}
+
+}  // namespace
+}  // namespace rrcb

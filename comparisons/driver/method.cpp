@@ -176,10 +176,9 @@ void add(const Options& options, ZoltanParameters& parameters) {
 }
 
 void add(const PaperOptions& options, ZoltanParameters& parameters) {
-    const bool is_sampled = options.domain == PaperDomain::sampled;
-    parameters.emplace_back("RRCB_DOMAIN", is_sampled ? "SAMPLED" : "POINTS");
+    parameters.emplace_back("RRCB_DOMAIN", rrcb::name_of(options.domain));
     for (const PaperKey& key : paper_keys)
-        if (is_sampled || key.name == "cut")
+        if (options.domain == PaperDomain::sampled || key.name == "cut")
             parameters.emplace_back(key.parameter, key.write(options));
 }
 

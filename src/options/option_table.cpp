@@ -76,15 +76,6 @@ bool read_rows(const Rows& rows, std::string_view text, Options& options) {
     return numbers && !numbers->empty() && rows.set(options, *numbers);
 }
 
-std::string listed(const Choice& choice) {
-    std::string text;
-    for (const Word& word : choice) {
-        const bool last = &word + 1 == choice.end();
-        text += std::string(&word == choice.begin() ? "" : last ? " or " : ", ") + word.word;
-    }
-    return text;
-}
-
 const Word& word_of(const Choice& choice, const Options& options) {
     return *std::ranges::find(choice, choice.get(options), &Word::value);
 }
@@ -145,10 +136,19 @@ std::string requirement(const Option& option, int dimension) {
     });
 }
 
+std::string words_of(const Choice& choice) {
+    std::string text;
+    for (const Word& word : choice) {
+        const bool last = &word + 1 == choice.end();
+        text += std::string(&word == choice.begin() ? "" : last ? " or " : ", ") + word.word;
+    }
+    return text;
+}
+
 std::string legal_values(const Option& option) {
     return visit_kind(option, []<class Kind>(const Kind& kind) -> std::string {
         if constexpr (std::is_same_v<Kind, Choice>) {
-            return listed(kind);
+            return words_of(kind);
         } else if constexpr (is_range<Kind>) {
             const bool is_real = std::is_same_v<Kind, Range<double>>;
             return (is_real ? "a number" : "a whole number") + bounds_of(kind);

@@ -193,6 +193,9 @@ bool is_legal(const Option& option, const Options& options, int dimension);
 /// Condition on a number, as an error words it: "at least 1".
 std::string requirement(const Option& option, int dimension);
 
+/// The words of a choice: "WEIGHTED or MIDPOINT".
+std::string words_of(const Choice& choice);
+
 /// Texts that may stand for the option: "a number above 0, at most 1", "WEIGHTED or MIDPOINT".
 std::string legal_values(const Option& option);
 

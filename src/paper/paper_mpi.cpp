@@ -11,6 +11,7 @@
 #include "options/validation.hpp"
 #include "paper/paper_checks.hpp"
 #include "paper/paper_records.hpp"
+#include "paper/paper_words.hpp"
 
 #include <rrcb/method/support_mesh.hpp>
 #include <rrcb/quality.hpp>
@@ -31,10 +32,10 @@ void check(const PaperOptions& options, int dimension) {
             "sample_fraction must be in (0, 1]");
     check_sampling(options);
     check_sizes(options.num_parts, options.part_sizes);
-    require(options.domain == PaperDomain::sampled || options.domain == PaperDomain::points,
-            "domain must be sampled or points");
-    require(options.cut_rule == CutRule::weighted_fraction || options.cut_rule == CutRule::midpoint,
-            "cut_rule must be weighted_fraction or midpoint");
+    require(domain_words.has(static_cast<int>(options.domain)),
+            "domain must be one of PaperDomain");
+    require(cut_rule_words.has(static_cast<int>(options.cut_rule)),
+            "cut_rule must be one of CutRule");
 }
 
 /// Throws on every rank alike if one has failed, or if their options differ. Collective.

@@ -1,5 +1,8 @@
 #include "paper/paper_text.hpp"
 
+#include "paper/paper_words.hpp"
+
+#include <algorithm>
 #include <charconv>
 #include <limits>
 
@@ -25,15 +28,25 @@ bool read_positive(double& number, std::string_view text, double most) {
     return true;
 }
 
+/// The word that a text is; null for none.
+const Word* find_word(const PaperWords& words, std::string_view text) {
+    const auto* found = std::ranges::find(words, text, &Word::word);
+    return found == words.end() ? nullptr : found;
+}
+
 }  // namespace
 
 bool read_cut_rule(CutRule& rule, std::string_view text) {
-    for (const CutRule each : {CutRule::weighted_fraction, CutRule::midpoint}) {
-        if (text != name_of(each)) continue;
-        rule = each;
-        return true;
-    }
-    return false;
+    const Word* word = find_word(cut_rule_words, text);
+    if (word != nullptr) rule = static_cast<CutRule>(word->value);
+    return word != nullptr;
+}
+
+bool read_domain(std::optional<PaperDomain>& domain, std::string_view text) {
+    const Word* word = find_word(domain_words, text);
+    if (word != nullptr) domain = static_cast<PaperDomain>(word->value);
+    if (text == own_domain.word) domain.reset();
+    return word != nullptr || text == own_domain.word;
 }
 
 bool read_sigma_multiplier(double& multiplier, std::string_view text) {
@@ -49,7 +62,11 @@ bool read_seed(std::uint64_t& seed, std::string_view text) {
 }
 
 std::string name_of(CutRule rule) {
-    return rule == CutRule::midpoint ? "MIDPOINT" : "WEIGHTED";
+    return cut_rule_words.first[static_cast<int>(rule)].word;
+}
+
+std::string name_of(PaperDomain domain) {
+    return domain_words.first[static_cast<int>(domain)].word;
 }
 
 }  // namespace rrcb

@@ -1,4 +1,5 @@
 #include "options/option_table.hpp"
+#include "paper/paper_words.hpp"
 
 #include <rrcb/error.hpp>
 #include <rrcb/teuchos/parameters.hpp>
@@ -97,16 +98,18 @@ struct Getter {
 
 // The defaults are those of PaperOptions, whose header is C++20.
 void add_parameters_of_paper(ParameterList& list) {
-    static constexpr Word domains[] = {{"ANALYTIC", 0, "RRCB's own method"},
-                                       {"SAMPLED", 1, "the paper's RRCB"},
-                                       {"POINTS", 2, "the paper's RCB"}};
-    static constexpr Word rules[] = {{"WEIGHTED", 0, "the weight below is its parts' share"},
-                                     {"MIDPOINT", 1, "the extent below is its parts' share"}};
+    static const std::vector<Word> domains = [] {
+        std::vector<Word> words{own_domain};
+        words.insert(words.end(), domain_words.begin(), domain_words.end());
+        return words;
+    }();
     const double least = std::numeric_limits<double>::denorm_min();
-    add_choice(list, "RRCB_DOMAIN", {domains, std::size(domains), nullptr, nullptr}, "ANALYTIC",
-               "Plug-in only: the method: ANALYTIC, SAMPLED or POINTS.");
-    add_choice(list, "RRCB_CUT_RULE", {rules, std::size(rules), nullptr, nullptr}, "WEIGHTED",
-               "Plug-in only, SAMPLED and POINTS: position of cuts: WEIGHTED or MIDPOINT.");
+    const Choice methods{domains.data(), domains.size(), nullptr, nullptr};
+    const Choice rules{cut_rule_words.first, cut_rule_words.count, nullptr, nullptr};
+    add_choice(list, "RRCB_DOMAIN", methods, own_domain.word,
+               "Plug-in only: the method: " + words_of(methods) + ".");
+    add_choice(list, "RRCB_CUT_RULE", rules, rules.words->word,
+               "Plug-in only, SAMPLED and POINTS: position of cuts: " + words_of(rules) + ".");
     add_number(list, "RRCB_SIGMA_MULTIPLIER", 1.5, {least, largest},
                "Plug-in only, SAMPLED: half-width of a cell's sampling box in standard deviations: "
                "a number above 0.");

@@ -73,13 +73,6 @@ bool read_return_lists(ReturnLists& lists, std::string_view text) {
     return true;
 }
 
-bool read_paper_domain(std::optional<PaperDomain>& domain, std::string_view text) {
-    if (text != "ANALYTIC" && text != "SAMPLED" && text != "POINTS") return false;
-    domain.reset();
-    if (text != "ANALYTIC") domain = text == "SAMPLED" ? PaperDomain::sampled : PaperDomain::points;
-    return true;
-}
-
 bool read_folder(std::string& folder, std::string_view text) {
     folder = text;
     return true;

@@ -73,7 +73,6 @@ bool reuses_cuts(const Parameters& parameters);
 // no legal value.
 bool read_integer(int& value, std::string_view text, int least);
 bool read_return_lists(ReturnLists& lists, std::string_view text);
-bool read_paper_domain(std::optional<PaperDomain>& domain, std::string_view text);
 bool read_folder(std::string& folder, std::string_view text);
 bool read_dump_when(bool& always, std::string_view text);
 
@@ -167,7 +166,7 @@ inline constexpr ParameterRow parameter_table[] = {
     must_agree<&Parameters::set_directions, read_integer<>>("RCB_SET_DIRECTIONS"),
     flag<&Parameters::rectilinear_blocks>("RCB_RECTILINEAR_BLOCKS"),
     flag<&Parameters::reduce_dimensions>("REDUCE_DIMENSIONS"),
-    must_agree<&Parameters::paper_domain, read_paper_domain>("RRCB_DOMAIN"),
+    must_agree<&Parameters::paper_domain, read_domain>("RRCB_DOMAIN"),
     must_agree<&Parameters::cut_rule, read_cut_rule>("RRCB_CUT_RULE"),
     must_agree<&Parameters::sigma_multiplier, read_sigma_multiplier>("RRCB_SIGMA_MULTIPLIER"),
     must_agree<&Parameters::sample_fraction, read_sample_fraction>("RRCB_SAMPLE_FRACTION"),

@@ -1,10 +1,9 @@
-#include "transfer/transfers.hpp"
+#pragma once
 
 #include "transfer/g2p.hpp"
+#include "transfer/transfers.hpp"
 
 namespace mpm {
-
-namespace {
 
 /// The transfers of one dimension, shape function and kind.
 template <int D, class Shape, bool is_affine>
@@ -141,18 +140,11 @@ class TransfersOf final : public Transfers<D> {
 };
 
 template <int D, class Shape>
-std::unique_ptr<Transfers<D>> make(const Scene& scene, const FlipShare& flip,
-                                   Particles& particles) {
+std::unique_ptr<Transfers<D>> make_with(const Scene& scene, const FlipShare& flip,
+                                        Particles& particles) {
     if (scene.transfer == Transfer::apic)
         return std::make_unique<TransfersOf<D, Shape, true>>(scene, flip, particles);
     return std::make_unique<TransfersOf<D, Shape, false>>(scene, flip, particles);
-}
-
-}  // namespace
-
-GimpShape::GimpShape(const Scene& scene) {
-    for (std::size_t a = 0; a < half_size.size(); ++a)
-        half_size[a] = 0.5 / scene.bodies.front().points_per_cell[a];
 }
 
 template <int D>
@@ -160,18 +152,13 @@ std::unique_ptr<Transfers<D>> make_transfers(const Scene& scene, const FlipShare
                                              Particles& particles) {
     switch (scene.shape_function) {
         case ShapeFunction::linear:
-            return make<D, LinearShape>(scene, flip, particles);
+            return make_with<D, LinearShape>(scene, flip, particles);
         case ShapeFunction::quadratic:
-            return make<D, QuadraticShape>(scene, flip, particles);
+            return make_with<D, QuadraticShape>(scene, flip, particles);
         case ShapeFunction::gimp:
             break;
     }
     return std::make_unique<TransfersOf<D, GimpShape, false>>(scene, flip, particles);
 }
-
-template std::unique_ptr<Transfers<2>> make_transfers<2>(const Scene&, const FlipShare&,
-                                                         Particles&);
-template std::unique_ptr<Transfers<3>> make_transfers<3>(const Scene&, const FlipShare&,
-                                                         Particles&);
 
 }  // namespace mpm

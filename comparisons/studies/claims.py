@@ -263,7 +263,8 @@ def _communication_area(evidence: Evidence) -> Iterator[Claim]:
         ratios = [ours.ghosts / rcb.ghosts for rcb, ours in pairs]
         ours = f"RRCB's parts have {min(ratios):.2f} to {max(ratios):.2f} times the ghosts of RCB's"
         verdict = CONFIRMED if max(ratios) < 1.1 else PARTLY if min(ratios) < 1.1 else REFUTED
-        yield "cuts across the longest extent keep the communication area small", ours, verdict, "snapshots"  # fmt: skip
+        claim = "cuts across the longest extent keep the communication area small"
+        yield claim, ours, verdict, "snapshots"
 
 
 def _literal_midpoint(evidence: Evidence) -> Iterator[Claim]:

@@ -7,12 +7,12 @@
 #include "cuts/direct_assignment.hpp"
 #include "gather/earlier_cuts.hpp"
 #include "gather/keeping.hpp"
+#include "gather/kept_parts_mpi.hpp"
 #include "gather/merge_tree_mpi.hpp"
-#include "kept_parts_mpi.hpp"
+#include "gather/spread_reuse_mpi.hpp"
 #include "options/stage_scope.hpp"
 #include "options/validation.hpp"
 #include "settlement_mpi.hpp"
-#include "spread_reuse_mpi.hpp"
 
 #include <algorithm>
 #include <functional>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "call_options.hpp"
+#include "gather/call_options.hpp"
 #include "gather/decision_mpi.hpp"
 #include "search/refinement_mpi.hpp"
 

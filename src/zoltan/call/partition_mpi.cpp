@@ -1,10 +1,10 @@
 #include "zoltan/call/partition_mpi.hpp"
 
 #include "balance_mpi.hpp"
-#include "call_options.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/gather_cuts_mpi.hpp"
+#include "gather/call_options.hpp"
 #include "paper/paper_mpi.hpp"
 #include "zoltan/call/fortran_mpi.hpp"
 #include "zoltan/call/forwarding.hpp"

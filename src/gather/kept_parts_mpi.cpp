@@ -1,4 +1,4 @@
-#include "kept_parts_mpi.hpp"
+#include "gather/kept_parts_mpi.hpp"
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "call_options.hpp"
 #include "cuts/direct_assignment.hpp"
 #include "cuts/path_search.hpp"
 #include "cuts/tier_search_mpi.hpp"
+#include "gather/call_options.hpp"
 
 #include <rrcb/balance.hpp>
 

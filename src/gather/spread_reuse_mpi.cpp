@@ -1,4 +1,4 @@
-#include "spread_reuse_mpi.hpp"
+#include "gather/spread_reuse_mpi.hpp"
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"

@@ -1,4 +1,4 @@
-#include "call_options.hpp"
+#include "gather/call_options.hpp"
 
 #include "cuts/cut_limits.hpp"
 #include "cuts/part_share.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "call_options.hpp"
+#include "gather/call_options.hpp"
 #include "gather/decision_mpi.hpp"
 #include "gather/spread_extents_mpi.hpp"
 

@@ -28,8 +28,3 @@ def setting_of(method: str) -> tuple[float, ...]:
     name, parameters = parse(method)
     is_setting = name == "rrcb-sampled" and list(parameters) == ["mesh", "k", "fraction"]
     return tuple(map(float, parameters.values())) if is_setting else ()
-
-
-def values_of(methods: list[str], field: int) -> list[float]:
-    """Different values of mesh (0), k (1) or fraction (2) of settings."""
-    return sorted({setting_of(method)[field] for method in methods})

@@ -194,12 +194,6 @@ def next_offset(offset: float, mesh: int, multiplier: float) -> float:
     return -copysign((1 - r) * (cell / 2 - abs(offset)), offset)
 
 
-def alternating_offset(mesh: int, multiplier: float) -> float:
-    """How far the cuts of a multiplier below √3 lie from 1/2, to either side in turn, for ever."""
-    gap = 1 - multiplier / sqrt(3)
-    return gap / (4 * mesh) / (1 + gap * (1 - 1 / (2 * mesh)))
-
-
 def draw_map() -> Figure:
     """The map of the model with its steps, for a multiplier below, at and above √3; mesh 4."""
     figure, grid = plot.panels(1, 3, 10.5, 4.6, sharey=True)

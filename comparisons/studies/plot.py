@@ -21,15 +21,13 @@ from matplotlib import ticker  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 from matplotlib.patches import Rectangle  # noqa: E402
 from matplotlib.transforms import Bbox  # noqa: E402
-from methods import setting_of, values_of  # noqa: E402
 
-# Three palettes that share no colour: of parts, of the paper's multiplier k, and of methods; any
+# Two palettes that share no colour, of parts and of methods; any
 # two differ by 14 units of CIELAB or more.
 PART_COLOURS = (
     "#B197FF #E5D870 #FF7D70 #7DA43C #3CE5FF #FF7DBE #E5A449 #8A97BE #63F2B1 #CB8A97 "
     "#F2D8BE #49B163 #FFCBFF #7DA48A #BEE5A4 #B1A463 #3CA4FF #FFA4FF #70D8BE #3CA4BE"
 ).split()
-MULTIPLIER_COLOURS = "#A8DDD8 #5FB3AE #2A7F80 #0B4A50".split()  # of k = 1, 1.5, 2 and 2.5
 POINT_COLOUR = "#666666"
 IDEAL_COLOUR, UNBALANCE_COLOUR, CALL_COLOUR = "#DDDDDD", "#AAAAAA", "#444444"  # of time spent
 
@@ -100,11 +98,6 @@ def distinct_styles(methods: Iterable[str]) -> dict[str, MethodStyle]:
             style = next((other for other in others if other not in styles.values()), style)
         styles[method] = style
     return {method: styles[method] for method in methods}
-
-
-def multiplier_colour(k: float) -> str:
-    """The darker, the larger k is, from 1 to 2.5 in steps of a half."""
-    return MULTIPLIER_COLOURS[int(np.clip(round(2 * k) - 2, 0, len(MULTIPLIER_COLOURS) - 1))]
 
 
 def part_colours(parts: Sequence[float]) -> np.ndarray:
@@ -223,25 +216,6 @@ def draw_line(
     if len(values) > 1:  # else it would be as high as it is invisible
         axes.fill_between(x, low, high, color=line.get_color(), alpha=band, linewidth=0)
     return line
-
-
-def draw_across(axes: Axes, value: Value, style: MethodStyle, **look) -> None:
-    """A line from side to side, in a band of its interval."""
-    axes.axhline(value.number, color=style.colour, linestyle=style.line, **look)
-    axes.axhspan(*value.reach, color=style.colour, alpha=0.1, linewidth=0)
-
-
-def draw_settings(axes: Axes, rows: pd.DataFrame, name: str) -> None:
-    """A line per multiplier k over the mesh: means, in a band of the least and the most."""
-    grid = pd.DataFrame([setting_of(m) for m in rows["method"]], rows.index, ["mesh", "k", "of"])
-    grid["value"] = rows[name]
-    for number, (k, line) in enumerate(grid.groupby("k")):
-        found = line.groupby("mesh")["value"].agg(["mean", "min", "max"])
-        values = [Value(*row) for row in found.itertuples(index=False)]
-        draw_line(axes, found.index, values, 0.12, color=multiplier_colour(k), markersize=4,
-                  marker="osD^vP"[number % 6], label=f"k = {k:g}")  # fmt: skip
-    axes.set_xticks(values_of(rows["method"], 0))
-    axes.grid(True)
 
 
 def show_lengths(axes: Axes, x_label: bool = True, y_label: bool = True) -> None:

@@ -52,12 +52,6 @@ class CycleTest(unittest.TestCase):
                     found = paper_figures.next_offset(offset, mesh, multiplier)
                     self.assertAlmostEqual(found, expected, places=9)
 
-    def test_alternating_cuts_lie_at_the_same_distance(self) -> None:
-        for multiplier in (1.0, 1.5, 1.7):
-            offset = paper_figures.alternating_offset(4, multiplier)
-            self.assertAlmostEqual(paper_figures.next_offset(offset, 4, multiplier), -offset)
-            self.assertAlmostEqual(paper_figures.next_offset(-offset, 4, multiplier), offset)
-
     def test_pictures_of_the_methods_and_the_map_are_drawn(self) -> None:
         with tempfile.TemporaryDirectory() as directory:
             names = paper_figures.draw_all(Path(directory))

@@ -28,7 +28,7 @@ def cielab(colour: str) -> np.ndarray:
 class StyleTest(unittest.TestCase):
     def test_no_two_colours_are_alike(self) -> None:
         colours = [method.colour for method in plot._METHODS.values()]
-        colours += [*plot.PART_COLOURS, *plot.MULTIPLIER_COLOURS]
+        colours += [*plot.PART_COLOURS]
         for first, second in itertools.combinations(colours, 2):
             with self.subTest(first=first, second=second):
                 self.assertGreater(np.linalg.norm(cielab(first) - cielab(second)), 14)
@@ -43,10 +43,6 @@ class StyleTest(unittest.TestCase):
         self.assertEqual(styles["rrcb"], plot.method_style("rrcb"))
         self.assertEqual(len(set(styles.values())), len(methods))
         self.assertEqual({found.colour for found in styles.values()}, {styles["rrcb"].colour})
-
-    def test_k_is_the_darker_the_larger(self) -> None:
-        found = [plot.multiplier_colour(k) for k in (1, 1.5, 2, 2.5)]
-        self.assertEqual(found, plot.MULTIPLIER_COLOURS)
 
     def test_numbers_are_plain(self) -> None:
         texts = [plot.plain_number(x) for x in (0.001, 0.5, 1, 2000, 1e6, 2e7, 1e9)]

@@ -14,7 +14,6 @@ import libraries  # noqa: F401, before what it looks for
 import pandas as pd
 import plot
 from document import Document
-from domains import draw_domains, draw_support_mesh
 from headline import headline, work_paragraph
 from history import draw_history
 from machine import CORES, add_machine, busy_warning, shared_cores
@@ -30,8 +29,6 @@ PICTURES = {
     "price.png": draw_price,
     "parts.png": draw_parts,
     "moving_boxes.png": draw_moving_boxes,
-    "support_mesh.png": draw_support_mesh,
-    "statistical_domain.png": draw_domains,
     "unbalance_history.png": draw_history,
     "simulation_time.png": draw_simulation,
 }
@@ -79,7 +76,7 @@ def comparison_report(results: Results) -> Document:
     document.heading("Every method on the same points")
     _add_methods(document, results, results.table)
     _add_simulations(document, results.runs, results.rounds)
-    _add_pictures(document, "moving_boxes.png", "parts.png", "support_mesh.png", "statistical_domain.png",
+    _add_pictures(document, "moving_boxes.png", "parts.png",
                   "unbalance_history.png", "simulation_time.png")  # fmt: skip
     return document
 

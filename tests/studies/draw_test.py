@@ -58,16 +58,10 @@ part,lower_x,lower_y,upper_x,upper_y
 0,-inf,-inf,2.5,inf
 1,2.5,-inf,inf,inf
 """,
-    "data/cells_slope-start.csv": """\
-rank,cell,lower_x,lower_y,upper_x,upper_y,mean_x,mean_y,sigma_x,sigma_y,count
-0,0,0,0,1,1,0.5,0,0.5,0,2
-1,0,2,0,3,1,2.5,0.5,0.5,0.5,2
-""",
     "data/boxes_slope-start_rrcb.csv": BOXES + "0,0,0,1,2\n1,1,0,2,2\n",
     "data/boxes_slope-middle_rrcb.csv": BOXES + "0,0,0,4,2\n1,4,0,8,2\n",
     "data/points_slope-start_rrcb.csv": "x,y,part\n0,0,0\n0,1,0\n1,1,1\n2,2,1\n",
     "data/points_slope-middle_rrcb.csv": "x,y,part\n2,0,0\n3,1,0\n4,1,1\n8,2,1\n",
-    "data/statistical_slope-start.csv": "x,y\n0.2,0\n2.7,0.4\n",
 }
 
 

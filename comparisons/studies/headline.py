@@ -74,7 +74,7 @@ def _matter(rounds: pd.DataFrame) -> str:
     if ours is None or theirs is None or not (ours.number > 0 and theirs.number > 0):
         return ""
     step = by_round.ideal_step(rounds).median()
-    run = rounds[rounds["method"] == "rrcb"].iloc[0]
+    run = rounds[rounds["method"] == "rrcb"].median(numeric_only=True)
     times = [f"{in_digits(1e3 * v.number, 3)} ms" for v in (ours, theirs)]
     steps = [in_digits(v.number / step, 2) for v in (ours, theirs)]
     often = abs(theirs.number - ours.number) / (0.01 * step)
@@ -82,7 +82,7 @@ def _matter(rounds: pd.DataFrame) -> str:
         f"One rebalance with all that it moves took {times[0]} under rrcb and {times[1]} under"
         f" Zoltan's RCB, as long as {steps[0]} and {steps[1]} steps: the choice of the balancer matters by"
         f" more than 1 % where points need one every {often:.0f} steps or more often; here rrcb made"
-        f" {run.rebalances:.0f} in {run.steps:,}."
+        f" {run.rebalances:.0f} in {run.steps:,.0f}."
     )
 
 
@@ -118,7 +118,7 @@ def work_paragraph(rounds: pd.DataFrame) -> str:
         text += (
             f" Equal points are not equal work: under rrcb-exact the fullest rank held"
             f" {evenest.number:.1f} % more points than the mean over the steps, and the slowest rank of"
-            f" a step took {slowest.text(1)} % longer than the mean."
+            f" a step took {slowest.text(1)} % longer than the mean, noise included."
         )
     return text
 

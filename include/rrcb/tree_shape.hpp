@@ -18,6 +18,7 @@ struct TreeShape {
         return lower_half((num_parts - 1) / group_size + 1) * group_size;
     }
 
+    /// Returns true if both give every node the same parts. Not collective.
     friend constexpr bool operator==(const TreeShape& a, const TreeShape& b) {
         return a.group_size == b.group_size && a.larger_below == b.larger_below;
     }

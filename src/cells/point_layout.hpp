@@ -23,16 +23,6 @@ struct StridedLayout {
     double operator()(LocalIndex i, int axis) const { return axes[axis][i * stride]; }
 };
 
-/// True when all coordinates lie in one array, point after point, without anything else.
-inline bool is_interleaved(const Points& points) {
-    const auto dimension = static_cast<std::size_t>(points.dimension);
-    if (points.stride != dimension || points.axes[0].size() < points.count * dimension)
-        return false;
-    for (std::size_t a = 1; a < dimension; ++a)
-        if (points.axes[a].data() != points.axes[0].data() + a) return false;
-    return true;
-}
-
 template <int Dimension, class Visit>
 decltype(auto) visit_layout_of(const Points& points, Visit&& visit) {
     std::array<const double*, Dimension> axes;

@@ -2,10 +2,10 @@
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
+#include "collective/mix.hpp"
 #include "collective/rank_counts_mpi.hpp"
 #include "collective/stream_mpi.hpp"
 #include "options/rejection.hpp"
-#include "search/mix.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,5 @@
 #include "options/validation.hpp"
 
-#include "cells/point_layout.hpp"
 #include "options/option_table.hpp"
 #include "options/rejection.hpp"
 
@@ -38,6 +37,29 @@ void check_weights(const Points& points) {
             reject("weight of object " + std::to_string(i) + " is negative, NaN or infinite" +
                    tally(bad));
     reject("the sum of the weights overflows; scale them down");
+}
+
+/// Throws Error when the coordinates do not fit the dimension and number of the points. Not whether
+/// they are finite.
+void check_coordinates(const Points& points) {
+    constexpr const char* left_over =
+        "the length of the coordinate array must be a multiple of the dimension";
+    check_dimension(points.dimension, "points");
+    const auto dimension = static_cast<std::size_t>(points.dimension);
+    require(points.stride >= 1, "the stride of the points must be at least 1");
+    if (points.count == 0) {
+        require(points.stride > dimension || points.axes[0].empty(), left_over);
+        return;
+    }
+    const bool interleaved = dimension > 1 && is_interleaved(points);
+    require(!interleaved || points.axes[0].size() == points.count * dimension, left_over);
+    for (std::size_t a = 0; a < dimension; ++a) {
+        const std::size_t size = points.axes[a].size();
+        require(points.stride > 1 || size == points.count,
+                "coordinate arrays must all have the same length");
+        require(size > 0 && (size - 1) / points.stride >= points.count - 1,
+                "coordinate arrays must reach to the last point, (count - 1) * stride");
+    }
 }
 
 /// Whether the tree holds all of its cuts, or some and their numbers.
@@ -171,14 +193,10 @@ void check_previous(const Cuts& previous, const Options& options, int dimension)
             "previous cuts must cross axes of the points at numbers");
 }
 
-void check_value(const Option& option, const Options& options, int dimension) {
-    if (!is_legal(option, options, dimension))
-        reject(std::string(option.name) + " must be " + requirement(option, dimension));
-}
-
 void check_options(const Options& options, int dimension) {
     for (const Option& option : option_table) {
-        check_value(option, options, dimension);
+        if (!is_legal(option, options, dimension))
+            reject(std::string(option.name) + " must be " + requirement(option, dimension));
         visit_kind(option, [&](const auto& kind) {
             if constexpr (requires { kind.check; }) kind.check(options, dimension);
         });
@@ -201,25 +219,13 @@ void reject_coordinates(const Points& points) {
            std::to_string(first_axis) + " is NaN or infinite" + tally(bad));
 }
 
-void check_coordinates(const Points& points) {
-    constexpr const char* left_over =
-        "the length of the coordinate array must be a multiple of the dimension";
-    check_dimension(points.dimension, "points");
+bool is_interleaved(const Points& points) {
     const auto dimension = static_cast<std::size_t>(points.dimension);
-    require(points.stride >= 1, "the stride of the points must be at least 1");
-    if (points.count == 0) {
-        require(points.stride > dimension || points.axes[0].empty(), left_over);
-        return;
-    }
-    const bool interleaved = dimension > 1 && is_interleaved(points);
-    require(!interleaved || points.axes[0].size() == points.count * dimension, left_over);
-    for (std::size_t a = 0; a < dimension; ++a) {
-        const std::size_t size = points.axes[a].size();
-        require(points.stride > 1 || size == points.count,
-                "coordinate arrays must all have the same length");
-        require(size > 0 && (size - 1) / points.stride >= points.count - 1,
-                "coordinate arrays must reach to the last point, (count - 1) * stride");
-    }
+    if (points.stride != dimension || points.axes[0].size() < points.count * dimension)
+        return false;
+    for (std::size_t a = 1; a < dimension; ++a)
+        if (points.axes[a].data() != points.axes[0].data() + a) return false;
+    return true;
 }
 
 void check_dimension(int dimension, const char* name) {
@@ -238,13 +244,13 @@ void check_arrays(const Points& points) {
 Box check_points(const Points& points) {
     check_arrays(points);
     const Box box = bounding_box(points);
-    for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a)
+    for (int a = 0; a < points.dimension; ++a)
         if (std::isnan(box.lower[a])) reject_coordinates(points);
     return box;
 }
 
 void normalize(std::vector<double>& sizes, int num_parts) {
-    if (sizes.empty()) sizes.assign(static_cast<std::size_t>(num_parts), 1.0);
+    if (sizes.empty()) sizes.assign(num_parts, 1.0);
     const int exponent = std::ilogb(std::accumulate(sizes.begin(), sizes.end(), 0.0));
     for (double& size : sizes) size = std::ldexp(size, -exponent);
 }

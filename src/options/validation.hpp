@@ -14,11 +14,6 @@ Options complete(Options options, int num_ranks);
 /// Throws Error naming the option and its range when `options` can't be used.
 void check_options(const Options& options, int dimension);
 
-struct Option;
-
-/// The same for a number or a choice alone.
-void check_value(const Option& option, const Options& options, int dimension);
-
 /// Throws Error when the arrays of the points do not fit together, or weights are unusable.
 void check_arrays(const Points& points);
 
@@ -30,9 +25,8 @@ void check_arrays(const Points& points);
 /// unusable.
 Box check_points(const Points& points);
 
-/// Throws Error when the coordinates do not fit the dimension and number of the points. Not whether
-/// they are finite.
-void check_coordinates(const Points& points);
+/// True when all coordinates lie in one array, point after point, without anything else.
+bool is_interleaved(const Points& points);
 
 /// Throws Error that names what has another number of axes than 1, 2 or 3.
 void check_dimension(int dimension, const char* name);

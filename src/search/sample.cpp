@@ -1,9 +1,8 @@
 #include "search/sample.hpp"
 
-#include "search/mix.hpp"
+#include "collective/mix.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace rrcb {
 
@@ -44,10 +43,8 @@ void add_to_sample(double key, const Vector& position, int dimension, std::span<
     // The records from `at` on have lesser keys than the incoming one.
     while (at > 0 && precedes(incoming, sample.subspan(at - length, length))) at -= length;
     if (at == end) return;
-    std::copy_backward(sample.begin() + static_cast<std::ptrdiff_t>(at),
-                       sample.begin() + static_cast<std::ptrdiff_t>(end - length),
-                       sample.begin() + static_cast<std::ptrdiff_t>(end));
-    std::ranges::copy(incoming, sample.begin() + static_cast<std::ptrdiff_t>(at));
+    std::copy_backward(sample.begin() + at, sample.begin() + (end - length), sample.begin() + end);
+    std::ranges::copy(incoming, sample.begin() + at);
 }
 
 void join_samples(std::span<const double> other, int dimension, std::span<double> sample) {

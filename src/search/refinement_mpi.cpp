@@ -25,7 +25,7 @@ Refinement::Refinement(const Options& options, const Participant& self, PartSums
     tree_.divides_coincident = options.coincident == Coincident::divide;
     tree_.limits = axis_limits(options);
     if (options.refine != Refine::exact && !are_cuts_limited(options))
-        correction_.emplace(options.num_parts, options.tree, rounds_.rank() == root);
+        correction_.emplace(root_of(options.num_parts, options.tree), rounds_.rank() == root);
 }
 
 Refined Refinement::refine(Estimate&& estimate, const Points& points, const Bin& bin,

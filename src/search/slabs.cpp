@@ -90,8 +90,8 @@ class Layer {
 
 }  // namespace
 
-SlabTotals most_slabs(int num_parts, const TreeShape& shape) {
-    return {static_cast<std::size_t>(num_parts) - 1, counts_below(root_of(num_parts, shape))};
+SlabTotals most_slabs(const Descent& top) {
+    return {static_cast<std::size_t>(top.num_parts) - 1, counts_below(top)};
 }
 
 SlabTotals lay_slabs(const TargetRule& rule, const Cuts& cuts, std::span<const Bracket> brackets,

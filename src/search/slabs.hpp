@@ -33,8 +33,8 @@ struct SlabTotals {
     std::size_t counts = 0;  ///< in bins of their slabs
 };
 
-/// The most that slabs of a tree of so many parts need.
-SlabTotals most_slabs(int num_parts, const TreeShape& shape);
+/// The most that slabs of all cuts at or below a node need.
+SlabTotals most_slabs(const Descent& top);
 
 /// Slabs of all cuts, into `slabs` (length of the tree), by what the parts were counted to weigh
 /// and where brackets expect how much weight about the cuts.
@@ -70,7 +70,7 @@ template <class Count>
 std::span<Count> bin_in(std::span<Count> counts, const Descent& at, const Slab& slab, bool above,
                         int bin) {
     const auto num_parts = static_cast<std::size_t>(at.num_parts);
-    const auto k = static_cast<std::size_t>(bin + (above ? bins_a_side : 0));
+    const int k = bin + (above ? bins_a_side : 0);
     return counts.subspan(slab.first_count + k * num_parts, num_parts);
 }
 

@@ -7,10 +7,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <limits>
-#include <utility>
 
 namespace rrcb {
 

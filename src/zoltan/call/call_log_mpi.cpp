@@ -6,9 +6,7 @@
 #include <rrcb/version.hpp>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

@@ -4,7 +4,6 @@
 #include "zoltan/handle/part_map.hpp"
 
 #include <span>
-#include <vector>
 
 namespace rrcb::zoltan {
 

@@ -1,7 +1,6 @@
 #include "zoltan/call/renumber_mpi.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 namespace rrcb::zoltan {
@@ -30,7 +29,7 @@ Renumbering::Renumbering(const Parameters& parameters, const Layout& layout, boo
     const bool matters = comm.size() > 1 || !rule.by_rank;
     if (!matters || !may_change_numbers(parameters, layout)) return;
     buffers_.emplace(rule, comm.rank(), false);
-    if (!rule.is_spread) boxes_.resize(static_cast<std::size_t>(map.num_parts));
+    if (!rule.is_spread) boxes_.resize(map.num_parts);
 }
 
 Renumbered Renumbering::run(const Objects& objects, std::span<Part> parts, Participant& self) {

@@ -48,15 +48,13 @@ struct Points {
     std::span<const double> weights{};                          ///< one per point, or none
 
     /// Returns the coordinate of point `i` along `axis`. Not collective, as all of these.
-    double coordinate(LocalIndex i, int axis) const {
-        return axes[static_cast<std::size_t>(axis)][i * stride];
-    }
+    double coordinate(LocalIndex i, int axis) const { return axes[axis][i * stride]; }
     /// Returns the weight of point `i`.
     double weight(LocalIndex i) const { return weights.empty() ? 1.0 : weights[i]; }
     /// Returns the coordinates of point `i`; 0 beyond the dimension.
     Vector position(LocalIndex i) const {
         Vector x{};
-        for (int a = 0; a < dimension; ++a) x[static_cast<std::size_t>(a)] = coordinate(i, a);
+        for (int a = 0; a < dimension; ++a) x[a] = coordinate(i, a);
         return x;
     }
 };

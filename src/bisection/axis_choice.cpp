@@ -11,7 +11,7 @@ std::vector<int> group_levels(std::span<const int> order, Box box, int dimension
     constexpr double enough = 1;
     std::array<int, max_dimension> cuts_across{};
     for (int level = 0; level < num_levels; ++level) {
-        const auto a = static_cast<std::size_t>(longest_axis(box, dimension, enough));
+        const int a = longest_axis(box, dimension, enough);
         ++cuts_across[a];
         box.upper[a] = box.lower[a] / 2 + box.upper[a] / 2;
     }
@@ -25,10 +25,7 @@ std::vector<int> group_levels(std::span<const int> order, Box box, int dimension
 }  // namespace
 
 int longest_axis(const Box& box, int dimension, double enough) {
-    const auto half_extent = [&](int axis) {
-        const auto a = static_cast<std::size_t>(axis);
-        return box.upper[a] / 2 - box.lower[a] / 2;
-    };
+    const auto half_extent = [&](int axis) { return box.upper[axis] / 2 - box.lower[axis] / 2; };
     double longest = half_extent(0);
     for (int axis = 1; axis < dimension; ++axis) longest = std::max(longest, half_extent(axis));
     int axis = 0;

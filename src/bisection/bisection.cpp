@@ -80,7 +80,7 @@ Bisection bisect(StatisticalDomain domain, int num_parts, std::span<const double
     Options options;
     options.num_parts = num_parts;
     options.part_sizes.assign(part_sizes.begin(), part_sizes.end());
-    if (part_sizes.empty()) options.part_sizes.assign(static_cast<std::size_t>(num_parts), 1.0);
+    if (part_sizes.empty()) options.part_sizes.assign(num_parts, 1.0);
     check_dimension(domain.dimension, "the domain");
     check_part_sizes(options, domain.dimension);
     return bisect(std::move(domain), options, false);

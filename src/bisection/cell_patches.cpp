@@ -59,7 +59,7 @@ void append_patches(const CellMoments& cell, double weight, bool is_heavy, const
                     StatisticalDomain& domain) {
     const std::size_t first = domain.patches.size();
     domain.patches.push_back({{}, {}, weight, {}, {}});
-    for (std::size_t a = 0; a < static_cast<std::size_t>(domain.dimension); ++a) {
+    for (int a = 0; a < domain.dimension; ++a) {
         const double lower = std::clamp(cell.box.lower[a], box.lower[a], box.upper[a]);
         const double upper = std::clamp(cell.box.upper[a], box.lower[a], box.upper[a]);
         const auto& [mean, deviation] = std::pair(cell.moments.mean[a], cell.moments.deviation[a]);

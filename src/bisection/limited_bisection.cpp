@@ -21,7 +21,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double weight_below(const StatisticalDomain& domain, const Cut& plane) {
-    const auto a = static_cast<std::size_t>(plane.axis);
+    const int a = plane.axis;
     double weight = 0;
     for (const Patch& patch : domain.patches)
         weight += weight_below(slice_of(patch, a), plane.at[a]);
@@ -45,7 +45,7 @@ std::vector<Way> ways_across(const Descent& at, const Box& region, const Box& ex
         if (!places.empty()) ways.push_back({axis, places});
     }
     std::ranges::stable_sort(ways, std::greater<>(), [&](const Way& way) {
-        const auto a = static_cast<std::size_t>(way.axis);
+        const int a = way.axis;
         return way.axis == preferred ? infinity : extent.upper[a] / 2 - extent.lower[a] / 2;
     });
     return ways;

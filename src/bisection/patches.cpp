@@ -17,8 +17,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// The axis that tells on which side of the cut a patch lies: later ones only where it is tied.
 int deciding_axis(const Cut& cut, const Patch& patch, int dimension) {
     const auto tied = [&](int axis) {
-        const auto a = static_cast<std::size_t>(axis);
-        return patch.lower[a] == cut.at[a] && patch.upper[a] == cut.at[a];
+        return patch.lower[axis] == cut.at[axis] && patch.upper[axis] == cut.at[axis];
     };
     if (!tied(cut.axis)) return cut.axis;
     for (int axis = 0; axis < dimension; ++axis)
@@ -47,7 +46,7 @@ Box extent_of(const StatisticalDomain& domain) {
 
 Bracket bracket_of(const StatisticalDomain& domain, const Cut& cut, double below, int depth) {
     const double weight = weight_of(domain);
-    const auto axis = static_cast<std::size_t>(cut.axis);
+    const int axis = cut.axis;
     const Box box = extent_of(domain);
     const Profile profile(domain, cut.axis);
     const auto quantile = [&](double share, double end) {
@@ -70,7 +69,7 @@ Halves split_domain(const StatisticalDomain& domain, const Cut& cut) {
     halves.lower.patches.reserve(about_half);
     halves.upper.patches.reserve(about_half);
     for (const Patch& patch : domain.patches) {
-        const auto axis = static_cast<std::size_t>(deciding_axis(cut, patch, domain.dimension));
+        const int axis = deciding_axis(cut, patch, domain.dimension);
         const double value = cut.at[axis];
         if (patch.lower[axis] >= value) {
             halves.upper.patches.push_back(patch);

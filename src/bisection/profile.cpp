@@ -19,13 +19,12 @@ bool Profile::Range::is_limited() const {
 
 Profile::Profile(const StatisticalDomain& domain, int axis) : domain_(&domain), axis_(axis) {
     if (domain.patches.size() < few_patches) return;
-    const auto a = static_cast<std::size_t>(axis);
     const double infinity = std::numeric_limits<double>::infinity();
     lower_ = infinity;
     upper_ = -infinity;
     for (const Patch& patch : domain.patches) {
-        lower_ = std::min(lower_, patch.lower[a]);
-        upper_ = std::max(upper_, patch.upper[a]);
+        lower_ = std::min(lower_, patch.lower[axis]);
+        upper_ = std::max(upper_, patch.upper[axis]);
     }
     const double bins_per_half = num_bins / (upper_ / 2 - lower_ / 2);
     if (!(bins_per_half > 0 && std::isfinite(bins_per_half))) return;
@@ -36,8 +35,8 @@ Profile::Profile(const StatisticalDomain& domain, int axis) : domain_(&domain), 
     // First by how much more each bin has than the one before, at index bin + 1.
     weights_below_.resize(num_bins + 2);
     for (const Patch& patch : domain.patches) {
-        const std::size_t first = bin_of(patch.lower[a]);
-        const std::size_t last = bin_of(patch.upper[a]);
+        const std::size_t first = bin_of(patch.lower[axis]);
+        const std::size_t last = bin_of(patch.upper[axis]);
         const double each = patch.weight / static_cast<double>(last - first + 1);
         weights_below_[first + 1] += each;
         weights_below_[last + 2] -= each;

@@ -37,8 +37,8 @@ double pivot_of(std::span<const double> breakpoints) {
     std::array<double, most> sample;
     const std::size_t size = std::min(most, breakpoints.size());
     for (std::size_t k = 0; k < size; ++k) sample[k] = breakpoints[k * breakpoints.size() / size];
-    const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(size / 2);
-    std::nth_element(sample.begin(), middle, sample.begin() + static_cast<std::ptrdiff_t>(size));
+    const auto middle = sample.begin() + size / 2;
+    std::nth_element(sample.begin(), middle, sample.begin() + size);
     return *middle;
 }
 

@@ -79,7 +79,7 @@ Box box_of_strided(const double* values, LocalIndex count, std::size_t stride) {
 void check_reach(const Points& points) {
     check_dimension(points.dimension, "points");
     require(points.stride >= 1, "the stride of the points must be at least 1");
-    for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a) {
+    for (int a = 0; a < points.dimension; ++a) {
         const std::size_t size = points.axes[a].size();
         require(points.count == 0 || (size > 0 && (size - 1) / points.stride >= points.count - 1),
                 "coordinate arrays must reach to the last point, (count - 1) * stride");
@@ -118,7 +118,7 @@ Box bounding_box(const Points& points) {
     if (is_interleaved(points))
         return box_of_values(points.axes[0].first(points.count * points.stride), points.stride);
     Box box;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a) {
+    for (int a = 0; a < points.dimension; ++a) {
         const Box axis = points.stride == 1
                              ? box_of_values(points.axes[a].first(points.count), 1)
                              : box_of_strided(points.axes[a].data(), points.count, points.stride);

@@ -49,7 +49,7 @@ SortedPoints sort_by_cell(const BinnedPoints& binned) {
 Box enclosing_box(const SupportMesh& mesh, LocalIndex cell) {
     constexpr double margin = 8 * std::numeric_limits<double>::epsilon();
     Box box = cell_box(mesh, cell);
-    for (std::size_t a = 0; a < static_cast<std::size_t>(mesh.dimension); ++a) {
+    for (int a = 0; a < mesh.dimension; ++a) {
         const double largest = std::max(std::abs(mesh.box.lower[a]), std::abs(mesh.box.upper[a]));
         box.lower[a] = std::max(mesh.box.lower[a], box.lower[a] - margin * largest);
         box.upper[a] = std::min(mesh.box.upper[a], box.upper[a] + margin * largest);

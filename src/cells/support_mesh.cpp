@@ -25,7 +25,7 @@ SupportMesh make_support_mesh(const Box& box, int dimension, int cells_per_axis)
     SupportMesh mesh;
     mesh.dimension = dimension;
     mesh.box = box;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
+    for (int a = 0; a < dimension; ++a) {
         if (!(box.lower[a] < box.upper[a])) continue;
         mesh.scale[a] = scale_of_lengths(box.lower[a], box.upper[a]);
         mesh.cells[a] = cells_per_axis;
@@ -44,7 +44,7 @@ LocalIndex num_cells(const SupportMesh& mesh) {
 LocalIndex cell_of(const SupportMesh& mesh, const Vector& position) {
     LocalIndex cell = 0;
     LocalIndex stride = 1;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(mesh.dimension); ++a) {
+    for (int a = 0; a < mesh.dimension; ++a) {
         const double offset = position[a] * mesh.scale[a] - mesh.box.lower[a] * mesh.scale[a];
         const double layer =
             std::clamp(offset * mesh.cells_per_length[a], 0.0, mesh.cells[a] - 1.0);
@@ -56,7 +56,7 @@ LocalIndex cell_of(const SupportMesh& mesh, const Vector& position) {
 
 Box cell_box(const SupportMesh& mesh, LocalIndex cell) {
     Box box;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(mesh.dimension); ++a) {
+    for (int a = 0; a < mesh.dimension; ++a) {
         const auto cells = static_cast<LocalIndex>(mesh.cells[a]);
         const LocalIndex layer = cell % cells;
         cell /= cells;

@@ -103,8 +103,7 @@ std::size_t ButterflyMessages::receive(std::size_t number, int from, Participant
     self.attempt([&] {
         if (number == 0) arrived_.reserve(length);
         const std::size_t size = std::min(piece_.size(), length - number * piece_.size());
-        arrived_.insert(arrived_.end(), piece_.begin(),
-                        piece_.begin() + static_cast<std::ptrdiff_t>(size));
+        arrived_.insert(arrived_.end(), piece_.begin(), piece_.begin() + size);
     });
     return num_pieces(length, piece_.size());
 }

@@ -16,7 +16,7 @@ std::size_t Exchange::most_records() const {
 
 void Exchange::make_outbox(std::vector<RankCount> counts, std::size_t num_records) {
     const std::size_t most = counts.size() + num_records / most_records();
-    requests_.reserve(static_cast<std::size_t>(mpi::to_int(static_cast<std::int64_t>(most))));
+    requests_.reserve(mpi::to_int(static_cast<std::int64_t>(most)));
     outbox_.resize(record_bytes_ * num_records);
     counts_ = std::move(counts);
 }

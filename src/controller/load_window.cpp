@@ -49,8 +49,8 @@ double LoadWindow::upper_bound() const {
 double LoadWindow::order_statistic(std::size_t length, std::size_t rank) const {
     Values last{};
     for (std::size_t ago = 0; ago < length; ++ago) last[ago] = latest(excess_, ago);
-    const auto place = last.begin() + static_cast<std::ptrdiff_t>(rank);
-    std::nth_element(last.begin(), place, last.begin() + static_cast<std::ptrdiff_t>(length));
+    const auto place = last.begin() + rank;
+    std::nth_element(last.begin(), place, last.begin() + length);
     return *place;
 }
 

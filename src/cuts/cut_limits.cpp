@@ -39,7 +39,7 @@ CutLimits::CutLimits(const Options& options, const Box& points, int dimension, G
       limiting_(options.axes.grid.empty()        ? "axes.min_width leaves"
                 : options.axes.min_width.empty() ? "axes.grid leaves"
                                                  : "axes.min_width and axes.grid together leave") {
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
+    for (int a = 0; a < dimension; ++a) {
         if (!axes_[a].has_grid()) continue;
         if (!axes_[a].resolves(std::max(std::abs(points.lower[a]), std::abs(points.upper[a]))))
             reject("axes.grid is finer along axis " + std::to_string(a) +
@@ -82,7 +82,7 @@ void CutLimits::require_room() {
 
 Room CutLimits::room_in(const Box& region, int most) const {
     Room room{1, 1, 1};
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension_); ++a)
+    for (int a = 0; a < dimension_; ++a)
         room[a] = axes_[a].count_between(region.lower[a], region.upper[a], most);
     return room;
 }
@@ -112,18 +112,17 @@ double CutLimits::last_face_before(const Descent& at, int axis, double face) con
 }
 
 Places CutLimits::places(const Descent& at, const Box& region, int axis) {
-    const auto a = static_cast<std::size_t>(axis);
     if (!given_.axes.empty()) {
         const Places gap = given_.gaps.empty() ? Places{} : given_.gaps[at.node];
-        return {std::max(gap.first, first_face_behind(at.lower(), axis, region.lower[a])),
-                std::min(gap.last, last_face_before(at.upper(), axis, region.upper[a]))};
+        return {std::max(gap.first, first_face_behind(at.lower(), axis, region.lower[axis])),
+                std::min(gap.last, last_face_before(at.upper(), axis, region.upper[axis]))};
     }
     const Room room = room_in(region, packing_.num_parts(at));
-    const int below = packing_.least_room(at.lower(), axis, room, room[a]);
-    const int above = packing_.least_room(at.upper(), axis, room, room[a]);
-    if (below + above > room[a]) return {infinity, -infinity};
-    return {axes_[a].first_behind(region.lower[a], below),
-            axes_[a].last_before(region.upper[a], above)};
+    const int below = packing_.least_room(at.lower(), axis, room, room[axis]);
+    const int above = packing_.least_room(at.upper(), axis, room, room[axis]);
+    if (below + above > room[axis]) return {infinity, -infinity};
+    return {axes_[axis].first_behind(region.lower[axis], below),
+            axes_[axis].last_before(region.upper[axis], above)};
 }
 
 Cut CutLimits::nearest(const Cut& cut, const Places& places) const {

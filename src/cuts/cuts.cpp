@@ -9,7 +9,6 @@
 #include <bit>
 #include <cmath>
 #include <string>
-#include <utility>
 
 namespace rrcb {
 

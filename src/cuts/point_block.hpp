@@ -63,8 +63,7 @@ void for_each_tied(const TiedPoints& tied, const Columns& columns, LocalIndex le
     }
     for (const LocalIndex i : std::span(left).first(num_left)) {
         Vector position{};
-        for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
-            position[a] = columns[a][i];
+        for (int a = 0; a < dimension; ++a) position[a] = columns[a][i];
         look_up(i, position);
     }
 }

@@ -42,7 +42,7 @@ inline const Cut* find_cut(const Cuts& cuts, std::size_t node) {
     if (is_whole(cuts)) return &cuts.tree[node];
     const auto found = std::ranges::lower_bound(cuts.nodes, static_cast<std::int32_t>(node));
     if (found == cuts.nodes.end() || *found != static_cast<std::int32_t>(node)) return nullptr;
-    return &cuts.tree[static_cast<std::size_t>(found - cuts.nodes.begin())];
+    return &cuts.tree[found - cuts.nodes.begin()];
 }
 
 /// The part of a position at or below `at`, or the first node on the way to it that is not known.
@@ -117,7 +117,7 @@ bool is_region_empty(const Cuts& cuts, Part part, const Box& region);
 /// True when a closed box holds the place of points that lie on both sides of a cut.
 inline bool holds_divided_points(const Box& box, const Cut& cut, int dimension) {
     if (cut.divides == 0) return false;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+    for (int a = 0; a < dimension; ++a)
         if (!(box.lower[a] <= cut.at[a] && cut.at[a] <= box.upper[a])) return false;
     return true;
 }

@@ -88,28 +88,26 @@ std::vector<double> pack_points(const Points& points) {
 }
 
 PaperRecords unpack_moments(std::span<const double> packed, int dimension) {
-    const auto axes = static_cast<std::size_t>(dimension);
-    const std::size_t length = 2 + 2 * axes;
+    const std::size_t length = 2 + 2 * dimension;
     return unpack(packed, [&](const Head&, std::span<const double> doubles, PaperRecords& all) {
         for (; !doubles.empty(); doubles = doubles.subspan(length)) {
             Moments& moments = all.cells.emplace_back().moments;
             moments.count = static_cast<GlobalCount>(doubles[0]);
             moments.weight = doubles[1];
-            std::ranges::copy(doubles.subspan(2, axes), moments.mean.begin());
-            std::ranges::copy(doubles.subspan(2 + axes, axes), moments.deviation.begin());
+            std::ranges::copy(doubles.subspan(2, dimension), moments.mean.begin());
+            std::ranges::copy(doubles.subspan(2 + dimension, dimension), moments.deviation.begin());
         }
     });
 }
 
 PaperRecords unpack_points(std::span<const double> packed, int dimension) {
-    const auto axes = static_cast<std::size_t>(dimension);
     return unpack(packed,
                   [&](const Head& head, std::span<const double> doubles, PaperRecords& all) {
-                      const std::size_t length = axes + (head.has_weights != 0 ? 1 : 0);
+                      const std::size_t length = dimension + (head.has_weights != 0 ? 1 : 0);
                       for (; !doubles.empty(); doubles = doubles.subspan(length)) {
                           all.coordinates.insert(all.coordinates.end(), doubles.begin(),
                                                  doubles.begin() + dimension);
-                          all.weights.push_back(head.has_weights != 0 ? doubles[axes] : 1.0);
+                          all.weights.push_back(head.has_weights != 0 ? doubles[dimension] : 1.0);
                       }
                   });
 }

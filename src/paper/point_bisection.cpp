@@ -50,13 +50,12 @@ std::size_t cut_points(std::span<MassPoint> points, double below, const Task& ta
     const Box box = extent_of(points);
     const double weight = weight_of(points);
     const int axis = longest_axis(box, dimension, longest_only);
-    const auto a = static_cast<std::size_t>(axis);
     // First: a side of size 0 stays empty, whatever points there are.
     cut = plane(axis, below >= 1 ? infinity : -infinity);
     if (below >= 1) return points.size();
     if (below <= 0 || !(weight > 0)) return 0;
     if (task.rule == CutRule::midpoint) {
-        cut = plane(axis, std::lerp(box.lower[a], box.upper[a], below));
+        cut = plane(axis, std::lerp(box.lower[axis], box.upper[axis], below));
         return divide_by(cut, dimension, points);
     }
     return select_below(points, dimension, below * weight, task.plain_cuts, cut);
@@ -91,7 +90,7 @@ Bisection bisect_points(std::vector<MassPoint> points, int dimension, int num_pa
     check_dimension(dimension, "the points");
     check_sizes(num_parts, part_sizes);
     std::vector<double> sizes(part_sizes.begin(), part_sizes.end());
-    if (sizes.empty()) sizes.assign(static_cast<std::size_t>(num_parts), 1.0);
+    if (sizes.empty()) sizes.assign(num_parts, 1.0);
     Task task{rule, plain_cuts, {}};
     task.result.cuts.dimension = dimension;
     task.result.cuts.num_parts = num_parts;

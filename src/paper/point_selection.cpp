@@ -30,8 +30,8 @@ Place select(std::span<MassPoint> points, const PositionOrder& before, double ta
     while (last - first > 1) {
         const std::size_t middle = first + (last - first) / 2;
         const auto left = points.subspan(first, last - first);
-        std::ranges::nth_element(left, left.begin() + static_cast<std::ptrdiff_t>(middle - first),
-                                 before, &MassPoint::position);
+        std::ranges::nth_element(left, left.begin() + (middle - first), before,
+                                 &MassPoint::position);
         const double weight = weight_of(points.subspan(first, middle - first));
         if (below + weight >= enough) {
             last = middle;
@@ -97,7 +97,7 @@ std::size_t select_below(std::span<MassPoint> points, int dimension, double targ
     const double missing = target - ties.below;
     const bool above = missing < ties.weight / 2;
     const std::size_t num_below = above ? ties.begin : ties.end;
-    const auto axis = static_cast<std::size_t>(cut.axis);
+    const int axis = cut.axis;
     cut.at.fill(-infinity);
     if (num_below == 0 || num_below == points.size()) {
         cut.at[axis] = num_below == 0 ? points[ties.begin].position[axis] : infinity;

@@ -70,12 +70,12 @@ std::vector<MassPoint> sample_points(std::span<const CellMoments> cells, int dim
     const std::vector<GlobalCount> shares = apportion(weights_of(cells), num_samples);
     std::mt19937_64 engine(options.seed);
     std::vector<MassPoint> points;
-    points.reserve(static_cast<std::size_t>(num_samples));
+    points.reserve(num_samples);
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const Box box = sampling_box(cells[i].moments, options.sigma_multiplier);
         for (GlobalCount k = 0; k < shares[i]; ++k) {
             Vector x{};
-            for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+            for (int a = 0; a < dimension; ++a)
                 x[a] = std::lerp(box.lower[a], box.upper[a], uniform(engine));
             points.push_back({x, 1.0});
         }

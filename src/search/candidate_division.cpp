@@ -5,12 +5,12 @@
 namespace rrcb {
 
 std::vector<Candidate> read_candidates(std::span<const double> records, int dimension) {
-    const auto d = static_cast<std::size_t>(dimension);
-    std::vector<Candidate> candidates(records.size() / (d + 1));
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-        std::copy_n(records.begin() + static_cast<std::ptrdiff_t>(k * (d + 1)), d,
-                    candidates[k].position.begin());
-        candidates[k].weight = records[k * (d + 1) + d];
+    const int length = dimension + 1;
+    std::vector<Candidate> candidates(records.size() / length);
+    for (Candidate& candidate : candidates) {
+        std::ranges::copy(records.first(dimension), candidate.position.begin());
+        candidate.weight = records[dimension];
+        records = records.subspan(length);
     }
     return candidates;
 }

@@ -59,15 +59,14 @@ class Corrector {
     }
 
     static std::span<const double> lower_of(std::span<const double> counts, const Descent& at) {
-        return counts.first(static_cast<std::size_t>(at.lower().num_parts));
+        return counts.first(at.lower().num_parts);
     }
 
     /// Brings a share of a bin below the cut of a node, or above it where the share is negative.
     void bring(const Descent& at, std::span<const double> counts, double share) {
-        const auto first = static_cast<std::size_t>(at.first_part);
         const std::size_t num_below = lower_of(counts, at).size();
         for (std::size_t k = 0; k < counts.size(); ++k) {
-            double& weight = part_weights_[first + k];
+            double& weight = part_weights_[at.first_part + k];
             weight = std::max(0.0, weight + (k < num_below ? share : -share) * counts[k]);
         }
     }

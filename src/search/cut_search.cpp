@@ -230,7 +230,7 @@ void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout&
                     std::span<const double> histogram) {
     const auto weights = histogram.subspan(layout.num_extents, layout.num_slots());
     const auto counts = histogram.subspan(layout.num_extents + layout.num_slots());
-    const auto axis = static_cast<std::size_t>(current_axis(search));
+    const int axis = current_axis(search);
     if (!(target.target > 0)) {
         search.stage = CutSearch::done;
         if (!target.places.all()) finish(search, search.lower, weights[0]);
@@ -246,7 +246,7 @@ void decide_by_bins(CutSearch& search, CutTarget& target, const HistogramLayout&
     const Bins bins = bins_of(search, layout);
     const Chosen chosen = choose(target.base, target.target, weights);
     if (finish_at_limit(search, target, weights, chosen)) return;
-    const auto slot = static_cast<std::size_t>(chosen.slot);
+    const int slot = chosen.slot;
     const EdgeErrors errors = errors_at(chosen, weights[slot], target);
     const int edge = chosen.slot - (errors.at_lower() ? 1 : 0);
     if (edge >= 0 && edge <= layout.num_bins && errors.least() <= target.slack) {
@@ -267,7 +267,7 @@ void decide_by_splitters(CutSearch& search, CutTarget& target, const HistogramLa
         histogram.subspan(layout.num_extents, layout.num_slots()).first(2 * splitters.size() + 1);
     const auto counts = histogram.subspan(layout.num_extents + layout.num_slots());
     const Chosen chosen = choose(target.base, target.target, weights);
-    const auto slot = static_cast<std::size_t>(chosen.slot);
+    const int slot = chosen.slot;
     const EdgeErrors errors = errors_at(chosen, weights[slot], target);
     const bool at_splitter = slot % 2 == 1;
     // Between two slots lies the near or the far side of a splitter; the outermost edges were

@@ -7,7 +7,7 @@ namespace rrcb {
 namespace {
 
 void swap_entries(SortedPoints& points, LocalIndex i, LocalIndex j) {
-    const auto d = static_cast<std::size_t>(points.dimension());
+    const int d = points.dimension();
     std::swap_ranges(&points.coordinates[i * d], &points.coordinates[i * d] + d,
                      &points.coordinates[j * d]);
     std::swap(points.original[i], points.original[j]);
@@ -26,7 +26,7 @@ bool is_at(const Cut& cut, const Vector& position, int dimension) {
 }
 
 bool touches(const Box& box, const Cut& cut, int dimension) {
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+    for (int a = 0; a < dimension; ++a)
         if (cut.at[a] < box.lower[a] || cut.at[a] > box.upper[a]) return false;
     return true;
 }
@@ -126,7 +126,7 @@ std::pair<std::vector<Fragment>, std::vector<Fragment>> split(
     const std::vector<Fragment>& fragments, const Cut& cut, const Lot& lot, SortedPoints& points) {
     std::vector<Fragment> lower;
     std::vector<Fragment> upper;
-    const auto axis = static_cast<std::size_t>(cut.axis);
+    const int axis = cut.axis;
     Divider divider(cut, lot, points);
     for (const Fragment& fragment : fragments) {
         if (!divider.crosses(fragment)) {
@@ -155,9 +155,7 @@ std::pair<std::vector<Fragment>, std::vector<Fragment>> split_by_parts(
 
 void write_parts(const std::vector<Fragment>& fragments, const Cuts& cuts, const Descent& at,
                  const SortedPoints& points, std::span<Part> parts, std::span<double> weights) {
-    std::ranges::fill(weights.subspan(static_cast<std::size_t>(at.first_part),
-                                      static_cast<std::size_t>(at.num_parts)),
-                      0.0);
+    std::ranges::fill(weights.subspan(at.first_part, at.num_parts), 0.0);
     for (const Fragment& fragment : fragments) {
         const Descent from = first_crossing(cuts, fragment.box, at);
         if (from.is_part()) weights[from.first_part] += fragment.weight;

@@ -47,7 +47,7 @@ class Tally {
 void LocalSearch::count(const CutSearch& search, const HistogramLayout& layout,
                         std::span<double> histogram) const {
     Tally tally(layout, points_.dimension(), histogram);
-    const auto axis = static_cast<std::size_t>(current_axis(search));
+    const int axis = current_axis(search);
     if (search.stage == CutSearch::over_fragments) {
         count_fragments(search, layout, histogram);
     } else if (search.stage == CutSearch::over_candidates) {
@@ -68,8 +68,8 @@ void LocalSearch::count(const CutSearch& search, const HistogramLayout& layout,
 void LocalSearch::count_fragments(const CutSearch& search, const HistogramLayout& layout,
                                   std::span<double> histogram) const {
     Tally tally(layout, points_.dimension(), histogram);
-    const auto axis = static_cast<std::size_t>(current_axis(search));
-    const auto d = static_cast<std::size_t>(points_.dimension());
+    const int axis = current_axis(search);
+    const int d = points_.dimension();
     const Bins bins = bins_of(search, layout);
     for (const Fragment& fragment : fragments_) {
         tally.widen(fragment.box.lower, fragment.box.upper);
@@ -101,8 +101,8 @@ void LocalSearch::keep_chosen(const CutSearch& before, const CutSearch& after,
         return;
     }
     const Bins bins = bins_of(before, layout);
-    const auto axis = static_cast<std::size_t>(current_axis(before));
-    const auto d = static_cast<std::size_t>(points_.dimension());
+    const int axis = current_axis(before);
+    const int d = points_.dimension();
     const auto is_chosen = [&](LocalIndex i) {
         return bins.slot_of(points_.coordinates[i * d + axis]) == after.chosen;
     };

@@ -31,15 +31,14 @@ double attainable_tolerance(std::span<const double> sizes, const TargetRule& rul
 }  // namespace
 
 double weight_of(const Descent& at, std::span<const double> part_weights) {
-    return sum_of(part_weights.subspan(static_cast<std::size_t>(at.first_part),
-                                       static_cast<std::size_t>(at.num_parts)));
+    return sum_of(part_weights.subspan(at.first_part, at.num_parts));
 }
 
 bool TargetRule::are_within(const Descent& at, std::span<const double> part_weights) const {
     // To the bit as the imbalance, which decides at the end.
     const double sizes = sum_of(part_sizes);
     for (int k = 0; k < at.num_parts; ++k) {
-        const auto part = static_cast<std::size_t>(at.first_part + k);
+        const int part = at.first_part + k;
         if (!(part_weights[part] > 0)) continue;
         if (!(part_weights[part] / counted_weight / (part_sizes[part] / sizes) <= tolerance))
             return false;

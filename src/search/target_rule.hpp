@@ -25,8 +25,7 @@ struct TargetRule {
     bool is_earlier = false;     ///< the cuts are those of an earlier call, not limited
 
     std::span<const double> sizes_of(const Descent& at) const {
-        return part_sizes.subspan(static_cast<std::size_t>(at.first_part),
-                                  static_cast<std::size_t>(at.num_parts));
+        return part_sizes.subspan(at.first_part, at.num_parts);
     }
 
     /// Share of a node's weight that belongs below its cut.

@@ -58,8 +58,7 @@ void TreeSearch::count_parts(const Node& node, std::vector<double>& payload) {
     write_parts(fragments, guide_->cuts, node.at, points_, parts_, here);
     if (fragments.empty()) return;
     payload.push_back(mark_of_parts);
-    const auto weights = here.subspan(static_cast<std::size_t>(node.at.first_part),
-                                      static_cast<std::size_t>(node.at.num_parts));
+    const auto weights = here.subspan(node.at.first_part, node.at.num_parts);
     payload.insert(payload.end(), weights.begin(), weights.end());
 }
 

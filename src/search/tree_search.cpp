@@ -20,8 +20,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Box of the entries of a fragment.
 Box box_of(const Fragment& fragment, const SortedPoints& points) {
     Box box = fragment.box;
-    const auto d = static_cast<std::size_t>(points.dimension());
-    for (std::size_t a = 0; a < d; ++a) {
+    const int d = points.dimension();
+    for (int a = 0; a < d; ++a) {
         box.lower[a] = infinity;
         box.upper[a] = -infinity;
         for (LocalIndex i = fragment.begin; i < fragment.end; ++i) {
@@ -97,7 +97,7 @@ double TreeSearch::share_below(const Descent& at) const {
 std::span<const double> TreeSearch::sizes_of(const Descent& at) const {
     const auto count = static_cast<std::size_t>(at.num_parts);
     if (tree_.part_sizes.empty()) return tree_.ones.first(count);
-    return tree_.part_sizes.subspan(static_cast<std::size_t>(at.first_part), count);
+    return tree_.part_sizes.subspan(at.first_part, count);
 }
 
 bool TreeSearch::holds_own_parts(const Descent& at) const {
@@ -204,7 +204,7 @@ void TreeSearch::note(std::size_t node, const Cut& cut) {
 TreeSearch::Halves TreeSearch::split_tightly(const std::vector<Fragment>& fragments, const Cut& cut,
                                              const Lot& lot) {
     Halves halves = split(fragments, cut, lot, points_);
-    const auto axis = static_cast<std::size_t>(cut.axis);
+    const int axis = cut.axis;
     for (auto* half : {&halves.first, &halves.second})
         for (Fragment& fragment : *half)
             if (fragment.box.lower[axis] == cut.at[axis] ||
@@ -279,8 +279,7 @@ CutSearch TreeSearch::first_search(const Descent& at, const Box& box, double wei
     const int number = tree_.cut_axes.empty() || at.is_part()
                            ? longest_axis(box, dimension_, tree_.share_of_longest)
                            : tree_.cut_axes[at.node];
-    const auto axis = static_cast<std::size_t>(number);
-    return search_across(number, {box.lower[axis], std::nextafter(box.upper[axis], infinity)},
+    return search_across(number, {box.lower[number], std::nextafter(box.upper[number], infinity)},
                          weight);
 }
 

@@ -23,7 +23,7 @@ void shrink(const Cuts& cuts, std::span<const Slab> slabs, const Descent& at, co
         boxes.push_back(box);
         return;
     }
-    const auto axis = static_cast<std::size_t>(cuts.tree[at.node].axis);
+    const int axis = cuts.tree[at.node].axis;
     const Slab& slab = slabs[at.node];
     Box below = box;
     Box above = box;
@@ -147,7 +147,7 @@ Part part_across(const Cuts& cuts, const Step& step, const Vector& position) {
     Descent at = step.above ? step.at.lower() : step.at.upper();
     while (!at.is_part()) {
         const Cut& cut = cuts.tree[at.node];
-        const auto axis = static_cast<std::size_t>(cut.axis);
+        const int axis = cut.axis;
         const bool above = position[axis] == cut.at[axis] ? is_above(cut, position, cuts.dimension)
                                                           : position[axis] > cut.at[axis];
         at = above ? at.upper() : at.lower();
@@ -169,15 +169,15 @@ UndecidedPoints undecided_points(const Points& points, std::span<const Part> par
 void count_in_slabs(const UndecidedPoints& points, const Cuts& cuts, std::span<const Slab> slabs,
                     std::span<double> counts) {
     const std::vector<std::vector<Step>> ways = ways_to_parts(cuts, slabs);
-    const auto d = static_cast<std::size_t>(points.dimension);
+    const int d = points.dimension;
     for (LocalIndex i = 0; i < points.parts.size(); ++i) {
         Vector position{};
-        for (std::size_t a = 0; a < d; ++a) position[a] = points.coordinates[i * d + a];
+        for (int a = 0; a < d; ++a) position[a] = points.coordinates[i * d + a];
         const Part part = points.parts[i];
         for (const Step& step : ways[part]) {
             const Slab& slab = slabs[step.at.node];
             const Cut& cut = cuts.tree[step.at.node];
-            const auto axis = static_cast<std::size_t>(cut.axis);
+            const int axis = cut.axis;
             const double x = position[axis];
             if (!(x >= slab.lower && x < slab.upper)) continue;
             const auto bin = bin_in(counts, step.at, slab, step.above,

@@ -39,12 +39,12 @@ void ask_for_sizes(const State& state, int first_here, int first_part, std::span
 /// They are merged in pieces, for which every rank has the memory.
 void merge_part_sizes(int num_parts, const State& state, const Layout& layout,
                       std::vector<double>& merged, Participant& self) {
-    self.attempt([&] { merged.resize(static_cast<std::size_t>(num_parts)); });
+    self.attempt([&] { merged.resize(num_parts); });
     const int first_here = first_part_of(layout.map, state.communicator->rank());
     std::array<double, 4096> piece;
     for (int first_part = 0; first_part < num_parts; first_part += static_cast<int>(piece.size())) {
         const int count = std::min(num_parts - first_part, static_cast<int>(piece.size()));
-        const std::span<double> sizes = std::span(piece).first(static_cast<std::size_t>(count));
+        const std::span<double> sizes = std::span(piece).first(count);
         ask_for_sizes(state, first_here, first_part, sizes);
         mpi::check(MPI_Allreduce(MPI_IN_PLACE, sizes.data(), count, MPI_DOUBLE, MPI_MAX, self.comm),
                    "MPI_Allreduce");

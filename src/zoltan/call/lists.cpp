@@ -52,7 +52,7 @@ void move_entry(T* array, std::size_t width, std::size_t from, std::size_t to) {
 /// Keeps the entries of objects that move, in their order. It works in place, so it cannot fail.
 void keep_moving(const Moves& moves, const IdWidths& widths, List& list) {
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(list.count); ++i) {
+    for (int i = 0; i < list.count; ++i) {
         if (!moves(i)) continue;
         move_entry(list.global_ids.get(), widths.global, i, kept);
         move_entry(list.local_ids.get(), widths.local, i, kept);

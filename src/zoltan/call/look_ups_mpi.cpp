@@ -12,7 +12,7 @@ Numbering whole_numbering(const Numbering& numbering, const PartMap& map, Partic
     std::vector<Part> numbers;
     std::vector<Part> buffer;
     self.attempt([&] {
-        numbers.resize(static_cast<std::size_t>(map.num_parts));
+        numbers.resize(map.num_parts);
         buffer.resize(numbers.size());
     });
     agree(self);

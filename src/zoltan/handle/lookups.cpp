@@ -47,7 +47,7 @@ void find_touched(const State& state, const Box& box, const Touched& touched) {
     thread_local std::vector<Part> unasked;
     Part* parts = touched.parts;
     if (parts == nullptr) {
-        unasked.resize(static_cast<std::size_t>(last.map().num_parts));
+        unasked.resize(last.map().num_parts);
         parts = unasked.data();
     }
     const int count = last.parts_touching(box, parts);

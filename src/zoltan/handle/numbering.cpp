@@ -26,7 +26,7 @@ Part Numbering::number_of(Part box) const {
     if (!is_spread_) return numbers_[box];
     const auto found = std::ranges::lower_bound(boxes_, box);
     if (found == boxes_.end() || *found != box) return no_part;
-    return numbers_[static_cast<std::size_t>(found - boxes_.begin())];
+    return numbers_[found - boxes_.begin()];
 }
 
 }  // namespace rrcb::zoltan

@@ -97,7 +97,7 @@ bool RollCall::receive_call() {
 
 bool RollCall::call_ranks(MPI_Request& request, Participant& self) {
     const int rank = mpi::rank_of(comm_);
-    present_.assign(static_cast<std::size_t>(mpi::size_of(comm_)), 0);
+    present_.assign(mpi::size_of(comm_), 0);
     present_[rank] = 1;
     num_present_ = 1;
     for (int other = 0; other < mpi::size_of(comm_); ++other)

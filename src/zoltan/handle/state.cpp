@@ -39,7 +39,7 @@ struct LastFound {
 Communicator::Communicator(MPI_Comm duplicate)
     : rank_(mpi::rank_of(duplicate)),
       size_(mpi::size_of(duplicate)),
-      per_rank_(std::make_unique_for_overwrite<int[]>(static_cast<std::size_t>(size_))) {
+      per_rank_(std::make_unique_for_overwrite<int[]>(size_)) {
     mpi::check(MPI_Comm_set_errhandler(duplicate, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
     comm_ = duplicate;
 }

@@ -69,11 +69,11 @@ RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm 
 /// change parts as the tolerance allows; with Refine::exact all cuts are searched. The rules are in
 /// docs/how_it_works.md.
 ///
-/// Report::kept, ReportDetails::estimated_imbalance and ReportDetails::num_records are not set.
-/// Without any points the cuts are kept, and the report is that of balance(). Throws Error as
-/// balance(), and for a `previous` that does not fit. Cost while the cuts are kept: one pass over
-/// the points, one reduction, one broadcast, and no memory that grows with the points except the
-/// result.
+/// Limits may move cuts to other axes than Axes::order. Report::kept and the estimate are set only
+/// if the cuts are made anew. Without any points the cuts are kept, and the report is that of
+/// balance(). Throws Error as balance(), and for a `previous` that does not fit. Cost while the
+/// cuts are kept: one pass over the points, one reduction, one broadcast, and no memory for each
+/// point except the result.
 RRCB_API Balance rebalance(const Points& points, const Options& options, const Cuts& previous,
                            MPI_Comm comm);
 

@@ -48,6 +48,12 @@ class Reader {
         if (at.is_part()) return settle(at.first_part, ranks.front());
         const int usual = estimate_.tree[at.node].axis;
         const auto num_below = static_cast<std::size_t>(at.lower().num_parts);
+        if (!has_size(at.lower()) || !has_size(at.upper())) {
+            // Whatever lies here belongs to the parts with a size.
+            kept_.cuts.tree[at.node] = plane(usual, has_size(at.lower()) ? infinity : -infinity);
+            return read_node(at.lower(), ranks.first(num_below), expected) &&
+                   read_node(at.upper(), ranks.subspan(num_below), expected);
+        }
         for (int k = 0; k < estimate_.dimension; ++k) {
             const auto axis = static_cast<int>(ordering_axis(usual, k));
             if (!by_number_) sort_across(axis, ranks);
@@ -124,6 +130,13 @@ class Reader {
     bool may_divide() const {
         return by_number_ && options_.coincident == Coincident::divide &&
                options_.refine != Refine::none;
+    }
+
+    bool has_size(const Descent& at) const {
+        const auto sizes = std::span(options_.part_sizes)
+                               .subspan(static_cast<std::size_t>(at.first_part),
+                                        static_cast<std::size_t>(at.num_parts));
+        return std::ranges::any_of(sizes, [](double size) { return size > 0; });
     }
 
     /// Gives the points of a rank their part; returns false where the part must stay empty.

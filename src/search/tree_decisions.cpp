@@ -139,7 +139,7 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
     if (payload.empty()) {
         // The weight was round-off.
         search.stage = CutSearch::done;
-        if (is_central()) search.cut = guide_->cuts.tree[node.at.node];
+        if (is_central()) search.cut = cut_unsearched(node.at, node.content, share_below(node.at));
         node.content.weight = 0;
         return search;
     }

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 namespace rrcb {
@@ -44,7 +45,7 @@ double least_width(const Cuts& cuts, const Box& box, std::size_t axis) {
     double least = infinity;
     for (Part part = 0; part < cuts.num_parts; ++part) {
         const Box region = box_of(cuts, part);
-        if (std::isinf(region.lower[axis]) && std::isinf(region.upper[axis])) continue;
+        if (region.lower[axis] == -infinity && region.upper[axis] == infinity) continue;
         least = std::min(least, std::min(region.upper[axis], box.upper[axis]) -
                                     std::max(region.lower[axis], box.lower[axis]));
     }
@@ -264,6 +265,49 @@ TEST(Limits, hold_where_nothing_has_weight) {
         EXPECT_GE(least_width(cuts, box_of_all(points), 0), 0.07) << seed;
         EXPECT_GE(least_width(cuts, box_of_all(points), 1), 0.07) << seed;
     }
+}
+
+// Differences of such weights leave round-off in parts without points.
+TEST(Limits, hold_in_parts_that_only_round_off_weighs) {
+    constexpr double width = 0.00034204408186279866;
+    std::vector<double> coordinates{0.36400110585025702, 0.56906668243058667, 0.81282294427612944,
+                                    0.82641671387208282, 0.10585850610680525};
+    std::vector<double> weights{1.0869606592426846, 0.009148669634949572, 2.8524821118285484e-06,
+                                1.0676278943739534e-05, 0.0007824389224685591};
+    if (rank() > 0) coordinates.clear();
+    if (rank() > 0) weights.clear();
+    const Points points = interleaved_points(coordinates, 1, weights);
+    Options options;
+    options.num_parts = 10;
+    options.imbalance_tolerance = 1.3;
+    options.coincident = Coincident::divide;
+    options.axes.min_width = {width};
+    for (const bool larger_below : {false, true}) {
+        options.tree.larger_below = larger_below;
+        const Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
+        EXPECT_GE(least_width(cuts, box_of_all(points), 0), width) << larger_below;
+        const Cuts again = rebalance(points, options, cuts, MPI_COMM_WORLD).cuts;
+        EXPECT_GE(least_width(again, box_of_all(points), 0), width) << larger_below;
+    }
+}
+
+TEST(Limits, leave_a_kept_part_of_no_size_nothing) {
+    // Ranks 2 and 3 are those of one node, between others.
+    if (num_ranks() != 8) return;
+    const bool is_empty = rank() == 2 || rank() == 3;
+    std::vector<double> coordinates;
+    for (int i = 0; i < 50 && !is_empty; ++i) coordinates.push_back(rank() + 0.019 * i);
+    Options options;
+    options.imbalance_tolerance = 20;
+    options.part_sizes.assign(8, 1);
+    options.part_sizes[3] = 0;
+    options.axes.min_width = {0.01};
+    const Points points = interleaved_points(coordinates, 1);
+    const Balance result = balance(points, options, MPI_COMM_WORLD);
+    EXPECT_TRUE(result.report.kept);
+    const Box region = box_of(result.cuts, 2);
+    EXPECT_GE(region.upper[0] - region.lower[0], 0.01);
+    EXPECT_EQ(part_of(result.cuts, {std::midpoint(region.lower[0], region.upper[0]), 0, 0}), 2);
 }
 
 TEST(Limits, need_no_points) {

@@ -20,12 +20,12 @@
 #include <utility>
 
 // A call has five steps:
-//   prepare    options, checks, what this rank tells, and memory for all messages
-//   estimate   rank 0 bisects the cells of all ranks, or looks at the parts of earlier cuts
-//   stay       where the parts that the ranks hold, or those of the earlier cuts, are even enough
-//   settle     otherwise the cuts move by what the ranks count
-//   report     how even the parts are
-// Only the first may fail on one rank alone: the estimate tells all.
+//   prepare    checks options and points, and allocates memory for all messages
+//   estimate   rank 0 bisects the cells of all ranks, or weighs the parts of earlier cuts
+//   keep?      are the parts that the ranks hold, or those of the earlier cuts, even enough?
+//   settle     if not, the cuts move by counts of all ranks
+//   report     imbalance, and the weight of each part
+// Only the first may fail on one rank: all ranks learn of that with the estimate.
 
 namespace rrcb {
 
@@ -46,7 +46,7 @@ struct Call {
     Balance result;
 };
 
-/// Completes the options, and tells the other ranks of them and of the points.
+/// Completes the options, and summarizes them and the points for the other ranks.
 void introduce(const Options& given, const Box& box, const Cuts* previous, Call& call,
                const Participant& self) {
     const int num_ranks = mpi::size_of(self.comm);
@@ -60,7 +60,7 @@ void introduce(const Options& given, const Box& box, const Cuts* previous, Call&
     call.result.parts.resize(points.count);
 }
 
-/// Gives every rank the decision of rank 0, or throws on all what failed on one. Collective.
+/// Gives every rank the decision of rank 0, or throws the error of one rank on all. Collective.
 void estimate(Call& call, Participant& self) {
     {
         const StageScope stage(call.options.parts.observer, Stage::gather);
@@ -125,8 +125,8 @@ Balance balance_from_nothing(const Points& points, const Options& given, bool ma
 
 /// What a call from earlier cuts counts by them.
 struct EarlierParts {
-    PartTotals totals{};                  ///< of this rank, where rank 0 looks at all parts
-    std::optional<SpreadReuse> spread{};  ///< where many ranks do
+    PartTotals totals{};                  ///< of this rank, if rank 0 weighs all parts
+    std::optional<SpreadReuse> spread{};  ///< if many ranks do
 };
 
 /// True when a call by these options may begin with earlier cuts.
@@ -135,7 +135,7 @@ bool may_reuse(const Cuts& previous, const CallOptions& options) {
     return options.parts.refine != Refine::exact && !options.parts.axes.order.is_given();
 }
 
-/// Prepares a call from earlier cuts: assigns the points by them, and counts the parts where these
+/// Prepares a call from earlier cuts: assigns the points by them, and counts the parts if these
 /// may be good enough. Not collective.
 void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call, EarlierParts& earlier,
                       const Participant& self) {
@@ -165,8 +165,8 @@ void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call, Ea
     if (!all_finite) reject_coordinates(points);
 }
 
-/// True when the earlier cuts are kept: the report tells how even their parts are. Collective where
-/// many ranks look at them.
+/// Returns true if the earlier cuts are kept; the report then has their imbalance. Collective if
+/// many ranks weigh their parts.
 bool keeps_earlier(Call& call, EarlierParts& earlier, Participant& self) {
     if (earlier.spread) return earlier.spread->ends(call.result, self);
     const Options& options = call.options.parts;
@@ -180,7 +180,7 @@ bool keeps_earlier(Call& call, EarlierParts& earlier, Participant& self) {
     return true;
 }
 
-/// Moves the earlier cuts, which lie where limits let them. Collective.
+/// Moves the earlier cuts, first to allowed positions if there are limits. Collective.
 void settle_from_earlier(Call& call, const EarlierParts& earlier, Participant& self) {
     const Options& options = call.options.parts;
     Decision& decision = call.decision;
@@ -226,7 +226,7 @@ Balance balance_from_earlier(const Points& points, const Options& given, const C
     Call call(points, given.observer);
     EarlierParts earlier;
     self.attempt([&] { prepare_to_reuse(given, previous, call, earlier, self); });
-    // Both begin with the same messages, so that ranks meet there where one has failed.
+    // Both begin with the same messages, so a rank that has failed does not wait alone.
     if (!self.failed() && !may_reuse(previous, call.options))
         return balance_from_nothing(points, given, may_keep, self);
     estimate(call, self);

@@ -43,7 +43,7 @@ PartTree tree_of(const Options& options, const Verdict& verdict, double weight, 
     return tree;
 }
 
-/// The cuts above each of these points, with what is known. Collective.
+/// Returns the cuts above each of these points, and those known before. Collective.
 Cuts with_cuts_above(const Points& points, const Cuts& known, Participant& self) {
     std::vector<Part> parts;
     std::optional<SearchBuffers<PathSearch>> buffers;

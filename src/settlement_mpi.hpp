@@ -25,7 +25,7 @@ class Settlement {
     /// Takes counts of the parts of this rank, and of all, that the cuts make.
     void take_counts(std::span<const double> here, std::span<const double> sums);
 
-    /// Moves the cuts by what the ranks count, and assigns the points by them. Collective.
+    /// Moves the cuts by counts of all ranks, and assigns the points by them. Collective.
     void refine(const Points& points, const Bin& bin, Decision& decision, Balance& result,
                 Participant& self);
 

@@ -24,7 +24,7 @@ struct CallOptions {
 /// True if many ranks make the parts, see Tuning::central_parts; `options` are complete.
 bool is_spread(const Options& options, int num_ranks);
 
-/// Adds to complete and checked options what rank 0 makes.
+/// Adds the options of regions to complete and checked ones, if the call is spread.
 CallOptions call_options(Options options, int num_ranks);
 
 /// Cells that a merging leaves at most; for regions so few that no rank, which takes in those of

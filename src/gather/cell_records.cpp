@@ -97,7 +97,7 @@ void append_mesh(const SupportMesh& mesh, std::vector<double>& records) {
     records.insert(records.end(), mesh.cells.begin(), mesh.cells.begin() + mesh.dimension);
 }
 
-/// The mesh, as far as the boxes of its cells tell of it.
+/// The mesh, as far as it follows from the boxes of its cells.
 SupportMesh take_mesh(std::span<const double>& records, int dimension) {
     Box box;
     box.lower = take_vector(records, dimension);

@@ -18,7 +18,7 @@ void append_lean_cells(std::span<const CellMoments> cells, const SupportMesh& me
 void append_cells(const CellSet& merged, int dimension, std::vector<double>& records);
 
 /// Cells in the order appended. A cell of a lattice gets the cube of its mean as its box, or along
-/// an axis mean +- sqrt(3) sigma where that reaches farther.
+/// an axis mean +- sqrt(3) sigma if that reaches farther.
 CellSet read_cells(std::span<const double> records, int dimension);
 
 /// Cube of the lattice of `exponent` that holds a position, in units of its edge.

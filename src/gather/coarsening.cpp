@@ -46,8 +46,9 @@ int last_digit(std::span<const CellMoments> cells, int dimension) {
     return greatest > 0 ? std::ilogb(greatest) - digits : smallest_exponent;
 }
 
-/// Search for the finest lattice that is coarse enough. It starts where a cloud that fills its cube
-/// has about as many cells as wanted: other clouds leave most of the lattice empty.
+/// Search for the finest lattice that is coarse enough. It starts at the edge with
+/// which a cloud that fills its cube has about as many cells as wanted: other clouds leave most of
+/// the lattice empty.
 int finest_exponent(const CellSet& set, int dimension, std::size_t most) {
     const int lowest = std::max(set.exponent, last_digit(set.cells, dimension));
     const double half = half_extent(set.cells, dimension);

@@ -49,13 +49,13 @@ double fine_cells(int dimension) {
     return dimension == 1 ? 128 : dimension == 2 ? 22 : 10;
 }
 
-/// Cells per axis beyond which more of them cost more than they tell, however many the points.
+/// Cells per axis beyond which more of them cost more than they gain, for any number of points.
 double most_cells_per_axis(int dimension) {
     return dimension == 1 ? 400 : dimension == 2 ? 42 : 15;
 }
 
 /// A mesh whose cells are one or more cells of the grid that limits the cuts, so that it is known
-/// what lies between the lines; nothing where the numbers do not allow it.
+/// what lies between the lines; nothing if the numbers do not allow it.
 std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, const Options& options) {
     SupportMesh mesh = make_support_mesh(box, dimension, 1);
     const auto limits = axis_limits(options);

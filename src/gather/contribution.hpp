@@ -14,7 +14,7 @@
 
 namespace rrcb {
 
-/// Summary of one rank, or of all ranks of a subtree: whether they can go on, what they ask for,
+/// Summary of one rank, or of all ranks of a subtree: whether they can go on, their request,
 /// and their totals.
 struct Summary {
     std::int32_t first_rank = 0;            ///< lowest of the ranks it speaks for
@@ -40,12 +40,13 @@ struct Summary {
 struct Contribution {
     Summary summary;
     std::vector<double> records;    ///< the moments of their cells
-    std::vector<double> extents{};  ///< of their points, a Extent each, where the root wants them
-    /// Weights in the parts of earlier cuts, then numbers of points in them, where these count.
+    std::vector<double> extents{};  ///< an Extent of the points of each rank, if rank 0 reads these
+    /// Weights in the parts of earlier cuts, then numbers of points in them, if the call counts
+    /// them.
     std::vector<double> part_totals{};
 };
 
-/// Cells per axis of a rank's mesh where the options leave it open: some for each part, as many as
+/// Cells per axis of a rank's mesh if the options leave it open: some for each part, as many as
 /// cost little beside the points, not so many that cells are nearly empty.
 int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options& options);
 
@@ -55,21 +56,21 @@ BinnedPoints bin_by_options(const Points& points, const Box& box, const Options&
 /// Totals of checked points.
 Summary summarize(const Points& points, const Box& box);
 
-/// Reduces checked points to what the root needs of them.
+/// Reduces checked points to the moments of their cells.
 void add_records(const Points& points, const BinnedPoints& binned, Contribution& mine);
 
-/// Adds what earlier cuts make of the points.
+/// Adds the weights and counts of the parts of earlier cuts.
 void add_totals(const PartTotals& totals, Contribution& mine);
 
 /// Cells that the options let a merging leave: a fixed number, whatever the number of ranks, unless
 /// the mesh was asked for. Twice as many lean ones may be handed on as they are.
 std::size_t most_cells(const Options& options);
 
-/// Adds the totals of the ranks that follow, and what stands in their way.
+/// Adds the totals of the ranks that follow, and their failures and differences.
 void join(Summary& mine, const Summary& next);
 
 /// Takes in the records, extents and part totals of the ranks that follow, already at the end of
-/// `mine.records`: joins the summaries, adds the totals up, and coarsens to `most` cells where
+/// `mine.records`: joins the summaries, adds the totals up, and coarsens to `most` cells if
 /// there are more than twice as many. Not collective.
 void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t most);
 

@@ -78,7 +78,7 @@ void for_each_array(Decision& decision, Visit&& visit) {
     if (!keeps) visit(std::span(decision.bisection.brackets));
 }
 
-/// The message, as long as what it holds.
+/// The message, as long as its arrays.
 std::span<std::byte> message_of(Decision& decision) {
     std::size_t length = 0;
     for_each_array(decision, [&](auto array) { length += array.size_bytes(); });
@@ -115,7 +115,7 @@ Bisection bisect_gathered(const Contribution& all, const Options& options, int d
     return bisect(std::move(domain), options, with_brackets);
 }
 
-/// Tells what the parts of earlier cuts weigh, where the ranks have counted points in them.
+/// Weighs the parts of earlier cuts, if the ranks have counted points in them.
 void weigh_parts(const Contribution& all, const Options& options, Decision& decision) {
     const std::size_t num_parts = decision.part_weights.size();
     if (num_parts == 0 || all.summary.num_points == 0) return;
@@ -125,7 +125,7 @@ void weigh_parts(const Contribution& all, const Options& options, Decision& deci
     decision.verdict.measured_imbalance = imbalance(decision.part_weights, options.part_sizes);
 }
 
-/// Reads the kept parts from the extents of all ranks, where these are one part each.
+/// Reads the parts that the ranks hold from the extents of their points.
 void weigh_kept(const Contribution& all, const Options& options, Decision& decision) {
     const Cuts& estimate = decision.bisection.cuts;
     const std::vector<Extent> extents = read_extents(all.extents, estimate.dimension);

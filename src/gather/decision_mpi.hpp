@@ -20,19 +20,19 @@ inline bool is_known(double imbalance) {
     return imbalance == imbalance;
 }
 
-/// Verdict of the root, which it tells first: whether there are cuts, and the totals.
+/// Beginning of the decision of rank 0: whether there are cuts, and the totals.
 struct Verdict {
     std::int32_t failing_rank = no_rank;
     std::int32_t keeps = 0;    ///< 1: the points are kept
     double heaviest = 0;       ///< weight of the heaviest point, 1 by count
-    double common_weight = 0;  ///< weight of each point where all weigh the same, else 0
+    double common_weight = 0;  ///< weight of each point if all weigh the same, else 0
     std::int64_t num_points = 0;
     std::int64_t num_records = 0;
     double total_weight = 0;
     double estimated_imbalance = 1;
-    Box box{};                              ///< of all points, where cells were gathered
-    double kept_imbalance = not_known;      ///< of the parts that the ranks hold, where they do
-    double measured_imbalance = not_known;  ///< of the parts of earlier cuts, where all counted
+    Box box{};                              ///< of all points, if cells were gathered
+    double kept_imbalance = not_known;      ///< of the parts that the ranks hold
+    double measured_imbalance = not_known;  ///< of the parts of earlier cuts, if counted
 };
 
 /// What every rank expects of the root first, whatever it was asked for: the verdict, and as much
@@ -43,9 +43,9 @@ using Head = std::array<std::byte, 2048>;
 struct Decision {
     Verdict verdict;
     Bisection bisection;
-    KeptTree kept{};                     ///< on all ranks once they were told that these stay
+    KeptTree kept{};                     ///< on all ranks once the points are kept
     bool reuses = false;                 ///< the cuts are earlier ones, which all ranks have
-    std::vector<double> part_weights{};  ///< of the parts of these, where all counted
+    std::vector<double> part_weights{};  ///< of their parts, if counted
     std::vector<std::byte> message;      ///< either of them on its way
 };
 
@@ -58,22 +58,22 @@ void report_measured(double imbalance, double tolerance, Report& report);
 /// Weight of all points, or their number if they are balanced by that.
 double weight_of(const Report& report);
 
-/// True when the cuts are to be moved by what the ranks count.
+/// Returns true if the cuts are to be moved by counts of all ranks.
 bool is_refined(const Options& options);
 
-/// Makes buffers for what the root will send: the kept parts only if it may read them. Not
+/// Makes buffers for the decision; for kept parts only if rank 0 may read them. Not
 /// collective.
 void make_buffers(Decision& decision, const Options& options, int dimension, bool may_keep);
 
-/// True when the parts of earlier cuts are counted: they may be good enough, and the cuts lie where
-/// they may.
+/// Returns true if the parts of earlier cuts are counted: they may be good enough, and no limits
+/// move the cuts.
 bool counts_earlier_parts(const Options& options);
 
-/// The same where earlier cuts are the decision, unless their parts turn out too uneven: takes the
-/// cuts, as the options ask for them. Not collective.
+/// Takes earlier cuts as the decision, fitted to the options, and makes buffers for the weights of
+/// their parts. Not collective.
 void make_buffers_to_reuse(Decision& decision, const Options& options, const Cuts& previous);
 
-/// Bisects, at the root, what the ranks contributed; or looks at what they counted by earlier cuts.
+/// Bisects the cells of all ranks on rank 0, or weighs the parts of earlier cuts.
 /// Finds out whether the parts that the ranks hold are so good that the points are kept. Throws
 /// Error when the ranks do not fit together.
 void decide(const Contribution& all, const Options& options, Decision& decision);
@@ -84,7 +84,7 @@ void decide(const Contribution& all, const Options& options, Decision& decision)
 /// not know how many are coming.
 void broadcast(Decision& decision, const Participant& self);
 
-/// Decides at the root, and brings its decision to every rank, or throws on all what failed on one.
+/// Decides on rank 0, and gives every rank the decision, or throws the error of one rank on all.
 /// Collective.
 void decide_together(const Contribution& all, const Options& options, Decision& decision,
                      Participant& self);

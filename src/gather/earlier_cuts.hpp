@@ -12,7 +12,7 @@ namespace rrcb {
 Cuts fitted(Cuts previous, const Options& options);
 
 /// Adds brackets about cuts, as wide as those that estimated cuts of an even cloud in `box` would
-/// have; none where the box is empty. Takes memory for one per cut.
+/// have; none if the box is empty. Takes memory for one per cut.
 void bracket_earlier(const Cuts& cuts, const Box& box, std::vector<Bracket>& brackets);
 
 }  // namespace rrcb

@@ -11,7 +11,7 @@ namespace rrcb {
 /// Extent and weight of the points of a rank, or of several.
 ///
 /// `first[a]` and `last[a]` are the ends of their positions in the order across axis a, see
-/// position_order.hpp: infinite where there are no points.
+/// position_order.hpp: infinite if there are no points.
 struct Extent {
     double count = 0;
     double weight = 0;

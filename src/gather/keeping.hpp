@@ -4,22 +4,22 @@
 
 namespace rrcb {
 
-/// True when points may stay in the parts that the ranks hold, one each. `options` are complete.
+/// Returns true if points may be kept in the parts that the ranks hold, one each. `options` are
+/// complete.
 bool may_keep_parts(const Options& options, int num_ranks);
 
-/// True when the root is to read where the points of each rank lie and what they weigh. It can then
-/// tell whether they already lie as it would have them, of ranks that are not too many.
+/// Returns true if rank 0 reads the extents and weights of the points of all ranks, which are not
+/// too many. It then knows the imbalance of the parts that they hold.
 bool reads_kept_tree(const Options& options, int num_ranks);
 
-/// True for the imbalance of a distribution so good that no better one is searched.
+/// Returns true for an imbalance so small that no better parts are searched.
 bool keeps_at_once(double kept, double tolerance);
 
-/// True when parts of the imbalance `offered` are worth moving points that lie in parts of the
+/// Returns true if parts of the imbalance `offered` are worth moving points out of parts of the
 /// imbalance `kept`.
 ///
-/// So points at rest come to rest. Each move makes the imbalance less: by a tenth of what the
-/// tolerance allows, or from above the tolerance to within it. Points that are not moved give the
-/// same estimate again.
+/// So points that do not move are kept after a few calls. Each call that moves points reduces the
+/// imbalance: by a twentieth of (tolerance - 1), or from above the tolerance to within it.
 bool is_worth_moving(double kept, double offered, const Options& options);
 
 }  // namespace rrcb

@@ -49,7 +49,7 @@ class Reader {
         const int usual = estimate_.tree[at.node].axis;
         const auto num_below = static_cast<std::size_t>(at.lower().num_parts);
         if (!has_size(at.lower()) || !has_size(at.upper())) {
-            // Whatever lies here belongs to the parts with a size.
+            // All points belong to the parts with a size.
             kept_.cuts.tree[at.node] = plane(usual, has_size(at.lower()) ? infinity : -infinity);
             return read_node(at.lower(), ranks.first(num_below), expected) &&
                    read_node(at.upper(), ranks.subspan(num_below), expected);
@@ -73,7 +73,7 @@ class Reader {
         return false;
     }
 
-    /// Where a cut between the points of two groups may lie: behind the last, not behind the first.
+    /// Positions of a cut between the points of two groups: behind the last, not behind the first.
     Places gap_between(const Extent& below, const Extent& above, int axis) const {
         const auto a = static_cast<std::size_t>(axis);
         const double last = below.last[a][a];
@@ -84,7 +84,7 @@ class Reader {
                 std::isinf(first) ? first : limits.place_before(std::nextafter(first, infinity))};
     }
 
-    /// Moves the cuts into places within their gaps; false where these are not enough.
+    /// Moves the cuts to allowed positions in their gaps; returns false if these are not enough.
     bool move_into_places() {
         CutLimits limits(options_, joined(ranks_).box(), estimate_.dimension,
                          {axes_of(kept_.cuts.tree), gaps_});
@@ -104,7 +104,7 @@ class Reader {
     bool may_cross(int axis, int usual, bool as_expected, Extent all, const Extent& above) const {
         if (options_.axes.order.is_given() || options_.axes.order.is_grouped())
             return axis == usual;
-        // Limited cuts lie across whatever axis makes the parts even.
+        // Limited cuts may be across any axis.
         if (are_cuts_limited(options_)) return true;
         join(all, above, estimate_.dimension);
         return as_expected || is_long(all.box(), axis, estimate_.dimension);
@@ -139,7 +139,7 @@ class Reader {
         return std::ranges::any_of(sizes, [](double size) { return size > 0; });
     }
 
-    /// Gives the points of a rank their part; returns false where the part must stay empty.
+    /// Gives the points of a rank their part; returns false if the part must stay empty.
     bool settle(Part part, std::size_t rank) {
         const auto index = static_cast<std::size_t>(part);
         const Extent& extent = extents_[rank];

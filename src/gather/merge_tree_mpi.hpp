@@ -35,7 +35,7 @@ struct MergeTree {
     }
 };
 
-/// Gives the root what all ranks contributed, merged on the way. Collective over `comm`.
+/// Gives rank 0 the contributions of all ranks, merged on the way. Collective over `comm`.
 ///
 /// A rank that failed, before or here, sends its number in place of records. A failure after that
 /// stays with the rank for the next agreement.

@@ -27,7 +27,7 @@ struct FacingExtents {
     Extent below, above;
 };
 
-/// Calls `visit` with each of the 2 dimension (dimension + 1) doubles that tell the sides.
+/// Calls `visit` with each of the 2 dimension (dimension + 1) doubles that describe the sides.
 template <class AnyPlaces, class Visit>
 void for_each_double(AnyPlaces& sides, int dimension, Visit&& visit) {
     for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
@@ -99,7 +99,7 @@ std::optional<SpreadKeptTree> SpreadExtents::read(double total, bool by_count, P
     return parts;
 }
 
-/// What this rank holds, over what its part should weigh.
+/// Weight of the points of this rank over the ideal weight of its part.
 double SpreadExtents::share(double total, bool by_count) const {
     const double weight = by_count ? mine_.count : mine_.weight;
     const auto& sizes = options_.part_sizes;
@@ -120,7 +120,7 @@ void SpreadExtents::tell_extents() {
     });
 }
 
-/// Answers with the cuts of the nodes that this rank owns; false where one has none.
+/// Answers with the cuts of the nodes that this rank owns; returns false if one has none.
 bool SpreadExtents::decide_cuts() {
     bool are_cut = true;
     butterfly_.owned().for_each([&](const Record& record) {

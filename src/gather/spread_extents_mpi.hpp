@@ -19,7 +19,7 @@ struct SpreadKeptTree {
 };
 
 /// The extent of this rank's points, which owners of nodes read with those of the others as a
-/// bisection, part r being on rank r. As read_kept_tree(), but where axes are free a cut may lie
+/// bisection, part r being on rank r. As read_kept_tree(), but if axes are free a cut may be
 /// across any long one of the points that it divides.
 class SpreadExtents {
   public:
@@ -29,11 +29,11 @@ class SpreadExtents {
                   int rank);
 
     /// The parts that the ranks hold, of the weight `total` together or, `by_count`, of as many
-    /// points; nothing where they are no bisection.
+    /// points; nothing if they are no bisection.
     ///
-    /// Collective: one pass of records to their owners, and where all may stay one of cuts back. A
-    /// message has 16 (1 + dimension + dimension^2) bytes at most for each cut above a part. Throws
-    /// on every rank what failed on one before; but a failure in the last messages stays with its
+    /// Collective: one pass of records to their owners, and if all may keep theirs one of cuts
+    /// back. A message has 16 (1 + dimension + dimension^2) bytes at most for each cut above a
+    /// part. Throws the error of one rank on all; but a failure in the last messages stays with its
     /// rank for the next agreement.
     std::optional<SpreadKeptTree> read(double total, bool by_count, Participant& self);
 

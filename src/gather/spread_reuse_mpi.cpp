@@ -47,7 +47,7 @@ SpreadReuse::SpreadReuse(const Cuts& previous, const CallOptions& options, const
       buffers_(PathSearch(cuts_, points, parts), comm),
       sums_(mpi::rank_of(comm), mpi::size_of(comm), add) {}
 
-/// Adds what was known at once, and the points that were searched one by one.
+/// Adds the parts known at once, and the points that were searched one by one.
 void SpreadReuse::add_up(bool by_count) {
     const std::vector<double>& known = by_count ? totals_.counts : totals_.weights;
     for (std::size_t k = 0; k < known.size(); ++k)
@@ -61,7 +61,7 @@ void SpreadReuse::add_up(bool by_count) {
     }
 }
 
-/// Largest weight of a part that this rank owns, over what it should weigh.
+/// Largest weight of a part that this rank owns over its ideal weight.
 double SpreadReuse::largest_share(double total_weight) const {
     const std::vector<double>& sizes = options_.parts.part_sizes;
     const double all_sizes = sizes.empty() ? cuts_.num_parts : sum_of(sizes);
@@ -85,7 +85,7 @@ double SpreadReuse::measure(double total_weight, bool by_count, Participant& sel
     return sums_.flags()[1];
 }
 
-/// All cuts where each rank has and gets them; otherwise those above the points and the parts of
+/// All cuts if each rank has and gets them; otherwise those above the points and the parts of
 /// this rank, and those between regions.
 Cuts SpreadReuse::kept_cuts() const {
     if (was_whole_ && options_.parts.cuts == HeldCuts::whole)

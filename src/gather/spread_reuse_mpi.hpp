@@ -17,18 +17,18 @@ namespace rrcb {
 class SpreadReuse {
   public:
     /// Assigns the points, whose `parts` it writes. `options`, `points` and `parts` outlive it. Not
-    /// collective; throws std::bad_alloc, and Error where the rank lacks a cut that it owns.
+    /// collective; throws std::bad_alloc, and Error if the rank lacks a cut that it owns.
     SpreadReuse(const Cuts& previous, const CallOptions& options, const Points& points,
                 std::span<Part> parts, MPI_Comm comm);
 
-    /// False where a coordinate is NaN or infinite; then the rest is void.
+    /// Returns false if a coordinate is NaN or infinite; then the rest is void.
     bool all_finite() const { return totals_.all_finite; }
 
-    /// Finds the parts of all points and counts these. Where they are within the tolerance, tells
-    /// so in the report that `result` has of all points, and gives it the cuts above the points and
-    /// the parts of this rank and those between regions; false where they are not.
+    /// Finds the parts of all points and counts them. If they are within the tolerance, completes
+    /// the report of `result` and gives it the cuts above the points and parts of this rank, and
+    /// those between regions. Returns false if they are not.
     ///
-    /// Collective: one pass through the ranks, or more where one lacks cuts, to find the parts, one
+    /// Collective: one pass through the ranks, or more if one lacks cuts, to find the parts, one
     /// to add up and one to compare.
     bool ends(Balance& result, Participant& self);
 
@@ -42,7 +42,7 @@ class SpreadReuse {
     const Points& points_;
     std::span<Part> parts_;
     bool was_whole_;
-    Cuts cuts_;  ///< with their numbers, also where they are all
+    Cuts cuts_;  ///< with their numbers, even if complete
     PartTotals totals_;
     SearchBuffers<PathSearch> buffers_;
     Butterfly sums_;

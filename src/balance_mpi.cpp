@@ -112,7 +112,7 @@ Balance balance_from_nothing(const Points& points, const Options& given, bool ma
     self.attempt([&] { prepare(given, may_keep, call, kept, self); });
     estimate(call, self);
     const Options& options = call.options.parts;
-    kept.read(call.decision.verdict, call.result.report, self);
+    kept.read(call.decision.verdict, call.result, self);
     bool is_kept = kept.are_good(options.imbalance_tolerance);
     if (!is_kept) {
         settle(call, self);

@@ -23,10 +23,12 @@ void KeptParts::prepare(const CallOptions& options, const Points& points, bool m
     }
 }
 
-void KeptParts::read(const Verdict& verdict, const Report& report, Participant& self) {
+void KeptParts::read(const Verdict& verdict, const Balance& estimate, Participant& self) {
+    const Report& report = estimate.report;
     imbalance_ = verdict.kept_imbalance;
     if (!extents_ || report.details.num_points == 0) return;
-    auto parts = extents_->read(weight_of(report), report.details.all_weights_zero, self);
+    auto parts =
+        extents_->read(weight_of(report), report.details.all_weights_zero, estimate.cuts, self);
     if (!parts) return;
     spread_ = std::move(*parts);
     imbalance_ = spread_.imbalance;

@@ -23,8 +23,9 @@ class KeptParts {
     /// True if rank 0 may read them.
     bool is_central() const { return is_central_; }
 
-    /// Finds out how even they are. Collective if many ranks make the parts.
-    void read(const Verdict& verdict, const Report& report, Participant& self);
+    /// Determines their imbalance; `estimate` has the cuts and the report of rank 0. Collective if
+    /// many ranks make the parts.
+    void read(const Verdict& verdict, const Balance& estimate, Participant& self);
 
     /// True if the ranks hold parts, and these are so even that no better ones are searched.
     bool are_good(double tolerance) const;

@@ -2,12 +2,15 @@
 
 #include "collective/butterfly_mpi.hpp"
 #include "collective/participant.hpp"
+#include "cuts/tree.hpp"
 #include "gather/extent.hpp"
 
 #include <rrcb/cuts.hpp>
 #include <rrcb/options.hpp>
 
+#include <map>
 #include <optional>
+#include <span>
 
 namespace rrcb {
 
@@ -29,17 +32,19 @@ class SpreadExtents {
                   int rank);
 
     /// The parts that the ranks hold, of the weight `total` together or, `by_count`, of as many
-    /// points; nothing if they are no bisection.
+    /// points; nothing if they are no bisection. `regions` has the cuts of rank 0 between regions.
     ///
     /// Collective: one pass of records to their owners, and if all may keep theirs one of cuts
     /// back. A message has 16 (1 + dimension + dimension^2) bytes at most for each cut above a
     /// part. Throws the error of one rank on all; but a failure in the last messages stays with its
     /// rank for the next agreement.
-    std::optional<SpreadKeptTree> read(double total, bool by_count, Participant& self);
+    std::optional<SpreadKeptTree> read(double total, bool by_count, const Cuts& regions,
+                                       Participant& self);
 
   private:
     double share(double total, bool by_count) const;
     void tell_extents();
+    void note_axes(const Descent& region, const Descent& at, std::span<const Cut> cuts);
     bool decide_cuts();
     std::optional<Cut> cut_of(std::size_t node, const Extent& below, const Extent& above) const;
     SpreadKeptTree parts_told() const;
@@ -48,6 +53,7 @@ class SpreadExtents {
     Extent mine_;
     bool may_keep_;
     int dimension_;
+    std::map<std::size_t, int> region_axes_{};  ///< of the cuts between regions, by node
     Butterfly butterfly_;
     ButterflyMessages messages_{};
 };

@@ -30,7 +30,7 @@ double uniform(std::size_t, int, double u) {
     return u;
 }
 
-Options wide_options(int central_parts, Refine refine = Refine::exact) {
+Options spread_options(int central_parts, Refine refine = Refine::exact) {
     Options options;
     options.tuning.central_parts = central_parts;
     options.cuts = HeldCuts::own;
@@ -64,7 +64,7 @@ TEST(Wide, exact_leaves_each_part_within_one_point_of_the_ideal) {
             for (const int central : central_parts()) {
                 const auto mine = share_of_cloud(2048, dimension, coordinate);
                 const Points points = interleaved_points(mine, dimension);
-                const Balance result = balance(points, wide_options(central), MPI_COMM_WORLD);
+                const Balance result = balance(points, spread_options(central), MPI_COMM_WORLD);
                 const auto weights = expect_consistent(points, result);
                 for (const double weight : weights)
                     EXPECT_LE(std::abs(weight - 2048.0 / num_ranks()), 1)
@@ -80,7 +80,7 @@ TEST(Wide, tolerance_is_met_and_measured) {
                 const auto mine =
                     share_of_cloud(20000, 2, [](std::size_t, int, double u) { return u * u; });
                 const Points points = interleaved_points(mine, 2);
-                Options options = wide_options(central, Refine::tolerance);
+                Options options = spread_options(central, Refine::tolerance);
                 options.imbalance_tolerance = tolerance;
                 options.num_parts = per_rank * num_ranks();
                 const Balance result = balance(points, options, MPI_COMM_WORLD);
@@ -102,8 +102,8 @@ TEST(Wide, a_tolerance_that_exact_cuts_reach_is_not_missed) {
             for (std::size_t i = 0; i < mine.size(); i += 2)
                 weights.push_back(0.5 + mine[i] * mine[i + 1]);
             const Points points = interleaved_points(mine, 2, weights);
-            const Balance exact = balance(points, wide_options(central), MPI_COMM_WORLD);
-            Options options = wide_options(central, Refine::tolerance);
+            const Balance exact = balance(points, spread_options(central), MPI_COMM_WORLD);
+            Options options = spread_options(central, Refine::tolerance);
             options.imbalance_tolerance = exact.report.imbalance;
             const Balance result = balance(points, options, MPI_COMM_WORLD);
             expect_consistent(points, result);
@@ -123,7 +123,7 @@ TEST(Wide, a_small_part_gets_no_point_that_another_has_more_room_for) {
             std::vector<double> weights(mine.size(), 1.0);
             if (is_weighted && !weights.empty()) weights[0] = 1 + 1e-9;
             const Points points = interleaved_points(mine, 1, weights);
-            Options options = wide_options(central, Refine::tolerance);
+            Options options = spread_options(central, Refine::tolerance);
             options.part_sizes = sizes;
             options.imbalance_tolerance = 1.2;
             const Balance result = balance(points, options, MPI_COMM_WORLD);
@@ -143,7 +143,7 @@ TEST(Wide, cuts_lie_across_the_axes_given_to_them) {
     const Points points = interleaved_points(mine, 3);
     for (const Refine refine : {Refine::exact, Refine::tolerance})
         for (const int central : central_parts()) {
-            Options options = wide_options(central, refine);
+            Options options = spread_options(central, refine);
             options.imbalance_tolerance = 1.05;
             const Balance free = balance(points, options, MPI_COMM_WORLD);
             std::vector<int> axes;
@@ -168,7 +168,7 @@ TEST(Wide, parts_have_the_sizes_asked_for_and_stay_empty_where_these_are_0) {
         if (num_parts < 3) continue;
         const auto mine = share_of_cloud(3000, 2, uniform);
         const Points points = interleaved_points(mine, 2);
-        Options options = wide_options(2);
+        Options options = spread_options(2);
         options.num_parts = num_parts;
         for (int part = 0; part < num_parts; ++part) options.part_sizes.push_back(part % 3);
         const Balance result = balance(points, options, MPI_COMM_WORLD);
@@ -185,7 +185,7 @@ TEST(Wide, points_without_weight_are_balanced_by_count) {
     const auto mine = share_of_cloud(2000, 2, uniform);
     const std::vector<double> weights(mine.size() / 2, 0.0);
     const Points points = interleaved_points(mine, 2, weights);
-    const Balance result = balance(points, wide_options(2), MPI_COMM_WORLD);
+    const Balance result = balance(points, spread_options(2), MPI_COMM_WORLD);
     EXPECT_TRUE(result.report.details.all_weights_zero);
     for (const double count : expect_consistent(points, result))
         EXPECT_LE(std::abs(count - 2000.0 / num_ranks()), 1);
@@ -196,7 +196,7 @@ TEST(Wide, weights_over_decades_are_halved_as_well_as_any_cut_can) {
     std::vector<double> weights;
     for (std::size_t i = 0; i < mine.size(); i += 3) weights.push_back(std::pow(10, 3 * mine[i]));
     const Points points = interleaved_points(mine, 3, weights);
-    const Balance result = balance(points, wide_options(2), MPI_COMM_WORLD);
+    const Balance result = balance(points, spread_options(2), MPI_COMM_WORLD);
     const auto sums = expect_consistent(points, result);
     const double mean = std::accumulate(sums.begin(), sums.end(), 0.0) / num_ranks();
     const double heaviest = 1000;
@@ -208,7 +208,7 @@ TEST(Wide, weights_over_decades_are_halved_as_well_as_any_cut_can) {
 TEST(Wide, points_in_one_place_stay_together) {
     const auto mine = share_of_cloud(500, 2, [](std::size_t, int, double) { return 4.5; });
     const Points points = interleaved_points(mine, 2);
-    const Balance result = balance(points, wide_options(2), MPI_COMM_WORLD);
+    const Balance result = balance(points, spread_options(2), MPI_COMM_WORLD);
     const auto weights = expect_consistent(points, result);
     EXPECT_EQ(std::ranges::count(weights, 500), 1);
     EXPECT_GT(result.report.details.coincident_cuts, 0);
@@ -222,7 +222,7 @@ TEST(Wide, points_in_one_place_are_divided_on_request_those_of_lower_ranks_below
             const auto mine = share_of_cloud(
                 600, 2, [&](std::size_t, int, double u) { return std::floor(u * places); });
             const Points points = interleaved_points(mine, 2);
-            Options options = wide_options(central);
+            Options options = spread_options(central);
             options.coincident = Coincident::divide;
             options.refine = Refine::tolerance;
             options.imbalance_tolerance = 1.05;
@@ -255,7 +255,7 @@ TEST(Wide, ranks_may_be_empty_and_all_points_on_one) {
         std::vector<double> mine;
         if (rank() == holder) mine = test::uniform_cloud(1000, 2, 7);
         const Points points = interleaved_points(mine, 2);
-        const Balance result = balance(points, wide_options(2), MPI_COMM_WORLD);
+        const Balance result = balance(points, spread_options(2), MPI_COMM_WORLD);
         for (const double weight : expect_consistent(points, result))
             EXPECT_LE(std::abs(weight - 1000.0 / num_ranks()), 1);
     }
@@ -265,7 +265,7 @@ TEST(Wide, there_may_be_fewer_points_than_parts_and_none_at_all) {
     for (const std::size_t count : {0U, 1U, 3U}) {
         const auto mine = share_of_cloud(count, 2, uniform);
         const Points points = interleaved_points(mine, 2);
-        const Balance result = balance(points, wide_options(2), MPI_COMM_WORLD);
+        const Balance result = balance(points, spread_options(2), MPI_COMM_WORLD);
         const auto weights = expect_consistent(points, result);
         EXPECT_EQ(std::accumulate(weights.begin(), weights.end(), 0.0), count);
         EXPECT_LE(*std::ranges::max_element(weights), count == 3 && num_ranks() == 3 ? 2 : 1);
@@ -279,8 +279,8 @@ TEST(Wide, the_same_call_gives_the_same_bits) {
     const Points points = interleaved_points(mine, 2);
     for (const Refine refine : {Refine::exact, Refine::tolerance}) {
         // One after the other, without a barrier.
-        const Balance a = balance(points, wide_options(2, refine), MPI_COMM_WORLD);
-        const Balance b = balance(points, wide_options(2, refine), MPI_COMM_WORLD);
+        const Balance a = balance(points, spread_options(2, refine), MPI_COMM_WORLD);
+        const Balance b = balance(points, spread_options(2, refine), MPI_COMM_WORLD);
         EXPECT_EQ(a.parts, b.parts);
         EXPECT_EQ(a.cuts.nodes, b.cuts.nodes);
         for (std::size_t k = 0; k < a.cuts.tree.size(); ++k)
@@ -306,13 +306,13 @@ TEST(Wide, all_ranks_get_all_cuts_where_the_call_asks_for_something_else) {
             o.axes.grid = {{0, 1e-6}, {0, 1e-6}};
         }};
     for (const auto& change : changes) {
-        Options options = wide_options(2);
+        Options options = spread_options(2);
         change(options);
         const Balance result = balance(points, options, MPI_COMM_WORLD);
         EXPECT_TRUE(is_whole(result.cuts));
         EXPECT_EQ(std::ssize(result.cuts.tree) + 1, result.cuts.num_parts);
     }
-    Options planes = wide_options(2);
+    Options planes = spread_options(2);
     planes.axes.plain = true;
     EXPECT_FALSE(is_whole(balance(points, planes, MPI_COMM_WORLD).cuts));
 }
@@ -323,7 +323,7 @@ TEST(Wide, all_ranks_get_all_cuts_and_the_weights_of_all_parts_by_default) {
             const auto mine =
                 share_of_cloud(3000, 2, [](std::size_t, int, double u) { return u * u; });
             const Points points = interleaved_points(mine, 2);
-            Options options = wide_options(central, refine);
+            Options options = spread_options(central, refine);
             options.num_parts = 2 * num_ranks() + 1;
             const Balance own = balance(points, options, MPI_COMM_WORLD);
             options.cuts = Options{}.cuts;
@@ -347,7 +347,7 @@ TEST(Wide, points_in_a_divided_place_are_looked_up_on_every_rank) {
         share_of_cloud(600, 2, [](std::size_t, int, double u) { return std::floor(3 * u); });
     const Points points = interleaved_points(mine, 2);
     for (const Refine refine : {Refine::exact, Refine::tolerance}) {
-        Options options = wide_options(2, refine);
+        Options options = spread_options(2, refine);
         options.num_parts = 3 * num_ranks();
         options.coincident = Coincident::divide;
         const Balance own = balance(points, options, MPI_COMM_WORLD);
@@ -365,8 +365,8 @@ TEST(Wide, points_in_a_divided_place_are_looked_up_on_every_rank) {
 TEST(Wide, cuts_of_which_ranks_know_some_only_are_made_anew) {
     const auto mine = share_of_cloud(1000, 2, uniform);
     const Points points = interleaved_points(mine, 2);
-    const Balance first = balance(points, wide_options(2), MPI_COMM_WORLD);
-    const Balance again = rebalance(points, wide_options(2), first.cuts, MPI_COMM_WORLD);
+    const Balance first = balance(points, spread_options(2), MPI_COMM_WORLD);
+    const Balance again = rebalance(points, spread_options(2), first.cuts, MPI_COMM_WORLD);
     EXPECT_EQ(again.parts, first.parts);
     expect_consistent(points, again);
 }
@@ -375,7 +375,7 @@ TEST(Wide, what_is_wrong_on_one_rank_is_told_to_all) {
     std::vector<double> mine = share_of_cloud(1000, 2, uniform);
     const Points points = interleaved_points(mine, 2);
     for (const int faulty : {0, num_ranks() - 1}) {
-        Options options = wide_options(2);
+        Options options = spread_options(2);
         if (rank() == faulty) options.tuning.central_parts = 1;
         try {
             balance(points, options, MPI_COMM_WORLD);

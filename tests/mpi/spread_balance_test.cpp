@@ -52,7 +52,7 @@ std::vector<std::int32_t> numbers_up_to(int count) {
     return numbers;
 }
 
-TEST(Wide, exact_leaves_each_part_within_one_point_of_the_ideal) {
+TEST(SpreadBalance, exact_leaves_each_part_within_one_point_of_the_ideal) {
     const std::vector<std::pair<std::string, Coordinate>> clouds{
         {"uniform", uniform},
         {"power law", [](std::size_t, int, double u) { return std::pow(u, 9); }},
@@ -73,7 +73,7 @@ TEST(Wide, exact_leaves_each_part_within_one_point_of_the_ideal) {
             }
 }
 
-TEST(Wide, tolerance_is_met_and_measured) {
+TEST(SpreadBalance, tolerance_is_met_and_measured) {
     for (const double tolerance : {1.1, 1.02})
         for (const int central : central_parts())
             for (const int per_rank : {1, 3}) {
@@ -92,7 +92,7 @@ TEST(Wide, tolerance_is_met_and_measured) {
             }
 }
 
-TEST(Wide, a_tolerance_that_exact_cuts_reach_is_not_missed) {
+TEST(SpreadBalance, a_tolerance_that_exact_cuts_reach_is_not_missed) {
     // So few points a part that slack spent above leaves too little below, and that regions may
     // weigh a bit too much for any cuts in them.
     for (const int central : central_parts())
@@ -111,7 +111,7 @@ TEST(Wide, a_tolerance_that_exact_cuts_reach_is_not_missed) {
         }
 }
 
-TEST(Wide, a_small_part_gets_no_point_that_another_has_more_room_for) {
+TEST(SpreadBalance, a_small_part_gets_no_point_that_another_has_more_room_for) {
     // 10 points for each part but the first two, which share 10: 1.6 and 8.4 of them. With 2 points
     // the first would have 1.25 times its own; with 1 the second has 9, 1.07 times.
     const int count = 10 * (num_ranks() - 1);
@@ -138,7 +138,7 @@ void expect_axes(const Cuts& cuts, const std::vector<int>& cut_axes) {
         EXPECT_EQ(cuts.tree[k].axis, cut_axes[static_cast<std::size_t>(cuts.nodes[k])]);
 }
 
-TEST(Wide, cuts_lie_across_the_axes_given_to_them) {
+TEST(SpreadBalance, cuts_lie_across_the_axes_given_to_them) {
     const auto mine = share_of_cloud(2048, 3, uniform);
     const Points points = interleaved_points(mine, 3);
     for (const Refine refine : {Refine::exact, Refine::tolerance})
@@ -163,7 +163,7 @@ TEST(Wide, cuts_lie_across_the_axes_given_to_them) {
         }
 }
 
-TEST(Wide, parts_have_the_sizes_asked_for_and_stay_empty_where_these_are_0) {
+TEST(SpreadBalance, parts_have_the_sizes_asked_for_and_stay_empty_where_these_are_0) {
     for (const int num_parts : {num_ranks(), 2 * num_ranks() + 1, 3}) {
         if (num_parts < 3) continue;
         const auto mine = share_of_cloud(3000, 2, uniform);
@@ -181,7 +181,7 @@ TEST(Wide, parts_have_the_sizes_asked_for_and_stay_empty_where_these_are_0) {
     }
 }
 
-TEST(Wide, points_without_weight_are_balanced_by_count) {
+TEST(SpreadBalance, points_without_weight_are_balanced_by_count) {
     const auto mine = share_of_cloud(2000, 2, uniform);
     const std::vector<double> weights(mine.size() / 2, 0.0);
     const Points points = interleaved_points(mine, 2, weights);
@@ -191,7 +191,7 @@ TEST(Wide, points_without_weight_are_balanced_by_count) {
         EXPECT_LE(std::abs(count - 2000.0 / num_ranks()), 1);
 }
 
-TEST(Wide, weights_over_decades_are_halved_as_well_as_any_cut_can) {
+TEST(SpreadBalance, weights_over_decades_are_halved_as_well_as_any_cut_can) {
     const auto mine = share_of_cloud(3000, 3, uniform);
     std::vector<double> weights;
     for (std::size_t i = 0; i < mine.size(); i += 3) weights.push_back(std::pow(10, 3 * mine[i]));
@@ -205,7 +205,7 @@ TEST(Wide, weights_over_decades_are_halved_as_well_as_any_cut_can) {
         << "the heaviest point is no part of its own";
 }
 
-TEST(Wide, points_in_one_place_stay_together) {
+TEST(SpreadBalance, points_in_one_place_stay_together) {
     const auto mine = share_of_cloud(500, 2, [](std::size_t, int, double) { return 4.5; });
     const Points points = interleaved_points(mine, 2);
     const Balance result = balance(points, spread_options(2), MPI_COMM_WORLD);
@@ -215,7 +215,7 @@ TEST(Wide, points_in_one_place_stay_together) {
     EXPECT_NEAR(result.report.imbalance, num_ranks(), 1e-9);
 }
 
-TEST(Wide, points_in_one_place_are_divided_on_request_those_of_lower_ranks_below) {
+TEST(SpreadBalance, points_in_one_place_are_divided_on_request_those_of_lower_ranks_below) {
     // All in one place; or in so few that regions and cuts below them divide some.
     for (const double places : {1.0, 3.0, 40.0})
         for (const int central : central_parts()) {
@@ -250,7 +250,7 @@ TEST(Wide, points_in_one_place_are_divided_on_request_those_of_lower_ranks_below
         }
 }
 
-TEST(Wide, ranks_may_be_empty_and_all_points_on_one) {
+TEST(SpreadBalance, ranks_may_be_empty_and_all_points_on_one) {
     for (const int holder : {0, num_ranks() / 2, num_ranks() - 1}) {
         std::vector<double> mine;
         if (rank() == holder) mine = test::uniform_cloud(1000, 2, 7);
@@ -261,7 +261,7 @@ TEST(Wide, ranks_may_be_empty_and_all_points_on_one) {
     }
 }
 
-TEST(Wide, there_may_be_fewer_points_than_parts_and_none_at_all) {
+TEST(SpreadBalance, there_may_be_fewer_points_than_parts_and_none_at_all) {
     for (const std::size_t count : {0U, 1U, 3U}) {
         const auto mine = share_of_cloud(count, 2, uniform);
         const Points points = interleaved_points(mine, 2);
@@ -274,7 +274,7 @@ TEST(Wide, there_may_be_fewer_points_than_parts_and_none_at_all) {
     }
 }
 
-TEST(Wide, the_same_call_gives_the_same_bits) {
+TEST(SpreadBalance, the_same_call_gives_the_same_bits) {
     const auto mine = share_of_cloud(3000, 2, uniform);
     const Points points = interleaved_points(mine, 2);
     for (const Refine refine : {Refine::exact, Refine::tolerance}) {
@@ -289,7 +289,7 @@ TEST(Wide, the_same_call_gives_the_same_bits) {
     }
 }
 
-TEST(Wide, all_ranks_get_all_cuts_where_the_call_asks_for_something_else) {
+TEST(SpreadBalance, all_ranks_get_all_cuts_where_the_call_asks_for_something_else) {
     const auto mine = share_of_cloud(1000, 2, uniform);
     const Points points = interleaved_points(mine, 2);
     const std::vector<std::function<void(Options&)>> changes{
@@ -317,7 +317,7 @@ TEST(Wide, all_ranks_get_all_cuts_where_the_call_asks_for_something_else) {
     EXPECT_FALSE(is_whole(balance(points, planes, MPI_COMM_WORLD).cuts));
 }
 
-TEST(Wide, all_ranks_get_all_cuts_and_the_weights_of_all_parts_by_default) {
+TEST(SpreadBalance, all_ranks_get_all_cuts_and_the_weights_of_all_parts_by_default) {
     for (const Refine refine : {Refine::exact, Refine::tolerance})
         for (const int central : central_parts()) {
             const auto mine =
@@ -341,7 +341,7 @@ TEST(Wide, all_ranks_get_all_cuts_and_the_weights_of_all_parts_by_default) {
         }
 }
 
-TEST(Wide, points_in_a_divided_place_are_looked_up_on_every_rank) {
+TEST(SpreadBalance, points_in_a_divided_place_are_looked_up_on_every_rank) {
     // A rank whose points are below such a cut has no other reason to get the cuts above it.
     const auto mine =
         share_of_cloud(600, 2, [](std::size_t, int, double u) { return std::floor(3 * u); });
@@ -362,7 +362,7 @@ TEST(Wide, points_in_a_divided_place_are_looked_up_on_every_rank) {
     }
 }
 
-TEST(Wide, cuts_of_which_ranks_know_some_only_are_made_anew) {
+TEST(SpreadBalance, cuts_of_which_ranks_know_some_only_are_made_anew) {
     const auto mine = share_of_cloud(1000, 2, uniform);
     const Points points = interleaved_points(mine, 2);
     const Balance first = balance(points, spread_options(2), MPI_COMM_WORLD);
@@ -371,7 +371,7 @@ TEST(Wide, cuts_of_which_ranks_know_some_only_are_made_anew) {
     expect_consistent(points, again);
 }
 
-TEST(Wide, what_is_wrong_on_one_rank_is_told_to_all) {
+TEST(SpreadBalance, what_is_wrong_on_one_rank_is_told_to_all) {
     std::vector<double> mine = share_of_cloud(1000, 2, uniform);
     const Points points = interleaved_points(mine, 2);
     for (const int faulty : {0, num_ranks() - 1}) {

@@ -75,7 +75,7 @@ void estimate(Call& call, Participant& self) {
         call.points.weights = call.binned.points.weights = {};
 }
 
-/// Prepares a call from nothing. Not collective.
+/// Prepares a call from scratch. Not collective.
 void prepare(const Options& given, bool may_keep, Call& call, KeptParts& kept,
              const Participant& self) {
     const StageScope stage(given.observer, Stage::moments);
@@ -105,7 +105,7 @@ void settle(Call& call, Participant& self) {
         settlement.divide_regions(call.binned, verdict, call.result, self);
 }
 
-Balance balance_from_nothing(const Points& points, const Options& given, bool may_keep,
+Balance balance_from_scratch(const Points& points, const Options& given, bool may_keep,
                              Participant& self) {
     Call call(points, given.observer);
     KeptParts kept;
@@ -123,7 +123,7 @@ Balance balance_from_nothing(const Points& points, const Options& given, bool ma
     return std::move(call.result);
 }
 
-/// What a call from earlier cuts counts by them.
+/// Counts of the parts of earlier cuts.
 struct EarlierParts {
     PartTotals totals{};                  ///< of this rank, if rank 0 weighs all parts
     std::optional<SpreadReuse> spread{};  ///< if many ranks do
@@ -212,7 +212,7 @@ bool may_be_poor(const Report& report, const Options& options) {
            report.imbalance > factor * within_reach;
 }
 
-/// The better of two balances of the same points. Cuts from nothing have to be worth it.
+/// The better of two balances of the same points. Cuts from scratch have to be worth it.
 Balance better(Balance&& reused, Balance&& anew, const Options& options) {
     const int rounds = reused.report.details.rounds + anew.report.details.rounds;
     const bool gains = is_worth_moving(reused.report.imbalance, anew.report.imbalance, options);
@@ -228,17 +228,17 @@ Balance balance_from_earlier(const Points& points, const Options& given, const C
     self.attempt([&] { prepare_to_reuse(given, previous, call, earlier, self); });
     // Both begin with the same messages, so a rank that has failed does not wait alone.
     if (!self.failed() && !may_reuse(previous, call.options))
-        return balance_from_nothing(points, given, may_keep, self);
+        return balance_from_scratch(points, given, may_keep, self);
     estimate(call, self);
     const bool is_kept = keeps_earlier(call, earlier, self);
     if (call.options.is_spread()) {
-        if (!is_kept) return balance_from_nothing(points, given, may_keep, self);
+        if (!is_kept) return balance_from_scratch(points, given, may_keep, self);
         hold_cuts(call.points, call.options.parts, call.result, self);
         return std::move(call.result);
     }
     if (!is_kept) settle_from_earlier(call, earlier, self);
     if (!may_be_poor(call.result.report, call.options.parts)) return std::move(call.result);
-    return better(std::move(call.result), balance_from_nothing(points, given, false, self),
+    return better(std::move(call.result), balance_from_scratch(points, given, false, self),
                   call.options.parts);
 }
 
@@ -247,7 +247,7 @@ Balance balance_from_earlier(const Points& points, const Options& given, const C
 Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_keep,
                 Participant& self) {
     return previous ? balance_from_earlier(points, options, *previous, may_keep, self)
-                    : balance_from_nothing(points, options, may_keep, self);
+                    : balance_from_scratch(points, options, may_keep, self);
 }
 
 Balance balance(const Points& points, const Options& options, MPI_Comm comm) {

@@ -98,13 +98,18 @@ std::vector<Row> table_rows(const Comparison& comparison) {
     return rows;
 }
 
-Row calls_row(const Comparison& comparison, const std::string& method, const std::string& function,
-              const CallCount& count) {
+/// Beginning of a row about calls of a method.
+Row call_key(const Comparison& comparison, const std::string& method) {
     return Row()
         .add("method", method)
         .add("ranks", comparison.num_ranks)
         .add("workload", comparison.workload)
-        .add("layout", comparison.layout)
+        .add("layout", comparison.layout);
+}
+
+Row calls_row(const Comparison& comparison, const std::string& method, const std::string& function,
+              const CallCount& count) {
+    return call_key(comparison, method)
         .add("function", function)
         .add("calls", count.calls)
         .add("bytes_in", count.bytes_in)
@@ -113,13 +118,7 @@ Row calls_row(const Comparison& comparison, const std::string& method, const std
 
 Row time_row(const Comparison& comparison, const std::string& method, std::size_t turn,
              double time_ms) {
-    return Row()
-        .add("method", method)
-        .add("ranks", comparison.num_ranks)
-        .add("workload", comparison.workload)
-        .add("layout", comparison.layout)
-        .add("turn", turn)
-        .add("time_ms", time_ms);
+    return call_key(comparison, method).add("turn", turn).add("time_ms", time_ms);
 }
 
 Row printed_row(const Measurement& measurement, double reference_ms) {

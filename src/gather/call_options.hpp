@@ -17,7 +17,7 @@ struct CallOptions {
     std::optional<Options> regions{};  ///< if spread
 
     bool is_spread() const { return regions.has_value(); }
-    /// What rank 0 makes.
+    /// The options of rank 0.
     const Options& central() const { return regions ? *regions : parts; }
 };
 

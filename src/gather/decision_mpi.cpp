@@ -65,9 +65,8 @@ void check_together(const Summary& summary) {
                     "the sum of the weights of all ranks overflows; scale them down");
 }
 
-/// Calls `visit` with each of the arrays that the message holds: of the kept parts where points
-/// are kept, of the new cuts otherwise; of earlier cuts, which all ranks have, what their parts
-/// weigh.
+/// Calls `visit` with each array of the message: of the kept parts if points are kept, otherwise of
+/// the new cuts; of earlier cuts, which all ranks have, the weights of their parts.
 template <class Visit>
 void for_each_array(Decision& decision, Visit&& visit) {
     if (decision.reuses) return visit(std::span(decision.part_weights));
@@ -170,7 +169,7 @@ bool is_refined(const Options& options) {
 }
 
 bool counts_earlier_parts(const Options& options) {
-    return !are_cuts_limited(options) && (!is_refined(options) || options.refine != Refine::exact);
+    return !are_cuts_limited(options) && options.refine != Refine::exact;
 }
 
 void make_buffers_to_reuse(Decision& decision, const Options& options, const Cuts& previous) {

@@ -16,12 +16,17 @@
 #include <rrcb/method/support_mesh.hpp>
 #include <rrcb/quality.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <utility>
 
 namespace rrcb {
 
 namespace {
+
+bool has(const Choice& words, int value) {
+    return std::ranges::find(words, value, &Word::value) != words.end();
+}
 
 void check(const PaperOptions& options, int dimension) {
     const int most_cells = dimension < 3 ? 4096 : 256;
@@ -32,9 +37,9 @@ void check(const PaperOptions& options, int dimension) {
             "sample_fraction must be in (0, 1]");
     check_sampling(options);
     check_sizes(options.num_parts, options.part_sizes);
-    require(domain_words.has(static_cast<int>(options.domain)),
+    require(has(domain_words, static_cast<int>(options.domain)),
             "domain must be one of PaperDomain");
-    require(cut_rule_words.has(static_cast<int>(options.cut_rule)),
+    require(has(cut_rule_words, static_cast<int>(options.cut_rule)),
             "cut_rule must be one of CutRule");
 }
 

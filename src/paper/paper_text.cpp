@@ -29,7 +29,7 @@ bool read_positive(double& number, std::string_view text, double most) {
 }
 
 /// The word that a text is; null for none.
-const Word* find_word(const PaperWords& words, std::string_view text) {
+const Word* find_word(const Choice& words, std::string_view text) {
     const auto* found = std::ranges::find(words, text, &Word::word);
     return found == words.end() ? nullptr : found;
 }
@@ -62,11 +62,11 @@ bool read_seed(std::uint64_t& seed, std::string_view text) {
 }
 
 std::string name_of(CutRule rule) {
-    return cut_rule_words.first[static_cast<int>(rule)].word;
+    return cut_rule_words.words[static_cast<int>(rule)].word;
 }
 
 std::string name_of(PaperDomain domain) {
-    return domain_words.first[static_cast<int>(domain)].word;
+    return domain_words.words[static_cast<int>(domain)].word;
 }
 
 }  // namespace rrcb

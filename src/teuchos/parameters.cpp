@@ -105,11 +105,11 @@ void add_parameters_of_paper(ParameterList& list) {
     }();
     const double least = std::numeric_limits<double>::denorm_min();
     const Choice methods{domains.data(), domains.size(), nullptr, nullptr};
-    const Choice rules{cut_rule_words.first, cut_rule_words.count, nullptr, nullptr};
     add_choice(list, "RRCB_DOMAIN", methods, own_domain.word,
                "Plug-in only: the method: " + words_of(methods) + ".");
-    add_choice(list, "RRCB_CUT_RULE", rules, rules.words->word,
-               "Plug-in only, SAMPLED and POINTS: position of cuts: " + words_of(rules) + ".");
+    add_choice(
+        list, "RRCB_CUT_RULE", cut_rule_words, cut_rule_words.words->word,
+        "Plug-in only, SAMPLED and POINTS: position of cuts: " + words_of(cut_rule_words) + ".");
     add_number(list, "RRCB_SIGMA_MULTIPLIER", 1.5, {least, largest},
                "Plug-in only, SAMPLED: half-width of a cell's sampling box in standard deviations: "
                "a number above 0.");

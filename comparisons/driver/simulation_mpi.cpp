@@ -106,7 +106,7 @@ void TimedSimulation::advance_one() {
 
 bool TimedSimulation::is_due() {
     if (!controller_) return steps_done_ % plan_.every == 0;
-    return steps_done_ == 0 || controller_->step(steps_done_, steps_.last_s(num_ranks_));
+    return steps_done_ == 0 || controller_->step(steps_.last_s(num_ranks_), loads_.back());
 }
 
 void TimedSimulation::rebalance() {

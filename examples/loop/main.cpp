@@ -88,7 +88,7 @@ int main(int argc, char** argv) {
         rrcb::Controller controller(comm);
         rrcb::Balance balance;
         bool is_due = true;
-        for (std::int64_t step = 0; step < 100; ++step) {
+        for (int step = 0; step < 100; ++step) {
             const rrcb::Points points = rrcb::interleaved_points(positions, 2, weights);
             if (is_due) {
                 balance = rrcb::balance(points, rrcb::Options{}, comm);
@@ -107,7 +107,7 @@ int main(int argc, char** argv) {
             weights = count_neighbours(positions, ghosts);
             move(positions);
             const double load = sum_of(weights);
-            is_due = controller.step(step, load);
+            is_due = controller.step(load);
 
             double all[] = {load, load};
             MPI_Allreduce(MPI_IN_PLACE, &all[0], 1, MPI_DOUBLE, MPI_MAX, comm);

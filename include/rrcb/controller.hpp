@@ -4,25 +4,25 @@
 
 #include <mpi.h>
 
-#include <cstdint>
 #include <memory>
 
 namespace rrcb {
 
-/// Decides when a rebalance pays, by what steps and rebalances take.
+/// Decides when a rebalance pays, from the time of the steps and of the rebalances.
 ///
 ///     rrcb::Controller controller(comm);
-///     for (std::int64_t step = 0; ...; ++step)
-///         if (controller.step(step, load)) {  // seconds of this rank's own work, or its weight
-///             ...                             // balance() and transfer()
+///     for (...) {
+///         if (controller.due()) {
+///             ...                                          // balance() and transfer()
 ///             controller.rebalanced(balance.report, seconds);
 ///         }
+///         ...                                              // a step of the simulation
+///         controller.step(seconds_of_work, points.count);
+///     }
 ///
-/// A rebalance is due once a step costs as much beyond its mean load as the steps so far have on
-/// average, the rebalances among them; docs/rebalancing.md derives it. Single slow steps and noise
-/// do not count, and there is nothing to set. The decision is the same on every rank, two steps
-/// after the loads it rests on. Cost: one reduction of 80 bytes a step, during the next one, on a
-/// communicator of its own; no call allocates except the constructor.
+/// docs/rebalancing.md explains the rule, which has no settings. The decision is the same on every
+/// rank and rests on the loads up to two steps before. Cost: one reduction of 64 bytes a step on a
+/// communicator of its own, which overlaps with the next step; only the constructor allocates.
 class Controller {
   public:
     /// Makes a communicator of its own. Collective over `comm`, which may be freed before the
@@ -36,28 +36,40 @@ class Controller {
     /// Takes over; collective if this one still has a communicator.
     RRCB_API Controller& operator=(Controller&&) noexcept;
 
-    /// Returns whether to rebalance now, after step `number`, which has loaded this rank by `load`.
+    /// Records a step that took this rank `load` of its own work, without waiting for others, and
+    /// returns due().
     ///
-    /// Collective, yet it waits only for ranks that have not called it for the step before. All
-    /// ranks give one `number`, less than 2^53, and loads in the unit of the costs, finite and not
-    /// negative. Throws Error on every rank alike, one call later, if a rank gave another number,
-    /// an illegal load or cost, or reported another number of rebalances; from then on each call
-    /// throws it, and a new controller is needed. An error of MPI is thrown where it occurs.
-    RRCB_API bool step(std::int64_t number, double load);
+    /// Collective, yet it waits only for ranks that have not called it for the previous step. Loads
+    /// have the unit of the costs and are finite and not negative. One call later, throws Error on
+    /// every rank alike if a rank gave an illegal number or reported another number of rebalances;
+    /// from then on each call throws it, and a new controller is needed. An error of MPI is thrown
+    /// where it occurs.
+    RRCB_API bool step(double load);
+
+    /// Does the same, and smooths the load: `points` is the number of points of this rank, or the
+    /// sum of their weights, as the balancer counts them.
+    ///
+    /// The load is taken as `points` times the average cost of a point on this rank, so the noise
+    /// of a clock is not mistaken for imbalance. Prefer it for measured loads. Throws as step().
+    RRCB_API bool step(double load, double points);
+
+    /// Returns whether to rebalance before the next step, by the latest step(); false after
+    /// rebalanced(). The same on every rank. Not collective.
+    RRCB_API bool due() const;
 
     /// Records that the ranks have rebalanced since the last step, asked to or not.
     ///
-    /// If they were not asked to, one of the next two steps may ask by loads from before it. Called
-    /// on all ranks, without communication. `cost` is what it took on this rank with the migration
-    /// of the points; the largest of all ranks counts. No rebalance is due while heaviest load /
-    /// mean load is at most ReportDetails::least_imbalance of `report`.
+    /// Called on all ranks, without communication. `cost` is the time of the rebalance on this rank
+    /// including the migration of the points; the largest of all ranks counts. No rebalance is due
+    /// while heaviest load / mean load is at most ReportDetails::least_imbalance of `report`.
     RRCB_API void rebalanced(const Report& report, double cost);
 
-    /// Records a rebalance by a balancer that knows no least imbalance. On all ranks, without
+    /// Records a rebalance by a balancer that reports no least imbalance. On all ranks, without
     /// communication.
     RRCB_API void rebalanced(double cost);
 
   private:
+    friend class CostModel;
     struct State;
     std::unique_ptr<State> state_;
 };

@@ -14,7 +14,8 @@ extern "C" {
 
 /** @file
  * The library in C: a balancer holds what rrcb/balance.hpp, options.hpp, cuts.hpp, plan.hpp and
- * transfer.hpp take and give; these headers are the manual of what is only named here.
+ * transfer.hpp take and give, a controller is that of controller.hpp; these headers are the manual
+ * of what is only named here.
  *
  * Every function that can fail returns RRCB_OK or another rrcb_code. From a collective function all
  * ranks of the communicator get the same code and text; a null balancer alone is an error of its
@@ -31,6 +32,9 @@ typedef enum rrcb_code {
 
 /** Communicator, options, cuts and plan. */
 typedef struct rrcb_balancer rrcb_balancer;
+
+/** Decides when to rebalance. */
+typedef struct rrcb_controller rrcb_controller;
 
 /** One cut, as rrcb::Cut. */
 typedef struct rrcb_cut {
@@ -168,6 +172,33 @@ RRCB_API int rrcb_get_plan(const rrcb_balancer* balancer, rrcb_plan* plan);
  *  plan.num_points * bytes, `to` has room for plan.num_points_after * bytes elsewhere. Only the
  *  number of bytes is compared between ranks, not the type of what they hold. */
 RRCB_API int rrcb_transfer(rrcb_balancer* balancer, size_t bytes, const void* from, void* to);
+
+/** Makes a controller, which belongs to the caller; as rrcb::Controller. Collective. A null
+ *  `controller` alone is an error of its rank, as of the functions below. */
+RRCB_API int rrcb_controller_create(MPI_Comm comm, rrcb_controller** controller);
+
+/** Makes a controller from a communicator of Fortran. Collective. */
+RRCB_API int rrcb_controller_create_fortran(MPI_Fint comm, rrcb_controller** controller);
+
+/** Frees a controller, which may be null. Collective. */
+RRCB_API void rrcb_controller_destroy(rrcb_controller* controller);
+
+/** Records a step that took this rank `load` of its own work, and writes 1 to `due`, which may be
+ *  null, if a rebalance is due. Collective. */
+RRCB_API int rrcb_controller_step(rrcb_controller* controller, double load, int* due);
+
+/** Does the same with the number of points of this rank, or the sum of their weights. Collective.
+ */
+RRCB_API int rrcb_controller_step_points(rrcb_controller* controller, double load, double points,
+                                         int* due);
+
+/** Writes 1 if a rebalance is due before the next step, else 0. Not collective. */
+RRCB_API int rrcb_controller_due(const rrcb_controller* controller, int* due);
+
+/** Records a rebalance with its cost on this rank, and the report of the balance, or null. Called
+ *  on all ranks, without communication. */
+RRCB_API int rrcb_controller_rebalanced(rrcb_controller* controller, const rrcb_report* report,
+                                        double cost);
 
 #ifdef __cplusplus
 }

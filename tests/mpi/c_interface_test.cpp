@@ -289,6 +289,39 @@ TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {
     expect_missing(rrcb_get_plan(balancer, &plan), "plan yet");
 }
 
+TEST(CController, decides_as_the_controller_in_cpp) {
+    rrcb_controller* controller = nullptr;
+    ASSERT_EQ(rrcb_controller_create(MPI_COMM_WORLD, &controller), RRCB_OK);
+    Controller in_cpp(MPI_COMM_WORLD);
+    in_cpp.rebalanced(0.5);
+    EXPECT_EQ(rrcb_controller_rebalanced(controller, nullptr, 0.5), RRCB_OK);
+    int num_due = 0;
+    for (int step = 0; step < 40; ++step) {
+        const double load = 1 + (rank() == 0 ? 0.01 * step : 0);
+        int due = -1;
+        int still_due = -1;
+        EXPECT_EQ(step < 20 ? rrcb_controller_step(controller, load, &due)
+                            : rrcb_controller_step_points(controller, load, 1, &due),
+                  RRCB_OK);
+        EXPECT_EQ(rrcb_controller_due(controller, &still_due), RRCB_OK);
+        EXPECT_EQ(due, still_due);
+        EXPECT_EQ(due == 1, step < 20 ? in_cpp.step(load) : in_cpp.step(load, 1));
+        num_due += due;
+    }
+    EXPECT_EQ(num_due > 0, num_ranks() > 1);
+    rrcb_controller_destroy(controller);
+}
+
+TEST(CController, refuses_bad_loads_and_null) {
+    EXPECT_EQ(rrcb_controller_step(nullptr, 1, nullptr), RRCB_INVALID_ARGUMENT);
+    rrcb_controller* controller = nullptr;
+    ASSERT_EQ(rrcb_controller_create_fortran(MPI_Comm_c2f(MPI_COMM_WORLD), &controller), RRCB_OK);
+    EXPECT_EQ(rrcb_controller_step(controller, is_last_rank() ? -1 : 1, nullptr), RRCB_OK);
+    EXPECT_EQ(rrcb_controller_step(controller, 1, nullptr), RRCB_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(rrcb_last_error()).find("the load"), std::string::npos);
+    rrcb_controller_destroy(controller);
+}
+
 TEST_F(CInterface, takes_the_tolerances_that_are_taken_in_cpp) {
     for (const char* text : {"inf", "nan", "0.5"}) {
         Options options;

@@ -33,7 +33,7 @@ std::vector<int> rebalances(Controller& controller, int num_steps, double cost) 
     int last = 0;
     controller.rebalanced(cost);
     for (int step = 0; step < num_steps; ++step) {
-        if (!controller.step(step, drifting_load(step - last))) continue;
+        if (!controller.step(drifting_load(step - last))) continue;
         steps.push_back(step);
         last = step + 1;
         controller.rebalanced(cost);
@@ -68,10 +68,9 @@ TEST(Controller, says_the_same_on_every_rank_and_rebalances_what_grows) {
 TEST(Controller, drops_what_it_decided_before_a_rebalance_it_did_not_ask_for) {
     Controller controller(MPI_COMM_WORLD);
     controller.rebalanced(0.5);
-    for (int step = 0; step <= 11; ++step) EXPECT_FALSE(controller.step(step, drifting_load(step)));
+    for (int step = 0; step <= 11; ++step) EXPECT_FALSE(controller.step(drifting_load(step)));
     controller.rebalanced(0.5);
-    for (int step = 12; step < 20; ++step)
-        EXPECT_FALSE(controller.step(step, drifting_load(step - 12)));
+    for (int step = 12; step < 20; ++step) EXPECT_FALSE(controller.step(drifting_load(step - 12)));
 }
 
 TEST(Controller, repeats_what_is_not_heeded) {
@@ -80,8 +79,32 @@ TEST(Controller, repeats_what_is_not_heeded) {
     controller.rebalanced(0.5);
     std::vector<int> due;
     for (int step = 0; step < 20; ++step)
-        if (controller.step(step, drifting_load(step))) due.push_back(step);
+        if (controller.step(drifting_load(step))) due.push_back(step);
     EXPECT_EQ(due, (std::vector<int>{13, 16, 19}));
+}
+
+TEST(Controller, returns_its_answer_until_the_next_step_or_rebalance) {
+    Controller controller(MPI_COMM_WORLD);
+    EXPECT_FALSE(controller.due());
+    controller.rebalanced(0.5);
+    for (int step = 0; step < 20; ++step) {
+        const bool is_due = controller.step(drifting_load(step));
+        EXPECT_EQ(controller.due(), is_due) << step;
+    }
+    for (int step = 20; num_ranks() > 1 && !controller.due(); ++step)
+        controller.step(drifting_load(step));
+    controller.rebalanced(0.5);
+    EXPECT_FALSE(controller.due());
+}
+
+// Equal points that cost the same on average: a clock that jumps by half shows no imbalance.
+TEST(Controller, takes_no_noise_of_a_clock_for_imbalance) {
+    Controller controller(MPI_COMM_WORLD);
+    controller.rebalanced(1);
+    for (int step = 0; step < 300; ++step) {
+        const double load = (step + rank()) % 2 == 0 ? 0.5 : 1.5;
+        EXPECT_FALSE(controller.step(load, 1000)) << step;
+    }
 }
 
 TEST(Controller, does_not_rebalance_above_the_least_imbalance) {
@@ -89,14 +112,14 @@ TEST(Controller, does_not_rebalance_above_the_least_imbalance) {
     Report report;
     report.details.least_imbalance = 3;  // loads stay below it
     controller.rebalanced(report, 0.5);
-    for (int step = 0; step < 90; ++step) EXPECT_FALSE(controller.step(step, drifting_load(step)));
+    for (int step = 0; step < 90; ++step) EXPECT_FALSE(controller.step(drifting_load(step)));
 }
 
 /// Every rank gets the same error, at this call and each later one.
-void expect_error(Controller& controller, int step, const std::string& text) {
+void expect_error(Controller& controller, const std::string& text) {
     for (int call = 0; call < 2; ++call) {
         try {
-            controller.step(step, 1);
+            controller.step(1);
             ADD_FAILURE() << "nothing was thrown";
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
@@ -107,32 +130,30 @@ void expect_error(Controller& controller, int step, const std::string& text) {
 
 TEST(Controller, refuses_bad_loads_and_costs_of_one_rank_on_all) {
     const std::string last = "rank " + std::to_string(num_ranks() - 1);
-    const std::string fix = " is negative, NaN or infinite; give a finite number of at least 0";
+    const std::string fix = " negative, NaN or infinite; give a finite number of at least 0";
     for (const double bad : {std::nan(""), -1.0, std::numeric_limits<double>::infinity()}) {
         Controller loads(MPI_COMM_WORLD);
-        EXPECT_FALSE(loads.step(7, is_last_rank() ? bad : 1));
-        expect_error(loads, 8, last + ": the load of step 7" + fix);
+        EXPECT_FALSE(loads.step(is_last_rank() ? bad : 1));
+        expect_error(loads, last + ": the load or the points of a step are" + fix);
+
+        Controller points(MPI_COMM_WORLD);
+        EXPECT_FALSE(points.step(1, is_last_rank() ? bad : 1));
+        expect_error(points, last + ": the load or the points of a step are" + fix);
 
         Controller costs(MPI_COMM_WORLD);
-        EXPECT_FALSE(costs.step(0, 1));
+        EXPECT_FALSE(costs.step(1));
         costs.rebalanced(is_last_rank() ? bad : 1);
-        EXPECT_FALSE(costs.step(1, 1));
-        expect_error(costs, 2, last + ": the cost of a rebalance before step 1" + fix);
+        EXPECT_FALSE(costs.step(1));
+        expect_error(costs, last + ": the cost of a rebalance is" + fix);
     }
 }
 
-TEST(Controller, tells_ranks_that_are_out_of_step) {
+TEST(Controller, reports_ranks_that_have_not_rebalanced) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
-    Controller steps(MPI_COMM_WORLD);
-    EXPECT_FALSE(steps.step(is_last_rank() ? 4 : 3, 1));
-    expect_error(steps, 5,
-                 "the controller is at step 3 on one rank and at 4 on another; call it once for "
-                 "each step on every rank");
-
     Controller rebalances(MPI_COMM_WORLD);
     if (is_last_rank()) rebalances.rebalanced(1);
-    EXPECT_FALSE(rebalances.step(0, 1));
-    expect_error(rebalances, 1,
+    EXPECT_FALSE(rebalances.step(1));
+    expect_error(rebalances,
                  "rebalanced() was called 0 times on one rank and 1 times on another; call it on "
                  "every rank after each rebalance");
 }
@@ -147,8 +168,8 @@ TEST(Controller, works_beside_another_and_after_its_communicator) {
     other.rebalanced(1e6);
     bool is_any_due = false;
     for (int step = 0; step < 60; ++step) {
-        is_any_due = one.step(step, drifting_load(step)) || is_any_due;
-        EXPECT_FALSE(other.step(step, drifting_load(step)));
+        is_any_due = one.step(drifting_load(step)) || is_any_due;
+        EXPECT_FALSE(other.step(drifting_load(step)));
     }
     EXPECT_EQ(is_any_due, num_ranks() > 1);
 }
@@ -162,7 +183,7 @@ TEST(Controller, decides_alike_for_loads_of_any_unit) {
         int last = 0;
         controller.rebalanced(0.5 * unit);
         for (int step = 0; step < 100; ++step) {
-            if (!controller.step(step, drifting_load(step - last) * unit)) continue;
+            if (!controller.step(drifting_load(step - last) * unit)) continue;
             found.push_back(step);
             last = step + 1;
             controller.rebalanced(0.5 * unit);
@@ -174,7 +195,7 @@ TEST(Controller, decides_alike_for_loads_of_any_unit) {
 TEST(Controller, may_be_forgotten_until_after_the_end_of_mpi) {
     static std::optional<Controller> forgotten;
     forgotten.emplace(MPI_COMM_WORLD);
-    forgotten->step(0, 1);  // its reduction is under way when MPI ends
+    forgotten->step(1);  // its reduction is under way when MPI ends
 }
 
 }  // namespace

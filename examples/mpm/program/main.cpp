@@ -130,7 +130,8 @@ class Schedule {
         if (!controller_) {
             is_due = step % every_ == 0;
         } else if (step > 0) {
-            is_due = controller_->step(step, simulation.work_seconds());
+            is_due = controller_->step(simulation.work_seconds(),
+                                       static_cast<double>(simulation.positions().size()));
         }
         if (!is_due) return;
         // The step before has brought the ranks together: none waits for another's load here.

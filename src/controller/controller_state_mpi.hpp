@@ -1,0 +1,70 @@
+#pragma once
+
+#include "collective/handles.hpp"
+#include "controller/point_cost.hpp"
+#include "controller/rebalance_rule.hpp"
+#include "controller/step_record.hpp"
+
+#include <rrcb/controller.hpp>
+
+#include <optional>
+
+namespace rrcb {
+
+/// Reduces the step of each rank, and follows the rule on the root, whose decision travels with the
+/// next reduction: the ranks agree even if a sum rounds differently on them.
+///
+/// start() and finish() reduce on a communicator of their own. A caller with a reduction of its own
+/// sends what hand_in() returns along with it, combined by join(), and gives the result to take().
+struct Controller::State {
+    State() = default;
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State();
+
+    /// Owns the communicator from now on, also if it throws.
+    void open(MPI_Comm comm);
+    void start(double load);
+    /// Takes the result of the reduction under way, if there is one.
+    void finish();
+
+    /// Returns the step of this rank.
+    StepRecord hand_in(double load);
+    /// Takes the joined steps of all ranks. Throws the same Error on each.
+    void take(const StepRecord& all);
+
+    void report(double cost, double least);
+
+    PointCost point_cost;
+    bool is_due = false;  ///< on every rank
+
+  private:
+    static int close(MPI_Comm, int, void* state, void*);
+    void close();
+    void follow(const StepRecord& all);
+
+    MPI_Comm comm_ = MPI_COMM_NULL;
+    int rank_ = 0;
+    int num_ranks_ = 1;
+    int key_ = MPI_KEYVAL_INVALID;  ///< of an attribute of MPI_COMM_SELF: its deletion closes this
+    bool closes_itself_ = false;    ///< the attribute is set
+    std::optional<mpi::ContiguousType> type_;
+    std::optional<mpi::Reduction> reduction_;
+    MPI_Request request_ = MPI_REQUEST_NULL;
+    bool has_started_ = false;
+    StepRecord mine_;  ///< handed in; stays until the reduction is done
+    StepRecord all_;   ///< its result
+
+    double cost_ = 0;  ///< of the rebalances since the last step
+    bool has_bad_cost_ = false;
+    double least_imbalance_ = 1;
+    double num_rebalances_ = 0;
+
+    double num_heeded_ = 0;    ///< rebalances that the latest decision knew of, on all ranks
+    RebalanceRule rule_;       ///< fed on the root alone, as are those below
+    double num_followed_ = 0;  ///< rebalances that it knows of
+    bool root_asks_ = false;
+    int num_to_skip_ = 0;  ///< steps that end before a decision made can be heeded
+};
+
+}  // namespace rrcb

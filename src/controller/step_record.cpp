@@ -1,0 +1,49 @@
+#include "controller/step_record.hpp"
+
+#include <rrcb/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+namespace rrcb {
+
+namespace {
+
+std::string whole(double number) {
+    return std::to_string(static_cast<std::int64_t>(number));
+}
+
+}  // namespace
+
+void join(const StepRecord& theirs, StepRecord& ours) {
+    ours.mean_load += theirs.mean_load;
+    for (double StepRecord::*field :
+         {&StepRecord::heaviest_load, &StepRecord::cost, &StepRecord::least_imbalance,
+          &StepRecord::is_due, &StepRecord::bad_input, &StepRecord::num_rebalances,
+          &StepRecord::minus_num_rebalances})
+        ours.*field = std::max(ours.*field, theirs.*field);
+}
+
+bool is_amount(double value) {
+    return std::isfinite(value) && value >= 0;
+}
+
+void check_record(const StepRecord& all) {
+    std::string text;
+    if (all.num_rebalances != -all.minus_num_rebalances) {
+        text = "rebalanced() was called " + whole(-all.minus_num_rebalances) +
+               " times on one rank and " + whole(all.num_rebalances) +
+               " times on another; call it on every rank after each rebalance";
+    } else if (all.bad_input > 0) {
+        const auto code = static_cast<std::int64_t>(all.bad_input);
+        text = "rank " + std::to_string((code - 1) / 2) +
+               (code % 2 == 1 ? ": the load or the points of a step are"
+                              : ": the cost of a rebalance is") +
+               " negative, NaN or infinite; give a finite number of at least 0";
+    }
+    if (!text.empty()) throw Error(ErrorCode::invalid_argument, text);
+}
+
+}  // namespace rrcb

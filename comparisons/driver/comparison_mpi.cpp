@@ -175,13 +175,6 @@ bool has_failures(std::span<const Comparison> comparisons) {
     });
 }
 
-std::optional<Noise> noise_of(const Comparison& comparison) {
-    const std::vector<double> ratios =
-        paired_ratios(comparison.second_times_ms, reference_times(comparison));
-    if (ratios.empty()) return std::nullopt;
-    return Noise{comparison.workload, "zoltan-rcb", spread_of(ratios)};
-}
-
 std::string table_csv(std::span<const Comparison> comparisons) {
     std::vector<Row> rows;
     for (const Comparison& comparison : comparisons) {
@@ -205,11 +198,14 @@ std::string calls_csv(std::span<const Comparison> comparisons) {
 std::string call_times_csv(std::span<const Comparison> comparisons) {
     std::vector<Row> rows;
     for (const Comparison& comparison : comparisons) {
-        for (const Measurement& measurement : comparison.measurements) {
+        const auto add = [&](const std::string& method, const std::vector<double>& times_ms) {
             std::size_t turn = 0;
-            for (const double time_ms : measurement.times_ms)
-                rows.push_back(time_row(comparison, measurement.method, ++turn, time_ms));
-        }
+            for (const double time_ms : times_ms)
+                rows.push_back(time_row(comparison, method, ++turn, time_ms));
+        };
+        for (const Measurement& measurement : comparison.measurements)
+            add(measurement.method, measurement.times_ms);
+        add("zoltan-rcb again", comparison.second_times_ms);
     }
     return csv(time_row({}, {}, 0, 0), rows);
 }

@@ -2,7 +2,6 @@
 
 #include "arguments.hpp"
 #include "measurement_mpi.hpp"
-#include "noise.hpp"
 #include "results_folder_mpi.hpp"
 
 #include <mpi.h>
@@ -35,16 +34,14 @@ Comparison compare_methods(const Workload& workload, const Arguments& arguments,
 /// True when some method of some comparison failed.
 bool has_failures(std::span<const Comparison> comparisons);
 
-/// zoltan-rcb beside itself; none where it was not measured twice.
-std::optional<Noise> noise_of(const Comparison& comparison);
-
 /// table.csv, columns as columns.md describes them.
 std::string table_csv(std::span<const Comparison> comparisons);
 
 /// calls.csv: what each method's call moved by MPI function, summed over the ranks.
 std::string calls_csv(std::span<const Comparison> comparisons);
 
-/// call_times.csv: every timed call; those of one turn may be compared in pairs.
+/// call_times.csv: every timed call; those of one turn may be compared in pairs. The second of
+/// zoltan-rcb in a turn is named "zoltan-rcb again".
 std::string call_times_csv(std::span<const Comparison> comparisons);
 
 /// table.csv for people, numbers they compare first.

@@ -107,56 +107,44 @@ Workload make_workload(const Arguments& arguments, MPI_Comm comm) {
                           arguments.layout, comm);
 }
 
-struct Outcome {
-    bool succeeded = true;
-    std::vector<Noise> noise;
-};
-
-/// Calls `compare` with the points asked for; of a scene with its snapshots, and runs it.
-Outcome visit_workloads(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
-                        const SnapshotVisitor& compare, MPI_Comm comm) {
+/// Calls `compare` with the points asked for; of a scene with its snapshots, and runs it. Whether
+/// all simulations succeeded.
+bool visit_workloads(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
+                     const SnapshotVisitor& compare, MPI_Comm comm) {
     if (!arguments.cloud.empty() || !arguments.file.empty() || !arguments.replay.empty()) {
         compare(std::vector{make_workload(arguments, comm)});
-        return {};
+        return true;
     }
     if (arguments.only == Only::calls) {
         compare(scene_snapshots(plan_scene(arguments, 1, comm), progress, comm));
-        return {};
+        return true;
     }
     const SnapshotVisitor nothing = [](std::span<const Workload>) {};
-    const SceneRuns scene = run_scene(
-        arguments, folder, progress, arguments.only == Only::simulations ? nothing : compare, comm);
-    const bool succeeded = std::ranges::all_of(
-        scene.methods, [](const auto& rounds) { return rounds.runs.back().error.empty(); });
-    return {succeeded, scene.noise};
+    return std::ranges::none_of(
+        run_scene(arguments, folder, progress,
+                  arguments.only == Only::simulations ? nothing : compare, comm),
+        &SimulationRounds::has_failed);
 }
 
-/// Every method on the points asked for.
-Outcome compare_all(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
-                    MPI_Comm comm) {
+/// Every method on the points asked for. Whether all succeeded.
+bool compare_all(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
+                 MPI_Comm comm) {
     std::vector<Comparison> comparisons;
     const auto compare = [&](std::span<const Workload> workloads) {
         for (const Workload& workload : workloads)
             comparisons.push_back(compare_methods(workload, arguments, folder, progress, comm));
     };
-    Outcome outcome = visit_workloads(arguments, folder, progress, compare, comm);
-    for (const Comparison& comparison : comparisons) {
-        const std::optional<Noise> noise = noise_of(comparison);
-        if (noise) outcome.noise.push_back(*noise);
-    }
+    const bool succeeded = visit_workloads(arguments, folder, progress, compare, comm);
     folder.write("table.csv", [&] { return table_csv(comparisons); });
     folder.write("calls.csv", [&] { return calls_csv(comparisons); });
     folder.write("call_times.csv", [&] { return call_times_csv(comparisons); });
-    folder.write("noise.csv", [&] { return csv_of(outcome.noise, noise_row); });
-    outcome.succeeded = outcome.succeeded && !has_failures(comparisons);
-    return outcome;
+    return succeeded && !has_failures(comparisons);
 }
 
 /// What ends the output, on rank 0.
-void summarize(const Arguments& arguments, const MachineUse& use, const Outcome& outcome) {
+void summarize(const Arguments& arguments, const MachineUse& use) {
     std::cout << '\n';
     print_warning(std::cout, use);
-    print_noise(std::cout, outcome.noise);
     std::cout << definitions() << "Written to " << arguments.out << '\n';
 }
 
@@ -168,15 +156,14 @@ int compare(const Arguments& arguments, const std::string& command, MPI_Comm com
     const std::string record = run_record(arguments, command, comm);
     folder.write("run.txt", [&] { return record; });
 
-    const Outcome outcome = compare_all(arguments, folder, progress, comm);
+    const bool succeeded = compare_all(arguments, folder, progress, comm);
     const MachineUse use = watch.use();
     std::ostringstream whole_record;
     whole_record << record;
     write_use(whole_record, use);
-    print_noise(whole_record, outcome.noise);
     folder.write("run.txt", [&] { return whole_record.str(); });
-    if (rank_of(comm) == 0) summarize(arguments, use, outcome);
-    return outcome.succeeded ? 0 : 1;
+    if (rank_of(comm) == 0) summarize(arguments, use);
+    return succeeded ? 0 : 1;
 }
 
 int run(int argc, char** argv, MPI_Comm comm) {

@@ -27,11 +27,6 @@ Row& Row::add_interval(const std::string& prefix, const std::optional<Interval>&
     return add(prefix + "high", interval ? std::optional(interval->high) : std::nullopt);
 }
 
-Row& Row::add_spread(const std::string& name, const std::optional<Spread>& spread) {
-    add(name, spread ? std::optional(spread->median) : std::nullopt);
-    return add_interval(name + '_', spread ? spread->interval95 : std::nullopt);
-}
-
 Row& Row::end_key() {
     key_size_ = size();
     return *this;

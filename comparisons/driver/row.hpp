@@ -36,9 +36,6 @@ class Row {
     /// The columns `prefix`low and `prefix`high.
     Row& add_interval(const std::string& prefix, const std::optional<Interval>& interval);
 
-    /// The median as `name`, and its interval as `name`_low and `name`_high.
-    Row& add_spread(const std::string& name, const std::optional<Spread>& spread);
-
     /// The columns so far, the key, tell what was measured: add_error keeps them.
     Row& end_key();
 

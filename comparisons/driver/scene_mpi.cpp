@@ -28,6 +28,7 @@ std::vector<Contender> contenders(std::span<const Method> methods) {
     for (const Method& method : methods) {
         if (make_balancer(method)) all.push_back({method.label, method});
     }
+    all.push_back({"none again", std::nullopt});
     return all;
 }
 
@@ -76,10 +77,6 @@ class SceneRounds {
     const std::vector<Workload>& snapshots() const { return snapshots_; }
 
   private:
-    bool has_failed(std::size_t contender) const {
-        const std::vector<SimulationRun>& runs = rounds_[contender].runs;
-        return !runs.empty() && !runs.back().error.empty();
-    }
     std::unique_ptr<TimedSimulation> start(std::size_t contender, int round);
     void take_result(std::size_t contender, int round, SimulationRun run);
 
@@ -96,12 +93,13 @@ void SceneRounds::run(int round) {
                     static_cast<int>(all_.size()) * plan_.num_steps);
     std::vector<std::unique_ptr<TimedSimulation>> simulations;
     for (std::size_t i = 0; i < all_.size(); ++i) {
-        simulations.push_back(has_failed(i) ? nullptr : start(i, round));
+        simulations.push_back(rounds_[i].has_failed() ? nullptr : start(i, round));
     }
     run_in_turns(simulations, plan_.num_steps);
     for (std::size_t i = 0; i < all_.size(); ++i) {
         if (simulations[i]) take_result(i, round, simulations[i]->result());
     }
+    if (rank_of(comm_) == 0) print_round(std::cout, round + 1, rounds_);
 }
 
 std::unique_ptr<TimedSimulation> SceneRounds::start(std::size_t contender, int round) {
@@ -125,20 +123,6 @@ void SceneRounds::take_result(std::size_t contender, int round, SimulationRun ru
     }
     if (round > 0) run.history.clear();
     rounds_[contender].runs.push_back(std::move(run));
-}
-
-void print_and_write(const SimulationPlan& plan, const SceneRuns& scene,
-                     const ResultsFolder& folder, MPI_Comm comm) {
-    const int rank = rank_of(comm);
-    const int size = size_of(comm);
-    const std::vector<SimulationSummary> summaries = summarize_all(scene.methods);
-    std::vector<SimulationRun> first_round;
-    for (const SimulationRounds& rounds : scene.methods) first_round.push_back(rounds.runs.front());
-    if (rank == 0) print_simulations(std::cout, plan, size, summaries);
-    const auto row_of = [&](const SimulationSummary& s) { return simulation_row(plan, size, s); };
-    folder.write("simulation.csv", [&] { return csv_of(summaries, row_of); });
-    folder.write("simulation_runs.csv", [&] { return rounds_csv(plan, size, scene.methods); });
-    folder.write("history.csv", [&] { return history_csv(first_round); });
 }
 
 /// Steps until the front of the slope lies still, within 0.2 m of where it ends.
@@ -191,14 +175,14 @@ std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& prog
     return snapshots;
 }
 
-SceneRuns run_scene(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
-                    const SnapshotVisitor& visit, MPI_Comm comm) {
+std::vector<SimulationRounds> run_scene(const Arguments& arguments, const ResultsFolder& folder,
+                                        Progress& progress, const SnapshotVisitor& visit,
+                                        MPI_Comm comm) {
     std::vector<Contender> all = contenders(arguments.methods);
-    SimulationPlan plan = plan_scene(arguments, all.size(), comm);
+    SimulationPlan plan = plan_scene(arguments, all.size() - 1, comm);
     const bool is_main_job = arguments.scene == "slope" && arguments.only == Only::all;
     if (is_main_job && arguments.steps == 0 && !arguments.quick)
         plan.num_steps = steps_of_failure(comm);
-    all.push_back(Contender(all.front()));
     const int num_rounds = arguments.only == Only::simulations
                                ? arguments.repeats
                                : std::min(arguments.repeats, max_rounds);
@@ -206,13 +190,11 @@ SceneRuns run_scene(const Arguments& arguments, const ResultsFolder& folder, Pro
     rounds.run(0);
     visit(rounds.snapshots());
     for (int round = 1; round < num_rounds; ++round) rounds.run(round);
-    SceneRuns scene;
-    scene.methods = std::move(rounds).rounds();
-    const SimulationRounds again = std::move(scene.methods.back());
-    scene.methods.pop_back();
-    scene.noise = noise_of(plan.scene.name, scene.methods.front(), again);
-    print_and_write(plan, scene, folder, comm);
-    return scene;
+    std::vector<SimulationRounds> methods = std::move(rounds).rounds();
+    const std::span<const SimulationRounds> once(methods.data(), methods.size() - 1);
+    folder.write("simulation_runs.csv", [&] { return rounds_csv(plan, size_of(comm), methods); });
+    folder.write("history.csv", [&] { return history_csv(once); });
+    return methods;
 }
 
 }  // namespace comparisons

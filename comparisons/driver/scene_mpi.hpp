@@ -15,12 +15,6 @@
 
 namespace comparisons {
 
-/// A scene, run whole under every method.
-struct SceneRuns {
-    std::vector<SimulationRounds> methods;  ///< the first without rebalancing
-    std::vector<Noise> noise;               ///< of that one, run twice in every round
-};
-
 /// Is called with the points at the start, middle and end of the run without rebalancing, as they
 /// lie on its ranks: a distribution that favours no method.
 using SnapshotVisitor = std::function<void(std::span<const Workload> snapshots)>;
@@ -43,12 +37,15 @@ std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& prog
 std::vector<std::string> snapshot_names(const mpm::Scene& scene);
 
 /// Runs the scene under every method that cuts along the axes, several rounds of all of them,
-/// prints and writes their times and loads. Collective over `comm`.
+/// writes the times and loads of each run, and prints a line a round. Collective over `comm`.
 ///
+/// The first and the last run without rebalancing, "none" and "none again": how far the two differ
+/// is noise.
 /// The slope ends when its front lies still, unless steps or simulations only are asked for.
 /// `visit` is called behind the first round, so that nobody waits for all of them to see a table.
 /// Methods that vary with the seed take another one each round.
-SceneRuns run_scene(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
-                    const SnapshotVisitor& visit, MPI_Comm comm);
+std::vector<SimulationRounds> run_scene(const Arguments& arguments, const ResultsFolder& folder,
+                                        Progress& progress, const SnapshotVisitor& visit,
+                                        MPI_Comm comm);
 
 }  // namespace comparisons

@@ -66,12 +66,9 @@ void note_state(SimulationRun& run, const mpm::Simulation& simulation, MPI_Comm 
 
 }  // namespace
 
-double steps_path_s(const SimulationRun& run) {
-    return run.step_cost.path_s + run.step_cost.network_s;
-}
-
 double critical_path_s(const SimulationRun& run) {
-    return steps_path_s(run) + run.balance_cost.path_s + run.balance_cost.network_s;
+    return run.step_cost.path_s + run.step_cost.network_s + run.balance_cost.path_s +
+           run.balance_cost.network_s;
 }
 
 TimedSimulation::TimedSimulation(const SimulationPlan& plan, std::optional<mpm::Balancer> balancer,

@@ -58,9 +58,6 @@ struct SimulationRun {
 /// the network.
 double critical_path_s(const SimulationRun& run);
 
-/// The same of the steps alone.
-double steps_path_s(const SimulationRun& run);
-
 /// Called before the first step and after every step.
 using Observer = std::function<void(int steps_done, const mpm::Simulation&)>;
 

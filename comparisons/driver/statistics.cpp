@@ -45,10 +45,6 @@ Interval range_of(std::span<const double> values) {
     return {low, high};
 }
 
-Spread spread_of(const std::vector<double>& values) {
-    return {median(values), interval95(values)};
-}
-
 std::vector<double> paired_ratios(std::span<const double> values,
                                   std::span<const double> reference) {
     if (values.size() != reference.size() ||

@@ -12,12 +12,6 @@ struct Interval {
     double high = 0;
 };
 
-/// A median and where the true one lies; no interval where the values are too few for one.
-struct Spread {
-    double median = 0;
-    std::optional<Interval> interval95;
-};
-
 /// Middle of the values, the mean of the two middle ones when their number is even; 0 of none.
 double median(std::vector<double> values);
 
@@ -30,9 +24,6 @@ std::optional<Interval> interval95(std::vector<double> values);
 
 /// From the smallest to the largest value; 0 of none.
 Interval range_of(std::span<const double> values);
-
-/// Median and interval of the values.
-Spread spread_of(const std::vector<double>& values);
 
 /// values[i] / reference[i], measured in the same turn. Empty when their numbers differ or a
 /// reference is not above 0.

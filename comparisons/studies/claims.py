@@ -14,6 +14,7 @@ from intervals import NOT_TOLD_APART, ONE, Value, median_of
 from machine import CORES
 from methods import RCB, STANDARD, WINNERS, setting_of
 from results import Results, measurements, read, row_of
+from simulation import once
 
 CONFIRMED, REFUTED, PARTLY = "confirmed", "refuted", "partly"
 NOT_TESTABLE = "not testable here"
@@ -32,7 +33,7 @@ class Evidence:
         self.out = out
 
     def runs(self, name: str) -> pd.DataFrame:
-        return read(self.out / name / "simulation_runs.csv")
+        return once(read(self.out / name / "simulation_runs.csv"))
 
     @cached_property
     def snapshots(self) -> list[dict[str, object]]:

@@ -21,8 +21,9 @@ from moving_boxes import draw_moving_boxes
 from parts import draw_parts
 from price import draw_price
 from results import Results, cases
-from simulation import draw_simulation
 from tables import ghost_table, method_table, noise_table, simulation_table
+
+CSV = {"summary": "simulation.csv", "noise": "noise.csv"}  # of each what it is called here
 
 # Their captions are the docstrings of what draws them.
 PICTURES = {
@@ -30,7 +31,6 @@ PICTURES = {
     "parts.png": draw_parts,
     "moving_boxes.png": draw_moving_boxes,
     "unbalance_history.png": draw_history,
-    "simulation_time.png": draw_simulation,
 }
 
 
@@ -39,6 +39,9 @@ def main() -> int:
         print("usage: report.py DIRECTORY (with the files of a comparison)", file=sys.stderr)
         return 2
     results = Results(directory)
+    for name in ("summary", "noise"):
+        if len(rows := getattr(results, name)):
+            rows.to_csv(directory / CSV[name], index=False)
     draw(results)
     arguments = results.record.get("arguments", "")
     document = comparison_report(results)
@@ -77,7 +80,7 @@ def comparison_report(results: Results) -> Document:
     _add_methods(document, results, results.table)
     _add_simulations(document, results.runs, results.rounds)
     _add_pictures(document, "moving_boxes.png", "parts.png",
-                  "unbalance_history.png", "simulation_time.png")  # fmt: skip
+                  "unbalance_history.png")  # fmt: skip
     return document
 
 
@@ -115,7 +118,7 @@ def _add_simulations(document: Document, runs: pd.DataFrame, rounds: pd.DataFram
         return
     first = runs.iloc[-1]
     caption = f"Simulations: {first['points']:,} points, {first['steps']:,} steps"
-    document.table(caption, simulation_table(runs, "none", rounds))
+    document.summarise(caption, simulation_table(runs, "none", rounds))
     shared = f" {first['ranks']} ranks share {CORES} cores here, so it hides unbalance."
     document.paragraph(
         "critical path: what the run would take with a core for every rank, the processor time of"

@@ -12,9 +12,9 @@ from functools import cached_property
 from pathlib import Path
 
 import pandas as pd
+from simulation import noise, once, summarise
 
 WHOLE = "ranks points dim steps every messages bytes root_bytes_in rebalances".split()
-PATH = ["step_path_s", "step_network_s", "balance_path_s", "balance_network_s"]
 
 
 def read_all(path: Path) -> pd.DataFrame:
@@ -26,7 +26,11 @@ def read_all(path: Path) -> pd.DataFrame:
 
 
 def read(path: Path) -> pd.DataFrame:
-    rows = read_all(path) if path.exists() else pd.DataFrame()
+    return sound(read_all(path)) if path.exists() else pd.DataFrame()
+
+
+def sound(rows: pd.DataFrame) -> pd.DataFrame:
+    """Those that tell of no error; numbers that are whole as such."""
     if "error" in rows:
         rows = rows[rows["error"].isna()].reset_index(drop=True)
     if "every" in rows:  # steps between rebalances; 0: when they pay
@@ -53,13 +57,6 @@ def measurements(rows: pd.DataFrame) -> pd.DataFrame:
     return rows
 
 
-def simulations(rows: pd.DataFrame) -> pd.DataFrame:
-    """Adds the critical path where an earlier version left it out."""
-    if not rows.empty and "critical_path_s" not in rows:
-        rows["critical_path_s"] = rows[PATH].sum(axis=1)
-    return rows
-
-
 def _file(name: str, prepare: Callable[[pd.DataFrame], pd.DataFrame]) -> cached_property:
     return cached_property(lambda results: prepare(read(results.folder / name)))
 
@@ -71,10 +68,31 @@ class Results:
         self.folder = folder
 
     table = _file("table.csv", measurements)
-    noise = _file("noise.csv", pd.DataFrame)
-    runs = _file("simulation.csv", simulations)
     turns = _file("call_times.csv", pd.DataFrame)  # every timed call
-    rounds = _file("simulation_runs.csv", simulations)  # the same, each round by itself
+
+    @cached_property
+    def all_runs(self) -> pd.DataFrame:
+        """simulation_runs.csv, with runs that failed and second ones of none."""
+        path = self.folder / "simulation_runs.csv"
+        return read_all(path) if path.exists() else pd.DataFrame()
+
+    @cached_property
+    def rounds(self) -> pd.DataFrame:
+        return once(sound(self.all_runs))
+
+    @cached_property
+    def summary(self) -> pd.DataFrame:
+        """The rows of simulation.csv."""
+        return summarise(self.all_runs) if len(self.all_runs) else pd.DataFrame()
+
+    @cached_property
+    def runs(self) -> pd.DataFrame:
+        return sound(self.summary)
+
+    @cached_property
+    def noise(self) -> pd.DataFrame:
+        """The rows of noise.csv."""
+        return noise(self.all_runs, self.turns)
 
     @cached_property
     def record(self) -> dict[str, str]:

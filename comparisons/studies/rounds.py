@@ -6,18 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 from intervals import Value, median_of
-
-
-def paired(
-    rounds: pd.DataFrame, values: pd.Series, method: str, reference: str, number: str = "round"
-) -> Value | None:
-    """Median over the rounds of the method's value over the reference's, with its interval. Calls
-    of one turn are paired in the same way; none where a method is not there."""
-    chosen = [rounds["method"] == m for m in (method, reference)]
-    found = [values[c].set_axis(rounds.loc[c, number]) for c in chosen]
-    ratios = (found[0] / found[1]).dropna()
-    ratios = ratios[np.isfinite(ratios)]
-    return median_of(ratios) if len(ratios) else None
+from simulation import paired  # noqa: F401
 
 
 def of_method(rounds: pd.DataFrame, values: pd.Series, method: str) -> Value:

@@ -1,44 +1,104 @@
-"""Where the time of the whole simulation goes under each balancer."""
+"""What the rounds of simulations come to: simulation.csv and noise.csv, of the runs that the driver
+records. columns.md describes their columns.
+
+Simulations of one round take turns, and so do calls, so what noise there is slows all of them alike:
+they are compared in pairs, never by medians over the rounds.
+"""
 
 from __future__ import annotations
 
-import plot
-from intervals import decimals, value_of
-from machine import CORES
-from matplotlib.figure import Figure
-from results import Results
+import numpy as np
+import pandas as pd
+from intervals import Value, interval95, median_of
+
+AGAIN = " again"  # behind the name of what is measured a second time
+KEY = ["ranks", "points", "steps", "every"]
+MEDIANS = (
+    "wall_s balance_s step_s mean_imbalance worst_imbalance front_x_m moved_m mass_kg path_points"
+    " step_work_s step_path_s step_network_s balance_work_s balance_path_s balance_network_s"
+).split()
 
 
-def draw_simulation(results: Results) -> Figure | None:
-    """Where the time of the whole simulation goes, on the critical path."""
-    runs = results.runs
-    if runs.empty:
-        return None
-    ideals = runs["step_work_s"] / runs["ranks"]
-    beyond = (runs["step_path_s"] + runs["step_network_s"] - ideals).clip(lower=0)
-    balancing = runs["balance_path_s"] + runs["balance_network_s"]
-    figure, grid = plot.panels(1, 1, 11, 0.42 * len(runs) + 1.6)
-    axes = grid[0, 0]
-    ends = 0 * ideals
-    for name, seconds, colour, hatch in (
-        ("steps, all work / ranks", ideals, plot.IDEAL_COLOUR, ""),
-        ("steps beyond it: unbalance, noise, messages", beyond, plot.UNBALANCE_COLOUR, ""),
-        ("balancing", balancing, plot.CALL_COLOUR, "///"),
-    ):
-        axes.barh(runs["method"], seconds, left=ends, color=colour, hatch=hatch, edgecolor="white",
-                  label=name)  # fmt: skip
-        ends = ends + seconds
-    digits = decimals(ends, 3)
-    for row, (run, end) in enumerate(zip(runs.itertuples(), ends)):
-        path = value_of(run, "critical_path_s").text(digits)
-        text = f" {path} s, mean imbalance {run.mean_imbalance:.4f}; wall {run.wall_s:.{digits}f} s"
-        axes.text(end, row, text, va="center", fontsize=8)
-    axes.invert_yaxis()
-    axes.set_xlim(0, 1.7 * ends.max())
-    axes.set_xlabel("critical path [s]: what the run would take with a core for every rank")
-    first = runs.iloc[0]
-    axes.set_title(
-        f"The whole simulation: {first['points']:,} points, {first['steps']:,} steps,"
-        f" {first['ranks']} ranks" + f" that share {CORES} cores" * (CORES < first["ranks"])
-    )
-    return plot.legend_above(figure, axes, inches=3.4)
+def once(rows: pd.DataFrame) -> pd.DataFrame:
+    """Without what was measured a second time."""
+    return rows[~rows["method"].str.endswith(AGAIN)] if len(rows) else rows
+
+
+def summarise(runs: pd.DataFrame) -> pd.DataFrame:
+    """A row for each method; of one that failed in a round only the reason."""
+    runs = once(runs)
+    last = runs.groupby("method", sort=False).tail(1).set_index("method")
+    rounds = runs[runs["method"].isin(last.index[last["error"].isna()])]
+    of_method = rounds.groupby("method", sort=False)
+    rows = of_method[MEDIANS].median()
+    rows["repeats"] = of_method.size()
+    _add_interval(rows, "wall_s", of_method["wall_s"])
+    rows["critical_path_s"] = of_method["critical_path_s"].median()
+    _add_interval(rows, "critical_path_s", of_method["critical_path_s"])
+    _compare_with_none(rows, rounds)
+    rows["rebalances"] = of_method["rebalances"].median().astype(int)
+    rows["moved_fraction"] = of_method["moved_fraction"].median()
+    _add_interval(rows, "mean_imbalance", of_method["mean_imbalance"])
+    _close_fixed_imbalances(rows, of_method)
+    rows = last[KEY].join(rows).join(last["error"]).reset_index()
+    return rows.astype({"repeats": "Int64", "rebalances": "Int64"})
+
+
+def _add_interval(rows: pd.DataFrame, name: str, values: object) -> None:
+    ends = values.agg(lambda of_rounds: interval95(of_rounds))
+    rows[f"{name}_low"], rows[f"{name}_high"] = ends.str[0], ends.str[1]
+
+
+def _compare_with_none(rows: pd.DataFrame, rounds: pd.DataFrame) -> None:
+    """Adds the speed-up over none, of pairs; and the share that is kept of what could be gained if
+    rebalancing were free and the steps as short as under any method."""
+    names = [f"speed_up_critical_path{end}" for end in ("", "_low", "_high")]
+    rows[[*names, "ideal_speed_up", "gain_kept"]] = np.nan
+    if "none" not in rows.index:
+        return
+    for method in rows.index:
+        found = paired(rounds, rounds["critical_path_s"], "none", method)
+        rows.loc[method, names] = found.number, found.low, found.high
+    steps = rounds["step_path_s"] + rounds["step_network_s"]
+    shortest = steps.groupby(rounds["method"]).median().min()
+    longest = rows["critical_path_s"]["none"]
+    rows["ideal_speed_up"] = longest / shortest
+    if longest > shortest:
+        rows["gain_kept"] = (longest - rows["critical_path_s"]) / (longest - shortest)
+
+
+def _close_fixed_imbalances(rows: pd.DataFrame, of_method: object) -> None:
+    """Rounds without a seed that agree to the last bit have nothing random about them."""
+    values = of_method["mean_imbalance"]
+    fixed = (of_method["seed"].count() == 0) & (values.size() > 1) & (values.nunique() == 1)
+    for end in ("low", "high"):
+        rows.loc[fixed, f"mean_imbalance_{end}"] = rows["mean_imbalance"][fixed]
+
+
+def noise(runs: pd.DataFrame, calls: pd.DataFrame) -> pd.DataFrame:
+    """How far what was measured twice is from itself: simulations without rebalancing, and calls of
+    Zoltan's RCB on each workload."""
+    cases = []
+    if len(runs) and runs.loc[runs["method"].isin(["none", "none" + AGAIN]), "error"].isna().all():
+        scene = runs["scene"].iloc[0]
+        cases.append((scene, "none", runs, "wall_s", "none", "round"))
+        cases.append((scene, "none critical path", runs, "critical_path_s", "none", "round"))
+    for workload, turns in calls.groupby("workload", sort=False) if len(calls) else ():
+        cases.append((workload, "zoltan-rcb", turns, "time_ms", "zoltan-rcb", "turn"))
+    found = []
+    for workload, what, rows, column, method, number in cases:
+        if of := paired(rows, rows[column], method + AGAIN, method, number):
+            found.append((workload, what, of.number, of.low, of.high))
+    return pd.DataFrame(found, columns=["workload", "what", "ratio", "low", "high"])
+
+
+def paired(
+    rounds: pd.DataFrame, values: pd.Series, method: str, reference: str, number: str = "round"
+) -> Value | None:
+    """Median over the rounds of the method's value over the reference's, with its interval. Calls
+    of one turn are paired in the same way; none where a method is not there."""
+    chosen = [rounds["method"] == m for m in (method, reference)]
+    found = [values[c].set_axis(rounds.loc[c, number]) for c in chosen]
+    ratios = (found[0] / found[1]).dropna()
+    ratios = ratios[np.isfinite(ratios)]
+    return median_of(ratios) if len(ratios) else None

@@ -18,7 +18,7 @@ import choice  # noqa: E402
 import pandas as pd  # noqa: E402
 import report  # noqa: E402
 from document import Document  # noqa: E402
-from results import is_within, measurements, simulations  # noqa: E402
+from results import is_within, measurements  # noqa: E402
 from tables import ghost_table, method_table, simulation_table  # noqa: E402
 
 HEADER = (
@@ -67,7 +67,7 @@ def simulated(method: str, path: float, spread: float, speed_up: float) -> dict:
 
 
 def runs(*rows: dict) -> pd.DataFrame:
-    return simulations(pd.DataFrame(rows))
+    return pd.DataFrame(rows)
 
 
 ROWS = [
@@ -215,15 +215,12 @@ class ReportTest(unittest.TestCase):
     def test_begins_with_a_busy_machine_and_with_shared_cores(self) -> None:
         row = "rrcb,999,999,9990,2,fog,sorted,PARTS,1,1,1,1,1,0,1,1,1,1,0,0,,\n"
         (self.directory / "table.csv").write_text(HEADER + row)
-        noise = "workload,what,ratio,low,high\nfog,rcb,1.02,0.9,1.1\n"
-        (self.directory / "noise.csv").write_text(noise)
         record = "processor time used by other processes: 23 %\nbusy: yes\n"
         output = self.write("--cloud=fog", record)
         lines = [line for line in output.splitlines() if line and not line.startswith("Picture")]
         self.assertIn("The machine was busy: other processes used 23 %", lines[0])
         markdown = (self.directory / "report.md").read_text()
         self.assertIn("999 ranks share", markdown)
-        self.assertIn("| fog | rcb | 1.020 [0.900, 1.100] | no |", markdown)
 
 
 if __name__ == "__main__":

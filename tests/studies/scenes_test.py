@@ -16,11 +16,11 @@ import scenes  # noqa: E402
 from results import Results  # noqa: E402
 
 HEADER = (
-    "method,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,worst_imbalance,front_x_m,"
-    "moved_m,mass_kg,path_points,step_work_s,step_path_s,step_network_s,balance_work_s,"
-    "balance_path_s,balance_network_s,error\n"
+    "method,round,seed,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,worst_imbalance,"
+    "front_x_m,moved_m,mass_kg,path_points,step_work_s,step_path_s,step_network_s,balance_work_s,"
+    "balance_path_s,balance_network_s,critical_path_s,rebalances,moved_fraction,error,scene\n"
 )
-REST = ",,1,5,8,1,1,0,0,0,0,"
+REST = ",,1,5,8,1,1,0,0,0,0,1,0,0,,slope"
 HISTORY = """\
 method,step,time,part,points,lu_percent,imbalance
 none,0,0.0,0,3,-50,1.5
@@ -37,7 +37,7 @@ class ScenesTest(unittest.TestCase):
     def write(self, scene: str, rows: list[str]) -> None:
         folder = self.directory / scene
         folder.mkdir()
-        folder.joinpath("simulation.csv").write_text(HEADER + "\n".join(rows) + "\n")
+        folder.joinpath("simulation_runs.csv").write_text(HEADER + "\n".join(rows) + "\n")
         folder.joinpath("history.csv").write_text(HISTORY)
 
     def run_script(self, *names: str) -> int:
@@ -47,9 +47,9 @@ class ScenesTest(unittest.TestCase):
             return scenes.main()
 
     def test_sets_scenes_side_by_side(self) -> None:
-        none = "none,2,4,10,5,1,0,1,1.5,1.75" + REST
-        rrcb = "rrcb,2,4,10,5,1,0,1,1.0625,1.25" + REST
-        failed = "rrcb,2,4,10,5" + "," * 16 + "it fell"
+        none = "none,1,,2,4,10,5,1,0,1,1.5,1.75" + REST
+        rrcb = "rrcb,1,,2,4,10,5,1,0,1,1.0625,1.25" + REST
+        failed = "rrcb,1,,2,4,10,5" + "," * 19 + "it fell,slope"
         self.write("slope", [none, rrcb])
         self.write("beam", [none, failed])
         self.assertEqual(self.run_script("slope", "beam", "not_run"), 0)

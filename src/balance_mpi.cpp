@@ -197,7 +197,7 @@ void settle_from_earlier(Call& call, const EarlierParts& earlier, Participant& s
     bracket_earlier(call.result.cuts, whole, decision.bisection.brackets);
     // A correction of all cuts at once needs no cells.
     const auto bin = [&]() -> const BinnedPoints& {
-        if (call.binned.cells.empty()) call.binned = bin_by_options(call.points, box, options);
+        if (call.binned.counts.empty()) call.binned = bin_by_options(call.points, box, options);
         return call.binned;
     };
     call.settlement.refine(call.points, std::ref(bin), decision, call.result, self);

@@ -1,33 +1,43 @@
 #include "cells/binned_points.hpp"
 
-#include "cells/point_layout.hpp"
+#include "cells/cell_finder.hpp"
 #include "cells/running_sums.hpp"
 #include "cells/safe_scale.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace rrcb {
 
 namespace {
 
-constexpr std::size_t block_length = 256;
+/// Sum of the weights of one cell, if points have weights.
+template <bool Weighted>
+struct WeightSum {
+    double sum = 0;
+};
+template <>
+struct WeightSum<false> {};
 
 /// Sums over the points of one cell.
 template <std::size_t Dimension, bool Weighted>
 struct CellSum {
     std::array<double, Dimension> first{};
     std::array<double, Dimension> second{};
-    LocalIndex count = 0;
-    [[no_unique_address]] std::array<double, Weighted ? 1 : 0> weight{};
+    [[no_unique_address]] WeightSum<Weighted> weight{};
 
     CellSum& operator+=(const CellSum& other) {
         for (std::size_t a = 0; a < Dimension; ++a) first[a] += other.first[a];
         for (std::size_t a = 0; a < Dimension; ++a) second[a] += other.second[a];
-        count += other.count;
-        if constexpr (Weighted) weight[0] += other.weight[0];
+        if constexpr (Weighted) weight.sum += other.weight.sum;
         return *this;
     }
+};
+
+/// A cell while points are added. Of 64 bytes in 2-D, which are cheap to multiply by.
+template <std::size_t Dimension, bool Weighted>
+struct alignas(2 * sizeof(double)) RunningCell : CellSum<Dimension, Weighted> {
+    std::array<double, Dimension> origin{};  ///< its first point
+    LocalIndex num_others = -1;              ///< the number of its points, less one
 };
 
 /// Finds the cells block by block, as vectors, and adds each block up while it is in the cache.
@@ -38,103 +48,63 @@ class Binner {
 
   public:
     Binner(const Layout& x, BinnedPoints& binned)
-        : x_(x),
-          binned_(binned),
-          sums_(num_cells(binned.mesh)),
-          origins_(num_cells(binned.mesh)),
-          seen_(num_cells(binned.mesh)) {
-        const SupportMesh& mesh = binned.mesh;
-        for (std::size_t a = 0; a < dimension; ++a) {
-            scale_[a] = mesh.scale[a];
-            lower_[a] = mesh.box.lower[a] * mesh.scale[a];
-            cells_per_length_[a] = mesh.cells_per_length[a];
-            cells_[a] = static_cast<std::uint32_t>(mesh.cells[a]);
-            cells_below_[a] = std::nextafter(mesh.cells[a], 0);
-        }
+        : x_(x), binned_(binned), finder_(binned.mesh), sums_(num_cells(binned.mesh)) {
+        std::copy_n(binned.mesh.scale.begin(), dimension, scale_.begin());
     }
 
     void run() {
+        const auto add = adder();
         in_ranges(binned_.points.count, sums_.interval(), [&](LocalIndex first, LocalIndex last) {
-            in_ranges(last - first, block_length, [&](LocalIndex begin, LocalIndex end) {
-                locate(first + begin, end - begin);
-                for (LocalIndex i = 0; i < end - begin; ++i) add(first + begin, i);
-            });
+            visit_cells(finder_, x_, first, last, add);
             sums_.empty();
         });
         write_totals();
     }
 
   private:
-    void locate(LocalIndex first, LocalIndex length) {
-        for (LocalIndex i = 0; i < length; ++i) {
-            for (std::size_t a = 0; a < dimension; ++a) {
-                const double x = x_(first + i, static_cast<int>(a)) * scale_[a];
-                const double offset = (x - lower_[a]) * cells_per_length_[a];
-                // The upper face of the box belongs to the last layer.
-                const double layer = offset < cells_below_[a] ? offset : cells_below_[a];
-                layers_[i * dimension + a] =
-                    static_cast<std::uint32_t>(static_cast<std::int32_t>(layer));
+    /// Returns what adds point `i` to its cell. It holds no reference to anything that the sums
+    /// might overlap, as far as the compiler knows.
+    auto adder() {
+        return [points = x_, scale = scale_, cells = &sums_[0],
+                weights = binned_.points.weights.data(),
+                weight_scale = binned_.weight_scale](LocalIndex i, std::size_t number) {
+            RunningCell<dimension, Weighted>& cell = cells[number];
+            Position x;
+            for (std::size_t a = 0; a < dimension; ++a)
+                x[a] = points(i, static_cast<int>(a)) * scale[a];
+            if (++cell.num_others == 0) cell.origin = x;
+            // Copies, and one loop for each sum: else they could not be vectors.
+            for (std::size_t a = 0; a < dimension; ++a) x[a] -= cell.origin[a];
+            Position moment = x;
+            if constexpr (Weighted) {
+                const double weight = weights[i] * weight_scale;
+                cell.weight.sum += weight;
+                for (double& value : moment) value *= weight;
             }
-        }
-    }
-
-    std::uint32_t cell_of_entry(LocalIndex i) const {
-        std::uint32_t cell = 0;
-        for (std::size_t a = dimension; a-- > 0;)
-            cell = cell * cells_[a] + layers_[i * dimension + a];
-        return cell;
-    }
-
-    /// Adds entry `i` of the block at `first` to the sums of its cell.
-    void add(LocalIndex first, LocalIndex i) {
-        const std::uint32_t cell = cell_of_entry(i);
-        binned_.cells[first + i] = cell;
-        Position x;
-        for (std::size_t a = 0; a < dimension; ++a)
-            x[a] = x_(first + i, static_cast<int>(a)) * scale_[a];
-        if (!seen_[cell]) {
-            seen_[cell] = true;
-            origins_[cell] = x;
-        }
-        // Copies, and one loop for each sum: else they might overlap, and could not be vectors.
-        const Position origin = origins_[cell];
-        CellSum<dimension, Weighted>& sum = sums_[cell];
-        ++sum.count;
-        for (std::size_t a = 0; a < dimension; ++a) x[a] -= origin[a];
-        Position moment = x;
-        if constexpr (Weighted) {
-            const double weight = binned_.points.weights[first + i] * binned_.weight_scale;
-            sum.weight[0] += weight;
-            for (double& value : moment) value *= weight;
-        }
-        for (std::size_t a = 0; a < dimension; ++a) sum.first[a] += moment[a];
-        for (std::size_t a = 0; a < dimension; ++a) sum.second[a] += moment[a] * x[a];
+            for (std::size_t a = 0; a < dimension; ++a) cell.first[a] += moment[a];
+            for (std::size_t a = 0; a < dimension; ++a) cell.second[a] += moment[a] * x[a];
+        };
     }
 
     void write_totals() {
-        for (const CellSum<dimension, Weighted>& sum : sums_.totals()) {
-            binned_.counts.push_back(sum.count);
-            binned_.weights.insert(binned_.weights.end(), sum.weight.begin(), sum.weight.end());
-            binned_.first_moments.insert(binned_.first_moments.end(), sum.first.begin(),
-                                         sum.first.end());
-            binned_.second_moments.insert(binned_.second_moments.end(), sum.second.begin(),
-                                          sum.second.end());
+        const auto append = [](std::vector<double>& to, const Position& values) {
+            to.insert(to.end(), values.begin(), values.end());
+        };
+        const auto& totals = sums_.totals();
+        for (std::size_t cell = 0; cell < totals.size(); ++cell) {
+            if constexpr (Weighted) binned_.weights.push_back(totals[cell].weight.sum);
+            append(binned_.first_moments, totals[cell].first);
+            append(binned_.second_moments, totals[cell].second);
+            append(binned_.origins, sums_[cell].origin);
+            binned_.counts.push_back(sums_[cell].num_others + 1);
         }
-        for (const Position& origin : origins_)
-            binned_.origins.insert(binned_.origins.end(), origin.begin(), origin.end());
     }
 
     Layout x_;
     BinnedPoints& binned_;
+    CellFinder finder_;
     Position scale_;
-    Position lower_;
-    Position cells_per_length_;
-    std::array<std::uint32_t, dimension> cells_;
-    Position cells_below_;  ///< the number before it
-    RunningSums<CellSum<dimension, Weighted>> sums_;
-    std::vector<Position> origins_;
-    std::vector<char> seen_;
-    std::array<std::uint32_t, dimension * block_length> layers_;  ///< of the points of a block
+    RunningSums<CellSum<dimension, Weighted>, RunningCell<dimension, Weighted>> sums_;
 };
 
 /// Power of two with which weights times squares of lengths neither overflow nor vanish.
@@ -149,7 +119,6 @@ BinnedPoints bin_by_cell(const Points& points, const SupportMesh& mesh) {
     BinnedPoints binned;
     binned.mesh = mesh;
     binned.points = points;
-    binned.cells.resize(points.count);
     binned.weight_scale = scale_of_weights(points.weights);
     visit_layout(points, [&]<class Layout>(const Layout& x) {
         if (points.weights.empty()) {

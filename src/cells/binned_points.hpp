@@ -2,19 +2,17 @@
 
 #include <rrcb/method/moments.hpp>
 
-#include <cstdint>
 #include <vector>
 
 namespace rrcb {
 
-/// One rank's points with the cell of a support mesh that each of them lies in.
+/// Sums over one rank's points in each cell of a support mesh.
 struct BinnedPoints {
     SupportMesh mesh;
-    Points points;                     ///< borrowed
-    std::vector<std::uint32_t> cells;  ///< of each point
-    std::vector<LocalIndex> counts;    ///< points in each cell of the mesh
-    double weight_scale = 1;      ///< power of two that keeps sums of weighted squares in range
-    std::vector<double> weights;  ///< of each cell, scaled; empty when every point weighs 1
+    Points points;                   ///< borrowed
+    std::vector<LocalIndex> counts;  ///< points in each cell of the mesh
+    double weight_scale = 1;         ///< power of two that keeps sums of weighted squares in range
+    std::vector<double> weights;     ///< of each cell, scaled; empty when every point weighs 1
     /// First point of each cell, in scaled lengths; like the sums `dimension` entries per cell.
     std::vector<double> origins;
     std::vector<double> first_moments;   ///< sum of w d over the points of a cell, d = x - origin
@@ -26,10 +24,10 @@ struct BinnedPoints {
     }
 };
 
-/// Finds the cells of finite points that lie in the box of `mesh`, in one pass. Not collective.
+/// Adds up finite points that lie in the box of `mesh`, in one pass. Not collective.
 BinnedPoints bin_by_cell(const Points& points, const SupportMesh& mesh);
 
-/// Moments as the public function has them, of points whose cells are known.
+/// Moments as the public function has them, of points that are added up.
 std::vector<CellMoments> cell_moments(const BinnedPoints& binned);
 
 }  // namespace rrcb

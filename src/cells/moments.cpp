@@ -1,5 +1,5 @@
 #include "cells/binned_points.hpp"
-#include "cells/point_layout.hpp"
+#include "cells/cell_finder.hpp"
 #include "cells/running_sums.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
@@ -97,9 +97,9 @@ void sum_again(const Layout& x, const BinnedPoints& binned, const Weight& weight
     std::array<double, dimension> scale;
     std::copy_n(binned.mesh.scale.begin(), dimension, scale.begin());
     RunningSums<Sums<dimension>> sums(cells.origins.size());
+    const CellFinder finder(binned.mesh);
     in_ranges(binned.points.count, sums.interval(), [&](LocalIndex begin, LocalIndex end) {
-        for (LocalIndex i = begin; i < end; ++i) {
-            const std::size_t cell = binned.cells[i];
+        visit_cells(finder, x, begin, end, [&](LocalIndex i, std::size_t cell) {
             const std::array<double, dimension>& origin = cells.origins[cell];
             Sums<dimension>& sum = sums[cell];
             const double w = weight(i);
@@ -108,7 +108,7 @@ void sum_again(const Layout& x, const BinnedPoints& binned, const Weight& weight
                 sum.first[a] += w * d;
                 sum.second[a] += w * d * d;
             }
-        }
+        });
         sums.empty();
     });
     cells.sums = sums.totals();

@@ -4,13 +4,22 @@
 
 namespace rrcb {
 
-/// Points of a dimension and stride known to the compiler, for the loops that touch every point.
-template <int Dimension, std::size_t Stride>
-struct PointLayout {
+/// Points one after another, for the loops that touch every point.
+template <int Dimension>
+struct InterleavedLayout {
+    static constexpr int dimension = Dimension;
+    const double* coordinates;
+
+    double operator()(LocalIndex i, int axis) const { return coordinates[i * Dimension + axis]; }
+};
+
+/// Points in an array per axis.
+template <int Dimension>
+struct ColumnLayout {
     static constexpr int dimension = Dimension;
     std::array<const double*, Dimension> axes;
 
-    double operator()(LocalIndex i, int axis) const { return axes[axis][i * Stride]; }
+    double operator()(LocalIndex i, int axis) const { return axes[axis][i]; }
 };
 
 /// Points of any stride, such as members of structs.
@@ -26,14 +35,17 @@ struct StridedLayout {
 template <int Dimension, class Visit>
 decltype(auto) visit_layout_of(const Points& points, Visit&& visit) {
     std::array<const double*, Dimension> axes;
-    for (std::size_t a = 0; a < Dimension; ++a) axes[a] = points.axes[a].data();
-    if (points.stride == 1) return visit(PointLayout<Dimension, 1>{axes});
-    if (points.stride == Dimension) return visit(PointLayout<Dimension, Dimension>{axes});
+    bool is_interleaved = points.stride == Dimension;
+    for (std::size_t a = 0; a < Dimension; ++a) {
+        axes[a] = points.axes[a].data();
+        is_interleaved = is_interleaved && axes[a] == axes[0] + a;
+    }
+    if (points.stride == 1) return visit(ColumnLayout<Dimension>{axes});
+    if (is_interleaved) return visit(InterleavedLayout<Dimension>{axes[0]});
     return visit(StridedLayout<Dimension>{axes, points.stride});
 }
 
-/// Calls `visit(layout)` with the layout of `points`: stride 1 (columns), dimension (interleaved)
-/// or any other.
+/// Calls `visit(layout)` with the layout of `points`: columns, interleaved, or any other stride.
 template <class Visit>
 decltype(auto) visit_layout(const Points& points, Visit&& visit) {
     if (points.dimension == 1) return visit_layout_of<1>(points, visit);

@@ -1,4 +1,4 @@
-#include "cells/point_layout.hpp"
+#include "cells/vector_clones.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 
@@ -9,22 +9,23 @@ namespace rrcb {
 
 namespace {
 
-/// Two values in one register: the order of a minimum is free, but the compiler may not know it.
-typedef double Pair __attribute__((vector_size(2 * sizeof(double))));
+/// Values in one register: the order of a minimum is free, but the compiler may not know it.
+constexpr std::size_t width = 4;
+typedef double Row __attribute__((vector_size(width * sizeof(double))));
 
 // Independent of each other, and of values that are a multiple of every stride, so that each entry
 // keeps to one axis.
-constexpr std::size_t num_pairs = 3;
-constexpr std::size_t num_lanes = 2 * num_pairs;
+constexpr std::size_t num_rows = 3;
+constexpr std::size_t num_lanes = width * num_rows;
 
-/// Range of some of the values, two by two.
+/// Range of some of the values, row by row.
 struct Span {
-    Pair lower = Pair{} + Box{}.lower[0];
-    Pair upper = Pair{} + Box{}.upper[0];
-    Pair poison{};  ///< 0 * x is 0 just for finite x
+    Row lower = Row{} + Box{}.lower[0];
+    Row upper = Row{} + Box{}.upper[0];
+    Row poison{};  ///< 0 * x is 0 just for finite x
 
-    void widen(const double* values) {
-        Pair value;
+    [[gnu::always_inline]] void widen(const double* values) {
+        Row value;
         std::memcpy(&value, values, sizeof value);
         lower = lower < value ? lower : value;
         upper = upper > value ? upper : value;
@@ -32,30 +33,38 @@ struct Span {
     }
 };
 
-/// Smallest and largest of the values, entry k of axis k % stride; NaN in place of infinities.
-Box box_of_values(std::span<const double> values, std::size_t stride) {
-    std::array<Span, num_pairs> spans;
+/// Takes in whole multiples of num_lanes values; returns how many.
+RRCB_VECTOR_CLONES
+std::size_t widen(std::span<const double> values, std::array<Span, num_rows>& spans) {
+    std::array<Span, num_rows> kept = spans;
     std::size_t k = 0;
     for (; k + num_lanes <= values.size(); k += num_lanes)
-        for (std::size_t pair = 0; pair < num_pairs; ++pair)
-            spans[pair].widen(&values[k + 2 * pair]);
+        for (std::size_t row = 0; row < num_rows; ++row) kept[row].widen(&values[k + width * row]);
+    spans = kept;
+    return k;
+}
+
+/// Smallest and largest of the values, entry k of axis k % stride; NaN in place of infinities.
+Box box_of_values(std::span<const double> values, std::size_t stride) {
+    std::array<Span, num_rows> spans;
+    std::size_t k = widen(values, spans);
     // The last few, and others of their axes in place of those that are missing.
     if (k < values.size()) {
         std::array<double, num_lanes> rest;
         for (std::size_t lane = 0; lane < num_lanes; ++lane)
             rest[lane] = values[k + lane < values.size() ? k + lane : lane % stride];
-        for (std::size_t pair = 0; pair < num_pairs; ++pair) spans[pair].widen(&rest[2 * pair]);
+        widen(rest, spans);
     }
     Box box;
     for (std::size_t lane = 0; lane < num_lanes; ++lane) {
-        const Span& span = spans[lane / 2];
+        const Span& span = spans[lane / width];
         const std::size_t a = lane % stride;
-        box.lower[a] = std::min(box.lower[a], span.lower[lane % 2]);
-        box.upper[a] = std::max(box.upper[a], span.upper[lane % 2]);
+        box.lower[a] = std::min(box.lower[a], span.lower[lane % width]);
+        box.upper[a] = std::max(box.upper[a], span.upper[lane % width]);
     }
     for (std::size_t lane = 0; lane < num_lanes; ++lane) {
-        box.lower[lane % stride] += spans[lane / 2].poison[lane % 2];
-        box.upper[lane % stride] += spans[lane / 2].poison[lane % 2];
+        box.lower[lane % stride] += spans[lane / width].poison[lane % width];
+        box.upper[lane % stride] += spans[lane / width].poison[lane % width];
     }
     return box;
 }

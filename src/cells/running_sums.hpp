@@ -9,11 +9,12 @@
 namespace rrcb {
 
 /// One sum per bin, over entries that come in any order of the bins. The same entries give the same
-/// bits. `Sum` starts at zero and has +=.
+/// bits. `Sum` starts at zero and has +=; a running sum may be a `Running` that derives from it,
+/// with members that stay.
 ///
 /// One long running sum would lose a digit for every tenfold of the entries. So the running sums
 /// are emptied into others now and then, and these into the totals more seldom.
-template <class Sum>
+template <class Sum, class Running = Sum>
 class RunningSums {
   public:
     explicit RunningSums(std::size_t num_bins)
@@ -22,7 +23,7 @@ class RunningSums {
     /// Number of entries to add before the sums are to be emptied.
     LocalIndex interval() const { return std::max<LocalIndex>(128, 8 * running_.size()); }
 
-    Sum& operator[](std::size_t bin) { return running_[bin]; }
+    Running& operator[](std::size_t bin) { return running_[bin]; }
 
     void empty() {
         constexpr std::size_t most_emptied = 64;
@@ -37,14 +38,15 @@ class RunningSums {
     }
 
   private:
-    static void pour(std::vector<Sum>& from, std::vector<Sum>& into) {
+    static void pour(auto& from, std::vector<Sum>& into) {
         for (std::size_t k = 0; k < from.size(); ++k) {
-            into[k] += from[k];
-            from[k] = Sum{};
+            Sum& sum = from[k];
+            into[k] += sum;
+            sum = Sum{};
         }
     }
 
-    std::vector<Sum> running_;
+    std::vector<Running> running_;
     std::vector<Sum> emptied_;
     std::size_t num_emptied_ = 0;
     std::vector<Sum> totals_;

@@ -1,6 +1,6 @@
 #include "cells/sorted_points.hpp"
 
-#include "cells/point_layout.hpp"
+#include "cells/cell_finder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +15,13 @@ void scatter(const Layout& x, const BinnedPoints& binned, SortedPoints& sorted) 
     constexpr auto dimension = static_cast<std::size_t>(Layout::dimension);
     std::vector<LocalIndex> next(sorted.begins.begin(), sorted.begins.end() - 1);
     const Points& points = binned.points;
-    for (LocalIndex i = 0; i < points.count; ++i) {
-        const LocalIndex place = next[binned.cells[i]]++;
+    visit_cells(CellFinder(binned.mesh), x, 0, points.count, [&](LocalIndex i, std::size_t cell) {
+        const LocalIndex place = next[cell]++;
         for (std::size_t a = 0; a < dimension; ++a)
             sorted.coordinates[place * dimension + a] = x(i, static_cast<int>(a));
         sorted.original[place] = i;
         if (!points.weights.empty()) sorted.weights[place] = points.weights[i];
-    }
+    });
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cells/point_layout.hpp"
+#include "cells/vector_clones.hpp"
 
 #include <rrcb/points.hpp>
 
@@ -9,15 +10,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-
-// Compiles a function for processors with longer vectors as well; the loader takes what fits. It
-// compares and selects alone, so the results are the same.
-#if defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define RRCB_VECTOR_CLONES [[gnu::target_clones("default", "avx2", "arch=x86-64-v4")]]
-#else
-#define RRCB_VECTOR_CLONES
-#endif
 
 namespace rrcb {
 

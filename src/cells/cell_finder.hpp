@@ -1,0 +1,65 @@
+#pragma once
+
+#include "cells/point_layout.hpp"
+#include "cells/running_sums.hpp"
+#include "cells/vector_clones.hpp"
+
+#include <rrcb/method/support_mesh.hpp>
+
+#include <cmath>
+#include <cstdint>
+
+namespace rrcb {
+
+/// A support mesh as the loop over points needs it, one entry per axis.
+struct CellFinder {
+    explicit CellFinder(const SupportMesh& mesh) : scale(mesh.scale) {
+        for (std::size_t a = 0; a < max_dimension; ++a) {
+            lower[a] = mesh.box.lower[a] * mesh.scale[a];
+            cells_per_length[a] = mesh.cells_per_length[a];
+            num_cells[a] = static_cast<std::int32_t>(mesh.cells[a]);
+            below_num_cells[a] = std::nextafter(mesh.cells[a], 0);
+        }
+    }
+
+    Vector scale;
+    Vector lower{};
+    Vector cells_per_length{};
+    std::array<std::int32_t, max_dimension> num_cells{};
+    Vector below_num_cells{};  ///< the number before it
+};
+
+/// Finds the cells of consecutive points. Cheap enough to be done again instead of kept in memory.
+template <class Layout>
+RRCB_ARITHMETIC_CLONES void find_cells(const CellFinder& mesh, const Layout& points,
+                                       LocalIndex first, LocalIndex length, std::int32_t* cells) {
+    // Copies, which the writes below can't change.
+    const CellFinder to = mesh;
+    const Layout x = points;
+    for (LocalIndex i = 0; i < length; ++i) {
+        std::int32_t cell = 0;
+        for (int a = Layout::dimension; a-- > 0;) {
+            const double offset =
+                (x(first + i, a) * to.scale[a] - to.lower[a]) * to.cells_per_length[a];
+            // The upper face of the box belongs to the last layer.
+            const double layer = offset < to.below_num_cells[a] ? offset : to.below_num_cells[a];
+            cell = cell * to.num_cells[a] + static_cast<std::int32_t>(layer);
+        }
+        cells[i] = cell;
+    }
+}
+
+/// Calls visit(i, cell) for the points from `first` up to `last`.
+template <class Layout, class Visit>
+void visit_cells(const CellFinder& mesh, const Layout& x, LocalIndex first, LocalIndex last,
+                 const Visit& visit) {
+    constexpr LocalIndex block_length = 256;
+    std::array<std::int32_t, block_length> cells;
+    in_ranges(last - first, block_length, [&](LocalIndex begin, LocalIndex end) {
+        find_cells(mesh, x, first + begin, end - begin, cells.data());
+        for (LocalIndex k = begin; k < end; ++k)
+            visit(first + k, static_cast<std::size_t>(cells[k - begin]));
+    });
+}
+
+}  // namespace rrcb

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cell_list.hpp"
+#include "ghosts_mpi.hpp"
 #include "method.hpp"
 #include "workload_mpi.hpp"
 

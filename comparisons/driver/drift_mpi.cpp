@@ -10,9 +10,7 @@ namespace comparisons {
 Drift::Drift(const Workload& workload, double fraction, std::uint64_t seed, MPI_Comm comm)
     : fraction_(fraction),
       dimension_(workload.dimension),
-      box_(rrcb::bounding_box(workload.points())) {
-    MPI_Allreduce(MPI_IN_PLACE, box_.lower.data(), 3, MPI_DOUBLE, MPI_MIN, comm);
-    MPI_Allreduce(MPI_IN_PLACE, box_.upper.data(), 3, MPI_DOUBLE, MPI_MAX, comm);
+      box_(joined_box(rrcb::bounding_box(workload.points()), comm)) {
     CounterRandom random(seed, 0);
     phase_ = random.uniform();
     for (double& turns : turns_) turns = random.uniform(-1, 1);

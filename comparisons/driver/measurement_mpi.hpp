@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ghost_counter_mpi.hpp"
+#include "ghosts_mpi.hpp"
 #include "method.hpp"
 #include "progress.hpp"
 #include "traffic.hpp"

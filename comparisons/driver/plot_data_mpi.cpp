@@ -99,7 +99,7 @@ void write_boxes(const ResultsFolder& folder, const Workload& workload, const Me
                  MPI_Comm comm) {
     const std::vector<rrcb::Box> boxes = part_boxes(workload, method, comm);
     if (boxes.empty()) return;
-    const rrcb::Box cloud = global_box(workload, comm);
+    const rrcb::Box cloud = joined_box(rrcb::bounding_box(workload.points()), comm);
     folder.write(data_file("boxes", workload, method.label), [&] {
         rrcb::Part part = 0;
         return csv_of(boxes, [&](rrcb::Box box) {

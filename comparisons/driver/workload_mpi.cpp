@@ -55,8 +55,8 @@ void transpose_to_hilbert(Axes& x, int dimension) {
 using rrcb::GlobalCount;
 
 std::vector<std::size_t> curve_places(const Workload& workload, MPI_Comm comm) {
-    const rrcb::Box box = global_box(workload, comm);
     const rrcb::Points points = workload.points();
+    const rrcb::Box box = joined_box(rrcb::bounding_box(points), comm);
     std::vector<std::size_t> places(points.count);
     for (std::size_t i = 0; i < points.count; ++i) {
         places[i] = hilbert_cell(box, points.position(i), workload.dimension);
@@ -129,11 +129,10 @@ std::size_t hilbert_cell(const rrcb::Box& box, const rrcb::Vector& position, int
     return place;
 }
 
-rrcb::Box global_box(const Workload& workload, MPI_Comm comm) {
-    rrcb::Box box = rrcb::bounding_box(workload.points());
-    MPI_Allreduce(MPI_IN_PLACE, box.lower.data(), 3, MPI_DOUBLE, MPI_MIN, comm);
-    MPI_Allreduce(MPI_IN_PLACE, box.upper.data(), 3, MPI_DOUBLE, MPI_MAX, comm);
-    return box;
+rrcb::Box joined_box(rrcb::Box mine, MPI_Comm comm) {
+    MPI_Allreduce(MPI_IN_PLACE, mine.lower.data(), 3, MPI_DOUBLE, MPI_MIN, comm);
+    MPI_Allreduce(MPI_IN_PLACE, mine.upper.data(), 3, MPI_DOUBLE, MPI_MAX, comm);
+    return mine;
 }
 
 const char* layout_name(Layout layout) {

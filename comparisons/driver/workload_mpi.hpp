@@ -35,8 +35,8 @@ enum class Layout {
 
 const char* layout_name(Layout layout);
 
-/// Box around the points of all ranks. Collective over `comm`.
-rrcb::Box global_box(const Workload& workload, MPI_Comm comm);
+/// Box around the boxes of all ranks. Collective over `comm`.
+rrcb::Box joined_box(rrcb::Box mine, MPI_Comm comm);
 
 /// Moves each point to its rank; points come in the order of the ranks that held them, and as they
 /// lay there. Collective over `comm`.

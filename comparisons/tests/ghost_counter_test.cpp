@@ -1,5 +1,5 @@
 #include "../../tests/support/ranks.hpp"
-#include "ghost_counter_mpi.hpp"
+#include "ghosts_mpi.hpp"
 
 #include <gtest/gtest.h>
 

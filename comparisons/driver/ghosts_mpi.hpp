@@ -1,6 +1,5 @@
 #pragma once
 
-#include "cell_list.hpp"
 #include "workload_mpi.hpp"
 
 #include <rrcb/plan.hpp>
@@ -13,6 +12,12 @@
 
 namespace comparisons {
 
+/// Cut-off and machines that ghosts are counted by.
+struct GhostRule {
+    std::optional<double> radius{};       ///< above 0; without it twice the mean spacing
+    std::optional<int> ranks_per_node{};  ///< machines hold so many consecutive parts
+};
+
 /// Ghosts of one partition: copies of points that parts need from others.
 ///
 /// A point counts once for each other part that has a point within the radius of it.
@@ -24,10 +29,17 @@ struct Ghosts {
     std::optional<std::int64_t> off_machine{};  ///< of the sum, between machines
 };
 
+struct PointInCube {
+    std::int64_t cube;  ///< ordered by its layer, then along the other axes
+    rrcb::Vector position;
+    std::size_t number;  ///< in the order of arrival
+};
+
 /// Counts the ghosts of any partitions of the same points. Points that are not finite have none.
 ///
-/// Points are dealt over the ranks in slabs; each slab gets the points next to it too. All
-/// functions are collective over `comm`.
+/// Space is divided into cubes a little wider than the radius, at most 2^20 along an axis. Layers
+/// of cubes are dealt over the ranks; each rank gets the points of the layers next to its own too.
+/// All functions are collective over `comm`.
 class GhostCounter {
   public:
     GhostCounter(const Workload& workload, const GhostRule& rule, MPI_Comm comm);
@@ -39,9 +51,10 @@ class GhostCounter {
     MPI_Comm comm_;
     GhostRule rule_;
     double radius_;
+    std::int64_t num_layers_;
     std::vector<std::size_t> sources_;  ///< local points that are sent, some more than once
     rrcb::Plan plan_;
-    std::optional<CellList> cells_;
+    std::vector<PointInCube> points_;  ///< of this rank's layers and those next to them
 };
 
 }  // namespace comparisons

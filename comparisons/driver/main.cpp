@@ -2,7 +2,6 @@
 #include "failure_mpi.hpp"
 #include "git_hash.hpp"
 #include "machine_load_mpi.hpp"
-#include "replay_mpi.hpp"
 #include "scene_mpi.hpp"
 #include "workload_mpi.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "counter_random.hpp"
 #include "failure_mpi.hpp"
-#include "points_file.hpp"
+#include "points_files.hpp"
 
 #include <rrcb/transfer.hpp>
 
@@ -177,6 +177,12 @@ void distribute(Workload& workload, Layout layout, std::uint64_t seed, MPI_Comm 
     if (layout == Layout::sorted) reorder(workload, curve_places(workload, comm));
 }
 
+/// Of rank 0's points.
+void broadcast_shape(Workload& workload, MPI_Comm comm) {
+    MPI_Bcast(&workload.dimension, 1, MPI_INT, 0, comm);
+    MPI_Bcast(&workload.weighted, 1, MPI_CXX_BOOL, 0, comm);
+}
+
 }  // namespace
 
 Workload cloud_workload(const Cloud& cloud, Layout layout, MPI_Comm comm) {
@@ -195,12 +201,38 @@ Workload cloud_workload(const Cloud& cloud, Layout layout, MPI_Comm comm) {
 Workload file_workload(const std::string& file, Layout layout, std::uint64_t seed, MPI_Comm comm) {
     Workload workload;
     on_root([&] { workload = read_points_file(file); }, comm);
-    MPI_Bcast(&workload.dimension, 1, MPI_INT, 0, comm);
-    MPI_Bcast(&workload.weighted, 1, MPI_CXX_BOOL, 0, comm);
+    broadcast_shape(workload, comm);
     workload.name = std::filesystem::path(file).stem().string();
     workload.layout = layout_name(layout);
     distribute(workload, layout, seed, comm);
     return workload;
+}
+
+Replay read_replay(const std::string& folder, MPI_Comm comm) {
+    Dump dump;
+    on_root([&] { dump = read_dump(folder); }, comm);
+    Workload& workload = dump.workload;
+    broadcast_shape(workload, comm);
+    int num_ranks = static_cast<int>(dump.counts.size());
+    MPI_Bcast(&num_ranks, 1, MPI_INT, 0, comm);
+    const int size = size_of(comm);
+    const bool same_ranks = num_ranks == size;
+    const auto count = static_cast<GlobalCount>(workload.points().count);
+    std::vector<int> ranks;
+    for (int r = 0; count > 0 && r < size; ++r) {
+        const GlobalCount share = same_ranks ? dump.counts[static_cast<std::size_t>(r)]
+                                             : count * (r + 1) / size - count * r / size;
+        ranks.insert(ranks.end(), static_cast<std::size_t>(share), r);
+    }
+    move(workload, ranks, comm);
+    // The last component, whatever follows it.
+    const std::filesystem::path path = std::filesystem::absolute(folder).lexically_normal();
+    workload.name = (path.has_filename() ? path : path.parent_path()).filename().string();
+    workload.layout = same_ranks ? "dump" : "dealt";
+    if (!same_ranks)
+        dump.note += "dump: of " + std::to_string(num_ranks) + " ranks, dealt out in order to " +
+                     std::to_string(size) + '\n';
+    return {std::move(workload), std::move(dump.note)};
 }
 
 }  // namespace comparisons

@@ -67,4 +67,17 @@ Workload cloud_workload(const Cloud& cloud, Layout layout, MPI_Comm comm);
 /// Throws Failure on every rank with the message of read_points.
 Workload file_workload(const std::string& file, Layout layout, std::uint64_t seed, MPI_Comm comm);
 
+/// The points of a dumped call, and what to report of it.
+struct Replay {
+    Workload workload;
+    std::string note;  ///< lines, on rank 0
+};
+
+/// Reads a dump of the plug-in's on rank 0 and sends every rank its share. Collective over `comm`.
+///
+/// Points lie on the ranks they came from if there are as many; otherwise they are dealt out in
+/// their order, the same number to each. Throws Failure on every rank with the message of
+/// read_dump.
+Replay read_replay(const std::string& folder, MPI_Comm comm);
+
 }  // namespace comparisons

@@ -2,7 +2,7 @@
 #include "cloud.hpp"
 #include "failure.hpp"
 #include "partitioner_mpi.hpp"
-#include "replay_mpi.hpp"
+#include "workload_mpi.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -72,7 +72,6 @@ TEST(Replay, of_a_call_that_succeeded_gives_its_parts_again) {
     EXPECT_EQ(replay.workload.weights, workload.weights);
     EXPECT_EQ(parts_of(replay.workload, zoltan_parameters(read_method("rrcb"), Lists::parts)),
               parts);
-    EXPECT_NE(replay.note.find(" RRCB_DUMP_WHEN=ALWAYS"), std::string::npos) << replay.note;
 }
 
 TEST(Replay, of_a_call_that_failed_holds_what_made_it_fail) {
@@ -89,10 +88,11 @@ TEST(Replay, of_a_call_that_failed_holds_what_made_it_fail) {
     ASSERT_EQ(replay.workload.coordinates.size(), workload.coordinates.size());
     EXPECT_EQ(std::isnan(replay.workload.coordinates[5]),
               rrcb::test::rank() == rrcb::test::num_ranks() - 1);
-    EXPECT_NE(replay.note.find("code -1"), std::string::npos) << replay.note;
-    EXPECT_NE(replay.note.find("dump: rank 0: "), std::string::npos) << replay.note;
-    EXPECT_NE(replay.note.find("1 coordinates or weights are not finite"), std::string::npos)
-        << replay.note;
+    if (rrcb::test::rank() == 0) {
+        EXPECT_TRUE(replay.note.starts_with("dump: Zoltan_LB_Partition on ")) << replay.note;
+        EXPECT_NE(replay.note.find("code -1"), std::string::npos) << replay.note;
+        EXPECT_NE(replay.note.find("dump: rank 0: "), std::string::npos) << replay.note;
+    }
 }
 
 TEST(Replay, on_another_number_of_ranks_deals_the_points_out_in_order) {

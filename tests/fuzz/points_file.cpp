@@ -1,5 +1,5 @@
 // A file of points: read, or refused with the place and the fix.
-#include "points_file.hpp"
+#include "points_files.hpp"
 
 #include "failure.hpp"
 #include "fuzzing.hpp"

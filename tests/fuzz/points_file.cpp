@@ -1,8 +1,7 @@
 // A file of points: read, or refused with the place and the fix.
-#include "points_files.hpp"
-
 #include "failure.hpp"
 #include "fuzzing.hpp"
+#include "points_files.hpp"
 
 #include <cmath>
 #include <sstream>

@@ -2,6 +2,7 @@
 
 #include <rrcb/balance.hpp>
 #include <rrcb/controller.hpp>
+#include <rrcb/cost.hpp>
 #include <rrcb/cuts.hpp>
 #include <rrcb/error.hpp>
 #include <rrcb/ghosts.hpp>

@@ -5,16 +5,24 @@
 
 #include <rrcb/error.hpp>
 
+#include <algorithm>
+
 namespace rrcb {
 
 namespace {
 
-constexpr int num_doubles = sizeof(StepRecord) / sizeof(double);
-
-void join_records(void* in, void* inout, int* count, MPI_Datatype*) {
-    const auto* theirs = static_cast<StepRecord*>(in);
-    auto* ours = static_cast<StepRecord*>(inout);
-    for (int i = 0; i < *count; ++i) join(theirs[i], ours[i]);
+/// Joins messages, each a record and what it carries.
+void join_messages(void* in, void* inout, int* count, MPI_Datatype* type) {
+    int bytes = 0;
+    MPI_Type_size(*type, &bytes);
+    const std::size_t length = static_cast<std::size_t>(bytes) / sizeof(double);
+    const auto* theirs = static_cast<const double*>(in);
+    auto* ours = static_cast<double*>(inout);
+    for (int i = 0; i < *count; ++i, theirs += length, ours += length) {
+        join(*reinterpret_cast<const StepRecord*>(theirs), *reinterpret_cast<StepRecord*>(ours));
+        constexpr std::size_t begin = sizeof(StepRecord) / sizeof(double);
+        join_carried({theirs + begin, length - begin}, {ours + begin, length - begin});
+    }
 }
 
 }  // namespace
@@ -24,11 +32,24 @@ void Controller::State::open(MPI_Comm comm) {
     rank_ = mpi::rank_of(comm_);
     num_ranks_ = mpi::size_of(comm_);
     type_.emplace(num_doubles, MPI_DOUBLE);
-    reduction_.emplace(join_records);
+    reduction_.emplace(join_messages);
     mpi::check(MPI_Comm_create_keyval(MPI_COMM_NULL_COPY_FN, close, &key_, nullptr),
                "MPI_Comm_create_keyval");
     mpi::check(MPI_Comm_set_attr(MPI_COMM_SELF, key_, this), "MPI_Comm_set_attr");
     closes_itself_ = true;
+}
+
+void Controller::State::check_free() const {
+    if (has_started_ || mine_.size() > num_doubles)
+        throw Error(ErrorCode::invalid_argument,
+                    has_started_ ? "the controller has recorded steps; make the cost model before"
+                                 : "the controller has a cost model already; make another one");
+}
+
+void Controller::State::carry(std::size_t count) {
+    type_.emplace(static_cast<int>(num_doubles + count), MPI_DOUBLE);
+    mine_.assign(num_doubles + count, 0.0);
+    all_ = mine_;
 }
 
 int Controller::State::close(MPI_Comm, int, void* state, void*) {
@@ -51,6 +72,11 @@ Controller::State::~State() {
     if (key_ != MPI_KEYVAL_INVALID) MPI_Comm_free_keyval(&key_);
 }
 
+void Controller::State::change_weights() {
+    rule_.expect_less();
+    point_cost = {};
+}
+
 void Controller::State::report(double cost, double least) {
     cost_ += cost;
     has_bad_cost_ = has_bad_cost_ || !is_amount(cost) || !is_amount(cost_);
@@ -59,15 +85,17 @@ void Controller::State::report(double cost, double least) {
     is_due = false;
 }
 
-StepRecord Controller::State::hand_in(double load) {
-    const bool has_bad_load = !is_amount(load);
+StepRecord Controller::State::hand_in(double load, BadInput fault) {
+    const bool has_bad_load = !is_amount(load) || fault != BadInput::none;
+    if (fault == BadInput::none && has_bad_load) fault = BadInput::load;
+    if (fault == BadInput::none && has_bad_cost_) fault = BadInput::cost;
     StepRecord mine;
     mine.mean_load = has_bad_load ? 0 : load / num_ranks_;
     mine.heaviest_load = has_bad_load ? 0 : load;
     mine.cost = has_bad_cost_ ? 0 : cost_;
     mine.least_imbalance = least_imbalance_;
     mine.is_due = root_asks_ ? 1 : 0;
-    mine.bad_input = has_bad_load ? 2 * rank_ + 1 : has_bad_cost_ ? 2 * rank_ + 2 : 0;
+    if (fault != BadInput::none) mine.bad_input = 4 * rank_ + static_cast<int>(fault);
     mine.num_rebalances = num_rebalances_;
     mine.minus_num_rebalances = -num_rebalances_;
     cost_ = 0;
@@ -98,10 +126,13 @@ void Controller::State::follow(const StepRecord& all) {
     if (root_asks_) num_to_skip_ = 2;
 }
 
-void Controller::State::start(double load) {
-    mine_ = hand_in(load);
+void Controller::State::start(double load, std::span<const double> carried, BadInput fault) {
+    *reinterpret_cast<StepRecord*>(mine_.data()) = hand_in(load, fault);
+    const auto end = std::ranges::copy(carried, mine_.begin() + num_doubles).out;
+    std::fill(end, mine_.end(), 0.0);
     has_started_ = true;
-    mpi::check(MPI_Iallreduce(&mine_, &all_, 1, type_->get(), reduction_->get(), comm_, &request_),
+    mpi::check(MPI_Iallreduce(mine_.data(), all_.data(), 1, type_->get(), reduction_->get(), comm_,
+                              &request_),
                "MPI_Iallreduce");
 }
 
@@ -109,7 +140,7 @@ void Controller::State::finish() {
     is_due = false;
     if (!has_started_) return;
     mpi::check(MPI_Wait(&request_, MPI_STATUS_IGNORE), "MPI_Wait");
-    take(all_);
+    take(*reinterpret_cast<const StepRecord*>(all_.data()));
 }
 
 Controller::Controller(MPI_Comm comm) {

@@ -7,15 +7,17 @@
 
 #include <rrcb/controller.hpp>
 
+#include <cstddef>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace rrcb {
 
 /// Reduces the step of each rank, and follows the rule on the root, whose decision travels with the
 /// next reduction: the ranks agree even if a sum rounds differently on them.
 ///
-/// start() and finish() reduce on a communicator of their own. A caller with a reduction of its own
-/// sends what hand_in() returns along with it, combined by join(), and gives the result to take().
+/// start() and finish() reduce on a communicator of their own, and what a cost model adds.
 struct Controller::State {
     State() = default;
     State(const State&) = delete;
@@ -24,12 +26,25 @@ struct Controller::State {
 
     /// Owns the communicator from now on, also if it throws.
     void open(MPI_Comm comm);
-    void start(double load);
+    /// Throws Error if a reduction has started, or carries something.
+    void check_free() const;
+    /// Makes each reduction carry so many doubles more, joined by join_carried().
+    void carry(std::size_t count);
+    void start(double load, std::span<const double> carried = {}, BadInput fault = BadInput::none);
     /// Takes the result of the reduction under way, if there is one.
     void finish();
 
+    /// Returns what the ranks' last steps carried, joined.
+    std::span<const double> carried() const { return std::span(all_).subspan(num_doubles); }
+    bool has_started() const { return has_started_; }
+    MPI_Comm comm() const { return comm_; }
+    int rank() const { return rank_; }
+    int num_ranks() const { return num_ranks_; }
+    /// Heeds that points have other weights from now on: rebalances may leave less imbalance.
+    void change_weights();
+
     /// Returns the step of this rank.
-    StepRecord hand_in(double load);
+    StepRecord hand_in(double load, BadInput fault = BadInput::none);
     /// Takes the joined steps of all ranks. Throws the same Error on each.
     void take(const StepRecord& all);
 
@@ -39,6 +54,8 @@ struct Controller::State {
     bool is_due = false;  ///< on every rank
 
   private:
+    static constexpr std::size_t num_doubles = sizeof(StepRecord) / sizeof(double);
+
     static int close(MPI_Comm, int, void* state, void*);
     void close();
     void follow(const StepRecord& all);
@@ -52,8 +69,9 @@ struct Controller::State {
     std::optional<mpi::Reduction> reduction_;
     MPI_Request request_ = MPI_REQUEST_NULL;
     bool has_started_ = false;
-    StepRecord mine_;  ///< handed in; stays until the reduction is done
-    StepRecord all_;   ///< its result
+    /// Record that is handed in, and what it carries; stays until the reduction is done.
+    std::vector<double> mine_ = std::vector<double>(num_doubles);
+    std::vector<double> all_ = mine_;  ///< its result
 
     double cost_ = 0;  ///< of the rebalances since the last step
     bool has_bad_cost_ = false;

@@ -26,6 +26,8 @@ void RebalanceRule::add(const StepLoad& load) {
 
 void RebalanceRule::rebalanced(double cost, double least_imbalance) {
     if (window_.count() > 0) end_cycle();
+    if (expects_less_) floors_.fill(std::numeric_limits<double>::infinity());
+    expects_less_ = false;
     floors_[num_rebalances_ % floors_.size()] = std::numeric_limits<double>::infinity();
     costs_[num_rebalances_++ % costs_.size()] = cost;
     least_ = least_imbalance - 1;
@@ -55,7 +57,7 @@ double RebalanceRule::cost() const {
 /// Excess that the rebalances have not removed.
 double RebalanceRule::floor() const {
     const auto count = static_cast<std::ptrdiff_t>(std::min(num_rebalances_, floors_.size()));
-    if (count == 0) return 0;
+    if (count == 0 || expects_less_) return 0;
     return *std::min_element(floors_.begin(), floors_.begin() + count);
 }
 

@@ -31,6 +31,12 @@ class RebalanceRule {
     /// Whether a rebalance before the next step is expected to pay.
     bool is_due() const;
 
+    /// The next rebalance may leave less excess than the earlier ones, as the weights have changed.
+    void expect_less() {
+        expects_less_ = true;
+        patience_ = 1;
+    }
+
   private:
     /// Sums over the cycles before this one, each counted half as much as the next.
     struct Past {
@@ -50,6 +56,7 @@ class RebalanceRule {
     WasteHistory history_;
     std::array<double, 3> costs_{};   ///< the latest, in turns
     std::array<double, 4> floors_{};  ///< lowest excess after the latest rebalances, in turns
+    bool expects_less_ = false;       ///< what the rebalances left says nothing of the next one
     std::size_t num_rebalances_ = 0;
     double least_ = 0;  ///< excess that no rebalance removes
     Past past_;

@@ -15,6 +15,14 @@ std::string whole(double number) {
     return std::to_string(static_cast<std::int64_t>(number));
 }
 
+std::string text_of(BadInput input) {
+    if (input == BadInput::columns)
+        return ": a step has another number of columns than the cost model";
+    return std::string(input == BadInput::load ? ": the load, the points or a column of a step are"
+                                               : ": the cost of a rebalance is") +
+           " negative, NaN or infinite; give a finite number of at least 0";
+}
+
 }  // namespace
 
 void join(const StepRecord& theirs, StepRecord& ours) {
@@ -24,6 +32,13 @@ void join(const StepRecord& theirs, StepRecord& ours) {
           &StepRecord::is_due, &StepRecord::bad_input, &StepRecord::num_rebalances,
           &StepRecord::minus_num_rebalances})
         ours.*field = std::max(ours.*field, theirs.*field);
+}
+
+void join_carried(std::span<const double> theirs, std::span<double> ours) {
+    if (ours.empty()) return;
+    const double largest = std::max(ours.back(), theirs.back());
+    for (std::size_t k = 0; k < ours.size(); ++k) ours[k] += theirs[k];
+    ours.back() = largest;
 }
 
 bool is_amount(double value) {
@@ -38,10 +53,7 @@ void check_record(const StepRecord& all) {
                " times on another; call it on every rank after each rebalance";
     } else if (all.bad_input > 0) {
         const auto code = static_cast<std::int64_t>(all.bad_input);
-        text = "rank " + std::to_string((code - 1) / 2) +
-               (code % 2 == 1 ? ": the load or the points of a step are"
-                              : ": the cost of a rebalance is") +
-               " negative, NaN or infinite; give a finite number of at least 0";
+        text = "rank " + std::to_string(code / 4) + text_of(static_cast<BadInput>(code % 4));
     }
     if (!text.empty()) throw Error(ErrorCode::invalid_argument, text);
 }

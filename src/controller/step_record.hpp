@@ -1,6 +1,11 @@
 #pragma once
 
+#include <span>
+
 namespace rrcb {
+
+/// Number that a rank must not give.
+enum class BadInput { none, load, cost, columns };
 
 /// Step of one rank, or of all: the mean loads add up, of the others the largest counts. A smallest
 /// value travels as the largest of its negative.
@@ -10,13 +15,16 @@ struct StepRecord {
     double cost = 0;  ///< of the rebalances since the step before
     double least_imbalance = 1;
     double is_due = 0;     ///< the root's decision; 0 from all others
-    double bad_input = 0;  ///< 2 rank + 1 for a load, + 2 for a cost
+    double bad_input = 0;  ///< 4 rank + BadInput
     double num_rebalances = 0;
     double minus_num_rebalances = 0;
 };
 
 /// Adds the step of other ranks.
 void join(const StepRecord& theirs, StepRecord& ours);
+
+/// Adds the numbers that go with the step of other ranks; of the last of them the largest counts.
+void join_carried(std::span<const double> theirs, std::span<double> ours);
 
 bool is_amount(double value);
 

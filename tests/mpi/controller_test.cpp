@@ -134,11 +134,11 @@ TEST(Controller, refuses_bad_loads_and_costs_of_one_rank_on_all) {
     for (const double bad : {std::nan(""), -1.0, std::numeric_limits<double>::infinity()}) {
         Controller loads(MPI_COMM_WORLD);
         EXPECT_FALSE(loads.step(is_last_rank() ? bad : 1));
-        expect_error(loads, last + ": the load or the points of a step are" + fix);
+        expect_error(loads, last + ": the load, the points or a column of a step are" + fix);
 
         Controller points(MPI_COMM_WORLD);
         EXPECT_FALSE(points.step(1, is_last_rank() ? bad : 1));
-        expect_error(points, last + ": the load or the points of a step are" + fix);
+        expect_error(points, last + ": the load, the points or a column of a step are" + fix);
 
         Controller costs(MPI_COMM_WORLD);
         EXPECT_FALSE(costs.step(1));

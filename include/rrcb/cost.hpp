@@ -1,0 +1,85 @@
+#pragma once
+
+#include <rrcb/controller.hpp>
+
+#include <mpi.h>
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace rrcb {
+
+/// Learns the seconds that points cost, so that balance() divides time in place of counts.
+///
+///     rrcb::Controller controller(comm);
+///     rrcb::CostModel model(controller, 2);
+///     for (...) {
+///         if (controller.due()) {
+///             weights = model.weights(columns_of_points);       // (1, share of a cell) each
+///             ...                                               // balance() and transfer()
+///             controller.rebalanced(balance.report, seconds);
+///         }
+///         ...                                                   // a step of the simulation
+///         model.step(seconds_of_work, {{points, cells}});       // in place of controller.step()
+///     }
+///
+/// A column is anything that a rank counts and that may take time. The first is the number of
+/// points. docs/weights.md has examples, and explains when the model prefers to count.
+class CostModel {
+  public:
+    /// Makes a model without a controller, on a communicator of its own.
+    ///
+    /// Collective over `comm`, which may be freed before the model. Throws Error on every rank for
+    /// a communicator as Controller refuses it, and for less than 1 or more than 16 columns.
+    RRCB_API CostModel(MPI_Comm comm, int num_columns);
+
+    /// Makes a model whose sums travel with the controller's reduction, before its first step.
+    ///
+    /// Not collective, but made on all ranks. `controller` must outlive the model, which calls its
+    /// step(). When other weights come into use the controller is told that a rebalance may gain.
+    /// Throws Error if the controller has recorded a step or has a model.
+    RRCB_API CostModel(Controller& controller, int num_columns);
+
+    /// Frees the communicator, if the model has one. Collective then, as that of Controller.
+    RRCB_API ~CostModel();
+    /// Takes over; the other may only be destroyed or assigned to. Not collective.
+    RRCB_API CostModel(CostModel&&) noexcept;
+    /// Takes over; collective if this one still has a communicator.
+    RRCB_API CostModel& operator=(CostModel&&) noexcept;
+
+    /// Records a step: the seconds of this rank's own work, and its number of each column.
+    ///
+    /// Collective, yet it waits only for ranks that have not called it for the previous step.
+    /// Seconds are processor time if ranks share cores. Numbers are from 0 to 1e100. One call
+    /// later, throws Error on every rank alike if a rank gave another one, or too many or few; from
+    /// then on each call throws it. Cost: a reduction of (n^2 + 5 n) / 2 + 17 doubles for n
+    /// columns, which overlaps with the next step, and two fits; no allocation.
+    RRCB_API void step(double seconds, std::span<const double> columns);
+
+    /// Returns the seconds of a unit of each column, by the steps so far, late ones counting more.
+    /// The same bits on every rank. Not collective. 0 for a column that costs nothing.
+    RRCB_API std::vector<double> costs() const;
+
+    /// Returns whether weights() uses the costs. The same on every rank. Not collective.
+    RRCB_API bool uses_costs() const;
+
+    /// Returns the weight in seconds of each point, to divide the points by at once.
+    ///
+    /// `columns` has a row for each point of this rank: its part of each column, so that the rows
+    /// add up to the columns of step(). Of a cell with 4 points each has a quarter. A column that
+    /// belongs to no point, as ghosts, is 0 in each row. While counting is better, each point
+    /// weighs 1. Called on all ranks, without communication. Throws Error on this rank if the last
+    /// row is not complete.
+    RRCB_API std::vector<double> weights(std::span<const double> columns);
+
+    /// Returns a sentence: whether costs are used, and why. The same on every rank. Not collective.
+    RRCB_API std::string report() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace rrcb

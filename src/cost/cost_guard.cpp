@@ -1,0 +1,53 @@
+#include "cost/cost_guard.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rrcb {
+
+namespace {
+
+constexpr double forgetting = 1 - 1.0 / 25;
+constexpr double fewest = 10;  ///< steps before learned costs are used
+/// Error that learned costs must fall below, over that of counting, to be used.
+constexpr double margin = 0.9;
+/// Share of all steps that learned costs may lose before they are put aside.
+constexpr double allowed_loss = 0.005;
+
+}  // namespace
+
+void CostGuard::add_errors(double learned, double counted) {
+    learned_error_ = forgetting * learned_error_ + learned;
+    counted_error_ = forgetting * counted_error_ + counted;
+    weight_ = forgetting * weight_ + 1;
+    const double needed = predicts_ ? 1 : margin;
+    predicts_ = num_steps_ >= fewest && rms(learned_error_) < needed * rms(counted_error_);
+}
+
+void CostGuard::add_excess(double excess, bool is_learned) {
+    ++num_steps_;
+    // A single slow step counts as one that takes twice as long.
+    excess = std::min(excess, 1.0);
+    if (!is_learned) {
+        excess_ += (excess - excess_) / std::min(++excess_weight_, 50.0);
+        loss_ = 0;
+        return;
+    }
+    loss_ = std::max(0.0, loss_ + excess - excess_);
+    if (loss_ <= 1 + allowed_loss * num_steps_) return;
+    barred_until_ = 2 * num_steps_;
+    loss_ = 0;
+}
+
+CostState CostGuard::state() const {
+    if (num_ranks_ == 1) return CostState::one_rank;
+    if (num_steps_ < fewest) return CostState::too_early;
+    if (num_steps_ < barred_until_) return CostState::harmful;
+    return predicts_ ? CostState::learned : CostState::no_better;
+}
+
+double CostGuard::rms(double sum) const {
+    return weight_ > 0 ? std::sqrt(sum / (weight_ * num_ranks_)) : 0;
+}
+
+}  // namespace rrcb

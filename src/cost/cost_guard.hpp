@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+
+namespace rrcb {
+
+/// Reason to weigh points by what was learned or by counting.
+enum class CostState { too_early, one_rank, no_better, harmful, learned };
+
+/// Decides whether learned costs may be used, from how they predict and from what they bring about.
+/// Errors are those of the ranks' shares of a step's seconds, as sums of squares over the ranks.
+class CostGuard {
+  public:
+    explicit CostGuard(int num_ranks) : num_ranks_(num_ranks) {}
+
+    /// Takes the errors of a step that had not been learned from.
+    void add_errors(double learned, double counted);
+
+    /// Takes slowest rank / mean - 1 of a step, whose points were divided by learned costs or not.
+    void add_excess(double excess, bool is_learned);
+
+    CostState state() const;
+    double learned_error() const { return rms(learned_error_); }
+    double counted_error() const { return rms(counted_error_); }
+
+  private:
+    double rms(double sum) const;
+    void judge();
+
+    int num_ranks_;
+    double num_steps_ = 0;
+    double learned_error_ = 0;  ///< with forgetting, as is the next
+    double counted_error_ = 0;
+    double weight_ = 0;  ///< of the steps in them
+    bool predicts_ = false;
+
+    double excess_ = 0;         ///< mean excess while points were counted, with forgetting
+    double excess_weight_ = 0;  ///< of the steps in it
+    double loss_ = 0;           ///< excess of learned costs beyond that, in steps
+    double barred_until_ = 0;   ///< number of steps
+};
+
+}  // namespace rrcb

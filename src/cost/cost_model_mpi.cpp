@@ -1,0 +1,126 @@
+#include "collective/agreement_mpi.hpp"
+#include "controller/controller_state_mpi.hpp"
+#include "cost/cost_rule.hpp"
+
+#include <rrcb/cost.hpp>
+#include <rrcb/error.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
+namespace rrcb {
+
+namespace {
+
+bool is_number(double value) {
+    // Squares of less, and their sums, do not overflow.
+    return is_amount(value) && value <= 1e100;
+}
+
+std::string percent(double share) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f %%", 100 * share);
+    return text;
+}
+
+void check_columns(int num_columns) {
+    if (num_columns < 1 || num_columns > most_cost_columns)
+        throw Error(ErrorCode::invalid_argument,
+                    "a cost model has 1 to " + std::to_string(most_cost_columns) +
+                        " columns, not " + std::to_string(num_columns));
+}
+
+}  // namespace
+
+struct CostModel::State {
+    Controller::State& reducer;
+    CostRule rule;
+    std::optional<Controller> own{};  ///< if the caller gave none
+};
+
+CostModel::CostModel(MPI_Comm comm, int num_columns) {
+    Controller own(comm);
+    *this = CostModel(own, num_columns);
+    state_->own = std::move(own);
+}
+
+CostModel::CostModel(Controller& controller, int num_columns) {
+    Controller::State& reducer = *controller.state_;
+    Participant self{reducer.comm()};
+    self.attempt([&] {
+        check_columns(num_columns);
+        reducer.check_free();
+        state_.reset(new State{reducer, {num_columns, reducer.rank(), reducer.num_ranks()}});
+    });
+    agree(self, {{"the number of columns", static_cast<std::uint64_t>(num_columns)}});
+    self.attempt([&] { reducer.carry(state_->rule.num_sums()); });
+    agree(self);
+}
+
+CostModel::~CostModel() = default;
+CostModel::CostModel(CostModel&&) noexcept = default;
+CostModel& CostModel::operator=(CostModel&&) noexcept = default;
+
+void CostModel::step(double seconds, std::span<const double> columns) {
+    auto& [reducer, rule, own] = *state_;
+    reducer.finish();
+    if (reducer.has_started()) {
+        const bool used_costs = rule.uses_costs();
+        rule.take(reducer.carried());
+        if (rule.uses_costs() != used_costs) reducer.change_weights();
+    }
+    if (columns.size() != rule.num_columns()) return reducer.start(0, {}, BadInput::columns);
+    if (!is_number(seconds) || !std::ranges::all_of(columns, is_number))
+        return reducer.start(0, {}, BadInput::load);
+    const double points = rule.uses_costs() ? rule.weight(columns) : columns[0];
+    const double load = reducer.point_cost.smoothed(seconds, points);
+    reducer.start(load, rule.hand_in(seconds, columns));
+}
+
+std::vector<double> CostModel::costs() const {
+    const CostVector& costs = state_->rule.costs();
+    return {costs.begin(), costs.end()};
+}
+
+bool CostModel::uses_costs() const {
+    return state_->rule.uses_costs();
+}
+
+std::vector<double> CostModel::weights(std::span<const double> columns) {
+    CostRule& rule = state_->rule;
+    rule.divide();
+    const std::size_t length = rule.num_columns();
+    if (columns.size() % length != 0)
+        throw Error(ErrorCode::invalid_argument, std::to_string(columns.size()) +
+                                                     " numbers are no rows of " +
+                                                     std::to_string(length) + " columns");
+    std::vector<double> weights(columns.size() / length, 1.0);
+    if (!rule.uses_costs()) return weights;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        weights[i] = rule.weight(columns.subspan(i * length, length));
+    return weights;
+}
+
+std::string CostModel::report() const {
+    const CostRule& rule = state_->rule;
+    const std::string errors = percent(rule.learned_error()) + " of the mean, counting by " +
+                               percent(rule.counted_error());
+    switch (rule.state()) {
+        case CostState::learned:
+            return "learned costs are used: they miss the seconds of a rank by " + errors;
+        case CostState::no_better:
+            return "points are counted: learned costs miss the seconds of a rank by " + errors +
+                   ", which is not a tenth more";
+        case CostState::harmful:
+            return "points are counted: with learned costs the slowest rank took longer; they are "
+                   "tried again later";
+        case CostState::one_rank:
+            return "points are counted: there is one rank only";
+        case CostState::too_early:
+            break;
+    }
+    return "points are counted: too few steps were recorded";
+}
+
+}  // namespace rrcb

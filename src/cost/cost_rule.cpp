@@ -1,0 +1,148 @@
+#include "cost/cost_rule.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rrcb {
+
+namespace {
+
+constexpr double forgetting = 1 - 1.0 / 100;
+/// Cuts off what lies so many times the usual error beside a prediction.
+constexpr double usual = 3;
+/// ... but no less than this share of the mean seconds.
+constexpr double least_reach = 0.1;
+
+/// Place of each sum; after the head come the fit's right side and triangle, then rank 0's costs,
+/// last the seconds of the slowest rank.
+enum Head : std::size_t {
+    seconds_sum,
+    learned_sum,
+    counted_sum,
+    learned_square,
+    counted_square,
+    cut_square,
+    state_of_root,
+    learned_of_root,
+    counted_of_root,
+    head_size
+};
+
+}  // namespace
+
+CostRule::CostRule(int num_columns, int rank, int num_ranks)
+    : num_columns_(num_columns),
+      rank_(rank),
+      num_ranks_(num_ranks),
+      sums_(head_size +
+            static_cast<std::size_t>(2 * num_columns + num_columns * (num_columns + 1) / 2 + 1)),
+      all_(num_columns),
+      mine_(num_columns),
+      columns_(CostVector::Zero(num_columns)),
+      others_(CostVector::Zero(num_columns)),
+      guard_(num_ranks),
+      costs_(CostVector::Zero(num_columns)),
+      state_(guard_.state()) {}
+
+/// Seconds, at most so far from the prediction that a single stall does not spoil the fit.
+double CostRule::without_outlier(double seconds) const {
+    if (scatter_ < 0) return seconds;
+    const double reach = std::max(usual * scatter_, least_reach) * mean_;
+    return std::clamp(seconds, learned_ - reach, learned_ + reach);
+}
+
+std::span<const double> CostRule::hand_in(double seconds, std::span<const double> columns) {
+    std::copy(columns.begin(), columns.end(), columns_.begin());
+    seconds_ = seconds;
+    learned_ = others_.dot(columns_);
+    kept_seconds_ = without_outlier(seconds);
+    const bool is_root = rank_ == 0;
+    sums_[seconds_sum] = seconds_;
+    sums_[learned_sum] = learned_;
+    sums_[counted_sum] = columns_[0];
+    sums_[learned_square] = learned_square_;
+    sums_[counted_square] = counted_square_;
+    const double cut = kept_seconds_ - learned_;
+    sums_[cut_square] = mean_ > 0 ? cut * cut / (mean_ * mean_) : 0;
+    sums_[state_of_root] = is_root ? static_cast<double>(guard_.state()) : 0;
+    sums_[learned_of_root] = is_root ? guard_.learned_error() : 0;
+    sums_[counted_of_root] = is_root ? guard_.counted_error() : 0;
+    double* next = sums_.data() + head_size;
+    for (Eigen::Index i = 0; i < num_columns_; ++i) {
+        *next++ = columns_[i] * kept_seconds_;
+        for (Eigen::Index j = 0; j <= i; ++j) *next++ = columns_[i] * columns_[j];
+    }
+    CostVector fitted = CostVector::Zero(num_columns_);
+    if (is_root) fitted = fitted_costs(all_);
+    next = std::copy(fitted.begin(), fitted.end(), next);
+    *next = seconds_;
+    return sums_;
+}
+
+void CostRule::take(std::span<const double> all) {
+    const double mean = all[seconds_sum] / num_ranks_;
+    if (rank_ == 0) {
+        guard_.add_errors(all[learned_square], all[counted_square]);
+        if (mean > 0) guard_.add_excess(all.back() / mean - 1, is_learned_);
+    }
+    state_ = static_cast<CostState>(static_cast<int>(all[state_of_root]));
+    learned_error_ = all[learned_of_root];
+    counted_error_ = all[counted_of_root];
+    std::copy_n(all.end() - 1 - num_columns_, num_columns_, costs_.begin());
+    note_errors(all);
+    learn(all);
+    mean_ = mean;
+}
+
+double CostRule::weight(std::span<const double> columns) const {
+    double sum = 0;
+    for (Eigen::Index j = 0; j < num_columns_; ++j) sum += costs_[j] * columns[j];
+    return sum;
+}
+
+void CostRule::note_errors(std::span<const double> all) {
+    learned_square_ = counted_square_ = 0;
+    if (!(all[seconds_sum] > 0) || !(all[counted_sum] > 0)) return;
+    const double share = seconds_ / all[seconds_sum] * num_ranks_;
+    const double counted = share - columns_[0] / all[counted_sum] * num_ranks_;
+    counted_square_ = counted * counted;
+    learned_square_ = counted_square_;
+    if (!(all[learned_sum] > 0)) return;
+    const double learned = share - learned_ / all[learned_sum] * num_ranks_;
+    learned_square_ = learned * learned;
+    const double cut = all[cut_square] / num_ranks_;
+    constexpr double kept = 1 - 1.0 / 50;
+    if (mean_ > 0)
+        scatter_ = scatter_ < 0 ? std::sqrt(cut)
+                                : std::sqrt(kept * scatter_ * scatter_ + (1 - kept) * cut);
+}
+
+void CostRule::learn(std::span<const double> all) {
+    all_.forget(forgetting);
+    mine_.forget(forgetting);
+    mine_.add(columns_, kept_seconds_);
+    const double* next = all.data() + head_size;
+    for (Eigen::Index i = 0; i < num_columns_; ++i) {
+        all_.products[i] += *next++;
+        for (Eigen::Index j = 0; j <= i; ++j) {
+            all_.squares(i, j) += *next;
+            if (j < i) all_.squares(j, i) += *next;
+            ++next;
+        }
+    }
+    NormalEquations others(num_columns_);
+    for (Eigen::Index i = 0; i < num_columns_; ++i)
+        for (Eigen::Index j = 0; j < num_columns_; ++j)
+            others.squares(i, j) = all_.squares(i, j) - mine_.squares(i, j);
+    others.products = all_.products - mine_.products;
+    // What is left of a column that only this rank has is round-off.
+    for (Eigen::Index i = 0; i < num_columns_; ++i) {
+        if (others.squares(i, i) > 1e-9 * all_.squares(i, i)) continue;
+        others.squares.row(i).setZero();
+        others.squares.col(i).setZero();
+        others.products[i] = 0;
+    }
+    others_ = fitted_costs(others);
+}
+
+}  // namespace rrcb

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "cost/cost_guard.hpp"
+#include "cost/nonnegative_fit.hpp"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+/// What one rank knows of the costs. Nothing here communicates.
+///
+/// After each step a rank hands in sums, and takes those of all ranks one step later. Each predicts
+/// its own seconds from all other ranks' earlier steps. Rank 0 fits the costs that all use and
+/// judges them; its decision travels with the sums of the next step, to which others add 0.
+class CostRule {
+  public:
+    CostRule(int num_columns, int rank, int num_ranks);
+
+    std::size_t num_columns() const { return static_cast<std::size_t>(num_columns_); }
+
+    /// Doubles that a rank hands in, to be joined by join_carried().
+    std::size_t num_sums() const { return sums_.size(); }
+
+    /// Returns what this rank hands in for a step.
+    std::span<const double> hand_in(double seconds, std::span<const double> columns);
+
+    /// Takes what all ranks have handed in for the last step.
+    void take(std::span<const double> all);
+
+    /// The same on all ranks, as are all that follow.
+    const CostVector& costs() const { return costs_; }
+    double weight(std::span<const double> columns) const;
+    bool uses_costs() const { return state_ == CostState::learned; }
+    CostState state() const { return state_; }
+    double learned_error() const { return learned_error_; }
+    double counted_error() const { return counted_error_; }
+
+    /// Notes that the points are divided by the weights of now.
+    void divide() { is_learned_ = uses_costs(); }
+
+  private:
+    void note_errors(std::span<const double> all);
+    void learn(std::span<const double> all);
+    double without_outlier(double seconds) const;
+
+    Eigen::Index num_columns_;
+    int rank_;
+    int num_ranks_;
+    std::vector<double> sums_;
+
+    NormalEquations all_;   ///< of all ranks
+    NormalEquations mine_;  ///< of this rank
+    CostVector columns_;    ///< of the last step, as are the next three
+    double seconds_ = 0;
+    double learned_ = 0;  ///< predicted seconds
+    double kept_seconds_ = 0;
+    CostVector others_;          ///< costs by the other ranks
+    double scatter_ = -1;        ///< rms error of a share, outliers cut off; negative: not known
+    double mean_ = 0;            ///< seconds of a rank in the step before
+    double learned_square_ = 0;  ///< errors of the step before, to be handed in
+    double counted_square_ = 0;
+
+    CostGuard guard_;  ///< fed on rank 0 alone
+    bool is_learned_ = false;
+
+    CostVector costs_;
+    CostState state_;
+    double learned_error_ = 0;
+    double counted_error_ = 0;
+};
+
+}  // namespace rrcb

@@ -1,0 +1,98 @@
+#include "cost/nonnegative_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace rrcb {
+
+namespace {
+
+using Active = std::array<bool, most_cost_columns>;
+
+/// Minimum where the columns that are not free are held at 0.
+CostVector free_minimum(const CostMatrix& a, const CostVector& b, const Active& is_free) {
+    CostMatrix equations = a;
+    CostVector right = b;
+    for (Eigen::Index j = 0; j < b.size(); ++j) {
+        if (is_free[j]) continue;
+        equations.row(j).setZero();
+        equations.col(j).setZero();
+        equations(j, j) = 1;
+        right[j] = 0;
+    }
+    return equations.ldlt().solve(right);
+}
+
+/// Share of the way from `from` to `to` on which no free number turns negative.
+double allowed_share(const CostVector& from, const CostVector& to, const Active& is_free) {
+    double share = 1;
+    for (Eigen::Index j = 0; j < to.size(); ++j)
+        if (is_free[j] && to[j] <= 0) share = std::min(share, from[j] / (from[j] - to[j]));
+    return share;
+}
+
+/// Column held at 0 that lowers the sum the fastest; -1 if none does.
+Eigen::Index column_to_free(const CostVector& descent, const Active& is_free, double least) {
+    Eigen::Index best = -1;
+    for (Eigen::Index j = 0; j < descent.size(); ++j) {
+        if (is_free[j] || descent[j] <= least) continue;
+        if (best < 0 || descent[j] > descent[best]) best = j;
+    }
+    return best;
+}
+
+}  // namespace
+
+CostVector nonnegative_minimum(const CostMatrix& a, const CostVector& b) {
+    CostVector x = CostVector::Zero(b.size());
+    if (b.size() == 0) return x;
+    Active is_free{};
+    const double least = 1e-14 * b.cwiseAbs().maxCoeff();
+    // Each turn of the outer loop lowers the sum, so none repeats; round-off alone could.
+    for (Eigen::Index turn = 0; turn < 4 * b.size(); ++turn) {
+        const Eigen::Index next = column_to_free(b - a * x, is_free, least);
+        if (next < 0) break;
+        is_free[next] = true;
+        for (;;) {
+            const CostVector to = free_minimum(a, b, is_free);
+            const double share = allowed_share(x, to, is_free);
+            if (share == 1) {
+                x = to;
+                break;
+            }
+            for (Eigen::Index j = 0; j < b.size(); ++j) {
+                const double reached = x[j] + share * (to[j] - x[j]);
+                if (is_free[j] && to[j] <= 0 && reached <= 1e-14 * x[j]) is_free[j] = false;
+                x[j] = is_free[j] ? reached : 0;
+            }
+        }
+    }
+    return x;
+}
+
+void NormalEquations::forget(double factor) {
+    squares *= factor;
+    products *= factor;
+}
+
+void NormalEquations::add(const CostVector& columns, double seconds) {
+    squares += columns * columns.transpose();
+    products += columns * seconds;
+}
+
+CostVector fitted_costs(const NormalEquations& sums) {
+    // Far below what columns must differ by to be told apart in noise.
+    constexpr double draw = 1e-6;
+    const CostVector lengths = sums.squares.diagonal().cwiseMax(0).cwiseSqrt();
+    CostVector scales = lengths;
+    for (double& scale : scales) scale = scale > 0 ? 1 / scale : 0;
+    CostMatrix a = scales.asDiagonal() * sums.squares * scales.asDiagonal();
+    CostVector b = scales.cwiseProduct(sums.products);
+    b[0] += draw * b[0];
+    a.diagonal().setConstant(1 + draw);
+    return scales.cwiseProduct(nonnegative_minimum(a, b));
+}
+
+}  // namespace rrcb

@@ -1,0 +1,131 @@
+// Costs by non-negative least squares: worked by hand, in long double, and over all active sets.
+#include "cost/nonnegative_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <random>
+
+namespace rrcb {
+namespace {
+
+CostVector vector_of(std::initializer_list<double> values) {
+    CostVector vector(static_cast<Eigen::Index>(values.size()));
+    std::copy(values.begin(), values.end(), vector.begin());
+    return vector;
+}
+
+/// x'Ax / 2 - b'x
+double sum_at(const CostVector& x, const CostMatrix& a, const CostVector& b) {
+    return 0.5 * x.dot(a * x) - b.dot(x);
+}
+
+/// Least sum over all choices of columns that are not 0.
+double least_sum(const CostMatrix& a, const CostVector& b) {
+    double least = 0;
+    for (unsigned chosen = 1; chosen < 1U << b.size(); ++chosen) {
+        std::vector<Eigen::Index> columns;
+        for (Eigen::Index j = 0; j < b.size(); ++j)
+            if ((chosen >> j & 1U) != 0) columns.push_back(j);
+        const Eigen::VectorXd part =
+            Eigen::MatrixXd(a(columns, columns)).fullPivLu().solve(Eigen::VectorXd(b(columns)));
+        if (part.minCoeff() < 0) continue;
+        CostVector x = CostVector::Zero(b.size());
+        for (std::size_t k = 0; k < columns.size(); ++k)
+            x[columns[k]] = part[static_cast<Eigen::Index>(k)];
+        least = std::min(least, sum_at(x, a, b));
+    }
+    return least;
+}
+
+// Two unknowns: 2x + y = 3, x + 2y = 0 has y = -1, so y is 0 and x = 3/2.
+TEST(NonnegativeMinimum, holds_at_zero_what_would_be_negative) {
+    CostMatrix a(2, 2);
+    a << 2, 1, 1, 2;
+    EXPECT_TRUE(nonnegative_minimum(a, vector_of({3, 3})).isApprox(vector_of({1, 1}), 1e-14));
+    EXPECT_TRUE(nonnegative_minimum(a, vector_of({3, 0})).isApprox(vector_of({1.5, 0}), 1e-14));
+    EXPECT_EQ(nonnegative_minimum(a, vector_of({-1, -2})), vector_of({0, 0}));
+}
+
+TEST(NonnegativeMinimum, is_the_best_of_all_active_sets) {
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> normal;
+    for (int trial = 0; trial < 2000; ++trial) {
+        const Eigen::Index size = 1 + trial % 7;
+        // Some with fewer rows than columns, made definite by little.
+        const Eigen::MatrixXd rows = Eigen::MatrixXd::NullaryExpr(
+            1 + trial % 11, size, [&] { return normal(random) + (trial % 2 == 0 ? 1 : 0); });
+        const Eigen::VectorXd right =
+            Eigen::VectorXd::NullaryExpr(rows.rows(), [&] { return normal(random); });
+        CostMatrix a = rows.transpose() * rows;
+        a.diagonal().array() += 1e-6;
+        const CostVector b = rows.transpose() * right;
+        const CostVector x = nonnegative_minimum(a, b);
+        EXPECT_GE(x.minCoeff(), 0);
+        EXPECT_LE(sum_at(x, a, b), least_sum(a, b) + 1e-9) << trial;
+    }
+}
+
+// Ranks of 10 points and 4 cells, 20 and 1, 15 and 8; a point costs 2, a cell 5.
+TEST(FittedCosts, finds_costs_that_explain_all) {
+    NormalEquations sums(2);
+    for (const auto& [points, cells] : {std::pair(10.0, 4.0), {20.0, 1.0}, {15.0, 8.0}})
+        sums.add(vector_of({points, cells}), 2 * points + 5 * cells);
+    const CostVector costs = fitted_costs(sums);
+    EXPECT_NEAR(costs[0], 2, 1e-4);
+    EXPECT_NEAR(costs[1], 5, 1e-4);
+}
+
+TEST(FittedCosts, counts_what_the_columns_leave_open) {
+    NormalEquations none(3);
+    EXPECT_EQ(fitted_costs(none), vector_of({0, 0, 0}));
+    // The second column repeats the first, the third is 0: all goes to the first.
+    NormalEquations repeated(3);
+    for (const double points : {10.0, 30.0})
+        repeated.add(vector_of({points, points, 0}), 2 * points);
+    const CostVector costs = fitted_costs(repeated);
+    EXPECT_NEAR(costs[0], 2, 1e-9);
+    EXPECT_NEAR(costs[1], 0, 1e-9);
+    EXPECT_EQ(costs[2], 0);
+}
+
+TEST(FittedCosts, forgets) {
+    NormalEquations sums(1);
+    sums.add(vector_of({10}), 100);
+    sums.forget(0.25);
+    sums.add(vector_of({10}), 20);
+    // (0.25 * 1000 + 200) / (0.25 * 100 + 100)
+    EXPECT_NEAR(fitted_costs(sums)[0], 3.6, 1e-14);
+}
+
+// Columns of sizes that differ by ten powers of ten, solved again with 64 bits of mantissa.
+TEST(FittedCosts, agrees_with_long_double) {
+    using Long = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+    std::mt19937_64 random(2);
+    std::uniform_real_distribution<double> flat(0.5, 1.5);
+    for (int trial = 0; trial < 100; ++trial) {
+        NormalEquations sums(3);
+        Long squares = Long::Zero(3, 3);
+        Long products = Long::Zero(3, 1);
+        for (int row = 0; row < 40; ++row) {
+            const CostVector columns =
+                vector_of({1e6 * flat(random), 1e2 * flat(random), 1e-4 * flat(random)});
+            const double seconds = columns.dot(vector_of({1e-6, 1e-2, 1e4})) * flat(random);
+            sums.add(columns, seconds);
+            const Long exact = columns.cast<long double>();
+            squares += exact * exact.transpose();
+            products += exact * static_cast<long double>(seconds);
+        }
+        // The same draw to counting, a millionth of each column's square.
+        for (int j = 0; j < 3; ++j) squares(j, j) *= 1 + 1e-6L;
+        products(0) *= 1 + 1e-6L;
+        const Long exact = squares.fullPivLu().solve(products);
+        if (exact.minCoeff() <= 0) continue;
+        const CostVector costs = fitted_costs(sums);
+        for (int j = 0; j < 3; ++j) EXPECT_NEAR(costs[j] / static_cast<double>(exact(j)), 1, 1e-9);
+    }
+}
+
+}  // namespace
+}  // namespace rrcb

@@ -1,4 +1,4 @@
-"""Runs the comparison driver, rrcb_compare, for the studies."""
+"""Sets up, builds and runs the comparison driver, rrcb_compare, for the studies."""
 
 from __future__ import annotations
 
@@ -8,7 +8,28 @@ from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-COMPARE = ROOT / "build/release/comparisons/rrcb_compare"
+OUT = ROOT / "comparisons/out"
+PROGRAMS = ROOT / "build/release/comparisons"
+COMPARE = PROGRAMS / "rrcb_compare"
+# What zoltan2-mj needs more than the rest: 10 MB to fetch, and a minute to compile.
+ZOLTAN2 = (
+    "libtrilinos-zoltan2-dev libtrilinos-tpetra-dev libtrilinos-xpetra-dev libtrilinos-epetra-dev"
+    " libtrilinos-kokkos-kernels-dev libptscotch-dev"
+).split()
+
+
+def build(*targets: str, multijagged: bool = False) -> None:
+    """Ends the program if it fails; goes on without Zoltan2 where that cannot be installed."""
+    if multijagged and subprocess.run([ROOT / "tools/set_up", *ZOLTAN2]).returncode:
+        print("Going on without Zoltan2, so without zoltan2-mj.", file=sys.stderr)
+    option = f"-DRRCB_MULTIJAGGED={'ON' if multijagged else 'OFF'}"
+    if subprocess.run([ROOT / "tools/build", option, *targets]).returncode:
+        sys.exit(1)
+
+
+def has_multijagged(program: Path = COMPARE) -> bool:
+    text = subprocess.run([program, "--help"], capture_output=True, text=True).stdout
+    return "zoltan2-mj" in text
 
 
 @cache
@@ -16,6 +37,11 @@ def _launcher() -> list[str]:
     version = subprocess.run(["mpirun", "--version"], capture_output=True, text=True).stdout
     flags = ["--quiet", "--oversubscribe", "--allow-run-as-root", "--bind-to", "none"]
     return ["mpirun", *(flags if "Open MPI" in version else [])]
+
+
+def on_ranks(ranks: int, program: Path, *arguments: str, **how) -> subprocess.CompletedProcess:
+    command = [*_launcher(), "-n", str(ranks), str(program), *arguments]
+    return subprocess.run(command, stdin=subprocess.DEVNULL, **how)
 
 
 class Driver:
@@ -27,10 +53,9 @@ class Driver:
     def run(self, name: str, ranks: int, methods: list[str], *arguments: str) -> Path:
         """Returns the folder of the results. Ends the program if the driver fails."""
         print(f"Running {name} on {ranks} ranks", file=sys.stderr, flush=True)
-        folder = self.out / name
-        command = [*_launcher(), "-n", str(ranks), str(self.program), f"--out={folder}"]
-        command += [f"--methods={','.join(methods)}", *arguments] + ["--quick"] * self.quick
-        found = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+        words = [f"--out={self.out / name}", f"--methods={','.join(methods)}", *arguments]
+        words += ["--quick"] * self.quick
+        found = on_ranks(ranks, self.program, *words, capture_output=True, text=True)
         if found.returncode:
-            sys.exit(f"{' '.join(command)}\n{found.stdout}{found.stderr}")
-        return folder
+            sys.exit(f"rrcb_compare {' '.join(words)}\n{found.stdout}{found.stderr}")
+        return self.out / name

@@ -8,7 +8,6 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-import libraries  # noqa: F401, before what it looks for
 import pandas as pd
 import plot
 from document import markdown_table

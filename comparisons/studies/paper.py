@@ -1,7 +1,5 @@
-"""The paper's figures and claims, measured here: comparisons/paper [--only=LIST] [--out=DIR].
-
-Each part runs the driver, whose CSV files then hold all that the figures and the table are made of.
-"""
+"""Measures the paper's claims again and draws its figures 2 to 6. Each part runs the driver, whose CSV
+files then have all that the figures and the table are made of."""
 
 from __future__ import annotations
 
@@ -9,15 +7,15 @@ import argparse
 import sys
 from pathlib import Path
 
-import libraries  # noqa: F401, before what it looks for
+import pandas as pd
 import plot
 from accuracy import CLOUDS, add_accuracy, measure_clouds
-from claims import claim_table, set_up_table
-from document import Document
-from driver import COMPARE, ROOT, Driver
-from machine import add_machine, shared_cores
+from claims import claim_table
+from document import Report, shared_cores, show
+from driver import COMPARE, OUT, Driver, build
 from methods import RCB, STANDARD, WINNERS
 from paper_figures import CAPTIONS, draw_all
+from results import measurements, read
 
 GRID = [
     f"rrcb-sampled[mesh={mesh},k={k},fraction={fraction}]"
@@ -28,14 +26,14 @@ GRID = [
 FINEST = "rrcb-sampled[mesh=10,k=1.5,fraction=1]"  # of figures 3 and 4
 RANKS = (2, 4, 6, 8)
 STEPS, STEPS_BY_RANKS, SELDOM = 1000, 500, 300
+SEEDS = 200
 
 
 def measure_boxes(driver: Driver) -> None:
     """Figures 2 to 4, and the statistical domains of the four settings."""
-    driver.run("six", 6, [RCB], "--only=calls", "--repeats=1")
-    driver.run("mesh", 4, [FINEST], "--only=calls", "--repeats=1")
-    for number, setting in enumerate(WINNERS, 1):
-        driver.run(f"setting-{number}", 4, [setting], "--only=calls", "--repeats=1")
+    runs = {"six": RCB, "mesh": FINEST} | {f"setting-{n}": s for n, s in enumerate(WINNERS, 1)}
+    for name, method in runs.items():
+        driver.run(name, 6 if name == "six" else 4, [method], "--only=calls", "--repeats=1")
 
 
 def measure_snapshots(driver: Driver) -> None:
@@ -49,25 +47,31 @@ def measure_snapshots(driver: Driver) -> None:
                    f"--points={points}", "--repeats=1", "--no-data")  # fmt: skip
 
 
+def _simulate(driver: Driver, name: str, ranks: int, methods: list[str], steps: int, rounds: int) -> None:
+    """Rebalanced at each step, as in the paper."""
+    words = ["--only=simulations", "--every=1", f"--repeats={2 if driver.quick else rounds}"]
+    driver.run(name, ranks, methods, *words, *([] if driver.quick else [f"--steps={steps}"]))
+
+
 def measure_simulations(driver: Driver) -> None:
-    """Rebalanced at each step as in the paper, ten times with a seed each; and seldom."""
-    rounds = 2 if driver.quick else 10
-    every_step = ["--only=simulations", "--every=1", f"--repeats={rounds}"]
-    steps = [] if driver.quick else [f"--steps={STEPS}"]
-    driver.run("simulations", 4, [RCB, "rrcb", *WINNERS], *every_step, *steps)
-    driver.run("serial", 1, ["none"], *every_step, *steps)
-    seldom = ["--only=simulations", f"--every={SELDOM}", "--repeats=1"]
-    driver.run("seldom", 4, [RCB], *seldom)
+    """Ten rounds with a seed each; and rebalanced seldom."""
+    _simulate(driver, "simulations", 4, [RCB, "rrcb", *WINNERS], STEPS, 10)
+    _simulate(driver, "serial", 1, ["none"], STEPS, 10)
+    driver.run("seldom", 4, [RCB], "--only=simulations", f"--every={SELDOM}", "--repeats=1")
 
 
 def measure_ranks(driver: Driver) -> None:
     """The paper's table 1: other numbers of processes."""
-    rounds = 2 if driver.quick else 6
-    arguments = ["--only=simulations", "--every=1", f"--repeats={rounds}"]
-    arguments += [] if driver.quick else [f"--steps={STEPS_BY_RANKS}"]
     for ranks in RANKS:
-        driver.run(f"ranks-{ranks}", ranks, [RCB, STANDARD], *arguments)
-    driver.run("ranks-1", 1, ["none"], *arguments)
+        _simulate(driver, f"ranks-{ranks}", ranks, [RCB, STANDARD], STEPS_BY_RANKS, 6)
+    _simulate(driver, "ranks-1", 1, ["none"], STEPS_BY_RANKS, 6)
+
+
+def measure_seeds(driver: Driver) -> None:
+    """The settings with 2 σ under many seeds, to tell the meshes apart."""
+    seeds = range(1, 3 if driver.quick else SEEDS + 1)
+    methods = [f"{setting[:-1]},seed={seed}]" for setting in WINNERS[1:] for seed in seeds]
+    driver.run("seeds", 4, methods, "--only=calls", "--no-data", "--repeats=1")
 
 
 PARTS = {
@@ -75,40 +79,53 @@ PARTS = {
     "snapshots": measure_snapshots,
     "simulations": measure_simulations,
     "ranks": measure_ranks,
+    "seeds": measure_seeds,
     CLOUDS: measure_clouds,
 }
+
+
+def seed_table(out: Path) -> pd.DataFrame:
+    """Median excess over the seeds in per cent, by mesh and snapshot."""
+    rows = measurements(read(out / "seeds/table.csv"))
+    if rows.empty:
+        return rows
+    rows["mesh"] = rows["method"].str.extract(r"mesh=(\d+)")
+    excess = (100 * rows["excess"]).groupby([rows["mesh"], rows["workload"]], sort=False).median()
+    return excess.map("{:.2f}".format).unstack().reset_index()
 
 
 def main() -> int:
     arguments = _read_arguments()
     out = arguments.out
     out.mkdir(parents=True, exist_ok=True)
+    if arguments.driver == COMPARE:
+        build("rrcb_compare")
     driver = Driver(out, arguments.driver, arguments.quick)
     for part in arguments.only:
         PARTS[part](driver)
     plot.use_style()
-    drawn = draw_all(out)
-    document = Document("The paper, measured again", out)
-    document.conclude(shared_cores(max(RANKS)))
-    document.table("What differs from the paper's set-up", set_up_table(out))
-    document.summarise("What the paper says", claim_table(out))
-    for name in drawn:
-        document.picture(name, CAPTIONS[name])
-    add_accuracy(document, out)
-    add_machine(document, out, " ".join(sys.argv[1:]))
-    document.write()
-    print(document.summary)
-    print(f"Report: {out / 'report.html'}")
+    report = Report("The paper, measured again", out)
+    report.text(shared_cores(max(RANKS)))
+    for caption, rows in (("What the paper says", claim_table(out)),
+                          ("Excess in %, medians over the seeds", seed_table(out))):  # fmt: skip
+        report.table(caption, rows)
+        if len(rows):
+            show(caption, rows)
+    for name in draw_all(out):
+        report.picture(name, CAPTIONS[name])
+    add_accuracy(report, out)
+    report.write(out / "snapshots/run.txt")
     return 0
 
 
 def _read_arguments() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="comparisons/paper", description=__doc__.split(":")[0])
-    parser.add_argument("--out", type=Path, default=ROOT / "comparisons/out/paper",
+    parser = argparse.ArgumentParser(prog="comparisons/paper", description=__doc__)
+    parser.add_argument("--out", type=Path, default=OUT / "paper",
                         help="folder of the results; comparisons/out/paper")  # fmt: skip
-    parser.add_argument("--only", type=_parts, default=[p for p in PARTS if p != CLOUDS],
-                        help=f"what to measure, by commas: {', '.join(PARTS)};"
-                        f" all but {CLOUDS}. The rest is read from the folder.")  # fmt: skip
+    usual = [part for part in PARTS if part not in ("seeds", CLOUDS)]
+    parser.add_argument("--only", type=_parts, default=usual, metavar="LIST",
+                        help=f"what to measure, by commas: {', '.join(PARTS)}; all but seeds and"
+                        f" {CLOUDS}. The rest is read from the folder.")  # fmt: skip
     parser.add_argument("--quick", action="store_true", help="a small run of everything")
     parser.add_argument("--driver", type=Path, default=COMPARE, help="the program to run")
     return parser.parse_args()

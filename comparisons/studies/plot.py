@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -128,23 +128,6 @@ def use_style() -> None:
 def panels(lines: int, columns: int, width: float, height: float, **share) -> tuple:
     """A figure, and its panels as an array of lines and columns."""
     return plt.subplots(lines, columns, figsize=(width, height), squeeze=False, **share)
-
-
-def small_multiples(
-    names: Sequence[str], draw: Callable[[Axes, str], None], margins: tuple, x: str, y: str
-) -> Figure:
-    """A panel for each name on equal scales, at most four beside each other."""
-    columns = min(4, len(names))
-    lines = -(-len(names) // columns)
-    size = (3.1 * columns + margins[0], 2.5 * lines + margins[1])
-    figure, grid = panels(lines, columns, *size, sharex=True, sharey=True)
-    for axes, name in zip(grid.flat, names):
-        draw(axes, name)
-        axes.set_title(name, fontsize=9)
-    for axes in grid.flat[len(names) :]:
-        axes.set_visible(False)
-    label_edges(grid, [x] * columns, [y] * lines)
-    return figure
 
 
 def label_edges(grid: np.ndarray, x: Iterable[str], y: Iterable[str]) -> None:

@@ -1,136 +1,250 @@
-"""Draws and reports a run: report.py DIRECTORY, where the driver wrote its files, makes the
-pictures, report.html and report.md.
-
-report.html holds its pictures; report.md names them. A picture whose data is not there is left out,
-and removed if an earlier run drew it.
-"""
+"""The report of comparisons/run, from the files that the driver wrote; simulation.csv and noise.csv."""
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
+from statistics import geometric_mean
 
-import libraries  # noqa: F401, before what it looks for
 import pandas as pd
-import plot
-from document import Document
-from headline import headline, work_paragraph
-from history import draw_history
-from machine import CORES, add_machine, busy_warning, shared_cores
-from moving_boxes import draw_moving_boxes
-from parts import draw_parts
-from price import draw_price
-from results import Results, cases
-from tables import ghost_table, method_table, noise_table, simulation_table
+import pictures
+from document import Report, shared_cores, show
+from intervals import NOT_TOLD_APART, ONE, Value, decimals, in_digits, mean_of, value_of
+from results import Results, cases, row_of
+from simulation import balancing, of_method, paired, slope_of_work, uneven_points, uneven_work
 
-CSV = {"summary": "simulation.csv", "noise": "noise.csv"}  # of each what it is called here
-
-# Their captions are the docstrings of what draws them.
-PICTURES = {
-    "price.png": draw_price,
-    "parts.png": draw_parts,
-    "moving_boxes.png": draw_moving_boxes,
-    "unbalance_history.png": draw_history,
-}
+ZOLTAN = "zoltan-rcb"
+# Each with the exact setting of the same interface: callbacks with callbacks, arrays with arrays.
+INTERFACES = {"rrcb": "rrcb-exact", "rrcb-arrays": "rrcb-arrays[refine=exact]"}
+DEFINITIONS = (
+    "imbalance: heaviest part / mean part. Lu: (ideal − actual) / ideal of a part, below 0 if it is"
+    " too heavy. time: slowest rank, median of the repeats. times as fast: Zoltan RCB's time / this"
+    " method's. bytes and messages: of one call over all ranks. into root: bytes that rank 0 receives."
+    " moved: weight that changes rank. ghosts: copies of points that parts need from others. gain kept:"
+    " of what ideal balance without cost would gain. wall: by the clock. In brackets: intervals of"
+    " 95 %; if the interval of a ratio contains 1, the two methods are not told apart."
+)
 
 
-def main() -> int:
-    if len(sys.argv) != 2 or not (directory := Path(sys.argv[1])).is_dir():
-        print("usage: report.py DIRECTORY (with the files of a comparison)", file=sys.stderr)
-        return 2
-    results = Results(directory)
-    for name in ("summary", "noise"):
-        if len(rows := getattr(results, name)):
-            rows.to_csv(directory / CSV[name], index=False)
-    draw(results)
-    arguments = results.record.get("arguments", "")
-    document = comparison_report(results)
-    add_machine(document, directory, arguments)
-    document.paragraph(
-        "imbalance: heaviest part / mean part. Lu: (ideal − actual) / ideal of a part, below 0 where"
-        " it is too heavy. time: slowest rank, median of the repeats. times as fast: Zoltan RCB's"
-        " time / this method's. bytes and"
-        " messages: of one call over all ranks. into root: bytes that rank 0 receives."
-        " moved: weight that changes rank. ghosts: copies of points that parts need from others; a"
-        " point counts once for each other part that has a point within the radius of it."
-        " In brackets: intervals of 95 %; where they overlap, or that of a ratio holds 1, two"
-        " methods are not told apart."
-    )
-    document.write()
-    print(document.summary)
-    print(f"Report: {directory / 'report.html'}")
-    return 0
+def write_report(folder: Path) -> None:
+    results = Results(folder)
+    for name, rows in (("simulation.csv", results.summary), ("noise.csv", results.noise)):
+        if len(rows):
+            rows.to_csv(folder / name, index=False)
+    captions = pictures.draw_all(results)
+    report = Report("RRCB compared with Zoltan's balancers", folder)
+    if results.record.get("busy") == "yes":
+        share = results.record["processor time used by other processes"]
+        report.text(f"The machine was busy: other processes used {share} of its processor time.")
+    report.picture("price.png", captions.pop("price.png", ""))
+    for text in sentences(results):
+        report.text(text)
+        print(f"\n{text}")
+    for case, rows in cases(results.table).items():
+        size = f"{rows['points'].iloc[0]:,} points, {rows['ranks'].iloc[0]} ranks"
+        report.table(f"{case}: {size}", method_table(rows))
+        report.table(f"{case}: ghosts, the price of the parts' shape", ghost_table(rows))
+    _add_simulations(report, results)
+    report.table("Noise: a baseline measured twice", noise_table(results.noise))
+    for name, caption in captions.items():
+        report.picture(name, caption)
+    report.text(DEFINITIONS)
+    report.write(folder / "run.txt")
 
 
-def draw(results: Results) -> None:
-    plot.use_style()
-    for name, draw_picture in PICTURES.items():
-        picture = results.folder / name
-        if figure := draw_picture(results):
-            plot.save(figure, picture)
-            print(f"Picture: {picture}")
-        else:
-            picture.unlink(missing_ok=True)
-
-
-def comparison_report(results: Results) -> Document:
-    document = Document("RRCB beside Zoltan's balancers", results.folder)
-    _begin(document, results, headline(results.table, results.turns, results.rounds))
-    document.heading("Every method on the same points")
-    _add_methods(document, results, results.table)
-    _add_simulations(document, results.runs, results.rounds)
-    _add_pictures(document, "moving_boxes.png", "parts.png",
-                  "unbalance_history.png")  # fmt: skip
-    return document
-
-
-def _add_pictures(document: Document, *names: str) -> None:
-    for name in names:
-        document.picture(name, " ".join(PICTURES[name].__doc__.split()))
-
-
-def _begin(document: Document, results: Results, texts: list[str]) -> None:
-    """The price at a glance, and what must be known of the machine."""
-    if busy := busy_warning(results.record):
-        document.conclude(busy)
-    _add_pictures(document, "price.png")
-    tables = (results.table, results.runs)
-    ranks = [rank for rows in tables if len(rows) for rank in rows["ranks"]]
-    document.conclude(texts if ranks else ["Nothing was measured."])
-    for text in shared_cores(max(ranks, default=1)):
-        document.paragraph(text)
-
-
-def _add_methods(document: Document, results: Results, rows: pd.DataFrame) -> None:
-    for case, measured in cases(rows).items():
-        document.table(f"{case}: {_size(measured)}", method_table(measured))
-        document.table(f"{case}: ghosts, the price of the parts' shape", ghost_table(measured))
-    caption = "Noise: a baseline measured twice; less than this is not told apart"
-    document.table(caption, noise_table(results.noise))
-
-
-def _size(rows: pd.DataFrame) -> str:
-    return f"{rows['points'].iloc[0]:,} points, {rows['ranks'].iloc[0]} ranks"
-
-
-def _add_simulations(document: Document, runs: pd.DataFrame, rounds: pd.DataFrame) -> None:
-    if runs.empty:
+def _add_simulations(report: Report, results: Results) -> None:
+    if (runs := results.runs).empty:
         return
     first = runs.iloc[-1]
-    caption = f"Simulations: {first['points']:,} points, {first['steps']:,} steps"
-    document.summarise(caption, simulation_table(runs, "none", rounds))
-    shared = f" {first['ranks']} ranks share {CORES} cores here, so it hides unbalance."
-    document.paragraph(
-        "critical path: what the run would take with a core for every rank, the processor time of"
-        " the slowest rank of each step and rebalance outside MPI and its messages on a network of"
-        " 1.5 µs and 12 GB/s. Ratios are medians of pairs of one round, which take turns. gain kept: of"
-        " what ideal balance without cost would gain. moved: weight"
-        " that changed rank, of all weight, in a rebalance. wall: by the clock."
-        + shared * bool(first["ranks"] > CORES)
+    every = f"every {first['every']} steps" if first["every"] else "when it pays"
+    size = f"{first['points']:,} points, {first['steps']:,} steps, {first['ranks']} ranks"
+    caption = f"Simulations: {size}, rebalanced {every}"
+    report.table(caption, simulation_table(runs, results.rounds))
+    shown = {
+        "method": runs["method"],
+        "imbalance": _numbers(runs["mean_imbalance"], ".4f"),
+        "critical path s": _numbers(runs["critical_path_s"], ".4g"),
+        "times as fast as none": _texts(runs, "speed_up_critical_path", 2),
+    }
+    show(caption, pd.DataFrame(shown))
+    for text in (shared_cores(first["ranks"]), work_sentence(results.rounds)):
+        report.text(text)
+
+
+# --- tables: every cell is a text ---
+
+
+def _texts(rows: pd.DataFrame, name: str, digits: int) -> list[str]:
+    return [value_of(row, name).text(digits) for row in rows.itertuples()]
+
+
+def _numbers(values: pd.Series, form: str) -> list[str]:
+    return ["–" if pd.isna(value) else format(value, form) for value in values]
+
+
+def _ratio(ratio: Value, is_reference: bool = False) -> str:
+    same = not is_reference and not ratio.is_apart(ONE)
+    return "–" if pd.isna(ratio.number) else ratio.text(2) + f", {NOT_TOLD_APART}" * same
+
+
+def method_table(rows: pd.DataFrame) -> pd.DataFrame:
+    speeds = [ONE / value_of(row, "time_vs_zoltan_rcb") for row in rows.itertuples()]
+    return pd.DataFrame(
+        {
+            "method": rows["method"],
+            "imbalance": _texts(rows, "imbalance", 5),
+            "largest Lu, signed %": _numbers(rows["lu_worst_percent"] + 0.0, "+.3f"),
+            "time ms": _texts(rows, "time_ms", 2),
+            "times as fast": [_ratio(v, m == ZOLTAN) for v, m in zip(speeds, rows["method"])],
+            "bytes": _numbers(rows["bytes"], ","),
+            "messages": _numbers(rows["messages"], ","),
+            "into root": _numbers(rows["root_bytes_in"], ","),
+            "moved %": _numbers(100 * rows["moved_fraction"], ".1f"),
+        }
     )
-    if text := work_paragraph(rounds):
-        document.paragraph(text)
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+def ghost_table(rows: pd.DataFrame) -> pd.DataFrame:
+    """What the application pays for the shape of the parts."""
+    return pd.DataFrame(
+        {
+            "method": rows["method"],
+            "ghosts": _numbers(rows["ghosts"], ",.0f"),
+            "% of the points": _numbers(100 * rows["ghosts"] / rows["points"], ".1f"),
+            "most on a part": _numbers(rows["ghosts_max"], ",.0f"),
+            "most neighbours": _numbers(rows["neighbours_max"], ".0f"),
+            "off the machine %": _numbers(100 * rows["off_machine_ghosts"] / rows["ghosts"], ".1f"),
+        }
+    )
+
+
+def simulation_table(runs: pd.DataFrame, rounds: pd.DataFrame) -> pd.DataFrame:
+    digits = decimals(runs["critical_path_s"], 4)
+    speeds = [value_of(run, "speed_up_critical_path") for run in runs.itertuples()]
+    as_zoltan = [
+        paired(rounds, 1 / rounds["critical_path_s"], method, ZOLTAN) or Value(float("nan"))
+        for method in runs["method"]
+    ]
+    return pd.DataFrame(
+        {
+            "method": runs["method"],
+            "mean imbalance": _texts(runs, "mean_imbalance", 4),
+            "critical path s": _texts(runs, "critical_path_s", digits),
+            "times as fast as none": [_ratio(v, m == "none") for v, m in zip(speeds, runs["method"])],
+            f"as {ZOLTAN}": [_ratio(v, m == ZOLTAN) for v, m in zip(as_zoltan, runs["method"])],
+            "gain kept %": _numbers(100 * runs["gain_kept"], ".1f"),
+            "rebalances": _numbers(runs["rebalances"], ".0f"),
+            "moved %": _numbers(100 * runs["moved_fraction"], ".1f"),
+            "wall s": _texts(runs, "wall_s", digits),
+        }
+    )
+
+
+def noise_table(noise: pd.DataFrame) -> pd.DataFrame:
+    ratios = [Value(row.ratio, row.low, row.high) for row in noise.itertuples()]
+    return noise[["workload", "what"]].assign(ratio=[_ratio(ratio) for ratio in ratios])
+
+
+# --- three sentences: what a call costs, what the simulation gains, when it matters ---
+
+
+def sentences(results: Results) -> list[str]:
+    rows, rounds = results.table, results.rounds
+    exact = [_exactness(rows, results.turns, *names) for names in INTERFACES.items()]
+    first = " ".join(filter(None, [_call(rows), *exact]))
+    return list(filter(None, [first, _gain(rounds), _matter(rounds) or _ghosts(rows)]))
+
+
+def _pairs(rows: pd.DataFrame, first: str, second: str) -> list[tuple]:
+    """The rows of two methods in each case that has both."""
+    found = [(row_of(case, first), row_of(case, second)) for case in cases(rows).values()]
+    return [(a, b) for a, b in found if a and b]
+
+
+def _imbalance(rows: object) -> str:
+    return f"{geometric_mean(row.imbalance for row in rows):.5f}"
+
+
+def _call(rows: pd.DataFrame) -> str:
+    if not (pairs := _pairs(rows, "rrcb", ZOLTAN)):
+        return ""
+    share = mean_of(value_of(ours, "time_vs_zoltan_rcb") for ours, _ in pairs)
+    over = f" (geometric means over {len(pairs)} workloads)" * (len(pairs) > 1)
+    return (
+        f"A call of rrcb left an imbalance of {_imbalance(ours for ours, _ in pairs)} and took"
+        f" {share.text(3)} of the time of Zoltan's RCB, which left"
+        f" {_imbalance(zoltan for _, zoltan in pairs)}{over}."
+    )
+
+
+def _exactness(rows: pd.DataFrame, turns: pd.DataFrame, method: str, exact: str) -> str:
+    if not (pairs := _pairs(rows, exact, method)):
+        return ""
+    calls = [turns[turns["workload"] == a.workload] for a, _ in pairs]
+    time = mean_of(paired(c, c["time_ms"], exact, method, "turn") for c in calls)
+    size = geometric_mean([a.bytes / b.bytes for a, b in pairs])
+    return (
+        f"{exact} took {_ratio(time)} times the time of {method} and {in_digits(size, 3)} times its"
+        f" bytes, and left {_imbalance(a for a, _ in pairs)}."
+    )
+
+
+def _gain(rounds: pd.DataFrame) -> str:
+    gain, zoltan = (
+        paired(rounds, rounds["critical_path_s"], "rrcb", other) if len(rounds) else None
+        for other in ("none", ZOLTAN)
+    )
+    if not gain:
+        return ""
+    text = f"With a core for every rank the simulation under rrcb took {gain.text(3)} of the time"
+    text += " without rebalancing"
+    if zoltan:
+        text += f" and {zoltan.text(3)} of that under Zoltan's RCB"
+        text += f" ({NOT_TOLD_APART})" * (not zoltan.is_apart(ONE))
+    return f"{text}; medians of {gain.count} pairs."
+
+
+def _matter(rounds: pd.DataFrame) -> str:
+    """How often points must need a rebalance for the choice of the balancer to show."""
+    if not {"rrcb", ZOLTAN} <= set(rounds.get("method", ())):
+        return ""
+    each = balancing(rounds) / rounds["rebalances"].where(rounds["rebalances"] > 0)
+    ours, theirs = (of_method(rounds, each, method).number for method in ("rrcb", ZOLTAN))
+    step = (rounds["step_work_s"] / rounds["ranks"] / rounds["steps"]).median()
+    if not (ours > 0 and theirs > 0):
+        return ""
+    times = [f"{in_digits(1e3 * s, 3)} ms, {in_digits(s / step, 2)} steps," for s in (ours, theirs)]
+    often = abs(theirs - ours) / (0.01 * step)
+    return (
+        f"One rebalance with all that it moves took {times[0]} under rrcb and {times[1]} under"
+        " Zoltan's RCB: the choice of the balancer matters by more than 1 % if points need one every"
+        f" {often:.0f} steps or more often."
+    )
+
+
+def _ghosts(rows: pd.DataFrame) -> str:
+    pairs = [(a, b) for a, b in _pairs(rows, "rrcb", ZOLTAN) if a.ghosts > 0 and b.ghosts > 0]
+    if not pairs:
+        return ""
+    ratio = geometric_mean([ours.ghosts / zoltan.ghosts for ours, zoltan in pairs])
+    share = 100 * geometric_mean([ours.ghosts / ours.points for ours, _ in pairs])
+    return (
+        f"In every step the application then pays for ghosts: those of rrcb's parts are"
+        f" {in_digits(share, 3)} % of the points, {in_digits(ratio, 3)} times those of Zoltan's RCB."
+    )
+
+
+def work_sentence(rounds: pd.DataFrame) -> str:
+    """What uneven points cost the steps; empty if methods do not differ in them."""
+    if (slope := slope_of_work(rounds)) is None:
+        return ""
+    text = f"1 % more points on the fullest rank made the steps {slope.text(2)} % longer."
+    if "rrcb-exact" in set(rounds["method"]):
+        points, work = (
+            of_method(rounds, 100 * (values - 1), "rrcb-exact")
+            for values in (uneven_points(rounds), uneven_work(rounds))
+        )
+        text += (
+            f" Under rrcb-exact the fullest rank held {points.number:.1f} % more points than the mean,"
+            f" and the slowest rank of a step took {work.text(1)} % longer than the mean."
+        )
+    return text

@@ -1,13 +1,8 @@
-"""Reads the files that the comparison driver writes, by the names of their columns.
-
-A file that is not there has no rows; rows that tell of an error are left out. columns.md defines the
-columns.
-"""
+"""Reads the files that the comparison driver writes; columns.md describes their columns."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
 from functools import cached_property
 from pathlib import Path
 
@@ -18,23 +13,24 @@ WHOLE = "ranks points dim steps every messages bytes root_bytes_in rebalances".s
 
 
 def read_all(path: Path) -> pd.DataFrame:
-    """With the rows that tell of an error."""
-    no_number = ["", "nan", "-nan"]
+    """With the rows of failures; no rows where there is no such file."""
+    if not path.exists():
+        return pd.DataFrame()
     return pd.read_csv(
-        path, float_precision="round_trip", keep_default_na=False, na_values=no_number
+        path, float_precision="round_trip", keep_default_na=False, na_values=["", "nan", "-nan"]
     )
 
 
 def read(path: Path) -> pd.DataFrame:
-    return sound(read_all(path)) if path.exists() else pd.DataFrame()
+    return sound(read_all(path))
 
 
 def sound(rows: pd.DataFrame) -> pd.DataFrame:
-    """Those that tell of no error; numbers that are whole as such."""
+    """The rows without an error; whole numbers as such, 0 steps between rebalances for auto."""
     if "error" in rows:
         rows = rows[rows["error"].isna()].reset_index(drop=True)
-    if "every" in rows:  # steps between rebalances; 0: when they pay
-        rows["every"] = rows["every"].replace("auto", 0)
+    if "every" in rows:
+        rows = rows.assign(every=rows["every"].replace("auto", 0))
     whole = [name for name in WHOLE if name in rows and rows[name].notna().all()]
     return rows.astype(dict.fromkeys(whole, int))
 
@@ -48,17 +44,9 @@ def measurements(rows: pd.DataFrame) -> pd.DataFrame:
     rows = rows.rename(columns={"time_ms_median": "time_ms"})
     rows["point"] = rows["ranks"] / rows["points"]
     rows["excess"] = (rows["imbalance"] - 1).clip(lower=rows["point"])
-    sizes = rows.loc[rows["layout"] != "simulation", ["points", "ranks"]].drop_duplicates()
-    rows["case"] = [
-        f"{r.workload} {r.dim}-D {r.layout}"
-        + f", {r.points:,} points, {r.ranks} ranks" * (len(sizes) > 1)
-        for r in rows.itertuples()
-    ]
+    dimension = rows["dim"].astype(str)
+    rows["case"] = rows["workload"] + " " + dimension + "-D " + rows["layout"]
     return rows
-
-
-def _file(name: str, prepare: Callable[[pd.DataFrame], pd.DataFrame]) -> cached_property:
-    return cached_property(lambda results: prepare(read(results.folder / name)))
 
 
 class Results:
@@ -67,14 +55,19 @@ class Results:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
 
-    table = _file("table.csv", measurements)
-    turns = _file("call_times.csv", pd.DataFrame)  # every timed call
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        return measurements(read(self.folder / "table.csv"))
+
+    @cached_property
+    def turns(self) -> pd.DataFrame:
+        """Every timed call."""
+        return read(self.folder / "call_times.csv")
 
     @cached_property
     def all_runs(self) -> pd.DataFrame:
-        """simulation_runs.csv, with runs that failed and second ones of none."""
-        path = self.folder / "simulation_runs.csv"
-        return read_all(path) if path.exists() else pd.DataFrame()
+        """Every simulation, with failures and the second ones of none."""
+        return read_all(self.folder / "simulation_runs.csv")
 
     @cached_property
     def rounds(self) -> pd.DataFrame:
@@ -87,6 +80,7 @@ class Results:
 
     @cached_property
     def runs(self) -> pd.DataFrame:
+        """The same without failures."""
         return sound(self.summary)
 
     @cached_property
@@ -118,15 +112,3 @@ def cases(rows: pd.DataFrame) -> dict[str, pd.DataFrame]:
 
 def row_of(rows: pd.DataFrame, method: str) -> object | None:
     return next(rows[rows["method"] == method].itertuples(), None)
-
-
-def is_within(rows: pd.DataFrame | object, tolerance: str) -> pd.Series | bool:
-    """Of each row, or of one; exact: no part has more than one point above the mean."""
-    limit = 1 + rows.point if tolerance == "exact" else float(tolerance)
-    return rows.imbalance <= limit * (1 + 1e-9)
-
-
-def write_csv(path: Path, rows: Iterable[dict]) -> None:
-    """Nothing without rows."""
-    if rows := list(rows):
-        pd.DataFrame(rows, dtype=object).to_csv(path, index=False)

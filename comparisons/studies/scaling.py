@@ -1,5 +1,4 @@
-"""Counts what a call moves on 2 to 64 ranks, and models its time on up to a million:
-comparisons/scaling [--points-per-rank=50000] [--latency-us=1.5] [--bandwidth-gb=12].
+"""Counts what a call moves on 2 to 64 ranks, and models its time on up to a million.
 
 All methods get the same points in the same layout, sorted over the ranks. Counts for each rank are
 fitted by a few terms; the search of many ranks is counted on up to a million virtual ones. Only the
@@ -16,13 +15,11 @@ from math import ceil, log2, sqrt
 from pathlib import Path
 from typing import NamedTuple
 
-import libraries  # noqa: F401, before what it looks for
 import numpy as np
 import pandas as pd
 import plot
-from document import Document
-from driver import COMPARE, ROOT, Driver
-from machine import add_machine
+from document import Report, show
+from driver import COMPARE, OUT, Driver, build, has_multijagged
 from results import read, row_of
 
 RANKS = (2, 3, 4, 8, 16, 32, 64)
@@ -57,8 +54,7 @@ class Machine(NamedTuple):
 
 
 def count(driver: Driver, points: int) -> None:
-    help_text = subprocess.run([str(driver.program), "--help"], capture_output=True, text=True)
-    methods = [NAMES[name] for name in NAMES if name != JAGGED or JAGGED in help_text.stdout]
+    methods = [NAMES[name] for name in NAMES if name != JAGGED or has_multijagged(driver.program)]
     layout = ["--cloud=uniform", "--layout=sorted", "--no-data"]
     for ranks in RANKS[:4] if driver.quick else RANKS:
         driver.run(f"ranks-{ranks}", ranks, methods, *layout, "--repeats=1",
@@ -195,37 +191,37 @@ def draw(paths: pd.DataFrame) -> plot.Figure:
     return plot.legend_above(figure, grid[0, 0], inches=2.1)
 
 
-def fit_errors(counts: dict[str, pd.DataFrame]) -> list[dict[str, str]]:
+def fit_errors(counts: dict[str, pd.DataFrame]) -> pd.DataFrame:
     """How far a fit without the largest number of ranks misses the counts on it."""
-    return [
+    rows = [
         {"method": name}
         | {c: f"{at(fit(name, of[:-1], c), of.iloc[-1]['ranks']) / of.iloc[-1][c] - 1:+.0%}"
            for c in ("collectives", "bytes", "root bytes")}
         for name, of in counts.items()
     ]  # fmt: skip
+    return pd.DataFrame(rows)
 
 
 def report(out: Path, counts: dict[str, pd.DataFrame], paths: pd.DataFrame) -> None:
-    document = Document("To a million ranks: counts and a model", out)
-    document.picture("scaling.png", "A call by the model; grey: counted here.")
     times = 1e3 * paths.pivot(index="ranks", columns="method", values="model_s")
-    rows = [{"ranks": f"{ranks:,}", **{m: f"{t:.3g}" for m, t in row.items()}}
-            for ranks, row in times.iloc[::3].iterrows()]  # fmt: skip
-    document.summarise("Modelled time of a call, ms", rows)
-    clock = read(out / "clock-2/table.csv")
-    rows = [{"method": name, "model ms": f"{times.loc[2, name]:.2f}",
-             "clock ms": f"{row_of(clock, NAMES[name]).time_ms_median:.2f}"}
-            for name in times.columns]  # fmt: skip
-    document.summarise("The model against a clock: 2 ranks of one machine, lists included", rows)
-    document.summarise("A fit without the most ranks against the counts on these", fit_errors(counts))
-    add_machine(document, out / "ranks-2", " ".join(sys.argv[1:]))
-    document.write()
-    print(f"{document.summary}\nReport: {out / 'report.html'}")
+    clock = read(out / "clock-2/table.csv").set_index("method")["time_ms_median"]
+    pairs = [(m, f"{times.loc[2, m]:.2f}", f"{clock[NAMES[m]]:.2f}") for m in times]
+    found = Report("To a million ranks: counts and a model", out)
+    found.picture("scaling.png", "A call by the model; grey: counted here.")
+    for caption, rows in {
+        "Modelled time of a call, ms": times[::3].apply(lambda of: of.map("{:.3g}".format)).reset_index().astype(str),
+        "The model and a clock: 2 ranks of one machine, lists included":
+            pd.DataFrame(pairs, columns=["method", "model ms", "clock ms"]),
+        "A fit without the most ranks, compared with the counts on these": fit_errors(counts),
+    }.items():  # fmt: skip
+        found.table(caption, rows)
+        show(caption, rows)
+    found.write(out / "ranks-2/run.txt")
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(prog="comparisons/scaling", description=__doc__.split(":")[0])
-    parser.add_argument("--out", type=Path, default=ROOT / "comparisons/out/scaling")
+    parser = argparse.ArgumentParser(prog="comparisons/scaling", description=__doc__)
+    parser.add_argument("--out", type=Path, default=OUT / "scaling")
     parser.add_argument("--latency-us", type=float, default=1.5)
     parser.add_argument("--bandwidth-gb", type=float, default=12.0)
     parser.add_argument("--points-per-rank", type=int, default=50_000)
@@ -235,6 +231,8 @@ def main() -> int:
     if not min(given.latency_us, given.bandwidth_gb, given.points_per_rank) > 0:
         parser.error("latency, bandwidth and points must be above 0")
     given.out.mkdir(parents=True, exist_ok=True)
+    if given.driver == COMPARE:
+        build("rrcb_compare", "rrcb_virtual_ranks", multijagged=True)
     count(driver := Driver(given.out, given.driver, given.quick), given.points_per_rank)
     search_virtually(driver)
     machine = Machine(given.latency_us * 1e-6, given.bandwidth_gb * 1e9, given.points_per_rank)

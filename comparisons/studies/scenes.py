@@ -1,15 +1,9 @@
-"""The balance of every method in several scenes: scenes.py DIRECTORY SCENE ...
-
-DIRECTORY/<scene> has the files of a comparison. Prints a table of the imbalance over the steps and
-writes scenes.png, its history.
-"""
+"""The balance of every method in several scenes."""
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
-import libraries  # noqa: F401, before what it looks for
 import pandas as pd
 import plot
 from document import markdown_table
@@ -18,17 +12,27 @@ from matplotlib.figure import Figure
 from results import Results
 
 
-def table(scenes: dict[str, Results]) -> str:
-    """Markdown: the mean over the steps, and the worst step in brackets."""
-    texts = pd.DataFrame(
-        {
-            scene: {r.method: f"{r.mean_imbalance:.4f} ({r.worst_imbalance:.3f})" for r in runs}
-            for scene, results in scenes.items()
-            if (runs := list(results.runs.itertuples()))
-        }
-    ).fillna("")
-    lines = [[f"`{method}`", *row] for method, *row in texts.itertuples()]
-    return markdown_table([["method", *scenes], *lines])
+def report_scenes(folder: Path, names: list[str]) -> None:
+    """Prints the imbalance over the steps and draws scenes.png, its history."""
+    scenes = {name: results for name in names if len((results := Results(folder / name)).runs)}
+    if not scenes:
+        return
+    plot.use_style()
+    plot.save(draw(scenes), folder / "scenes.png")
+    rows = table(scenes)
+    print("\nImbalance, mean over the steps (worst)\n")
+    print(markdown_table([list(rows), *rows.values.tolist()]))
+    print(f"Picture: {folder / 'scenes.png'}")
+
+
+def table(scenes: dict[str, Results]) -> pd.DataFrame:
+    """A row for each method: the mean over the steps, and the worst step in brackets."""
+    texts = {
+        scene: {f"`{r.method}`": f"{r.mean_imbalance:.4f} ({r.worst_imbalance:.3f})"
+                for r in results.runs.itertuples()}
+        for scene, results in scenes.items()
+    }  # fmt: skip
+    return pd.DataFrame(texts).fillna("").rename_axis("method").reset_index()
 
 
 def draw(scenes: dict[str, Results]) -> Figure:
@@ -38,23 +42,3 @@ def draw(scenes: dict[str, Results]) -> Figure:
         axes.set_title(scene)
     grid[-1, 0].set_xlabel(TIME)
     return plot.legend_above(figure, grid[0, 0], inches=3)
-
-
-def main() -> int:
-    if len(sys.argv) < 3 or not (directory := Path(sys.argv[1])).is_dir():
-        print("usage: scenes.py DIRECTORY SCENE ...", file=sys.stderr)
-        return 2
-    scenes = {scene: Results(directory / scene) for scene in sys.argv[2:]}
-    scenes = {scene: results for scene, results in scenes.items() if len(results.runs)}
-    if not scenes:
-        print(f"{directory}: no simulations of these scenes", file=sys.stderr)
-        return 1
-    plot.use_style()
-    plot.save(draw(scenes), directory / "scenes.png")
-    print(f"\nImbalance, mean over the steps (worst)\n\n{table(scenes)}")
-    print(f"Picture: {directory / 'scenes.png'}")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -102,3 +102,33 @@ def paired(
     ratios = (found[0] / found[1]).dropna()
     ratios = ratios[np.isfinite(ratios)]
     return median_of(ratios) if len(ratios) else None
+
+
+def of_method(rounds: pd.DataFrame, values: pd.Series, method: str) -> Value:
+    return median_of(values[rounds["method"] == method])
+
+
+def balancing(rounds: pd.DataFrame) -> pd.Series:
+    """Seconds of all rebalances on the critical path, with all that they move."""
+    return rounds["balance_path_s"] + rounds["balance_network_s"]
+
+
+def uneven_points(rounds: pd.DataFrame) -> pd.Series:
+    """Points of the fullest rank over the mean, mean of the steps."""
+    return rounds["path_points"] * rounds["ranks"] / (rounds["points"] * rounds["steps"])
+
+
+def uneven_work(rounds: pd.DataFrame) -> pd.Series:
+    """Time of the slowest rank of a step over the mean, as measured."""
+    return rounds["step_path_s"] * rounds["ranks"] / rounds["step_work_s"]
+
+
+def slope_of_work(rounds: pd.DataFrame) -> Value | None:
+    """Per cent that the steps take longer for 1 % more points on the fullest rank: the slope of a
+    line through all methods of a round, median of the rounds."""
+    slopes = []
+    for _, simulated in rounds.groupby("round"):
+        points, work = uneven_points(simulated), uneven_work(simulated)
+        if len(simulated) > 2 and points.max() - points.min() > 0.01:
+            slopes.append(np.polyfit(points, work, 1)[0])
+    return median_of(slopes) if slopes else None

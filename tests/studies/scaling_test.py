@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import sys
 import unittest
 from math import log2
-from pathlib import Path
 
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "studies"))
+import support  # noqa: F401, before the studies
 
 import pandas as pd  # noqa: E402
 import scaling  # noqa: E402

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 import unittest
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "studies"))
+import support  # noqa: F401, before the studies
 
-import domain_error  # noqa: E402
+import domains  # noqa: E402
 import pandas as pd  # noqa: E402
 import plot  # noqa: E402
 
@@ -34,28 +32,28 @@ def table() -> pd.DataFrame:
 
 class DomainErrorTest(unittest.TestCase):
     def setUp(self) -> None:
-        self.errors = domain_error.errors_of(table())
+        self.errors = domains.errors_of(table())
 
     def test_ratios_are_of_the_same_seed_and_mesh(self) -> None:
-        logs = domain_error.ratios(self.errors, "counts").xs("polygon", level="cloud")
-        found = domain_error.spread_of(logs)
+        logs = domains.ratios(self.errors, "counts").xs("polygon", level="cloud")
+        found = domains.spread_of(logs)
         # Half of the error with one seed, all of it with the other.
         self.assertAlmostEqual(found.number, 0.5**0.5)
         self.assertAlmostEqual(found.low, 0.5)
         self.assertAlmostEqual(found.high, 1)
 
     def test_means_leave_the_lattice_out(self) -> None:
-        means = domain_error.mean_errors(self.errors).set_index(["kind", "level"])
+        means = domains.mean_errors(self.errors).set_index(["kind", "level"])
         self.assertAlmostEqual(means.loc[("box", 1), "number"], 0.08 * 2**0.5)
         self.assertAlmostEqual(means.loc[("box", 2), "low"], 0.02)
         self.assertEqual(means.loc[("box", 2), "bytes"], 2048)
 
     def test_table_and_picture(self) -> None:
-        text = domain_error.table_of(self.errors)
+        text = domains.table_of(self.errors)
         self.assertRegex(text, r"\| polygon \| 2 \| 4.00 .*\| 0.71 \[0.50, 1.00\] \|")
         with TemporaryDirectory() as folder:
             path = Path(folder) / "domains.png"
-            plot.save(domain_error.draw_errors(domain_error.mean_errors(self.errors)), path)
+            plot.save(domains.draw_errors(domains.mean_errors(self.errors)), path)
             self.assertGreater(path.stat().st_size, 10_000)
 
 

@@ -1,18 +1,15 @@
-"""What kinds of statistical domain leave of the imbalance, at equal bytes into the root.
-
-domain_error.py DIRECTORY with the domains.csv of rrcb_domains
-"""
+"""What kinds of statistical domain leave of the imbalance, at equal bytes into the root."""
 
 from __future__ import annotations
 
-import sys
+import argparse
 from pathlib import Path
 
-import libraries  # noqa: F401, before what it looks for
 import numpy as np
 import pandas as pd
 import plot
 from document import markdown_table
+from driver import OUT, PROGRAMS, build, on_ranks
 from intervals import Value
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -115,7 +112,16 @@ def _draw_case(axes: Axes, rows: pd.DataFrame) -> None:
 
 
 def main() -> None:
-    directory = Path(sys.argv[1])
+    parser = argparse.ArgumentParser(prog="comparisons/run --domains", description=__doc__)
+    parser.add_argument("--out", type=Path, default=OUT, help="folder of the results; comparisons/out")
+    parser.add_argument("--quick", action="store_true", help="a small run of everything")
+    arguments = parser.parse_args()
+    directory = arguments.out
+    directory.mkdir(parents=True, exist_ok=True)
+    build("rrcb_domains")
+    with (directory / "domains.csv").open("w") as rows:
+        words = ["--quick"] * arguments.quick
+        on_ranks(1, PROGRAMS / "rrcb_domains", *words, stdout=rows, check=True)
     errors = errors_of(read_all(directory / "domains.csv"))
     plot.use_style()
     plot.save(draw_errors(mean_errors(errors)), directory / "domains.png")

@@ -1,0 +1,134 @@
+"""Compares RRCB with Zoltan's RCB on the same points. With no option: a slope fails on
+4 ranks, the balancers meet on snapshots of it, the whole simulation is timed six times
+under each of them, and a table and pictures are written.
+
+comparisons/run [option ...]
+  --ranks=4             MPI ranks, 1 to 256
+  --out=DIR             where table, data and pictures go (comparisons/out; of a scene
+                        but the slope comparisons/out/NAME)
+  --sweep               the paper's claims and what accuracy costs: comparisons/paper
+  --scaling             up to a million ranks: comparisons/scaling
+  --domains             kinds of statistical domain: comparisons/studies/run domains
+  --quick               a small run of everything, to see that it works
+ points, one of
+  --scene=slope         snapshots of a simulation: slope (the default), submarine_slide,
+                        torpedo_anchor, anchor_plate, dam_break, elastic_structure, a scene
+                        file, or all: one after the other, and their balance side by side
+  --cloud=NAME          generated: uniform, slope, clusters, lattice, run_out, polygon,
+                        shell or spiral, with
+      --points=N            how many over all ranks
+      --dim=2               or 3
+      --layout=sorted       over the ranks by position, or scattered
+  --file=points.csv     columns x, y and optionally z and weight
+  --replay=DIR          what the plug-in dumped of a call (RRCB_DUMP)
+ what is compared
+  --methods=a,b,c       zoltan-rcb zoltan-rib zoltan-hsfc root-rcb rrcb-sampled rrcb rrcb-exact
+                        rrcb-arrays, and zoltan2-mj where Zoltan2 can be installed;
+                        parameters in brackets: rrcb-sampled[mesh=4,k=2,fraction=0.25];
+                        zoltan-rcb, rrcb-sampled, rrcb and rrcb-exact unless told otherwise;
+                        all: every method, rrcb-sampled and rrcb in four settings each
+  --lists=PARTS         or EXPORT, ALL: what a call must return
+  --repeats=7           of each call, and rounds of the simulations, of those 6 at most; the
+                        tables hold medians and, from 6 on, their 95 % intervals
+  --radius=R            cut-off that ghosts, the copies of points that parts need from
+                        others, are counted by; twice the mean spacing
+  --ranks-per-node=N    counts those between machines with so many ranks each
+  --seed=1              of the points of a cloud and of --layout=scattered
+  --steps=N             of the simulation; to its end, of the slope until it lies still
+  --every=auto          rebalance the simulation when it pays; or N: steps between two
+                        rebalances
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+from pathlib import Path
+
+from driver import COMPARE, OUT, build, has_multijagged, on_ranks
+
+MAX_RANKS = 256
+OTHER_STUDIES = {
+    "--sweep": ["paper", "--only=boxes,snapshots,simulations,ranks,clouds"],
+    "--scaling": ["scaling"],
+    "--domains": ["domains"],
+}
+SCENES = "slope submarine_slide torpedo_anchor anchor_plate dam_break elastic_structure".split()
+METHODS_OF_SCENES = (
+    "zoltan-rcb,zoltan-rib,zoltan-hsfc,root-rcb,rrcb-sampled[mesh=4,k=2,fraction=0.125],rrcb,"
+    "rrcb-exact,rrcb-arrays"
+)
+MADE = ("history.csv", "simulation*.csv", "noise.csv")
+
+
+def main() -> int:
+    words = sys.argv[1:]
+    for word, study in OTHER_STUDIES.items():
+        if word in words:
+            others = [other for other in words if other != word]
+            os.execv(Path(__file__).with_name("run"), ["run", *study, *others])
+    options, others = _read_options(words)
+    build("rrcb_compare", multijagged="zoltan2-mj" in options.methods or options.methods == "all")
+    others += ["--progress"] * sys.stderr.isatty()
+    if options.scene != "all":
+        name = Path(options.scene).stem
+        out = options.out or (OUT if name == "slope" else OUT / name)
+        if options.methods:
+            others.append(f"--methods={options.methods}")
+        if options.scene != "slope":
+            others.append(f"--scene={options.scene}")
+        return _compare(options.ranks, out, others)
+    return _compare_scenes(options, others)
+
+
+def _read_options(words: list[str]) -> tuple[argparse.Namespace, list[str]]:
+    """Those that matter here, and those that are the driver's alone."""
+    if {"--help", "-h"} & set(words):
+        print(__doc__, end="")
+        sys.exit()
+    parser = argparse.ArgumentParser(prog="comparisons/run", add_help=False, allow_abbrev=False)
+    parser.add_argument("--ranks", type=int, default=4, choices=range(1, MAX_RANKS + 1),
+                        metavar=f"1...{MAX_RANKS}")  # fmt: skip
+    parser.add_argument("--out", type=_folder)
+    parser.add_argument("--methods", default="")
+    parser.add_argument("--scene", default="slope")
+    return parser.parse_known_args(words)
+
+
+def _folder(text: str) -> Path:
+    if not text:
+        raise argparse.ArgumentTypeError("must name a folder")
+    return Path(text)
+
+
+def _compare(ranks: int, out: Path, words: list[str]) -> int:
+    """Runs the driver, and reports what it wrote; files of an earlier comparison go first."""
+    started = time.time() - 1
+    status = on_ranks(ranks, COMPARE, f"--out={out}", *words).returncode
+    table = out / "table.csv"
+    if table.exists() and table.stat().st_mtime > started:
+        for old in (path for pattern in MADE for path in out.glob(pattern)):
+            if old.stat().st_mtime < started:
+                old.unlink()
+        from report import write_report  # its libraries take a second to load
+
+        write_report(out)
+    return status
+
+
+def _compare_scenes(options: argparse.Namespace, words: list[str]) -> int:
+    """Every scene that is shipped, each in a folder of its own; one setting of each method."""
+    methods = options.methods or METHODS_OF_SCENES + ",zoltan2-mj" * has_multijagged()
+    folder = options.out or OUT / "all"
+    words = [*words, f"--methods={methods}"]
+    codes = [_compare(options.ranks, folder / s, [*words, f"--scene={s}"]) for s in SCENES]
+    from scenes import report_scenes
+
+    report_scenes(folder, SCENES)
+    return max(codes)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,176 @@
+"""The pictures of comparisons/run: what accuracy costs, points by part, boxes that points leave, and
+load unbalance over the steps. Their captions are the docstrings of what draws them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import plot
+from history import draw_history
+from intervals import value_of
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from methods import parse
+from results import Results, cases
+
+METHOD = "rrcb"  # whose boxes points leave
+
+
+def draw_all(results: Results) -> dict[str, str]:
+    """Draws what there is data for, and removes pictures of earlier runs; returns the captions."""
+    plot.use_style()
+    captions = {}
+    for name, draw in PICTURES.items():
+        path = results.folder / name
+        path.unlink(missing_ok=True)
+        if figure := draw(results):
+            plot.save(figure, path)
+            captions[name] = " ".join(draw.__doc__.split())
+    return captions
+
+
+# --- what accuracy costs ---
+
+
+def draw_price(results: Results) -> Figure | None:
+    """What accuracy costs: the time of a call over the imbalance it leaves, with 95 % intervals, of
+    every method on the same points. A mark of several names is one and the same partition."""
+    by_case = list(cases(results.table).values())
+    if not by_case:
+        return None
+    rows = by_case[len(by_case) // 2]
+    figure, grid = plot.panels(1, 1, 8, 5)
+    axes = grid[0, 0]
+    marks = [_draw_mark(axes, names, row) for names, row in partitions(rows)]
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlim(50 * rows["excess"].min(), 300 * rows["excess"].max())
+    axes.set_ylim(rows["time_ms"].min() / 2, rows["time_ms"].max() * 2)
+    _shade_one_point(axes, rows)
+    axes.grid(True)
+    axes.set_xlabel("imbalance left: heaviest part above the mean [%]")
+    axes.set_ylabel("time of a call [ms]")
+    first = rows.iloc[0]
+    points = f"{first['points']:,} points, {first['ranks']} ranks"
+    axes.set_title(f"{first['workload']}, {first['layout']}: {points}")
+    plot.label_marks(axes, marks)
+    return figure
+
+
+def partitions(rows: pd.DataFrame) -> list[tuple[str, object]]:
+    """Each with its name; tolerances that leave the same parts are one, with the row of the default
+    setting if that is among them."""
+    groups: dict[object, list] = {}
+    for row in rows.itertuples():
+        name, parameters = parse(row.method)
+        has_tolerance = name == "rrcb" and parameters.keys() <= {"tol"}
+        groups.setdefault((row.imbalance, row.bytes) if has_tolerance else row.Index, []).append(row)
+    found = []
+    for group in groups.values():
+        shown = next((row for row in group if row.method == "rrcb"), group[0])
+        tolerances = ", ".join(parse(row.method)[1].get("tol", "1.01") for row in group)
+        found.append((f"rrcb, tolerance {tolerances}" if len(group) > 1 else shown.method, shown))
+    return found
+
+
+def _draw_mark(axes: Axes, name: str, row: object) -> tuple[float, float, str, str]:
+    style = plot.method_style(row.method)
+    low, high = value_of(row, "time_ms").reach
+    axes.errorbar([100 * row.excess], [row.time_ms], yerr=[[row.time_ms - low], [high - row.time_ms]],
+                  markersize=7, elinewidth=0.9, **style.mark)  # fmt: skip
+    return 100 * row.excess, row.time_ms, name.replace(",k=", ",\nk="), style.colour
+
+
+def _shade_one_point(axes: Axes, rows: pd.DataFrame) -> None:
+    """Where no part has more than one point above the mean."""
+    point = 100 * rows["point"].iloc[0]
+    if 100 * rows["excess"].min() <= 1.001 * point:
+        axes.axvspan(point / 100, point, color="#F0F0F0", zorder=0)
+        axes.set_xlim(left=point / 4)
+        axes.annotate("one point\nor less", (point, 0.01), (-4, 2), ha="right", va="bottom", fontsize=8,
+                      xycoords=axes.get_xaxis_transform(), textcoords="offset points")  # fmt: skip
+
+
+# --- points by part, with the boxes of the parts ---
+
+
+def draw_parts(results: Results) -> Figure | None:
+    """The points by part under each method, with the boxes of the parts."""
+    workloads = list(results.table["workload"].unique()) if len(results.table) else []
+    middle = workloads[len(workloads) // 2 :][:1]
+    rows = results.table[results.table["workload"].isin(middle)] if middle else []
+    found = {row.method: row for row in rows.itertuples()} if middle else {}
+    data = {name: [results.data(kind, middle[0], name) for kind in ("points", "boxes")] for name in found}
+    data = {name: (points, boxes) for name, (points, boxes) in data.items() if len(points)}
+    if not data:
+        return None
+    columns = min(2, len(data))
+    lines = -(-len(data) // columns)
+    ratio = plot.length_ratio(points for points, _ in data.values())
+    size = (4.2 * columns, (4.2 * ratio + 0.8) * lines)
+    figure, grid = plot.panels(lines, columns, *size, sharex=True, sharey=True)
+    for axes in grid.flat[len(data) :]:
+        axes.set_visible(False)
+    for axes, (name, (points, boxes)) in zip(grid.flat, data.items()):
+        draw_part_boxes(axes, points, boxes, points)
+        axes.set_title(f"{name}: {found[name].imbalance:.5f}", fontsize=9)
+    return figure
+
+
+def draw_part_boxes(axes: Axes, points: pd.DataFrame, boxes: pd.DataFrame, whole: pd.DataFrame) -> None:
+    """Open sides reach to the ends of the whole."""
+    plot.draw_cloud(axes, points, plot.part_colours(points["part"]), largest=6)
+    boxes = boxes.copy()
+    for side in [f"{end}_{axis}" for end in ("lower", "upper") for axis in "xy" if len(boxes)]:
+        end = "min" if side.startswith("lower") else "max"
+        boxes.loc[boxes[side] == boxes[side].agg(end), side] = whole[side[-1]].agg(end)
+    for box in plot.rectangles(boxes, fill=False, lw=1, ec="black"):
+        axes.add_patch(box)
+    plot.show_lengths(axes)
+
+
+def draw_moving_boxes(results: Results) -> Figure | None:
+    """Points of a scene by the rank that holds them, with the boxes of the ranks: balanced at the
+    start, half of the simulation later still in these boxes, and after a call of rrcb."""
+    scenes = [name.removesuffix("-start") for name in results.table.get("workload", ())]
+    data = [results.data(kind, f"{scene}-{moment}", METHOD)
+            for scene in scenes[:1] for moment in ("start", "middle") for kind in ("points", "boxes")]  # fmt: skip
+    if not data or any(rows.empty or "z" in rows for rows in data):
+        return None
+    start, old_boxes, later, new_boxes = data
+    panels = {
+        "start, after a call": (start, old_boxes),
+        "later, before a call": (later.assign(part=parts_in(later, old_boxes)), old_boxes),
+        "later, after a call": (later, new_boxes),
+    }
+    height = 3.8 * plot.length_ratio([start, later]) + 0.8
+    figure, grid = plot.panels(1, 3, 12, height, sharex=True, sharey=True)
+    for axes, (name, (points, boxes)) in zip(grid[0], panels.items()):
+        draw_part_boxes(axes, points, boxes, pd.concat([start, later]))
+        loads = np.bincount(points["part"], minlength=len(boxes))
+        fullest = loads.max() / loads.mean()
+        axes.set_title(f"{name}: fullest rank {fullest:.{2 if fullest > 1.1 else 4}f} × mean")
+    return figure
+
+
+def parts_in(points: pd.DataFrame, boxes: pd.DataFrame) -> np.ndarray:
+    """The part whose box contains each point; the outermost boxes have no end outwards."""
+    found = np.zeros(len(points), int)
+    ends = boxes.agg({f"{end}_{a}": {"lower": "min", "upper": "max"}[end]
+                      for end in ("lower", "upper") for a in "xy"})  # fmt: skip
+    for _, box in boxes.iterrows():
+        inside = np.ones(len(points), bool)
+        for a in "xy":
+            lower, upper = box[f"lower_{a}"], box[f"upper_{a}"]
+            inside &= (points[a] >= lower) | (lower <= ends[f"lower_{a}"])
+            inside &= (points[a] < upper) | (upper >= ends[f"upper_{a}"])
+        found[inside] = int(box["part"])
+    return found
+
+
+PICTURES = {
+    "price.png": draw_price,
+    "parts.png": draw_parts,
+    "moving_boxes.png": draw_moving_boxes,
+    "unbalance_history.png": draw_history,
+}

@@ -14,8 +14,8 @@ extern "C" {
 
 /** @file
  * The library in C: a balancer holds what rrcb/balance.hpp, options.hpp, cuts.hpp, plan.hpp and
- * transfer.hpp take and give, a controller is that of controller.hpp; these headers are the manual
- * of what is only named here.
+ * transfer.hpp take and give, a controller and a cost model are those of controller.hpp and
+ * cost.hpp; these headers are the manual of what is only named here.
  *
  * Every function that can fail returns RRCB_OK or another rrcb_code. From a collective function all
  * ranks of the communicator get the same code and text; a null balancer alone is an error of its
@@ -35,6 +35,9 @@ typedef struct rrcb_balancer rrcb_balancer;
 
 /** Decides when to rebalance. */
 typedef struct rrcb_controller rrcb_controller;
+
+/** Learns what points cost. */
+typedef struct rrcb_cost_model rrcb_cost_model;
 
 /** One cut, as rrcb::Cut. */
 typedef struct rrcb_cut {
@@ -199,6 +202,40 @@ RRCB_API int rrcb_controller_due(const rrcb_controller* controller, int* due);
  *  on all ranks, without communication. */
 RRCB_API int rrcb_controller_rebalanced(rrcb_controller* controller, const rrcb_report* report,
                                         double cost);
+
+/** Makes a cost model, which belongs to the caller; as rrcb::CostModel. Collective.
+ *
+ *  Its sums travel with the steps of `controller`, which must outlive it and has recorded none;
+ * with a null one the model has a communicator of its own. A null `model` alone is an error of its
+ * rank, as of the functions below. */
+RRCB_API int rrcb_cost_model_create(MPI_Comm comm, rrcb_controller* controller, int num_columns,
+                                    rrcb_cost_model** model);
+
+/** Makes a cost model from a communicator of Fortran. Collective. */
+RRCB_API int rrcb_cost_model_create_fortran(MPI_Fint comm, rrcb_controller* controller,
+                                            int num_columns, rrcb_cost_model** model);
+
+/** Frees a cost model, which may be null. Collective unless it was made with a controller. */
+RRCB_API void rrcb_cost_model_destroy(rrcb_cost_model* model);
+
+/** Records a step: the seconds of this rank's own work, and its number of each column. With a
+ *  controller also its step, whose answer rrcb_controller_due has. Collective. */
+RRCB_API int rrcb_cost_model_step(rrcb_cost_model* model, double seconds, size_t num_columns,
+                                  const double* columns);
+
+/** Writes the weight of each of `count` points in seconds, to divide them by at once; `columns` has
+ *  length count * num_columns, point after point. Called on all ranks, without communication. */
+RRCB_API int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, const double* columns,
+                                     double* weights);
+
+/** Writes the seconds of a unit of each column. Not collective. */
+RRCB_API int rrcb_cost_model_costs(const rrcb_cost_model* model, double* costs);
+
+/** Writes 1 if weights are by the costs, 0 if points are counted. Not collective. */
+RRCB_API int rrcb_cost_model_uses_costs(const rrcb_cost_model* model, int* uses_costs);
+
+/** Returns why in a sentence, valid until the next call; empty for a null model. Not collective. */
+RRCB_API const char* rrcb_cost_model_report(rrcb_cost_model* model);
 
 #ifdef __cplusplus
 }

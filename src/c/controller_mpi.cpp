@@ -1,11 +1,21 @@
 #include "c/balancer.hpp"
 
 #include <rrcb/controller.hpp>
+#include <rrcb/cost.hpp>
 
+#include <algorithm>
 #include <memory>
+#include <span>
+#include <string>
 
 struct rrcb_controller {
     rrcb::Controller controller;
+};
+
+struct rrcb_cost_model {
+    rrcb::CostModel model;
+    std::size_t num_columns = 0;
+    std::string report{};
 };
 
 namespace {
@@ -16,6 +26,19 @@ int with(Controller* controller, Body&& body) noexcept {
         rrcb::c::require(controller, "controller");
         body(controller->controller);
     });
+}
+
+template <class Model, class Body>
+int with_model(Model* model, Body&& body) noexcept {
+    return rrcb::c::guarded([&] {
+        rrcb::c::require(model, "model");
+        body(*model);
+    });
+}
+
+/// View of an array, none if it is null.
+std::span<const double> view(const double* values, std::size_t count) {
+    return values == nullptr ? std::span<const double>() : std::span(values, count);
 }
 
 void store(bool is_due, int* due) {
@@ -58,4 +81,56 @@ int rrcb_controller_rebalanced(rrcb_controller* controller, const rrcb_report* r
         if (report != nullptr) known.details.least_imbalance = report->least_imbalance;
         own.rebalanced(known, cost);
     });
+}
+
+int rrcb_cost_model_create(MPI_Comm comm, rrcb_controller* controller, int num_columns,
+                           rrcb_cost_model** model) {
+    return rrcb::c::guarded([&] {
+        rrcb::c::require(model, "model");
+        rrcb::CostModel own = controller == nullptr
+                                  ? rrcb::CostModel(comm, num_columns)
+                                  : rrcb::CostModel(controller->controller, num_columns);
+        *model = new rrcb_cost_model{std::move(own), static_cast<std::size_t>(num_columns)};
+    });
+}
+
+int rrcb_cost_model_create_fortran(MPI_Fint comm, rrcb_controller* controller, int num_columns,
+                                   rrcb_cost_model** model) {
+    return rrcb_cost_model_create(MPI_Comm_f2c(comm), controller, num_columns, model);
+}
+
+void rrcb_cost_model_destroy(rrcb_cost_model* model) {
+    delete model;
+}
+
+int rrcb_cost_model_step(rrcb_cost_model* model, double seconds, size_t num_columns,
+                         const double* columns) {
+    return with_model(
+        model, [&](rrcb_cost_model& own) { own.model.step(seconds, view(columns, num_columns)); });
+}
+
+int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, const double* columns,
+                            double* weights) {
+    return with_model(model, [&](rrcb_cost_model& own) {
+        rrcb::c::require_arrays(count, columns, weights);
+        std::ranges::copy(own.model.weights(view(columns, count * own.num_columns)), weights);
+    });
+}
+
+int rrcb_cost_model_costs(const rrcb_cost_model* model, double* costs) {
+    return with_model(model, [&](const rrcb_cost_model& own) {
+        rrcb::c::require(costs, "costs");
+        std::ranges::copy(own.model.costs(), costs);
+    });
+}
+
+int rrcb_cost_model_uses_costs(const rrcb_cost_model* model, int* uses_costs) {
+    return with_model(
+        model, [&](const rrcb_cost_model& own) { store(own.model.uses_costs(), uses_costs); });
+}
+
+const char* rrcb_cost_model_report(rrcb_cost_model* model) {
+    const int code =
+        with_model(model, [](rrcb_cost_model& own) { own.report = own.model.report(); });
+    return code == RRCB_OK ? model->report.c_str() : "";
 }

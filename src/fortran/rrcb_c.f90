@@ -162,6 +162,93 @@ module rrcb_c
       type(c_ptr), value :: from, to
       integer(c_int) :: code
     end function
+    function c_controller_create(comm, handle) bind(c, name="rrcb_controller_create_fortran") &
+      result(code)
+      import :: c_int, c_ptr
+      integer(c_int), value :: comm
+      type(c_ptr), intent(inout) :: handle
+      integer(c_int) :: code
+    end function
+    subroutine c_controller_destroy(handle) bind(c, name="rrcb_controller_destroy")
+      import :: c_ptr
+      type(c_ptr), value :: handle
+    end subroutine
+    function c_controller_step(handle, load, due) bind(c, name="rrcb_controller_step") result(code)
+      import :: c_double, c_int, c_ptr
+      type(c_ptr), value :: handle
+      real(c_double), value :: load
+      integer(c_int), intent(inout) :: due
+      integer(c_int) :: code
+    end function
+    function c_controller_step_points(handle, load, points, due) &
+      bind(c, name="rrcb_controller_step_points") result(code)
+      import :: c_double, c_int, c_ptr
+      type(c_ptr), value :: handle
+      real(c_double), value :: load, points
+      integer(c_int), intent(inout) :: due
+      integer(c_int) :: code
+    end function
+    function c_controller_due(handle, due) bind(c, name="rrcb_controller_due") result(code)
+      import :: c_int, c_ptr
+      type(c_ptr), value :: handle
+      integer(c_int), intent(inout) :: due
+      integer(c_int) :: code
+    end function
+    function c_controller_rebalanced(handle, report, cost) &
+      bind(c, name="rrcb_controller_rebalanced") result(code)
+      import :: c_double, c_int, c_ptr
+      type(c_ptr), value :: handle, report
+      real(c_double), value :: cost
+      integer(c_int) :: code
+    end function
+    function c_cost_model_create(comm, controller, num_columns, handle) &
+      bind(c, name="rrcb_cost_model_create_fortran") result(code)
+      import :: c_int, c_ptr
+      integer(c_int), value :: comm, num_columns
+      type(c_ptr), value :: controller
+      type(c_ptr), intent(inout) :: handle
+      integer(c_int) :: code
+    end function
+    subroutine c_cost_model_destroy(handle) bind(c, name="rrcb_cost_model_destroy")
+      import :: c_ptr
+      type(c_ptr), value :: handle
+    end subroutine
+    function c_cost_model_step(handle, seconds, num_columns, columns) &
+      bind(c, name="rrcb_cost_model_step") result(code)
+      import :: c_double, c_int, c_ptr, c_size_t
+      type(c_ptr), value :: handle
+      real(c_double), value :: seconds
+      integer(c_size_t), value :: num_columns
+      real(c_double), intent(in) :: columns(*)
+      integer(c_int) :: code
+    end function
+    function c_cost_model_weights(handle, count, columns, weights) &
+      bind(c, name="rrcb_cost_model_weights") result(code)
+      import :: c_double, c_int, c_ptr, c_size_t
+      type(c_ptr), value :: handle
+      integer(c_size_t), value :: count
+      real(c_double), intent(in) :: columns(*)
+      real(c_double), intent(out) :: weights(*)
+      integer(c_int) :: code
+    end function
+    function c_cost_model_costs(handle, costs) bind(c, name="rrcb_cost_model_costs") result(code)
+      import :: c_double, c_int, c_ptr
+      type(c_ptr), value :: handle
+      real(c_double), intent(inout) :: costs(*)
+      integer(c_int) :: code
+    end function
+    function c_cost_model_uses_costs(handle, uses_costs) &
+      bind(c, name="rrcb_cost_model_uses_costs") result(code)
+      import :: c_int, c_ptr
+      type(c_ptr), value :: handle
+      integer(c_int), intent(inout) :: uses_costs
+      integer(c_int) :: code
+    end function
+    function c_cost_model_report(handle) bind(c, name="rrcb_cost_model_report") result(text)
+      import :: c_ptr
+      type(c_ptr), value :: handle
+      type(c_ptr) :: text
+    end function
   end interface
 
 end module rrcb_c

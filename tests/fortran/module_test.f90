@@ -6,13 +6,15 @@ program module_test
   implicit none
 
   type(rrcb_balancer) :: balancer, other
+  type(rrcb_controller) :: controller
+  type(rrcb_cost_model) :: model
   type(rrcb_plan) :: plan
   type(rrcb_report) :: report
   type(rrcb_cut), pointer :: cuts(:)
   real(c_double), allocatable :: x(:, :), weights(:), moved(:, :), moved_weights(:)
   integer(c_int32_t), allocatable :: parts(:), again(:), numbers(:), moved_numbers(:)
   integer(c_int64_t), allocatable :: long_numbers(:), moved_long_numbers(:)
-  real(c_double) :: lower(3), upper(3)
+  real(c_double) :: lower(3), upper(3), columns(2)
   integer, parameter :: counts(3) = [50, 150, 100]
   integer :: rank, error, code, dimension, i, num_points
 
@@ -93,6 +95,37 @@ program module_test
   call balancer%free()
   call balancer%balance(x, parts, error)
   call expect(error == rrcb_invalid_argument, "balance after free")
+  call expect(.not. controller%due(), "due before create")
+  call controller%create(MPI_COMM_WORLD, error)
+  call expect(error == rrcb_ok, "create a controller")
+  call model%create(MPI_COMM_WORLD, 2, error, controller)
+  call expect(error == rrcb_ok, "create a cost model")
+  call controller%rebalanced(0.5_c_double, error, report)
+  call expect(error == rrcb_ok, "rebalanced")
+  ! A point costs 2, a cell 5; ranks have different cells.
+  do i = 1, 30
+    columns = [100.0_c_double, 10.0_c_double*(rank + 1) + modulo(i, 7)]
+    call model%step(2*columns(1) + 5*columns(2), columns, error)
+    call expect(error == rrcb_ok, "step of the model")
+  end do
+  call expect(model%uses_costs(), "uses_costs")
+  call model%costs(columns, error)
+  call expect(all(abs(columns - [2, 5]) < 0.01), "costs")
+  call model%weights(reshape([1.0_c_double, 0.5_c_double, 1.0_c_double, 0.0_c_double], [2, 2]), &
+                     columns, error)
+  call expect(all(abs(columns - [4.5_c_double, 2.0_c_double]) < 0.01), "weights")
+  call expect(index(model%report(), "learned costs are used") == 1, "report of the model")
+  call model%step(1.0_c_double, [1.0_c_double], error)
+  call model%step(1.0_c_double, columns, error)
+  call expect(error == rrcb_invalid_argument, "another number of columns")
+  call model%free()
+  call controller%free()
+
+  call controller%create(MPI_COMM_WORLD, error)
+  call controller%step(1.0_c_double, error)
+  call controller%step(1.0_c_double, error, points=10.0_c_double)
+  call expect(error == rrcb_ok .and. .not. controller%due(), "step of the controller")
+  call controller%free()
   call MPI_Finalize(error)
 
 contains

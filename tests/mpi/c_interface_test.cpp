@@ -332,5 +332,49 @@ TEST_F(CInterface, takes_the_tolerances_that_are_taken_in_cpp) {
     }
 }
 
+/// Steps in which a point takes 2 s and a cell 5 s; each rank has other cells.
+void record_steps(rrcb_cost_model* model, int num_steps) {
+    for (int step = 0; step < num_steps; ++step) {
+        const std::array columns{100.0, 10.0 * (rank() + 1) + step % 7};
+        ASSERT_EQ(rrcb_cost_model_step(model, 2 * columns[0] + 5 * columns[1], 2, columns.data()),
+                  RRCB_OK);
+    }
+}
+
+TEST(CCostModel, weighs_points_as_the_model_in_cpp) {
+    rrcb_controller* controller = nullptr;
+    rrcb_cost_model* model = nullptr;
+    ASSERT_EQ(rrcb_controller_create(MPI_COMM_WORLD, &controller), RRCB_OK);
+    ASSERT_EQ(rrcb_cost_model_create(MPI_COMM_WORLD, controller, 2, &model), RRCB_OK);
+    record_steps(model, 30);
+    int uses_costs = -1;
+    EXPECT_EQ(rrcb_cost_model_uses_costs(model, &uses_costs), RRCB_OK);
+    EXPECT_EQ(uses_costs, num_ranks() > 1 ? 1 : 0);
+    std::array<double, 2> values{};
+    EXPECT_EQ(rrcb_cost_model_costs(model, values.data()), RRCB_OK);
+    EXPECT_NEAR(values[0], 2, 0.01);
+    EXPECT_NEAR(values[1], 5, 0.01);
+    const std::array columns{1.0, 0.5, 1.0, 0.0};
+    EXPECT_EQ(rrcb_cost_model_weights(model, 2, columns.data(), values.data()), RRCB_OK);
+    EXPECT_NEAR(values[0], num_ranks() > 1 ? 4.5 : 1, 0.01);
+    EXPECT_NE(std::string(rrcb_cost_model_report(model)), "");
+    rrcb_cost_model_destroy(model);
+    rrcb_controller_destroy(controller);
+}
+
+TEST(CCostModel, returns_errors) {
+    rrcb_cost_model* model = nullptr;
+    const MPI_Fint comm = MPI_Comm_c2f(MPI_COMM_WORLD);
+    EXPECT_EQ(rrcb_cost_model_create_fortran(comm, nullptr, 0, &model), RRCB_INVALID_ARGUMENT);
+    ASSERT_EQ(rrcb_cost_model_create_fortran(comm, nullptr, 1, &model), RRCB_OK);
+    EXPECT_EQ(rrcb_cost_model_step(model, 1, 1, nullptr), RRCB_OK);
+    const double one = 1;
+    EXPECT_EQ(rrcb_cost_model_step(model, 1, 1, &one), RRCB_INVALID_ARGUMENT);
+    EXPECT_EQ(rrcb_cost_model_weights(model, 1, nullptr, nullptr), RRCB_INVALID_ARGUMENT);
+    EXPECT_EQ(rrcb_cost_model_step(nullptr, 1, 1, &one), RRCB_INVALID_ARGUMENT);
+    EXPECT_STREQ(rrcb_cost_model_report(nullptr), "");
+    rrcb_cost_model_destroy(model);
+}
+
 }  // namespace
 }  // namespace rrcb

@@ -1,4 +1,5 @@
-"""Random clouds to learn from; none of them is one of those that the prior is judged by."""
+"""Random clouds to learn from; none of them is one of those that the prior is judged by. A shape
+returns the density at candidates for points, or the points themselves."""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ def random_cloud(random: Generator) -> tuple[Array, Array]:
     else:
         if candidates is None:
             candidates = random.uniform(size=(2 * num_points, 2))
-        points = candidates[_thin(random, shape(random, candidates))]
+        density = shape(random, candidates)
+        points = candidates[random.uniform(size=len(density)) < density]
     points = _turn(random, points)
     weights = np.ones(len(points))
     if random.uniform() < 0.15:
@@ -26,22 +28,17 @@ def random_cloud(random: Generator) -> tuple[Array, Array]:
     return points, weights
 
 
-def _thin(random: Generator, density: Array) -> Array:
-    return random.uniform(size=len(density)) < density
-
-
 def _turn(random: Generator, points: Array) -> Array:
-    """Turned, stretched and, every other time, reduced to what one rank of several would hold."""
+    """Turned, stretched and, now and then, reduced to what one rank of several would hold."""
     if random.uniform() < 0.5:
         angle = random.uniform(0, 2 * np.pi)
-        turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-        points = points @ turn
+        points = points @ np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     points = points * np.exp(random.normal(0, 0.3, size=2))
     if random.uniform() < 0.4 and len(points) > 100:
         axis = random.integers(2)
         at = np.quantile(points[:, axis], random.uniform(0.2, 0.8))
-        side = points[:, axis] < at if random.uniform() < 0.5 else points[:, axis] >= at
-        points = points[side]
+        is_lower = points[:, axis] < at
+        points = points[is_lower if random.uniform() < 0.5 else ~is_lower]
     return points
 
 
@@ -60,9 +57,8 @@ def _lattice(random: Generator, num_points: int) -> Array:
 def _side(random: Generator, points: Array) -> Array:
     """Distance from a random line, with its sign."""
     angle = random.uniform(0, 2 * np.pi)
-    normal = np.array([np.cos(angle), np.sin(angle)])
     centre = points.mean(axis=0) + random.normal(0, 0.15, 2)
-    return (points - centre) @ normal
+    return (points - centre) @ np.array([np.cos(angle), np.sin(angle)])
 
 
 def _gradient(random: Generator, points: Array) -> Array:
@@ -76,8 +72,7 @@ def _gradient(random: Generator, points: Array) -> Array:
 def polygon(random: Generator, points: Array) -> Array:
     """Three to nine corners about a centre, now and then with a hole."""
     corners = random.integers(3, 10)
-    angles = np.sort(random.uniform(0, 2 * np.pi, corners))
-    radii = random.uniform(0.2, 0.6, corners)
+    angles, radii = np.sort(random.uniform(0, 2 * np.pi, corners)), random.uniform(0.2, 0.6, corners)
     inside = _within(points - 0.5, angles, radii)
     if random.uniform() < 0.3:
         inside &= ~_within(points - random.uniform(0.3, 0.7, 2), angles[::-1] * 0.5, radii * 0.4)
@@ -95,13 +90,12 @@ def _within(points: Array, angles: Array, radii: Array) -> Array:
 
 
 def free_surface(random: Generator, points: Array) -> Array:
-    """What lies below waves or a broken line."""
+    """Below waves or a broken line."""
     if random.uniform() < 0.5:
         height = np.full(len(points), random.uniform(0.2, 0.8))
         for _ in range(random.integers(1, 5)):
-            height += random.normal(0, 0.08) * np.sin(
-                random.uniform(2, 25) * points[:, 0] + random.uniform(0, 6)
-            )
+            amplitude, number = random.normal(0, 0.08), random.uniform(2, 25)
+            height += amplitude * np.sin(number * points[:, 0] + random.uniform(0, 6))
     else:
         bends = np.sort(random.uniform(0, 1, random.integers(2, 7)))
         height = np.interp(points[:, 0], bends, random.uniform(0.1, 0.9, len(bends)))
@@ -109,7 +103,7 @@ def free_surface(random: Generator, points: Array) -> Array:
 
 
 def heap(random: Generator, points: Array) -> Array:
-    """A heap on level ground whose height falls to nothing, as of what has run out."""
+    """A heap on level ground whose height falls to nothing."""
     height, length = random.uniform(0.1, 0.9, 2)
     fall = np.exp(random.uniform(np.log(0.6), np.log(5)))
     profile = height * np.clip(1 - points[:, 0] / length, 0, 1) ** fall
@@ -152,9 +146,7 @@ def mixture(random: Generator, num_points: int) -> Array:
     widths = np.exp(random.uniform(np.log(0.003), np.log(0.25), (number, 1, 1)))
     spread = widths * random.normal(0, 1, (number, 2, 2))
     own = random.choice(number, num_points, p=random.dirichlet(np.ones(number)))
-    points = centres[own] + np.einsum(
-        "nij,nj->ni", spread[own], random.normal(0, 1, (num_points, 2))
-    )
+    points = centres[own] + np.einsum("nij,nj->ni", spread[own], random.normal(0, 1, (num_points, 2)))
     if random.uniform() < 0.3:
         even = random.uniform(size=num_points) < random.uniform(0.1, 0.9)
         points[even] = random.uniform(0, 1, (even.sum(), 2))
@@ -173,16 +165,4 @@ def strokes(random: Generator, num_points: int) -> Array:
     return np.concatenate(points)[random.permutation(len(points) * num_points)[:num_points]]
 
 
-SHAPES = (
-    polygon,
-    polygon,
-    free_surface,
-    free_surface,
-    heap,
-    discs,
-    boxes,
-    halves,
-    mixture,
-    mixture,
-    strokes,
-)
+SHAPES = (polygon, polygon, free_surface, free_surface, heap, discs, boxes, halves, mixture, mixture, strokes)

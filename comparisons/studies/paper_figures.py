@@ -1,5 +1,5 @@
-"""Figures 2 to 6 of the paper as it has them, flow charts of its two methods, and the map from one
-cut to the next that docs/paper.md derives."""
+"""Figures 2 to 6 of the paper as it has them, and the map from one cut to the next that docs/paper.md
+derives."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from history import TIME, draw_parts_of, draw_worst
 from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection
 from matplotlib.figure import Figure
-from matplotlib.patches import FancyBboxPatch, Patch
 from methods import RCB, WINNERS
 from results import Results
 
@@ -27,19 +26,17 @@ CAPTIONS = {
     "paper_figure_5.png": "Figure 5: load unbalance of the four sub-domains over the steps, under"
     " RCB and four settings of RRCB. Scales differ.",
     "paper_figure_6.png": "Figure 6: the largest load unbalance of a sub-domain over the steps.",
-    "paper_methods.png": "The paper's RCB and RRCB.",
     "paper_cycle_map.png": "The map from one cut to the next.",
 }
 
 
 def draw_all(out: Path) -> list[str]:
     """Draws the figures whose files are there; returns their names."""
-    figures = (draw_boxes, draw_mesh, draw_domain, draw_unbalance, draw_largest)
-    drawn = [draw(out) for draw in figures] + [draw_methods(), draw_map()]
-    for name, figure in zip(CAPTIONS, drawn):
-        if figure:
-            plot.save(figure, out / name)
-    return [name for name, figure in zip(CAPTIONS, drawn) if figure]
+    figures = (draw_boxes, draw_mesh, draw_domain, draw_unbalance, draw_largest, draw_map)
+    drawn = {name: figure for name, draw in zip(CAPTIONS, figures) if (figure := draw(out))}
+    for name, figure in drawn.items():
+        plot.save(figure, out / name)
+    return list(drawn)
 
 
 def draw_boxes(out: Path) -> Figure | None:
@@ -118,66 +115,6 @@ def draw_largest(out: Path) -> Figure | None:
     return plot.legend_above(figure, grid[0, 0], inches=3.4)
 
 
-# --- the paper's methods ---
-
-EVERY_RANK, ROOT, MESSAGE = "every rank", "root", "message"
-COLOURS = {EVERY_RANK: "#DCEBF5", ROOT: "#FBE3D0", MESSAGE: "#FFFFFF"}
-
-Step = tuple[str, str]
-SHARED: list[Step] = [
-    (ROOT, "cut each box across its longest axis\nuntil there is a box for every process"),
-    (MESSAGE, "the boxes to every rank"),
-    (EVERY_RANK, "find the box of each of its points"),
-    (MESSAGE, "points go to the rank of their box"),
-]
-METHODS: dict[str, list[Step]] = {
-    "RCB": [
-        (EVERY_RANK, "take the points"), (MESSAGE, "all points to the root"), *SHARED,
-    ],  # fmt: skip
-    "RRCB": [
-        (EVERY_RANK, "lay a support mesh of n × n cells\nover the box of its points"),
-        (EVERY_RANK, "in each cell: number of points,\nmean and σ of their positions per axis"),
-        (MESSAGE, "cells that hold points to the root"),
-        (ROOT, "draw the statistical domain: in mean ± k σ\nof each cell points as its share of a"
-         " fraction\nof all, pseudo-random, from a fixed seed"),
-        *SHARED,
-    ],
-}
-
-
-def draw_methods() -> Figure:
-    figure, grid = plot.panels(1, len(METHODS), 8.6, 7.2)
-    longest = max(map(len, METHODS.values()))
-    arrow = {"arrowstyle": "-|>", "color": "#444444"}
-    for axes, (name, steps) in zip(grid[0], METHODS.items()):
-        # The steps that both have stand beside each other.
-        places = [*range(len(steps) - len(SHARED)), *range(longest - len(SHARED), longest)]
-        for number, (place, step) in enumerate(zip(places, steps)):
-            _draw_step(axes, -place, step)
-            if number > 0:
-                tip, tail = (0, -place + 0.3), (0, -places[number - 1] - 0.3)
-                axes.annotate("", tip, tail, arrowprops=arrow)
-        axes.set_title(f"the paper's {name}")
-        axes.set_xlim(-1.05, 1.05)
-        axes.set_ylim(-longest + 0.5, 0.5)
-        axes.set_axis_off()
-    handles = [Patch(facecolor=c, edgecolor="#444444", label=n) for n, c in COLOURS.items()]
-    figure.legend(handles=handles, loc="lower center", ncol=len(handles))
-    figure.supxlabel(" ", fontsize=16)  # keeps room for the legend
-    return figure
-
-
-def _draw_step(axes: Axes, y: float, step: Step) -> None:
-    kind, text = step
-    axes.add_patch(
-        FancyBboxPatch(
-            (-0.95, y - 0.3), 1.9, 0.6, boxstyle="round,pad=0,rounding_size=0.1",
-            facecolor=COLOURS[kind], edgecolor="#444444", linestyle="--" if kind == MESSAGE else "-",
-        )
-    )  # fmt: skip
-    axes.text(0, y, text, ha="center", va="center", fontsize=9)
-
-
 # --- cuts that alternate ---
 
 
@@ -194,7 +131,7 @@ def next_offset(offset: float, mesh: int, multiplier: float) -> float:
     return -copysign((1 - r) * (cell / 2 - abs(offset)), offset)
 
 
-def draw_map() -> Figure:
+def draw_map(_: Path) -> Figure:
     """The map of the model with its steps, for a multiplier below, at and above √3; mesh 4."""
     figure, grid = plot.panels(1, 3, 10.5, 4.6, sharey=True)
     for axes, (multiplier, name) in zip(grid[0], ((1.5, "1.5"), (sqrt(3), "√3"), (2, "2"))):
@@ -202,7 +139,7 @@ def draw_map() -> Figure:
         axes.set_title(f"k = {name}")
         axes.set_box_aspect(1)
         axes.grid(True)
-    plot.label_edges(grid, ["offset of a cut from ½ [%]"] * 3, ["offset of the next [%]"])
+    plot.label_edges(grid, "offset of a cut from ½ [%]", "offset of the next [%]")
     return plot.legend_above(figure, grid[0, 0], inches=2.2)
 
 

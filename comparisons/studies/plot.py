@@ -22,14 +22,13 @@ from matplotlib.lines import Line2D  # noqa: E402
 from matplotlib.patches import Rectangle  # noqa: E402
 from matplotlib.transforms import Bbox  # noqa: E402
 
-# Two palettes that share no colour, of parts and of methods; any
-# two differ by 14 units of CIELAB or more.
+# Of parts; any two differ from one another and from those of methods by 14 units of CIELAB or more.
 PART_COLOURS = (
     "#B197FF #E5D870 #FF7D70 #7DA43C #3CE5FF #FF7DBE #E5A449 #8A97BE #63F2B1 #CB8A97 "
     "#F2D8BE #49B163 #FFCBFF #7DA48A #BEE5A4 #B1A463 #3CA4FF #FFA4FF #70D8BE #3CA4BE"
 ).split()
 POINT_COLOUR = "#666666"
-IDEAL_COLOUR, UNBALANCE_COLOUR, CALL_COLOUR = "#DDDDDD", "#AAAAAA", "#444444"  # of time spent
+CALL_COLOUR = "#444444"
 
 MAX_POINTS = 20_000
 
@@ -40,16 +39,9 @@ class MethodStyle(NamedTuple):
     marker: str
 
     @property
-    def look(self) -> dict:
-        return {"color": self.colour, "linestyle": self.line, "marker": self.marker}
-
-    @property
     def mark(self) -> dict:
-        """The look without the line."""
-        return {**self.look, "linestyle": ""}
-
-    def key(self, label: str) -> Line2D:
-        return key(label, **self.mark)
+        """The look of a mark without a line."""
+        return {"color": self.colour, "linestyle": "", "marker": self.marker}
 
 
 # After M. Okabe and K. Ito: Color universal design (2008); the line style and the marker tell the
@@ -75,11 +67,6 @@ _METHODS = {
 }
 _OTHER = MethodStyle("#7A5C4A", "-", "8")
 _LINES = ("--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 3)))
-_MARKERS_AND_LINES = [
-    (marker, _LINES[(i + turn) % len(_LINES)])
-    for turn in range(len(_LINES))
-    for i, marker in enumerate("sD^v<>pPXh*d8H")
-]
 
 
 def method_style(method: str) -> MethodStyle:
@@ -88,16 +75,14 @@ def method_style(method: str) -> MethodStyle:
 
 
 def distinct_styles(methods: Iterable[str]) -> dict[str, MethodStyle]:
-    """Of each method; settings that share one get other markers and lines, of which there are 84."""
+    """Of each method; settings that share a style get other lines."""
     styles: dict[str, MethodStyle] = {}
-    methods = list(dict.fromkeys(methods))
-    for method in sorted(methods, key=lambda name: name not in _METHODS):
+    for method in dict.fromkeys(methods):
         style = method_style(method)
-        if style in styles.values():
-            others = (MethodStyle(style.colour, n, m) for m, n in _MARKERS_AND_LINES)
-            style = next((other for other in others if other not in styles.values()), style)
-        styles[method] = style
-    return {method: styles[method] for method in methods}
+        others = (style._replace(line=line) for line in _LINES)
+        is_taken = style in styles.values()
+        styles[method] = next((o for o in others if o not in styles.values()), style) if is_taken else style
+    return styles
 
 
 def part_colours(parts: Sequence[float]) -> np.ndarray:
@@ -130,11 +115,11 @@ def panels(lines: int, columns: int, width: float, height: float, **share) -> tu
     return plt.subplots(lines, columns, figsize=(width, height), squeeze=False, **share)
 
 
-def label_edges(grid: np.ndarray, x: Iterable[str], y: Iterable[str]) -> None:
-    for axes, label in zip(grid[-1], x):
-        axes.set_xlabel(label)
-    for axes, label in zip(grid[:, 0], y):
-        axes.set_ylabel(label)
+def label_edges(grid: np.ndarray, x: str, y: str) -> None:
+    for axes in grid[-1]:
+        axes.set_xlabel(x)
+    for axes in grid[:, 0]:
+        axes.set_ylabel(y)
 
 
 def legend_above(figure: Figure, source: Axes | list, inches: float = 1.45) -> Figure:
@@ -155,35 +140,30 @@ def key(label: str, **look) -> Line2D:
 
 def save(figure: Figure, path: Path) -> None:
     """Writes the picture; its logarithmic axes get plain numbers, two of them at least."""
-    for axes in figure.axes:
-        for axis in (axes.xaxis, axes.yaxis):
-            is_fixed = isinstance(axis.get_major_locator(), ticker.FixedLocator)
-            if axis.get_scale() == "log" and not is_fixed:
-                _label_plainly(axis)
+    for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
+        is_fixed = isinstance(axis.get_major_locator(), ticker.FixedLocator)
+        if axis.get_scale() == "log" and not is_fixed:
+            _label_plainly(axis)
     figure.savefig(path)
     plt.close(figure)
 
 
-def plain_number(value: float) -> str:
-    """Without powers of ten: 0.001, 1,000,000, 10 M."""
-    for least, unit, letter in ((1e12, 1e12, "T"), (1e9, 1e9, "G"), (1e7, 1e6, "M")):
-        if value >= least:
-            return f"{value / unit:g} {letter}"
-    return f"{value:,.0f}" if value >= 1 and value == round(value) else f"{value:.12f}".rstrip("0")
-
-
 def _label_plainly(axis: Axis) -> None:
     low, high = sorted(axis.get_view_interval())
-    if not 1e-7 < low < high < 1e13:
-        return
-    several = ((1, 2, 5), (1, 1.5, 2, 3, 4, 6))
-    locators = [ticker.LogLocator(subs=subs, numticks=12) for subs in several]
-    for locator in (axis.get_major_locator(), *locators, ticker.MaxNLocator(4)):
+    several = [ticker.LogLocator(subs=subs, numticks=12) for subs in ((1,), (1, 2, 5), (1, 1.5, 2, 3, 4, 6))]
+    for locator in (*several, ticker.MaxNLocator(4)):
         if sum(low <= tick <= high for tick in locator.tick_values(low, high)) >= 2:
             axis.set_major_locator(locator)
             break
-    axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: plain_number(value)))
+    axis.set_major_formatter(ticker.FuncFormatter(_plain_number))
     axis.set_minor_formatter(ticker.NullFormatter())
+
+
+def _plain_number(value: float, _: int) -> str:
+    """Without powers of ten: 0.001, 1,000,000, 10 M."""
+    if value >= 1e7:
+        return f"{value / 1e9:g} G" if value >= 1e9 else f"{value / 1e6:g} M"
+    return f"{value:,.0f}" if value >= 1 and value == round(value) else f"{value:.12f}".rstrip("0")
 
 
 # --- what stands in them ---
@@ -201,14 +181,13 @@ def draw_line(
     return line
 
 
-def show_lengths(axes: Axes, x_label: bool = True, y_label: bool = True) -> None:
+def show_lengths(axes: Axes) -> None:
     """Equal scales on both axes, in metres."""
     axes.set_aspect("equal")
     axes.margins(0.02)
-    if x_label:
-        axes.set_xlabel("x [m]")
-    if y_label:
-        axes.set_ylabel("y [m]")
+    axes.set_xlabel("x [m]")
+    axes.set_ylabel("y [m]")
+    axes.label_outer()
 
 
 def length_ratio(clouds: Iterable[pd.DataFrame]) -> float:
@@ -220,18 +199,15 @@ def length_ratio(clouds: Iterable[pd.DataFrame]) -> float:
 
 def draw_cloud(
     axes: Axes, points: pd.DataFrame, colours: Sequence[str] | str, largest: float = 20
-) -> int:
-    """Draws at most MAX_POINTS of the points, evenly chosen; returns how many.
-
-    The markers are so large that all together cover about the area of the axes, or the largest.
-    """
+) -> None:
+    """Draws at most MAX_POINTS of the points, evenly chosen, with markers so large that all together
+    cover about the area of the axes, or the largest."""
     chosen = slice(None, None, len(points) // MAX_POINTS + 1)
     x, y = points["x"][chosen], points["y"][chosen]
     size = axes.get_position(original=True).size * axes.figure.get_size_inches() * 72
     if not isinstance(colours, str):
         colours = colours[chosen]
     axes.scatter(x, y, c=colours, s=np.clip(size.prod() / len(x), 0.5, largest), linewidths=0)
-    return len(x)
 
 
 def rectangles(boxes: pd.DataFrame, **look) -> list[Rectangle]:

@@ -187,7 +187,7 @@ def draw(paths: pd.DataFrame) -> plot.Figure:
         axes.set_yscale("log")
         axes.set_title(label)
         axes.grid(True)
-    plot.label_edges(grid, ["ranks"] * len(panels), ())
+    plot.label_edges(grid, "ranks", "")
     return plot.legend_above(figure, grid[0, 0], inches=2.1)
 
 

@@ -2,11 +2,15 @@
 
 #include "failure_mpi.hpp"
 #include "partitioner_mpi.hpp"
+#include "row.hpp"
 #include "scene_choice_mpi.hpp"
+
+#include <rrcb/quality.hpp>
 
 #include <mpm/slope.hpp>
 
 #include <algorithm>
+#include <array>
 #include <iostream>
 #include <memory>
 
@@ -17,18 +21,12 @@ namespace {
 /// Rounds of simulations at most: the fewest whose smallest and largest value make an interval.
 constexpr int max_rounds = 6;
 
-/// What is simulated in every round; without a method nothing is rebalanced.
-struct Contender {
-    std::string label;
-    std::optional<Method> method;
-};
-
-std::vector<Contender> contenders(std::span<const Method> methods) {
-    std::vector<Contender> all = {{"none", std::nullopt}};
-    for (const Method& method : methods) {
-        if (make_balancer(method)) all.push_back({method.label, method});
-    }
-    all.push_back({"none again", std::nullopt});
+/// One for each method that is simulated, between two without rebalancing.
+std::vector<SimulationRounds> contenders(std::span<const Method> methods) {
+    std::vector<SimulationRounds> all(1, {"none", {}, {}});
+    for (const Method& method : methods)
+        if (make_balancer(method)) all.push_back({method.label, {}, method});
+    all.push_back({"none again", {}, {}});
     return all;
 }
 
@@ -40,89 +38,51 @@ int record_interval(int num_steps, std::size_t num_runs, MPI_Comm comm) {
     return (static_cast<int>(rows / max_rows) + 1) | 1;
 }
 
-void take_snapshots(std::vector<Workload>& snapshots, const SimulationPlan& plan, int steps_done,
-                    const mpm::Simulation& simulation) {
-    const std::vector<std::string> names = snapshot_names(plan.scene);
-    for (int i = 0; i < static_cast<int>(names.size()); ++i) {
-        if (steps_done == plan.num_steps * i / 2) {
-            snapshots.push_back(snapshot(names[static_cast<std::size_t>(i)], simulation));
-        }
-    }
-}
-
-/// Turns are long enough that each simulation finds its points in the cache again.
-void run_in_turns(std::span<const std::unique_ptr<TimedSimulation>> simulations, int num_steps) {
-    constexpr int turn = 50;
-    for (int done = 0; done < num_steps; done += turn) {
-        for (const auto& simulation : simulations) {
-            if (simulation) simulation->advance(turn);
-        }
-    }
-}
-
-/// The simulations of all contenders, round by round; those of one round at a time are kept.
-class SceneRounds {
-  public:
-    SceneRounds(const SimulationPlan& plan, std::vector<Contender> all, Progress& progress,
-                MPI_Comm comm)
-        : plan_(plan), all_(std::move(all)), progress_(progress), comm_(comm) {
-        for (const Contender& contender : all_) rounds_.push_back({contender.label, {}});
-    }
-
-    /// One simulation of each contender that has not failed yet. Collective.
-    void run(int round);
-
-    std::vector<SimulationRounds> rounds() && { return std::move(rounds_); }
-    /// Of the first simulation of the first round.
-    const std::vector<Workload>& snapshots() const { return snapshots_; }
-
-  private:
-    std::unique_ptr<TimedSimulation> start(std::size_t contender, int round);
-    void take_result(std::size_t contender, int round, SimulationRun run);
-
-    const SimulationPlan& plan_;
-    std::vector<Contender> all_;
-    Progress& progress_;
-    MPI_Comm comm_;
-    std::vector<SimulationRounds> rounds_;
-    std::vector<Workload> snapshots_;
-};
-
-void SceneRounds::run(int round) {
-    progress_.start("simulations, round " + std::to_string(round + 1),
-                    static_cast<int>(all_.size()) * plan_.num_steps);
-    std::vector<std::unique_ptr<TimedSimulation>> simulations;
-    for (std::size_t i = 0; i < all_.size(); ++i) {
-        simulations.push_back(rounds_[i].has_failed() ? nullptr : start(i, round));
-    }
-    run_in_turns(simulations, plan_.num_steps);
-    for (std::size_t i = 0; i < all_.size(); ++i) {
-        if (simulations[i]) take_result(i, round, simulations[i]->result());
-    }
-    if (rank_of(comm_) == 0) print_round(std::cout, round + 1, rounds_);
-}
-
-std::unique_ptr<TimedSimulation> SceneRounds::start(std::size_t contender, int round) {
-    const bool shows_the_scene = contender == 0 && round == 0;
-    const auto observe = [this, shows_the_scene](int steps_done,
-                                                 const mpm::Simulation& simulation) {
-        if (steps_done > 0) progress_.advance();
-        if (shows_the_scene) take_snapshots(snapshots_, plan_, steps_done, simulation);
+/// Counts the steps of a simulation, and takes the snapshots of the scene if `snapshots` is given.
+Observer observer(const SimulationPlan& plan, Progress& progress,
+                  std::vector<Workload>* snapshots) {
+    return [&plan, &progress, snapshots](int steps_done, const mpm::Simulation& simulation) {
+        if (steps_done > 0) progress.advance();
+        for (int i = 0; snapshots && i < 3; ++i)
+            if (steps_done == plan.num_steps * i / 2)
+                snapshots->push_back(snapshot(
+                    plan.scene.name + std::array{"-start", "-middle", "-end"}[i], simulation));
     };
-    const std::optional<Method>& method = all_[contender].method;
-    std::optional<mpm::Balancer> balancer;
-    if (method) balancer = make_balancer(with_next_seed(*method, static_cast<unsigned>(round)));
-    return std::make_unique<TimedSimulation>(plan_, std::move(balancer), observe, comm_);
 }
 
-void SceneRounds::take_result(std::size_t contender, int round, SimulationRun run) {
-    const std::optional<Method>& method = all_[contender].method;
-    run.method = all_[contender].label;
-    if (method && varies_with_seed(*method)) {
-        run.seed = method->seed() + static_cast<unsigned>(round);
+/// One simulation of each contender that has not failed yet; the first one's snapshots are of the
+/// first round.
+void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPlan& plan,
+               std::vector<Workload>& snapshots, Progress& progress, MPI_Comm comm) {
+    progress.start("simulations, round " + std::to_string(round + 1),
+                   static_cast<int>(all.size()) * plan.num_steps);
+    std::vector<std::unique_ptr<TimedSimulation>> simulations;
+    for (const SimulationRounds& rounds : all) {
+        const bool shows_the_scene = round == 0 && simulations.empty();
+        std::optional<mpm::Balancer> balancer;
+        if (rounds.balanced_by)
+            balancer =
+                make_balancer(with_next_seed(*rounds.balanced_by, static_cast<unsigned>(round)));
+        auto& simulation = simulations.emplace_back();
+        if (!rounds.has_failed())
+            simulation = std::make_unique<TimedSimulation>(
+                plan, std::move(balancer),
+                observer(plan, progress, shows_the_scene ? &snapshots : nullptr), comm);
     }
-    if (round > 0) run.history.clear();
-    rounds_[contender].runs.push_back(std::move(run));
+    // Turns are long enough that each simulation finds its points in the cache again.
+    constexpr int turn = 50;
+    for (int done = 0; done < plan.num_steps; done += turn)
+        for (const auto& simulation : simulations)
+            if (simulation) simulation->advance(turn);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!simulations[i]) continue;
+        SimulationRun& run = all[i].runs.emplace_back(simulations[i]->result());
+        const std::optional<Method>& method = all[i].balanced_by;
+        if (method && varies_with_seed(*method))
+            run.seed = method->seed() + static_cast<unsigned>(round);
+        if (round > 0) run.history.clear();
+    }
+    if (rank_of(comm) == 0) print_round(std::cout, round + 1, all);
 }
 
 /// Steps until the front of the slope lies still, within 0.2 m of where it ends.
@@ -131,6 +91,54 @@ int steps_of_failure(MPI_Comm comm) {
     mpm::Scene scene = mpm::slope_scene();
     scene.end_time = end_of_failure_s;
     return steps_to_end(scene, comm);
+}
+
+void add_cost(Row& row, const std::string& phase, const PathCost& cost) {
+    row.add(phase + "_work_s", cost.work_s)
+        .add(phase + "_path_s", cost.path_s)
+        .add(phase + "_network_s", cost.network_s);
+}
+
+/// `number` counts the rounds from 1 on.
+Row round_row(const SimulationPlan& plan, int num_ranks, const std::string& method, int number,
+              const SimulationRun& run) {
+    Row row;
+    row.add("method", method)
+        .add("round", number)
+        .add("seed", run.seed)
+        .add("ranks", num_ranks)
+        .add("points", run.num_points)
+        .add("steps", plan.num_steps)
+        .add("every", plan.every > 0 ? std::to_string(plan.every) : "auto")
+        .end_key()
+        .add("wall_s", run.wall_s)
+        .add("balance_s", run.balance_s)
+        .add("step_s", run.step_s)
+        .add("mean_imbalance", run.mean_imbalance)
+        .add("worst_imbalance", run.worst_imbalance)
+        .add("front_x_m", run.front_m)
+        .add("moved_m", run.moved_m)
+        .add("mass_kg", run.mass_kg)
+        .add("path_points", run.path_points);
+    add_cost(row, "step", run.step_cost);
+    add_cost(row, "balance", run.balance_cost);
+    return row.add("critical_path_s", critical_path_s(run))
+        .add("rebalances", run.rebalances)
+        .add("moved_fraction", run.moved_fraction)
+        .add_error(run.error)
+        .add("scene", plan.scene.name);
+}
+
+Row history_row(const std::string& method, const LoadRecord& record, std::size_t part) {
+    return Row()
+        .add("method", method)
+        .add("step", record.step)
+        .add("time", nine_digits(record.time))
+        .add("part", part)
+        .add("points", nine_digits(record.points[part]))
+        .add("lu_percent", nine_digits(rrcb::load_unbalance_percent(record.points)[part]))
+        .add("imbalance", nine_digits(rrcb::imbalance(record.points)))
+        .add("moved_fraction", nine_digits(record.moved_fraction));
 }
 
 }  // namespace
@@ -144,10 +152,6 @@ SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_
     plan.every = arguments.every;
     plan.record_every = record_interval(plan.num_steps, num_runs, comm);
     return plan;
-}
-
-std::vector<std::string> snapshot_names(const mpm::Scene& scene) {
-    return {scene.name + "-start", scene.name + "-middle", scene.name + "-end"};
 }
 
 Workload snapshot(const std::string& name, const mpm::Simulation& simulation) {
@@ -164,11 +168,7 @@ std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& prog
                                       MPI_Comm comm) {
     std::vector<Workload> snapshots;
     progress.start("the " + plan.scene.name, plan.num_steps);
-    const auto observe = [&](int steps_done, const mpm::Simulation& simulation) {
-        if (steps_done > 0) progress.advance();
-        take_snapshots(snapshots, plan, steps_done, simulation);
-    };
-    TimedSimulation simulation(plan, std::nullopt, observe, comm);
+    TimedSimulation simulation(plan, std::nullopt, observer(plan, progress, &snapshots), comm);
     simulation.advance(plan.num_steps);
     const std::string error = simulation.result().error;
     if (!error.empty()) throw Failure(plan.scene.name + ": " + error);
@@ -178,7 +178,7 @@ std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& prog
 std::vector<SimulationRounds> run_scene(const Arguments& arguments, const ResultsFolder& folder,
                                         Progress& progress, const SnapshotVisitor& visit,
                                         MPI_Comm comm) {
-    std::vector<Contender> all = contenders(arguments.methods);
+    std::vector<SimulationRounds> all = contenders(arguments.methods);
     SimulationPlan plan = plan_scene(arguments, all.size() - 1, comm);
     const bool is_main_job = arguments.scene == "slope" && arguments.only == Only::all;
     if (is_main_job && arguments.steps == 0 && !arguments.quick)
@@ -186,15 +186,51 @@ std::vector<SimulationRounds> run_scene(const Arguments& arguments, const Result
     const int num_rounds = arguments.only == Only::simulations
                                ? arguments.repeats
                                : std::min(arguments.repeats, max_rounds);
-    SceneRounds rounds(plan, std::move(all), progress, comm);
-    rounds.run(0);
-    visit(rounds.snapshots());
-    for (int round = 1; round < num_rounds; ++round) rounds.run(round);
-    std::vector<SimulationRounds> methods = std::move(rounds).rounds();
-    const std::span<const SimulationRounds> once(methods.data(), methods.size() - 1);
-    folder.write("simulation_runs.csv", [&] { return rounds_csv(plan, size_of(comm), methods); });
+    std::vector<Workload> snapshots;
+    for (int round = 0; round < num_rounds; ++round) {
+        run_round(all, round, plan, snapshots, progress, comm);
+        if (round == 0) visit(snapshots);
+    }
+    const std::span<const SimulationRounds> once(all.data(), all.size() - 1);
+    folder.write("simulation_runs.csv", [&] { return rounds_csv(plan, size_of(comm), all); });
     folder.write("history.csv", [&] { return history_csv(once); });
-    return methods;
+    return all;
+}
+
+std::string rounds_csv(const SimulationPlan& plan, int num_ranks,
+                       std::span<const SimulationRounds> methods) {
+    std::vector<Row> rows;
+    for (const SimulationRounds& rounds : methods) {
+        int number = 0;
+        for (const SimulationRun& run : rounds.runs)
+            rows.push_back(round_row(plan, num_ranks, rounds.method, ++number, run));
+    }
+    return csv(round_row(plan, num_ranks, {}, 0, {}), rows);
+}
+
+std::string history_csv(std::span<const SimulationRounds> methods) {
+    std::vector<Row> rows;
+    for (const SimulationRounds& rounds : methods) {
+        for (const LoadRecord& record : rounds.runs.front().history) {
+            for (std::size_t part = 0; part < record.points.size(); ++part)
+                rows.push_back(history_row(rounds.method, record, part));
+        }
+    }
+    return csv(history_row({}, {.points = {1}}, 0), rows);
+}
+
+void print_round(std::ostream& out, int number, std::span<const SimulationRounds> methods) {
+    std::vector<double> paths;
+    for (const SimulationRounds& rounds : methods) {
+        const SimulationRun& run = rounds.runs.back();
+        if (rounds.has_failed())
+            out << rounds.method << " failed: " << run.error << '\n';
+        else
+            paths.push_back(critical_path_s(run));
+    }
+    const auto [least, most] = range_of(paths);
+    out << "Simulations, round " << number << ": critical paths of " << fixed(least, 3) << " to "
+        << fixed(most, 3) << " s" << std::endl;
 }
 
 }  // namespace comparisons

@@ -2,18 +2,29 @@
 
 #include "arguments.hpp"
 #include "results_folder_mpi.hpp"
-#include "simulation_rounds.hpp"
+#include "simulation_mpi.hpp"
 #include "workload_mpi.hpp"
 
 #include <mpi.h>
 
 #include <cstddef>
 #include <functional>
+#include <optional>
+#include <ostream>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace comparisons {
+
+/// The simulations under one method, one of each round; at least one.
+struct SimulationRounds {
+    std::string method;
+    std::vector<SimulationRun> runs;      ///< none after one that failed
+    std::optional<Method> balanced_by{};  ///< none: nothing is rebalanced
+
+    bool has_failed() const { return !runs.empty() && !runs.back().error.empty(); }
+};
 
 /// Is called with the points at the start, middle and end of the run without rebalancing, as they
 /// lie on its ranks: a distribution that favours no method.
@@ -33,9 +44,6 @@ Workload snapshot(const std::string& name, const mpm::Simulation& simulation);
 std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& progress,
                                       MPI_Comm comm);
 
-/// Names of the snapshots of a scene, in their order.
-std::vector<std::string> snapshot_names(const mpm::Scene& scene);
-
 /// Runs the scene under every method that cuts along the axes, several rounds of all of them,
 /// writes the times and loads of each run, and prints a line a round. Collective over `comm`.
 ///
@@ -47,5 +55,15 @@ std::vector<std::string> snapshot_names(const mpm::Scene& scene);
 std::vector<SimulationRounds> run_scene(const Arguments& arguments, const ResultsFolder& folder,
                                         Progress& progress, const SnapshotVisitor& visit,
                                         MPI_Comm comm);
+
+/// simulation_runs.csv: one row per method and round, columns as columns.md describes them.
+std::string rounds_csv(const SimulationPlan& plan, int num_ranks,
+                       std::span<const SimulationRounds> methods);
+
+/// history.csv: the load of every part at the recorded steps of the first round.
+std::string history_csv(std::span<const SimulationRounds> methods);
+
+/// Prints the range of the critical paths in the latest round, in a line, and why a method failed.
+void print_round(std::ostream& out, int number, std::span<const SimulationRounds> methods);
 
 }  // namespace comparisons

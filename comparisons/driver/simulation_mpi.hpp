@@ -34,7 +34,6 @@ struct LoadRecord {
 
 /// Cost of a whole simulation under one method; the same on every rank.
 struct SimulationRun {
-    std::string method;
     std::string error;                  ///< empty unless the simulation failed
     std::optional<std::uint64_t> seed;  ///< of the method's points, where it varies with it
     std::int64_t num_points = 0;

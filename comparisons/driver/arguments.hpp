@@ -16,8 +16,18 @@ namespace comparisons {
 /// What of a scene is run.
 enum class Only { all, calls, simulations };
 
+/// How methods are measured.
+struct MeasurementPlan {
+    Lists lists = Lists::parts;
+    int repeats = 7;
+    double drift = 0;  ///< fraction of the extent by which the points move between two rounds of
+                       ///< calls; then the moved fraction is that of the last of these moves
+    std::uint64_t seed = 1;  ///< of a cloud, its layout and drift
+    GhostRule ghosts{};
+};
+
 /// What the user asks for; see README.md beside this folder for every option.
-struct Arguments {
+struct Arguments : MeasurementPlan {
     int ranks = 0;                ///< 0: whatever the program was started with
     std::string scene = "slope";  ///< its name, or a file
     std::string cloud;            ///< empty: not a cloud
@@ -27,13 +37,8 @@ struct Arguments {
     int dimension = 2;
     Layout layout = Layout::sorted;
     std::vector<Method> methods;
-    Lists lists = Lists::parts;
     int steps = 0;  ///< of the simulation; 0: to the end of the scene
     int every = 0;  ///< steps between rebalances; 0: a controller says when
-    int repeats = 7;
-    std::uint64_t seed = 1;
-    double drift = 0;  ///< of the cloud's points between calls, as a fraction of the extent
-    GhostRule ghosts;
     std::string out = "comparisons/out";
     Only only = Only::all;
     bool data = true;  ///< write the points and boxes of which pictures are drawn

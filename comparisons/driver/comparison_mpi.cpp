@@ -14,19 +14,9 @@ namespace {
 
 /// Times of zoltan-rcb; none when it was not measured or failed.
 std::vector<double> reference_times(const Comparison& comparison) {
-    for (const Measurement& measurement : comparison.measurements) {
-        if (measurement.method == "zoltan-rcb" && measurement.error.empty()) {
-            return measurement.times_ms;
-        }
-    }
-    return {};
-}
-
-std::optional<double> radius_of(const Comparison& comparison) {
-    for (const Measurement& measurement : comparison.measurements) {
-        if (measurement.ghosts) return measurement.ghosts->radius;
-    }
-    return std::nullopt;
+    const auto& all = comparison.measurements;
+    const auto found = std::ranges::find(all, "zoltan-rcb", &Measurement::method);
+    return found == all.end() || !found->error.empty() ? std::vector<double>() : found->times_ms;
 }
 
 /// A single value is that of all seeds.
@@ -35,20 +25,27 @@ std::optional<Interval> interval_of_seeds(const std::vector<double>& values) {
     return interval95(values);
 }
 
-template <typename Number>
-std::optional<Number> of_ghosts(const Measurement& measurement, Number Ghosts::*number) {
-    if (!measurement.ghosts) return std::nullopt;
-    return (*measurement.ghosts).*number;
+std::optional<double> ratio_of(double time, double reference) {
+    return reference > 0 ? std::optional(time / reference) : std::nullopt;
 }
 
-/// Behind the key; `reference_ms` are the times of zoltan-rcb.
-Row table_row(Row key, const Measurement& measurement, const std::vector<double>& reference_ms) {
+Row table_row(const Comparison& comparison, const Measurement& measurement) {
     const std::vector<double>& times = measurement.times_ms;
+    const std::vector<double> reference_ms = reference_times(comparison);
     const Traffic& traffic = measurement.traffic;
-    const double reference = median(reference_ms);
-    std::optional<double> ratio;
-    if (reference > 0) ratio = median(times) / reference;
-    return key.add("time_ms_median", median(times))
+    const Ghosts& ghosts = measurement.ghosts;
+    return Row()
+        .add("method", measurement.method)
+        .add("ranks", comparison.num_ranks)
+        .add("parts", comparison.num_ranks)
+        .add("points", comparison.num_points)
+        .add("dim", comparison.dimension)
+        .add("workload", comparison.workload)
+        .add("layout", comparison.layout)
+        .add("lists", lists_name(comparison.plan.lists))
+        .add("repeats", comparison.plan.repeats)
+        .end_key(measurement.error)
+        .add("time_ms_median", median(times))
         .add("time_ms_min", range_of(times).low)
         .add("time_ms_max", range_of(times).high)
         .add("imbalance", median(measurement.imbalances))
@@ -59,43 +56,18 @@ Row table_row(Row key, const Measurement& measurement, const std::vector<double>
         .add("collectives", traffic.collectives)
         .add("communicators", traffic.communicators)
         .add("moved_fraction", measurement.moved_fraction)
-        .add("time_vs_zoltan_rcb", ratio)
+        .add("time_vs_zoltan_rcb", ratio_of(median(times), median(reference_ms)))
         .add_interval("time_ms_", interval95(times))
         .add_interval("time_vs_zoltan_rcb_", interval95(paired_ratios(times, reference_ms)))
         .add_interval("imbalance_", interval_of_seeds(measurement.imbalances))
         .add("seeds", measurement.imbalances.size())
         .add("lu_worst_percent", measurement.worst_unbalance_percent)
         .add("rounds", measurement.rounds)
-        .add_error(measurement.error)
-        .add("ghosts", of_ghosts(measurement, &Ghosts::sum))
-        .add("ghosts_max", of_ghosts(measurement, &Ghosts::most))
-        .add("neighbours_max", of_ghosts(measurement, &Ghosts::most_neighbours))
-        .add("off_machine_ghosts",
-             measurement.ghosts ? measurement.ghosts->off_machine : std::nullopt);
-}
-
-Row table_key(const Comparison& comparison, const std::string& method) {
-    return Row()
-        .add("method", method)
-        .add("ranks", comparison.num_ranks)
-        .add("parts", comparison.num_ranks)
-        .add("points", comparison.num_points)
-        .add("dim", comparison.dimension)
-        .add("workload", comparison.workload)
-        .add("layout", comparison.layout)
-        .add("lists", lists_name(comparison.plan.lists))
-        .add("repeats", comparison.plan.repeats)
-        .end_key();
-}
-
-std::vector<Row> table_rows(const Comparison& comparison) {
-    const std::vector<double> reference_ms = reference_times(comparison);
-    std::vector<Row> rows;
-    for (const Measurement& measurement : comparison.measurements) {
-        rows.push_back(
-            table_row(table_key(comparison, measurement.method), measurement, reference_ms));
-    }
-    return rows;
+        .add_error()
+        .add("ghosts", ghosts.sum)
+        .add("ghosts_max", ghosts.most)
+        .add("neighbours_max", ghosts.most_neighbours)
+        .add("off_machine_ghosts", ghosts.off_machine);
 }
 
 /// Beginning of a row about calls of a method.
@@ -121,18 +93,20 @@ Row time_row(const Comparison& comparison, const std::string& method, std::size_
     return call_key(comparison, method).add("turn", turn).add("time_ms", time_ms);
 }
 
+/// Of a failed method the reason follows its name.
 Row printed_row(const Measurement& measurement, double reference_ms) {
     Row row;
     row.add("method", measurement.method);
-    if (!measurement.error.empty()) return row.add_error(measurement.error);
+    if (!measurement.error.empty()) return row.add("error", measurement.error);
     const double middle = median(measurement.times_ms);
     const std::optional<Interval> interval = interval95(measurement.times_ms);
+    const std::optional<double> ratio = ratio_of(middle, reference_ms);
     return row.add("imbalance", fixed(median(measurement.imbalances), 5))
         .add("time ms", fixed(middle, 2))
         .add("95 %", interval ? fixed(interval->low, 2) + " ... " + fixed(interval->high, 2) : "-")
-        .add("of Zoltan's", reference_ms > 0 ? fixed(middle / reference_ms, 2) : "-")
+        .add("of Zoltan's", ratio ? fixed(*ratio, 2) : "-")
         .add("bytes", human_bytes(static_cast<double>(measurement.traffic.bytes)))
-        .add("ghosts", of_ghosts(measurement, &Ghosts::sum));
+        .add("ghosts", measurement.ghosts.sum);
 }
 
 /// Without measurements yet. Collective over `comm`.
@@ -148,10 +122,7 @@ Comparison describe(const Workload& workload, const MeasurementPlan& plan, MPI_C
 
 Comparison compare_methods(const Workload& workload, const Arguments& arguments,
                            const ResultsFolder& folder, Progress& progress, MPI_Comm comm) {
-    Comparison comparison = describe(
-        workload,
-        {arguments.lists, arguments.repeats, arguments.drift, arguments.seed, arguments.ghosts},
-        comm);
+    Comparison comparison = describe(workload, arguments, comm);
     std::vector<Method> methods = arguments.methods;
     const auto reference = std::ranges::find(methods, "zoltan-rcb", &Method::label);
     const bool is_twice = reference != methods.end();
@@ -177,10 +148,10 @@ bool has_failures(std::span<const Comparison> comparisons) {
 
 std::string table_csv(std::span<const Comparison> comparisons) {
     std::vector<Row> rows;
-    for (const Comparison& comparison : comparisons) {
-        std::ranges::move(table_rows(comparison), std::back_inserter(rows));
-    }
-    return csv(table_row(table_key({}, {}), {}, {}), rows);
+    for (const Comparison& comparison : comparisons)
+        for (const Measurement& measurement : comparison.measurements)
+            rows.push_back(table_row(comparison, measurement));
+    return csv(table_row({}, {}), rows);
 }
 
 std::string calls_csv(std::span<const Comparison> comparisons) {
@@ -216,8 +187,9 @@ void print_table(std::ostream& out, const Comparison& comparison) {
         << comparison.dimension << "-D, " << comparison.layout << ", " << comparison.num_ranks
         << " ranks, lists " << lists_name(comparison.plan.lists) << ", median of "
         << comparison.plan.repeats;
-    if (const std::optional<double> radius = radius_of(comparison))
-        out << ", ghosts within " << nine_digits(*radius);
+    double radius = 0;
+    for (const Measurement& m : comparison.measurements) radius = std::max(radius, m.ghosts.radius);
+    if (radius > 0) out << ", ghosts within " << nine_digits(radius);
     out << "\n\n";
     const double reference_ms = median(reference_times(comparison));
     std::vector<Row> rows;

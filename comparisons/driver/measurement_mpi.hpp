@@ -1,10 +1,8 @@
 #pragma once
 
-#include "ghosts_mpi.hpp"
-#include "method.hpp"
+#include "arguments.hpp"
 #include "progress.hpp"
 #include "traffic.hpp"
-#include "workload_mpi.hpp"
 
 #include <mpi.h>
 
@@ -30,17 +28,8 @@ struct Measurement {
     std::optional<int> rounds;  ///< of counting in a call of our own methods, by the interface: 1
                                 ///< where the estimate was accepted, 0 where none was refined
     std::map<std::string, CallCount> calls;  ///< the same call by MPI function, over all ranks
-    std::optional<Ghosts> ghosts{};          ///< of these parts; none of a method that failed
+    Ghosts ghosts;                           ///< of these parts; 0 of a method that failed
     std::vector<rrcb::Part> parts;  ///< of this rank's points, as the counted call made them
-};
-
-struct MeasurementPlan {
-    Lists lists = Lists::parts;
-    int repeats = 7;
-    double drift = 0;  ///< fraction of the extent by which the points move between two rounds of
-                       ///< calls; then the moved fraction is that of the last of these moves
-    std::uint64_t seed = 1;  ///< of the drift
-    GhostRule ghosts{};
 };
 
 /// Seeds that a method is judged over when its points are pseudo-random.

@@ -18,7 +18,7 @@ std::string field(const std::string& text) {
 }  // namespace
 
 Row& Row::add(std::string name, std::string value) {
-    columns_.emplace_back(std::move(name), std::move(value));
+    columns_.emplace_back(std::move(name), error_.empty() ? std::move(value) : std::string());
     return *this;
 }
 
@@ -27,14 +27,14 @@ Row& Row::add_interval(const std::string& prefix, const std::optional<Interval>&
     return add(prefix + "high", interval ? std::optional(interval->high) : std::nullopt);
 }
 
-Row& Row::end_key() {
-    key_size_ = size();
+Row& Row::end_key(const std::string& error) {
+    error_ = error;
     return *this;
 }
 
-Row& Row::add_error(const std::string& error) {
-    for (std::size_t i = key_size_; !error.empty() && i < size(); ++i) columns_[i].second.clear();
-    return add("error", error);
+Row& Row::add_error() {
+    columns_.emplace_back("error", error_);
+    return *this;
 }
 
 std::string Row::header() const {
@@ -43,21 +43,14 @@ std::string Row::header() const {
     return names;
 }
 
-std::string Row::values(std::size_t count) const {
-    std::string text;
-    for (std::size_t i = 0; i < count; ++i)
-        text.append(i == 0 ? "" : ",").append(field(columns_[i].second));
-    return text;
-}
-
 std::string Row::text() const {
-    return values(size());
-}
-
-Row Row::with_values(const std::vector<std::string>& values) const {
-    Row row = *this;
-    for (std::size_t i = 0; i < size(); ++i) row.columns_[i].second = values[i];
-    return row;
+    std::string text;
+    const char* separator = "";
+    for (const auto& [name, value] : columns_) {
+        text.append(separator).append(field(value));
+        separator = ",";
+    }
+    return text;
 }
 
 std::string csv(const Row& columns, const std::vector<Row>& rows) {
@@ -67,20 +60,20 @@ std::string csv(const Row& columns, const std::vector<Row>& rows) {
 }
 
 void print_columns(std::ostream& out, const Row& columns, const std::vector<Row>& rows) {
-    std::vector<std::string> heading;
-    for (const auto& [name, value] : columns.columns()) heading.push_back(name);
-    std::vector<Row> lines = {columns.with_values(heading)};
-    lines.insert(lines.end(), rows.begin(), rows.end());
-    std::vector<std::size_t> widths(columns.size());
-    for (const Row& line : lines) {
-        for (std::size_t c = 0; line.size() == widths.size() && c < widths.size(); ++c)
-            widths[c] = std::max(widths[c], line.columns()[c].second.size());
+    std::vector<std::vector<std::string>> lines(1);
+    for (const auto& [name, value] : columns.columns()) lines[0].push_back(name);
+    for (const Row& row : rows) {
+        lines.emplace_back();
+        for (const auto& [name, value] : row.columns()) lines.back().push_back(value);
     }
-    for (const Row& line : lines) {
+    std::vector<std::size_t> widths(lines[0].size());
+    for (const auto& line : lines)
+        for (std::size_t c = 0; line.size() == widths.size() && c < widths.size(); ++c)
+            widths[c] = std::max(widths[c], line[c].size());
+    for (const auto& line : lines) {
         for (std::size_t c = 0; c < line.size(); ++c) {
-            const std::string& cell = line.columns()[c].second;
-            const std::string padding(widths[c] - std::min(widths[c], cell.size()), ' ');
-            out << (c == 0 ? cell + padding : "  " + padding + cell);
+            const std::string padding(widths[c] - std::min(widths[c], line[c].size()), ' ');
+            out << (c == 0 ? line[c] + padding : "  " + padding + line[c]);
         }
         out << '\n';
     }

@@ -36,27 +36,22 @@ class Row {
     /// The columns `prefix`low and `prefix`high.
     Row& add_interval(const std::string& prefix, const std::optional<Interval>& interval);
 
-    /// The columns so far, the key, tell what was measured: add_error keeps them.
-    Row& end_key();
+    /// The columns so far tell what was measured; unless `error` is empty, later ones are but
+    /// `error`.
+    Row& end_key(const std::string& error);
 
-    /// The column `error`; unless it is empty, all values from the key to it are.
-    Row& add_error(const std::string& error);
+    /// The column `error`.
+    Row& add_error();
 
     std::string header() const;
     std::string text() const;
 
-    /// The same columns with other values. There must be as many.
-    Row with_values(const std::vector<std::string>& values) const;
-
     /// Names and values.
     const std::vector<std::pair<std::string, std::string>>& columns() const { return columns_; }
-    std::size_t size() const { return columns_.size(); }
 
   private:
-    std::string values(std::size_t count) const;
-
     std::vector<std::pair<std::string, std::string>> columns_;
-    std::size_t key_size_ = 0;
+    std::string error_;
 };
 
 /// A CSV file by RFC 4180: the header that `columns` tells, then the rows.

@@ -110,7 +110,8 @@ Row round_row(const SimulationPlan& plan, int num_ranks, const std::string& meth
         .add("points", run.num_points)
         .add("steps", plan.num_steps)
         .add("every", plan.every > 0 ? std::to_string(plan.every) : "auto")
-        .end_key()
+        .add("scene", plan.scene.name)
+        .end_key(run.error)
         .add("wall_s", run.wall_s)
         .add("balance_s", run.balance_s)
         .add("step_s", run.step_s)
@@ -125,8 +126,7 @@ Row round_row(const SimulationPlan& plan, int num_ranks, const std::string& meth
     return row.add("critical_path_s", critical_path_s(run))
         .add("rebalances", run.rebalances)
         .add("moved_fraction", run.moved_fraction)
-        .add_error(run.error)
-        .add("scene", plan.scene.name);
+        .add_error();
 }
 
 Row history_row(const std::string& method, const LoadRecord& record, std::size_t part) {

@@ -8,7 +8,12 @@ namespace comparisons {
 namespace {
 
 Row measured(const std::string& method, double value, const std::string& error = "") {
-    return Row().add("method", method).end_key().add("value", value).add_error(error);
+    return Row()
+        .add("method", method)
+        .end_key(error)
+        .add("value", value)
+        .add_error()
+        .add("more", value);
 }
 
 TEST(Row, values_that_are_none_are_empty) {
@@ -22,16 +27,16 @@ TEST(Row, values_that_are_none_are_empty) {
 
 TEST(Row, of_a_failure_tells_what_failed_and_why) {
     const Row row = measured("a,b", 1, "it said \"no\"");
-    EXPECT_EQ(row.text(), "\"a,b\",,\"it said \"\"no\"\"\"");
+    EXPECT_EQ(row.text(), "\"a,b\",,\"it said \"\"no\"\"\",");
 }
 
 TEST(Row, people_read_columns_and_reasons_of_any_length) {
     std::ostringstream out;
-    print_columns(out, measured("", 0),
-                  {measured("long", 10), Row().add("method", "b").add("error", "a reason")});
+    const Row row = Row().add("method", "long").add("value", 10).add("unit", "m");
+    print_columns(out, row, {row, Row().add("method", "b").add("error", "a reason")});
     EXPECT_EQ(out.str(),
-              "method  value  error\n"
-              "long       10       \n"
+              "method  value  unit\n"
+              "long       10     m\n"
               "b       a reason\n");
 }
 

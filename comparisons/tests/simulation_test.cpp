@@ -342,14 +342,14 @@ TEST(SimulationRounds, have_a_row_for_each_run) {
     const SimulationPlan plan{.scene = mpm::slope_scene(22), .num_steps = 6};
     EXPECT_EQ(
         rounds_csv(plan, 4, two_methods()),
-        "method,round,seed,ranks,points,steps,every,wall_s,balance_s,step_s,mean_imbalance,"
+        "method,round,seed,ranks,points,steps,every,scene,wall_s,balance_s,step_s,mean_imbalance,"
         "worst_imbalance,front_x_m,moved_m,mass_kg,path_points,step_work_s,step_path_s,"
         "step_network_s,balance_work_s,balance_path_s,balance_network_s,critical_path_s,rebalances,"
-        "moved_fraction,error,scene\n"
-        "fast,1,7,4,1000,6,1,50,0,0,1.5,1,,0,0,0,32,6,2,2.5,0.5,0.125,8.625,8,0.25,,slope\n"
-        "fast,2,,4,1000,6,1,50,0,0,1.5,1,,0,0,0,64,12,4,2.5,0.5,0.125,16.625,8,0.25,,slope\n"
-        "broken,1,,4,1000,6,1,50,0,0,1.5,1,,0,0,0,4,0.75,0.25,2.5,0.5,0.125,1.625,8,0.25,,slope\n"
-        "broken,2,,4,0,6,1,,,,,,,,,,,,,,,,,,,no balance today,slope\n");
+        "moved_fraction,error\n"
+        "fast,1,7,4,1000,6,1,slope,50,0,0,1.5,1,,0,0,0,32,6,2,2.5,0.5,0.125,8.625,8,0.25,\n"
+        "fast,2,,4,1000,6,1,slope,50,0,0,1.5,1,,0,0,0,64,12,4,2.5,0.5,0.125,16.625,8,0.25,\n"
+        "broken,1,,4,1000,6,1,slope,50,0,0,1.5,1,,0,0,0,4,0.75,0.25,2.5,0.5,0.125,1.625,8,0.25,\n"
+        "broken,2,,4,0,6,1,slope,,,,,,,,,,,,,,,,,,,no balance today\n");
 }
 
 TEST(SimulationRounds, print_their_paths_and_why_one_failed) {

@@ -91,7 +91,7 @@ TEST(Table, tells_intervals_of_six_repeats_and_ten_seeds) {
 TEST(Table, leaves_out_ratios_where_zoltan_s_rcb_is_not_there) {
     Comparison alone = comparison();
     alone.measurements.erase(alone.measurements.begin());
-    alone.measurements[0].ghosts->off_machine.reset();
+    alone.measurements[0].ghosts.off_machine.reset();
     EXPECT_NE(rows_of(alone).find(",0.5,,,,,,1.25,1.25,1,-25,1,,90,40,2,\n"), std::string::npos);
 }
 

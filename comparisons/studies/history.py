@@ -6,37 +6,20 @@ import numpy as np
 import pandas as pd
 import plot
 from intervals import Value
-from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from results import Results
 
 MOST_WINDOWS = 150  # lines that swing at every rebalance would run into one another
 TIME = "time simulated [s]"
 
 
-def draw_history(results: Results) -> Figure | None:
-    """Load unbalance over the steps of the simulation: the largest of each method, then Lu of every
-    part, bands from least to most of a window of steps; scales differ."""
-    histories = results.histories()
+def draw_history(histories: dict[str, pd.DataFrame]) -> Figure | None:
     if not histories:
         return None
-    lines = -(-len(histories) // 2)
-    figure = plt.figure(figsize=(11, 4.6 + 1.6 * lines))
-    grid = figure.add_gridspec(lines + 1, 2, height_ratios=[2.4] + [1] * lines)
-    top = figure.add_subplot(grid[0, :])
-    draw_worst(top, histories)
-    top.set_xlabel(TIME)
-    for number, (method, history) in enumerate(histories.items()):
-        axes = figure.add_subplot(grid[1 + number // 2, number % 2], sharex=top)
-        draw_parts_of(axes, method, history)
-        if number >= len(histories) - 2:
-            axes.set_xlabel(TIME)
-    parts = 1 + max(history["part"].max() for history in histories.values())
-    keys = top.get_legend_handles_labels()[0]
-    colours = enumerate(plot.PART_COLOURS[:parts])
-    keys += [plot.key(f"part {part}", color=colour, linestyle="-") for part, colour in colours]
-    return plot.legend_above(figure, keys, inches=3.4)
+    figure, grid = plot.panels(1, 1, 9, 4.6)
+    draw_worst(grid[0, 0], histories)
+    grid[0, 0].set_xlabel(TIME)
+    return plot.legend_above(figure, grid[0, 0], inches=3.4)
 
 
 def per_part(history: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:

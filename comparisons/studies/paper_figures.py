@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import plot
-from history import TIME, draw_parts_of, draw_worst
+from history import TIME, draw_history, draw_parts_of
 from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection
 from matplotlib.figure import Figure
@@ -106,13 +106,7 @@ def draw_unbalance(out: Path) -> Figure | None:
 
 
 def draw_largest(out: Path) -> Figure | None:
-    histories = _histories(out)
-    if not histories:
-        return None
-    figure, grid = plot.panels(1, 1, 8, 4.6)
-    draw_worst(grid[0, 0], histories)
-    grid[0, 0].set_xlabel(TIME)
-    return plot.legend_above(figure, grid[0, 0], inches=3.4)
+    return draw_history(_histories(out))
 
 
 # --- cuts that alternate ---

@@ -29,16 +29,20 @@ def draw_all(results: Results) -> dict[str, str]:
     return captions
 
 
+def _middle_case(results: Results) -> pd.DataFrame:
+    by_case = list(cases(results.table).values())
+    return by_case[len(by_case) // 2] if by_case else results.table
+
+
 # --- what accuracy costs ---
 
 
 def draw_price(results: Results) -> Figure | None:
     """What accuracy costs: the time of a call over the imbalance it leaves, with 95 % intervals, of
     every method on the same points. A mark of several names is one and the same partition."""
-    by_case = list(cases(results.table).values())
-    if not by_case:
+    rows = _middle_case(results)
+    if rows.empty:
         return None
-    rows = by_case[len(by_case) // 2]
     figure, grid = plot.panels(1, 1, 8, 5)
     axes = grid[0, 0]
     marks = [_draw_mark(axes, names, row) for names, row in partitions(rows)]
@@ -96,24 +100,21 @@ def _shade_one_point(axes: Axes, rows: pd.DataFrame) -> None:
 
 def draw_parts(results: Results) -> Figure | None:
     """The points by part under each method, with the boxes of the parts."""
-    workloads = list(results.table["workload"].unique()) if len(results.table) else []
-    middle = workloads[len(workloads) // 2 :][:1]
-    rows = results.table[results.table["workload"].isin(middle)] if middle else []
-    found = {row.method: row for row in rows.itertuples()} if middle else {}
-    data = {name: [results.data(kind, middle[0], name) for kind in ("points", "boxes")] for name in found}
-    data = {name: (points, boxes) for name, (points, boxes) in data.items() if len(points)}
-    if not data:
+    found = []
+    for row in _middle_case(results).itertuples():
+        points, boxes = (results.data(kind, row.workload, row.method) for kind in ("points", "boxes"))
+        found += [(row, points, boxes)] * (len(points) > 0)
+    if not found:
         return None
-    columns = min(2, len(data))
-    lines = -(-len(data) // columns)
-    ratio = plot.length_ratio(points for points, _ in data.values())
-    size = (4.2 * columns, (4.2 * ratio + 0.8) * lines)
-    figure, grid = plot.panels(lines, columns, *size, sharex=True, sharey=True)
-    for axes in grid.flat[len(data) :]:
+    columns = min(2, len(found))
+    lines = -(-len(found) // columns)
+    height = 4.2 * plot.length_ratio(points for _, points, _ in found) + 0.8
+    figure, grid = plot.panels(lines, columns, 4.2 * columns, height * lines, sharex=True, sharey=True)
+    for axes in grid.flat[len(found) :]:
         axes.set_visible(False)
-    for axes, (name, (points, boxes)) in zip(grid.flat, data.items()):
+    for axes, (row, points, boxes) in zip(grid.flat, found):
         draw_part_boxes(axes, points, boxes, points)
-        axes.set_title(f"{name}: {found[name].imbalance:.5f}", fontsize=9)
+        axes.set_title(f"{row.method}: {row.imbalance:.5f}", fontsize=9)
     return figure
 
 
@@ -133,8 +134,12 @@ def draw_moving_boxes(results: Results) -> Figure | None:
     """Points of a scene by the rank that holds them, with the boxes of the ranks: balanced at the
     start, half of the simulation later still in these boxes, and after a call of rrcb."""
     scenes = [name.removesuffix("-start") for name in results.table.get("workload", ())]
-    data = [results.data(kind, f"{scene}-{moment}", METHOD)
-            for scene in scenes[:1] for moment in ("start", "middle") for kind in ("points", "boxes")]  # fmt: skip
+    data = [
+        results.data(kind, f"{scene}-{moment}", METHOD)
+        for scene in scenes[:1]
+        for moment in ("start", "middle")
+        for kind in ("points", "boxes")
+    ]
     if not data or any(rows.empty or "z" in rows for rows in data):
         return None
     start, old_boxes, later, new_boxes = data
@@ -168,9 +173,15 @@ def parts_in(points: pd.DataFrame, boxes: pd.DataFrame) -> np.ndarray:
     return found
 
 
+def draw_unbalance(results: Results) -> Figure | None:
+    """The largest load unbalance of a part over the steps of the simulation, the worst of each window
+    of steps."""
+    return draw_history(results.histories())
+
+
 PICTURES = {
     "price.png": draw_price,
     "parts.png": draw_parts,
     "moving_boxes.png": draw_moving_boxes,
-    "unbalance_history.png": draw_history,
+    "unbalance_history.png": draw_unbalance,
 }

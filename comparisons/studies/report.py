@@ -19,9 +19,10 @@ DEFINITIONS = (
     "imbalance: heaviest part / mean part. Lu: (ideal − actual) / ideal of a part, below 0 if it is"
     " too heavy. time: slowest rank, median of the repeats. times as fast: Zoltan RCB's time / this"
     " method's. bytes and messages: of one call over all ranks. into root: bytes that rank 0 receives."
-    " moved: weight that changes rank. ghosts: copies of points that parts need from others. gain kept:"
-    " of what ideal balance without cost would gain. wall: by the clock. In brackets: intervals of"
-    " 95 %; if the interval of a ratio contains 1, the two methods are not told apart."
+    " moved: weight that changes rank. ghosts: copies of points that parts need from others, the price"
+    " of their shape. neighbours: the most parts that a part needs them from. gain kept: of what ideal"
+    " balance without cost would gain. wall: by the clock. In brackets: intervals of 95 %; if the"
+    " interval of a ratio contains 1, the two methods are not told apart."
 )
 
 
@@ -42,7 +43,6 @@ def write_report(folder: Path) -> None:
     for case, rows in cases(results.table).items():
         size = f"{rows['points'].iloc[0]:,} points, {rows['ranks'].iloc[0]} ranks"
         report.table(f"{case}: {size}", method_table(rows))
-        report.table(f"{case}: ghosts, the price of the parts' shape", ghost_table(rows))
     _add_simulations(report, results)
     report.table("Noise: a baseline measured twice", noise_table(results.noise))
     for name, caption in captions.items():
@@ -99,19 +99,10 @@ def method_table(rows: pd.DataFrame) -> pd.DataFrame:
             "messages": _numbers(rows["messages"], ","),
             "into root": _numbers(rows["root_bytes_in"], ","),
             "moved %": _numbers(100 * rows["moved_fraction"], ".1f"),
-        }
-    )
-
-
-def ghost_table(rows: pd.DataFrame) -> pd.DataFrame:
-    """What the application pays for the shape of the parts."""
-    return pd.DataFrame(
-        {
-            "method": rows["method"],
             "ghosts": _numbers(rows["ghosts"], ",.0f"),
             "% of the points": _numbers(100 * rows["ghosts"] / rows["points"], ".1f"),
             "most on a part": _numbers(rows["ghosts_max"], ",.0f"),
-            "most neighbours": _numbers(rows["neighbours_max"], ".0f"),
+            "neighbours": _numbers(rows["neighbours_max"], ".0f"),
             "off the machine %": _numbers(100 * rows["off_machine_ghosts"] / rows["ghosts"], ".1f"),
         }
     )

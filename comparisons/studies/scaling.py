@@ -206,14 +206,16 @@ def report(out: Path, counts: dict[str, pd.DataFrame], paths: pd.DataFrame) -> N
     times = 1e3 * paths.pivot(index="ranks", columns="method", values="model_s")
     clock = read(out / "clock-2/table.csv").set_index("method")["time_ms_median"]
     pairs = [(m, f"{times.loc[2, m]:.2f}", f"{clock[NAMES[m]]:.2f}") for m in times]
-    found = Report("To a million ranks: counts and a model", out)
-    found.picture("scaling.png", "A call by the model; grey: counted here.")
-    for caption, rows in {
-        "Modelled time of a call, ms": times[::3].apply(lambda of: of.map("{:.3g}".format)).reset_index().astype(str),
+    by_ranks = times[::3].apply(lambda of: of.map("{:.3g}".format)).reset_index().astype(str)
+    tables = {
+        "Modelled time of a call, ms": by_ranks,
         "The model and a clock: 2 ranks of one machine, lists included":
             pd.DataFrame(pairs, columns=["method", "model ms", "clock ms"]),
         "A fit without the most ranks, compared with the counts on these": fit_errors(counts),
-    }.items():  # fmt: skip
+    }  # fmt: skip
+    found = Report("To a million ranks: counts and a model", out)
+    found.picture("scaling.png", "A call by the model; grey: counted here.")
+    for caption, rows in tables.items():
         found.table(caption, rows)
         show(caption, rows)
     found.write(out / "ranks-2/run.txt")

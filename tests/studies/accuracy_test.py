@@ -6,8 +6,8 @@ import unittest
 
 from support import measured, table
 
-import accuracy  # noqa: E402
-import pandas as pd  # noqa: E402
+import accuracy
+import pandas as pd
 
 ROWS = [
     measured("zoltan-rcb", 8, 1.0),
@@ -35,8 +35,8 @@ class AccuracyTest(unittest.TestCase):
         self.assertFalse(accuracy.is_within(table(measured("a", 1, 1.005)), "exact").any())
 
     def test_wants_the_tolerance_on_every_cloud(self) -> None:
-        mist = [measured(name, 2, imbalance, workload="mist")
-                for name, imbalance in (("rrcb[tol=1.05]", 1.2), ("rrcb-exact", 1.0), ("zoltan-rcb", 1.0))]  # fmt: skip
+        imbalances = {"rrcb[tol=1.05]": 1.2, "rrcb-exact": 1, "zoltan-rcb": 1}
+        mist = [measured(name, 2, value, workload="mist") for name, value in imbalances.items()]
         found = self.choice("1.10", ROWS + mist, accuracy.EVERYWHERE)
         self.assertEqual(found["setting"], "rrcb-exact")
         self.assertAlmostEqual(found["times_as_fast"], 2)  # of 4 and 1

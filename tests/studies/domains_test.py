@@ -8,9 +8,9 @@ from tempfile import TemporaryDirectory
 
 import support  # noqa: F401, before the studies
 
-import domains  # noqa: E402
-import pandas as pd  # noqa: E402
-import plot  # noqa: E402
+import domains
+import pandas as pd
+import plot
 
 ERRORS = {"box": 0.08, "analytic": 0.02, "counts": 0.01, "samples": 0.16, "floor": 0.005}
 

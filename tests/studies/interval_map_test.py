@@ -10,8 +10,8 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "studies"))
 
-import interval_map  # noqa: E402
-from results import read_all  # noqa: E402
+import interval_map
+from results import read_all
 
 COLUMNS = (
     "scene,ranks,method,best_every,overhead,predicted_every,predicted_overhead,auto_overhead,"

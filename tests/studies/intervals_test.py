@@ -11,7 +11,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "studies"))
 
-from intervals import Value, interval95, mean_of, median_of  # noqa: E402
+from intervals import Value, interval95, mean_of, median_of
 
 
 class IntervalTest(unittest.TestCase):

@@ -9,12 +9,12 @@ from pathlib import Path
 
 from support import simulated
 
-import boxes  # noqa: E402
-import claims  # noqa: E402
-import numpy as np  # noqa: E402
-import pandas as pd  # noqa: E402
-import paper_figures  # noqa: E402
-from methods import WINNERS  # noqa: E402
+import boxes
+import claims
+import numpy as np
+import pandas as pd
+import paper_figures
+from methods import WINNERS
 
 
 def mass_below(x: float, cut: float, mesh: int, multiplier: float) -> float:

@@ -10,8 +10,8 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "studies"))
 
-import rebalancing  # noqa: E402
-from results import read_all  # noqa: E402
+import rebalancing
+from results import read_all
 
 REGRETS = {"growth 1": (0.01, 0.5), "jumps 2": (0.03, 0.04), '"slope, cost 5"': (0.06, 0.0)}
 

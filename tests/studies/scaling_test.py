@@ -7,8 +7,8 @@ from math import log2
 
 import support  # noqa: F401, before the studies
 
-import pandas as pd  # noqa: E402
-import scaling  # noqa: E402
+import pandas as pd
+import scaling
 
 RANKS = (2, 4, 8, 16)
 COUNTS = pd.DataFrame(

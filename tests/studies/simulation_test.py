@@ -7,8 +7,8 @@ from math import isnan
 
 import support  # noqa: F401, before the studies
 
-import pandas as pd  # noqa: E402
-from simulation import KEY, MEDIANS, noise, summarise  # noqa: E402
+import pandas as pd
+from simulation import KEY, MEDIANS, noise, summarise
 
 
 def run(method: str, number: int, steps: float, balance: float = 0, **more: object) -> dict:

@@ -8,8 +8,8 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "comparisons" / "studies"))
 
-import pandas as pd  # noqa: E402
-from results import measurements  # noqa: E402
+import pandas as pd
+from results import measurements
 
 
 def measured(method: str, time: float, imbalance: float, spread: float | None = None, **more: object) -> dict:

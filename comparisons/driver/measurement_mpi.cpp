@@ -29,50 +29,38 @@ struct Judgement {
 
 /// A method under measurement; without a partitioner once it has failed.
 struct Candidate {
+    Candidate(const Method& measured, const Workload& workload, Lists lists, MPI_Comm comm)
+        : method(measured) {
+        result.method = method.label;
+        try {
+            partitioner = make_partitioner(method, workload, lists, comm);
+        } catch (const Failure& failure) {
+            result.error = failure.what();
+        }
+    }
+
+    int num_judged() const { return varies_with_seed(method) ? num_judged_seeds : 1; }
+
+    /// Of the calls, which take the seeds in turn.
+    void choose_seed(int turn) const {
+        if (varies_with_seed(method))
+            partitioner->use_seed(method.seed() + static_cast<unsigned>(turn % num_judged_seeds));
+    }
+
+    Method method;
     std::unique_ptr<Partitioner> partitioner;
-    std::optional<OwnOptions> options{};  ///< of our own methods
-    std::vector<std::uint64_t> seeds;     ///< to be used in turn; none where there is no choice
-    Measurement measurement;
+    Measurement result;
     std::vector<Judgement> judgements;  ///< one per seed
     std::vector<rrcb::Part> before;     ///< parts of the points before they moved last
-
-    int num_judged() const { return std::max(1, static_cast<int>(seeds.size())); }
 };
-
-std::vector<std::uint64_t> seeds_of(const Method& method) {
-    if (!varies_with_seed(method)) return {};
-    std::vector<std::uint64_t> seeds(num_judged_seeds);
-    std::iota(seeds.begin(), seeds.end(), method.seed());
-    return seeds;
-}
-
-Candidate make_candidate(const Workload& workload, const Method& method, Lists lists,
-                         MPI_Comm comm) {
-    Candidate candidate;
-    candidate.options = method.options;
-    candidate.seeds = seeds_of(method);
-    candidate.measurement.method = method.label;
-    try {
-        candidate.partitioner = make_partitioner(method, workload, lists, comm);
-    } catch (const Failure& failure) {
-        candidate.measurement.error = failure.what();
-    }
-    return candidate;
-}
-
-void choose_seed(const Candidate& candidate, int turn) {
-    if (candidate.seeds.empty()) return;
-    candidate.partitioner->use_seed(
-        candidate.seeds[static_cast<std::size_t>(turn) % candidate.seeds.size()]);
-}
 
 void note_code(Candidate& candidate, int code, MPI_Comm comm) {
     const bool failed = code != ZOLTAN_OK && code != ZOLTAN_WARN;
-    candidate.measurement.error = first_message(
+    candidate.result.error = first_message(
         failed ? candidate.partitioner->function() + " failed with code " + std::to_string(code)
                : std::string(),
         comm);
-    if (!candidate.measurement.error.empty()) candidate.partitioner.reset();
+    if (!candidate.result.error.empty()) candidate.partitioner.reset();
 }
 
 /// One call; milliseconds on the slowest rank. The lists are still there.
@@ -133,7 +121,7 @@ void count_and_judge(Candidate& candidate, const Workload& workload, bool drifts
     const int code = candidate.partitioner->partition();
     const Traffic traffic = stop_counting_traffic();
     const bool is_first = candidate.judgements.empty();
-    Measurement& result = candidate.measurement;
+    Measurement& result = candidate.result;
     if (is_first) {
         result.calls = over_all_ranks(counted_calls(), comm);
         result.traffic = over_all_ranks(traffic, comm);
@@ -148,11 +136,11 @@ void count_and_judge(Candidate& candidate, const Workload& workload, bool drifts
     if (is_first) result.parts = std::move(parts);
 }
 
-/// What the calls of all seeds come to.
-Measurement concluded(Candidate&& candidate) {
-    Measurement result = std::move(candidate.measurement);
+/// Notes what the calls of all seeds come to.
+void conclude(Candidate& candidate) {
+    Measurement& result = candidate.result;
     std::vector<Judgement>& judgements = candidate.judgements;
-    if (!result.error.empty() || judgements.empty()) return result;
+    if (!result.error.empty() || judgements.empty()) return;
     std::vector<double> moved;
     for (const Judgement& judgement : judgements) {
         result.imbalances.push_back(judgement.imbalance);
@@ -163,7 +151,6 @@ Measurement concluded(Candidate&& candidate) {
                       [](const Judgement& j) { return std::abs(j.worst_unbalance_percent); });
     result.worst_unbalance_percent =
         judgements[(judgements.size() - 1) / 2].worst_unbalance_percent;
-    return result;
 }
 
 /// A first call that is not timed, then the repeats; between them the points drift.
@@ -173,9 +160,9 @@ void time_in_turns(std::span<Candidate> candidates, int repeats, const Drift& dr
         for (Candidate& candidate : candidates) {
             progress.advance();
             if (!candidate.partitioner) continue;
-            choose_seed(candidate, std::max(0, call - 1));
+            candidate.choose_seed(std::max(0, call - 1));
             const double elapsed = timed_call(candidate, comm);
-            if (call > 0) candidate.measurement.times_ms.push_back(elapsed);
+            if (call > 0) candidate.result.times_ms.push_back(elapsed);
             if (!candidate.partitioner) continue;
             if (drift.moves()) candidate.before = candidate.partitioner->parts();
             candidate.partitioner->free_lists();
@@ -190,13 +177,14 @@ void judge_all(std::span<Candidate> candidates, const Workload& workload, bool d
         for (int call = 0; call < candidate.num_judged(); ++call) {
             progress.advance();
             if (!candidate.partitioner) continue;
-            choose_seed(candidate, call);
+            candidate.choose_seed(call);
             count_and_judge(candidate, workload, drifts, comm);
             if (candidate.partitioner) candidate.partitioner->free_lists();
         }
-        if (candidate.partitioner && candidate.options)
-            candidate.measurement.rounds =
-                balance(*candidate.options, workload.points(), comm).report.details.rounds;
+        if (candidate.partitioner && candidate.method.options)
+            candidate.result.rounds =
+                balance(*candidate.method.options, workload.points(), comm).report.details.rounds;
+        conclude(candidate);
     }
 }
 
@@ -212,7 +200,7 @@ std::vector<Measurement> measure(const Workload& workload, std::span<const Metho
         // Parts are compared by number, and by no numbers that follow where points are kept.
         Method measured = method;
         measured.keeps_numbers = drift.moves();
-        candidates.push_back(make_candidate(moving, measured, plan.lists, comm));
+        candidates.emplace_back(measured, moving, plan.lists, comm);
         num_calls += plan.repeats + 1 + candidates.back().num_judged();
     }
     progress.start(workload.name + ": methods", num_calls);
@@ -221,7 +209,7 @@ std::vector<Measurement> measure(const Workload& workload, std::span<const Metho
     const GhostCounter ghosts(moving, plan.ghosts, comm);
     std::vector<Measurement> measurements;
     for (Candidate& candidate : candidates) {
-        Measurement& result = measurements.emplace_back(concluded(std::move(candidate)));
+        Measurement& result = measurements.emplace_back(std::move(candidate.result));
         if (result.error.empty()) result.ghosts = ghosts.count(result.parts, size_of(comm));
     }
     return measurements;

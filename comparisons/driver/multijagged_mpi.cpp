@@ -3,8 +3,10 @@
 #include <Kokkos_Core.hpp>
 #include <Zoltan2_BasicVectorAdapter.hpp>
 #include <Zoltan2_PartitioningProblem.hpp>
+#include <zoltan.h>
 
 #include <cstdlib>
+#include <exception>
 #include <numeric>
 
 namespace comparisons {
@@ -49,35 +51,43 @@ Teuchos::ParameterList parameters_of(double tolerance) {
     return parameters;
 }
 
-}  // namespace
+class MultijaggedPartitioner : public Partitioner {
+  public:
+    MultijaggedPartitioner(const MultijaggedPoints& points, double tolerance, MPI_Comm comm)
+        : ids_(numbered(points.count, comm)),
+          adapter_(make_adapter(points, ids_)),
+          parameters_(parameters_of(tolerance)),
+          problem_(&adapter_, &parameters_, comm) {}
 
-struct Multijagged::Problem {
-    Problem(const MultijaggedPoints& points, double tolerance, MPI_Comm comm)
-        : ids(numbered(points.count, comm)),
-          adapter(make_adapter(points, ids)),
-          parameters(parameters_of(tolerance)),
-          problem(&adapter, &parameters, comm) {}
+    int partition() override {
+        try {
+            problem_.solve();
+        } catch (const std::exception&) {
+            return ZOLTAN_FATAL;
+        }
+        return ZOLTAN_OK;
+    }
 
-    std::vector<long long> ids;
-    Adapter adapter;
-    Teuchos::ParameterList parameters;
-    Zoltan2::PartitioningProblem<Adapter> problem;
+    std::vector<int> parts() const override {
+        const int* parts = problem_.getSolution().getPartListView();
+        return {parts, parts + ids_.size()};
+    }
+
+    std::string function() const override { return "multijagged"; }
+
+  private:
+    std::vector<long long> ids_;
+    Adapter adapter_;
+    Teuchos::ParameterList parameters_;
+    Zoltan2::PartitioningProblem<Adapter> problem_;
 };
 
-Multijagged::Multijagged(const MultijaggedPoints& points, double tolerance, MPI_Comm comm) {
+}  // namespace
+
+std::unique_ptr<Partitioner> make_multijagged(const MultijaggedPoints& points, double tolerance,
+                                              MPI_Comm comm) {
     start_kokkos();
-    problem_ = std::make_unique<Problem>(points, tolerance, comm);
-}
-
-Multijagged::~Multijagged() = default;
-
-void Multijagged::partition() {
-    problem_->problem.solve();
-}
-
-std::vector<int> Multijagged::parts() const {
-    const int* parts = problem_->problem.getSolution().getPartListView();
-    return {parts, parts + problem_->ids.size()};
+    return std::make_unique<MultijaggedPartitioner>(points, tolerance, comm);
 }
 
 }  // namespace comparisons

@@ -15,8 +15,6 @@
 
 #ifdef RRCB_HAS_ZOLTAN2
 #include "multijagged_mpi.hpp"
-
-#include <exception>
 #endif
 
 namespace comparisons {
@@ -76,7 +74,7 @@ class ArraysPartitioner : public Partitioner {
         return ZOLTAN_OK;
     }
 
-    std::vector<rrcb::Part> parts() const override { return balance_->parts; }
+    std::vector<int> parts() const override { return balance_->parts; }
     std::string function() const override { return on_arrays; }
 
     void free_lists() override { balance_.reset(); }
@@ -87,33 +85,6 @@ class ArraysPartitioner : public Partitioner {
     MPI_Comm comm_;
     std::optional<rrcb::Balance> balance_;
 };
-
-#ifdef RRCB_HAS_ZOLTAN2
-class MultijaggedPartitioner : public Partitioner {
-  public:
-    MultijaggedPartitioner(const Workload& workload, MPI_Comm comm)
-        : multijagged_({workload.points().count, workload.dimension, workload.coordinates.data(),
-                        workload.weighted ? workload.weights.data() : nullptr},
-                       multijagged_tolerance, comm) {}
-
-    int partition() override {
-        try {
-            multijagged_.partition();
-        } catch (const std::exception&) {
-            return ZOLTAN_FATAL;
-        }
-        return ZOLTAN_OK;
-    }
-
-    std::vector<rrcb::Part> parts() const override { return multijagged_.parts(); }
-    std::string function() const override { return multijagged; }
-
-    void free_lists() override {}  // Zoltan2 keeps its solution until the next one
-
-  private:
-    Multijagged multijagged_;
-};
-#endif
 
 }  // namespace
 
@@ -131,19 +102,14 @@ ZoltanPartitioner::ZoltanPartitioner(const ZoltanParameters& parameters, const W
     Zoltan_Set_Obj_List_Fn(zoltan_, object_list, &points_);
     Zoltan_Set_Num_Geom_Fn(zoltan_, dimension, &points_);
     Zoltan_Set_Geom_Multi_Fn(zoltan_, coordinates, &points_);
-    number_points();
+    const auto count = static_cast<ZOLTAN_ID_TYPE>(points_.points.count);
+    MPI_Scan(&count, &points_.first_id, 1, ZOLTAN_ID_MPI_TYPE, MPI_SUM, comm);
+    points_.first_id -= count;
 }
 
 ZoltanPartitioner::~ZoltanPartitioner() {
     ZoltanPartitioner::free_lists();
     Zoltan_Destroy(&zoltan_);
-}
-
-void ZoltanPartitioner::number_points() {
-    const auto count = static_cast<ZOLTAN_ID_TYPE>(points_.points.count);
-    ZOLTAN_ID_TYPE end = count;
-    MPI_Scan(MPI_IN_PLACE, &end, 1, ZOLTAN_ID_MPI_TYPE, MPI_SUM, comm_);
-    points_.first_id = end - count;
 }
 
 int ZoltanPartitioner::partition() {
@@ -156,7 +122,7 @@ int ZoltanPartitioner::partition() {
                                &exports_.local_ids, &exports_.ranks, &exports_.parts);
 }
 
-std::vector<rrcb::Part> ZoltanPartitioner::parts() const {
+std::vector<int> ZoltanPartitioner::parts() const {
     const int rank = rank_of(comm_);
     std::vector<rrcb::Part> parts(points_.points.count, rank);
     for (int i = 0; i < exports_.count; ++i) parts[exports_.local_ids[i]] = exports_.parts[i];
@@ -199,21 +165,13 @@ std::unique_ptr<Partitioner> make_partitioner(const Method& method, const Worklo
     }
 #ifdef RRCB_HAS_ZOLTAN2
     if (method.lb_method == multijagged) {
-        return std::make_unique<MultijaggedPartitioner>(workload, comm);
+        return make_multijagged(
+            {workload.points().count, workload.dimension, workload.coordinates.data(),
+             workload.weighted ? workload.weights.data() : nullptr},
+            multijagged_tolerance, comm);
     }
 #endif
     return std::make_unique<ZoltanPartitioner>(zoltan_parameters(method, lists), workload, comm);
-}
-
-std::vector<double> interleaved(mpm::Positions positions) {
-    const std::size_t dimension = positions.z.empty() ? 2 : 3;
-    std::vector<double> coordinates;
-    coordinates.reserve(dimension * positions.size());
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        const mpm::Vector at = positions[i];
-        coordinates.insert(coordinates.end(), at.begin(), at.begin() + dimension);
-    }
-    return coordinates;
 }
 
 std::optional<mpm::Balancer> make_balancer(const Method& method) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "method.hpp"
+#include "partitioner.hpp"
 #include "workload_mpi.hpp"
 
 #include <rrcb/points.hpp>
@@ -16,32 +17,6 @@
 #include <vector>
 
 namespace comparisons {
-
-/// What is measured: one partition after the other of the same points, one part per rank.
-class Partitioner {
-  public:
-    Partitioner() = default;
-    virtual ~Partitioner() = default;
-    Partitioner(const Partitioner&) = delete;
-    Partitioner& operator=(const Partitioner&) = delete;
-
-    /// Partitions; the result of an earlier call must have been freed. Collective; returns
-    /// Zoltan's code on this rank.
-    virtual int partition() = 0;
-
-    /// Part of every local point, as the result tells. Not collective.
-    virtual std::vector<rrcb::Part> parts() const = 0;
-
-    /// What it calls, for what is told of a failure. Not collective.
-    virtual std::string function() const = 0;
-
-    /// Frees the result; nothing when there is none. Not collective.
-    virtual void free_lists() = 0;
-
-    /// Seed of the next partitions' pseudo-random points; nothing to methods without any.
-    /// Not collective, but the same on every rank.
-    virtual void use_seed(std::uint64_t) {}
-};
 
 /// What the callbacks see: the points of this rank, numbered through over all ranks.
 struct NumberedPoints {
@@ -59,7 +34,7 @@ class ZoltanPartitioner : public Partitioner {
     ~ZoltanPartitioner() override;
 
     int partition() override;
-    std::vector<rrcb::Part> parts() const override;
+    std::vector<int> parts() const override;
     std::string function() const override { return "Zoltan_LB_Partition"; }
     void free_lists() override;                  ///< Zoltan_LB_Free_Part
     void use_seed(std::uint64_t seed) override;  ///< RRCB_SEED
@@ -69,8 +44,6 @@ class ZoltanPartitioner : public Partitioner {
     rrcb::Box box_of(rrcb::Part part) const;
 
   private:
-    void number_points();
-
     struct ObjectLists {
         int count = -1;
         ZOLTAN_ID_PTR global_ids = nullptr;
@@ -91,9 +64,6 @@ class ZoltanPartitioner : public Partitioner {
 /// Throws Failure when a parameter is refused.
 std::unique_ptr<Partitioner> make_partitioner(const Method& method, const Workload& workload,
                                               Lists lists, MPI_Comm comm);
-
-/// Coordinates of a simulation's points as a workload has them.
-std::vector<double> interleaved(mpm::Positions positions);
 
 /// A method as the simulation takes it; none when its parts are no boxes (RIB, HSFC).
 ///

@@ -75,12 +75,8 @@ def table_of(errors: pd.DataFrame) -> str:
     all_ratios = {kind: ratios(errors, kind) for kind in others}
     lines = [["cloud", "dim", *others]]
     for case, _ in errors.groupby(["cloud", "dim"], sort=False):
-        lines.append([case[0], str(case[1]), *(_text(all_ratios[kind], case) for kind in others)])
+        lines.append([*case, *(spread_of(all_ratios[kind].loc[case]).text(2) for kind in others)])
     return markdown_table(lines)
-
-
-def _text(logs: pd.Series, case: tuple) -> str:
-    return spread_of(logs.loc[case]).text(2)
 
 
 def draw_errors(means: pd.DataFrame) -> Figure:
@@ -102,10 +98,10 @@ def draw_errors(means: pd.DataFrame) -> Figure:
 def _draw_case(axes: Axes, rows: pd.DataFrame) -> None:
     for kind, (method, line) in KINDS.items():
         points = rows[rows["kind"] == kind].sort_values("bytes")
-        values = [Value(*row) for row in points[["number", "low", "high"]].itertuples(index=False)]
-        if values:
-            look = {"color": plot.method_style(method).colour, "linestyle": line, "marker": "."}
-            plot.draw_line(axes, points["bytes"], values, label=kind, **look)
+        if len(points):
+            columns = (points[name] for name in ("bytes", "number", "low", "high"))
+            colour = plot.method_style(method).colour
+            plot.draw_line(axes, *columns, label=kind, color=colour, linestyle=line, marker=".")
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.grid(True)

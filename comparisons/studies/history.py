@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 import plot
-from intervals import Value
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -59,10 +58,9 @@ def draw_parts_of(axes: Axes, method: str, history: pd.DataFrame) -> None:
     axes.axhline(0, color="#999999", linewidth=0.6)
     windows = _windows(len(times))
     for part, of_part in enumerate(unbalance):
-        ends = zip(*(end.reduceat(of_part, windows) for end in (np.fmin, np.fmax)))
-        values = [Value((low + high) / 2, low, high) for low, high in ends]
-        colour = plot.PART_COLOURS[part % len(plot.PART_COLOURS)]
-        plot.draw_line(axes, times[windows], values, 0.35, color=colour, linewidth=0.9)
+        low, high = (end.reduceat(of_part, windows) for end in (np.fmin, np.fmax))
+        look = {"color": plot.PART_COLOURS[part % len(plot.PART_COLOURS)], "linewidth": 0.9}
+        plot.draw_line(axes, times[windows], (low + high) / 2, low, high, 0.35, **look)
     axes.set_ylabel("Lu [%]")
     most = np.nanmax(np.abs(unbalance))
     axes.set_title(f"{method}: |Lu| ≤ {most:.2g} %, a scale of its own", fontsize=9, loc="left")

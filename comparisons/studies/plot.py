@@ -13,7 +13,6 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 import pandas as pd  # noqa: E402
-from intervals import Value  # noqa: E402
 from matplotlib.axes import Axes  # noqa: E402
 from matplotlib.axis import Axis  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
@@ -170,15 +169,13 @@ def _plain_number(value: float, _: int) -> str:
 
 
 def draw_line(
-    axes: Axes, x: Sequence[float], values: Iterable[Value], band: float = 0.15, **look
-) -> Line2D:
-    """Through the numbers, in a band of their intervals."""
-    values = list(values)
-    (line,) = axes.plot(x, [v.number for v in values], **look)
-    low, high = zip(*(v.reach for v in values))
-    if len(values) > 1:  # else it would be as high as it is invisible
+    axes: Axes, x: Sequence[float], y: Sequence[float], low: Sequence[float], high: Sequence[float],
+    band: float = 0.15, **look
+) -> None:
+    """Through the numbers, in a band from low to high."""
+    (line,) = axes.plot(x, y, **look)
+    if len(y) > 1:  # else it would be as high as it is invisible
         axes.fill_between(x, low, high, color=line.get_color(), alpha=band, linewidth=0)
-    return line
 
 
 def show_lengths(axes: Axes) -> None:

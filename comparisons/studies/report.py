@@ -33,9 +33,8 @@ def write_report(folder: Path) -> None:
             rows.to_csv(folder / name, index=False)
     captions = pictures.draw_all(results)
     report = Report("RRCB compared with Zoltan's balancers", folder)
-    if results.record.get("busy") == "yes":
-        share = results.record["processor time used by other processes"]
-        report.text(f"The machine was busy: other processes used {share} of its processor time.")
+    if results.busy:
+        report.text(f"The machine was busy: other processes used {results.busy} of its processor time.")
     report.picture("price.png", captions.pop("price.png", ""))
     for text in sentences(results):
         report.text(text)

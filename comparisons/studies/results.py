@@ -89,11 +89,12 @@ class Results:
         return noise(self.all_runs, self.turns)
 
     @cached_property
-    def record(self) -> dict[str, str]:
-        """The lines `name: value` of run.txt."""
+    def busy(self) -> str:
+        """The share of processor time that other processes took, if that was much."""
         path = self.folder / "run.txt"
-        lines = path.read_text().splitlines() if path.exists() else []
-        return dict(line.split(": ", 1) for line in lines if ": " in line)
+        text = path.read_text() if path.exists() else ""
+        share = re.search(r"used by other processes: (.*)", text)
+        return share[1] if share and "\nbusy: yes" in text else ""
 
     def histories(self) -> dict[str, pd.DataFrame]:
         """The rows of each method in history.csv."""

@@ -98,9 +98,9 @@ def main() -> int:
     arguments = _read_arguments()
     out = arguments.out
     out.mkdir(parents=True, exist_ok=True)
-    if arguments.driver == COMPARE:
+    if not arguments.driver:
         build("rrcb_compare")
-    driver = Driver(out, arguments.driver, arguments.quick)
+    driver = Driver(out, arguments.driver or COMPARE, arguments.quick)
     for part in arguments.only:
         PARTS[part](driver)
     plot.use_style()
@@ -127,7 +127,7 @@ def _read_arguments() -> argparse.Namespace:
                         help=f"what to measure, by commas: {', '.join(PARTS)}; all but seeds and"
                         f" {CLOUDS}. The rest is read from the folder.")  # fmt: skip
     parser.add_argument("--quick", action="store_true", help="a small run of everything")
-    parser.add_argument("--driver", type=Path, default=COMPARE, help="the program to run")
+    parser.add_argument("--driver", type=Path, help="the program to run, which is not built then")
     return parser.parse_args()
 
 

@@ -228,14 +228,14 @@ def main() -> int:
     parser.add_argument("--bandwidth-gb", type=float, default=12.0)
     parser.add_argument("--points-per-rank", type=int, default=50_000)
     parser.add_argument("--quick", action="store_true", help="up to 8 ranks")
-    parser.add_argument("--driver", type=Path, default=COMPARE, help="the program to run")
+    parser.add_argument("--driver", type=Path, help="the program to run, which is not built then")
     given = parser.parse_args()
     if not min(given.latency_us, given.bandwidth_gb, given.points_per_rank) > 0:
         parser.error("latency, bandwidth and points must be above 0")
     given.out.mkdir(parents=True, exist_ok=True)
-    if given.driver == COMPARE:
+    if not given.driver:
         build("rrcb_compare", "rrcb_virtual_ranks", multijagged=True)
-    count(driver := Driver(given.out, given.driver, given.quick), given.points_per_rank)
+    count(driver := Driver(given.out, given.driver or COMPARE, given.quick), given.points_per_rank)
     search_virtually(driver)
     machine = Machine(given.latency_us * 1e-6, given.bandwidth_gb * 1e9, given.points_per_rank)
     counts = read_counts(given.out)

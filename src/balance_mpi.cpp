@@ -3,6 +3,7 @@
 #include "bisection/limited_bisection.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "collective/machines_mpi.hpp"
 #include "cuts/cut_limits.hpp"
 #include "cuts/direct_assignment.hpp"
 #include "gather/earlier_cuts.hpp"
@@ -33,11 +34,13 @@ namespace {
 
 /// A call on one rank.
 struct Call {
-    Call(const Points& given, StageObserver* observer) : points(given) {
+    Call(const Points& given, StageObserver* observer, Participant& self)
+        : points(given), ranks{mpi::size_of(self.comm), mpi::ranks_per_machine(self)} {
         options.parts.observer = observer;
     }
 
     Points points;  ///< without weights if all of them are 0
+    Ranks ranks;
     CallOptions options;
     Contribution mine;
     Decision decision;
@@ -47,16 +50,14 @@ struct Call {
 };
 
 /// Completes the options, and summarizes them and the points for the other ranks.
-void introduce(const Options& given, const Box& box, const Cuts* previous, Call& call,
-               const Participant& self) {
-    const int num_ranks = mpi::size_of(self.comm);
+void introduce(const Options& given, const Box& box, const Cuts* previous, Call& call) {
     const Points& points = call.points;
-    Options options = complete(given, num_ranks);
+    Options options = complete(given, call.ranks, previous);
     check_options(options, points.dimension);
     if (previous) check_previous(*previous, options, points.dimension);
     call.mine.summary = summarize(points, box);
     call.mine.summary.request = request_of(options, points.dimension, previous);
-    call.options = call_options(std::move(options), num_ranks);
+    call.options = call_options(std::move(options), call.ranks.number);
     call.result.parts.resize(points.count);
 }
 
@@ -81,7 +82,7 @@ void prepare(const Options& given, bool may_keep, Call& call, KeptParts& kept,
     const StageScope stage(given.observer, Stage::moments);
     const Points& points = call.points;
     const Box box = check_points(points);
-    introduce(given, box, nullptr, call, self);
+    introduce(given, box, nullptr, call);
     const Options& central = call.options.central();
     kept.prepare(call.options, points, may_keep, mpi::rank_of(self.comm), mpi::size_of(self.comm),
                  call.mine);
@@ -107,7 +108,7 @@ void settle(Call& call, Participant& self) {
 
 Balance balance_from_scratch(const Points& points, const Options& given, bool may_keep,
                              Participant& self) {
-    Call call(points, given.observer);
+    Call call(points, given.observer, self);
     KeptParts kept;
     self.attempt([&] { prepare(given, may_keep, call, kept, self); });
     estimate(call, self);
@@ -142,7 +143,7 @@ void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call, Ea
     const StageScope stage(given.observer, Stage::assignment);
     const Points& points = call.points;
     check_arrays(points);
-    introduce(given, Box{}, &previous, call, self);
+    introduce(given, Box{}, &previous, call);
     if (!may_reuse(previous, call.options)) return;
     const Options& central = call.options.central();
     std::vector<Part>& parts = call.result.parts;
@@ -223,7 +224,7 @@ Balance better(Balance&& reused, Balance&& anew, const Options& options) {
 
 Balance balance_from_earlier(const Points& points, const Options& given, const Cuts& previous,
                              bool may_keep, Participant& self) {
-    Call call(points, given.observer);
+    Call call(points, given.observer, self);
     EarlierParts earlier;
     self.attempt([&] { prepare_to_reuse(given, previous, call, earlier, self); });
     // Both begin with the same messages, so a rank that has failed does not wait alone.

@@ -106,9 +106,14 @@ struct Options {
     Coincident coincident = Coincident::together;
     HeldCuts cuts = HeldCuts::whole;  ///< that each rank gets if many ranks make the parts
 
-    Axes axes{};       ///< that are cut, and where
-    TreeShape tree{};  ///< of the cuts; groups keep the parts of a machine together
-    Tuning tuning{};   ///< for experts
+    Axes axes{};  ///< that are cut, and where
+
+    /// Shape of the tree of cuts. With a group_size of 0 whole machines are cut off first, so that
+    /// less is sent between machines; that needs as many consecutive ranks on each machine, on the
+    /// last perhaps fewer, and as many parts on each rank. Otherwise, and on 1, 2, 4, ... full
+    /// machines, the parts are halved. A call from earlier cuts takes their shape.
+    TreeShape tree{0};
+    Tuning tuning{};  ///< for experts
 
     StageObserver* observer = nullptr;  ///< of this rank alone, not compared; borrowed for the call
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rrcb/plan.hpp>
+#include <rrcb/tree_shape.hpp>
 
 #include <mpi.h>
 
@@ -27,16 +28,18 @@ struct Remap {
 ///
 /// The largest overlap of a rank and a part gets its number first, which keeps at least half of the
 /// most that any numbers keep; each rank names its largest overlaps. Numbers that gain nothing are
-/// left as they are. Sizes of parts are not looked at. Throws Error on every rank if one names a
-/// part that does not exist, ranks that differ or do not exist, or has no memory.
+/// left as they are. Sizes of parts are not looked at. Parts of a group of `shape`, that of the
+/// cuts, stay in one group, so that the parts of a machine do. Throws Error on every rank if one
+/// names a part that does not exist, ranks that differ or do not exist, or has no memory.
 RRCB_API Remap remap(std::span<const Part> parts, std::span<const RankRange> ranks_of_parts,
-                     MPI_Comm comm);
+                     MPI_Comm comm, const TreeShape& shape = {});
 
 /// Numbers the parts so that many points keep the number of their part.
 ///
 /// As above. `previous` is the part that each local point was in, as long as `parts`; numbers of
 /// parts that no longer exist count nothing.
 RRCB_API Remap remap(std::span<const Part> parts, std::span<const Part> previous,
-                     std::span<const RankRange> ranks_of_parts, MPI_Comm comm);
+                     std::span<const RankRange> ranks_of_parts, MPI_Comm comm,
+                     const TreeShape& shape = {});
 
 }  // namespace rrcb

@@ -46,11 +46,13 @@ typedef struct rrcb_cut {
     double at[3];    /**< a plane at at[axis]; ties are broken by the others */
 } rrcb_cut;
 
-/** The tree of cuts, as rrcb::Cuts of the default shape: num_parts - 1 of them in preorder. */
+/** The tree of cuts, as rrcb::Cuts: num_parts - 1 of them in preorder. */
 typedef struct rrcb_cuts {
     int dimension;        /**< of the points */
     int num_parts;        /**< of the whole tree */
     const rrcb_cut* tree; /**< num_parts - 1 cuts, borrowed */
+    int group_size;       /**< of rrcb::TreeShape; 0 as 1 */
+    int larger_below;     /**< 1: rrcb::TreeShape::larger_below */
 } rrcb_cuts;
 
 /** Of the last balance, as rrcb::Report. */

@@ -14,7 +14,7 @@ struct TreeShape {
 
     /// Returns the number of a node's parts below its cut; `num_parts` >= 2. Not collective.
     constexpr int lower_parts(int num_parts) const {
-        if (group_size == 1 || num_parts <= group_size) return lower_half(num_parts);
+        if (group_size <= 1 || num_parts <= group_size) return lower_half(num_parts);
         return lower_half((num_parts - 1) / group_size + 1) * group_size;
     }
 

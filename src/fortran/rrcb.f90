@@ -173,15 +173,18 @@ contains
   end subroutine
 
   !> The cuts belong to the balancer until it gets others. An error before the first, with
-  !> `dimension` 0, and if the balancer holds a part of them only.
-  subroutine balancer_get_cuts(self, dimension, cuts, error)
+  !> `dimension` 0, and if the balancer holds a part of them only. set_cuts takes them
+  !> back with their `group_size`, 1 by default.
+  subroutine balancer_get_cuts(self, dimension, cuts, error, group_size)
     class(rrcb_balancer), intent(in) :: self
     integer, intent(out) :: dimension
     type(rrcb_cut), pointer, intent(out) :: cuts(:)
     integer, intent(out) :: error
+    integer, intent(out), optional :: group_size
     type(c_cuts) :: from
     error = c_get_cuts(self%handle, from)
     dimension = from%dimension
+    if (present(group_size)) group_size = from%group_size
     call c_f_pointer(from%tree, cuts, [from%num_parts - 1])
   end subroutine
 
@@ -193,13 +196,15 @@ contains
   end subroutine
 
   !> Copies cuts of an earlier run, one less than there are parts.
-  subroutine balancer_set_cuts(self, dimension, cuts, error)
+  subroutine balancer_set_cuts(self, dimension, cuts, error, group_size)
     class(rrcb_balancer), intent(inout) :: self
     integer, intent(in) :: dimension
     type(rrcb_cut), intent(in), target, contiguous :: cuts(:)
     integer, intent(out) :: error
+    integer, intent(in), optional :: group_size
     type(c_cuts) :: given
     given = c_cuts(int(dimension, c_int), size(cuts) + 1, c_null_ptr)
+    if (present(group_size)) given%group_size = int(group_size, c_int)
     if (size(cuts) > 0) given%tree = c_loc(cuts)
     error = c_set_cuts(self%handle, given)
   end subroutine

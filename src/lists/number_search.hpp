@@ -30,10 +30,17 @@ struct NumberRule {
     bool is_spread = false;  ///< all ranks search; else rank 0 does
     /// Ranks of the parts, ascending; the first one of a part counts. Empty: as ranks_of_part().
     std::span<const RankRange> listed{};
+    int group_size = 1;  ///< of TreeShape; parts get the numbers of parts of their group
 
     /// Origin whose points a part of this number keeps, and the numbers that keep those of it.
     std::int32_t home_of(Part number) const;
     PartRange numbers_of(std::int32_t origin) const;
+
+    /// Whether the numbers that keep the points of an origin are of the group of a part.
+    bool is_in_group(Part part, std::int32_t origin) const {
+        return group_size == 1 || origin == no_origin ||
+               numbers_of(origin).first / group_size == part / group_size;
+    }
 
     int searcher_of(Part part) const;
     int searcher_of_origin(std::int32_t origin) const {

@@ -3,6 +3,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "lists/group_numbers_mpi.hpp"
 #include "options/rejection.hpp"
 
 #include <rrcb/options.hpp>
@@ -31,22 +32,23 @@ void pass(Butterfly& butterfly, Butterfly::Direction direction, bool flag, Remap
 
 std::vector<Overlap> count_overlaps(std::span<const Part> parts, const PreviousParts& previous,
                                     const NumberRule& rule, int rank) {
-    const auto [first, end] = rule.numbers_of(rank);
-    const std::int32_t own = rule.by_rank && first < end ? rank : no_origin;
+    const Origins origins(previous, rule, rank);
+    const auto origin_in_group = [&](std::int32_t origin, Part part) {
+        return rule.is_in_group(part, origin) ? origin : no_origin;
+    };
     std::vector<Overlap> overlaps;
     // A table where it is no longer than the list of points: a map takes most of the call.
     if (rule.by_rank && static_cast<std::size_t>(rule.num_parts) <= parts.size()) {
         std::vector<GlobalCount> of_parts(static_cast<std::size_t>(rule.num_parts));
         for (const Part part : parts) ++of_parts[part];
         for (Part part = 0; part < rule.num_parts; ++part)
-            if (of_parts[part] > 0) overlaps.push_back({own, part, of_parts[part]});
+            if (of_parts[part] > 0)
+                overlaps.push_back({origin_in_group(origins.own(), part), part, of_parts[part]});
         return overlaps;
     }
     std::unordered_map<Key, GlobalCount> counts;
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        std::int32_t origin = own;
-        if (!rule.by_rank && previous && (*previous)[i] >= 0 && (*previous)[i] < rule.num_parts)
-            origin = (*previous)[i];
+        const std::int32_t origin = origin_in_group(origins.of(i), parts[i]);
         ++counts[(static_cast<Key>(parts[i]) << 32) | static_cast<std::uint32_t>(origin)];
     }
     for (const auto& [pair, count] : counts)
@@ -212,12 +214,13 @@ void check_parts(std::span<const Part> parts, const PreviousParts& previous,
 
 /// Chooses between the two ways as a balance with default options does.
 Remap remap_by_size(std::span<const Part> parts, const PreviousParts& previous,
-                    std::span<const RankRange> ranks_of_parts, MPI_Comm user) {
+                    std::span<const RankRange> ranks_of_parts, const TreeShape& shape,
+                    MPI_Comm user) {
     Participant self{mpi::duplicate_of(user)};
     const auto num_ranks = static_cast<std::size_t>(mpi::size_of(self.comm));
     const bool is_spread = std::min(ranks_of_parts.size(), num_ranks) >
                            static_cast<std::size_t>(Tuning{}.central_parts);
-    return remap(parts, previous, ranks_of_parts, is_spread, self);
+    return remap(parts, previous, ranks_of_parts, shape, is_spread, self);
 }
 
 }  // namespace
@@ -252,29 +255,35 @@ NewNumbers find_numbers(std::span<const Part> parts, const PreviousParts& previo
 }
 
 Remap remap(std::span<const Part> parts, const PreviousParts& previous,
-            std::span<const RankRange> ranks_of_parts, bool is_spread, Participant& self) {
+            std::span<const RankRange> ranks_of_parts, const TreeShape& shape, bool is_spread,
+            Participant& self) {
     const int num_ranks = mpi::size_of(self.comm);
-    std::optional<RemapBuffers> buffers;
+    std::optional<GroupBuffers> buffers;
     self.attempt([&] {
         check_ranks(ranks_of_parts, num_ranks);
         check_parts(parts, previous, ranks_of_parts.size());
+        require(shape.group_size >= 1, "shape.group_size must be at least 1");
         const auto num_parts = static_cast<int>(ranks_of_parts.size());
-        buffers.emplace(NumberRule{num_parts, num_ranks, !previous, is_spread, ranks_of_parts},
+        buffers.emplace(NumberRule{num_parts, num_ranks, !previous, is_spread, ranks_of_parts,
+                                   shape.group_size},
                         mpi::rank_of(self.comm));
     });
-    agree(self, {{"ranks_of_parts", hash_of(ranks_of_parts)}, {"previous", previous ? 1u : 0u}});
+    agree(self, {{"ranks_of_parts", hash_of(ranks_of_parts)},
+                 {"previous", previous ? 1u : 0u},
+                 {"shape.group_size", static_cast<std::uint64_t>(shape.group_size)}});
     Remap result = find_numbers(parts, previous, *buffers, self).remap;
     if (is_spread) agree(self);
     return result;
 }
 
-Remap remap(std::span<const Part> parts, std::span<const RankRange> ranks_of_parts, MPI_Comm user) {
-    return remap_by_size(parts, std::nullopt, ranks_of_parts, user);
+Remap remap(std::span<const Part> parts, std::span<const RankRange> ranks_of_parts, MPI_Comm user,
+            const TreeShape& shape) {
+    return remap_by_size(parts, std::nullopt, ranks_of_parts, shape, user);
 }
 
 Remap remap(std::span<const Part> parts, std::span<const Part> previous,
-            std::span<const RankRange> ranks_of_parts, MPI_Comm user) {
-    return remap_by_size(parts, previous, ranks_of_parts, user);
+            std::span<const RankRange> ranks_of_parts, MPI_Comm user, const TreeShape& shape) {
+    return remap_by_size(parts, previous, ranks_of_parts, shape, user);
 }
 
 }  // namespace rrcb

@@ -18,6 +18,32 @@ std::uint64_t hash_of(std::span<const RankRange> ranks_of_parts);
 /// Earlier parts of the points. If none are given, points are to be kept on their rank.
 using PreviousParts = std::optional<std::span<const Part>>;
 
+/// Origins of the points of a rank.
+class Origins {
+  public:
+    /// `previous` must outlive it.
+    Origins(const PreviousParts& previous, const NumberRule& rule, int rank)
+        : previous_(previous), num_parts_(rule.num_parts), by_rank_(rule.by_rank) {
+        const auto [first, end] = rule.numbers_of(by_rank_ ? rank : 0);
+        if (by_rank_ && first < end) own_ = rank;
+    }
+
+    /// Origin of all points if origins are ranks; no_origin if no number keeps any, and otherwise.
+    std::int32_t own() const { return own_; }
+
+    std::int32_t of(std::size_t point) const {
+        if (by_rank_ || !previous_) return own_;
+        const Part part = (*previous_)[point];
+        return part >= 0 && part < num_parts_ ? part : no_origin;
+    }
+
+  private:
+    const PreviousParts& previous_;
+    int num_parts_;
+    bool by_rank_;
+    std::int32_t own_ = no_origin;
+};
+
 /// Memory of one renumbering, allocated before the ranks agree.
 struct RemapBuffers {
     /// Every rank gets the numbers of all parts if `wants_all`, as always if rank 0 searches. Not
@@ -52,6 +78,7 @@ NewNumbers find_numbers(std::span<const Part> parts, const PreviousParts& previo
 
 /// Renumbers as the public functions do; all ranks search if `is_spread`. Collective.
 Remap remap(std::span<const Part> parts, const PreviousParts& previous,
-            std::span<const RankRange> ranks_of_parts, bool is_spread, Participant& self);
+            std::span<const RankRange> ranks_of_parts, const TreeShape& shape, bool is_spread,
+            Participant& self);
 
 }  // namespace rrcb

@@ -3,6 +3,7 @@
 #include <rrcb/options.hpp>
 
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -109,6 +110,17 @@ inline constexpr Word held_cuts_words[] = {
     {"WHOLE", static_cast<int>(HeldCuts::whole), "all of them"},
     {"OWN", static_cast<int>(HeldCuts::own), "those above its points and its parts"}};
 
+inline constexpr Word machine_words[] = {{"ON", 1, "whole machines first"},
+                                         {"OFF", 0, "the parts are halved"}};
+
+inline int machines_of(const Options& options) {
+    return options.tree.group_size == 0 ? 1 : 0;
+}
+
+inline void set_machines(Options& options, int value) {
+    options.tree.group_size = 1 - value;
+}
+
 template <auto field>
 int value_of(const Options& options) {
     return static_cast<int>(options.*field);
@@ -150,6 +162,9 @@ inline constexpr Option option_table[] = {
                 " cells per axis", "as many as suit the points of the rank"}},
     {"one of tree, axes.order, axes.plain, axes.min_width, axes.grid", "",
      "Which tree of cuts, across which axes, and where", Lists{values_of_tree, check_tree_options}},
+    {"tree.group_size", "RRCB_MACHINES",
+     "Whether the parts of each machine are cut off together, where machines are alike",
+     Choice{machine_words, std::size(machine_words), machines_of, set_machines}},
     {"axes.min_width", "RRCB_MIN_WIDTH", "Least extent of every part along each axis",
      Rows{min_width_of, check_min_width, set_min_width, 1, "a number above 0 for each axis",
           "0.1 0.1"}},

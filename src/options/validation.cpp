@@ -4,6 +4,7 @@
 #include "options/rejection.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -98,10 +99,22 @@ void check_given(std::span<const int> axes, int num_parts, int dimension) {
         require(axis >= 0 && axis < dimension, "axes.order must hold axes of the points");
 }
 
+/// Parts in a group of those of a machine; 1 where halving the parts makes the same tree, or where
+/// machines do not hold as many parts each.
+int parts_per_machine(int num_parts, const Ranks& ranks) {
+    const bool is_full = ranks.number % ranks.per_machine == 0;
+    const auto machines = static_cast<unsigned>((ranks.number - 1) / ranks.per_machine + 1);
+    if (num_parts % ranks.number != 0 || (is_full && std::has_single_bit(machines))) return 1;
+    return num_parts / ranks.number * ranks.per_machine;
+}
+
 }  // namespace
 
-Options complete(Options options, int num_ranks) {
-    if (options.num_parts == 0) options.num_parts = num_ranks;
+Options complete(Options options, const Ranks& ranks, const Cuts* previous) {
+    if (options.num_parts == 0) options.num_parts = ranks.number;
+    if (options.tree.group_size == 0)
+        options.tree.group_size = previous ? std::max(previous->shape.group_size, 1)
+                                           : parts_per_machine(options.num_parts, ranks);
     if (!options.axes.grid.empty()) options.axes.plain = true;
     return options;
 }
@@ -120,7 +133,8 @@ void check_part_sizes(const Options& options, int) {
 }
 
 void check_tree_options(const Options& options, int dimension) {
-    require(options.tree.group_size >= 1, "tree.group_size must be at least 1");
+    require(options.tree.group_size >= 0,
+            "tree.group_size must be at least 1, or 0 for the parts of each machine");
     const AxisOrder& order = options.axes.order;
     if (order.is_grouped()) check_grouped(order.axes(), dimension);
     if (order.is_given()) check_given(order.axes(), options.num_parts, dimension);
@@ -142,11 +156,9 @@ void check_positions(const Points& positions, const Cuts& cuts) {
 
 void check_cuts(const Cuts& cuts) {
     check_dimension(cuts.dimension, "cuts");
-    require(
-        cuts.num_parts >= 1 && is_whole(cuts) &&
-            cuts.tree.size() + 1 == static_cast<std::size_t>(cuts.num_parts),
-        "the tree must hold one cut less than there are parts; gather_cuts() gathers them where "
-        "the ranks have a part of it each");
+    require(is_whole(cuts) && has_its_cuts(cuts),
+            "the tree must hold one cut less than there are parts, in groups of 1 or more; "
+            "gather_cuts() gathers them if the ranks have a part of it each");
     require(cross_axes_at_numbers(cuts), "cuts must cross axes of the points at numbers");
 }
 

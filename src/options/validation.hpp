@@ -8,8 +8,14 @@
 
 namespace rrcb {
 
-/// Options with nothing left to default except the sizes of equal parts.
-Options complete(Options options, int num_ranks);
+/// Where the parts of a call lie.
+struct Ranks {
+    int number = 1;
+    int per_machine = 1;  ///< see mpi::ranks_per_machine()
+};
+
+/// Options with nothing left to default except the sizes of equal parts. `previous` may be null.
+Options complete(Options options, const Ranks& ranks, const Cuts* previous);
 
 /// Throws Error naming the option and its range when `options` can't be used.
 void check_options(const Options& options, int dimension);

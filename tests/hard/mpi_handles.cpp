@@ -39,6 +39,10 @@ int MPI_Comm_create(MPI_Comm comm, MPI_Group group, MPI_Comm* made) {
     return count_if_done(PMPI_Comm_create(comm, group, made), held.communicators, 1);
 }
 
+int MPI_Comm_split_type(MPI_Comm comm, int type, int key, MPI_Info info, MPI_Comm* made) {
+    return count_if_done(PMPI_Comm_split_type(comm, type, key, info, made), held.communicators, 1);
+}
+
 int MPI_Comm_free(MPI_Comm* comm) {
     return count_if_done(PMPI_Comm_free(comm), held.communicators, -1);
 }

@@ -121,6 +121,78 @@ TEST(Remap, keeps_half_of_the_points_that_any_permutation_keeps_in_their_part) {
     }
 }
 
+/// Counts of all ranks that `numbers` keep in their earlier part.
+GlobalCount kept_by(std::span<const Part> numbers, std::span<const Part> parts,
+                    std::span<const Part> previous) {
+    GlobalCount kept = 0;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (numbers[static_cast<std::size_t>(parts[i])] == previous[i]) ++kept;
+    MPI_Allreduce(MPI_IN_PLACE, &kept, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+    return kept;
+}
+
+TEST(Remap, leaves_the_parts_of_a_group_together) {
+    for (unsigned seed = 0; seed < 60; ++seed) {
+        SCOPED_TRACE(seed);
+        std::mt19937_64 engine(1000 * seed + static_cast<unsigned>(rank()));
+        const int group_size = 1 + static_cast<int>(seed % 4);
+        const int num_parts = 7 + static_cast<int>(seed % 6);
+        std::vector<Part> parts(engine() % 200);
+        std::vector<Part> previous(parts.size());
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            parts[i] = static_cast<Part>(engine() % static_cast<unsigned>(num_parts));
+            // Most points were in a part of another group.
+            const auto shift = engine() % 4 == 0 ? engine() : seed;
+            previous[i] = static_cast<Part>((static_cast<unsigned>(parts[i]) + shift) %
+                                            static_cast<unsigned>(num_parts));
+        }
+        const std::vector<RankRange> ranks(static_cast<std::size_t>(num_parts));
+        const Remap result = remap(parts, previous, ranks, MPI_COMM_WORLD, {group_size});
+        std::vector<Part> sorted = result.numbers;
+        std::ranges::sort(sorted);
+        for (Part part = 0; part < num_parts; ++part) {
+            EXPECT_EQ(sorted[static_cast<std::size_t>(part)], part);
+            const Part first = part / group_size * group_size;
+            EXPECT_EQ(result.numbers[static_cast<std::size_t>(part)] / group_size,
+                      result.numbers[static_cast<std::size_t>(first)] / group_size);
+        }
+        std::vector<Part> unchanged(static_cast<std::size_t>(num_parts));
+        std::iota(unchanged.begin(), unchanged.end(), 0);
+        EXPECT_EQ(result.kept_before, kept_by(unchanged, parts, previous));
+        EXPECT_EQ(result.kept_after, kept_by(result.numbers, parts, previous));
+        EXPECT_GE(result.kept_after, result.kept_before);
+        EXPECT_EQ(result.identity, result.numbers == unchanged);
+    }
+}
+
+TEST(Remap, undoes_a_rotation_of_groups) {
+    // Four groups of three parts and one of two, which keeps its place.
+    const std::vector<RankRange> ranks(14);
+    std::vector<Part> previous(14);
+    std::iota(previous.begin(), previous.end(), 0);
+    std::vector<Part> parts = previous;
+    std::rotate(parts.begin(), parts.begin() + 6, parts.begin() + 12);
+    const Remap result = remap(parts, previous, ranks, MPI_COMM_WORLD, {3});
+    EXPECT_EQ(result.kept_before, 2 * num_ranks());
+    EXPECT_EQ(result.kept_after, 14 * num_ranks());
+}
+
+TEST(Remap, of_groups_keeps_points_on_their_ranks) {
+    // The parts of rank r come from rank r + 2, but for an odd number of ranks, where one stays.
+    const int num_full = num_ranks() / 2 * 2;
+    const int from = rank() < num_full ? (rank() + 2) % num_full : rank();
+    const std::vector<Part> parts(10, from);
+    const Remap result = remap(parts, ranks_of_parts(num_ranks()), MPI_COMM_WORLD, TreeShape{2});
+    EXPECT_EQ(result.kept_after, 10 * num_ranks());
+}
+
+TEST(Remap, refuses_groups_without_parts_and_different_ones) {
+    const std::vector<RankRange> ranks = ranks_of_parts(3);
+    EXPECT_THROW(remap({}, ranks, MPI_COMM_WORLD, {-1}), Error);
+    if (num_ranks() == 1) return;
+    EXPECT_THROW(remap({}, ranks, MPI_COMM_WORLD, {test::is_last_rank() ? 2 : 3}), Error);
+}
+
 TEST(Remap, undoes_a_rotation_of_few_and_of_many_parts) {
     for (const int num_parts : {1, 2, 128, 129, 300}) {
         std::vector<Part> previous(static_cast<std::size_t>(num_parts));

@@ -185,7 +185,7 @@ TEST(TreeShape, is_that_of_earlier_cuts) {
 
 TEST(TreeShape, of_no_parts_in_a_group_is_refused) {
     Options options;
-    options.tree.group_size = 0;
+    options.tree.group_size = -1;
     EXPECT_THROW(balance(interleaved_points({}, 2), options, MPI_COMM_WORLD), Error);
 }
 

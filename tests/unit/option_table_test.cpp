@@ -220,7 +220,7 @@ std::string continued(std::string_view text) {
 
 /// Marks the words of the interface, which have capitals only, as code.
 std::string with_code_marks(const std::string& text) {
-    static const std::regex word("[A-Z_=]{4,}");
+    static const std::regex word("[A-Z_=]{4,}|\\b(ON|OFF)\\b");
     return std::regex_replace(std::regex_replace(text, word, "`$&`"), std::regex("`RRCB`"), "RRCB");
 }
 

@@ -16,6 +16,12 @@ extern "C" int MPI_Comm_idup(MPI_Comm comm, MPI_Comm* copy, MPI_Request* request
     return PMPI_Comm_idup(comm, copy, request);
 }
 
+extern "C" int MPI_Comm_split_type(MPI_Comm comm, int type, int key, MPI_Info info,
+                                   MPI_Comm* part) {
+    ++num_communicators;
+    return PMPI_Comm_split_type(comm, type, key, info, part);
+}
+
 extern "C" int MPI_Comm_free(MPI_Comm* comm) {
     --num_communicators;
     return PMPI_Comm_free(comm);

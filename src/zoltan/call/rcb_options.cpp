@@ -74,7 +74,12 @@ Options make_options(const Parameters& parameters, const Layout& layout, int dim
     options.axes.plain = parameters.rectilinear_blocks != 0;
     // Handles that keep cuts gather them.
     options.cuts = HeldCuts::own;
+    // Parts of a machine have consecutive numbers only if each rank has as many.
+    const PartMap& map = layout.map;
+    const bool are_alike = map.is_even && map.num_parts % map.num_ranks == 0;
+    if (!map.one_each && !are_alike) options.tree.group_size = 1;
     if (parameters.lock_directions != 0 && previous != nullptr) {
+        options.tree = previous->cuts().shape;
         options.axes.order = AxisOrder::given(axes_of(previous->cuts().tree));
     } else if (parameters.set_directions != 0) {
         options.axes.order = AxisOrder::grouped(axis_order(parameters.set_directions, dimension));
@@ -108,7 +113,8 @@ bool keeps_cuts(const Parameters& parameters) {
 }
 
 bool chooses_axes(std::string_view name) {
-    return name == "RCB_SET_DIRECTIONS" || name == "RCB_RECTILINEAR_BLOCKS";
+    return name == "RCB_SET_DIRECTIONS" || name == "RCB_RECTILINEAR_BLOCKS" ||
+           name == "RRCB_MACHINES";
 }
 
 std::vector<std::string> parameter_warnings(const Parameters& parameters) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lists/remap_mpi.hpp"
+#include "lists/group_numbers_mpi.hpp"
 #include "zoltan/call/layout_mpi.hpp"
 #include "zoltan/call/objects.hpp"
 #include "zoltan/handle/numbering.hpp"
@@ -19,7 +19,8 @@ struct Renumbered {
 
 /// REMAP: numbers for the parts that keep objects in place, in the cases in which Zoltan does.
 ///
-/// The numbers are unchanged if REMAP is off, the parts differ in size or a part is on several
+/// Parts of a group of the cuts, such as those of a machine, stay in one group. The numbers are
+/// unchanged if REMAP is off, the parts differ in size or a part is on several
 /// ranks. With one part on each rank an object is to be kept on its rank. Otherwise it is to be
 /// kept in the part that the callbacks name, or on its rank if they name none on any rank.
 class Renumbering {
@@ -28,13 +29,13 @@ class Renumbering {
     /// numbers together if the parts are evenly on the ranks. `layout` outlives it. Throws
     /// std::bad_alloc, which all ranks must agree on before run(). Not collective.
     Renumbering(const Parameters& parameters, const Layout& layout, bool any_names_parts,
-                const Communicator& comm, bool is_spread);
+                int group_size, const Communicator& comm, bool is_spread);
 
     /// Writes the new numbers to `parts`. Collective if numbers may change, as find_numbers() is.
     Renumbered run(const Objects& objects, std::span<Part> parts, Participant& self);
 
   private:
-    std::optional<RemapBuffers> buffers_;  ///< if numbers may change
+    std::optional<GroupBuffers> buffers_;  ///< if numbers may change
     std::vector<Part> boxes_;              ///< memory for the box of each number
 };
 

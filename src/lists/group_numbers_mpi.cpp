@@ -1,0 +1,80 @@
+#include "lists/group_numbers_mpi.hpp"
+
+#include "collective/communicator.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace rrcb {
+
+namespace {
+
+/// The groups as parts, of which each keeps the points of its present number.
+NumberRule rule_of_groups(const NumberRule& rule) {
+    return {(rule.num_parts - 1) / rule.group_size + 1, rule.num_ranks, false};
+}
+
+/// What the points of a rank say of the groups.
+struct GroupsHere {
+    std::vector<Part> groups;   ///< of the parts of its points
+    std::vector<Part> origins;  ///< groups whose numbers keep them; no_part: none
+    GlobalCount kept = 0;       ///< of its points, those that the old numbers keep
+};
+
+GroupsHere groups_here(std::span<const Part> parts, const PreviousParts& previous,
+                       const NumberRule& rule, int rank) {
+    GroupsHere here;
+    here.groups.resize(parts.size());
+    here.origins.resize(parts.size());
+    const Origins origins(previous, rule, rank);
+    // Only groups of the same size may change places, which the last one may not have.
+    const int num_full = rule.num_parts / rule.group_size;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const std::int32_t origin = origins.of(i);
+        const Part from =
+            origin == no_origin ? no_part : rule.numbers_of(origin).first / rule.group_size;
+        here.groups[i] = parts[i] / rule.group_size;
+        here.origins[i] = here.groups[i] < num_full && from < num_full ? from : no_part;
+        if (origin != no_origin && rule.home_of(parts[i]) == origin) ++here.kept;
+    }
+    return here;
+}
+
+}  // namespace
+
+GroupBuffers::GroupBuffers(const NumberRule& rule, int rank, bool wants_all)
+    : parts(rule, rank, wants_all) {
+    if (rule.group_size == 1 || rule.is_spread) return;
+    groups.emplace(rule_of_groups(rule), rank);
+    numbers.resize(static_cast<std::size_t>(rule.num_parts));
+}
+
+NewNumbers find_numbers(std::span<const Part> parts, const PreviousParts& previous,
+                        GroupBuffers& buffers, Participant& self) {
+    if (!buffers.groups) return find_numbers(parts, previous, buffers.parts, self);
+    const NumberRule rule = buffers.parts.search.rule();
+    GroupsHere here;
+    self.attempt([&] { here = groups_here(parts, previous, rule, mpi::rank_of(self.comm)); });
+    const std::vector<Part> numbers_of_groups =
+        find_numbers(here.groups, here.origins, *buffers.groups, self).remap.numbers;
+    const auto moved = [&](Part part) {
+        return numbers_of_groups[part / rule.group_size] * rule.group_size + part % rule.group_size;
+    };
+    std::ranges::transform(parts, here.groups.begin(), moved);
+    NewNumbers found = find_numbers(here.groups, previous, buffers.parts, self);
+    Remap& remap = found.remap;
+    mpi::check(MPI_Allreduce(&here.kept, &remap.kept_before, 1, MPI_INT64_T, MPI_SUM, self.comm),
+               "MPI_Allreduce");
+    remap.identity = remap.kept_after <= remap.kept_before;
+    std::iota(buffers.numbers.begin(), buffers.numbers.end(), Part{0});
+    if (remap.identity) {
+        remap.kept_after = remap.kept_before;
+    } else {
+        for (Part& part : buffers.numbers) part = remap.numbers[moved(part)];
+    }
+    remap.numbers = std::move(buffers.numbers);
+    return found;
+}
+
+}  // namespace rrcb

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "lists/remap_mpi.hpp"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+/// Memory of one renumbering that leaves the parts of a group in one group, see NumberRule.
+struct GroupBuffers {
+    /// As RemapBuffers. Not collective. Throws std::bad_alloc.
+    GroupBuffers(const NumberRule& rule, int rank, bool wants_all = true);
+
+    RemapBuffers parts;
+    std::optional<RemapBuffers> groups;  ///< if there are any, and rank 0 searches
+    std::vector<Part> numbers;           ///< of all parts, in that case
+};
+
+/// Renumbers the groups, if rank 0 searches, and then the parts of each, as find_numbers() of parts
+/// does. Collective as that; with groups twice, and one reduction.
+NewNumbers find_numbers(std::span<const Part> parts, const PreviousParts& previous,
+                        GroupBuffers& buffers, Participant& self);
+
+}  // namespace rrcb

@@ -1,0 +1,148 @@
+// Whole machines are cut off first. The machines are made up: this program answers
+// MPI_Comm_split_type in place of the MPI library.
+#include "clouds_of_all_ranks.hpp"
+
+#include <rrcb/rrcb.hpp>
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <numeric>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+using test::num_ranks;
+using test::rank;
+
+/// Machine of each rank of a communicator, by the rank and the number of ranks.
+std::function<int(int, int)> machine_of = [](int, int) { return 0; };
+
+/// Runs a test on a communicator of its own, for which the machines are found anew.
+template <class Test>
+void with_machines(std::function<int(int, int)> machine, Test&& test) {
+    machine_of = std::move(machine);
+    MPI_Comm comm = MPI_COMM_NULL;
+    MPI_Comm_dup(MPI_COMM_WORLD, &comm);
+    test(comm);
+    MPI_Comm_free(&comm);
+    machine_of = [](int, int) { return 0; };
+}
+
+auto blocks_of(int size) {
+    return [size](int rank, int) { return rank / size; };
+}
+
+struct Cloud {
+    std::vector<double> coordinates;
+    Points points;
+
+    explicit Cloud(int dimension, std::size_t count = 6000)
+        : coordinates(
+              test::share_of_cloud(count, dimension, [](std::size_t, int, double u) { return u; })),
+          points(interleaved_points(coordinates, dimension)) {}
+};
+
+int group_size(std::function<int(int, int)> machine, const Options& options = {}) {
+    const Cloud cloud(2);
+    int size = 0;
+    with_machines(std::move(machine), [&](MPI_Comm comm) {
+        size = balance(cloud.points, options, comm).cuts.shape.group_size;
+    });
+    return size;
+}
+
+/// Whether machines of `size` ranks make another tree than halving.
+bool matters(int size) {
+    const int machines = (num_ranks() - 1) / size + 1;
+    return machines > 1 && ((machines & (machines - 1)) != 0 || num_ranks() % size != 0);
+}
+
+TEST(Machines, are_the_groups_of_the_tree_where_halving_would_divide_them) {
+    for (const int size : {1, 2, 3, 4, 5, 6})
+        EXPECT_EQ(group_size(blocks_of(size)), matters(size) ? size : 1) << size;
+}
+
+TEST(Machines, count_several_parts_on_a_rank) {
+    Options options;
+    options.num_parts = 3 * num_ranks();
+    for (const int size : {2, 3, 4})
+        EXPECT_EQ(group_size(blocks_of(size), options), matters(size) ? 3 * size : 1) << size;
+    options.num_parts = 3 * num_ranks() + 1;
+    EXPECT_EQ(group_size(blocks_of(2), options), 1);
+}
+
+TEST(Machines, that_are_not_alike_are_not_looked_at) {
+    if (num_ranks() < 4) return;
+    EXPECT_EQ(group_size([](int rank, int) { return rank % 2; }), 1);
+    EXPECT_EQ(group_size([](int rank, int) { return rank == 0 ? 0 : 1; }), 1);
+    EXPECT_EQ(group_size([](int rank, int n) { return rank < n - 2 ? 2 - rank % 2 : 0; }), 1);
+}
+
+TEST(Machines, leave_a_tree_that_was_asked_for) {
+    Options options;
+    options.tree = TreeShape{};
+    EXPECT_EQ(group_size(blocks_of(2), options), 1);
+    options.tree.group_size = 4;
+    EXPECT_EQ(group_size(blocks_of(2), options), 4);
+}
+
+TEST(Machines, of_earlier_cuts_stay) {
+    const Cloud cloud(2);
+    Balance first;
+    with_machines(blocks_of(2), [&](MPI_Comm comm) {
+        first = balance(cloud.points, {}, comm);
+        EXPECT_EQ(rebalance(cloud.points, {}, first.cuts, comm).parts, first.parts);
+    });
+    with_machines(blocks_of(3), [&](MPI_Comm comm) {
+        EXPECT_EQ(rebalance(cloud.points, {}, first.cuts, comm).cuts.shape, first.cuts.shape);
+    });
+}
+
+/// Ghosts that come from other machines, of all ranks, and all ghosts.
+std::pair<GlobalCount, GlobalCount> ghosts_of(const Balance& balance, const Cloud& cloud, int size,
+                                              MPI_Comm comm) {
+    const int dimension = cloud.points.dimension;
+    const auto mine = transfer(plan(balance, comm), column(cloud.coordinates, dimension), comm);
+    const GhostPlan near = ghosts(balance.cuts, interleaved_points(mine, dimension), 0.02, comm);
+    GlobalCount counts[2] = {};
+    for (const RankCount& from : near.receive) {
+        if (from.rank / size != rank() / size) counts[0] += static_cast<GlobalCount>(from.count);
+        counts[1] += static_cast<GlobalCount>(from.count);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPI_INT64_T, MPI_SUM, comm);
+    return {counts[0], counts[1]};
+}
+
+TEST(Machines, send_each_other_fewer_ghosts_at_the_same_balance) {
+    for (const int size : {2, 4}) {
+        if (num_ranks() % size != 0 || !matters(size)) continue;
+        for (const int dimension : {2, 3}) {
+            SCOPED_TRACE(testing::Message() << size << " ranks a machine, " << dimension << "-D");
+            const Cloud cloud(dimension, 24000);
+            with_machines(blocks_of(size), [&](MPI_Comm comm) {
+                Options halving;
+                halving.tree = TreeShape{};
+                const Balance halved = balance(cloud.points, halving, comm);
+                const Balance grouped = balance(cloud.points, {}, comm);
+                const auto [off, all] = ghosts_of(grouped, cloud, size, comm);
+                const auto [off_halved, all_halved] = ghosts_of(halved, cloud, size, comm);
+                EXPECT_LT(static_cast<double>(off), 0.9 * static_cast<double>(off_halved));
+                EXPECT_LT(static_cast<double>(all), 1.15 * static_cast<double>(all_halved));
+                EXPECT_LE(grouped.report.imbalance, 1.01);
+            });
+        }
+    }
+}
+
+}  // namespace
+}  // namespace rrcb
+
+extern "C" int MPI_Comm_split_type(MPI_Comm comm, int, int key, MPI_Info, MPI_Comm* made) {
+    int rank = 0;
+    int size = 0;
+    MPI_Comm_rank(comm, &rank);
+    MPI_Comm_size(comm, &size);
+    return PMPI_Comm_split(comm, rrcb::machine_of(rank, size), key, made);
+}

@@ -86,8 +86,8 @@ int num_levels(const TreeShape& shape, int num_parts) {
     const auto halvings = [](int number) {
         return std::bit_width(static_cast<unsigned>(number - 1));
     };
-    const int in_group = std::min(shape.group_size, num_parts);
-    return halvings((num_parts - 1) / shape.group_size + 1) + halvings(in_group);
+    const int group_size = std::max(shape.group_size, 1);
+    return halvings((num_parts - 1) / group_size + 1) + halvings(std::min(group_size, num_parts));
 }
 
 Descent descend(const Cuts& cuts, const Vector& position, Descent at) {

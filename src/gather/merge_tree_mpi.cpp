@@ -5,13 +5,27 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <span>
+#include <type_traits>
 
 namespace rrcb {
 
 namespace {
 
 constexpr std::size_t piece = 8192;  // doubles in a message
+
+/// First message of a rank: its summary, and as much of its records as fits.
+struct FirstMessage {
+    Summary summary;
+    std::array<double, piece> records;
+
+    std::span<double> records_of() {
+        return std::span(records).first(
+            std::min(piece, static_cast<std::size_t>(summary.num_doubles)));
+    }
+};
+static_assert(std::is_trivially_copyable_v<Summary>);
 
 void send(std::span<const std::byte> bytes, int to, mpi::Tag tag, Participant& self) {
     self.check(MPI_Send(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, to, tag, self.comm),
@@ -51,8 +65,27 @@ void send_up(Contribution& mine, int to, Participant& self) {
     mine.summary.num_extent_doubles = is_usable ? std::ssize(mine.extents) : 0;
     mine.summary.num_total_doubles = is_usable ? std::ssize(mine.part_totals) : 0;
     mine.summary.num_doubles = static_cast<std::int64_t>(mine.records.size());
-    send(std::as_bytes(std::span(&mine.summary, 1)), to, mpi::contribution_tag, self);
-    send_records(mine.records, to, mpi::contribution_tag, self);
+    FirstMessage first;
+    first.summary = mine.summary;
+    const std::span<double> in_first = first.records_of();
+    std::copy_n(mine.records.begin(), in_first.size(), in_first.begin());
+    send(std::as_bytes(std::span(&first, 1))
+             .first(offsetof(FirstMessage, records) + in_first.size_bytes()),
+         to, mpi::contribution_tag, self);
+    send_records(std::span(mine.records).subspan(in_first.size()), to, mpi::contribution_tag, self);
+}
+
+/// Takes in the contribution of a child.
+void receive_up(Contribution& mine, int child, int dimension, std::size_t most, Participant& self) {
+    FirstMessage first;
+    receive(std::as_writable_bytes(std::span(&first, 1)), child, mpi::contribution_tag, self);
+    const std::span<double> in_first = first.records_of();
+    self.attempt(
+        [&] { mine.records.insert(mine.records.end(), in_first.begin(), in_first.end()); });
+    receive_records(mine.records,
+                    static_cast<std::size_t>(first.summary.num_doubles) - in_first.size(), child,
+                    mpi::contribution_tag, self);
+    self.attempt([&] { absorb(mine, first.summary, dimension, most); });
 }
 
 }  // namespace
@@ -61,13 +94,7 @@ void merge_up(Contribution& mine, int dimension, const MergeTree& tree, std::siz
               Participant& self) {
     const int rank = mpi::rank_of(self.comm);
     mine.summary.first_rank = rank;
-    tree.for_each_child(rank, [&](int child) {
-        Summary theirs;
-        receive(std::as_writable_bytes(std::span(&theirs, 1)), child, mpi::contribution_tag, self);
-        receive_records(mine.records, static_cast<std::size_t>(theirs.num_doubles), child,
-                        mpi::contribution_tag, self);
-        self.attempt([&] { absorb(mine, theirs, dimension, most); });
-    });
+    tree.for_each_child(rank, [&](int child) { receive_up(mine, child, dimension, most, self); });
     // In one message with the cells.
     if (rank != 0)
         self.attempt([&] {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cells/uninitialized.hpp"
 #include "collective/participant.hpp"
 #include "collective/rank_order.hpp"
 
@@ -62,9 +63,9 @@ class Exchange {
 
     std::size_t record_bytes_;
     int num_ranks_;
-    std::vector<RankCount> counts_;  ///< records for each rank that gets some
-    std::vector<std::byte> outbox_;  ///< for one rank after the other
-    std::vector<std::byte> inbox_;   ///< in the order of arrival
+    std::vector<RankCount> counts_;    ///< records for each rank that gets some
+    Uninitialized<std::byte> outbox_;  ///< for one rank after the other
+    Uninitialized<std::byte> inbox_;   ///< in the order of arrival
     std::vector<Message> arrived_;
     std::vector<MPI_Request> requests_;
 };

@@ -1,5 +1,6 @@
 #include "zoltan/call/kept_objects_mpi.hpp"
 
+#include "cells/point_layout.hpp"
 #include "collective/communicator.hpp"
 #include "collective/mix.hpp"
 
@@ -19,17 +20,26 @@ std::uint64_t join(std::uint64_t entries, double entry) {
     return entries ^ (entries >> 32);
 }
 
-}  // namespace
-
-std::uint64_t checksum_of(const Points& points, std::span<const Part> parts) {
+template <bool Weighted, class Layout>
+std::uint64_t checksum_of(const Layout& x, std::span<const double> weights,
+                          std::span<const Part> parts) {
     std::uint64_t sum = 0;
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        std::uint64_t entries = join(static_cast<std::uint64_t>(parts[i]) + 1, points.weight(i));
-        for (int axis = 0; axis < points.dimension; ++axis)
-            entries = join(entries, points.coordinate(i, axis));
+        std::uint64_t entries = static_cast<std::uint64_t>(parts[i]) + 1;
+        if constexpr (Weighted) entries = join(entries, weights[i]);
+        for (int axis = 0; axis < Layout::dimension; ++axis) entries = join(entries, x(i, axis));
         sum += mix(entries);
     }
     return sum;
+}
+
+}  // namespace
+
+std::uint64_t checksum_of(const Points& points, std::span<const Part> parts) {
+    return visit_layout(points, [&](const auto& x) {
+        return points.weights.empty() ? checksum_of<false>(x, points.weights, parts)
+                                      : checksum_of<true>(x, points.weights, parts);
+    });
 }
 
 Placed find_placed(const Objects& objects, const LastPartition& last, const KeptObjects& kept,
@@ -38,18 +48,19 @@ Placed find_placed(const Objects& objects, const LastPartition& last, const Kept
     if (!map.one_each && !objects.names_parts) return {};
     const auto count = static_cast<std::size_t>(objects.count);
     const int* named = objects.initial_parts.get();
-    std::vector<Part> parts(count, rank);
-    if (named != nullptr) std::copy_n(named, count, parts.begin());
+    const auto part_at = [&](std::size_t i) { return named == nullptr ? rank : named[i]; };
     // Cuts that this rank does not know, or that divide objects in one place, put none elsewhere.
     const bool ask_cuts = is_whole(last.cuts()) && kept.report.details.coincident_cuts == 0 &&
                           last.cuts().dimension == objects.points.dimension;
     for (std::size_t i = 0; i < count; ++i) {
-        const Part part = parts[i];
+        const Part part = part_at(i);
         if (part < 0 || part >= map.num_parts) return {};
         const RankRange range = map.ranks_of(part);
         if (rank < range.first_rank || rank >= range.first_rank + range.count) return {};
         if (ask_cuts && last.part_of(objects.points.position(i).data()) != part) return {};
     }
+    std::vector<Part> parts(count, rank);
+    if (named != nullptr) std::copy_n(named, count, parts.begin());
     return {true, checksum_of(objects.points, parts)};
 }
 

@@ -7,37 +7,26 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Writes rank and part that every object goes to.
-void write_targets(std::span<const Part> new_parts, const PartMap& map, int my_rank, List& list) {
-    int* ranks = list.ranks.get();
-    std::ranges::copy(new_parts, list.parts.get());
-    if (map.one_each) {
-        std::ranges::copy(new_parts, ranks);
-        return;
-    }
-    for (std::size_t i = 0; i < new_parts.size(); ++i) {
-        ranks[i] = map.destination(new_parts[i], i, my_rank);
-    }
-}
-
-/// Test whether an object changes its rank or part. Without a callback that names parts, an object
-/// is in the part of its rank's number, as in Zoltan.
-class Moves {
+/// Where objects go, and whether that changes their rank or part. Without a callback that names
+/// parts, an object is in the part of its rank's number, as in Zoltan.
+class Targets {
   public:
-    Moves(const List& list, const int* initial_parts, int my_rank)
-        : ranks_(list.ranks.get()),
-          parts_(list.parts.get()),
-          initial_parts_(initial_parts),
-          my_rank_(my_rank) {}
+    Targets(std::span<const Part> parts, const PartMap& map, const int* initial_parts, int my_rank)
+        : parts_(parts), map_(map), initial_parts_(initial_parts), my_rank_(my_rank) {}
 
-    bool operator()(std::size_t i) const {
+    std::size_t count() const { return parts_.size(); }
+    int part_of(std::size_t i) const { return parts_[i]; }
+    int rank_of(std::size_t i) const {
+        return map_.one_each ? parts_[i] : map_.destination(parts_[i], i, my_rank_);
+    }
+    bool moves(std::size_t i, int rank) const {
         const int initial_part = initial_parts_ == nullptr ? my_rank_ : initial_parts_[i];
-        return ranks_[i] != my_rank_ || parts_[i] != initial_part;
+        return rank != my_rank_ || parts_[i] != initial_part;
     }
 
   private:
-    const int* ranks_;
-    const int* parts_;
+    std::span<const Part> parts_;
+    const PartMap& map_;
     const int* initial_parts_;
     int my_rank_;
 };
@@ -49,16 +38,33 @@ void move_entry(T* array, std::size_t width, std::size_t from, std::size_t to) {
     }
 }
 
+/// Writes rank and part of all objects; returns true if any moves.
+bool list_all(const Targets& to, List& list) {
+    bool any_moves = false;
+    for (std::size_t i = 0; i < to.count(); ++i) {
+        list.ranks[i] = to.rank_of(i);
+        list.parts[i] = to.part_of(i);
+        any_moves = any_moves || to.moves(i, list.ranks[i]);
+    }
+    return any_moves;
+}
+
 /// Keeps the entries of objects that move, in their order. It works in place, so it cannot fail.
-void keep_moving(const Moves& moves, const IdWidths& widths, List& list) {
+template <class Widths>
+void keep_moving(const Targets& to, const Widths& widths, List& list) {
+    IdWord* const global_ids = list.global_ids.get();
+    IdWord* const local_ids = list.local_ids.get();
+    int* const ranks = list.ranks.get();
+    int* const parts = list.parts.get();
     std::size_t kept = 0;
-    for (int i = 0; i < list.count; ++i) {
-        if (!moves(i)) continue;
-        move_entry(list.global_ids.get(), widths.global, i, kept);
-        move_entry(list.local_ids.get(), widths.local, i, kept);
-        move_entry(list.ranks.get(), 1, i, kept);
-        move_entry(list.parts.get(), 1, i, kept);
-        ++kept;
+    for (std::size_t i = 0; i < to.count(); ++i) {
+        const int rank = to.rank_of(i);
+        // Written in any case: a later entry takes its place unless it counts.
+        move_entry(global_ids, widths.global, i, kept);
+        move_entry(local_ids, widths.local, i, kept);
+        ranks[kept] = rank;
+        parts[kept] = to.part_of(i);
+        kept += to.moves(i, rank) ? 1 : 0;
     }
     list.global_ids.shrink(kept * widths.global);
     list.local_ids.shrink(kept * widths.local);
@@ -78,13 +84,6 @@ List take_arrays(Objects& objects) {
     return list;
 }
 
-bool any_moves(const Moves& moves, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-        if (moves(i)) return true;
-    }
-    return false;
-}
-
 }  // namespace
 
 Exports make_exports(Objects&& objects, const Parameters& parameters,
@@ -92,12 +91,12 @@ Exports make_exports(Objects&& objects, const Parameters& parameters,
     Exports exports;
     List& list = exports.list;
     list = take_arrays(objects);
-    write_targets(new_parts, map, my_rank, list);
-    const Moves moves(list, objects.initial_parts.get(), my_rank);
+    const Targets targets(new_parts, map, objects.initial_parts.get(), my_rank);
     if (parameters.return_lists == ReturnLists::parts) {
-        exports.moves = any_moves(moves, new_parts.size());
+        exports.moves = list_all(targets, list);
     } else {
-        keep_moving(moves, IdWidths(parameters), list);
+        visit_widths(IdWidths(parameters),
+                     [&](const auto& widths) { keep_moving(targets, widths, list); });
         exports.moves = list.count > 0;
     }
     return exports;

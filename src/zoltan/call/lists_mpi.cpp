@@ -11,8 +11,9 @@ namespace rrcb::zoltan {
 namespace {
 
 /// An object on its way: words of its global id, of its local id, and its part.
+template <class Widths>
 struct Record {
-    IdWidths widths;
+    Widths widths;
 
     std::size_t bytes() const {
         return (widths.global + widths.local) * sizeof(IdWord) + sizeof(int);
@@ -48,11 +49,11 @@ struct Record {
     }
 };
 
-List make_list(std::size_t count, const Record& record) {
+List make_list(std::size_t count, const IdWidths& widths) {
     List list;
     list.count = mpi::to_int(static_cast<std::int64_t>(count));
-    list.global_ids = ZoltanArray<IdWord>(count * record.widths.global);
-    list.local_ids = ZoltanArray<IdWord>(count * record.widths.local);
+    list.global_ids = ZoltanArray<IdWord>(count * widths.global);
+    list.local_ids = ZoltanArray<IdWord>(count * widths.local);
     list.ranks = ZoltanArray<int>(count);
     list.parts = ZoltanArray<int>(count);
     return list;
@@ -60,21 +61,26 @@ List make_list(std::size_t count, const Record& record) {
 
 /// Import list that answers the export lists of all ranks. Collective.
 List invert(const List& exports, const Parameters& parameters, Participant& self) {
-    const Record record{IdWidths(parameters)};
-    Exchange exchange(record.bytes(), mpi::size_of(self.comm));
+    const IdWidths widths(parameters);
+    Exchange exchange(Record{widths}.bytes(), mpi::size_of(self.comm));
     self.attempt([&] {
         const std::span ranks(exports.ranks.get(), static_cast<std::size_t>(exports.count));
-        exchange.fill(ranks,
-                      [&](std::size_t i, std::byte* place) { record.write(exports, i, place); });
+        visit_widths(widths, [&](const auto& known) {
+            exchange.fill(ranks, [&](std::size_t i, std::byte* place) {
+                Record{known}.write(exports, i, place);
+            });
+        });
     });
     const std::size_t count = exchange.announce(self);
     List imports;
-    self.attempt([&] { imports = make_list(count, record); });
+    self.attempt([&] { imports = make_list(count, widths); });
     agree(self);
     exchange.run(self);
-    exchange.for_each([&, i = std::size_t{0}](int source, const std::byte* place) mutable {
-        imports.ranks[i] = source;
-        record.read(place, i++, imports);
+    visit_widths(widths, [&](const auto& known) {
+        exchange.for_each([&, i = std::size_t{0}](int source, const std::byte* place) mutable {
+            imports.ranks[i] = source;
+            Record{known}.read(place, i++, imports);
+        });
     });
     return imports;
 }

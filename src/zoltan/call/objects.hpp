@@ -33,6 +33,19 @@ struct IdWidths {
     std::size_t local;
 };
 
+/// The usual widths, for loops over ids.
+struct SingleWords {
+    static constexpr std::size_t global = 1;
+    static constexpr std::size_t local = 1;
+};
+
+/// Calls visit(widths) with constants if the widths are the usual ones.
+template <class Visit>
+void visit_widths(const IdWidths& widths, Visit&& visit) {
+    if (widths.global == 1 && widths.local == 1) return visit(SingleWords{});
+    visit(widths);
+}
+
 /// One rank's objects, as its callbacks describe them.
 struct Objects {
     int count = 0;

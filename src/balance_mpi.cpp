@@ -34,9 +34,11 @@ namespace {
 
 /// A call on one rank.
 struct Call {
-    Call(const Points& given, StageObserver* observer, Participant& self)
+    Call(const Points& given, StageObserver* observer, Participant& self,
+         std::vector<Part>&& memory)
         : points(given), ranks{mpi::size_of(self.comm), mpi::ranks_per_machine(self)} {
         options.parts.observer = observer;
+        result.parts = std::move(memory);
     }
 
     Points points;  ///< without weights if all of them are 0
@@ -107,8 +109,8 @@ void settle(Call& call, Participant& self) {
 }
 
 Balance balance_from_scratch(const Points& points, const Options& given, bool may_keep,
-                             Participant& self) {
-    Call call(points, given.observer, self);
+                             Participant& self, std::vector<Part>&& memory) {
+    Call call(points, given.observer, self, std::move(memory));
     KeptParts kept;
     self.attempt([&] { prepare(given, may_keep, call, kept, self); });
     estimate(call, self);
@@ -223,43 +225,67 @@ Balance better(Balance&& reused, Balance&& anew, const Options& options) {
 }
 
 Balance balance_from_earlier(const Points& points, const Options& given, const Cuts& previous,
-                             bool may_keep, Participant& self) {
-    Call call(points, given.observer, self);
+                             bool may_keep, Participant& self, std::vector<Part>&& memory) {
+    Call call(points, given.observer, self, std::move(memory));
     EarlierParts earlier;
     self.attempt([&] { prepare_to_reuse(given, previous, call, earlier, self); });
     // Both begin with the same messages, so a rank that has failed does not wait alone.
     if (!self.failed() && !may_reuse(previous, call.options))
-        return balance_from_scratch(points, given, may_keep, self);
+        return balance_from_scratch(points, given, may_keep, self, std::move(call.result.parts));
     estimate(call, self);
     const bool is_kept = keeps_earlier(call, earlier, self);
     if (call.options.is_spread()) {
-        if (!is_kept) return balance_from_scratch(points, given, may_keep, self);
+        if (!is_kept)
+            return balance_from_scratch(points, given, may_keep, self,
+                                        std::move(call.result.parts));
         hold_cuts(call.points, call.options.parts, call.result, self);
         return std::move(call.result);
     }
     if (!is_kept) settle_from_earlier(call, earlier, self);
     if (!may_be_poor(call.result.report, call.options.parts)) return std::move(call.result);
-    return better(std::move(call.result), balance_from_scratch(points, given, false, self),
+    return better(std::move(call.result), balance_from_scratch(points, given, false, self, {}),
                   call.options.parts);
 }
 
 }  // namespace
 
 Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_keep,
-                Participant& self) {
-    return previous ? balance_from_earlier(points, options, *previous, may_keep, self)
-                    : balance_from_scratch(points, options, may_keep, self);
+                Participant& self, std::vector<Part> memory) {
+    return previous
+               ? balance_from_earlier(points, options, *previous, may_keep, self, std::move(memory))
+               : balance_from_scratch(points, options, may_keep, self, std::move(memory));
 }
 
-Balance balance(const Points& points, const Options& options, MPI_Comm comm) {
+namespace {
+
+void balance_anew(Balance& result, const Points& points, const Options& options,
+                  const Cuts* previous, MPI_Comm comm) {
     Participant self{mpi::duplicate_of(comm)};
-    return balance(points, options, nullptr, true, self);
+    result = balance(points, options, previous, true, self, std::exchange(result.parts, {}));
+}
+
+}  // namespace
+
+Balance balance(const Points& points, const Options& options, MPI_Comm comm) {
+    Balance result;
+    balance_into(result, points, options, comm);
+    return result;
+}
+
+void balance_into(Balance& result, const Points& points, const Options& options, MPI_Comm comm) {
+    balance_anew(result, points, options, nullptr, comm);
 }
 
 Balance rebalance(const Points& points, const Options& options, const Cuts& previous,
                   MPI_Comm comm) {
-    Participant self{mpi::duplicate_of(comm)};
-    return balance(points, options, &previous, true, self);
+    Balance result;
+    rebalance_into(result, points, options, previous, comm);
+    return result;
+}
+
+void rebalance_into(Balance& result, const Points& points, const Options& options,
+                    const Cuts& previous, MPI_Comm comm) {
+    balance_anew(result, points, options, &previous, comm);
 }
 
 }  // namespace rrcb

@@ -4,14 +4,16 @@
 
 #include <rrcb/balance.hpp>
 
+#include <vector>
+
 namespace rrcb {
 
 /// Balances as the public functions do, over a communicator that is a duplicate already.
 ///
 /// `previous` may be null. A failure from before the call is thrown on all ranks as well. Points
 /// that lie well enough stay (Report::kept) only if all ranks allow it: `may_keep` may differ
-/// between them.
+/// between them. The parts are in the `memory` of other ones.
 Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_keep,
-                Participant& self);
+                Participant& self, std::vector<Part> memory = {});
 
 }  // namespace rrcb

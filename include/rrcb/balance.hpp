@@ -77,4 +77,21 @@ RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm 
 RRCB_API Balance rebalance(const Points& points, const Options& options, const Cuts& previous,
                            MPI_Comm comm);
 
+/// Replaces `result` by that of balance(), with its parts in the memory of the old ones.
+///
+/// Collective over `comm`. From the second call on with as many points no memory is allocated for
+/// each point. If it throws, as balance(), `result` has no parts.
+RRCB_API void balance_into(Balance& result, const Points& points, const Options& options,
+                           MPI_Comm comm);
+
+/// Replaces `result` by that of rebalance(), as balance_into(). `previous` may be `result.cuts`.
+RRCB_API void rebalance_into(Balance& result, const Points& points, const Options& options,
+                             const Cuts& previous, MPI_Comm comm);
+
+/// Frees the buffers that calls on `comm` keep for the next ones. Not collective.
+///
+/// They are freed with `comm` otherwise. A call that searches cuts, as with Refine::exact, keeps 8
+/// bytes a point for each coordinate, 8 more, and 8 with weights; other calls keep less.
+RRCB_API void release_buffers(MPI_Comm comm);
+
 }  // namespace rrcb

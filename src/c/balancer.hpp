@@ -9,6 +9,7 @@
 #include <mpi.h>
 
 #include <optional>
+#include <vector>
 
 /// What a program in C holds by a pointer.
 struct rrcb_balancer {
@@ -17,6 +18,7 @@ struct rrcb_balancer {
     rrcb::Cuts cuts{};
     std::optional<rrcb::Report> report{};
     std::optional<rrcb::Plan> plan{};
+    std::vector<rrcb::Part> parts{};  ///< memory for the next call
 };
 
 namespace rrcb::c {

@@ -32,6 +32,7 @@ void keep(Balance&& balance, std::span<Part> parts, rrcb_balancer& own) noexcept
     std::ranges::copy(balance.parts, parts.begin());
     own.cuts = std::move(balance.cuts);
     own.report = std::move(balance.report);
+    own.parts = std::move(balance.parts);
 }
 
 /// The caller's room for a column.
@@ -79,7 +80,8 @@ int rrcb_balance(rrcb_balancer* balancer, int dimension, size_t count, const dou
         Participant self{duplicate_of(own.comm)};
         self.attempt([&] { require_arrays(count, coordinates, parts); });
         const rrcb::Points points = points_of(dimension, count, coordinates, weights);
-        keep(rrcb::balance(points, own.options, nullptr, true, self), {parts, count}, own);
+        keep(rrcb::balance(points, own.options, nullptr, true, self, std::move(own.parts)),
+             {parts, count}, own);
     });
 }
 
@@ -92,7 +94,8 @@ int rrcb_rebalance(rrcb_balancer* balancer, int dimension, size_t count, const d
             require_arrays(count, coordinates, parts);
         });
         const rrcb::Points points = points_of(dimension, count, coordinates, weights);
-        keep(rrcb::balance(points, own.options, &own.cuts, true, self), {parts, count}, own);
+        keep(rrcb::balance(points, own.options, &own.cuts, true, self, std::move(own.parts)),
+             {parts, count}, own);
     });
 }
 

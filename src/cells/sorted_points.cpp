@@ -5,44 +5,53 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace rrcb {
 
 namespace {
 
-template <class Layout>
-void scatter(const Layout& x, const BinnedPoints& binned, SortedPoints& sorted) {
+template <bool Weighted, class Layout>
+void scatter(const Layout& points, const BinnedPoints& binned, SortedPoints& sorted) {
     constexpr auto dimension = static_cast<std::size_t>(Layout::dimension);
-    std::vector<LocalIndex> next(sorted.begins.begin(), sorted.begins.end() - 1);
-    const Points& points = binned.points;
-    visit_cells(CellFinder(binned.mesh), x, 0, points.count, [&](LocalIndex i, std::size_t cell) {
+    std::vector<LocalIndex> places(sorted.begins.begin(), sorted.begins.end() - 1);
+    // Copies, which the writes can't change.
+    const auto add = [x = points, next = places.data(), to = sorted.coordinates.data(),
+                      original = sorted.original.data(), weights = sorted.weights.data(),
+                      weights_before = binned.points.weights.data()](LocalIndex i,
+                                                                     std::size_t cell) {
         const LocalIndex place = next[cell]++;
-        for (std::size_t a = 0; a < dimension; ++a)
-            sorted.coordinates[place * dimension + a] = x(i, static_cast<int>(a));
-        sorted.original[place] = i;
-        if (!points.weights.empty()) sorted.weights[place] = points.weights[i];
-    });
+        std::array<double, dimension> position;
+        for (std::size_t a = 0; a < dimension; ++a) position[a] = x(i, static_cast<int>(a));
+        std::ranges::copy(position, &to[place * dimension]);
+        original[place] = i;
+        if constexpr (Weighted) weights[place] = weights_before[i];
+    };
+    visit_cells(CellFinder(binned.mesh), points, 0, binned.points.count, add);
+}
+
+/// Without a copy of the entries if it grows.
+template <class Value>
+void resize(Uninitialized<Value>& values, std::size_t size) {
+    values.clear();
+    values.resize(size);
 }
 
 }  // namespace
 
-Vector SortedPoints::position(LocalIndex i) const {
-    const auto d = static_cast<std::size_t>(mesh.dimension);
-    Vector x{};
-    for (std::size_t a = 0; a < d; ++a) x[a] = coordinates[i * d + a];
-    return x;
-}
-
-SortedPoints sort_by_cell(const BinnedPoints& binned) {
+SortedPoints sort_by_cell(const BinnedPoints& binned, SortedPoints memory) {
     const Points& points = binned.points;
-    SortedPoints sorted;
+    SortedPoints sorted = std::move(memory);
     sorted.mesh = binned.mesh;
     sorted.begins.resize(binned.counts.size() + 1);
     std::partial_sum(binned.counts.begin(), binned.counts.end(), sorted.begins.begin() + 1);
-    sorted.coordinates.resize(points.count * static_cast<std::size_t>(points.dimension));
-    sorted.weights.resize(points.weights.size());
-    sorted.original.resize(points.count);
-    visit_layout(points, [&](const auto& x) { scatter(x, binned, sorted); });
+    resize(sorted.coordinates, points.count * static_cast<std::size_t>(points.dimension));
+    resize(sorted.weights, points.weights.size());
+    resize(sorted.original, points.count);
+    visit_layout(points, [&](const auto& x) {
+        if (points.weights.empty()) return scatter<false>(x, binned, sorted);
+        scatter<true>(x, binned, sorted);
+    });
     return sorted;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cells/binned_points.hpp"
+#include "cells/uninitialized.hpp"
 
 #include <vector>
 
@@ -12,19 +13,27 @@ namespace rrcb {
 /// including, begins[c + 1].
 struct SortedPoints {
     SupportMesh mesh;
-    std::vector<double> coordinates;   ///< interleaved
-    std::vector<double> weights;       ///< empty when every point weighs 1
-    std::vector<LocalIndex> original;  ///< index each entry had before
-    std::vector<LocalIndex> begins;    ///< length num_cells + 1
+    Uninitialized<double> coordinates;   ///< interleaved
+    Uninitialized<double> weights;       ///< empty when every point weighs 1
+    Uninitialized<LocalIndex> original;  ///< index each entry had before
+    std::vector<LocalIndex> begins;      ///< length num_cells + 1
 
     int dimension() const { return mesh.dimension; }
     LocalIndex count() const { return original.size(); }
     double weight(LocalIndex i) const { return weights.empty() ? 1.0 : weights[i]; }
-    Vector position(LocalIndex i) const;
+    double coordinate(LocalIndex i, int axis) const {
+        return coordinates[i * static_cast<LocalIndex>(mesh.dimension) +
+                           static_cast<LocalIndex>(axis)];
+    }
+    Vector position(LocalIndex i) const {
+        Vector x{};
+        for (int a = 0; a < mesh.dimension; ++a) x[static_cast<std::size_t>(a)] = coordinate(i, a);
+        return x;
+    }
 };
 
-/// Copy of binned points, sorted in one pass. Not collective.
-SortedPoints sort_by_cell(const BinnedPoints& binned);
+/// Copy of binned points, sorted in one pass, in the memory of other ones. Not collective.
+SortedPoints sort_by_cell(const BinnedPoints& binned, SortedPoints memory = {});
 
 /// Box that holds the points sorted into a cell: the cell with a margin for the round-off of
 /// finding it. Not collective.

@@ -28,17 +28,6 @@ int key() {
     return key;
 }
 
-/// Duplicate kept with `user`, or null. A rank without a key has kept none, so no rank has for a
-/// communicator that they share.
-const MPI_Comm* find(MPI_Comm user) {
-    void* attribute = nullptr;
-    int found = 0;
-    const Failure failure = attempt([] { key(); });
-    if (failure.failed) return nullptr;
-    check(MPI_Comm_get_attr(user, key(), &attribute, &found), "MPI_Comm_get_attr");
-    return found != 0 ? static_cast<MPI_Comm*>(attribute) : nullptr;
-}
-
 void refuse_two_groups(MPI_Comm user) {
     int has_two = 0;
     check(MPI_Comm_test_inter(user, &has_two), "MPI_Comm_test_inter");
@@ -56,11 +45,21 @@ void keep(MPI_Comm duplicate, MPI_Comm user) {
 
 }  // namespace
 
+const MPI_Comm* find_duplicate(MPI_Comm user) {
+    void* attribute = nullptr;
+    int found = 0;
+    // A rank without a key has kept none, so no rank has for a communicator that they share.
+    const Failure failure = attempt([] { key(); });
+    if (failure.failed) return nullptr;
+    check(MPI_Comm_get_attr(user, key(), &attribute, &found), "MPI_Comm_get_attr");
+    return found != 0 ? static_cast<MPI_Comm*>(attribute) : nullptr;
+}
+
 MPI_Comm duplicate_of(MPI_Comm user) {
     if (user == MPI_COMM_NULL)
         throw Error(ErrorCode::invalid_argument,
                     "MPI_COMM_NULL has no ranks; give a communicator with this rank in it");
-    if (const MPI_Comm* found = find(user)) return *found;
+    if (const MPI_Comm* found = find_duplicate(user)) return *found;
     refuse_two_groups(user);
     MPI_Comm comm = MPI_COMM_NULL;
     Participant self{user};

@@ -12,4 +12,7 @@ namespace rrcb::mpi {
 /// rank, without a message, for MPI_COMM_NULL and intercommunicators.
 MPI_Comm duplicate_of(MPI_Comm user);
 
+/// Returns the duplicate kept with `user`, or null. Not collective.
+const MPI_Comm* find_duplicate(MPI_Comm user);
+
 }  // namespace rrcb::mpi

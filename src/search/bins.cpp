@@ -34,25 +34,12 @@ Bins::Bins(double lower, double upper, const AxisLimits& limits, int num_bins)
     cells_a_bin_ = std::max(1.0, std::ceil(num_cells / num_bins));
 }
 
-double Bins::edge(int k) const {
-    if (k == num_bins_) return upper_;
-    if (!by_bits_) return std::min(lower_ + k * width_, upper_);
-    return edge_by_number(k);
-}
-
 double Bins::edge_by_number(int k) const {
     if (cells_a_bin_ > 0) return std::min(limits_.line(first_line_ + k * cells_a_bin_), upper_);
     const auto bins = static_cast<std::uint64_t>(k);
     if (bins > num_doubles_ / doubles_a_bin_) return upper_;
     return double_of_rank(
         static_cast<std::int64_t>(static_cast<std::uint64_t>(lower_rank_) + bins * doubles_a_bin_));
-}
-
-std::int32_t Bins::slot_of(double value) const {
-    if (value < lower_) return 0;
-    if (!(value < upper_)) return num_bins_ + 1;
-    if (!by_bits_) return bin_by_width(value) + 1;
-    return slot_by_number(value);
 }
 
 std::int32_t Bins::slot_by_number(double value) const {
@@ -63,15 +50,6 @@ std::int32_t Bins::slot_by_number(double value) const {
     const std::uint64_t offset =
         static_cast<std::uint64_t>(double_rank(value)) - static_cast<std::uint64_t>(lower_rank_);
     return static_cast<std::int32_t>(offset / doubles_a_bin_) + 1;
-}
-
-std::int32_t Bins::bin_by_width(double value) const {
-    const double share = width_ > 0 ? (value - lower_) / width_ : 0;
-    int bin = static_cast<int>(std::clamp(share, 0.0, num_bins_ - 1.0));
-    // The edges as they are rounded decide, since cuts are put on them.
-    while (bin > 0 && value < edge(bin)) --bin;
-    while (bin + 1 < num_bins_ && value >= edge(bin + 1)) ++bin;
-    return bin;
 }
 
 }  // namespace rrcb

@@ -2,6 +2,7 @@
 
 #include "cuts/axis_limits.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace rrcb {
@@ -20,13 +21,29 @@ class Bins {
     Bins(double lower, double upper, const AxisLimits& limits, int num_bins);
 
     /// Edge number k of the num_bins + 1 edges, ascending from lower to upper.
-    double edge(int k) const;
+    double edge(int k) const {
+        if (k == num_bins_) return upper_;
+        if (!by_bits_) return std::min(lower_ + k * width_, upper_);
+        return edge_by_number(k);
+    }
 
     /// The slot whose edges hold `value`, to the bit.
-    std::int32_t slot_of(double value) const;
+    std::int32_t slot_of(double value) const {
+        if (value < lower_) return 0;
+        if (!(value < upper_)) return num_bins_ + 1;
+        if (!by_bits_) return bin_by_width(value) + 1;
+        return slot_by_number(value);
+    }
 
   private:
-    std::int32_t bin_by_width(double value) const;
+    std::int32_t bin_by_width(double value) const {
+        const double share = width_ > 0 ? (value - lower_) / width_ : 0;
+        int bin = static_cast<int>(std::clamp(share, 0.0, num_bins_ - 1.0));
+        // The edges as they are rounded decide, since cuts are put on them.
+        while (bin > 0 && value < edge(bin)) --bin;
+        while (bin + 1 < num_bins_ && value >= edge(bin + 1)) ++bin;
+        return bin;
+    }
     // By doubles or cells; apart, as most bins are of equal width and each instruction tells there.
     [[gnu::noinline]] double edge_by_number(int k) const;
     [[gnu::noinline]] std::int32_t slot_by_number(double value) const;

@@ -4,6 +4,7 @@
 #include "collective/communicator.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace rrcb {
 
@@ -19,7 +20,8 @@ constexpr int most_parts_at_once = 128;
 
 }  // namespace
 
-Correction::Correction(const Descent& top, bool is_root) {
+Correction::Correction(const Descent& top, bool is_root, UndecidedPoints& memory)
+    : points_(memory) {
     if (top.num_parts > most_parts_at_once) return;
     const SlabTotals most = most_slabs(top);
     slabs_.resize(most.moving);
@@ -35,7 +37,8 @@ int Correction::run(const TargetRule& rule, const Points& points, std::span<cons
     if (slabs_.empty() || !rule.are_points_light()) return 0;
     totals_ = lay_slabs(rule, cuts, brackets, sums.sums(), slabs_);
     if (totals_.moving == 0) return 0;
-    self.attempt([&] { points_ = undecided_points(points, parts, cuts, slabs_); });
+    self.attempt(
+        [&] { points_ = undecided_points(points, parts, cuts, slabs_, std::move(points_)); });
     int rounds = 0;
     double before = 0;
     do {

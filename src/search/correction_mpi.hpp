@@ -15,8 +15,8 @@ namespace rrcb {
 /// The constructor makes what the messages need.
 class Correction {
   public:
-    /// For the tree below `top`. Not collective. Throws std::bad_alloc.
-    Correction(const Descent& top, bool is_root);
+    /// For the tree below `top`; `memory` is borrowed. Not collective. Throws std::bad_alloc.
+    Correction(const Descent& top, bool is_root, UndecidedPoints& memory);
 
     /// Moves `cuts`, whose parts are too uneven, until these are within the tolerance, as counted;
     /// or until that gets on no further. Returns in how many rounds, 0 where nothing was moved.
@@ -36,7 +36,7 @@ class Correction {
 
     SlabTotals totals_;
     std::vector<Slab> slabs_;  ///< of all cuts; none where there are too many
-    UndecidedPoints points_;
+    UndecidedPoints& points_;
     std::unique_ptr<double[]> here_;    ///< in bins of slabs, and 1 where this rank failed
     std::unique_ptr<double[]> joined_;  ///< the same of all ranks; null elsewhere than at the root
     std::vector<double> values_;        ///< of moving cuts, and how many ranks failed

@@ -45,6 +45,8 @@ class Divider {
     }
 
     bool is_above(LocalIndex i) {
+        const double value = points_.coordinate(i, cut_.axis);
+        if (value != cut_.at[cut_.axis]) return value > cut_.at[cut_.axis];
         const Vector position = points_.position(i);
         if (!rrcb::is_above(cut_, position, points_.dimension())) return false;
         if (!(lot_.below > 0 && is_at(cut_, position, points_.dimension()))) return true;

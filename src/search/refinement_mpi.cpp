@@ -16,6 +16,7 @@ namespace rrcb {
 Refinement::Refinement(const Options& options, const Participant& self, PartSums& sums)
     : options_(options),
       sums_(sums),
+      memory_(workspace_of(self.comm)),
       rounds_(mpi::rank_of(self.comm), mpi::size_of(self.comm), Butterfly::Way::central) {
     tree_.num_parts = options.num_parts;
     tree_.shape = options.tree;
@@ -25,7 +26,8 @@ Refinement::Refinement(const Options& options, const Participant& self, PartSums
     tree_.divides_coincident = options.coincident == Coincident::divide;
     tree_.limits = axis_limits(options);
     if (options.refine != Refine::exact && !are_cuts_limited(options))
-        correction_.emplace(root_of(options.num_parts, options.tree), rounds_.rank() == root);
+        correction_.emplace(root_of(options.num_parts, options.tree), rounds_.rank() == root,
+                            memory_.undecided);
 }
 
 Refined Refinement::refine(Estimate&& estimate, const Points& points, const Bin& bin,
@@ -111,9 +113,13 @@ void Refinement::search_once(const Bin& bin, std::span<Part> parts, Participant&
     const Guide guide{estimate_.cuts, estimate_.brackets, limits_ ? &*limits_ : nullptr, sums_,
                       is_counted};
     std::optional<TreeSearch> search;
-    self.attempt([&] { search.emplace(tree_, rounds_.rank(), guide, sort_by_cell(bin()), parts); });
+    self.attempt([&] {
+        search.emplace(tree_, rounds_.rank(), guide, sort_by_cell(bin(), std::move(memory_.sorted)),
+                       parts);
+    });
     refined_.rounds += rounds_.run(search, self);
     refined_.coincident_cuts += search->num_coincident();
+    memory_.sorted = search->take_points();
     measure(self);
 }
 
@@ -121,15 +127,12 @@ void Refinement::search_once(const Bin& bin, std::span<Part> parts, Participant&
 void Refinement::search_for_better(const Bin& bin, std::span<Part> parts, Participant& self) {
     struct {
         std::vector<Cut> tree;
-        std::vector<Part> parts;
         std::vector<double> sums;
         int coincident_cuts = 0;
     } before;
     self.attempt([&] {
-        before = {estimate_.cuts.tree,
-                  {parts.begin(), parts.end()},
-                  sums_.saved(),
-                  std::exchange(refined_.coincident_cuts, 0)};
+        before = {estimate_.cuts.tree, sums_.saved(), std::exchange(refined_.coincident_cuts, 0)};
+        memory_.parts.assign(parts.begin(), parts.end());
     });
     const double imbalance_before = refined_.imbalance;
     search_once(bin, parts, self);
@@ -138,42 +141,42 @@ void Refinement::search_for_better(const Bin& bin, std::span<Part> parts, Partic
     refined_.coincident_cuts = before.coincident_cuts;
     estimate_.cuts.tree = std::move(before.tree);
     sums_.restore(std::move(before.sums));
-    std::ranges::copy(before.parts, parts.begin());
+    std::ranges::copy(memory_.parts, parts.begin());
 }
 
 RegionRefinement::RegionRefinement(const Participant& self)
-    : rounds_(mpi::rank_of(self.comm), mpi::size_of(self.comm), Butterfly::Way::spread) {}
+    : memory_(workspace_of(self.comm)),
+      rounds_(mpi::rank_of(self.comm), mpi::size_of(self.comm), Butterfly::Way::spread) {}
 
 Refined RegionRefinement::refine(const Regions& regions, PartTree tree, const BinnedPoints& binned,
                                  std::span<Part> parts, Participant& self) {
-    SortedPoints points;
-    self.attempt([&] { points = sort_by_cell(binned); });
-    Refined refined = search(regions, tree, points, parts, self);
+    self.attempt([&] { memory_.sorted = sort_by_cell(binned, std::move(memory_.sorted)); });
+    Refined refined = search(regions, tree, parts, self);
     const bool missed = refined.imbalance > tree.rule.tolerance;
     if (!missed || std::exchange(tree.rule.is_exact, true)) return refined;
-    std::vector<Part> before;
-    self.attempt([&] { before.assign(parts.begin(), parts.end()); });
+    self.attempt([&] { memory_.parts.assign(parts.begin(), parts.end()); });
     const Regions all_in_one{{regions.cuts.dimension, 1, {}}, {&tree.weight, 1}, regions.box};
-    Refined exact = search(all_in_one, tree, points, parts, self);
+    Refined exact = search(all_in_one, tree, parts, self);
     exact.rounds += refined.rounds;
     if (exact.imbalance < refined.imbalance) return exact;
     refined.rounds = exact.rounds;
-    std::ranges::copy(before, parts.begin());
+    std::ranges::copy(memory_.parts, parts.begin());
     return refined;
 }
 
-/// Runs one search; takes the points and gives them back. Collective.
-Refined RegionRefinement::search(const Regions& regions, const PartTree& tree, SortedPoints& points,
+/// Runs one search of the sorted points. Collective.
+Refined RegionRefinement::search(const Regions& regions, const PartTree& tree,
                                  std::span<Part> parts, Participant& self) {
     std::optional<TreeSearch> search;
-    self.attempt([&] { search.emplace(tree, rounds_.rank(), regions, std::move(points), parts); });
+    self.attempt(
+        [&] { search.emplace(tree, rounds_.rank(), regions, std::move(memory_.sorted), parts); });
     Refined refined;
     refined.rounds = rounds_.run(search, self);
     refined.imbalance = rounds_.imbalance();
     refined.coincident_cuts =
         regions.num_coincident + mpi::sum_of(search->num_coincident(), self.comm);
     self.attempt([&] { refined.cuts = search->cuts(); });
-    points = search->take_points();
+    memory_.sorted = search->take_points();
     return refined;
 }
 

@@ -6,6 +6,7 @@
 #include "search/correction_mpi.hpp"
 #include "search/part_sums_mpi.hpp"
 #include "search/tree_rounds_mpi.hpp"
+#include "search/workspace_mpi.hpp"
 
 #include <rrcb/method/bisection.hpp>
 #include <rrcb/options.hpp>
@@ -75,6 +76,7 @@ class Refinement {
 
     const Options& options_;
     PartSums& sums_;
+    Workspace& memory_;
     PartTree tree_;
     Estimate estimate_;
     std::optional<CutLimits> limits_;       ///< nothing where cuts may lie anywhere
@@ -87,7 +89,7 @@ class Refinement {
 /// message.
 class RegionRefinement {
   public:
-    /// Not collective. Throws std::bad_alloc.
+    /// Not collective. Throws Error or std::bad_alloc.
     explicit RegionRefinement(const Participant& self);
 
     /// Finds the cuts below `regions`, of which each rank gets those that it knows, and writes the
@@ -101,9 +103,10 @@ class RegionRefinement {
                    std::span<Part> parts, Participant& self);
 
   private:
-    Refined search(const Regions& regions, const PartTree& tree, SortedPoints& points,
-                   std::span<Part> parts, Participant& self);
+    Refined search(const Regions& regions, const PartTree& tree, std::span<Part> parts,
+                   Participant& self);
 
+    Workspace& memory_;
     TreeRounds rounds_;
 };
 

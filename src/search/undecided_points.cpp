@@ -9,6 +9,7 @@
 #include <array>
 #include <functional>
 #include <limits>
+#include <utility>
 
 namespace rrcb {
 
@@ -50,12 +51,15 @@ class Selection {
 
   public:
     Selection(const Layout& x, const Points& points, std::span<const Part> parts,
-              const std::vector<Box>& boxes)
-        : x_(x), points_(points), parts_(parts), boxes_(boxes), sums_(boxes.size()) {
-        selected_.dimension = Layout::dimension;
-    }
+              const std::vector<Box>& boxes, UndecidedPoints& selected)
+        : x_(x),
+          points_(points),
+          parts_(parts),
+          boxes_(boxes),
+          sums_(boxes.size()),
+          selected_(selected) {}
 
-    UndecidedPoints run() {
+    void run() {
         in_ranges(points_.count, sums_.interval(), [&](LocalIndex begin, LocalIndex end) {
             in_ranges(end - begin, block_length, [&](LocalIndex first, LocalIndex last) {
                 take(begin + first, begin + last);
@@ -63,7 +67,6 @@ class Selection {
             sums_.empty();
         });
         selected_.decided_weights = sums_.totals();
-        return std::move(selected_);
     }
 
   private:
@@ -111,7 +114,7 @@ class Selection {
     std::span<const Part> parts_;
     const std::vector<Box>& boxes_;
     RunningSums<double> sums_;
-    UndecidedPoints selected_;
+    UndecidedPoints& selected_;
 };
 
 /// A cut on the way to a part, which moves.
@@ -158,12 +161,21 @@ Part part_across(const Cuts& cuts, const Step& step, const Vector& position) {
 }  // namespace
 
 UndecidedPoints undecided_points(const Points& points, std::span<const Part> parts,
-                                 const Cuts& cuts, std::span<const Slab> slabs) {
+                                 const Cuts& cuts, std::span<const Slab> slabs,
+                                 UndecidedPoints memory) {
     const std::vector<Box> boxes = decided_boxes(cuts, slabs);
-    return visit_layout(points, [&]<class Layout>(const Layout& x) {
-        if (points.weights.empty()) return Selection<Layout, false>(x, points, parts, boxes).run();
-        return Selection<Layout, true>(x, points, parts, boxes).run();
+    UndecidedPoints selected = std::move(memory);
+    selected.dimension = points.dimension;
+    selected.coordinates.clear();
+    selected.weights.clear();
+    selected.original.clear();
+    selected.parts.clear();
+    visit_layout(points, [&]<class Layout>(const Layout& x) {
+        if (points.weights.empty())
+            return Selection<Layout, false>(x, points, parts, boxes, selected).run();
+        Selection<Layout, true>(x, points, parts, boxes, selected).run();
     });
+    return selected;
 }
 
 void count_in_slabs(const UndecidedPoints& points, const Cuts& cuts, std::span<const Slab> slabs,

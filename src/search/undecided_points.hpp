@@ -23,9 +23,10 @@ struct UndecidedPoints {
 };
 
 /// The points whose part is another one than `parts` has, by the cuts as they are, if these end
-/// elsewhere in their slabs. In one pass. Throws std::bad_alloc.
+/// elsewhere in their slabs. In one pass, in the memory of other ones. Throws std::bad_alloc.
 UndecidedPoints undecided_points(const Points& points, std::span<const Part> parts,
-                                 const Cuts& cuts, std::span<const Slab> slabs);
+                                 const Cuts& cuts, std::span<const Slab> slabs,
+                                 UndecidedPoints memory = {});
 
 /// Adds up the undecided points in the bins of slabs, see bin_in. Throws std::bad_alloc.
 void count_in_slabs(const UndecidedPoints& points, const Cuts& cuts, std::span<const Slab> slabs,

@@ -82,9 +82,9 @@ TEST(BinnedPoints, are_sorted_by_cell_in_the_order_they_came_in) {
     const std::array<std::span<const double>, 1> columns{x};
     const std::vector<double> weights{1, 2, 3, 4, 5, 6};
     const SortedPoints sorted = sort_by_cell(bin(column_points(columns, weights), 3));
-    EXPECT_EQ(sorted.original, (std::vector<LocalIndex>{1, 5, 4, 0, 2, 3}));
-    EXPECT_EQ(sorted.coordinates, (std::vector<double>{0, 0, 1, 3, 2, 3}));
-    EXPECT_EQ(sorted.weights, (std::vector<double>{2, 6, 5, 1, 3, 4}));
+    EXPECT_EQ(sorted.original, (Uninitialized<LocalIndex>{1, 5, 4, 0, 2, 3}));
+    EXPECT_EQ(sorted.coordinates, (Uninitialized<double>{0, 0, 1, 3, 2, 3}));
+    EXPECT_EQ(sorted.weights, (Uninitialized<double>{2, 6, 5, 1, 3, 4}));
     EXPECT_EQ(sorted.begins, (std::vector<LocalIndex>{0, 2, 3, 6}));
 }
 

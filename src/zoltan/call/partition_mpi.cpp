@@ -164,6 +164,7 @@ void keep(Preparation&& prepared, Balance&& balanced, PartMap&& map, Numbering&&
           State& state) {
     prepared.last->keep(std::move(balanced.cuts), std::move(map), std::move(numbering));
     prepared.last->answer_look_ups(keeps_cuts(state.parameters));
+    state.workspace.parts = std::move(balanced.parts);
     state.last = std::move(prepared.last);
     if (state.kept) state.kept->report = std::move(balanced.report);
     state.axes_changed = false;
@@ -203,11 +204,12 @@ int keep_objects(const Call& call, Objects&& objects, Partition& result) {
 /// Divides the objects by RRCB's own method, or by one of the paper's. Collective.
 Balance divide(const Call& call, const Layout& layout, const Preparation& prepared,
                const Objects& objects, Participant& self) {
-    const State& state = call.state;
+    State& state = call.state;
     if (state.parameters.paper_domain)
         return balance_as_in_paper(objects.points, prepared.paper, self);
     const bool may_keep = are_in_own_part(objects, layout.map, state.communicator->rank());
-    return balance(objects.points, prepared.options, prepared.previous, may_keep, self);
+    return balance(objects.points, prepared.options, prepared.previous, may_keep, self,
+                   std::move(state.workspace.parts));
 }
 
 int balance_objects(const Call& call, Objects&& objects, Partition& result) {

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <rrcb/points.hpp>
+
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 namespace rrcb::zoltan {
 
@@ -29,6 +32,7 @@ struct Workspace {
     Scratch<double> coordinates;
     Scratch<double> weights;
     Scratch<float> callback_weights;
+    std::vector<Part> parts;
 };
 
 }  // namespace rrcb::zoltan

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "cells/sorted_points.hpp"
+#include "search/undecided_points.hpp"
+
+#include <mpi.h>
+
+#include <vector>
+
+namespace rrcb {
+
+/// Memory for each point, which the calls on a communicator use again in place of new pages.
+///
+/// A step may move an entry out; what it does not put back is freed.
+struct Workspace {
+    SortedPoints sorted{};  ///< of searches: 8 bytes a point for each coordinate, 8, 8 weighted
+    UndecidedPoints undecided{};  ///< of corrections: some of the points
+    std::vector<Part> parts{};    ///< of cuts that another search may improve: 4 bytes a point
+};
+
+/// Returns the workspace kept with a duplicate of the library's, made at the first call and freed
+/// with it. Not collective. Throws Error or std::bad_alloc.
+Workspace& workspace_of(MPI_Comm duplicate);
+
+}  // namespace rrcb

@@ -1,0 +1,182 @@
+// Memory of repeated calls: allocations and page faults are counted, not timed.
+#include "../support/clouds.hpp"
+#include "../support/held_memory.hpp"
+#include "../support/memory_layer.hpp"
+#include "../support/ranks.hpp"
+
+#include <rrcb/rrcb.hpp>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+
+namespace rrcb {
+namespace {
+
+using test::num_ranks;
+using test::rank;
+
+constexpr std::size_t many = 120000;
+
+/// What a call costs that is repeated.
+struct Cost {
+    long bytes = 0;   ///< allocated at most at a time, beyond those before the call
+    long faults = 0;  ///< pages that the system had to give
+};
+
+Cost cost_of(const std::function<void()>& call) {
+    rusage before{};
+    rusage after{};
+    memory_layer::restart_peak();
+    getrusage(RUSAGE_THREAD, &before);
+    call();
+    getrusage(RUSAGE_THREAD, &after);
+    return {memory_layer::peak_bytes(), after.ru_minflt - before.ru_minflt};
+}
+
+struct Cloud {
+    explicit Cloud(std::size_t count, int dimension = 2, bool weighted = false)
+        : coordinates(test::uniform_cloud(count, dimension, 7 + static_cast<unsigned>(rank()))) {
+        if (weighted) weights.assign(count, 1.5);
+        points = interleaved_points(coordinates, dimension, weights);
+    }
+
+    std::vector<double> coordinates;
+    std::vector<double> weights;
+    Points points;
+};
+
+Options options_of(Refine refine, double tolerance = 1.01) {
+    Options options;
+    options.num_parts = 2 * num_ranks();
+    options.refine = refine;
+    options.imbalance_tolerance = tolerance;
+    options.tuning.support_mesh = 4;
+    return options;
+}
+
+void expect_same(const Balance& a, const Balance& b) {
+    EXPECT_EQ(a.parts, b.parts);
+    EXPECT_EQ(a.report.part_weights, b.report.part_weights);
+}
+
+/// Calls ten times; from the second call on there is no memory for each point.
+void expect_no_memory(const Cloud& cloud, const Options& options, bool reuses) {
+    Balance result = balance(cloud.points, options, MPI_COMM_WORLD);
+    Balance first;
+    for (int k = 0; k < 10; ++k) {
+        const Cost cost = cost_of([&] {
+            if (reuses)
+                rebalance_into(result, cloud.points, options, result.cuts, MPI_COMM_WORLD);
+            else
+                balance_into(result, cloud.points, options, MPI_COMM_WORLD);
+        });
+        if (k == 0) {
+            first = result;
+            continue;
+        }
+        // Messages, cells and the candidates of single cuts: two bytes a point.
+        EXPECT_LT(cost.bytes, 2 * static_cast<long>(many)) << k;
+        // Messages of other ranks touch pages as well.
+        const long most_faults = num_ranks() == 1 ? 8 : 100;
+        EXPECT_LE(cost.faults, most_faults) << k;
+        expect_same(result, first);
+    }
+}
+
+TEST(Buffers, serve_all_calls_but_the_first) {
+    for (const int dimension : {1, 2, 3}) {
+        for (const bool weighted : {false, true}) {
+            const Cloud cloud(many, dimension, weighted);
+            for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
+                SCOPED_TRACE(testing::Message()
+                             << dimension << "-D " << weighted << " " << static_cast<int>(refine));
+                expect_no_memory(cloud, options_of(refine), false);
+                expect_no_memory(cloud, options_of(refine), true);
+            }
+        }
+    }
+}
+
+TEST(Buffers, serve_corrections_and_second_searches) {
+    const Cloud cloud(many);
+    expect_no_memory(cloud, options_of(Refine::tolerance, 1.0001), false);
+    Options options = options_of(Refine::tolerance);
+    options.axes.min_width = {0.01, 0.01};
+    expect_no_memory(cloud, options, false);
+}
+
+TEST(Buffers, serve_cuts_that_many_ranks_make) {
+    if (num_ranks() < 3) GTEST_SKIP() << "needs three ranks";
+    const Cloud cloud(many);
+    Options options = options_of(Refine::tolerance);
+    options.tuning.central_parts = 2;
+    expect_no_memory(cloud, options, false);
+}
+
+TEST(Buffers, follow_the_number_of_points) {
+    Balance result;
+    for (const std::size_t count : {many, std::size_t{0}, std::size_t{100}, 2 * many, many / 2}) {
+        const Cloud cloud(count);
+        for (const Refine refine : {Refine::tolerance, Refine::exact}) {
+            MPI_Comm fresh = MPI_COMM_NULL;
+            MPI_Comm_dup(MPI_COMM_WORLD, &fresh);
+            balance_into(result, cloud.points, options_of(refine), MPI_COMM_WORLD);
+            expect_same(result, balance(cloud.points, options_of(refine), fresh));
+            MPI_Comm_free(&fresh);
+        }
+    }
+}
+
+TEST(Buffers, belong_to_a_communicator) {
+    const Cloud large(many);
+    const Cloud small(many / 8);
+    const Options options = options_of(Refine::exact);
+    const Balance of_large = balance(large.points, options, MPI_COMM_WORLD);
+    const Balance of_small = balance(small.points, options, MPI_COMM_WORLD);
+    const test::HeldMemory before;
+    MPI_Comm other = MPI_COMM_NULL;
+    MPI_Comm_dup(MPI_COMM_WORLD, &other);
+    for (int k = 0; k < 3; ++k) {
+        expect_same(balance(large.points, options, MPI_COMM_WORLD), of_large);
+        expect_same(balance(small.points, options, other), of_small);
+    }
+    MPI_Comm_free(&other);
+    test::expect_no_growth(before, 6);
+}
+
+TEST(Buffers, survive_a_call_that_fails) {
+    const Cloud cloud(many);
+    const Options options = options_of(Refine::exact);
+    Balance result = balance(cloud.points, options, MPI_COMM_WORLD);
+    const Balance first = result;
+    Cloud unusable(many);
+    if (rank() == num_ranks() - 1)
+        unusable.coordinates[5] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(balance_into(result, unusable.points, options, MPI_COMM_WORLD), Error);
+    EXPECT_TRUE(result.parts.empty());
+    expect_no_memory(cloud, options, false);
+    balance_into(result, cloud.points, options, MPI_COMM_WORLD);
+    expect_same(result, first);
+}
+
+TEST(Buffers, are_freed_when_asked) {
+    const Cloud cloud(many);
+    const Options options = options_of(Refine::exact);
+    const Balance first = balance(cloud.points, options, MPI_COMM_WORLD);
+    const long before = memory_layer::live_bytes();
+    release_buffers(MPI_COMM_WORLD);
+    release_buffers(MPI_COMM_WORLD);
+    EXPECT_LE(memory_layer::live_bytes(), before - 24L * static_cast<long>(many));
+    EXPECT_GE(memory_layer::live_bytes(), before - 40L * static_cast<long>(2 * many));
+    expect_same(balance(cloud.points, options, MPI_COMM_WORLD), first);
+    release_buffers(MPI_COMM_SELF);
+    EXPECT_THROW(release_buffers(MPI_COMM_NULL), Error);
+}
+
+}  // namespace
+}  // namespace rrcb

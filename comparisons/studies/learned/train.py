@@ -7,7 +7,7 @@ import argparse
 import sys
 
 import numpy as np
-from cells import NUM_INPUTS, SUB, mirrored, sample_cells, tilted
+from cells import FOUND, NUM_INPUTS, SUB, sample_cells, tilted
 from clouds import Array
 
 TRAINING_SEED, TEST_SEED = 1, 2
@@ -15,7 +15,6 @@ SIZES = (NUM_INPUTS, 64, 64, SUB**2)
 BATCH = 1024
 RATE, DECAY = 1.5e-3, (0.9, 0.999)
 PULL_TO_EVEN = 1e-3  # prior exponents that nothing speaks for stay 0
-FOUND = 1e-3  # a tilt that is farther off has not converged, and is left out
 
 
 class Network:
@@ -63,14 +62,13 @@ def train(inputs: Array, shares: Array, target: Array, epochs: int, seed: int) -
     num_batches = len(inputs) // BATCH
     step = 0
     for epoch in range(epochs):
-        x, truth, aims = mirrored(inputs, shares, target, epoch % 8)
-        order = random.permutation(len(x))
+        order = random.permutation(len(inputs))
         loss = 0.0
         for batch in np.split(order[: num_batches * BATCH], num_batches):
-            prior = network(x[batch])
-            found, off = tilted(prior, aims[batch], rounds=6)
-            loss += cross_entropy(found, truth[batch]) / num_batches
-            misfit = np.where(off[:, None] < FOUND, found - truth[batch], 0)
+            prior = network(inputs[batch])
+            found, off = tilted(prior, target[batch], rounds=6)
+            loss += cross_entropy(found, shares[batch]) / num_batches
+            misfit = np.where(off[:, None] < FOUND, found - shares[batch], 0)
             slopes = network.gradients((misfit + PULL_TO_EVEN * prior) / BATCH)
             step += 1
             rate = RATE * min(1, step / 200) * (1 + np.cos(np.pi * step / (epochs * num_batches))) / 2

@@ -21,7 +21,7 @@ namespace rrcb {
 ///     }
 ///
 /// docs/rebalancing.md explains the rule, which has no settings. The decision is the same on every
-/// rank and rests on the loads up to two steps before. Cost: one reduction of 64 bytes a step on a
+/// rank and rests on the loads up to two steps before. Cost: one reduction of 72 bytes a step on a
 /// communicator of its own, which overlaps with the next step; only the constructor allocates.
 class Controller {
   public:

@@ -85,13 +85,15 @@ void Controller::State::report(double cost, double least) {
     is_due = false;
 }
 
-StepRecord Controller::State::hand_in(double load, BadInput fault) {
-    const bool has_bad_load = !is_amount(load) || fault != BadInput::none;
+StepRecord Controller::State::hand_in(const RankLoad& load, BadInput fault) {
+    const bool has_bad_load =
+        !is_amount(load.measured) || !is_amount(load.smoothed) || fault != BadInput::none;
     if (fault == BadInput::none && has_bad_load) fault = BadInput::load;
     if (fault == BadInput::none && has_bad_cost_) fault = BadInput::cost;
     StepRecord mine;
-    mine.mean_load = has_bad_load ? 0 : load / num_ranks_;
-    mine.heaviest_load = has_bad_load ? 0 : load;
+    mine.work = has_bad_load ? 0 : load.measured / num_ranks_;
+    mine.mean_load = has_bad_load ? 0 : load.smoothed / num_ranks_;
+    mine.heaviest_load = has_bad_load ? 0 : load.smoothed;
     mine.cost = has_bad_cost_ ? 0 : cost_;
     mine.least_imbalance = least_imbalance_;
     mine.is_due = root_asks_ ? 1 : 0;
@@ -117,7 +119,9 @@ void Controller::State::follow(const StepRecord& all) {
         rule_.rebalanced(all.cost, all.least_imbalance);
         num_followed_ = all.num_rebalances;
     }
-    rule_.add({all.mean_load, all.heaviest_load});
+    // Smoothed loads have the excess, measured ones the work.
+    const double excess = all.mean_load > 0 ? all.heaviest_load / all.mean_load - 1 : 0;
+    rule_.add({all.work, all.work + all.work * std::max(0.0, excess)});
     if (num_to_skip_ > 0) {
         --num_to_skip_;
         return;
@@ -126,7 +130,8 @@ void Controller::State::follow(const StepRecord& all) {
     if (root_asks_) num_to_skip_ = 2;
 }
 
-void Controller::State::start(double load, std::span<const double> carried, BadInput fault) {
+void Controller::State::start(const RankLoad& load, std::span<const double> carried,
+                              BadInput fault) {
     *reinterpret_cast<StepRecord*>(mine_.data()) = hand_in(load, fault);
     const auto end = std::ranges::copy(carried, mine_.begin() + num_doubles).out;
     std::fill(end, mine_.end(), 0.0);
@@ -165,13 +170,15 @@ Controller& Controller::operator=(Controller&&) noexcept = default;
 
 bool Controller::step(double load) {
     state_->finish();
-    state_->start(load);
+    state_->start({load, load});
     return state_->is_due;
 }
 
 bool Controller::step(double load, double points) {
-    return step(is_amount(load) && is_amount(points) ? state_->point_cost.smoothed(load, points)
-                                                     : -1);
+    state_->finish();
+    const bool is_legal = is_amount(load) && is_amount(points);
+    state_->start({load, is_legal ? state_->point_cost.smoothed(load, points) : -1});
+    return state_->is_due;
 }
 
 bool Controller::due() const {

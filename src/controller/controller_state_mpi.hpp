@@ -14,6 +14,12 @@
 
 namespace rrcb {
 
+/// Load of this rank in a step, as measured and without the noise of the clock.
+struct RankLoad {
+    double measured = 0;
+    double smoothed = 0;
+};
+
 /// Reduces the step of each rank, and follows the rule on the root, whose decision travels with the
 /// next reduction: the ranks agree even if a sum rounds differently on them.
 ///
@@ -30,7 +36,8 @@ struct Controller::State {
     void check_free() const;
     /// Makes each reduction carry so many doubles more, joined by join_carried().
     void carry(std::size_t count);
-    void start(double load, std::span<const double> carried = {}, BadInput fault = BadInput::none);
+    void start(const RankLoad& load, std::span<const double> carried = {},
+               BadInput fault = BadInput::none);
     /// Takes the result of the reduction under way, if there is one.
     void finish();
 
@@ -44,7 +51,7 @@ struct Controller::State {
     void change_weights();
 
     /// Returns the step of this rank.
-    StepRecord hand_in(double load, BadInput fault = BadInput::none);
+    StepRecord hand_in(const RankLoad& load, BadInput fault = BadInput::none);
     /// Takes the joined steps of all ranks. Throws the same Error on each.
     void take(const StepRecord& all);
 

@@ -3,7 +3,7 @@
 namespace rrcb {
 
 double PointCost::smoothed(double load, double points) {
-    constexpr double fading = 0.977;
+    constexpr double fading = 0.993;
     load_ = fading * load_ + load;
     points_ = fading * points_ + points;
     return points_ > 0 ? points * (load_ / points_) : load;

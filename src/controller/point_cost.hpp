@@ -2,10 +2,11 @@
 
 namespace rrcb {
 
-/// Average cost of a point on this rank, in which a step counts half as much as one 30 steps later.
+/// Average cost of a point on this rank, in which a step counts half as much as one 100 steps
+/// later: noise of 10 % a step leaves less than 1 %.
 class PointCost {
   public:
-    /// Takes a step, and returns what its points cost on average.
+    /// Takes a step, and returns the points times their average cost; `load` if there are none yet.
     double smoothed(double load, double points);
 
   private:

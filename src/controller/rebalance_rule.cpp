@@ -1,7 +1,6 @@
 #include "controller/rebalance_rule.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace rrcb {
 
@@ -10,74 +9,89 @@ namespace {
 /// Excess that equal loads may show.
 constexpr double rounding = 1e-12;
 
+/// An excess is expected to last four times as long as it has.
+constexpr double foresight = 4;
+
+/// Waste, in rebalances, after which one is tried even if earlier ones did not help.
+constexpr double patience = 8;
+
+constexpr std::size_t start_length = 2;  ///< 2^2 steps
+
+/// The smaller of two.
+double median(const std::array<double, 3>& values, std::size_t count) {
+    const auto [a, b, c] = values;
+    if (count == 1) return a;
+    if (count == 2) return std::min(a, b);
+    return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
 }  // namespace
 
 void RebalanceRule::add(const StepLoad& load) {
     if (!(load.mean > 0)) return;
     if (!(unit_ > 0)) unit_ = load.mean;
-    window_.add(load.heaviest / load.mean - 1, load.mean / unit_);
-    history_.add(window_.excess(), window_.mean());
-    if (num_rebalances_ == 0) return;
-    // The first steps may be slow for reasons of their own: what later ones fall to counts, too.
-    constexpr std::size_t settled = 3;
-    double& floor = floors_[(num_rebalances_ - 1) % floors_.size()];
-    floor = window_.count() <= settled ? window_.excess() : std::min(floor, window_.upper_bound());
+    const Waste step{(load.heaviest - load.mean) / unit_, load.mean / unit_};
+    latest_.add(step);
+    cycle_.add(step);
+    const std::size_t start = std::size_t{1} << start_length;
+    if (latest_.count() > start && latest_.count() % start == 0)
+        busiest_ = std::max(busiest_, latest_.block(start_length).work);
 }
 
 void RebalanceRule::rebalanced(double cost, double least_imbalance) {
-    if (window_.count() > 0) end_cycle();
-    if (expects_less_) floors_.fill(std::numeric_limits<double>::infinity());
-    expects_less_ = false;
-    floors_[num_rebalances_ % floors_.size()] = std::numeric_limits<double>::infinity();
+    if (num_rebalances_ > 0 && cycle_.count() > 0) {
+        if (knows_rebalances_) earlier_.remember(cycle_, latest_.lasting());
+        slow_start_ = slow_start();
+    }
     costs_[num_rebalances_++ % costs_.size()] = cost;
     least_ = least_imbalance - 1;
+    knows_rebalances_ = true;
+    latest_ = {};
+    cycle_ = {};
+    busiest_ = 0;
 }
 
-void RebalanceRule::end_cycle() {
-    const double work = history_.work();
-    const double waste = history_.waste();
-    if (num_rebalances_ > 0) {
-        past_ = {past_.cycles / 2 + 1, past_.work / 2 + work, past_.waste / 2 + waste};
-        const bool has_paid = cost() + waste < left_ * work;
-        patience_ = has_paid || num_rebalances_ == 1 ? 1 : 2 * patience_;
-    }
-    left_ = lasting_excess();
-    window_.clear();
-    history_.clear();
+void RebalanceRule::expect_less() {
+    earlier_ = {};
+    knows_rebalances_ = false;
 }
 
-/// Of the next rebalance, in units: that of the latest, unless it is an outlier.
+/// Work of the first steps of the cycle beyond that of any others as many, in units: a rebalance
+/// may slow them down, as by cold caches.
+double RebalanceRule::slow_start() const {
+    if (!(busiest_ > 0)) return slow_start_;
+    return std::max(0.0, cycle_.first(start_length).work - busiest_);
+}
+
+/// Of the next rebalance, in units: that of the latest, unless it is an outlier, and the steps that
+/// it slows down.
 double RebalanceRule::cost() const {
-    if (num_rebalances_ == 0) return window_.mean();
+    if (num_rebalances_ == 0) return cycle_.total().work / static_cast<double>(cycle_.count());
     const double middle = median(costs_, num_rebalances_);
     const double latest = costs_[(num_rebalances_ - 1) % costs_.size()];
-    return std::clamp(latest, middle / 2, 2 * middle) / unit_;
+    return std::clamp(latest, middle / 2, 2 * middle) / unit_ + slow_start();
 }
 
-/// Excess that the rebalances have not removed.
-double RebalanceRule::floor() const {
-    const auto count = static_cast<std::ptrdiff_t>(std::min(num_rebalances_, floors_.size()));
-    if (count == 0 || expects_less_) return 0;
-    return *std::min_element(floors_.begin(), floors_.begin() + count);
-}
-
-/// Of rebalances and waste in this cycle, if it ended now, and those before it, over the work.
-double RebalanceRule::mean_cost() const {
-    const double waste = past_.waste + history_.waste();
-    return ((past_.cycles + 1) * cost() + waste) / (past_.work + history_.work());
-}
-
-double RebalanceRule::lasting_excess() const {
-    const double level = window_.lower_bound();
-    return std::min(level, history_.mean_since(level));
+/// Whether a rebalance pays if the `excess` has lasted for so many steps.
+bool RebalanceRule::pays(double excess, double lasted) const {
+    if (excess <= std::max(least_, rounding)) return false;
+    const double horizon = foresight * lasted;
+    const double mean = cycle_.total().work / static_cast<double>(cycle_.count());
+    double gain = 0;
+    if (knows_rebalances_) {
+        const double least = std::min(cycle_.least_excess(), earlier_.least_excess());
+        gain = std::max({cycle_.gain(excess, horizon), earlier_.gain(excess, horizon),
+                         lasted * (excess - least) / patience});
+    } else {
+        gain = horizon * excess;
+    }
+    return gain * mean > std::max(cost(), rounding * horizon * mean);
 }
 
 bool RebalanceRule::is_due() const {
-    constexpr std::size_t fewest = 3;
-    if (window_.count() < fewest) return false;
-    const double excess = lasting_excess();
-    if (excess <= std::max({floor(), least_, rounding})) return false;
-    return excess >= mean_cost() || history_.lasting_waste(floor()) >= patience_ * cost();
+    for (std::size_t k = 0; latest_.has(k); ++k)
+        if (pays(latest_.lasting(k), LatestSteps::num_blocks * steps_of(k))) return true;
+    return false;
 }
 
 }  // namespace rrcb

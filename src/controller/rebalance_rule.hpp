@@ -1,67 +1,54 @@
 #pragma once
 
-#include "controller/load_window.hpp"
-#include "controller/waste_history.hpp"
+#include "controller/cycle.hpp"
+#include "controller/latest_steps.hpp"
 
 #include <array>
 #include <cstddef>
 
 namespace rrcb {
 
-/// What one step took on the ranks.
+/// Load of one step on the ranks.
 struct StepLoad {
     double mean = 0;
     double heaviest = 0;
 };
 
-/// Says when a rebalance pays, from what the steps and the rebalances took; docs/rebalancing.md
-/// derives it. Nothing here communicates or allocates.
+/// Decides when a rebalance pays, from the loads of the steps and the costs of the rebalances;
+/// docs/rebalancing.md explains it. Does not communicate or allocate.
 ///
-/// Loads and costs have one unit, whichever it is. Excess is heaviest / mean - 1, waste the sum of
-/// excess times mean, and a cycle the steps from one rebalance to the next.
+/// Loads and costs have any unit in common. Excess is heaviest / mean - 1, waste the sum of excess
+/// times mean, and a cycle the steps from one rebalance to the next.
 class RebalanceRule {
   public:
-    /// Takes the next step; one without load says nothing.
+    /// Takes the next step; one without load is ignored.
     void add(const StepLoad& load);
 
-    /// The steps from here on are those after a rebalance of this cost, which leaves an imbalance
-    /// (heaviest / mean) of `least_imbalance` at least.
+    /// Starts a cycle after a rebalance of this cost, which leaves an imbalance (heaviest / mean)
+    /// of `least_imbalance` at least.
     void rebalanced(double cost, double least_imbalance);
 
-    /// Whether a rebalance before the next step is expected to pay.
+    /// Returns whether a rebalance before the next step is expected to pay.
     bool is_due() const;
 
-    /// The next rebalance may leave less excess than the earlier ones, as the weights have changed.
-    void expect_less() {
-        expects_less_ = true;
-        patience_ = 1;
-    }
+    /// Forgets the course of earlier cycles: the next rebalance is expected to leave no excess.
+    void expect_less();
 
   private:
-    /// Sums over the cycles before this one, each counted half as much as the next.
-    struct Past {
-        double cycles = 0;
-        double work = 0;
-        double waste = 0;
-    };
-
+    bool pays(double excess, double lasted) const;
     double cost() const;
-    double mean_cost() const;
-    double floor() const;
-    double lasting_excess() const;
-    void end_cycle();
+    double slow_start() const;
 
     double unit_ = 0;  ///< the first mean load: sums of loads in it overflow nowhere
-    LoadWindow window_;
-    WasteHistory history_;
-    std::array<double, 3> costs_{};   ///< the latest, in turns
-    std::array<double, 4> floors_{};  ///< lowest excess after the latest rebalances, in turns
-    bool expects_less_ = false;       ///< what the rebalances left says nothing of the next one
+    LatestSteps latest_;
+    Cycle cycle_;
+    Cycle earlier_;                  ///< average of the cycles before this one
+    bool knows_rebalances_ = false;  ///< the steps since the latest show what one leaves
+    double busiest_ = 0;             ///< most work of 4 steps in this cycle, after the first
+    double slow_start_ = 0;          ///< of the last cycle
+    std::array<double, 3> costs_{};  ///< the latest, in turns
     std::size_t num_rebalances_ = 0;
     double least_ = 0;  ///< excess that no rebalance removes
-    Past past_;
-    double left_ = 0;      ///< lasting excess when this cycle began
-    double patience_ = 1;  ///< waste to put up with, in rebalances
 };
 
 }  // namespace rrcb

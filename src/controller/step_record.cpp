@@ -26,6 +26,7 @@ std::string text_of(BadInput input) {
 }  // namespace
 
 void join(const StepRecord& theirs, StepRecord& ours) {
+    ours.work += theirs.work;
     ours.mean_load += theirs.mean_load;
     for (double StepRecord::*field :
          {&StepRecord::heaviest_load, &StepRecord::cost, &StepRecord::least_imbalance,

@@ -7,10 +7,11 @@ namespace rrcb {
 /// Number that a rank must not give.
 enum class BadInput { none, load, cost, columns };
 
-/// Step of one rank, or of all: the mean loads add up, of the others the largest counts. A smallest
+/// Step of one rank, or of all: the shares add up, of the others the largest counts. A smallest
 /// value travels as the largest of its negative.
 struct StepRecord {
-    double mean_load = 0;  ///< this rank's share of it
+    double work = 0;       ///< share of the mean load as measured
+    double mean_load = 0;  ///< share of the mean of the loads that are compared
     double heaviest_load = 0;
     double cost = 0;  ///< of the rebalances since the step before
     double least_imbalance = 1;

@@ -70,12 +70,12 @@ void CostModel::step(double seconds, std::span<const double> columns) {
         rule.take(reducer.carried());
         if (rule.uses_costs() != used_costs) reducer.change_weights();
     }
-    if (columns.size() != rule.num_columns()) return reducer.start(0, {}, BadInput::columns);
+    if (columns.size() != rule.num_columns()) return reducer.start({}, {}, BadInput::columns);
     if (!is_number(seconds) || !std::ranges::all_of(columns, is_number))
-        return reducer.start(0, {}, BadInput::load);
+        return reducer.start({}, {}, BadInput::load);
     const double points = rule.uses_costs() ? rule.weight(columns) : columns[0];
     const double load = reducer.point_cost.smoothed(seconds, points);
-    reducer.start(load, rule.hand_in(seconds, columns));
+    reducer.start({seconds, load}, rule.hand_in(seconds, columns));
 }
 
 std::vector<double> CostModel::costs() const {

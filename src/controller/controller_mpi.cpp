@@ -119,9 +119,7 @@ void Controller::State::follow(const StepRecord& all) {
         rule_.rebalanced(all.cost, all.least_imbalance);
         num_followed_ = all.num_rebalances;
     }
-    // Smoothed loads have the excess, measured ones the work.
-    const double excess = all.mean_load > 0 ? all.heaviest_load / all.mean_load - 1 : 0;
-    rule_.add({all.work, all.work + all.work * std::max(0.0, excess)});
+    rule_.add(smoothed_load(all.work, all.mean_load, all.heaviest_load));
     if (num_to_skip_ > 0) {
         --num_to_skip_;
         return;

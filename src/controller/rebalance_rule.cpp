@@ -27,6 +27,10 @@ double median(const std::array<double, 3>& values, std::size_t count) {
 
 }  // namespace
 
+StepLoad smoothed_load(double work, double mean, double heaviest) {
+    return {work, mean > 0 ? work * std::max(1.0, heaviest / mean) : work};
+}
+
 void RebalanceRule::add(const StepLoad& load) {
     if (!(load.mean > 0)) return;
     if (!(unit_ > 0)) unit_ = load.mean;

@@ -14,6 +14,9 @@ struct StepLoad {
     double heaviest = 0;
 };
 
+/// Returns the load of a step of `work`, the measured mean, with the excess of smoothed loads.
+StepLoad smoothed_load(double work, double mean, double heaviest);
+
 /// Decides when a rebalance pays, from the loads of the steps and the costs of the rebalances;
 /// docs/rebalancing.md explains it. Does not communicate or allocate.
 ///

@@ -38,36 +38,26 @@ void add_box(Row& row, const rrcb::Box& box, int dimension) {
     add_axes(row, "upper_", box.upper, dimension);
 }
 
-/// Every how many points one is plotted, and where this rank starts.
-struct Thinning {
-    std::size_t first = 0;
-    std::size_t stride = 1;
-};
-
-Thinning thin_out(std::size_t count, MPI_Comm comm) {
-    const auto mine = static_cast<GlobalCount>(count);
-    GlobalCount total = 0;
-    GlobalCount end = 0;
-    MPI_Allreduce(&mine, &total, 1, MPI_INT64_T, MPI_SUM, comm);
-    MPI_Scan(&mine, &end, 1, MPI_INT64_T, MPI_SUM, comm);
-    const GlobalCount stride = std::max<GlobalCount>(1, (total + max_plotted - 1) / max_plotted);
-    const GlobalCount begin = end - mine;
-    return {static_cast<std::size_t>((stride - begin % stride) % stride),
-            static_cast<std::size_t>(stride)};
-}
-
 struct PlottedPoint {
     rrcb::Vector position{};
     rrcb::Part part = 0;
 };
 
+/// Every so many points through all ranks, that there are not too many.
 void write_points(const ResultsFolder& folder, const Workload& workload,
                   const Measurement& measurement, MPI_Comm comm) {
     const rrcb::Points points = workload.points();
-    const Thinning thinning = thin_out(points.count, comm);
+    const auto count = static_cast<GlobalCount>(points.count);
+    GlobalCount total = 0;
+    GlobalCount end = 0;
+    MPI_Allreduce(&count, &total, 1, MPI_INT64_T, MPI_SUM, comm);
+    MPI_Scan(&count, &end, 1, MPI_INT64_T, MPI_SUM, comm);
+    const GlobalCount stride = std::max<GlobalCount>(1, (total + max_plotted - 1) / max_plotted);
     std::vector<PlottedPoint> mine;
-    for (std::size_t i = thinning.first; i < points.count; i += thinning.stride)
-        mine.push_back({points.position(i), measurement.parts[i]});
+    for (GlobalCount i = (stride - (end - count) % stride) % stride; i < count; i += stride) {
+        const auto point = static_cast<std::size_t>(i);
+        mine.push_back({points.position(point), measurement.parts[point]});
+    }
     const std::vector<PlottedPoint> plotted = gather_on_root(mine, comm);
     folder.write(data_file("points", workload, measurement.method), [&] {
         return csv_of(plotted, [&](const PlottedPoint& point) {

@@ -1,7 +1,5 @@
 #include "cloud.hpp"
 
-#include "failure.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -57,18 +55,6 @@ TEST(Cloud, gives_a_point_by_its_number_alone) {
 TEST(Cloud, changes_with_the_seed) {
     EXPECT_NE(cloud_points({"uniform", 10, 2, 1}, 0, 10),
               cloud_points({"uniform", 10, 2, 2}, 0, 10));
-}
-
-TEST(Cloud, names_the_choice_for_an_unknown_cloud) {
-    try {
-        cloud_points({"fog", 10, 2, 1}, 0, 10);
-        FAIL() << "no error";
-    } catch (const Failure& failure) {
-        EXPECT_STREQ(failure.what(),
-                     "--cloud: unknown cloud 'fog'; choose from: uniform, slope, clusters, "
-                     "lattice, run_out, "
-                     "polygon, shell, spiral");
-    }
 }
 
 }  // namespace

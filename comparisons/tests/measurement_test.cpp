@@ -3,7 +3,6 @@
 #include "workload_mpi.hpp"
 
 #include <rrcb/balance.hpp>
-#include <rrcb/zoltan/rrcb_zoltan.h>
 
 #include <gtest/gtest.h>
 #include <zoltan.h>
@@ -34,10 +33,6 @@ class MeasurementTest : public testing::Test {
     int rank_ = 0;
     Workload workload_;
 };
-
-TEST_F(MeasurementTest, the_plug_in_is_active) {
-    EXPECT_EQ(RRCB_Zoltan_Active(), 1);
-}
 
 TEST_F(MeasurementTest, exact_methods_are_exact_with_any_lists) {
     // 1200 points divide evenly by 1, 2, 3 and 4 ranks, and no two share a coordinate.

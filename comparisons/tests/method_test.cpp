@@ -35,26 +35,21 @@ TEST(Method, reads_parameters_in_brackets) {
     EXPECT_EQ(methods[1].label, "zoltan-rcb");
 }
 
-TEST(Method, reads_how_far_to_refine) {
-    const ZoltanParameters expected = {{"DEBUG_LEVEL", "0"},
-                                       {"LB_METHOD", "RRCB"},
-                                       {"RETURN_LISTS", "PARTS"},
-                                       {"RRCB_REFINE", "TOLERANCE"},
-                                       {"IMBALANCE_TOL", "1.001"}};
-    EXPECT_EQ(zoltan_parameters(read_method("rrcb[refine=tolerance,tol=1.001]"), Lists::parts),
-              expected);
-}
-
-TEST(Method, leaves_zoltan_at_its_defaults) {
-    const ZoltanParameters expected = {
-        {"DEBUG_LEVEL", "0"}, {"LB_METHOD", "HSFC"}, {"RETURN_LISTS", "ALL"}};
-    EXPECT_EQ(zoltan_parameters(read_method("zoltan-hsfc"), Lists::all), expected);
-}
-
-TEST(Method, on_arrays_is_told_without_what_zoltan_takes) {
-    const ZoltanParameters expected = {
-        {"function", "rrcb::balance"}, {"RRCB_SUPPORT_MESH", "3"}, {"RRCB_REFINE", "TOLERANCE"}};
-    EXPECT_EQ(zoltan_parameters(read_method("rrcb-arrays[mesh=3]"), Lists::all), expected);
+TEST(Method, sets_nothing_else_of_zoltan) {
+    const std::pair<const char*, ZoltanParameters> cases[] = {
+        {"rrcb[refine=tolerance,tol=1.001]",
+         {{"DEBUG_LEVEL", "0"},
+          {"LB_METHOD", "RRCB"},
+          {"RETURN_LISTS", "ALL"},
+          {"RRCB_REFINE", "TOLERANCE"},
+          {"IMBALANCE_TOL", "1.001"}}},
+        {"zoltan-hsfc", {{"DEBUG_LEVEL", "0"}, {"LB_METHOD", "HSFC"}, {"RETURN_LISTS", "ALL"}}},
+        {"rrcb-arrays[mesh=3]",
+         {{"function", "rrcb::balance"},
+          {"RRCB_SUPPORT_MESH", "3"},
+          {"RRCB_REFINE", "TOLERANCE"}}}};
+    for (const auto& [name, expected] : cases)
+        EXPECT_EQ(zoltan_parameters(read_method(name), Lists::all), expected) << name;
 }
 
 TEST(Method, compares_four_by_default) {
@@ -121,6 +116,8 @@ TEST(Method, names_what_is_unknown) {
               "--methods: rrcb has no parameter 'k'; it takes mesh, refine, tol, reuse, central");
     EXPECT_EQ(error_of("zoltan-rib[mesh=2]"),
               "--methods: zoltan-rib has no parameter 'mesh'; it takes none");
+    EXPECT_EQ(error_of("rrcb[mesh=2"), "--methods: 'rrcb[mesh=2' lacks the closing bracket");
+    EXPECT_EQ(error_of("rrcb,rrcb"), "--methods: 'rrcb' is named twice; name it once");
 }
 
 TEST(Method, names_values_out_of_range) {
@@ -139,11 +136,6 @@ TEST(Method, names_values_out_of_range) {
               "not 'auto'");
     EXPECT_EQ(error_of("root-rcb[cut=half]"),
               "--methods: root-rcb[cut=half]: cut must be WEIGHTED or MIDPOINT, not 'half'");
-}
-
-TEST(Method, names_malformed_lists) {
-    EXPECT_EQ(error_of("rrcb[mesh=2"), "--methods: 'rrcb[mesh=2' lacks the closing bracket");
-    EXPECT_EQ(error_of("rrcb,rrcb"), "--methods: 'rrcb' is named twice; name it once");
 }
 
 }  // namespace

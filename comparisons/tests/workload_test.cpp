@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <numeric>
 
@@ -124,6 +125,42 @@ TEST(Workload, weights_of_a_file_travel_with_their_points) {
 
 TEST(Workload, a_missing_file_fails_on_every_rank) {
     EXPECT_THROW(file_workload("no such file", Layout::sorted, 1, MPI_COMM_WORLD), Failure);
+}
+
+/// Writes a dump of three ranks with 1, 3 and 2 points: (0, 0), (1, -1) ... of weight 1, 2 ...
+void write_dump(const std::string& folder) {
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder + "/call.txt") << "rrcb-dump 1\nfunction f\nranks 3\nend\n";
+    const int counts[] = {1, 3, 2};
+    int next = 0;
+    for (int rank = 0; rank < 3; ++rank) {
+        std::ofstream out(folder + "/rank-" + std::to_string(rank) + ".txt");
+        out << "rrcb-dump-rank 1\nrank " << rank << "\ndimension 2\nweights 1\nobjects "
+            << counts[rank] << '\n';
+        for (const int end = next + counts[rank]; next < end; ++next)
+            out << next << ' ' << -next << ' ' << next + 1 << '\n';
+        out << "end\n";
+    }
+}
+
+TEST(Workload, of_a_dump_is_where_it_was_or_dealt_out_in_order) {
+    const int n = rrcb::test::num_ranks();
+    const std::string folder = testing::TempDir() + "rrcb_dump_np" + std::to_string(n);
+    if (rrcb::test::rank() == 0) write_dump(folder);
+    const auto [workload, note] = read_replay(folder + '/', MPI_COMM_WORLD);
+    EXPECT_EQ(workload.name, "rrcb_dump_np" + std::to_string(n));
+    EXPECT_EQ(workload.layout, n == 3 ? "dump" : "dealt");
+    const std::vector<int> counts = counts_of_all(workload.points().count);
+    const std::vector<int> expected[] = {{6}, {3, 3}, {1, 3, 2}, {1, 2, 1, 2}};
+    EXPECT_EQ(counts, expected[n - 1]);
+    int next = std::reduce(counts.begin(), counts.begin() + rrcb::test::rank());
+    for (std::size_t i = 0; i < workload.weights.size(); ++i, ++next) {
+        EXPECT_EQ(workload.points().position(i), (rrcb::Vector{1.0 * next, -1.0 * next, 0}));
+        EXPECT_EQ(workload.weights[i], next + 1);
+    }
+    if (rrcb::test::rank() == 0) {
+        EXPECT_EQ(note.find("dealt out in order to") == note.npos, n == 3);
+    }
 }
 
 }  // namespace

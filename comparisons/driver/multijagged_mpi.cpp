@@ -79,7 +79,7 @@ class MultijaggedPartitioner : public Partitioner {
     std::vector<long long> ids_;
     Adapter adapter_;
     Teuchos::ParameterList parameters_;
-    Zoltan2::PartitioningProblem<Adapter> problem_;
+    mutable Zoltan2::PartitioningProblem<Adapter> problem_;  // its getSolution() is not const
 };
 
 }  // namespace

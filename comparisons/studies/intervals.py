@@ -29,9 +29,6 @@ class Value:
         """The interval, else the number twice."""
         return (self.low, self.high) if self.has_interval else (self.number, self.number)
 
-    def __mul__(self, factor: float) -> Value:
-        return Value(factor * self.number, factor * self.low, factor * self.high, self.count)
-
     def __truediv__(self, other: Value) -> Value:
         """Its interval is too wide where the two were measured in turns."""
         ends = (self.low / other.high, self.high / other.low) if other.low > 0 else (nan, nan)

@@ -17,7 +17,6 @@ from matplotlib.axes import Axes  # noqa: E402
 from matplotlib.axis import Axis  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 from matplotlib import ticker  # noqa: E402
-from matplotlib.lines import Line2D  # noqa: E402
 from matplotlib.patches import Rectangle  # noqa: E402
 from matplotlib.transforms import Bbox  # noqa: E402
 
@@ -121,20 +120,15 @@ def label_edges(grid: np.ndarray, x: str, y: str) -> None:
         axes.set_ylabel(y)
 
 
-def legend_above(figure: Figure, source: Axes | list, inches: float = 1.45) -> Figure:
-    """What the axes, or the handles, are labelled; outside of the panels, in as many lines as the
-    width needs at `inches` an entry."""
-    handles = source.get_legend_handles_labels()[0] if isinstance(source, Axes) else source
+def legend_above(figure: Figure, axes: Axes, inches: float = 1.45) -> Figure:
+    """What the axes are labelled; outside of the panels, in as many lines as the width needs at
+    `inches` an entry."""
+    handles = axes.get_legend_handles_labels()[0]
     most = max(1, int(figure.get_figwidth() / inches))
     lines = -(-len(handles) // most)
-    columns = -(-len(handles) // lines)
     figure.suptitle("\n" * (lines - 1) + " ", fontsize=13)  # keeps room for the legend
-    figure.legend(handles=handles, loc="upper center", ncol=columns)
+    figure.legend(handles=handles, loc="upper center", ncol=-(-len(handles) // lines))
     return figure
-
-
-def key(label: str, **look) -> Line2D:
-    return Line2D([], [], **{"linestyle": "", "label": label, **look})
 
 
 def save(figure: Figure, path: Path) -> None:

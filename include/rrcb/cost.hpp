@@ -54,8 +54,8 @@ class CostModel {
     /// Collective, yet it waits only for ranks that have not called it for the previous step.
     /// Seconds are processor time if ranks share cores. Numbers are from 0 to 1e100. One call
     /// later, throws Error on every rank alike if a rank gave another one, or too many or few; from
-    /// then on each call throws it. Cost: a reduction of (n^2 + 5 n) / 2 + 18 doubles for n
-    /// columns, which overlaps with the next step, and two fits; no allocation.
+    /// then on each call throws it. Cost: a reduction of n^2 + 2 n + 20 doubles for n
+    /// columns, which overlaps with the next step, and a fit on rank 0; no allocation.
     RRCB_API void step(double seconds, std::span<const double> columns);
 
     /// Returns the seconds of a unit of each column, by the steps so far, late ones counting more.

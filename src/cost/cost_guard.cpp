@@ -7,21 +7,27 @@ namespace rrcb {
 
 namespace {
 
-constexpr double forgetting = 1 - 1.0 / 25;
+constexpr double forgetting = 1 - 1.0 / 50;
 constexpr double fewest = 10;  ///< steps before learned costs are used
-/// Error that learned costs must fall below, over that of counting, to be used.
-constexpr double margin = 0.9;
+/// Gain that learned costs must have to be used, in standard deviations of noise.
+constexpr double certainty = 3;
+/// ... and as a share of the squared error of counting.
+constexpr double margin = 0.02;
 /// Share of all steps that learned costs may lose before they are put aside.
 constexpr double allowed_loss = 0.005;
 
 }  // namespace
 
-void CostGuard::add_errors(double learned, double counted) {
+void CostGuard::add_errors(double learned, double counted, double between) {
     learned_error_ = forgetting * learned_error_ + learned;
     counted_error_ = forgetting * counted_error_ + counted;
+    between_ = forgetting * between_ + between;
     weight_ = forgetting * weight_ + 1;
-    const double needed = predicts_ ? 1 : margin;
-    predicts_ = num_steps_ >= fewest && rms(learned_error_) < needed * rms(counted_error_);
+    // Of independent noise the gain varies by twice the noise times the difference.
+    const double gain = counted_error_ - learned_error_;
+    const double noise = 2 * std::sqrt(between_ * learned_error_ / (weight_ * num_ranks_));
+    const double needed = predicts_ ? 0 : std::max(certainty * noise, margin * counted_error_);
+    predicts_ = num_steps_ >= fewest && gain > needed;
 }
 
 void CostGuard::add_excess(double excess, bool is_learned) {

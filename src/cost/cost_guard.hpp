@@ -14,7 +14,8 @@ class CostGuard {
     explicit CostGuard(int num_ranks) : num_ranks_(num_ranks) {}
 
     /// Takes the errors of a step that had not been learned from.
-    void add_errors(double learned, double counted);
+    /// `between` is the sum of squared differences of both predictions.
+    void add_errors(double learned, double counted, double between);
 
     /// Takes slowest rank / mean - 1 of a step, whose points were divided by learned costs or not.
     void add_excess(double excess, bool is_learned);
@@ -25,12 +26,12 @@ class CostGuard {
 
   private:
     double rms(double sum) const;
-    void judge();
 
     int num_ranks_;
     double num_steps_ = 0;
     double learned_error_ = 0;  ///< with forgetting, as is the next
     double counted_error_ = 0;
+    double between_ = 0;
     double weight_ = 0;  ///< of the steps in them
     bool predicts_ = false;
 

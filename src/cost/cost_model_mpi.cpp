@@ -111,7 +111,7 @@ std::string CostModel::report() const {
             return "learned costs are used: they miss the seconds of a rank by " + errors;
         case CostState::no_better:
             return "points are counted: learned costs miss the seconds of a rank by " + errors +
-                   ", which is not a tenth more";
+                   ", which is too near";
         case CostState::harmful:
             return "points are counted: with learned costs the slowest rank took longer; they are "
                    "tried again later";

@@ -13,14 +13,15 @@ constexpr double usual = 3;
 /// ... but no less than this share of the mean seconds.
 constexpr double least_reach = 0.1;
 
-/// Place of each sum; after the head come the fit's right side and triangle, then rank 0's costs,
-/// last the seconds of the slowest rank.
+/// Place of each sum; after the head come the normal equations, then rank 0's costs, last the
+/// seconds of the slowest rank.
 enum Head : std::size_t {
     seconds_sum,
     learned_sum,
     counted_sum,
     learned_square,
     counted_square,
+    between_square,
     cut_square,
     state_of_root,
     learned_of_root,
@@ -34,12 +35,9 @@ CostRule::CostRule(int num_columns, int rank, int num_ranks)
     : num_columns_(num_columns),
       rank_(rank),
       num_ranks_(num_ranks),
-      sums_(head_size +
-            static_cast<std::size_t>(2 * num_columns + num_columns * (num_columns + 1) / 2 + 1)),
-      all_(num_columns),
-      mine_(num_columns),
+      sums_(head_size + static_cast<std::size_t>(num_columns * (num_columns + 2) + 1)),
       columns_(CostVector::Zero(num_columns)),
-      others_(CostVector::Zero(num_columns)),
+      all_(num_columns),
       guard_(num_ranks),
       costs_(CostVector::Zero(num_columns)),
       state_(guard_.state()) {}
@@ -54,7 +52,7 @@ double CostRule::without_outlier(double seconds) const {
 std::span<const double> CostRule::hand_in(double seconds, std::span<const double> columns) {
     std::copy(columns.begin(), columns.end(), columns_.begin());
     seconds_ = seconds;
-    learned_ = others_.dot(columns_);
+    learned_ = costs_.dot(columns_);
     kept_seconds_ = without_outlier(seconds);
     const bool is_root = rank_ == 0;
     sums_[seconds_sum] = seconds_;
@@ -62,27 +60,27 @@ std::span<const double> CostRule::hand_in(double seconds, std::span<const double
     sums_[counted_sum] = columns_[0];
     sums_[learned_square] = learned_square_;
     sums_[counted_square] = counted_square_;
+    sums_[between_square] = between_square_;
     const double cut = kept_seconds_ - learned_;
     sums_[cut_square] = mean_ > 0 ? cut * cut / (mean_ * mean_) : 0;
     sums_[state_of_root] = is_root ? static_cast<double>(guard_.state()) : 0;
     sums_[learned_of_root] = is_root ? guard_.learned_error() : 0;
     sums_[counted_of_root] = is_root ? guard_.counted_error() : 0;
     double* next = sums_.data() + head_size;
-    for (Eigen::Index i = 0; i < num_columns_; ++i) {
-        *next++ = columns_[i] * kept_seconds_;
-        for (Eigen::Index j = 0; j <= i; ++j) *next++ = columns_[i] * columns_[j];
+    for (const double first : columns_) {
+        *next++ = first * kept_seconds_;
+        for (const double second : columns_) *next++ = first * second;
     }
     CostVector fitted = CostVector::Zero(num_columns_);
     if (is_root) fitted = fitted_costs(all_);
-    next = std::copy(fitted.begin(), fitted.end(), next);
-    *next = seconds_;
+    *std::copy(fitted.begin(), fitted.end(), next) = seconds_;
     return sums_;
 }
 
 void CostRule::take(std::span<const double> all) {
     const double mean = all[seconds_sum] / num_ranks_;
     if (rank_ == 0) {
-        guard_.add_errors(all[learned_square], all[counted_square]);
+        guard_.add_errors(all[learned_square], all[counted_square], all[between_square]);
         if (mean > 0) guard_.add_excess(all.back() / mean - 1, is_learned_);
     }
     state_ = static_cast<CostState>(static_cast<int>(all[state_of_root]));
@@ -90,7 +88,7 @@ void CostRule::take(std::span<const double> all) {
     counted_error_ = all[counted_of_root];
     std::copy_n(all.end() - 1 - num_columns_, num_columns_, costs_.begin());
     note_errors(all);
-    learn(all);
+    if (rank_ == 0) learn(all);
     mean_ = mean;
 }
 
@@ -101,7 +99,7 @@ double CostRule::weight(std::span<const double> columns) const {
 }
 
 void CostRule::note_errors(std::span<const double> all) {
-    learned_square_ = counted_square_ = 0;
+    learned_square_ = counted_square_ = between_square_ = 0;
     if (!(all[seconds_sum] > 0) || !(all[counted_sum] > 0)) return;
     const double share = seconds_ / all[seconds_sum] * num_ranks_;
     const double counted = share - columns_[0] / all[counted_sum] * num_ranks_;
@@ -110,6 +108,7 @@ void CostRule::note_errors(std::span<const double> all) {
     if (!(all[learned_sum] > 0)) return;
     const double learned = share - learned_ / all[learned_sum] * num_ranks_;
     learned_square_ = learned * learned;
+    between_square_ = (counted - learned) * (counted - learned);
     const double cut = all[cut_square] / num_ranks_;
     constexpr double kept = 1 - 1.0 / 50;
     if (mean_ > 0)
@@ -118,31 +117,13 @@ void CostRule::note_errors(std::span<const double> all) {
 }
 
 void CostRule::learn(std::span<const double> all) {
-    all_.forget(forgetting);
-    mine_.forget(forgetting);
-    mine_.add(columns_, kept_seconds_);
+    all_.squares *= forgetting;
+    all_.products *= forgetting;
     const double* next = all.data() + head_size;
     for (Eigen::Index i = 0; i < num_columns_; ++i) {
         all_.products[i] += *next++;
-        for (Eigen::Index j = 0; j <= i; ++j) {
-            all_.squares(i, j) += *next;
-            if (j < i) all_.squares(j, i) += *next;
-            ++next;
-        }
+        for (Eigen::Index j = 0; j < num_columns_; ++j) all_.squares(i, j) += *next++;
     }
-    NormalEquations others(num_columns_);
-    for (Eigen::Index i = 0; i < num_columns_; ++i)
-        for (Eigen::Index j = 0; j < num_columns_; ++j)
-            others.squares(i, j) = all_.squares(i, j) - mine_.squares(i, j);
-    others.products = all_.products - mine_.products;
-    // What is left of a column that only this rank has is round-off.
-    for (Eigen::Index i = 0; i < num_columns_; ++i) {
-        if (others.squares(i, i) > 1e-9 * all_.squares(i, i)) continue;
-        others.squares.row(i).setZero();
-        others.squares.col(i).setZero();
-        others.products[i] = 0;
-    }
-    others_ = fitted_costs(others);
 }
 
 }  // namespace rrcb

@@ -11,9 +11,9 @@ namespace rrcb {
 
 /// What one rank knows of the costs. Nothing here communicates.
 ///
-/// After each step a rank hands in sums, and takes those of all ranks one step later. Each predicts
-/// its own seconds from all other ranks' earlier steps. Rank 0 fits the costs that all use and
-/// judges them; its decision travels with the sums of the next step, to which others add 0.
+/// After each step a rank hands in sums, and takes those of all ranks one step later. Rank 0 fits
+/// costs to them and judges by what they had predicted. Both travel with the sums of the next step,
+/// to which the others add 0: all ranks have the same bits.
 class CostRule {
   public:
     CostRule(int num_columns, int rank, int num_ranks);
@@ -50,19 +50,18 @@ class CostRule {
     int num_ranks_;
     std::vector<double> sums_;
 
-    NormalEquations all_;   ///< of all ranks
-    NormalEquations mine_;  ///< of this rank
-    CostVector columns_;    ///< of the last step, as are the next three
+    CostVector columns_;  ///< of the last step, as are the next three
     double seconds_ = 0;
     double learned_ = 0;  ///< predicted seconds
     double kept_seconds_ = 0;
-    CostVector others_;          ///< costs by the other ranks
     double scatter_ = -1;        ///< rms error of a share, outliers cut off; negative: not known
     double mean_ = 0;            ///< seconds of a rank in the step before
     double learned_square_ = 0;  ///< errors of the step before, to be handed in
     double counted_square_ = 0;
+    double between_square_ = 0;  ///< of learned and counted prediction
 
-    CostGuard guard_;  ///< fed on rank 0 alone
+    NormalEquations all_;  ///< of all ranks; fed on rank 0 alone, as is the next
+    CostGuard guard_;
     bool is_learned_ = false;
 
     CostVector costs_;

@@ -72,16 +72,6 @@ CostVector nonnegative_minimum(const CostMatrix& a, const CostVector& b) {
     return x;
 }
 
-void NormalEquations::forget(double factor) {
-    squares *= factor;
-    products *= factor;
-}
-
-void NormalEquations::add(const CostVector& columns, double seconds) {
-    squares += columns * columns.transpose();
-    products += columns * seconds;
-}
-
 CostVector fitted_costs(const NormalEquations& sums) {
     // Far below what columns must differ by to be told apart in noise.
     constexpr double draw = 1e-6;

@@ -22,10 +22,6 @@ struct NormalEquations {
         : squares(CostMatrix::Zero(num_columns, num_columns)),
           products(CostVector::Zero(num_columns)) {}
 
-    /// Counts all that was added so far less.
-    void forget(double factor);
-    void add(const CostVector& columns, double seconds);
-
     CostMatrix squares;   ///< sum of columns * columns'
     CostVector products;  ///< sum of columns * seconds
 };

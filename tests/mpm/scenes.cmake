@@ -21,7 +21,9 @@ rrcb_add_test(NAME mpm_two_disks_test SOURCES analytic/two_disks_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
 rrcb_add_test(NAME mpm_dam_break_test SOURCES analytic/dam_break_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
-foreach(test mpm_balancers_test mpm_scene_file_test mpm_reference_test mpm_soil_test
+rrcb_add_test(NAME mpm_work_columns_test SOURCES step/work_columns_test.cpp
+              LIBRARIES mpm_test_support mpm_rrcb mpm_scene RANKS 1 2 4 LABELS mpm)
+foreach(test mpm_balancers_test mpm_work_columns_test mpm_scene_file_test mpm_reference_test mpm_soil_test
              mpm_two_disks_test mpm_dam_break_test mpm_anchor_test mpm_energy_test
              mpm_time_step_test mpm_state_test mpm_scene_reports_test)
   target_compile_definitions(${test}
@@ -118,6 +120,15 @@ set_tests_properties(mpm_restart.bits PROPERTIES FIXTURES_REQUIRED mpm_restart_c
 
 # What is accepted, but may not be meant, is told; what cannot be, ends with an error.
 set(column ${PROJECT_SOURCE_DIR}/examples/mpm/scenes/hydrostatic_column.yaml)
+rrcb_add_mpi_run(NAME mpm_learned_cost RANKS 3 LABELS mpm COMMAND $<TARGET_FILE:rrcb_mpm>
+                 --scene=${column} --cost=learned --cell-size=0.1 --load-every=10
+                 --out=${CMAKE_CURRENT_BINARY_DIR}/learned_cost)
+set_tests_properties(mpm_learned_cost PROPERTIES
+                     PASS_REGULAR_EXPRESSION "(points are counted|learned costs are used): ")
+add_test(NAME mpm_cost_without_weights
+         COMMAND rrcb_mpm --scene=${column} --cost=learned --balancer=zoltan-rcb)
+set_tests_properties(mpm_cost_without_weights PROPERTIES
+                     PASS_REGULAR_EXPRESSION "'zoltan-rcb' takes no weights")
 add_test(NAME mpm_warning COMMAND rrcb_mpm --scene=${column} --cell-size=0.06 --end-time=1e-6
                                   --out=${CMAKE_CURRENT_BINARY_DIR}/warning)
 set_tests_properties(mpm_warning PROPERTIES TIMEOUT 60 LABELS mpm PASS_REGULAR_EXPRESSION

@@ -22,7 +22,9 @@ struct RankSums {
     double points = 0;
     double cells = 0;   ///< that hold a point of it
     double shared = 0;  ///< of these, cells with points of another rank, too
-    double hidden = 0;  ///< points in a region that no column shows
+    double hidden = 0;  ///< points in a region that no column shows, as are the next two
+    double band = 0;
+    double clustered = 0;
 };
 
 /// A run of points, half of which move in a cluster through the others, divided by the library.
@@ -133,6 +135,8 @@ class TraceRun {
         for (int i = 0; i < num_points; ++i) {
             ++sums_[parts_[i]].points;
             if (x_[2 * i] > 0.6) ++sums_[parts_[i]].hidden;
+            if (std::abs(x_[2 * i + 1] - 0.6) < 0.1) ++sums_[parts_[i]].band;
+            if (i % 2 == 0) ++sums_[parts_[i]].clustered;
         }
         const std::vector<int> counts = occupancy();
         for (int cell = 0; cell < num_cells; ++cell) {

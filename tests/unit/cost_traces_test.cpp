@@ -18,6 +18,15 @@ double columns(const RankSums& s) {
 double hidden(const RankSums& s) {
     return s.points + 2 * s.hidden;
 }
+double band(const RankSums& s) {
+    return s.points + 2 * s.band;
+}
+double clustered(const RankSums& s) {
+    return s.points + 2 * s.clustered;
+}
+double spread(const RankSums& s) {
+    return 3 * s.points - 2 * s.clustered;
+}
 double against(const RankSums& s) {
     return s.points + 300 * s.points / (1 + s.cells);
 }
@@ -80,6 +89,14 @@ std::vector<Trace> traces() {
     all.push_back({"collinear columns, points", points, 0.03, 4, 20, 7});
     all.push_back({"unknown to the columns, 2 ranks", hidden, 0.03, 2});
     all.push_back({"unknown to the columns, 4 ranks", hidden, 0.03, 4});
+    for (const int ranks : {2, 4, 8}) {
+        const std::string on = ", " + std::to_string(ranks) + " ranks";
+        all.push_back({"dear band" + on, band, 0.03, ranks});
+        all.push_back({"dear cluster" + on, clustered, 0.03, ranks});
+        all.push_back({"cheap cluster" + on, spread, 0.03, ranks});
+        all.push_back({"dear band, fast" + on, band, 0.03, ranks, 20, 3, 400});
+        all.push_back({"dear region, fast" + on, hidden, 0.03, ranks, 20, 3, 400});
+    }
     all.push_back({"the fewer cells the dearer", against});
     all.push_back({"the fewer cells the dearer, 4 ranks", against, 0.03, 4});
     all.push_back({"pairs in cells", pairs});

@@ -60,15 +60,18 @@ std::string balancer_names() {
     return text;
 }
 
-std::optional<mpm::Balancer> make_balancer(const std::string& name, const mpm::Scene& scene) {
+std::optional<mpm::Balancer> make_balancer(const std::string& name, const mpm::Scene& scene,
+                                           const PointWeights& weights) {
     for (const auto& [method, reason] : without_boxes) {
         if (name == method)
             refuse(name, "makes no boxes, which the simulation needs: " + std::string(reason));
     }
     if (std::ranges::find(names, name) == names.end()) refuse(name, "is not known");
+    const bool takes_weights = name == "rrcb" || name == "rrcb-exact" || name == "rrcb-cells";
+    if (weights && !takes_weights) refuse(name, "takes no weights, as --cost=learned gives them");
     if (name == "none") return std::nullopt;
     if (name == "rrcb-sampled" || name == "root-rcb") return rrcb_balancer(paper_options_of(name));
-    if (name != "zoltan-rcb") return rrcb_balancer(options_of(name, scene));
+    if (name != "zoltan-rcb") return rrcb_balancer(options_of(name, scene), weights);
 #ifdef RRCB_MPM_ZOLTAN
     return zoltan_balancer({{"DEBUG_LEVEL", "0"}, {"LB_METHOD", "RCB"}, {"CHECK_GEOM", "0"}});
 #else

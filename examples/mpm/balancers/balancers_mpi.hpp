@@ -1,5 +1,7 @@
 #pragma once
 
+#include "balancers/rrcb_balancer_mpi.hpp"
+
 #include <mpm/decomposition.hpp>
 #include <mpm/scene.hpp>
 
@@ -16,5 +18,7 @@ std::string balancer_names();
 /// no boxes, and for an unknown name. Zoltan_Initialize must have been called. Not
 /// collective. `scene` tells `rrcb-cells` its cells and shape functions: it cuts on faces of cells
 /// alone, into parts as wide as the nodes that a point reaches along each axis are many cells, so
-/// that nodes are shared with adjacent ranks only.
-std::optional<mpm::Balancer> make_balancer(const std::string& name, const mpm::Scene& scene = {});
+/// that nodes are shared with adjacent ranks only. Only rrcb, rrcb-exact and rrcb-cells take
+/// weights.
+std::optional<mpm::Balancer> make_balancer(const std::string& name, const mpm::Scene& scene = {},
+                                           const PointWeights& weights = {});

@@ -39,13 +39,15 @@ mpm::Decomposition decomposition_of(rrcb::Balance balance, bool on_faces) {
 
 }  // namespace
 
-mpm::Balancer rrcb_balancer(const rrcb::Options& asked) {
+mpm::Balancer rrcb_balancer(const rrcb::Options& asked, const PointWeights& weights) {
     rrcb::Options options = asked;
     // Every rank has the boxes of all, and looks up owners by itself.
     options.cuts = rrcb::HeldCuts::whole;
-    return [options](mpm::Positions positions, MPI_Comm comm) {
-        return decomposition_of(rrcb::balance(points_of(positions), options, comm),
-                                !options.axes.grid.empty());
+    return [options, weights](mpm::Positions positions, MPI_Comm comm) {
+        const std::vector<double> weight = weights ? weights() : std::vector<double>();
+        rrcb::Points points = points_of(positions);
+        points.weights = weight;
+        return decomposition_of(rrcb::balance(points, options, comm), !options.axes.grid.empty());
     };
 }
 

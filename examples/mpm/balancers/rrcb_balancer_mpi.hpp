@@ -5,8 +5,14 @@
 
 #include <mpm/decomposition.hpp>
 
+#include <functional>
+#include <vector>
+
+/// Returns the weights of the points that are to be divided; none: each weighs 1.
+using PointWeights = std::function<std::vector<double>()>;
+
 /// Balancer by rrcb::balance, collective as that is.
-mpm::Balancer rrcb_balancer(const rrcb::Options& options = {});
+mpm::Balancer rrcb_balancer(const rrcb::Options& options = {}, const PointWeights& weights = {});
 
 /// Balancer by rrcb::balance_as_in_paper, collective as that is.
 mpm::Balancer rrcb_balancer(const rrcb::PaperOptions& options);

@@ -8,13 +8,15 @@ struct Arguments {
     std::string scene;
     std::string balancer;
     std::string out;
-    int every = 0;           ///< steps between rebalances; 0: when they pay
-    int vtk_every = -1;      ///< -1: as the scene says
-    double end_time = 0;     ///< s; 0: as the scene says
-    double cell_size = 0;    ///< m; 0: as the scene says
-    double every_time = -1;  ///< s between outputs; -1: as the scene says
-    int state_every = 0;     ///< steps between written states; 0: none
-    std::string restart;     ///< file of a state to go on from; empty: from the scene's start
+    int every = 0;             ///< steps between rebalances; 0: when they pay
+    bool learns_cost = false;  ///< weighs points by time
+    int load_every = 0;        ///< steps between rows of loads.csv; 0: none
+    int vtk_every = -1;        ///< -1: as the scene says
+    double end_time = 0;       ///< s; 0: as the scene says
+    double cell_size = 0;      ///< m; 0: as the scene says
+    double every_time = -1;    ///< s between outputs; -1: as the scene says
+    int state_every = 0;       ///< steps between written states; 0: none
+    std::string restart;       ///< file of a state to go on from; empty: from the scene's start
     bool list_kernels = false;
 };
 

@@ -11,7 +11,7 @@
 #include "output/probe_table_mpi.hpp"
 #include "output/vtk_mpi.hpp"
 
-#include <rrcb/controller.hpp>
+#include <rrcb/cost.hpp>
 
 #include <mpi.h>
 #include <mpm/simulation.hpp>
@@ -22,8 +22,11 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -112,28 +115,66 @@ class Recorder {
     std::optional<mpm::VtkSeries> vtk_;
 };
 
+/// Mean processor time of each rank's own work, every so many steps.
+class LoadTable {
+  public:
+    /// Collective over `comm`.
+    LoadTable(const std::string& path, int every, MPI_Comm comm) : every_(every), comm_(comm) {
+        if (every > 0 && mpm::rank_of(comm) == 0) file_.open(path);
+        if (file_.is_open()) file_ << "step,seconds of each rank\n";
+    }
+
+    /// Takes the step that has been done. Collective.
+    void add(const mpm::Simulation& simulation) {
+        if (every_ == 0) return;
+        seconds_ += simulation.work_seconds() / every_;
+        if (simulation.step_count() % every_ != 0) return;
+        std::vector<double> all(static_cast<std::size_t>(mpm::size_of(comm_)));
+        MPI_Gather(&seconds_, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, 0, comm_);
+        seconds_ = 0;
+        if (!file_.is_open()) return;
+        file_ << simulation.step_count();
+        for (const double seconds : all) file_ << ',' << seconds;
+        file_ << '\n';
+    }
+
+  private:
+    int every_;
+    MPI_Comm comm_;
+    double seconds_ = 0;
+    std::ofstream file_;
+};
+
 /// When to rebalance: before the first step, and then each so many steps or when it pays. A restart
 /// keeps the division that it finds.
 class Schedule {
   public:
-    /// Collective over `comm`. `every` is as in Arguments.
-    Schedule(int every, std::int64_t first_step, MPI_Comm comm)
+    /// Collective over `comm`. `every` and `learns_cost` are as in Arguments.
+    Schedule(int every, bool learns_cost, std::int64_t first_step, MPI_Comm comm)
         : every_(every), first_step_(first_step) {
+        constexpr int num_columns = 4;
         if (every == 0) controller_.emplace(comm);
+        if (!learns_cost) return;
+        if (controller_)
+            model_.emplace(*controller_, num_columns);
+        else
+            model_.emplace(comm, num_columns);
     }
+
+    /// Weights of the points, to divide them at once.
+    std::vector<double> weights(const mpm::Simulation& simulation) {
+        return model_->weights(model_->uses_costs() ? simulation.point_columns()
+                                                    : std::vector<double>());
+    }
+
+    std::string report() const { return model_ ? model_->report() : ""; }
 
     /// Collective; once before each step.
     void rebalance_if_due(mpm::Simulation& simulation, const mpm::Balancer& balancer) {
         const std::int64_t step = simulation.step_count();
         if (step == first_step_ && step > 0) return;
-        bool is_due = step == 0;
-        if (!controller_) {
-            is_due = step % every_ == 0;
-        } else if (step > 0) {
-            is_due = controller_->step(simulation.work_seconds(),
-                                       static_cast<double>(simulation.positions().size()));
-        }
-        if (!is_due) return;
+        if (step > 0) record(simulation);
+        if (step > 0 && !(controller_ ? controller_->due() : step % every_ == 0)) return;
         // The step before has brought the ranks together: none waits for another's load here.
         const double start = MPI_Wtime();
         simulation.rebalance(balancer);
@@ -141,9 +182,18 @@ class Schedule {
     }
 
   private:
+    void record(const mpm::Simulation& simulation) {
+        const double seconds = simulation.work_seconds();
+        if (model_)
+            model_->step(seconds, simulation.work_columns());
+        else if (controller_)
+            controller_->step(seconds, static_cast<double>(simulation.positions().size()));
+    }
+
     int every_;
     std::int64_t first_step_;
     std::optional<rrcb::Controller> controller_;
+    std::optional<rrcb::CostModel> model_;
 };
 
 void show_progress(const mpm::Simulation& simulation, double end_time, bool is_last) {
@@ -168,15 +218,22 @@ void warn_of_gain(const mpm::Simulation& simulation, MPI_Comm comm) {
 
 void simulate(mpm::Simulation& simulation, const mpm::Scene& scene, const Arguments& arguments,
               Recorder& recorder, MPI_Comm comm) {
-    const std::optional<mpm::Balancer> balancer = make_balancer(arguments.balancer, scene);
-    Schedule schedule(arguments.every, simulation.step_count(), comm);
+    Schedule schedule(arguments.every, arguments.learns_cost, simulation.step_count(), comm);
+    const auto weights = [&] { return schedule.weights(simulation); };
+    const std::optional<mpm::Balancer> balancer = make_balancer(
+        arguments.balancer, scene, arguments.learns_cost ? PointWeights(weights) : PointWeights());
+    LoadTable loads(arguments.out + "/loads.csv", arguments.load_every, comm);
     for (bool is_last = false; !is_last;) {
         is_last = !(simulation.time() < arguments.end_time);
         if (balancer && !is_last) schedule.rebalance_if_due(simulation, *balancer);
         recorder.record(simulation, is_last);
         if (mpm::rank_of(comm) == 0) show_progress(simulation, arguments.end_time, is_last);
-        if (!is_last) simulation.step();
+        if (is_last) break;
+        simulation.step();
+        loads.add(simulation);
     }
+    if (mpm::rank_of(comm) == 0 && arguments.learns_cost)
+        std::printf("%s\n", schedule.report().c_str());
     warn_of_gain(simulation, comm);
 }
 

@@ -46,6 +46,12 @@ double Simulation::max_speed() const {
 double Simulation::work_seconds() const {
     return model_->work.seconds();
 }
+std::vector<double> Simulation::work_columns() const {
+    return model_->work_columns();
+}
+std::vector<double> Simulation::point_columns() const {
+    return model_->point_columns();
+}
 const Particles& Simulation::particles() const {
     return model_->particles;
 }

@@ -25,6 +25,8 @@ class Simulation::Model {
     virtual RebalanceReport rebalance(const Balancer& balancer) = 0;
     virtual std::vector<std::string> kernels() const = 0;
     virtual std::size_t doubles_per_ghost_node() const = 0;
+    virtual std::vector<double> work_columns() const = 0;
+    virtual std::vector<double> point_columns() const = 0;
     virtual Totals totals() const = 0;
     virtual std::vector<std::pair<std::string, double>> reports() const = 0;
     virtual Positions positions() const = 0;
@@ -37,7 +39,8 @@ class Simulation::Model {
     std::int64_t num_points = 0, num_steps = 0;
     std::int64_t num_sent = 0;  ///< by this rank
     double time = 0, time_step = 0, max_speed = 0;
-    WorkClock work;  ///< of the last step
+    WorkClock work;            ///< of the last step
+    double worked_points = 0;  ///< of this rank in it
 };
 
 /// A scene of D dimensions in time. `step` is the list of its stages.
@@ -51,6 +54,8 @@ class Stepper final : public Simulation::Model {
     RebalanceReport rebalance(const Balancer& balancer) override;
     std::vector<std::string> kernels() const override;
     std::size_t doubles_per_ghost_node() const override;
+    std::vector<double> work_columns() const override;
+    std::vector<double> point_columns() const override;
     Totals totals() const override;
     std::vector<std::pair<std::string, double>> reports() const override;
     void write_state(const std::string& path) const override;

@@ -6,6 +6,7 @@
 #include "particles/pair.hpp"
 #include "step/least_mass.hpp"
 #include "step/stepper.hpp"
+#include "step/work_columns.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -223,6 +224,7 @@ void Stepper<D>::step() {
     advance_nodes();
     advance_points();
     work.pause();
+    worked_points = static_cast<double>(particles.size());
     for (const auto& effect : stages_.ends) effect.kernel({time, time_step}, comm_);
     time += time_step;
     ++num_steps;
@@ -255,6 +257,19 @@ RebalanceReport Stepper<D>::rebalance(const Balancer& balancer) {
 template <int D>
 std::size_t Stepper<D>::doubles_per_ghost_node() const {
     return 1 + 2 * D + stages_.fields.size() + (velocity_remap_ ? D : 0);
+}
+
+template <int D>
+std::vector<double> Stepper<D>::work_columns() const {
+    return {worked_points, static_cast<double>(runs_.size()),
+            static_cast<double>(patch_.sums.size()), static_cast<double>(ghosts_->num_shared())};
+}
+
+template <int D>
+std::vector<double> Stepper<D>::point_columns() const {
+    std::vector<CellRun<D>> runs;
+    transfers_->find_runs(particles, patch_, runs);
+    return mpm::point_columns<D>(patch_, runs);
 }
 
 template class Stepper<2>;

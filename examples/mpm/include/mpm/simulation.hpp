@@ -79,6 +79,12 @@ class Simulation {
     /// without communication, which waits for others.
     double work_seconds() const;
 
+    /// Numbers that the work of the last step grows with, on this rank: points, runs of points that
+    /// reach the same nodes one after the other, nodes of its grid, nodes shared with other ranks.
+    std::vector<double> work_columns() const;
+    /// Parts of this rank's points in these numbers, row after row; 0 of the shared nodes.
+    std::vector<double> point_columns() const;
+
     /// Points of this rank, columns by name, as "x", "velocity_x".
     const Particles& particles() const;
     Positions positions() const;  ///< of this rank's points

@@ -2,6 +2,7 @@
 
 #include "failure_mpi.hpp"
 #include "plot_data_mpi.hpp"
+#include "row.hpp"
 
 #include <algorithm>
 #include <cmath>

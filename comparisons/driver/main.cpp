@@ -3,6 +3,7 @@
 #include "git_hash.hpp"
 #include "machine_load_mpi.hpp"
 #include "scene_mpi.hpp"
+#include "text.hpp"
 #include "workload_mpi.hpp"
 
 #include <rrcb/error.hpp>
@@ -70,17 +71,16 @@ std::string run_record(const Arguments& arguments, const std::string& command, M
 }
 
 /// What the columns of a table mean, in a few lines.
-std::string definitions() {
-    return "imbalance: heaviest part / mean part, the median where 10 seeds were tried.\n"
-           "time: slowest rank, median of the repeats, first call left out.\n"
-           "95 %: where the true median lies; of 6 repeats or more.\n"
-           "of Zoltan's: this method's time / zoltan-rcb's.\n"
-           "bytes: of one call over all ranks, as handed to MPI and got from it.\n"
-           "ghosts: copies of points that parts need from others: a point counts once for each "
-           "other\n"
-           "part that has a point within the radius of it.\n"
-           "table.csv has more columns, run.txt versions, parameters and seeds.\n";
-}
+constexpr const char* definitions =
+    "imbalance: heaviest part / mean part, the median where 10 seeds were tried.\n"
+    "time: slowest rank, median of the repeats, first call left out.\n"
+    "95 %: where the true median lies; of 6 repeats or more.\n"
+    "of Zoltan's: this method's time / zoltan-rcb's.\n"
+    "bytes: of one call over all ranks, as handed to MPI and got from it.\n"
+    "ghosts: copies of points that parts need from others: a point counts once for each "
+    "other\n"
+    "part that has a point within the radius of it.\n"
+    "table.csv has more columns, run.txt versions, parameters and seeds.\n";
 
 void check_surroundings(const Arguments& arguments, MPI_Comm comm) {
     const int size = size_of(comm);
@@ -106,26 +106,8 @@ Workload make_workload(const Arguments& arguments, MPI_Comm comm) {
                           arguments.layout, comm);
 }
 
-/// Calls `compare` with the points asked for; of a scene with its snapshots, and runs it. Whether
-/// all simulations succeeded.
-bool visit_workloads(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
-                     const SnapshotVisitor& compare, MPI_Comm comm) {
-    if (!arguments.cloud.empty() || !arguments.file.empty() || !arguments.replay.empty()) {
-        compare(std::vector{make_workload(arguments, comm)});
-        return true;
-    }
-    if (arguments.only == Only::calls) {
-        compare(scene_snapshots(plan_scene(arguments, 1, comm), progress, comm));
-        return true;
-    }
-    const SnapshotVisitor nothing = [](std::span<const Workload>) {};
-    return std::ranges::none_of(
-        run_scene(arguments, folder, progress,
-                  arguments.only == Only::simulations ? nothing : compare, comm),
-        &SimulationRounds::has_failed);
-}
-
-/// Every method on the points asked for. Whether all succeeded.
+/// Every method on the points asked for, of a scene on its snapshots, and its simulations. Whether
+/// all succeeded.
 bool compare_all(const Arguments& arguments, const ResultsFolder& folder, Progress& progress,
                  MPI_Comm comm) {
     std::vector<Comparison> comparisons;
@@ -133,18 +115,23 @@ bool compare_all(const Arguments& arguments, const ResultsFolder& folder, Progre
         for (const Workload& workload : workloads)
             comparisons.push_back(compare_methods(workload, arguments, folder, progress, comm));
     };
-    const bool succeeded = visit_workloads(arguments, folder, progress, compare, comm);
+    bool succeeded = true;
+    if (!arguments.cloud.empty() || !arguments.file.empty() || !arguments.replay.empty()) {
+        compare(std::vector{make_workload(arguments, comm)});
+    } else if (arguments.only == Only::calls) {
+        compare(scene_snapshots(plan_scene(arguments, 1, comm), progress, comm));
+    } else {
+        const bool calls = arguments.only == Only::all;
+        const SnapshotVisitor visit = [&](std::span<const Workload> workloads) {
+            if (calls) compare(workloads);
+        };
+        succeeded = std::ranges::none_of(run_scene(arguments, folder, progress, visit, comm),
+                                         &SimulationRounds::has_failed);
+    }
     folder.write("table.csv", [&] { return table_csv(comparisons); });
     folder.write("calls.csv", [&] { return calls_csv(comparisons); });
     folder.write("call_times.csv", [&] { return call_times_csv(comparisons); });
     return succeeded && !has_failures(comparisons);
-}
-
-/// What ends the output, on rank 0.
-void summarize(const Arguments& arguments, const MachineUse& use) {
-    std::cout << '\n';
-    print_warning(std::cout, use);
-    std::cout << definitions() << "Written to " << arguments.out << '\n';
 }
 
 int compare(const Arguments& arguments, const std::string& command, MPI_Comm comm) {
@@ -161,22 +148,20 @@ int compare(const Arguments& arguments, const std::string& command, MPI_Comm com
     whole_record << record;
     write_use(whole_record, use);
     folder.write("run.txt", [&] { return whole_record.str(); });
-    if (rank_of(comm) == 0) summarize(arguments, use);
+    if (rank_of(comm) == 0) {
+        std::cout << '\n';
+        print_warning(std::cout, use);
+        std::cout << definitions << "Written to " << arguments.out << '\n';
+    }
     return succeeded ? 0 : 1;
 }
 
 int run(int argc, char** argv, MPI_Comm comm) {
     const Arguments arguments = read_arguments(argc, argv);
-    const bool speaks = rank_of(comm) == 0;
-    if (arguments.help) {
-        if (speaks) std::cout << *arguments.help;
-        return 0;
-    }
-    if (arguments.version) {
-        if (speaks) std::cout << versions();
-        return 0;
-    }
-    return compare(arguments, command_line(argc, argv), comm);
+    if (!arguments.help && !arguments.version)
+        return compare(arguments, command_line(argc, argv), comm);
+    if (rank_of(comm) == 0) std::cout << (arguments.help ? *arguments.help : versions());
+    return 0;
 }
 
 /// The exit code; failures that all ranks know are printed once, any other ends the program on

@@ -1,6 +1,5 @@
 #include "measurement_mpi.hpp"
 
-#include "drift_mpi.hpp"
 #include "failure_mpi.hpp"
 #include "partitioner_mpi.hpp"
 #include "statistics.hpp"

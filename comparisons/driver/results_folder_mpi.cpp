@@ -3,7 +3,6 @@
 #include "failure_mpi.hpp"
 
 #include <fstream>
-#include <sstream>
 
 namespace comparisons {
 
@@ -34,32 +33,6 @@ void ResultsFolder::write(const std::string& name, const std::function<std::stri
             std::filesystem::rename(draft, file);
         },
         comm_);
-}
-
-std::string ResultsFolder::from_root(const std::function<std::string()>& text) const {
-    std::string all;
-    on_root([&] { all = text(); }, comm_);
-    return mpm::broadcast(all, comm_);
-}
-
-std::string ResultsFolder::read(const std::string& name) const {
-    return from_root([&] {
-        std::ifstream in(path_ / name);
-        std::ostringstream text;
-        if (in && in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
-        return text.str();
-    });
-}
-
-void ResultsFolder::append(const std::string& name,
-                           const std::function<std::vector<Row>()>& rows) const {
-    const std::string before = read(name);
-    write(name, [&] {
-        const std::vector<Row> more = rows();
-        std::string text = before.empty() ? more.front().header() + '\n' : before;
-        for (const Row& row : more) text += row.text() + '\n';
-        return text;
-    });
 }
 
 }  // namespace comparisons

@@ -16,6 +16,7 @@
 #include "settlement_mpi.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -102,7 +103,7 @@ void settle(Call& call, Participant& self) {
         const auto bin = [&]() -> const BinnedPoints& { return call.binned; };
         settlement.refine(call.points, std::ref(bin), call.decision, call.result, self);
     } else {
-        settlement.assign(call.points, is_known(verdict.kept_imbalance), call.result, self);
+        settlement.assign(call.points, verdict.kept_imbalance < not_kept, call.result, self);
     }
     if (call.options.is_spread())
         settlement.divide_regions(call.binned, verdict, call.result, self);
@@ -176,7 +177,9 @@ bool keeps_earlier(Call& call, EarlierParts& earlier, Participant& self) {
     Report& report = call.result.report;
     if (report.details.num_points == 0) return true;
     if (are_cuts_limited(options)) return false;
-    if (is_refined(options) && !(report.imbalance <= options.imbalance_tolerance)) return false;
+    // An imbalance that was not counted is NaN, whose usual comparison raises an exception.
+    if (is_refined(options) && !std::islessequal(report.imbalance, options.imbalance_tolerance))
+        return false;
     report.details.rounds = is_refined(options) ? 1 : 0;
     report_measured(report.imbalance, options.imbalance_tolerance, report);
     report.part_weights = std::move(call.decision.part_weights);
@@ -212,7 +215,7 @@ bool may_be_poor(const Report& report, const Options& options) {
     const double within_reach =
         std::max(options.imbalance_tolerance, report.details.least_imbalance);
     return is_refined(options) && !are_cuts_limited(options) &&
-           report.imbalance > factor * within_reach;
+           std::isgreater(report.imbalance, factor * within_reach);
 }
 
 /// The better of two balances of the same points. Cuts from scratch have to be worth it.

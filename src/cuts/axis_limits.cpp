@@ -45,7 +45,8 @@ double AxisLimits::line_below(double value) const {
     // By parts, as the difference might overflow.
     double k = std::floor(value / grid_.spacing - grid_.origin / grid_.spacing);
     // A line has no place if its number times the spacing overflows.
-    const double last = std::floor(std::numeric_limits<double>::max() / grid_.spacing);
+    constexpr double most = std::numeric_limits<double>::max();
+    const double last = grid_.spacing < 1 ? most : std::floor(most / grid_.spacing);
     k = std::clamp(k, -last, last);
     while (line(k) > value) --k;
     while (line(k + 1) <= value) ++k;

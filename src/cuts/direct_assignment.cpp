@@ -30,7 +30,7 @@ class Assigner {
           bins_are_parts_(is_whole(cuts)) {}
 
     /// Calls `visit(first, length)` after each block whose bins were written in place of its parts.
-    /// Returns whether all coordinates are finite.
+    /// Returns whether all coordinates are finite; stops at the first block in which one is not.
     template <class Visit>
     bool run(const Points& points, std::span<Part> parts, Visit&& visit) {
         std::uint64_t carries = 0;
@@ -38,6 +38,7 @@ class Assigner {
             in_ranges(points.count, block_length, [&](LocalIndex first, LocalIndex last) {
                 const LocalIndex length = last - first;
                 carries |= copy_block(x, first, length, columns_);
+                if (carries >> 63 != 0) return;
                 tree_.find(columns_, length, &parts[first]);
                 visit(first, length);
                 if (bins_are_parts_) return;

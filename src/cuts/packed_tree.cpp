@@ -149,7 +149,7 @@ void PackedTree::find(const Columns& columns, LocalIndex length, std::int32_t* e
     if (!is_plain_) {
         tied.fill(0);
         for (std::size_t k = 0; k < num_top_nodes; ++k)
-            if (!std::isnan(top_.planes[k]))
+            if (top_.planes[k] != nowhere)
                 mark_tied(top_.planes[k], columns[top_.axes[k]].data(), length, tied.data());
     }
     const auto descend = is_plain_ ? descend_level<false> : descend_level<true>;

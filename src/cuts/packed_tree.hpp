@@ -119,7 +119,7 @@ class PackedTree {
 
     std::span<const Cut> cuts_;
     int dimension_ = 0;
-    std::vector<double> planes_;  ///< NaN at ends
+    std::vector<double> planes_;  ///< nowhere at ends
     std::vector<std::int32_t> axes_;
     std::vector<std::int32_t> lowers_;  ///< the node below the cut; of an end itself
     std::vector<std::int32_t> items_;   ///< index of the cut, or number of the end

@@ -15,8 +15,8 @@ namespace rrcb {
 
 inline constexpr LocalIndex block_length = 512;
 
-/// In place of a plane that no point lies on.
-inline constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+/// In place of a plane: all points lie below it.
+inline constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 /// The coordinates of the points of a block, one array per axis.
 using Columns = std::array<std::array<double, block_length>, max_dimension>;

@@ -156,7 +156,7 @@ Report report_of(const Verdict& verdict, int num_parts, std::span<const double> 
 
 void report_measured(double imbalance, double tolerance, Report& report) {
     report.imbalance = imbalance;
-    report.within_tolerance = imbalance <= tolerance;
+    report.within_tolerance = std::islessequal(imbalance, tolerance);
 }
 
 double weight_of(const Report& report) {

@@ -14,11 +14,11 @@
 
 namespace rrcb {
 
+/// Imbalance of the parts of a report that was not counted or estimated.
 inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-inline bool is_known(double imbalance) {
-    return imbalance == imbalance;
-}
+/// Imbalance of the parts that the ranks hold, if they cannot be kept.
+inline constexpr double not_kept = std::numeric_limits<double>::infinity();
 
 /// Beginning of the decision of rank 0: whether there are cuts, and the totals.
 struct Verdict {
@@ -31,7 +31,7 @@ struct Verdict {
     double total_weight = 0;
     double estimated_imbalance = 1;
     Box box{};                              ///< of all points, if cells were gathered
-    double kept_imbalance = not_known;      ///< of the parts that the ranks hold
+    double kept_imbalance = not_kept;       ///< of the parts that the ranks hold
     double measured_imbalance = not_known;  ///< of the parts of earlier cuts, if counted
 };
 

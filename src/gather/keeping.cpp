@@ -3,6 +3,7 @@
 #include "cuts/cut_limits.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rrcb {
 
@@ -20,11 +21,12 @@ bool keeps_at_once(double kept, double tolerance) {
 }
 
 bool is_worth_moving(double kept, double offered, const Options& options) {
+    // NaN, if it was not counted, raises no exception in these comparisons.
     constexpr double rounding = 1e-12;
     const double tolerance = options.imbalance_tolerance;
-    if (kept > tolerance && offered <= tolerance) return true;
-    const bool gains = kept - offered > std::max((tolerance - 1) / 20, rounding);
-    const bool is_half = offered - 1 <= (kept - 1) / 2;
+    if (kept > tolerance && std::islessequal(offered, tolerance)) return true;
+    const bool gains = std::isgreater(kept - offered, std::max((tolerance - 1) / 20, rounding));
+    const bool is_half = std::islessequal(offered - 1, (kept - 1) / 2);
     // What a search found is the best there is, an estimate is as good as chance has it, and so are
     // the axes of limited cuts.
     const bool was_searched =

@@ -39,7 +39,7 @@ bool KeptParts::are_good(double tolerance) const {
 }
 
 bool KeptParts::do_as_well_as(double imbalance, const Options& options) const {
-    return is_known(imbalance_) && !is_worth_moving(imbalance_, imbalance, options);
+    return imbalance_ < not_kept && !is_worth_moving(imbalance_, imbalance, options);
 }
 
 void KeptParts::keep(const CallOptions& options, Decision& decision, Balance& result,

@@ -43,7 +43,7 @@ class KeptParts {
     bool is_central_ = false;
     std::optional<SpreadExtents> extents_;  ///< if many ranks make the parts
     SpreadKeptTree spread_;
-    double imbalance_ = not_known;
+    double imbalance_ = not_kept;
 };
 
 }  // namespace rrcb

@@ -25,8 +25,8 @@ struct Estimate {
     std::vector<Bracket> brackets;  ///< one per cut
     double total_weight = 0;        ///< over all ranks
     double common_weight = 0;       ///< weight of each point where all weigh the same, else 0
-    /// Of the parts that may stay instead; NaN where there are none.
-    double kept_imbalance = std::numeric_limits<double>::quiet_NaN();
+    /// Of the parts that may stay instead; infinite if there are none.
+    double kept_imbalance = std::numeric_limits<double>::infinity();
     bool is_counted = false;  ///< `parts` and the sums hold what the cuts make, not good enough
     double heaviest = 0;      ///< weight of the heaviest point
     bool is_earlier = false;  ///< the cuts are those of an earlier call

@@ -8,7 +8,7 @@
 
 namespace rrcb {
 
-inline constexpr double not_counted = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double not_counted = -1;
 
 /// Rule for what belongs below each cut of the tree, and how far from it a cut may end.
 ///

@@ -17,14 +17,14 @@ std::size_t Exchange::most_records() const {
 void Exchange::make_outbox(std::vector<RankCount> counts, std::size_t num_records) {
     const std::size_t most = counts.size() + num_records / most_records();
     requests_.reserve(mpi::to_int(static_cast<std::int64_t>(most)));
-    outbox_.resize(record_bytes_ * num_records);
+    buffers_.outbox.resize(record_bytes_ * num_records);
     counts_ = std::move(counts);
 }
 
 std::size_t Exchange::announce(Participant& self) {
     const std::size_t num_records = count_arrivals(counts_, self);
     self.attempt([&] {
-        inbox_.resize(record_bytes_ * num_records);
+        buffers_.inbox.resize(record_bytes_ * num_records);
         arrived_.reserve(std::min(
             num_records, static_cast<std::size_t>(num_ranks_) + num_records / most_records()));
     });
@@ -32,7 +32,7 @@ std::size_t Exchange::announce(Participant& self) {
 }
 
 void Exchange::send_all(Participant& self) {
-    const std::byte* next = outbox_.data();
+    const std::byte* next = buffers_.outbox.data();
     for (const auto& [destination, total] : counts_) {
         LocalIndex left = total;
         while (left > 0) {
@@ -51,12 +51,13 @@ void Exchange::send_all(Participant& self) {
 void Exchange::receive_all(Participant& self) {
     std::size_t first = 0;
     // All before `first` has come. The inbox has the length announced, so nothing else is awaited.
-    while (first < inbox_.size()) {
-        const std::size_t most = std::min(inbox_.size() - first, most_records() * record_bytes_);
+    while (first < buffers_.inbox.size()) {
+        const std::size_t most =
+            std::min(buffers_.inbox.size() - first, most_records() * record_bytes_);
         MPI_Status status{};
         int bytes = 0;
-        self.check(MPI_Recv(&inbox_[first], static_cast<int>(most), MPI_BYTE, MPI_ANY_SOURCE,
-                            mpi::exchange_tag, self.comm, &status),
+        self.check(MPI_Recv(&buffers_.inbox[first], static_cast<int>(most), MPI_BYTE,
+                            MPI_ANY_SOURCE, mpi::exchange_tag, self.comm, &status),
                    "MPI_Recv");
         if (MPI_Get_count(&status, MPI_BYTE, &bytes) != MPI_SUCCESS || bytes <= 0) return;
         const auto size = static_cast<std::size_t>(bytes);

@@ -6,15 +6,26 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace rrcb {
 
+/// Memory for records.
+struct ExchangeBuffers {
+    Uninitialized<std::byte> outbox{};  ///< for one rank after the other
+    Uninitialized<std::byte> inbox{};   ///< in the order of arrival
+};
+
 /// Records of one size on their way from every rank to every other one, or to itself.
 class Exchange {
   public:
-    Exchange(std::size_t record_bytes, int num_ranks)
-        : record_bytes_(record_bytes), num_ranks_(num_ranks) {}
+    /// Uses the `memory` of another exchange.
+    Exchange(std::size_t record_bytes, int num_ranks, ExchangeBuffers memory = {})
+        : record_bytes_(record_bytes), num_ranks_(num_ranks), buffers_(std::move(memory)) {
+        buffers_.outbox.clear();
+        buffers_.inbox.clear();
+    }
 
     /// Takes a record for each of `destinations`; write(k, place) writes the k-th one.
     ///
@@ -23,8 +34,9 @@ class Exchange {
     void fill(std::span<const int> destinations, Write&& write) {
         RankOrder order(destinations, num_ranks_);
         make_outbox(order.counts(), destinations.size());
-        order.for_each(
-            [&](std::size_t k, std::size_t place) { write(k, &outbox_[record_bytes_ * place]); });
+        order.for_each([&](std::size_t k, std::size_t place) {
+            write(k, &buffers_.outbox[record_bytes_ * place]);
+        });
     }
 
     /// Announces the records to their ranks; returns how many come to this one, which allocates
@@ -45,8 +57,11 @@ class Exchange {
     void for_each(Read&& read) const {
         for (const Message& message : arrived_)
             for (std::size_t i = 0; i < message.count; ++i)
-                read(message.source, &inbox_[record_bytes_ * (message.first + i)]);
+                read(message.source, &buffers_.inbox[record_bytes_ * (message.first + i)]);
     }
+
+    /// Returns the memory, for another exchange; this one is over.
+    ExchangeBuffers take_memory() { return std::move(buffers_); }
 
   private:
     /// Records of one rank, somewhere in the inbox.
@@ -63,9 +78,8 @@ class Exchange {
 
     std::size_t record_bytes_;
     int num_ranks_;
-    std::vector<RankCount> counts_;    ///< records for each rank that gets some
-    Uninitialized<std::byte> outbox_;  ///< for one rank after the other
-    Uninitialized<std::byte> inbox_;   ///< in the order of arrival
+    std::vector<RankCount> counts_;  ///< records for each rank that gets some
+    ExchangeBuffers buffers_;
     std::vector<Message> arrived_;
     std::vector<MPI_Request> requests_;
 };

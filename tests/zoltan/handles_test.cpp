@@ -166,6 +166,28 @@ TEST(Handles, free_every_communicator_and_do_not_gather_more_by_repeated_calls) 
     EXPECT_EQ(num_communicators, at_start);
 }
 
+TEST(Handles, keep_the_memory_for_each_object) {
+    Program program;
+    scatter_points(program, 150'000);
+    program.set("LB_METHOD", "RRCB");
+    program.set("RRCB_SUPPORT_MESH", "4");
+    const auto call = [&] {
+        int changes = 0, num_gid = 0, num_lid = 0;
+        Program::RawList imports, exports;
+        memory_layer::restart_peak();
+        EXPECT_EQ(Zoltan_LB_Partition(program.zz, &changes, &num_gid, &num_lid, &imports.count,
+                                      &imports.global_ids, &imports.local_ids, &imports.ranks,
+                                      &imports.parts, &exports.count, &exports.global_ids,
+                                      &exports.local_ids, &exports.ranks, &exports.parts),
+                  ZOLTAN_OK);
+        for (Program::RawList* list : {&imports, &exports})
+            Zoltan_LB_Free_Part(&list->global_ids, &list->local_ids, &list->ranks, &list->parts);
+        return memory_layer::peak_bytes();
+    };
+    EXPECT_GT(call(), 16L * program.size()) << "coordinates";
+    for (int k = 0; k < 3; ++k) EXPECT_LT(call(), 2L * program.size()) << k;
+}
+
 TEST(Handles, migrate_automatically_as_with_rcb) {
     for (const char* method : {"RCB", "RRCB"}) {
         SCOPED_TRACE(method);

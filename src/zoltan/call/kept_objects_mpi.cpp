@@ -43,24 +43,23 @@ std::uint64_t checksum_of(const Points& points, std::span<const Part> parts) {
 }
 
 Placed find_placed(const Objects& objects, const LastPartition& last, const KeptObjects& kept,
-                   int rank) {
+                   int rank, std::vector<Part>& parts) {
     const PartMap& map = last.map();
     if (!map.one_each && !objects.names_parts) return {};
     const auto count = static_cast<std::size_t>(objects.count);
     const int* named = objects.initial_parts.get();
-    const auto part_at = [&](std::size_t i) { return named == nullptr ? rank : named[i]; };
+    parts.assign(count, rank);
+    if (named != nullptr) std::copy_n(named, count, parts.begin());
     // Cuts that this rank does not know, or that divide objects in one place, put none elsewhere.
     const bool ask_cuts = is_whole(last.cuts()) && kept.report.details.coincident_cuts == 0 &&
                           last.cuts().dimension == objects.points.dimension;
     for (std::size_t i = 0; i < count; ++i) {
-        const Part part = part_at(i);
+        const Part part = parts[i];
         if (part < 0 || part >= map.num_parts) return {};
         const RankRange range = map.ranks_of(part);
         if (rank < range.first_rank || rank >= range.first_rank + range.count) return {};
         if (ask_cuts && last.part_of(objects.points.position(i).data()) != part) return {};
     }
-    std::vector<Part> parts(count, rank);
-    if (named != nullptr) std::copy_n(named, count, parts.begin());
     return {true, checksum_of(objects.points, parts)};
 }
 

@@ -2,9 +2,9 @@
 
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "collective/exchange_mpi.hpp"
 
 #include <cstring>
+#include <utility>
 
 namespace rrcb::zoltan {
 
@@ -60,9 +60,10 @@ List make_list(std::size_t count, const IdWidths& widths) {
 }
 
 /// Import list that answers the export lists of all ranks. Collective.
-List invert(const List& exports, const Parameters& parameters, Participant& self) {
+List invert(const List& exports, const Parameters& parameters, ExchangeBuffers& memory,
+            Participant& self) {
     const IdWidths widths(parameters);
-    Exchange exchange(Record{widths}.bytes(), mpi::size_of(self.comm));
+    Exchange exchange(Record{widths}.bytes(), mpi::size_of(self.comm), std::move(memory));
     self.attempt([&] {
         const std::span ranks(exports.ranks.get(), static_cast<std::size_t>(exports.count));
         visit_widths(widths, [&](const auto& known) {
@@ -82,18 +83,19 @@ List invert(const List& exports, const Parameters& parameters, Participant& self
             Record{known}.read(place, i++, imports);
         });
     });
+    memory = exchange.take_memory();
     return imports;
 }
 
 }  // namespace
 
-void select_lists(const Parameters& parameters, bool changes, Participant& self, List& imports,
-                  List& exports) {
+void select_lists(const Parameters& parameters, bool changes, ExchangeBuffers& memory,
+                  Participant& self, List& imports, List& exports) {
     constexpr int not_asked = -1;
     const ReturnLists asked = parameters.return_lists;
     if (!changes) return;
     if (asked == ReturnLists::all || asked == ReturnLists::imports) {
-        imports = invert(exports, parameters, self);
+        imports = invert(exports, parameters, memory, self);
     } else {
         imports.count = not_asked;
     }

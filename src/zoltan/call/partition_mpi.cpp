@@ -48,7 +48,8 @@ LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Obj
         objects = collect_objects(zz, state.parameters, state.workspace);
         const bool asks_for_lists = state.parameters.return_lists != ReturnLists::none;
         if (state.kept && state.last && asks_for_lists)
-            placed = find_placed(objects, *state.last, *state.kept, state.communicator->rank());
+            placed = find_placed(objects, *state.last, *state.kept, state.communicator->rank(),
+                                 state.workspace.parts);
         LocalStatus status(objects.warned ? ZOLTAN_WARN : ZOLTAN_OK, "");
         status.may_keep = placed.are_known;
         status.names_parts = objects.names_parts;
@@ -221,7 +222,8 @@ int balance_objects(const Call& call, Objects&& objects, Partition& result) {
     auto [remap, numbering] = prepared.renumbering->run(objects, balanced.parts, self);
     list_exports(call, layout, std::move(objects), balanced.parts, result);
     if (prepared.is_spread) agree(self);
-    select_lists(parameters, result.changes, self, result.imports, result.exports);
+    select_lists(parameters, result.changes, call.state.workspace.records, self, result.imports,
+                 result.exports);
     serve_fortran(call, result, self);
     if (call.outcome.any_keeps_cuts && !is_whole(balanced.cuts))
         balanced.cuts = gather_cuts(balanced.cuts, self);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "collective/exchange_mpi.hpp"
+
 #include <rrcb/points.hpp>
 
 #include <cstddef>
@@ -33,6 +35,7 @@ struct Workspace {
     Scratch<double> weights;
     Scratch<float> callback_weights;
     std::vector<Part> parts;
+    ExchangeBuffers records;  ///< of objects that move
 };
 
 }  // namespace rrcb::zoltan

@@ -44,6 +44,51 @@ namespace detail {
 RRCB_API void move(const GhostPlan& plan, std::span<const ByteColumn> columns,
                    const TransferLimits& limits, TransferReport* report, MPI_Comm comm);
 
+/// Moves columns of ghosts to the ranks of their points, in the order of plan.send_indices there,
+/// and copies those of the points. Collective.
+RRCB_API void move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
+                        std::span<const ByteColumn> of_points, const TransferLimits& limits,
+                        TransferReport* report, MPI_Comm comm);
+
+template <class T>
+void add_each(std::span<const LocalIndex> points, std::size_t components,
+              const std::vector<T>& values, std::vector<T>& sums) {
+    static_assert(std::is_arithmetic_v<T>, "only numbers can be added");
+    for (std::size_t k = 0; k < points.size(); ++k)
+        for (std::size_t c = 0; c < components; ++c) {
+            T& sum = sums[points[k] * components + c];
+            sum = static_cast<T>(sum + values[k * components + c]);
+        }
+}
+
+template <class... T>
+std::tuple<std::vector<T>...> accumulated(const GhostPlan& plan,
+                                          const std::tuple<Column<T>...>& of_ghosts,
+                                          const std::tuple<Column<T>...>& of_points, MPI_Comm comm,
+                                          const TransferLimits& limits, TransferReport* report) {
+    return [&]<std::size_t... I>(std::index_sequence<I...>) {
+        std::tuple<std::vector<T>...> arrived;
+        std::tuple<std::vector<T>...> sums;
+        const std::array<ByteColumn, sizeof...(T)> sent{
+            byte_column(std::get<I>(of_ghosts), std::get<I>(arrived))...};
+        const std::array<ByteColumn, sizeof...(T)> kept{
+            byte_column(std::get<I>(of_points), std::get<I>(sums))...};
+        move_back(plan, sent, kept, limits, report, comm);
+        (add_each(plan.send_indices, std::get<I>(of_points).components, std::get<I>(arrived),
+                  std::get<I>(sums)),
+         ...);
+        return sums;
+    }
+    (std::index_sequence_for<T...>{});
+}
+
+template <class GhostColumn, class PointColumn>
+auto accumulated(const GhostPlan& plan, const GhostColumn& of_ghosts, const PointColumn& of_points,
+                 MPI_Comm comm, const TransferLimits& limits, TransferReport* report) {
+    return std::get<0>(accumulated(plan, std::tuple(column(of_ghosts)),
+                                   std::tuple(column(of_points)), comm, limits, report));
+}
+
 }  // namespace detail
 
 /// Returns columns of the ghosts of this rank: by rank, as in plan.receive, and in their order
@@ -56,6 +101,24 @@ template <class Columns>
 auto fetch(const GhostPlan& plan, const Columns& columns, MPI_Comm comm,
            const TransferLimits& limits = {}, TransferReport* report = nullptr) {
     return detail::moved(plan, columns, comm, limits, report);
+}
+
+/// Returns columns of the points with the values of their ghosts on other ranks added, such as
+/// forces: the reverse of fetch().
+///
+/// Collective over `comm`, otherwise as transfer(): `ghost_columns` hold one entry, or
+/// `components`, for each ghost, in the order of fetch(), and `columns` as many for each of
+/// plan.num_points points. Values are numbers of the same types in both. Each point's value comes
+/// first, then those of its ghosts by ascending rank: the same arguments give the same bits.
+/// Integers must hold their sums.
+///
+/// Throws Error as transfer() does. Cost: the messages and bytes of fetch(), in the other
+/// direction; memory for the values that come and 8 bytes for each ghost, beside the result.
+template <class GhostColumns, class Columns>
+auto accumulate(const GhostPlan& plan, const GhostColumns& ghost_columns, const Columns& columns,
+                MPI_Comm comm, const TransferLimits& limits = {},
+                TransferReport* report = nullptr) {
+    return detail::accumulated(plan, ghost_columns, columns, comm, limits, report);
 }
 
 }  // namespace rrcb

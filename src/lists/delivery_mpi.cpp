@@ -29,17 +29,6 @@ struct Lane {
     std::size_t bytes;  ///< of a point
 };
 
-void check_column(const ByteColumn& column, LocalIndex num_points) {
-    const bool fits = column.components == 0
-                          ? column.num_values == 0
-                          : column.num_values % column.components == 0 &&
-                                column.num_values / column.components == num_points;
-    if (!fits)
-        reject("a column has " + std::to_string(column.num_values) + " values for " +
-               std::to_string(num_points) + " points of the plan; give " +
-               std::to_string(column.components) + " for each");
-}
-
 /// Bytes of a point in all columns.
 std::size_t point_bytes_of(std::span<const ByteColumn> columns) {
     std::size_t bytes = 0;
@@ -199,6 +188,16 @@ void run(Stream& stream, const Delivery& delivery, std::span<const Lane> lanes, 
 
 }  // namespace
 
+void check_column(const ByteColumn& column, LocalIndex count, const std::string& entries) {
+    const bool fits = column.components == 0 ? column.num_values == 0
+                                             : column.num_values % column.components == 0 &&
+                                                   column.num_values / column.components == count;
+    if (!fits)
+        reject("a column has " + std::to_string(column.num_values) + " values for " +
+               std::to_string(count) + " " + entries + "; give " +
+               std::to_string(column.components) + " for each");
+}
+
 void check_counts(std::span<const RankCount> counts, LocalIndex total_count, int num_ranks) {
     int least = 0;
     for (const RankCount& share : counts) {
@@ -214,7 +213,8 @@ void deliver(const Delivery& delivery, std::span<const ByteColumn> columns,
              const TransferLimits& limits, TransferReport* report, Participant& self) {
     std::size_t point_bytes = 0;
     self.attempt([&] {
-        for (const ByteColumn& column : columns) check_column(column, delivery.num_points);
+        for (const ByteColumn& column : columns)
+            check_column(column, delivery.num_points, "points of the plan");
         point_bytes = point_bytes_of(columns);
     });
     const std::vector<RankCount> sent = exchange_counts(delivery.to, self);

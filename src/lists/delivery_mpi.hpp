@@ -5,6 +5,7 @@
 #include <rrcb/transfer.hpp>
 
 #include <span>
+#include <string>
 #include <vector>
 
 namespace rrcb {
@@ -21,6 +22,9 @@ struct Delivery {
 
 /// Throws Error unless ranks ascend and are below `num_ranks`, and counts add up to `total`.
 void check_counts(std::span<const RankCount> counts, LocalIndex total, int num_ranks);
+
+/// Throws Error unless a column holds its components for each of `count` points or other `entries`.
+void check_column(const detail::ByteColumn& column, LocalIndex count, const std::string& entries);
 
 /// Moves columns into their results.
 ///

@@ -6,7 +6,6 @@
 #include "cuts/ball_search.hpp"
 #include "cuts/tier_search.hpp"
 #include "cuts/tier_search_mpi.hpp"
-#include "lists/delivery_mpi.hpp"
 #include "lists/remap_mpi.hpp"
 #include "options/rejection.hpp"
 #include "options/request.hpp"
@@ -197,25 +196,6 @@ GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
 
 GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius, MPI_Comm comm) {
     return ghosts(cuts, points, radius, std::nullopt, comm);
-}
-
-void detail::move(const GhostPlan& plan, std::span<const ByteColumn> columns,
-                  const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
-    Delivery delivery{.num_points = plan.num_points, .sent = plan.send_indices};
-    self.attempt([&] {
-        const int num_ranks = mpi::size_of(self.comm);
-        check_counts(plan.send, plan.send_indices.size(), num_ranks);
-        LocalIndex num_received = 0;
-        for (const RankCount& share : plan.receive) num_received += share.count;
-        check_counts(plan.receive, num_received, num_ranks);
-        require(std::ranges::all_of(plan.send_indices,
-                                    [&](LocalIndex i) { return i < plan.num_points; }),
-                "send_indices of the plan must be below num_points");
-        delivery.to = plan.send;
-        delivery.from = plan.receive;
-    });
-    deliver(delivery, columns, limits, report, self);
 }
 
 }  // namespace rrcb

@@ -227,7 +227,7 @@ TEST(FailingMemory, in_columns_that_move) {
     fail_in(call, [&](const auto& result) { EXPECT_EQ(result, expected); });
 }
 
-TEST(FailingMemory, in_ghosts_and_what_is_fetched_of_them) {
+TEST(FailingMemory, in_ghosts_and_columns_fetched_and_added) {
     const std::vector<double> coordinates = cloud_here(2);
     const Points points = interleaved_points(coordinates, 2);
     Options options;
@@ -235,7 +235,8 @@ TEST(FailingMemory, in_ghosts_and_what_is_fetched_of_them) {
     const Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
     const auto call = [&] {
         const GhostPlan lists = ghosts(cuts, points, 0.1, MPI_COMM_WORLD);
-        return fetch(lists, column(coordinates, 2), MPI_COMM_WORLD);
+        const std::vector<double> near = fetch(lists, column(coordinates, 2), MPI_COMM_WORLD);
+        return accumulate(lists, column(near, 2), column(coordinates, 2), MPI_COMM_WORLD);
     };
     const std::vector<double> expected = call();
     fail_in(call, [&](const std::vector<double>& result) { EXPECT_EQ(result, expected); });

@@ -37,9 +37,9 @@ class CostModel {
 
     /// Makes a model whose sums travel with the controller's reduction, before its first step.
     ///
-    /// Not collective, but made on all ranks. `controller` must outlive the model, which calls its
-    /// step(). When other weights come into use the controller is told that a rebalance may gain.
-    /// Throws Error if the controller has recorded a step or has a model.
+    /// Collective. `controller` must outlive the model, which calls its step(). When other weights
+    /// come into use, the controller is told that a rebalance may gain. Throws Error on every rank
+    /// for a number of columns as above, and if the controller has recorded a step or has a model.
     RRCB_API CostModel(Controller& controller, int num_columns);
 
     /// Frees the communicator, if the model has one. Collective then, as that of Controller.

@@ -39,6 +39,22 @@ RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
 RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
                           std::span<const RankRange> ranks_of_parts, MPI_Comm comm);
 
+/// Finds the points that other ranks need within a radius of each point.
+///
+/// Collective over `comm`, otherwise as above. A rank needs the points of others whose distance to
+/// the region of one of its parts is at most the radius of that point, which only the rank that has
+/// it must know. So of two points on different ranks, nearer than the greater of their radii, at
+/// least one is a ghost on the other's rank; where each must see the other, give both the greatest
+/// radius that they may meet.
+///
+/// `radii` has one entry for each point, each finite, 0 or more, on every rank.
+RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, std::span<const double> radii,
+                          MPI_Comm comm);
+
+/// Finds the same points if the parts lie on other ranks. Collective over `comm`.
+RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, std::span<const double> radii,
+                          std::span<const RankRange> ranks_of_parts, MPI_Comm comm);
+
 namespace detail {
 
 RRCB_API void move(const GhostPlan& plan, std::span<const ByteColumn> columns,

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
@@ -60,21 +61,46 @@ struct Holders {
     }
 };
 
+/// Distances at which points are needed: one for all, or one for each.
+struct Radii {
+    double same = 0;
+    std::optional<std::span<const double>> each{};
+
+    double of(LocalIndex point) const { return each ? (*each)[point] : same; }
+
+    void check(LocalIndex num_points) const {
+        const auto is_usable = [](double radius) { return std::isfinite(radius) && radius >= 0; };
+        require(is_usable(same), "the radius must be finite, 0 or more");
+        if (!each) return;
+        require(each->size() == num_points, "radii must have one entry for each point");
+        require(std::ranges::all_of(*each, is_usable), "each radius must be finite, 0 or more");
+    }
+
+    /// For comparison between ranks, which have radii of their own or the same one.
+    std::uint64_t bits() const {
+        return std::bit_cast<std::uint64_t>(each ? std::numeric_limits<double>::infinity()
+                                                 : same + 0.0);
+    }
+};
+
 /// Which of this rank's points which other ranks need, by the cuts that are known.
 class Neighbourhood {
   public:
-    Neighbourhood(const Cuts& cuts, double radius, const Holders& holders)
-        : holders_(holders), alone_(holders.alone_here()), search_(cuts, radius, alone_) {
+    Neighbourhood(const Cuts& cuts, const Holders& holders)
+        : dimension_(cuts.dimension),
+          holders_(holders),
+          alone_(holders.alone_here()),
+          search_(cuts, alone_) {
         if (alone_.size() != 1 || alone_[0].end - alone_[0].first != 1) return;
         if (knows_path(cuts, alone_[0].first)) home_ = box_of(cuts, alone_[0].first);
     }
 
     /// Notes the ranks that need a point. Points come in ascending order.
-    void add(LocalIndex point, const Vector& position) {
-        if (home_ && search_.is_inside(position, *home_)) return;
+    void add(LocalIndex point, const Ball& ball) {
+        if (home_ && ball.is_inside(*home_, dimension_)) return;
         const auto first = std::ssize(ranks_);
         search_.for_each_part(
-            position, [&](Part part) { note(holders_(part)); },
+            ball, [&](Part part) { note(holders_(part)); },
             [&](std::size_t node) { lacking_.insert(node); });
         // A rank may hold several of the parts.
         std::ranges::sort(ranks_.begin() + first, ranks_.end());
@@ -100,6 +126,7 @@ class Neighbourhood {
             if (rank != holders_.rank) ranks_.push_back(rank);
     }
 
+    int dimension_;
     const Holders& holders_;
     std::vector<PartRange> alone_;
     BallSearch search_;
@@ -112,11 +139,11 @@ class Neighbourhood {
 /// What a plan is made from on this rank.
 struct GhostRequest {
     const Points& points;
-    double radius;
+    Radii radii;
     Holders holders;
 
     void check(const Cuts& cuts) const {
-        require(std::isfinite(radius) && radius >= 0, "the radius must be finite, 0 or more");
+        radii.check(points.count);
         check_points(points);
         check_tree(cuts);
         require(cuts.dimension == points.dimension, "cuts must have the dimension of the points");
@@ -125,8 +152,9 @@ struct GhostRequest {
 
     /// Lists what this rank sends; returns the nodes whose cuts it lacks for the rest.
     std::vector<std::size_t> list_sent(const Cuts& cuts, GhostPlan& plan) const {
-        Neighbourhood neighbourhood(cuts, radius, holders);
-        for (LocalIndex i = 0; i < points.count; ++i) neighbourhood.add(i, points.position(i));
+        Neighbourhood neighbourhood(cuts, holders);
+        for (LocalIndex i = 0; i < points.count; ++i)
+            neighbourhood.add(i, Ball(points.position(i), radii.of(i)));
         plan.num_points = points.count;
         neighbourhood.write(plan);
         return neighbourhood.lacking();
@@ -172,7 +200,7 @@ GhostPlan ghosts(const Cuts& cuts, const GhostRequest& request, Participant& sel
     });
     plan.receive = exchange_counts(plan.send, self);
     agree(self, {{"the tree of cuts", bits_of_cuts},
-                 {"the radius", std::bit_cast<std::uint64_t>(request.radius + 0.0)},
+                 {"the radius", request.radii.bits()},
                  {"ranks_of_parts", bits_of_holders}});
     if (!buffers || !search_together(*buffers, self)) return plan;
     plan.receive = exchange_counts(plan.send, self);
@@ -180,22 +208,32 @@ GhostPlan ghosts(const Cuts& cuts, const GhostRequest& request, Participant& sel
     return plan;
 }
 
-GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
+GhostPlan ghosts(const Cuts& cuts, const Points& points, const Radii& radii,
                  std::optional<std::span<const RankRange>> given, MPI_Comm user) {
     Participant self{mpi::duplicate_of(user)};
     const Holders holders{given, cuts.num_parts, mpi::rank_of(self.comm), mpi::size_of(self.comm)};
-    return ghosts(cuts, {points, radius, holders}, self);
+    return ghosts(cuts, {points, radii, holders}, self);
 }
 
 }  // namespace
 
 GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
                  std::span<const RankRange> ranks_of_parts, MPI_Comm comm) {
-    return ghosts(cuts, points, radius, std::optional(ranks_of_parts), comm);
+    return ghosts(cuts, points, Radii{radius}, ranks_of_parts, comm);
 }
 
 GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius, MPI_Comm comm) {
-    return ghosts(cuts, points, radius, std::nullopt, comm);
+    return ghosts(cuts, points, Radii{radius}, std::nullopt, comm);
+}
+
+GhostPlan ghosts(const Cuts& cuts, const Points& points, std::span<const double> radii,
+                 std::span<const RankRange> ranks_of_parts, MPI_Comm comm) {
+    return ghosts(cuts, points, Radii{0, radii}, ranks_of_parts, comm);
+}
+
+GhostPlan ghosts(const Cuts& cuts, const Points& points, std::span<const double> radii,
+                 MPI_Comm comm) {
+    return ghosts(cuts, points, Radii{0, radii}, std::nullopt, comm);
 }
 
 }  // namespace rrcb

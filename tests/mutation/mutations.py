@@ -242,8 +242,8 @@ MUTATIONS = [
     Mutation(
         "a ball that touches a side of a box is inside",
         "src/cuts/ball_search.hpp",
-        "box.upper[a] - centre[a] > reach_",
-        "box.upper[a] - centre[a] >= 0",
+        "box.upper[a] - centre_[a] > reach_",
+        "box.upper[a] - centre_[a] >= 0",
         ("unit_ball_search", "mpi_ghosts"),
     ),
     Mutation(

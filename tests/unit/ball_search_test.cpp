@@ -44,10 +44,10 @@ std::vector<PartRange> ranges_of(const std::vector<char>& is_wanted) {
     return ranges;
 }
 
-std::vector<Part> parts_found(const BallSearch& search, const Vector& x) {
+std::vector<Part> parts_found(const BallSearch& search, const Vector& x, double radius) {
     std::vector<Part> parts;
     search.for_each_part(
-        x, [&](Part part) { parts.push_back(part); },
+        Ball(x, radius), [&](Part part) { parts.push_back(part); },
         [](std::size_t node) { ADD_FAILURE() << "node " << node << " is known"; });
     return parts;
 }
@@ -64,7 +64,7 @@ TEST(BallSearch, finds_the_parts_whose_boxes_are_within_the_radius) {
         for (char& wanted : is_wanted) wanted = engine() % 4 != 0;
         const double radius = std::vector{0.0, 0.5, 1.0, 5.0, std::sqrt(2.0), 30.0}[engine() % 6];
         const std::vector<PartRange> left_out = ranges_of(is_wanted);
-        const BallSearch search(cuts, radius, left_out);
+        const BallSearch search(cuts, left_out);
         for (int k = 0; k < 100; ++k) {
             Vector x{};
             for (int a = 0; a < dimension; ++a)
@@ -78,7 +78,7 @@ TEST(BallSearch, finds_the_parts_whose_boxes_are_within_the_radius) {
                     expected.push_back(part);
                 ++num_pairs;
             }
-            ASSERT_EQ(parts_found(search, x), expected);
+            ASSERT_EQ(parts_found(search, x, radius), expected);
         }
     }
     EXPECT_GT(num_pairs, 1'000'000u);
@@ -93,23 +93,21 @@ TEST(BallSearch, loses_no_part_by_rounding_and_finds_none_beyond_it) {
     for (int k = 0; k < 100'000; ++k) {
         const double radius =
             std::ldexp(test::uniform(engine, 1, 2), static_cast<int>(engine() % 2000) - 1000);
-        const BallSearch search(cuts, radius, lower);
-        EXPECT_EQ(parts_found(search, {-radius, 0, 0}).size(), 1u);
-        EXPECT_EQ(parts_found(search, {-std::nextafter(radius, 0), 0, 0}).size(), 1u);
-        EXPECT_EQ(parts_found(search, {-radius * (1 + 2e-15), 0, 0}).size(), 0u);
+        const BallSearch search(cuts, lower);
+        EXPECT_EQ(parts_found(search, {-radius, 0, 0}, radius).size(), 1u);
+        EXPECT_EQ(parts_found(search, {-std::nextafter(radius, 0), 0, 0}, radius).size(), 1u);
+        EXPECT_EQ(parts_found(search, {-radius * (1 + 2e-15), 0, 0}, radius).size(), 0u);
     }
 }
 
 TEST(BallSearch, tells_the_interior_of_a_box_from_what_touches_its_sides) {
-    const Cuts cuts{2, 1, {}};
-    const BallSearch search(cuts, 1, {});
     const Box box{{0, 0, 0}, {4, infinity, 0}};
-    EXPECT_TRUE(search.is_inside({2, 2, 0}, box));
-    EXPECT_FALSE(search.is_inside({1, 2, 0}, box));
-    EXPECT_FALSE(search.is_inside({2, 1, 0}, box));
-    EXPECT_FALSE(search.is_inside({3, 2, 0}, box));
-    EXPECT_FALSE(search.is_inside({5, 2, 0}, box));
-    EXPECT_TRUE(search.is_inside({2.5, 1e300, 0}, box));
+    EXPECT_TRUE(Ball({2, 2, 0}, 1).is_inside(box, 2));
+    EXPECT_FALSE(Ball({1, 2, 0}, 1).is_inside(box, 2));
+    EXPECT_FALSE(Ball({2, 1, 0}, 1).is_inside(box, 2));
+    EXPECT_FALSE(Ball({3, 2, 0}, 1).is_inside(box, 2));
+    EXPECT_FALSE(Ball({5, 2, 0}, 1).is_inside(box, 2));
+    EXPECT_TRUE(Ball({2.5, 1e300, 0}, 1).is_inside(box, 2));
 }
 
 }  // namespace

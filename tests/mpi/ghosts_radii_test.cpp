@@ -1,0 +1,122 @@
+#include "../support/clouds.hpp"
+#include "../support/distance.hpp"
+#include "../support/ranks.hpp"
+#include "slabs.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/error.hpp>
+#include <rrcb/ghosts.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+using test::distance;
+using test::num_ranks;
+using test::rank;
+
+constexpr std::size_t num_points = 400;
+
+/// A cloud and radii that every rank knows, and the points of this rank by number.
+struct Scene {
+    int dimension;
+    std::vector<double> positions = test::uniform_cloud(num_points, dimension, 7);
+    std::vector<double> radii{};
+    Cuts cuts{};
+    std::vector<int> mine{};
+    std::vector<double> here{};
+    std::vector<double> radii_here{};
+
+    Vector position(int i) const {
+        return interleaved_points(positions, dimension).position(static_cast<LocalIndex>(i));
+    }
+};
+
+Scene make_scene(int dimension) {
+    Scene scene{dimension};
+    Options options;
+    options.num_parts = num_ranks();
+    const Balance whole =
+        balance(interleaved_points(scene.positions, dimension), options, MPI_COMM_SELF);
+    scene.cuts = whole.cuts;
+    const auto d = static_cast<std::size_t>(dimension);
+    for (std::size_t i = 0; i < num_points; ++i) {
+        scene.radii.push_back(std::vector{0.0, 0.01, 0.1, 0.5, 2.0}[i % 5]);
+        if (whole.parts[i] != rank()) continue;
+        scene.mine.push_back(static_cast<int>(i));
+        scene.radii_here.push_back(scene.radii[i]);
+        for (std::size_t a = 0; a < d; ++a) scene.here.push_back(scene.positions[i * d + a]);
+    }
+    return scene;
+}
+
+void expect_ghosts(const Scene& scene, const std::vector<int>& found) {
+    const Box region = box_of(scene.cuts, rank());
+    for (int j = 0; j < static_cast<int>(num_points); ++j) {
+        const double radius = scene.radii[static_cast<std::size_t>(j)];
+        const bool is_mine = std::ranges::binary_search(scene.mine, j);
+        const bool is_near = distance(scene.position(j), region, scene.dimension) <= radius;
+        const auto count = std::ranges::count(found, j);
+        EXPECT_EQ(count, is_near && !is_mine ? 1 : 0) << j;
+        if (is_mine || count == 1) continue;
+        for (const int i : scene.mine) {
+            const Vector x = scene.position(i);
+            EXPECT_GT(distance(scene.position(j), Box{x, x}, scene.dimension), radius);
+        }
+    }
+}
+
+TEST(GhostsOfRadii, are_the_points_whose_own_radius_reaches_a_region) {
+    for (const int dimension : {1, 2, 3}) {
+        const Scene scene = make_scene(dimension);
+        const Points points = interleaved_points(scene.here, dimension);
+        const GhostPlan plan = ghosts(scene.cuts, points, scene.radii_here, MPI_COMM_WORLD);
+        expect_ghosts(scene, fetch(plan, scene.mine, MPI_COMM_WORLD));
+        std::vector<RankRange> ranks;
+        for (int k = 0; k < num_ranks(); ++k) ranks.push_back({k, 1});
+        const GhostPlan same = ghosts(scene.cuts, points, scene.radii_here, ranks, MPI_COMM_WORLD);
+        EXPECT_EQ(same.send_indices, plan.send_indices);
+    }
+}
+
+TEST(GhostsOfRadii, are_those_of_one_radius_if_all_are_equal) {
+    const Scene scene = make_scene(2);
+    const Points points = interleaved_points(scene.here, 2);
+    const std::vector<double> equal(scene.mine.size(), 0.1);
+    EXPECT_EQ(ghosts(scene.cuts, points, equal, MPI_COMM_WORLD).send_indices,
+              ghosts(scene.cuts, points, 0.1, MPI_COMM_WORLD).send_indices);
+}
+
+TEST(GhostsOfRadii, that_do_not_fit_on_one_rank_are_refused_on_all) {
+    const std::vector<double> x(4);
+    const auto refused = [&](const std::string& text, const std::vector<double>& wrong) {
+        const std::vector<double> radii = test::is_last_rank() ? wrong : std::vector{1.0, 0.0};
+        try {
+            ghosts(test::slabs(), interleaved_points(x, 2), radii, MPI_COMM_WORLD);
+            ADD_FAILURE() << "nothing was thrown";
+        } catch (const Error& error) {
+            const std::string expected = "rank " + std::to_string(num_ranks() - 1) + ": " + text;
+            EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+        }
+    };
+    refused("radii must have one entry for each point", {1.0});
+    refused("radii must have one entry for each point", {});
+    for (const double radius : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
+        refused("each radius must be finite, 0 or more", {1.0, radius});
+    if (num_ranks() == 1) return;
+    const Points none = interleaved_points(std::span(x).first(0), 2);
+    const std::vector<double> no_radii;
+    EXPECT_THROW(test::is_last_rank() ? ghosts(test::slabs(), none, 0.0, MPI_COMM_WORLD)
+                                      : ghosts(test::slabs(), none, no_radii, MPI_COMM_WORLD),
+                 Error);
+}
+
+}  // namespace
+}  // namespace rrcb

@@ -58,7 +58,8 @@ MachineUse MachineWatch::use() const {
     use.load_average = load_average_;
     use.num_cores = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
     MPI_Comm node = MPI_COMM_NULL;
-    MPI_Comm_split_type(comm_, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
+    // Not those that --ranks-per-node makes up.
+    PMPI_Comm_split_type(comm_, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
     MPI_Comm_size(node, &use.num_ranks);
     MPI_Allreduce(MPI_IN_PLACE, &own_s, 1, MPI_DOUBLE, MPI_SUM, node);
     MPI_Comm_free(&node);

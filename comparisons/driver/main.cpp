@@ -4,6 +4,7 @@
 #include "machine_load_mpi.hpp"
 #include "scene_mpi.hpp"
 #include "text.hpp"
+#include "traffic.hpp"
 #include "workload_mpi.hpp"
 
 #include <rrcb/error.hpp>
@@ -158,6 +159,7 @@ int compare(const Arguments& arguments, const std::string& command, MPI_Comm com
 
 int run(int argc, char** argv, MPI_Comm comm) {
     const Arguments arguments = read_arguments(argc, argv);
+    set_ranks_per_machine(arguments.ghosts.ranks_per_node.value_or(0));
     if (!arguments.help && !arguments.version)
         return compare(arguments, command_line(argc, argv), comm);
     if (rank_of(comm) == 0) std::cout << (arguments.help ? *arguments.help : versions());

@@ -26,7 +26,8 @@ struct Key {
 constexpr Key keys[] = {{"mesh", "tuning.support_mesh"},
                         {"refine", "refine"},
                         {"tol", "imbalance_tolerance"},
-                        {"central", "tuning.central_parts"}};
+                        {"central", "tuning.central_parts"},
+                        {"machines", "tree.group_size"}};
 
 /// A parameter in brackets of the paper's methods.
 struct PaperKey {
@@ -111,9 +112,9 @@ const std::vector<Entry>& entries() {
          "RRCB",
          of_paper(PaperDomain::sampled),
          {"mesh", "cut", "k", "fraction", "seed"}},
-        {"rrcb", "RRCB", Options{}, {"mesh", "refine", "tol", "reuse", "central"}},
+        {"rrcb", "RRCB", Options{}, {"mesh", "refine", "tol", "reuse", "central", "machines"}},
         {"rrcb-exact", "RRCB", refined(Refine::exact), {"mesh"}},
-        {"rrcb-arrays", on_arrays, Options{}, {"mesh", "refine", "tol", "central"}},
+        {"rrcb-arrays", on_arrays, Options{}, {"mesh", "refine", "tol", "central", "machines"}},
     };
     return table;
 }
@@ -161,18 +162,14 @@ void apply(Method& method, const Entry& entry, std::string_view assignment) {
     if (name == "seed") method.seed_given = true;
 }
 
-/// Words always, numbers if they are not the default.
+/// Adds the refinement always, others if they are not the default.
 void add(const Options& options, ZoltanParameters& parameters) {
-    const auto add = [&](std::string_view name, bool always) {
-        const rrcb::Option& option = *rrcb::find_option(name);
+    for (const Key& key : keys) {
+        const rrcb::Option& option = *rrcb::find_option(key.option);
         const std::string value = rrcb::write_option(option, options);
-        if (always || value != rrcb::write_option(option, Options{}))
+        if (key.name == "refine" || value != rrcb::write_option(option, Options{}))
             parameters.emplace_back(option.parameter, value);
-    };
-    add("tuning.support_mesh", false);
-    add("refine", true);
-    add("imbalance_tolerance", false);
-    add("tuning.central_parts", false);
+    }
 }
 
 void add(const PaperOptions& options, ZoltanParameters& parameters) {

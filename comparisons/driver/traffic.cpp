@@ -10,6 +10,7 @@ namespace comparisons {
 namespace {
 
 bool counting = false;
+int ranks_per_machine = 0;  ///< 0: as they are
 Traffic traffic;
 std::map<std::string, CallCount> calls;
 
@@ -117,6 +118,10 @@ Traffic stop_counting_traffic() {
     return traffic;
 }
 
+void set_ranks_per_machine(int number) {
+    ranks_per_machine = number;
+}
+
 double processor_seconds() {
     timespec time{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -146,6 +151,14 @@ extern "C" {
 #define RECEIVE(name, parameters, arguments) FUNCTION(name, parameters, arguments, (void)0)
 #define WAIT RECEIVE
 #include "mpi_functions.inc"
+
+int MPI_Comm_split_type(MPI_Comm comm, int type, int key, MPI_Info info, MPI_Comm* made) {
+    const InMpi in_mpi;
+    if (counting) count_communicator(__func__);
+    if (ranks_per_machine == 0 || type != MPI_COMM_TYPE_SHARED)
+        return PMPI_Comm_split_type(comm, type, key, info, made);
+    return PMPI_Comm_split(comm, rank_in(MPI_COMM_WORLD) / ranks_per_machine, key, made);
+}
 
 FUNCTION(Comm_free, (MPI_Comm * comm), (comm), (void)0)
 

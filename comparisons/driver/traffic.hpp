@@ -50,4 +50,8 @@ void start_counting_traffic();
 /// Stops counting on this rank. Not collective.
 Traffic stop_counting_traffic();
 
+/// Makes MPI_Comm_split_type put so many consecutive ranks of MPI_COMM_WORLD on each machine. Not
+/// collective, but the same on every rank.
+void set_ranks_per_machine(int number);
+
 }  // namespace comparisons

@@ -112,7 +112,8 @@ auto accumulated(const GhostPlan& plan, const GhostColumn& of_ghosts, const Poin
 ///
 /// Collective over `comm`, otherwise as transfer(): columns hold one entry, or `components`, for
 /// each of plan.num_points points. The plan can be used again as long as no point changes its index
-/// in the columns.
+/// in the columns. Made with radii greater by a skin s, it holds all pairs within the true radii
+/// until a point has moved by s / 2.
 template <class Columns>
 auto fetch(const GhostPlan& plan, const Columns& columns, MPI_Comm comm,
            const TransferLimits& limits = {}, TransferReport* report = nullptr) {

@@ -5,17 +5,36 @@
 
 #include <mpi.h>
 
+#include <array>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace rrcb {
 
+/// Periods along each axis.
+using Shift = std::array<std::int32_t, 3>;
+
 /// Who needs which points of whom; no two entries of a list of ranks name the same one.
 struct GhostPlan {
-    LocalIndex num_points = 0;             ///< that this rank holds
-    std::vector<RankCount> send;           ///< how many of them which ranks need; ranks ascending
-    std::vector<LocalIndex> send_indices;  ///< for one rank after the other, ascending for each
-    std::vector<RankCount> receive;        ///< how many come from which ranks; ranks ascending
+    LocalIndex num_points = 0;    ///< that this rank holds
+    std::vector<RankCount> send;  ///< how many of them which ranks need; ranks ascending
+    std::vector<LocalIndex>
+        send_indices;                ///< for one rank after the other, in ascending order for each
+    std::vector<RankCount> receive;  ///< how many come from which ranks; ranks ascending
+    Box periodic{};                  ///< box that repeats, if there is one
+    std::vector<Shift> shifts{};     ///< of each ghost, in the order of fetch(), if so
+};
+
+/// Distances at which points are needed, and where points and parts are.
+struct GhostOptions {
+    double radius = 0;                               ///< of all points
+    std::optional<std::span<const double>> radii{};  ///< or one for each point
+    /// Box that holds the points, its faces included. It repeats along each axis on which its two
+    /// ends are finite; on the others they are infinite.
+    std::optional<Box> periodic{};
+    std::optional<std::span<const RankRange>> ranks_of_parts{};  ///< if not ranks_of_part()
 };
 
 /// Finds the points that other ranks need within a cut-off `radius`, from the cuts alone.
@@ -54,6 +73,26 @@ RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, std::span<cons
 /// Finds the same points if the parts lie on other ranks. Collective over `comm`.
 RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, std::span<const double> radii,
                           std::span<const RankRange> ranks_of_parts, MPI_Comm comm);
+
+/// Finds the same points, and their images if the box is periodic.
+///
+/// Collective over `comm`, otherwise as above. The image of x by a shift is at
+/// x + shift * (upper - lower), each operation rounded to a double. Regions are limited to the box.
+/// An image is a ghost as a point is, also for the rank that has the point: a rank may need several
+/// images of one, each a ghost with its entry in plan.shifts. apply_shifts() moves fetched
+/// positions there.
+///
+/// Throws Error also if a position is outside the box (wrap positions first), a radius is above 100
+/// periods, or ranks have other boxes. Cost of a periodic box: another pass of counts and one
+/// message more for each pair of ranks between which points move; twice the memory for cuts.
+RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
+                          MPI_Comm comm);
+
+/// Moves positions of ghosts, as fetched, to those of the images; nothing without a periodic box.
+///
+/// Not collective. `positions` hold the axes of one ghost after the other. Throws Error if they do
+/// not fit the plan.
+RRCB_API void apply_shifts(const GhostPlan& plan, std::span<double> positions);
 
 namespace detail {
 
@@ -113,7 +152,7 @@ auto accumulated(const GhostPlan& plan, const GhostColumn& of_ghosts, const Poin
 /// Collective over `comm`, otherwise as transfer(): columns hold one entry, or `components`, for
 /// each of plan.num_points points. The plan can be used again as long as no point changes its index
 /// in the columns. Made with radii greater by a skin s, it holds all pairs within the true radii
-/// until a point has moved by s / 2.
+/// until a point has moved by s / 2; until then do not wrap positions in a periodic box.
 template <class Columns>
 auto fetch(const GhostPlan& plan, const Columns& columns, MPI_Comm comm,
            const TransferLimits& limits = {}, TransferReport* report = nullptr) {

@@ -36,7 +36,15 @@ class Ball {
         return square <= 1 + 8 * epsilon;
     }
 
+    bool reaches(double distance) const { return distance <= reach_; }
+
     const Vector& centre() const { return centre_; }
+
+    Ball moved_to(const Vector& centre) const {
+        Ball ball = *this;
+        ball.centre_ = centre;
+        return ball;
+    }
 
   private:
     static constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -57,10 +65,12 @@ class BallSearch {
           }) {}
 
     /// Calls visit(part), and lack(node) where the cut of a node is not known; both ascend. In time
-    /// as there are such parts times the depth of the tree.
+    /// as there are such parts times the depth of the tree. The centre is `apart` from a box to
+    /// which the regions are limited.
     template <class Visit, class Lack>
-    void for_each_part(const Ball& ball, Visit&& visit, Lack&& lack) const {
-        descend(0, ball, {}, visit, lack);
+    void for_each_part(const Ball& ball, Visit&& visit, Lack&& lack,
+                       const Vector& apart = {}) const {
+        descend(0, ball, apart, visit, lack);
     }
 
   private:

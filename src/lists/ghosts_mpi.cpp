@@ -3,9 +3,10 @@
 #include "collective/duplicate.hpp"
 #include "collective/rank_counts_mpi.hpp"
 #include "collective/rank_order.hpp"
-#include "cuts/ball_search.hpp"
+#include "cuts/periodic_images.hpp"
 #include "cuts/tier_search.hpp"
 #include "cuts/tier_search_mpi.hpp"
+#include "lists/delivery_mpi.hpp"
 #include "lists/remap_mpi.hpp"
 #include "options/rejection.hpp"
 #include "options/request.hpp"
@@ -14,9 +15,11 @@
 #include <rrcb/ghosts.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -68,6 +71,11 @@ struct Radii {
 
     double of(LocalIndex point) const { return each ? (*each)[point] : same; }
 
+    double greatest() const {
+        if (!each) return same;
+        return each->empty() ? 0 : *std::ranges::max_element(*each);
+    }
+
     void check(LocalIndex num_points) const {
         const auto is_usable = [](double radius) { return std::isfinite(radius) && radius >= 0; };
         require(is_usable(same), "the radius must be finite, 0 or more");
@@ -86,53 +94,72 @@ struct Radii {
 /// Which of this rank's points which other ranks need, by the cuts that are known.
 class Neighbourhood {
   public:
-    Neighbourhood(const Cuts& cuts, const Holders& holders)
+    Neighbourhood(const Cuts& cuts, const Holders& holders,
+                  const std::optional<PeriodicImages>& images)
         : dimension_(cuts.dimension),
           holders_(holders),
+          images_(images),
           alone_(holders.alone_here()),
           search_(cuts, alone_) {
+        if (images_) search_of_images_.emplace(cuts, std::span<const PartRange>{});
         if (alone_.size() != 1 || alone_[0].end - alone_[0].first != 1) return;
         if (knows_path(cuts, alone_[0].first)) home_ = box_of(cuts, alone_[0].first);
     }
 
-    /// Notes the ranks that need a point. Points come in ascending order.
+    /// Notes the ranks that need a point or its images. Points come in ascending order.
     void add(LocalIndex point, const Ball& ball) {
-        if (home_ && ball.is_inside(*home_, dimension_)) return;
-        const auto first = std::ssize(ranks_);
-        search_.for_each_part(
-            ball, [&](Part part) { note(holders_(part)); },
-            [&](std::size_t node) { lacking_.insert(node); });
-        // A rank may hold several of the parts.
-        std::ranges::sort(ranks_.begin() + first, ranks_.end());
-        const auto again = std::ranges::unique(ranks_.begin() + first, ranks_.end());
-        ranks_.erase(again.begin(), again.end());
-        points_.resize(ranks_.size(), point);
+        if (!images_) return add(point, ball, Shift{});
+        images_->for_each(ball,
+                          [&](const Shift& shift, const Ball& image) { add(point, image, shift); });
     }
 
     void write(GhostPlan& plan) const {
         RankOrder order(ranks_, holders_.num_ranks);
         plan.send = order.counts();
         plan.send_indices.resize(points_.size());
-        order.for_each(
-            [&](std::size_t k, std::size_t place) { plan.send_indices[place] = points_[k]; });
+        plan.shifts.resize(shifts_.size());
+        order.for_each([&](std::size_t k, std::size_t place) {
+            plan.send_indices[place] = points_[k];
+            if (images_) plan.shifts[place] = shifts_[k];
+        });
     }
 
     /// Nodes near points whose cuts are not known.
     std::vector<std::size_t> lacking() const { return {lacking_.begin(), lacking_.end()}; }
 
   private:
-    void note(const RankRange& ranks) {
+    void add(LocalIndex point, const Ball& ball, const Shift& shift) {
+        const bool is_image = shift != Shift{};
+        if (!is_image && home_ && ball.is_inside(*home_, dimension_)) return;
+        const auto first = std::ssize(ranks_);
+        (is_image ? *search_of_images_ : search_)
+            .for_each_part(
+                ball, [&](Part part) { note(holders_(part), is_image); },
+                [&](std::size_t node) { lacking_.insert(node); },
+                is_image ? images_->apart(ball.centre()) : Vector{});
+        // A rank may hold several of the parts.
+        std::ranges::sort(ranks_.begin() + first, ranks_.end());
+        const auto again = std::ranges::unique(ranks_.begin() + first, ranks_.end());
+        ranks_.erase(again.begin(), again.end());
+        points_.resize(ranks_.size(), point);
+        if (images_) shifts_.resize(ranks_.size(), shift);
+    }
+
+    void note(const RankRange& ranks, bool also_here) {
         for (int rank = ranks.first_rank; rank < ranks.first_rank + ranks.count; ++rank)
-            if (rank != holders_.rank) ranks_.push_back(rank);
+            if (also_here || rank != holders_.rank) ranks_.push_back(rank);
     }
 
     int dimension_;
     const Holders& holders_;
+    const std::optional<PeriodicImages>& images_;
     std::vector<PartRange> alone_;
     BallSearch search_;
+    std::optional<BallSearch> search_of_images_;  ///< of all parts
     std::optional<Box> home_;  ///< region of the only part that is this rank's alone
     std::vector<LocalIndex> points_;
-    std::vector<int> ranks_;  ///< each to get one of the points
+    std::vector<int> ranks_;     ///< each to get one of the points
+    std::vector<Shift> shifts_;  ///< of these, if there are images
     std::set<std::size_t> lacking_;
 };
 
@@ -141,6 +168,7 @@ struct GhostRequest {
     const Points& points;
     Radii radii;
     Holders holders;
+    std::optional<PeriodicImages> images;
 
     void check(const Cuts& cuts) const {
         radii.check(points.count);
@@ -148,11 +176,17 @@ struct GhostRequest {
         check_tree(cuts);
         require(cuts.dimension == points.dimension, "cuts must have the dimension of the points");
         holders.check();
+        if (!images) return;
+        images->check(radii.greatest());
+        for (LocalIndex i = 0; i < points.count; ++i)
+            require(images->apart(points.position(i)) == Vector{},
+                    "positions must lie in the periodic box");
     }
 
-    /// Lists what this rank sends; returns the nodes whose cuts it lacks for the rest.
+    /// Lists what this rank sends, with its shifts; returns the nodes whose cuts it lacks for the
+    /// rest.
     std::vector<std::size_t> list_sent(const Cuts& cuts, GhostPlan& plan) const {
-        Neighbourhood neighbourhood(cuts, holders);
+        Neighbourhood neighbourhood(cuts, holders, images);
         for (LocalIndex i = 0; i < points.count; ++i)
             neighbourhood.add(i, Ball(points.position(i), radii.of(i)));
         plan.num_points = points.count;
@@ -184,6 +218,22 @@ class GhostSearch : public TierSearch {
     GhostPlan& plan_;
 };
 
+/// Hands the shifts of what is sent to the ranks that get it. Collective.
+void exchange_shifts(GhostPlan& plan, Participant& self) {
+    const std::vector<Shift> sent = std::exchange(plan.shifts, {});
+    std::vector<LocalIndex> all;
+    Delivery delivery{.num_points = sent.size()};
+    self.attempt([&] {
+        all.resize(sent.size());
+        std::iota(all.begin(), all.end(), LocalIndex{0});
+        delivery.sent = all;
+        delivery.to = plan.send;
+        delivery.from = plan.receive;
+    });
+    const std::array columns{detail::byte_column(column(sent), plan.shifts)};
+    deliver(delivery, columns, {}, nullptr, self);
+}
+
 /// Collective; what went wrong on a rank before is told to all.
 GhostPlan ghosts(const Cuts& cuts, const GhostRequest& request, Participant& self) {
     GhostPlan plan;
@@ -201,39 +251,62 @@ GhostPlan ghosts(const Cuts& cuts, const GhostRequest& request, Participant& sel
     plan.receive = exchange_counts(plan.send, self);
     agree(self, {{"the tree of cuts", bits_of_cuts},
                  {"the radius", request.radii.bits()},
-                 {"ranks_of_parts", bits_of_holders}});
-    if (!buffers || !search_together(*buffers, self)) return plan;
-    plan.receive = exchange_counts(plan.send, self);
-    agree(self);
+                 {"ranks_of_parts", bits_of_holders},
+                 {"the periodic box", request.images ? request.images->hash() : 0}});
+    if (buffers && search_together(*buffers, self)) {
+        plan.receive = exchange_counts(plan.send, self);
+        agree(self);
+    }
+    if (request.images) exchange_shifts(plan, self);
     return plan;
-}
-
-GhostPlan ghosts(const Cuts& cuts, const Points& points, const Radii& radii,
-                 std::optional<std::span<const RankRange>> given, MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
-    const Holders holders{given, cuts.num_parts, mpi::rank_of(self.comm), mpi::size_of(self.comm)};
-    return ghosts(cuts, {points, radii, holders}, self);
 }
 
 }  // namespace
 
+GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
+                 MPI_Comm comm) {
+    Participant self{mpi::duplicate_of(comm)};
+    GhostRequest request{
+        points,
+        {options.radius, options.radii},
+        {options.ranks_of_parts, cuts.num_parts, mpi::rank_of(self.comm), mpi::size_of(self.comm)},
+        {}};
+    if (options.periodic) request.images.emplace(*options.periodic, points.dimension);
+    GhostPlan plan = ghosts(cuts, request, self);
+    if (options.periodic) plan.periodic = *options.periodic;
+    return plan;
+}
+
 GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
                  std::span<const RankRange> ranks_of_parts, MPI_Comm comm) {
-    return ghosts(cuts, points, Radii{radius}, ranks_of_parts, comm);
+    return ghosts(cuts, points, GhostOptions{radius, {}, {}, ranks_of_parts}, comm);
 }
 
 GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius, MPI_Comm comm) {
-    return ghosts(cuts, points, Radii{radius}, std::nullopt, comm);
+    return ghosts(cuts, points, GhostOptions{.radius = radius}, comm);
 }
 
 GhostPlan ghosts(const Cuts& cuts, const Points& points, std::span<const double> radii,
                  std::span<const RankRange> ranks_of_parts, MPI_Comm comm) {
-    return ghosts(cuts, points, Radii{0, radii}, ranks_of_parts, comm);
+    return ghosts(cuts, points, GhostOptions{0, radii, {}, ranks_of_parts}, comm);
 }
 
 GhostPlan ghosts(const Cuts& cuts, const Points& points, std::span<const double> radii,
                  MPI_Comm comm) {
-    return ghosts(cuts, points, Radii{0, radii}, std::nullopt, comm);
+    return ghosts(cuts, points, GhostOptions{.radii = radii}, comm);
+}
+
+void apply_shifts(const GhostPlan& plan, std::span<double> positions) {
+    if (plan.shifts.empty()) return;
+    const std::size_t dimension = positions.size() / plan.shifts.size();
+    require(dimension >= 1 && dimension <= max_dimension &&
+                positions.size() == dimension * plan.shifts.size(),
+            "positions must have an entry for each axis of each ghost");
+    for (std::size_t k = 0; k < positions.size(); ++k) {
+        const int axis = static_cast<int>(k % dimension);
+        positions[k] =
+            image_of(positions[k], plan.periodic, axis, plan.shifts[k / dimension][axis]);
+    }
 }
 
 }  // namespace rrcb

@@ -64,6 +64,19 @@ std::vector<RankRange> turned(int num_parts) {
     return ranks;
 }
 
+TEST(SpreadGhosts, in_a_periodic_box_are_those_by_the_whole_tree) {
+    const std::vector<double> coordinates = positions_here(2);
+    const Points points = interleaved_points(coordinates, 2);
+    const Cuts whole = random_cuts(2, num_ranks() + 1);
+    const GhostOptions options{2, {}, Box{{-5, -5, 0}, {5, 5, 0}}, {}};
+    const GhostPlan expected = ghosts(whole, points, options, MPI_COMM_WORLD);
+    const GhostPlan found = ghosts(known_here(whole), points, options, MPI_COMM_WORLD);
+    EXPECT_EQ(found.send_indices, expected.send_indices);
+    EXPECT_EQ(found.shifts, expected.shifts);
+    expect_same(found.send, expected.send);
+    expect_same(found.receive, expected.receive);
+}
+
 TEST(SpreadGhosts, are_those_by_the_whole_tree) {
     for (const int dimension : {1, 2, 3}) {
         const std::vector<double> coordinates = positions_here(dimension);

@@ -1,0 +1,198 @@
+#include "../support/clouds.hpp"
+#include "../support/distance.hpp"
+#include "../support/ranks.hpp"
+#include "slabs.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/error.hpp>
+#include <rrcb/ghosts.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+using test::distance;
+using test::num_ranks;
+using test::rank;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A cloud in [-1, 0.5] along each axis that every rank knows, and the points of this rank.
+struct Scene {
+    int dimension;
+    Box box{{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
+    std::vector<double> positions{};
+    Cuts cuts{};
+    std::vector<int> mine{};
+    std::vector<double> here{};
+
+    int count() const { return static_cast<int>(positions.size()) / dimension; }
+
+    Vector image(int i, const Shift& shift) const {
+        Vector x = interleaved_points(positions, dimension).position(static_cast<LocalIndex>(i));
+        for (std::size_t a = 0; a < 3; ++a)
+            if (shift[a] != 0) x[a] += shift[a] * 1.5;
+        return x;
+    }
+
+    /// Shifts by up to three periods along the axes that have some.
+    std::vector<Shift> shifts() const {
+        std::vector<Shift> all{Shift{}};
+        for (std::size_t a = 0; a < 3; ++a) {
+            if (box.lower[a] == -infinity) continue;
+            std::vector<Shift> more;
+            for (const Shift& shift : all)
+                for (int k = -3; k <= 3; ++k) {
+                    more.push_back(shift);
+                    more.back()[a] = k;
+                }
+            all = more;
+        }
+        return all;
+    }
+};
+
+/// Bit a of `axes` is set for the periodic ones.
+Scene make_scene(int dimension, unsigned axes, int num_parts) {
+    Scene scene{dimension};
+    scene.positions = test::uniform_cloud(50, dimension, 9);
+    for (double& x : scene.positions) x = 1.5 * x - 1;
+    // Some at the ends of the box, and in its corner.
+    scene.positions[0] = -1;
+    for (std::size_t k = 1; k <= static_cast<std::size_t>(dimension); ++k) scene.positions[k] = 0.5;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+        if ((axes >> a & 1) != 0)
+            std::tie(scene.box.lower[a], scene.box.upper[a]) = std::pair(-1., .5);
+    Options options;
+    options.num_parts = num_parts;
+    const Balance whole =
+        balance(interleaved_points(scene.positions, dimension), options, MPI_COMM_SELF);
+    scene.cuts = whole.cuts;
+    for (int i = 0; i < scene.count(); ++i) {
+        const Part part = whole.parts[static_cast<std::size_t>(i)];
+        const RankRange ranks = ranks_of_part(part, num_parts, num_ranks());
+        if (ranks.first_rank + i % ranks.count != rank()) continue;
+        scene.mine.push_back(i);
+        const Vector x = scene.image(i, {});
+        scene.here.insert(scene.here.end(), x.begin(), x.begin() + dimension);
+    }
+    return scene;
+}
+
+/// Distance to the regions of this rank in the box.
+long double distance_to_mine(const Scene& scene, const Vector& x) {
+    long double least = infinity;
+    for (Part part = 0; part < scene.cuts.num_parts; ++part) {
+        const RankRange ranks = ranks_of_part(part, scene.cuts.num_parts, num_ranks());
+        if (rank() < ranks.first_rank || rank() >= ranks.first_rank + ranks.count) continue;
+        Box region = box_of(scene.cuts, part);
+        for (std::size_t a = 0; a < 3; ++a) {
+            region.lower[a] = std::max(region.lower[a], scene.box.lower[a]);
+            region.upper[a] = std::min(region.upper[a], scene.box.upper[a]);
+        }
+        least = std::min(least, distance(x, region, scene.dimension));
+    }
+    return least;
+}
+
+/// Compares ghosts with the regions and with all pairs of points and images; counts neighbours on
+/// their ghosts and adds them up.
+void expect_ghosts(const Scene& scene, double radius) {
+    const GhostOptions options{radius, {}, scene.box, {}};
+    const GhostPlan plan = ghosts(scene.cuts, interleaved_points(scene.here, scene.dimension),
+                                  options, MPI_COMM_WORLD);
+    auto [numbers, positions] = fetch(
+        plan, columns(scene.mine, column(scene.here, static_cast<std::size_t>(scene.dimension))),
+        MPI_COMM_WORLD);
+    apply_shifts(plan, positions);
+    ASSERT_EQ(plan.shifts.size(), numbers.size());
+    std::map<std::pair<int, Shift>, int> found;
+    std::vector<int> near_ghosts(numbers.size());
+    const Points moved = interleaved_points(positions, scene.dimension);
+    const auto is_pair = [&](const Vector& x, int i) {
+        const Vector y = scene.image(i, {});
+        return distance(x, Box{y, y}, scene.dimension) <= radius;
+    };
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+        ++found[{numbers[k], plan.shifts[k]}];
+        const Vector x = moved.position(k);
+        EXPECT_EQ(x, scene.image(numbers[k], plan.shifts[k]));
+        for (const int i : scene.mine) near_ghosts[k] += is_pair(x, i) ? 1 : 0;
+    }
+    std::vector<int> near(scene.mine.size());
+    std::vector<int> expected(scene.mine.size());
+    for (std::size_t k = 0; k < scene.mine.size(); ++k)
+        for (const int i : scene.mine)
+            near[k] += is_pair(scene.image(scene.mine[k], {}), i) ? 1 : 0;
+    for (const Shift& shift : scene.shifts()) {
+        for (int j = 0; j < scene.count(); ++j) {
+            const Vector x = scene.image(j, shift);
+            const bool is_mine = shift == Shift{} && std::ranges::count(scene.mine, j) > 0;
+            const long double apart = distance_to_mine(scene, x);
+            const auto entry = found.find({j, shift});
+            const int count = entry == found.end() ? 0 : entry->second;
+            if (is_mine || apart > radius * (1 + 4e-15L)) {
+                EXPECT_EQ(count, 0);
+            } else if (apart <= radius) {
+                EXPECT_EQ(count, 1);
+            }
+            for (const int i : scene.mine)
+                EXPECT_TRUE(is_mine || count == 1 || !is_pair(x, i)) << i << " " << j;
+        }
+        for (std::size_t k = 0; k < scene.mine.size(); ++k)
+            for (int i = 0; i < scene.count(); ++i)
+                expected[k] += is_pair(scene.image(scene.mine[k], shift), i) ? 1 : 0;
+    }
+    EXPECT_EQ(accumulate(plan, near_ghosts, near, MPI_COMM_WORLD), expected);
+}
+
+TEST(PeriodicGhosts, are_all_images_near_a_region) {
+    for (int dimension = 1; dimension <= 3; ++dimension)
+        for (unsigned axes = 0; axes < 1u << dimension; ++axes) {
+            const Scene scene = make_scene(dimension, axes, num_ranks());
+            for (const double radius : {0.0, 0.2, 0.75, 0.9, 2.0}) expect_ghosts(scene, radius);
+        }
+}
+
+TEST(PeriodicGhosts, go_to_ranks_with_several_parts_and_to_those_that_share_one) {
+    for (const int num_parts : {2 * num_ranks() + 1, (num_ranks() + 1) / 2})
+        expect_ghosts(make_scene(2, 3, num_parts), 0.8);
+}
+
+TEST(PeriodicGhosts, in_no_usable_box_are_refused_on_all_ranks) {
+    const std::vector<double> x{0.25, 0};
+    const Scene scene = make_scene(2, 1, 1);
+    const auto refused = [&](const std::string& text, double radius, double lower, double upper) {
+        GhostOptions options{radius, {}, scene.box, {}};
+        if (test::is_last_rank()) {
+            options.periodic->lower[0] = lower;
+            options.periodic->upper[0] = upper;
+        }
+        try {
+            ghosts(test::slabs(), interleaved_points(x, 2), options, MPI_COMM_WORLD);
+            EXPECT_TRUE(text.empty());
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+            EXPECT_FALSE(text.empty()) << error.what();
+        }
+    };
+    refused("", 0.1, -1, 0.5);
+    refused("two finite ends", 0.1, -1, infinity);
+    refused("two finite ends", 0.1, -infinity, 0.5);
+    refused("two finite ends", 0.1, 0.5, -1);
+    refused("two finite ends", 0.1, -1e308, 1e308);
+    refused("positions must lie in the periodic box", 0.1, -1, 0);
+    refused("a radius must be at most 100 periods", 151, -1, 0.5);
+    if (num_ranks() > 1) refused("the periodic box differs between rank 0", 0.1, -1, 0.75);
+}
+
+}  // namespace
+}  // namespace rrcb

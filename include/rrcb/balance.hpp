@@ -18,7 +18,7 @@ struct ReportDetails {
                                      ///< many ranks make the parts
     /// Lower bound of the imbalance of any partition: the heaviest point in a part alone.
     double least_imbalance = 1;
-    int coincident_cuts = 0;        ///< that would divide points which no allowed cut tells apart;
+    int coincident_cuts = 0;        ///< that would divide points which no allowed cut separates;
                                     ///< counted by the refinement
     int rounds = 0;                 ///< of counting the points of all ranks, for the refinement
     bool all_weights_zero = false;  ///< balanced by count instead
@@ -29,7 +29,7 @@ struct ReportDetails {
 struct Report {
     double imbalance = 1;              ///< heaviest part / mean part, counted; NaN if not counted
     bool within_tolerance = false;     ///< `imbalance` is at most Options::imbalance_tolerance
-    bool kept = false;                 ///< the points stay on their ranks, each rank's are one part
+    bool kept = false;                 ///< the points stay on their ranks; each rank's are one part
     std::vector<double> part_weights;  ///< over all ranks, one per part, by count if all weights
                                        ///< are 0; empty if not counted or if cuts are not whole
     ReportDetails details{};           ///< statistics

@@ -41,9 +41,9 @@ class Controller {
     ///
     /// Collective, yet it waits only for ranks that have not called it for the previous step. Loads
     /// have the unit of the costs and are finite and not negative. One call later, throws Error on
-    /// every rank alike if a rank gave an illegal number or reported another number of rebalances;
-    /// from then on each call throws it, and a new controller is needed. An error of MPI is thrown
-    /// where it occurs.
+    /// every rank alike if a rank gave an illegal number or reported another number of rebalances.
+    /// From then on each call throws it, and a new controller is needed. An error of MPI is thrown
+    /// on the rank on which it occurs.
     RRCB_API bool step(double load);
 
     /// Does the same, and smooths the load: `points` is the number of points of this rank, or the

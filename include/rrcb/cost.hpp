@@ -25,8 +25,8 @@ namespace rrcb {
 ///         model.step(seconds_of_work, {{points, cells}});       // in place of controller.step()
 ///     }
 ///
-/// A column is anything that a rank counts and that may take time. The first is the number of
-/// points. docs/weights.md has examples, and explains when the model prefers to count.
+/// A column is a number that a rank counts and that its time may depend on. The first is the number
+/// of points. docs/weights.md has examples, and explains when the model prefers to count.
 class CostModel {
   public:
     /// Makes a model without a controller, on a communicator of its own.
@@ -38,7 +38,7 @@ class CostModel {
     /// Makes a model whose sums travel with the controller's reduction, before its first step.
     ///
     /// Collective. `controller` must outlive the model, which calls its step(). When other weights
-    /// come into use, the controller is told that a rebalance may gain. Throws Error on every rank
+    /// come into use, the controller expects a gain from a rebalance. Throws Error on every rank
     /// for a number of columns as above, and if the controller has recorded a step or has a model.
     RRCB_API CostModel(Controller& controller, int num_columns);
 
@@ -53,9 +53,10 @@ class CostModel {
     ///
     /// Collective, yet it waits only for ranks that have not called it for the previous step.
     /// Seconds are processor time if ranks share cores. Numbers are from 0 to 1e100. One call
-    /// later, throws Error on every rank alike if a rank gave another one, or too many or few; from
-    /// then on each call throws it. Cost: a reduction of n^2 + 2 n + 20 doubles for n
-    /// columns, which overlaps with the next step, and a fit on rank 0; no allocation.
+    /// later, throws Error on every rank alike if a rank gave another one, or too many or few. From
+    /// then on each call throws it. With a controller, its due() answers whether to rebalance.
+    /// Cost: a reduction of n^2 + 2 n + 20 doubles for n columns, which overlaps with the next
+    /// step, and a fit on rank 0; no allocation.
     RRCB_API void step(double seconds, std::span<const double> columns);
 
     /// Returns the seconds of a unit of each column, by the steps so far, late ones counting more.
@@ -68,8 +69,8 @@ class CostModel {
     /// Returns the weight in seconds of each point, to divide the points by at once.
     ///
     /// `columns` has a row for each point of this rank: its part of each column, so that the rows
-    /// add up to the columns of step(). Of a cell with 4 points each has a quarter. A column that
-    /// belongs to no point, as ghosts, is 0 in each row. While counting is better, each point
+    /// add up to the columns of step(). In a cell with 4 points each has a quarter. A column that
+    /// belongs to no point, such as ghosts, is 0 in each row. While counting is better, each point
     /// weighs 1. Called on all ranks, without communication. Throws Error on this rank if the last
     /// row is not complete.
     RRCB_API std::vector<double> weights(std::span<const double> columns);

@@ -16,7 +16,7 @@ namespace rrcb {
 /// Periods along each axis.
 using Shift = std::array<std::int32_t, 3>;
 
-/// Who needs which points of whom; no two entries of a list of ranks name the same one.
+/// Points that this rank sends and receives as ghosts; a list of ranks names each rank once.
 struct GhostPlan {
     LocalIndex num_points = 0;    ///< that this rank holds
     std::vector<RankCount> send;  ///< how many of them which ranks need; ranks ascending
@@ -40,17 +40,18 @@ struct GhostOptions {
 /// Finds the points that other ranks need within a cut-off `radius`, from the cuts alone.
 ///
 /// Collective over `comm`. A rank needs the points of others whose distance to the region of one of
-/// its parts, the closed box_of(cuts, part), is at most `radius`; a part without a region needs
+/// its parts, the closed box_of(cuts, part), is at most `radius`. A part without a region needs
 /// none. Distances up to 8 units in the last place beyond count too, so that rounding loses no
 /// point. Points may lie outside the regions of their rank, and are sent to each rank once. Ranks
 /// that share a part need all points in it of each other. Parts lie on ranks_of_part(). The radius
 /// is in the unit of the coordinates, finite, 0 or more.
 ///
 /// Throws Error on every rank alike if one has unusable points, another radius or other cuts than
-/// the others, cuts that do not fit or that gather_cuts() would refuse, or no memory. Cost:
-/// ceil(log2 R) messages from each of R ranks, one more from some, and one reduction; if ranks have
-/// some cuts each see docs/many_ranks.md. Memory as there are points to send, and 100 bytes for
-/// each rank that they go to or come from.
+/// the others, or no memory, and for cuts that do not fit or that gather_cuts() would refuse.
+///
+/// Cost: ceil(log2 R) messages from each of R ranks, one more from some, and one reduction; for
+/// HeldCuts::own see docs/many_ranks.md. Memory: in proportion to the points to send, and 100 bytes
+/// for each rank that they go to or come from.
 RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius, MPI_Comm comm);
 
 /// Finds the same points if the parts lie on other ranks, as after a remap(): part p on
@@ -61,10 +62,10 @@ RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
 /// Finds the points that other ranks need within a radius of each point.
 ///
 /// Collective over `comm`, otherwise as above. A rank needs the points of others whose distance to
-/// the region of one of its parts is at most the radius of that point, which only the rank that has
-/// it must know. So of two points on different ranks, nearer than the greater of their radii, at
-/// least one is a ghost on the other's rank; where each must see the other, give both the greatest
-/// radius that they may meet.
+/// the region of one of its parts is at most the radius of that point. Only the rank that has the
+/// point gives this radius. So of two points on different ranks, nearer than the greater of their
+/// radii, at least one is a ghost on the other's rank. If both ranks compute such pairs, give each
+/// point the greatest radius of the points near it.
 ///
 /// `radii` has one entry for each point, each finite, 0 or more, on every rank.
 RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, std::span<const double> radii,
@@ -78,9 +79,9 @@ RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, std::span<cons
 ///
 /// Collective over `comm`, otherwise as above. The image of x by a shift is at
 /// x + shift * (upper - lower), each operation rounded to a double. Regions are limited to the box.
-/// An image is a ghost as a point is, also for the rank that has the point: a rank may need several
-/// images of one, each a ghost with its entry in plan.shifts. apply_shifts() moves fetched
-/// positions there.
+/// An image is a ghost as a point is, also for the rank that has the point. A rank may need several
+/// images of one point, each a ghost with its entry in plan.shifts. apply_shifts() moves fetched
+/// positions to those of the images.
 ///
 /// Throws Error also if a position is outside the box (wrap positions first), a radius is above 100
 /// periods, or ranks have other boxes. Cost of a periodic box: another pass of counts and one
@@ -152,7 +153,7 @@ auto accumulated(const GhostPlan& plan, const GhostColumn& of_ghosts, const Poin
 /// Collective over `comm`, otherwise as transfer(): columns hold one entry, or `components`, for
 /// each of plan.num_points points. The plan can be used again as long as no point changes its index
 /// in the columns. Made with radii greater by a skin s, it holds all pairs within the true radii
-/// until a point has moved by s / 2; until then do not wrap positions in a periodic box.
+/// until a point has moved by s / 2. Until then do not wrap positions in a periodic box.
 template <class Columns>
 auto fetch(const GhostPlan& plan, const Columns& columns, MPI_Comm comm,
            const TransferLimits& limits = {}, TransferReport* report = nullptr) {
@@ -169,7 +170,7 @@ auto fetch(const GhostPlan& plan, const Columns& columns, MPI_Comm comm,
 /// Integers must hold their sums.
 ///
 /// Throws Error as transfer() does. Cost: the messages and bytes of fetch(), in the other
-/// direction; memory for the values that come and 8 bytes for each ghost, beside the result.
+/// direction; memory for the values that arrive and 8 bytes for each ghost, besides the result.
 template <class GhostColumns, class Columns>
 auto accumulate(const GhostPlan& plan, const GhostColumns& ghost_columns, const Columns& columns,
                 MPI_Comm comm, const TransferLimits& limits = {},

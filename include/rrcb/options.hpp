@@ -9,7 +9,7 @@
 
 namespace rrcb {
 
-/// Accuracy to which the estimated cuts are moved by what the ranks really hold.
+/// Accuracy to which the estimated cuts are corrected by counting points.
 enum class Refine {
     none,       ///< not at all: the estimate from the statistics stands
     tolerance,  ///< until the measured imbalance is within `imbalance_tolerance`
@@ -73,8 +73,8 @@ struct Axes {
 
     /// Least extent of every part along each axis, > 0 and finite, one per axis of the points;
     /// empty: any. Between two cuts `upper - lower >= min_width` holds as doubles compute it. On a
-    /// side without a cut the extent counts to the bounding box of all points of the call; along an
-    /// axis that is not cut there is nothing to keep. Parts of size 0 have no extent.
+    /// side without a cut the extent counts to the bounding box of all points of the call. Along an
+    /// axis that is not cut there is no limit. Parts of size 0 have no extent.
     std::vector<double> min_width{};
 
     /// Cuts on these lines only, one entry per axis of the points; empty: anywhere. Such cuts are
@@ -88,9 +88,9 @@ struct Tuning {
                            ///< 3-D 256; 0: by its points
 
     /// Parts that rank 0 makes alone, at least 2. If there are more, and more ranks, it makes
-    /// regions, up to 64 and a power of two, and each cut below them is found by a rank of its
-    /// parts; with Refine::exact, and once more if the tolerance is missed, each cut is. No effect
-    /// with Refine::none, Axes::min_width, Axes::grid or AxisOrder::grouped().
+    /// regions, up to 64 and a power of two. Each cut below them is found by a rank of its parts.
+    /// So is every cut with Refine::exact, and once more if the tolerance is missed. No effect with
+    /// Refine::none, Axes::min_width, Axes::grid or AxisOrder::grouped().
     int central_parts = 4096;
 };
 
@@ -109,9 +109,10 @@ struct Options {
     Axes axes{};  ///< that are cut, and where
 
     /// Shape of the tree of cuts. With a group_size of 0 whole machines are cut off first, so that
-    /// less is sent between machines; that needs as many consecutive ranks on each machine, on the
-    /// last perhaps fewer, and as many parts on each rank. Otherwise, and on 1, 2, 4, ... full
-    /// machines, the parts are halved. A call from earlier cuts takes their shape.
+    /// less is sent between machines. That needs the same number of consecutive ranks on each
+    /// machine, or fewer on the last, and the same number of parts on each rank. Otherwise, and on
+    /// 1, 2, 4, ... full machines, the parts are halved. A call from earlier cuts keeps their
+    /// shape.
     TreeShape tree{0};
     Tuning tuning{};  ///< for experts
 

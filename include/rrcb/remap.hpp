@@ -23,14 +23,14 @@ struct Remap {
 ///
 /// Collective over `comm`: one pass to rank 0, which decides, and one broadcast; with more parts
 /// and ranks than Tuning::central_parts, passes through all ranks, which find the same numbers.
-/// `parts` is the new part of each local point; `ranks_of_parts` has one entry per part, ascending,
-/// the same on every rank; of several ranks of a part the first one counts.
+/// `parts` is the new part of each local point. `ranks_of_parts` has one entry per part, ascending,
+/// the same on every rank. Of several ranks of a part the first one counts.
 ///
 /// The largest overlap of a rank and a part gets its number first, which keeps at least half of the
-/// most that any numbers keep; each rank names its largest overlaps. Numbers that gain nothing are
-/// left as they are. Sizes of parts are not looked at. Parts of a group of `shape`, that of the
-/// cuts, stay in one group, so that the parts of a machine do. Throws Error on every rank if one
-/// names a part that does not exist, ranks that differ or do not exist, or has no memory.
+/// points that any numbers can keep. Each rank sends its largest overlaps. Numbers that gain
+/// nothing are left as they are. Sizes of parts are ignored. Parts of a group of `shape`, that of
+/// the cuts, stay in one group, so that the parts of a machine do. Throws Error on every rank if
+/// one names a part that does not exist, ranks that differ or do not exist, or has no memory.
 RRCB_API Remap remap(std::span<const Part> parts, std::span<const RankRange> ranks_of_parts,
                      MPI_Comm comm, const TreeShape& shape = {});
 

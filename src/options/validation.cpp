@@ -112,9 +112,13 @@ int parts_per_machine(int num_parts, const Ranks& ranks) {
 
 Options complete(Options options, const Ranks& ranks, const Cuts* previous) {
     if (options.num_parts == 0) options.num_parts = ranks.number;
-    if (options.tree.group_size == 0)
+    if (options.tree.group_size == 0) {
         options.tree.group_size = previous ? std::max(previous->shape.group_size, 1)
                                            : parts_per_machine(options.num_parts, ranks);
+        require(previous || options.tree.group_size == 1 || !options.axes.order.is_given(),
+                "axes.order gives the axis of each cut; set tree to the shape of the tree that "
+                "they are for, as the machines ask for another one by default");
+    }
     if (!options.axes.grid.empty()) options.axes.plain = true;
     return options;
 }

@@ -88,6 +88,19 @@ TEST(Machines, leave_a_tree_that_was_asked_for) {
     EXPECT_EQ(group_size(blocks_of(2), options), 4);
 }
 
+TEST(Machines, ask_for_the_shape_of_the_tree_that_given_axes_are_for) {
+    if (!matters(2)) return;
+    const Cloud cloud(2);
+    Options options;
+    options.axes.order =
+        AxisOrder::given(std::vector<int>(static_cast<std::size_t>(num_ranks()) - 1, 0));
+    with_machines(blocks_of(2), [&](MPI_Comm comm) {
+        EXPECT_THROW(balance(cloud.points, options, comm), Error);
+        options.tree.group_size = 2;
+        EXPECT_EQ(balance(cloud.points, options, comm).cuts.shape.group_size, 2);
+    });
+}
+
 TEST(Machines, of_earlier_cuts_stay) {
     const Cloud cloud(2);
     Balance first;

@@ -32,8 +32,7 @@ GroupsHere groups_here(std::span<const Part> parts, const PreviousParts& previou
     const int num_full = rule.num_parts / rule.group_size;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const std::int32_t origin = origins.of(i);
-        const Part from =
-            origin == no_origin ? no_part : rule.numbers_of(origin).first / rule.group_size;
+        const Part from = origin == no_origin ? no_part : rule.group_of(origin);
         here.groups[i] = parts[i] / rule.group_size;
         here.origins[i] = here.groups[i] < num_full && from < num_full ? from : no_part;
         if (origin != no_origin && rule.home_of(parts[i]) == origin) ++here.kept;

@@ -38,8 +38,13 @@ struct NumberRule {
 
     /// Whether the numbers that keep the points of an origin are of the group of a part.
     bool is_in_group(Part part, std::int32_t origin) const {
-        return group_size == 1 || origin == no_origin ||
-               numbers_of(origin).first / group_size == part / group_size;
+        return group_size == 1 || origin == no_origin || group_of(origin) == part / group_size;
+    }
+    /// The group of the numbers that keep the points of an origin; -1 if they are of several.
+    int group_of(std::int32_t origin) const {
+        const PartRange numbers = numbers_of(origin);
+        const int group = numbers.first / group_size;
+        return group == (numbers.end - 1) / group_size ? group : -1;
     }
 
     int searcher_of(Part part) const;

@@ -186,6 +186,18 @@ TEST(Remap, of_groups_keeps_points_on_their_ranks) {
     EXPECT_EQ(result.kept_after, 10 * num_ranks());
 }
 
+TEST(Remap, of_groups_that_divide_the_parts_of_a_rank_leaves_them_together) {
+    // Two parts on each rank, in groups of three: numbers of some ranks are of two groups.
+    const int num_parts = 2 * num_ranks();
+    std::vector<Part> parts;
+    for (Part part = 0; part < num_parts; ++part)
+        parts.insert(parts.end(), (part * 7 + rank() * 5) % 11, part);
+    const Remap result = remap(parts, ranks_of_parts(num_parts), MPI_COMM_WORLD, TreeShape{3});
+    for (Part part = 0; part < num_parts; ++part)
+        EXPECT_EQ(result.numbers[static_cast<std::size_t>(part)] / 3,
+                  result.numbers[static_cast<std::size_t>(part / 3 * 3)] / 3);
+}
+
 TEST(Remap, refuses_groups_without_parts_and_different_ones) {
     const std::vector<RankRange> ranks = ranks_of_parts(3);
     EXPECT_THROW(remap({}, ranks, MPI_COMM_WORLD, {-1}), Error);

@@ -52,6 +52,7 @@ double CostRule::without_outlier(double seconds) const {
 std::span<const double> CostRule::hand_in(double seconds, std::span<const double> columns) {
     std::copy(columns.begin(), columns.end(), columns_.begin());
     seconds_ = seconds;
+    was_learned_ = is_learned_;
     learned_ = costs_.dot(columns_);
     kept_seconds_ = without_outlier(seconds);
     const bool is_root = rank_ == 0;
@@ -81,7 +82,7 @@ void CostRule::take(std::span<const double> all) {
     const double mean = all[seconds_sum] / num_ranks_;
     if (rank_ == 0) {
         guard_.add_errors(all[learned_square], all[counted_square], all[between_square]);
-        if (mean > 0) guard_.add_excess(all.back() / mean - 1, is_learned_);
+        if (mean > 0) guard_.add_excess(all.back() / mean - 1, was_learned_);
     }
     state_ = static_cast<CostState>(static_cast<int>(all[state_of_root]));
     learned_error_ = all[learned_of_root];

@@ -62,7 +62,8 @@ class CostRule {
 
     NormalEquations all_;  ///< of all ranks; fed on rank 0 alone, as is the next
     CostGuard guard_;
-    bool is_learned_ = false;
+    bool is_learned_ = false;   ///< the points are divided by learned costs
+    bool was_learned_ = false;  ///< in the step that was handed in
 
     CostVector costs_;
     CostState state_;

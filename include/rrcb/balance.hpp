@@ -88,7 +88,8 @@ RRCB_API void balance_into(Balance& result, const Points& points, const Options&
 RRCB_API void rebalance_into(Balance& result, const Points& points, const Options& options,
                              const Cuts& previous, MPI_Comm comm);
 
-/// Frees the buffers that calls on `comm` keep for the next ones. Not collective.
+/// Frees the buffers that calls on `comm` keep for the next ones. Not collective, and not during a
+/// call, as from a StageObserver.
 ///
 /// They are freed with `comm` otherwise. A call that searches cuts, as with Refine::exact, keeps 8
 /// bytes a point for each coordinate, 8 more, and 8 with weights; other calls keep less.

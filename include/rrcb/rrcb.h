@@ -51,7 +51,7 @@ typedef struct rrcb_cuts {
     int dimension;        /**< of the points */
     int num_parts;        /**< of the whole tree */
     const rrcb_cut* tree; /**< num_parts - 1 cuts, borrowed */
-    int group_size;       /**< of rrcb::TreeShape; 0 as 1 */
+    int group_size;       /**< of rrcb::TreeShape, 1 or more */
     int larger_below;     /**< 1: rrcb::TreeShape::larger_below */
 } rrcb_cuts;
 
@@ -227,8 +227,8 @@ RRCB_API int rrcb_cost_model_step(rrcb_cost_model* model, double seconds, size_t
 
 /** Writes the weight of each of `count` points in seconds, to divide them by at once; `columns` has
  *  length count * num_columns, point after point. Called on all ranks, without communication. */
-RRCB_API int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, const double* columns,
-                                     double* weights);
+RRCB_API int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, size_t num_columns,
+                                     const double* columns, double* weights);
 
 /** Writes the seconds of a unit of each column. Not collective. */
 RRCB_API int rrcb_cost_model_costs(const rrcb_cost_model* model, double* costs);

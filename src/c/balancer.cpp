@@ -33,7 +33,7 @@ Cuts copy_of(const rrcb_cuts& given) {
     const auto size = static_cast<std::size_t>(std::max(given.num_parts, 1) - 1);
     if (size > 0) require(given.tree, "tree");
     Cuts cuts{given.dimension, given.num_parts, std::vector<Cut>(size)};
-    cuts.shape = {given.group_size == 0 ? 1 : given.group_size, given.larger_below != 0};
+    cuts.shape = {given.group_size, given.larger_below != 0};
     std::ranges::transform(std::span(given.tree, size), cuts.tree.begin(), [](const rrcb_cut& cut) {
         return Cut{cut.axis, cut.divides, std::to_array(cut.at)};
     });

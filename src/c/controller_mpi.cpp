@@ -109,9 +109,13 @@ int rrcb_cost_model_step(rrcb_cost_model* model, double seconds, size_t num_colu
         model, [&](rrcb_cost_model& own) { own.model.step(seconds, view(columns, num_columns)); });
 }
 
-int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, const double* columns,
-                            double* weights) {
+int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, size_t num_columns,
+                            const double* columns, double* weights) {
     return with_model(model, [&](rrcb_cost_model& own) {
+        if (num_columns != own.num_columns)
+            throw rrcb::Error(rrcb::ErrorCode::invalid_argument,
+                              "the cost model has " + std::to_string(own.num_columns) +
+                                  " columns, not " + std::to_string(num_columns));
         rrcb::c::require_arrays(count, columns, weights);
         std::ranges::copy(own.model.weights(view(columns, count * own.num_columns)), weights);
     });

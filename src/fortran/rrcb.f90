@@ -174,7 +174,7 @@ contains
 
   !> The cuts belong to the balancer until it gets others. An error before the first, with
   !> `dimension` 0, and if the balancer holds a part of them only. set_cuts takes them
-  !> back with their `group_size`, 1 by default.
+  !> back with their `group_size`, 1 by default; an error if it is another and not asked for.
   subroutine balancer_get_cuts(self, dimension, cuts, error, group_size)
     class(rrcb_balancer), intent(in) :: self
     integer, intent(out) :: dimension
@@ -184,7 +184,11 @@ contains
     type(c_cuts) :: from
     error = c_get_cuts(self%handle, from)
     dimension = from%dimension
-    if (present(group_size)) group_size = from%group_size
+    if (present(group_size)) then
+      group_size = from%group_size
+    else if (error == rrcb_ok .and. from%group_size /= 1) then
+      error = rrcb_invalid_argument
+    end if
     call c_f_pointer(from%tree, cuts, [from%num_parts - 1])
   end subroutine
 
@@ -369,7 +373,8 @@ contains
     real(c_double), intent(in), contiguous :: columns(:, :)
     real(c_double), intent(out), contiguous :: weights(:)
     integer, intent(out) :: error
-    error = c_cost_model_weights(self%handle, size(weights, kind=c_size_t), columns, weights)
+    error = c_cost_model_weights(self%handle, size(weights, kind=c_size_t), &
+      size(columns, 1, kind=c_size_t), columns, weights)
   end subroutine
 
   !> `costs` has an entry for each column.

@@ -223,11 +223,11 @@ module rrcb_c
       real(c_double), intent(in) :: columns(*)
       integer(c_int) :: code
     end function
-    function c_cost_model_weights(handle, count, columns, weights) &
+    function c_cost_model_weights(handle, count, num_columns, columns, weights) &
       bind(c, name="rrcb_cost_model_weights") result(code)
       import :: c_double, c_int, c_ptr, c_size_t
       type(c_ptr), value :: handle
-      integer(c_size_t), value :: count
+      integer(c_size_t), value :: count, num_columns
       real(c_double), intent(in) :: columns(*)
       real(c_double), intent(out) :: weights(*)
       integer(c_int) :: code

@@ -248,6 +248,9 @@ TEST_F(CInterface, names_what_it_does_not_know) {
     EXPECT_EQ(rrcb_set_cuts(balancer, &no_tree), RRCB_INVALID_ARGUMENT);
     const rrcb_cuts no_parts{2, 0, nullptr, 1, 0};
     EXPECT_EQ(rrcb_set_cuts(balancer, &no_parts), RRCB_INVALID_ARGUMENT);
+    const rrcb_cuts no_group{2, 1, nullptr, 0, 0};
+    EXPECT_EQ(rrcb_set_cuts(balancer, &no_group), RRCB_INVALID_ARGUMENT);
+    EXPECT_NE(std::strstr(rrcb_last_error(), "groups of 1 or more"), nullptr);
     for (const int dimension : {-1, 0, 4, 9}) {
         const rrcb_cuts nowhere{dimension, 1, nullptr, 1, 0};
         EXPECT_EQ(rrcb_set_cuts(balancer, &nowhere), RRCB_INVALID_ARGUMENT);
@@ -278,7 +281,7 @@ TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {
     expect_missing(rrcb_make_plan(balancer, 1, &part), "cuts yet");
     expect_missing(rrcb_transfer(balancer, 8, x, y), "plan yet");
 
-    const rrcb_cuts given{2, 1, nullptr, 0, 0};
+    const rrcb_cuts given{2, 1, nullptr, 1, 0};
     ASSERT_EQ(rrcb_set_cuts(balancer, &given), RRCB_OK);
     EXPECT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
     EXPECT_EQ(rrcb_assign(balancer, 1, x, &part), RRCB_OK);
@@ -355,7 +358,7 @@ TEST(CCostModel, weighs_points_as_the_model_in_cpp) {
     EXPECT_NEAR(values[0], 2, 0.01);
     EXPECT_NEAR(values[1], 5, 0.01);
     const std::array columns{1.0, 0.5, 1.0, 0.0};
-    EXPECT_EQ(rrcb_cost_model_weights(model, 2, columns.data(), values.data()), RRCB_OK);
+    EXPECT_EQ(rrcb_cost_model_weights(model, 2, 2, columns.data(), values.data()), RRCB_OK);
     EXPECT_NEAR(values[0], num_ranks() > 1 ? 4.5 : 1, 0.01);
     EXPECT_NE(std::string(rrcb_cost_model_report(model)), "");
     rrcb_cost_model_destroy(model);
@@ -370,7 +373,9 @@ TEST(CCostModel, returns_errors) {
     EXPECT_EQ(rrcb_cost_model_step(model, 1, 1, nullptr), RRCB_OK);
     const double one = 1;
     EXPECT_EQ(rrcb_cost_model_step(model, 1, 1, &one), RRCB_INVALID_ARGUMENT);
-    EXPECT_EQ(rrcb_cost_model_weights(model, 1, nullptr, nullptr), RRCB_INVALID_ARGUMENT);
+    EXPECT_EQ(rrcb_cost_model_weights(model, 1, 1, nullptr, nullptr), RRCB_INVALID_ARGUMENT);
+    EXPECT_EQ(rrcb_cost_model_weights(model, 0, 2, nullptr, nullptr), RRCB_INVALID_ARGUMENT);
+    EXPECT_NE(std::strstr(rrcb_last_error(), "has 1 columns, not 2"), nullptr);
     EXPECT_EQ(rrcb_cost_model_step(nullptr, 1, 1, &one), RRCB_INVALID_ARGUMENT);
     EXPECT_STREQ(rrcb_cost_model_report(nullptr), "");
     rrcb_cost_model_destroy(model);

@@ -1,7 +1,6 @@
 #include "cuts/packed_tree.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace rrcb {
 

@@ -1,6 +1,7 @@
 #include "collective/machines_mpi.hpp"
 
 #include "collective/agreement_mpi.hpp"
+#include "collective/attribute_mpi.hpp"
 #include "collective/communicator.hpp"
 
 #include <array>
@@ -10,36 +11,16 @@ namespace rrcb::mpi {
 
 namespace {
 
-int free_number(MPI_Comm, int, void* number, void*) {
-    delete static_cast<int*>(number);
-    return MPI_SUCCESS;
-}
+/// Ranks of a machine, as kept with a communicator.
+struct Kept {
+    int number = 1;
+};
 
-int create_key() {
-    int key = MPI_KEYVAL_INVALID;
-    check(MPI_Comm_create_keyval(MPI_COMM_NULL_COPY_FN, free_number, &key, nullptr),
-          "MPI_Comm_create_keyval");
-    return key;
-}
-
-int key() {
-    static const int key = create_key();
-    return key;
-}
-
-/// Number kept with `comm`, or null. A rank without a key has kept none, so no rank has.
-const int* find(MPI_Comm comm) {
-    if (attempt([] { key(); }).failed) return nullptr;
-    void* number = nullptr;
-    int found = 0;
-    check(MPI_Comm_get_attr(comm, key(), &number, &found), "MPI_Comm_get_attr");
-    return found != 0 ? static_cast<int*>(number) : nullptr;
-}
-
-int* keep(int number, MPI_Comm comm) {
-    auto kept = std::make_unique<int>(number);
-    check(MPI_Comm_set_attr(comm, key(), kept.get()), "MPI_Comm_set_attr");
-    return kept.release();
+/// What is kept with `comm`, or null. A rank without a key has kept none, so no rank has.
+const Kept* find(MPI_Comm comm) {
+    const Kept* kept = nullptr;
+    attempt([&] { kept = Attribute<Kept>::find(comm); });
+    return kept;
 }
 
 /// Ranks on the machine of this one.
@@ -65,22 +46,23 @@ RanksHere ranks_here(Participant& self) {
 }  // namespace
 
 int ranks_per_machine(Participant& self) {
-    if (const int* kept = find(self.comm)) return *kept;
+    if (const Kept* kept = find(self.comm)) return kept->number;
     const RanksHere ranks = ranks_here(self);
     int number = ranks.number;
     check(MPI_Bcast(&number, 1, MPI_INT, root, self.comm), "MPI_Bcast");
-    int* kept = nullptr;
-    self.attempt([&] { kept = keep(number, self.comm); });
+    Kept* kept = nullptr;
+    self.attempt(
+        [&] { kept = Attribute<Kept>::keep(std::make_unique<Kept>(Kept{number}), self.comm); });
     // The machines are alike if each rank lies where the size of the first one puts it.
     const bool fits = ranks.lowest == rank_of(self.comm) / number * number;
     const std::array shared{Shared{"machines", fits ? 0u : 1u}};
     try {
-        if (find_difference(self, shared) == 0) *kept = 1;
+        if (find_difference(self, shared) == 0) kept->number = 1;
     } catch (...) {
-        if (kept != nullptr) MPI_Comm_delete_attr(self.comm, key());
+        if (kept != nullptr) Attribute<Kept>::forget(self.comm);
         throw;
     }
-    return *kept;
+    return kept->number;
 }
 
 }  // namespace rrcb::mpi

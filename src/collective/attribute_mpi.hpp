@@ -1,0 +1,51 @@
+#pragma once
+
+#include "collective/communicator.hpp"
+
+#include <mpi.h>
+
+#include <memory>
+
+namespace rrcb::mpi {
+
+/// A value of its type kept with each communicator, and freed with it. Not collective.
+template <class Value>
+class Attribute {
+  public:
+    /// Returns the value of `comm`, or null. Throws Error on a rank that has no memory for a key.
+    static Value* find(MPI_Comm comm) {
+        void* value = nullptr;
+        int found = 0;
+        check(MPI_Comm_get_attr(comm, key(), &value, &found), "MPI_Comm_get_attr");
+        return found != 0 ? static_cast<Value*>(value) : nullptr;
+    }
+
+    /// Keeps a value. Throws Error; then nothing is kept.
+    static Value* keep(std::unique_ptr<Value> value, MPI_Comm comm) {
+        check(MPI_Comm_set_attr(comm, key(), value.get()), "MPI_Comm_set_attr");
+        return value.release();
+    }
+
+    /// Frees the value of `comm`.
+    static int forget(MPI_Comm comm) { return MPI_Comm_delete_attr(comm, key()); }
+
+  private:
+    static int free(MPI_Comm, int, void* value, void*) {
+        delete static_cast<Value*>(value);
+        return MPI_SUCCESS;
+    }
+
+    static int create_key() {
+        int key = MPI_KEYVAL_INVALID;
+        check(MPI_Comm_create_keyval(MPI_COMM_NULL_COPY_FN, free, &key, nullptr),
+              "MPI_Comm_create_keyval");
+        return key;
+    }
+
+    static int key() {
+        static const int key = create_key();
+        return key;
+    }
+};
+
+}  // namespace rrcb::mpi

@@ -1,4 +1,4 @@
-"""What the paper says, and the numbers measured here that it is judged by. docs/paper.md discusses them."""
+"""What the paper says, and the numbers measured here that it is judged by. docs/design/paper.md discusses them."""
 
 from __future__ import annotations
 

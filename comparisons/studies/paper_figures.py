@@ -1,4 +1,4 @@
-"""Figures 2 to 6 of the paper as it has them, and the map from one cut to the next that docs/paper.md
+"""Figures 2 to 6 of the paper as it has them, and the map from one cut to the next that docs/design/paper.md
 derives."""
 
 from __future__ import annotations
@@ -116,7 +116,7 @@ def next_offset(offset: float, mesh: int, multiplier: float) -> float:
     """The cut of evenly spread points on [0, 1] after that at 1/2 + offset, less 1/2.
 
     A rank lies on each side of the cut, with `mesh` cells; a box is r = k / √3 times as wide as its
-    cell. docs/paper.md derives it; for r < 2 and cuts less than about |r - 1| cells from 1/2.
+    cell. docs/design/paper.md derives it; for r < 2 and cuts less than about |r - 1| cells from 1/2.
     """
     r = multiplier / sqrt(3)
     if r > 1:

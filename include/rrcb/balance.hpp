@@ -51,8 +51,8 @@ struct Balance {
 /// first call and freed with it.
 ///
 /// Points are kept on their ranks if new cuts would gain too little (Report::kept): see
-/// docs/how_it_works.md, also for limits of cuts. With more parts, and more ranks, than
-/// Tuning::central_parts the ranks share the work: see docs/many_ranks.md.
+/// docs/design/how_it_works.md, also for limits of cuts. With more parts, and more ranks, than
+/// Tuning::central_parts the ranks share the work: see docs/design/many_ranks.md.
 ///
 /// Throws Error on every rank alike: for unusable coordinates, weights or arrays, options out of
 /// range or different between ranks, limits that leave no room for so many parts, or ranks that
@@ -67,7 +67,7 @@ RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm 
 /// on this communicator, and has the dimension and number of parts asked for. The cuts are kept
 /// while the parts are within the tolerance, and always with Refine::none. Otherwise as few points
 /// change parts as the tolerance allows; with Refine::exact all cuts are searched. The rules are in
-/// docs/how_it_works.md.
+/// docs/design/how_it_works.md.
 ///
 /// Limits may move cuts to other axes than Axes::order. Report::kept and the estimate are set only
 /// if the cuts are made anew. Without any points the cuts are kept, and the report is that of

@@ -95,7 +95,7 @@ RRCB_API std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
 /// states their dimension. Throws Error on every rank alike: for coordinates that are NaN or
 /// infinite, points of another dimension than the cuts, cuts that gather_cuts() would refuse, or no
 /// memory. Cost: with whole cuts a local look-up and one reduction; otherwise the ranks ask the
-/// owners of the cuts that they lack, see docs/many_ranks.md.
+/// owners of the cuts that they lack, see docs/design/many_ranks.md.
 RRCB_API std::vector<Part> assign_all(const Cuts& cuts, const Points& points, MPI_Comm comm);
 
 /// Returns the whole tree of cuts of which each rank holds a part; cuts that are whole come back

@@ -50,8 +50,8 @@ struct GhostOptions {
 /// the others, or no memory, and for cuts that do not fit or that gather_cuts() would refuse.
 ///
 /// Cost: ceil(log2 R) messages from each of R ranks, one more from some, and one reduction; for
-/// HeldCuts::own see docs/many_ranks.md. Memory: in proportion to the points to send, and 100 bytes
-/// for each rank that they go to or come from.
+/// HeldCuts::own see docs/design/many_ranks.md. Memory: in proportion to the points to send, and
+/// 100 bytes for each rank that they go to or come from.
 RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius, MPI_Comm comm);
 
 /// Finds the same points if the parts lie on other ranks, as after a remap(): part p on

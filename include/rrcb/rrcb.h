@@ -178,8 +178,7 @@ RRCB_API int rrcb_get_plan(const rrcb_balancer* balancer, rrcb_plan* plan);
  *  number of bytes is compared between ranks, not the type of what they hold. */
 RRCB_API int rrcb_transfer(rrcb_balancer* balancer, size_t bytes, const void* from, void* to);
 
-/** Makes a controller, which belongs to the caller; as rrcb::Controller. Collective. A null
- *  `controller` alone is an error of its rank, as of the functions below. */
+/** Makes a controller, which belongs to the caller; as rrcb::Controller. Collective. */
 RRCB_API int rrcb_controller_create(MPI_Comm comm, rrcb_controller** controller);
 
 /** Makes a controller from a communicator of Fortran. Collective. */
@@ -207,9 +206,8 @@ RRCB_API int rrcb_controller_rebalanced(rrcb_controller* controller, const rrcb_
 
 /** Makes a cost model, which belongs to the caller; as rrcb::CostModel. Collective.
  *
- *  Its sums travel with the steps of `controller`, which must outlive it and has recorded none;
- * with a null one the model has a communicator of its own. A null `model` alone is an error of its
- * rank, as of the functions below. */
+ *  Its sums travel with the steps of `controller`, on the ranks of `comm`, which must outlive
+ *  it and has recorded none; with a null one the model has a communicator of its own. */
 RRCB_API int rrcb_cost_model_create(MPI_Comm comm, rrcb_controller* controller, int num_columns,
                                     rrcb_cost_model** model);
 

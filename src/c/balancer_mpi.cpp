@@ -1,5 +1,6 @@
 #include "balance_mpi.hpp"
 #include "c/balancer.hpp"
+#include "c/handle_mpi.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/duplicate.hpp"
 #include "cuts/assign_mpi.hpp"
@@ -41,18 +42,6 @@ std::byte* room_at(void* to, std::size_t num_bytes) {
     return static_cast<std::byte*>(to);
 }
 
-void create(MPI_Comm comm, rrcb_balancer** balancer) {
-    Participant self{mpi::duplicate_of(comm)};
-    std::unique_ptr<rrcb_balancer> made;
-    self.attempt([&] {
-        require(balancer, "balancer");
-        made = std::make_unique<rrcb_balancer>();
-        made->comm = comm;
-    });
-    agree(self);
-    *balancer = made.release();
-}
-
 }  // namespace
 
 }  // namespace rrcb::c
@@ -67,7 +56,11 @@ using rrcb::c::require_plan;
 using rrcb::mpi::duplicate_of;
 
 int rrcb_create(MPI_Comm comm, rrcb_balancer** balancer) {
-    return guarded([&] { rrcb::c::create(comm, balancer); });
+    return guarded([&] {
+        auto made = rrcb::c::make_handle(comm, balancer, "balancer");
+        made->comm = comm;
+        *balancer = made.release();
+    });
 }
 
 int rrcb_create_fortran(MPI_Fint comm, rrcb_balancer** balancer) {

@@ -1,19 +1,20 @@
 #include "c/balancer.hpp"
+#include "c/handle_mpi.hpp"
 
 #include <rrcb/controller.hpp>
 #include <rrcb/cost.hpp>
 
 #include <algorithm>
-#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
 struct rrcb_controller {
-    rrcb::Controller controller;
+    std::optional<rrcb::Controller> controller{};
 };
 
 struct rrcb_cost_model {
-    rrcb::CostModel model;
+    std::optional<rrcb::CostModel> model{};
     std::size_t num_columns = 0;
     std::string report{};
 };
@@ -24,7 +25,7 @@ template <class Controller, class Body>
 int with(Controller* controller, Body&& body) noexcept {
     return rrcb::c::guarded([&] {
         rrcb::c::require(controller, "controller");
-        body(controller->controller);
+        body(*controller->controller);
     });
 }
 
@@ -49,8 +50,9 @@ void store(bool is_due, int* due) {
 
 int rrcb_controller_create(MPI_Comm comm, rrcb_controller** controller) {
     return rrcb::c::guarded([&] {
-        rrcb::c::require(controller, "controller");
-        *controller = std::make_unique<rrcb_controller>(rrcb::Controller(comm)).release();
+        auto made = rrcb::c::make_handle(comm, controller, "controller");
+        made->controller.emplace(comm);
+        *controller = made.release();
     });
 }
 
@@ -86,11 +88,13 @@ int rrcb_controller_rebalanced(rrcb_controller* controller, const rrcb_report* r
 int rrcb_cost_model_create(MPI_Comm comm, rrcb_controller* controller, int num_columns,
                            rrcb_cost_model** model) {
     return rrcb::c::guarded([&] {
-        rrcb::c::require(model, "model");
-        rrcb::CostModel own = controller == nullptr
-                                  ? rrcb::CostModel(comm, num_columns)
-                                  : rrcb::CostModel(controller->controller, num_columns);
-        *model = new rrcb_cost_model{std::move(own), static_cast<std::size_t>(num_columns)};
+        auto made = rrcb::c::make_handle(comm, model, "model");
+        if (controller == nullptr)
+            made->model.emplace(comm, num_columns);
+        else
+            made->model.emplace(*controller->controller, num_columns);
+        made->num_columns = static_cast<std::size_t>(num_columns);
+        *model = made.release();
     });
 }
 
@@ -106,7 +110,7 @@ void rrcb_cost_model_destroy(rrcb_cost_model* model) {
 int rrcb_cost_model_step(rrcb_cost_model* model, double seconds, size_t num_columns,
                          const double* columns) {
     return with_model(
-        model, [&](rrcb_cost_model& own) { own.model.step(seconds, view(columns, num_columns)); });
+        model, [&](rrcb_cost_model& own) { own.model->step(seconds, view(columns, num_columns)); });
 }
 
 int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, size_t num_columns,
@@ -117,24 +121,24 @@ int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, size_t num_col
                               "the cost model has " + std::to_string(own.num_columns) +
                                   " columns, not " + std::to_string(num_columns));
         rrcb::c::require_arrays(count, columns, weights);
-        std::ranges::copy(own.model.weights(view(columns, count * own.num_columns)), weights);
+        std::ranges::copy(own.model->weights(view(columns, count * own.num_columns)), weights);
     });
 }
 
 int rrcb_cost_model_costs(const rrcb_cost_model* model, double* costs) {
     return with_model(model, [&](const rrcb_cost_model& own) {
         rrcb::c::require(costs, "costs");
-        std::ranges::copy(own.model.costs(), costs);
+        std::ranges::copy(own.model->costs(), costs);
     });
 }
 
 int rrcb_cost_model_uses_costs(const rrcb_cost_model* model, int* uses_costs) {
     return with_model(
-        model, [&](const rrcb_cost_model& own) { store(own.model.uses_costs(), uses_costs); });
+        model, [&](const rrcb_cost_model& own) { store(own.model->uses_costs(), uses_costs); });
 }
 
 const char* rrcb_cost_model_report(rrcb_cost_model* model) {
     const int code =
-        with_model(model, [](rrcb_cost_model& own) { own.report = own.model.report(); });
+        with_model(model, [](rrcb_cost_model& own) { own.report = own.model->report(); });
     return code == RRCB_OK ? model->report.c_str() : "";
 }

@@ -31,7 +31,7 @@ void Controller::State::open(MPI_Comm comm) {
     comm_ = comm;
     rank_ = mpi::rank_of(comm_);
     num_ranks_ = mpi::size_of(comm_);
-    type_.emplace(num_doubles, MPI_DOUBLE);
+    message_ = std::make_unique<StepMessage>(0);
     reduction_.emplace(join_messages);
     mpi::check(MPI_Comm_create_keyval(MPI_COMM_NULL_COPY_FN, close, &key_, nullptr),
                "MPI_Comm_create_keyval");
@@ -40,16 +40,10 @@ void Controller::State::open(MPI_Comm comm) {
 }
 
 void Controller::State::check_free() const {
-    if (has_started_ || mine_.size() > num_doubles)
+    if (has_started_ || !carried().empty())
         throw Error(ErrorCode::invalid_argument,
                     has_started_ ? "the controller has recorded steps; make the cost model before"
                                  : "the controller has a cost model already; make another one");
-}
-
-void Controller::State::carry(std::size_t count) {
-    type_.emplace(static_cast<int>(num_doubles + count), MPI_DOUBLE);
-    mine_.assign(num_doubles + count, 0.0);
-    all_ = mine_;
 }
 
 int Controller::State::close(MPI_Comm, int, void* state, void*) {
@@ -61,7 +55,7 @@ void Controller::State::close() {
     if (comm_ == MPI_COMM_NULL) return;
     MPI_Wait(&request_, MPI_STATUS_IGNORE);
     reduction_.reset();
-    type_.reset();
+    message_.reset();
     MPI_Comm_free(&comm_);
 }
 
@@ -130,20 +124,21 @@ void Controller::State::follow(const StepRecord& all) {
 
 void Controller::State::start(const RankLoad& load, std::span<const double> carried,
                               BadInput fault) {
-    *reinterpret_cast<StepRecord*>(mine_.data()) = hand_in(load, fault);
-    const auto end = std::ranges::copy(carried, mine_.begin() + num_doubles).out;
-    std::fill(end, mine_.end(), 0.0);
+    auto& [type, mine, all] = *message_;
+    *reinterpret_cast<StepRecord*>(mine.data()) = hand_in(load, fault);
+    const auto end = std::ranges::copy(carried, mine.begin() + StepMessage::num_doubles).out;
+    std::fill(end, mine.end(), 0.0);
     has_started_ = true;
-    mpi::check(MPI_Iallreduce(mine_.data(), all_.data(), 1, type_->get(), reduction_->get(), comm_,
-                              &request_),
-               "MPI_Iallreduce");
+    mpi::check(
+        MPI_Iallreduce(mine.data(), all.data(), 1, type.get(), reduction_->get(), comm_, &request_),
+        "MPI_Iallreduce");
 }
 
 void Controller::State::finish() {
     is_due = false;
     if (!has_started_) return;
     mpi::check(MPI_Wait(&request_, MPI_STATUS_IGNORE), "MPI_Wait");
-    take(*reinterpret_cast<const StepRecord*>(all_.data()));
+    take(*reinterpret_cast<const StepRecord*>(message_->all.data()));
 }
 
 Controller::Controller(MPI_Comm comm) {

@@ -8,6 +8,7 @@
 #include <rrcb/controller.hpp>
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -18,6 +19,20 @@ namespace rrcb {
 struct RankLoad {
     double measured = 0;
     double smoothed = 0;
+};
+
+/// Record that a rank hands in with a step, what it carries, and the result of all ranks.
+struct StepMessage {
+    static constexpr std::size_t num_doubles = sizeof(StepRecord) / sizeof(double);
+
+    explicit StepMessage(std::size_t num_carried)
+        : type(static_cast<int>(num_doubles + num_carried), MPI_DOUBLE),
+          mine(num_doubles + num_carried),
+          all(mine) {}
+
+    mpi::ContiguousType type;
+    std::vector<double> mine;  ///< stays until the reduction is done
+    std::vector<double> all;
 };
 
 /// Reduces the step of each rank, and follows the rule on the root, whose decision travels with the
@@ -34,15 +49,17 @@ struct Controller::State {
     void open(MPI_Comm comm);
     /// Throws Error if a reduction has started, or carries something.
     void check_free() const;
-    /// Makes each reduction carry so many doubles more, joined by join_carried().
-    void carry(std::size_t count);
+    /// Makes each reduction carry what this message has room for, joined by join_carried().
+    void carry(std::unique_ptr<StepMessage> message) noexcept { message_ = std::move(message); }
     void start(const RankLoad& load, std::span<const double> carried = {},
                BadInput fault = BadInput::none);
     /// Takes the result of the reduction under way, if there is one.
     void finish();
 
     /// Returns what the ranks' last steps carried, joined.
-    std::span<const double> carried() const { return std::span(all_).subspan(num_doubles); }
+    std::span<const double> carried() const {
+        return std::span(message_->all).subspan(StepMessage::num_doubles);
+    }
     bool has_started() const { return has_started_; }
     MPI_Comm comm() const { return comm_; }
     int rank() const { return rank_; }
@@ -61,8 +78,6 @@ struct Controller::State {
     bool is_due = false;  ///< on every rank
 
   private:
-    static constexpr std::size_t num_doubles = sizeof(StepRecord) / sizeof(double);
-
     static int close(MPI_Comm, int, void* state, void*);
     void close();
     void follow(const StepRecord& all);
@@ -72,13 +87,10 @@ struct Controller::State {
     int num_ranks_ = 1;
     int key_ = MPI_KEYVAL_INVALID;  ///< of an attribute of MPI_COMM_SELF: its deletion closes this
     bool closes_itself_ = false;    ///< the attribute is set
-    std::optional<mpi::ContiguousType> type_;
+    std::unique_ptr<StepMessage> message_;
     std::optional<mpi::Reduction> reduction_;
     MPI_Request request_ = MPI_REQUEST_NULL;
     bool has_started_ = false;
-    /// Record that is handed in, and what it carries; stays until the reduction is done.
-    std::vector<double> mine_ = std::vector<double>(num_doubles);
-    std::vector<double> all_ = mine_;  ///< its result
 
     double cost_ = 0;  ///< of the rebalances since the last step
     bool has_bad_cost_ = false;

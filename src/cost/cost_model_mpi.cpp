@@ -48,14 +48,15 @@ CostModel::CostModel(MPI_Comm comm, int num_columns) {
 CostModel::CostModel(Controller& controller, int num_columns) {
     Controller::State& reducer = *controller.state_;
     Participant self{reducer.comm()};
+    std::unique_ptr<StepMessage> message;
     self.attempt([&] {
         check_columns(num_columns);
         reducer.check_free();
         state_.reset(new State{reducer, {num_columns, reducer.rank(), reducer.num_ranks()}});
+        message = std::make_unique<StepMessage>(state_->rule.num_sums());
     });
     agree(self, {{"the number of columns", static_cast<std::uint64_t>(num_columns)}});
-    self.attempt([&] { reducer.carry(state_->rule.num_sums()); });
-    agree(self);
+    reducer.carry(std::move(message));
 }
 
 CostModel::~CostModel() = default;

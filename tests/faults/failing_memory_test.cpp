@@ -4,9 +4,12 @@
 #include "part_ranks.hpp"
 
 #include <rrcb/paper.hpp>
+#include <rrcb/rrcb.h>
 #include <rrcb/rrcb.hpp>
 
 #include <array>
+#include <optional>
+#include <utility>
 
 namespace rrcb {
 namespace {
@@ -240,6 +243,47 @@ TEST(FailingMemory, in_ghosts_and_columns_fetched_and_added) {
     };
     const std::vector<double> expected = call();
     fail_in(call, [&](const std::vector<double>& result) { EXPECT_EQ(result, expected); });
+}
+
+TEST(FailingMemory, in_a_cost_model_whose_controller_goes_on) {
+    const auto call = [] {
+        std::pair<std::optional<Controller>, std::optional<CostModel>> made;
+        Controller& controller = made.first.emplace(MPI_COMM_WORLD);
+        try {
+            made.second.emplace(controller, 3);
+            return made;
+        } catch (const std::exception&) {
+            for (int step = 0; step < 3; ++step) controller.step(1);
+            throw;
+        }
+    };
+    fail_in(call, [](auto& made) {
+        const std::array columns{1.0, 2.0, 3.0};
+        for (int step = 0; step < 3; ++step) made.second->step(1, columns);
+        EXPECT_FALSE(made.first->due());
+    });
+}
+
+TEST(FailingMemory, in_handles_of_c) {
+    rrcb_controller* controller = nullptr;
+    rrcb_cost_model* model = nullptr;
+    const auto destroy = [&] {
+        rrcb_cost_model_destroy(model);
+        rrcb_controller_destroy(controller);
+        model = nullptr;
+        controller = nullptr;
+    };
+    const auto create = [&] {
+        destroy();
+        const int code = rrcb_controller_create(MPI_COMM_WORLD, &controller);
+        return code == RRCB_OK ? rrcb_cost_model_create(MPI_COMM_WORLD, controller, 2, &model)
+                               : code;
+    };
+    FailingMemory({RRCB_OK, RRCB_OUT_OF_MEMORY}, create, [&] {
+        const std::array columns{1.0, 2.0};
+        EXPECT_EQ(rrcb_cost_model_step(model, 1, 2, columns.data()), RRCB_OK);
+    }).run();
+    destroy();
 }
 
 TEST(Memory, of_a_transfer_fifty_times_its_limit_stays_below_it) {

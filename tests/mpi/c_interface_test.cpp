@@ -365,6 +365,18 @@ TEST(CCostModel, weighs_points_as_the_model_in_cpp) {
     rrcb_controller_destroy(controller);
 }
 
+TEST(CCostModel, tells_all_ranks_of_a_null_pointer_on_one) {
+    rrcb_controller* controller = nullptr;
+    rrcb_cost_model* model = nullptr;
+    const bool is_null = rank() == 0;
+    EXPECT_EQ(rrcb_controller_create(MPI_COMM_WORLD, is_null ? nullptr : &controller),
+              RRCB_INVALID_ARGUMENT);
+    EXPECT_EQ(rrcb_cost_model_create(MPI_COMM_WORLD, nullptr, 1, is_null ? nullptr : &model),
+              RRCB_INVALID_ARGUMENT);
+    EXPECT_EQ(controller, nullptr);
+    EXPECT_EQ(model, nullptr);
+}
+
 TEST(CCostModel, returns_errors) {
     rrcb_cost_model* model = nullptr;
     const MPI_Fint comm = MPI_Comm_c2f(MPI_COMM_WORLD);

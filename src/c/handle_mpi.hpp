@@ -1,0 +1,25 @@
+#pragma once
+
+#include "c/balancer.hpp"
+#include "collective/agreement_mpi.hpp"
+#include "collective/duplicate.hpp"
+
+#include <memory>
+
+namespace rrcb::c {
+
+/// Makes what a program is to hold by the pointer `where`. Collective over `comm`: throws the same
+/// Error on every rank if `where` is null on one, or its memory runs out.
+template <class Handle>
+std::unique_ptr<Handle> make_handle(MPI_Comm comm, Handle** where, const char* name) {
+    Participant self{mpi::duplicate_of(comm)};
+    std::unique_ptr<Handle> made;
+    self.attempt([&] {
+        require(static_cast<const void*>(where), name);
+        made = std::make_unique<Handle>();
+    });
+    agree(self);
+    return made;
+}
+
+}  // namespace rrcb::c

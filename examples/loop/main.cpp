@@ -109,7 +109,7 @@ int main(int argc, char** argv) {
             positions = rrcb::transfer(plan, rrcb::column(positions, 2), comm);
 
             const rrcb::Points mine = rrcb::interleaved_points(positions, 2);
-            const rrcb::GhostPlan near = rrcb::ghosts(balance.cuts, mine, radius, comm);
+            const rrcb::GhostPlan near = rrcb::ghosts(balance.cuts, mine, {.radius = radius}, comm);
             const std::vector<double> ghosts = rrcb::fetch(near, rrcb::column(positions, 2), comm);
             const std::vector<double> neighbours = count_neighbours(positions, ghosts);
             move(positions);

@@ -33,8 +33,8 @@ int main(int argc, char** argv) {
     // Columns of the points that are here now, and copies of those of others within 0.05.
     const std::vector<double> here =
         rrcb::transfer(plan, rrcb::column(coordinates, 2), MPI_COMM_WORLD);
-    const rrcb::GhostPlan near =
-        rrcb::ghosts(balance.cuts, rrcb::interleaved_points(here, 2), 0.05, MPI_COMM_WORLD);
+    const rrcb::GhostPlan near = rrcb::ghosts(balance.cuts, rrcb::interleaved_points(here, 2),
+                                              {.radius = 0.05}, MPI_COMM_WORLD);
     const std::vector<double> ghosts = rrcb::fetch(near, rrcb::column(here, 2), MPI_COMM_WORLD);
 
     const double moved = rrcb::moved_fraction(points, balance, MPI_COMM_WORLD);

@@ -27,65 +27,39 @@ struct GhostPlan {
     std::vector<Shift> shifts{};     ///< of each ghost, in the order of fetch(), if so
 };
 
-/// Distances at which points are needed, and where points and parts are.
+/// Distances at which points are needed, and where points and parts are. The same on every rank,
+/// except `radii`, which every rank gives or none does.
 struct GhostOptions {
-    double radius = 0;                               ///< of all points
-    std::optional<std::span<const double>> radii{};  ///< or one for each point
+    double radius = 0;  ///< cut-off of all points, in the unit of the coordinates
+    /// One radius for each point instead. Of two points on different ranks, nearer than the greater
+    /// of their radii, at least one is then a ghost on the other's rank. If both ranks compute such
+    /// pairs, give each point the greatest radius of the points near it.
+    std::optional<std::span<const double>> radii{};
     /// Box that holds the points, its faces included. It repeats along each axis on which its two
-    /// ends are finite; on the others they are infinite.
+    /// ends are finite; on the others they are infinite. A rank may need several images of one
+    /// point, also of its own, each a ghost with its entry in GhostPlan::shifts: the image of x is
+    /// at x + shift * (upper - lower), each operation rounded to a double. Wrap positions first.
     std::optional<Box> periodic{};
-    std::optional<std::span<const RankRange>> ranks_of_parts{};  ///< if not ranks_of_part()
+    /// Ranks of each part, as after a remap(), if not ranks_of_part().
+    std::optional<std::span<const RankRange>> ranks_of_parts{};
 };
 
-/// Finds the points that other ranks need within a cut-off `radius`, from the cuts alone.
+/// Finds the points that other ranks need, from the cuts alone.
 ///
 /// Collective over `comm`. A rank needs the points of others whose distance to the region of one of
-/// its parts, the closed box_of(cuts, part), is at most `radius`. A part without a region needs
-/// none. Distances up to 8 units in the last place beyond count too, so that rounding loses no
-/// point. Points may lie outside the regions of their rank, and are sent to each rank once. Ranks
-/// that share a part need all points in it of each other. Parts lie on ranks_of_part(). The radius
-/// is in the unit of the coordinates, finite, 0 or more.
+/// its parts, the closed box_of(cuts, part), is at most the radius. Distances up to 8 units in the
+/// last place beyond count too. Points may lie outside the regions of their rank, and are sent to
+/// each rank once. A part without a region needs none. Ranks that share a part need all points in
+/// it of each other. For repeated use of a plan, see fetch().
 ///
-/// Throws Error on every rank alike if one has unusable points, another radius or other cuts than
-/// the others, or no memory, and for cuts that do not fit or that gather_cuts() would refuse.
+/// Throws Error on every rank alike: for unusable points or options, a radius that is not finite,
+/// below 0 or above 100 periods, a position outside the periodic box, options or cuts that differ
+/// between ranks, cuts that gather_cuts() would refuse, or no memory.
 ///
 /// Cost: ceil(log2 R) messages from each of R ranks, one more from some, and one reduction; for
-/// HeldCuts::own see docs/design/many_ranks.md. Memory: in proportion to the points to send, and
-/// 100 bytes for each rank that they go to or come from.
-RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius, MPI_Comm comm);
-
-/// Finds the same points if the parts lie on other ranks, as after a remap(): part p on
-/// ranks_of_parts[p], the same on every rank. Collective over `comm`.
-RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
-                          std::span<const RankRange> ranks_of_parts, MPI_Comm comm);
-
-/// Finds the points that other ranks need within a radius of each point.
-///
-/// Collective over `comm`, otherwise as above. A rank needs the points of others whose distance to
-/// the region of one of its parts is at most the radius of that point. Only the rank that has the
-/// point gives this radius. So of two points on different ranks, nearer than the greater of their
-/// radii, at least one is a ghost on the other's rank. If both ranks compute such pairs, give each
-/// point the greatest radius of the points near it.
-///
-/// `radii` has one entry for each point, each finite, 0 or more, on every rank.
-RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, std::span<const double> radii,
-                          MPI_Comm comm);
-
-/// Finds the same points if the parts lie on other ranks. Collective over `comm`.
-RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, std::span<const double> radii,
-                          std::span<const RankRange> ranks_of_parts, MPI_Comm comm);
-
-/// Finds the same points, and their images if the box is periodic.
-///
-/// Collective over `comm`, otherwise as above. The image of x by a shift is at
-/// x + shift * (upper - lower), each operation rounded to a double. Regions are limited to the box.
-/// An image is a ghost as a point is, also for the rank that has the point. A rank may need several
-/// images of one point, each a ghost with its entry in plan.shifts. apply_shifts() moves fetched
-/// positions to those of the images.
-///
-/// Throws Error also if a position is outside the box (wrap positions first), a radius is above 100
-/// periods, or ranks have other boxes. Cost of a periodic box: another pass of counts and one
-/// message more for each pair of ranks between which points move; twice the memory for cuts.
+/// HeldCuts::own see docs/design/many_ranks.md. A periodic box adds another pass of counts and one
+/// message for each pair of ranks between which points move. Memory: in proportion to the points to
+/// send.
 RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
                           MPI_Comm comm);
 

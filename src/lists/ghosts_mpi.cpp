@@ -80,6 +80,7 @@ struct Radii {
         const auto is_usable = [](double radius) { return std::isfinite(radius) && radius >= 0; };
         require(is_usable(same), "the radius must be finite, 0 or more");
         if (!each) return;
+        require(same == 0, "give one radius or radii, not both");
         require(each->size() == num_points, "radii must have one entry for each point");
         require(std::ranges::all_of(*each, is_usable), "each radius must be finite, 0 or more");
     }
@@ -275,25 +276,6 @@ GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& opt
     GhostPlan plan = ghosts(cuts, request, self);
     if (options.periodic) plan.periodic = *options.periodic;
     return plan;
-}
-
-GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius,
-                 std::span<const RankRange> ranks_of_parts, MPI_Comm comm) {
-    return ghosts(cuts, points, GhostOptions{radius, {}, {}, ranks_of_parts}, comm);
-}
-
-GhostPlan ghosts(const Cuts& cuts, const Points& points, double radius, MPI_Comm comm) {
-    return ghosts(cuts, points, GhostOptions{.radius = radius}, comm);
-}
-
-GhostPlan ghosts(const Cuts& cuts, const Points& points, std::span<const double> radii,
-                 std::span<const RankRange> ranks_of_parts, MPI_Comm comm) {
-    return ghosts(cuts, points, GhostOptions{0, radii, {}, ranks_of_parts}, comm);
-}
-
-GhostPlan ghosts(const Cuts& cuts, const Points& points, std::span<const double> radii,
-                 MPI_Comm comm) {
-    return ghosts(cuts, points, GhostOptions{.radii = radii}, comm);
 }
 
 void apply_shifts(const GhostPlan& plan, std::span<double> positions) {

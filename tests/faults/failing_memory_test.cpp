@@ -132,7 +132,7 @@ TEST(FailingMemory, in_cuts_that_are_spread_over_the_ranks) {
     assign(whole, points, expected);
     fail_in([&] { return assign_all(cuts, points, MPI_COMM_WORLD); },
             [&](const std::vector<Part>& parts) { EXPECT_EQ(parts, expected); });
-    const auto ghosts_here = [&] { return ghosts(cuts, points, 0.2, MPI_COMM_WORLD); };
+    const auto ghosts_here = [&] { return ghosts(cuts, points, {.radius = 0.2}, MPI_COMM_WORLD); };
     const GhostPlan near = ghosts_here();
     fail_in(ghosts_here,
             [&](const GhostPlan& found) { EXPECT_EQ(found.send_indices, near.send_indices); });
@@ -237,7 +237,7 @@ TEST(FailingMemory, in_ghosts_and_columns_fetched_and_added) {
     options.num_parts = 2 * test::num_ranks();
     const Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
     const auto call = [&] {
-        const GhostPlan lists = ghosts(cuts, points, 0.1, MPI_COMM_WORLD);
+        const GhostPlan lists = ghosts(cuts, points, {.radius = 0.1}, MPI_COMM_WORLD);
         const std::vector<double> near = fetch(lists, column(coordinates, 2), MPI_COMM_WORLD);
         return accumulate(lists, column(near, 2), column(coordinates, 2), MPI_COMM_WORLD);
     };

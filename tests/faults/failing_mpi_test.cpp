@@ -132,8 +132,8 @@ TEST(FailingMpi, reaches_the_caller_of_what_moves_columns) {
     const std::vector<int> values(lists.num_points);
     expect_errors([&] { transfer(lists, values, MPI_COMM_WORLD); });
     const Cuts cuts = balance(cloud.points(), Options{}, MPI_COMM_WORLD).cuts;
-    expect_errors([&] { ghosts(cuts, cloud.points(), 0.1, MPI_COMM_WORLD); });
-    const GhostPlan near = ghosts(cuts, cloud.points(), 0.1, MPI_COMM_WORLD);
+    expect_errors([&] { ghosts(cuts, cloud.points(), {.radius = 0.1}, MPI_COMM_WORLD); });
+    const GhostPlan near = ghosts(cuts, cloud.points(), {.radius = 0.1}, MPI_COMM_WORLD);
     const std::vector<int> colours(near.num_points);
     expect_errors([&] { fetch(near, colours, MPI_COMM_WORLD); });
 }

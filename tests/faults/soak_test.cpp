@@ -227,7 +227,7 @@ bool fetches_ghosts(const Round& round, MPI_Comm comm) {
     const Points points = round.mine().points();
     const Cuts cuts = balance(points, options_of(round), comm).cuts;
     const double radius = std::ldexp(static_cast<double>(round.drawn() % 8), -4);
-    const GhostPlan lists = ghosts(cuts, points, radius, comm);
+    const GhostPlan lists = ghosts(cuts, points, {.radius = radius}, comm);
     std::vector<int> expected;
     round.for_each([&](int source, const Holding& held, std::size_t i) {
         if (source != rank() && square_apart(cuts, held.points().position(i)) <= radius * radius)

@@ -44,7 +44,8 @@ Scene make_scene() {
         scene.mine.push_back(static_cast<std::int64_t>(i));
         here.insert(here.end(), {scene.positions[2 * i], scene.positions[2 * i + 1]});
     }
-    scene.plan = ghosts(whole.cuts, interleaved_points(here, 2), radius, MPI_COMM_WORLD);
+    scene.plan =
+        ghosts(whole.cuts, interleaved_points(here, 2), {.radius = radius}, MPI_COMM_WORLD);
     scene.near = fetch(scene.plan, scene.mine, MPI_COMM_WORLD);
     return scene;
 }

@@ -89,8 +89,8 @@ TEST(Exceptions, are_raised_by_no_call) {
                 const Watch watch("lists, " + where);
                 const Plan moves = plan(first, MPI_COMM_WORLD);
                 const auto mine = transfer(moves, column(coordinates, dimension), MPI_COMM_WORLD);
-                const GhostPlan near =
-                    ghosts(first.cuts, interleaved_points(mine, dimension), 0.1, MPI_COMM_WORLD);
+                const GhostPlan near = ghosts(first.cuts, interleaved_points(mine, dimension),
+                                              {.radius = 0.1}, MPI_COMM_WORLD);
                 fetch(near, column(mine, dimension), MPI_COMM_WORLD);
                 assign_all(first.cuts, points, MPI_COMM_WORLD);
                 parts_touching(first.cuts, box_of(first.cuts, 0));

@@ -31,7 +31,8 @@ void expect_refusal(const std::string& text, const std::function<void()>& call) 
         EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
     }
     const std::vector<double> none;
-    EXPECT_EQ(ghosts(slabs(), interleaved_points(none, 2), 1, MPI_COMM_WORLD).num_points, 0u);
+    EXPECT_EQ(
+        ghosts(slabs(), interleaved_points(none, 2), {.radius = 1}, MPI_COMM_WORLD).num_points, 0u);
 }
 
 TEST(Ghosts, within_no_radius_are_refused_on_all_ranks) {
@@ -39,37 +40,40 @@ TEST(Ghosts, within_no_radius_are_refused_on_all_ranks) {
     const Points points = interleaved_points(x, 2);
     for (const double radius : {-1.0, std::nan(""), infinity, -infinity}) {
         expect_refusal("the radius must be finite",
-                       [&] { ghosts(slabs(), points, radius, MPI_COMM_WORLD); });
-        expect_refusal(
-            "rank " + std::to_string(num_ranks() - 1) + ": the radius must be finite",
-            [&] { ghosts(slabs(), points, test::is_last_rank() ? radius : 1.0, MPI_COMM_WORLD); });
+                       [&] { ghosts(slabs(), points, {.radius = radius}, MPI_COMM_WORLD); });
+        expect_refusal("rank " + std::to_string(num_ranks() - 1) + ": the radius must be finite",
+                       [&] {
+                           ghosts(slabs(), points, {.radius = test::is_last_rank() ? radius : 1.0},
+                                  MPI_COMM_WORLD);
+                       });
     }
 }
 
 TEST(Ghosts, of_unusable_points_cuts_or_ranks_are_refused_on_all_ranks) {
     const std::vector<double> x{0, test::is_last_rank() ? std::nan("") : 0};
-    expect_refusal("is NaN or infinite",
-                   [&] { ghosts(slabs(), interleaved_points(x, 2), 1, MPI_COMM_WORLD); });
+    expect_refusal("is NaN or infinite", [&] {
+        ghosts(slabs(), interleaved_points(x, 2), {.radius = 1}, MPI_COMM_WORLD);
+    });
     const std::vector<double> right(2);
     const Points points = interleaved_points(right, 2);
     expect_refusal("cuts must have the dimension of the points", [&] {
         Cuts cuts = slabs();
         cuts.dimension = test::is_last_rank() ? 3 : 2;
-        ghosts(cuts, points, 1, MPI_COMM_WORLD);
+        ghosts(cuts, points, {.radius = 1}, MPI_COMM_WORLD);
     });
     expect_refusal("the tree must hold one cut less than there are parts", [&] {
         Cuts cuts = slabs();
         if (test::is_last_rank()) cuts.tree.push_back({});
-        ghosts(cuts, points, 1, MPI_COMM_WORLD);
+        ghosts(cuts, points, {.radius = 1}, MPI_COMM_WORLD);
     });
     expect_refusal("must name ranks of this communicator", [&] {
         std::vector<RankRange> ranks(static_cast<std::size_t>(num_ranks()));
         if (test::is_last_rank()) ranks[0].first_rank = num_ranks();
-        ghosts(slabs(), points, 1, ranks, MPI_COMM_WORLD);
+        ghosts(slabs(), points, {.radius = 1, .ranks_of_parts = ranks}, MPI_COMM_WORLD);
     });
     expect_refusal("one entry for each part", [&] {
         const std::vector<RankRange> ranks(static_cast<std::size_t>(num_ranks() + 1));
-        ghosts(slabs(), points, 1, ranks, MPI_COMM_WORLD);
+        ghosts(slabs(), points, {.radius = 1, .ranks_of_parts = ranks}, MPI_COMM_WORLD);
     });
 }
 
@@ -79,21 +83,22 @@ TEST(Ghosts, of_arguments_that_differ_are_refused_on_all_ranks) {
     const Points points = interleaved_points(x, 2);
     const int other = test::is_last_rank() ? 1 : 0;
     expect_refusal("the radius differs between rank 0 and rank",
-                   [&] { ghosts(slabs(), points, 1.0 + other, MPI_COMM_WORLD); });
+                   [&] { ghosts(slabs(), points, {.radius = 1.0 + other}, MPI_COMM_WORLD); });
     expect_refusal("the tree of cuts differs between rank 0 and rank", [&] {
         Cuts cuts = slabs();
         cuts.tree[0].at[0] += other;
-        ghosts(cuts, points, 1, MPI_COMM_WORLD);
+        ghosts(cuts, points, {.radius = 1}, MPI_COMM_WORLD);
     });
     expect_refusal("ranks_of_parts differs between rank 0 and rank", [&] {
         const std::vector<RankRange> ranks(static_cast<std::size_t>(num_ranks()), {other, 1});
-        ghosts(slabs(), points, 1, ranks, MPI_COMM_WORLD);
+        ghosts(slabs(), points, {.radius = 1, .ranks_of_parts = ranks}, MPI_COMM_WORLD);
     });
 }
 
 TEST(Fetch, by_a_plan_that_does_not_hold_together_is_refused_on_all_ranks) {
     const std::vector<double> coordinates{rank() + 0.5, 0};
-    const GhostPlan right = ghosts(slabs(), interleaved_points(coordinates, 2), 10, MPI_COMM_WORLD);
+    const GhostPlan right =
+        ghosts(slabs(), interleaved_points(coordinates, 2), {.radius = 10}, MPI_COMM_WORLD);
     const std::vector<int> values(1);
     const auto expect = [&](const std::string& text, const std::function<void(GhostPlan&)>& spoil) {
         GhostPlan wrong = right;
@@ -123,7 +128,8 @@ TEST(Fetch, by_a_plan_that_does_not_hold_together_is_refused_on_all_ranks) {
 TEST(Fetch, of_a_column_of_another_type_is_refused_on_all_ranks) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     const std::vector<double> coordinates{rank() + 0.5, 0};
-    const GhostPlan plan = ghosts(slabs(), interleaved_points(coordinates, 2), 10, MPI_COMM_WORLD);
+    const GhostPlan plan =
+        ghosts(slabs(), interleaved_points(coordinates, 2), {.radius = 10}, MPI_COMM_WORLD);
     const std::vector<float> numbers(1);
     const std::vector<int> whole(1);
     expect_refusal("column 0 (the first is 0) has 1 per point, whole numbers of 4 bytes, but", [&] {

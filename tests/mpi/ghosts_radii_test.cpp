@@ -77,11 +77,14 @@ TEST(GhostsOfRadii, are_the_points_whose_own_radius_reaches_a_region) {
     for (const int dimension : {1, 2, 3}) {
         const Scene scene = make_scene(dimension);
         const Points points = interleaved_points(scene.here, dimension);
-        const GhostPlan plan = ghosts(scene.cuts, points, scene.radii_here, MPI_COMM_WORLD);
+        const GhostPlan plan =
+            ghosts(scene.cuts, points, {.radii = scene.radii_here}, MPI_COMM_WORLD);
         expect_ghosts(scene, fetch(plan, scene.mine, MPI_COMM_WORLD));
         std::vector<RankRange> ranks;
         for (int k = 0; k < num_ranks(); ++k) ranks.push_back({k, 1});
-        const GhostPlan same = ghosts(scene.cuts, points, scene.radii_here, ranks, MPI_COMM_WORLD);
+        const GhostPlan same =
+            ghosts(scene.cuts, points, {.radii = scene.radii_here, .ranks_of_parts = ranks},
+                   MPI_COMM_WORLD);
         EXPECT_EQ(same.send_indices, plan.send_indices);
     }
 }
@@ -90,8 +93,8 @@ TEST(GhostsOfRadii, are_those_of_one_radius_if_all_are_equal) {
     const Scene scene = make_scene(2);
     const Points points = interleaved_points(scene.here, 2);
     const std::vector<double> equal(scene.mine.size(), 0.1);
-    EXPECT_EQ(ghosts(scene.cuts, points, equal, MPI_COMM_WORLD).send_indices,
-              ghosts(scene.cuts, points, 0.1, MPI_COMM_WORLD).send_indices);
+    EXPECT_EQ(ghosts(scene.cuts, points, {.radii = equal}, MPI_COMM_WORLD).send_indices,
+              ghosts(scene.cuts, points, {.radius = 0.1}, MPI_COMM_WORLD).send_indices);
 }
 
 TEST(GhostsOfRadii, that_do_not_fit_on_one_rank_are_refused_on_all) {
@@ -99,7 +102,7 @@ TEST(GhostsOfRadii, that_do_not_fit_on_one_rank_are_refused_on_all) {
     const auto refused = [&](const std::string& text, const std::vector<double>& wrong) {
         const std::vector<double> radii = test::is_last_rank() ? wrong : std::vector{1.0, 0.0};
         try {
-            ghosts(test::slabs(), interleaved_points(x, 2), radii, MPI_COMM_WORLD);
+            ghosts(test::slabs(), interleaved_points(x, 2), {.radii = radii}, MPI_COMM_WORLD);
             ADD_FAILURE() << "nothing was thrown";
         } catch (const Error& error) {
             const std::string expected = "rank " + std::to_string(num_ranks() - 1) + ": " + text;
@@ -110,11 +113,16 @@ TEST(GhostsOfRadii, that_do_not_fit_on_one_rank_are_refused_on_all) {
     refused("radii must have one entry for each point", {});
     for (const double radius : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
         refused("each radius must be finite, 0 or more", {1.0, radius});
+    const std::vector<double> right(2);
+    EXPECT_THROW(ghosts(test::slabs(), interleaved_points(x, 2), {.radius = 1, .radii = right},
+                        MPI_COMM_WORLD),
+                 Error);
     if (num_ranks() == 1) return;
     const Points none = interleaved_points(std::span(x).first(0), 2);
     const std::vector<double> no_radii;
-    EXPECT_THROW(test::is_last_rank() ? ghosts(test::slabs(), none, 0.0, MPI_COMM_WORLD)
-                                      : ghosts(test::slabs(), none, no_radii, MPI_COMM_WORLD),
+    EXPECT_THROW(test::is_last_rank()
+                     ? ghosts(test::slabs(), none, {}, MPI_COMM_WORLD)
+                     : ghosts(test::slabs(), none, {.radii = no_radii}, MPI_COMM_WORLD),
                  Error);
 }
 

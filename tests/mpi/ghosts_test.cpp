@@ -173,9 +173,9 @@ TEST(Ghosts, miss_none_of_a_million_pairs) {
         for (const Cloud& cloud : {random_cloud(600, dimension), lattice_cloud(dimension)}) {
             const Division division = divide(cloud, num_ranks());
             for (const double radius : {0.0, 0.03, 0.2, 1.0, std::sqrt(2.0), 5.0, 100.0})
-                num_pairs +=
-                    expect_ghosts(division, radius,
-                                  ghosts(division.cuts, division.points(), radius, MPI_COMM_WORLD));
+                num_pairs += expect_ghosts(
+                    division, radius,
+                    ghosts(division.cuts, division.points(), {.radius = radius}, MPI_COMM_WORLD));
         }
     }
     if (num_ranks() == 1) return;
@@ -187,30 +187,32 @@ TEST(Ghosts, are_those_of_all_parts_where_there_are_more_than_ranks) {
     const Division division = divide(random_cloud(400, 2), 3 * num_ranks() + 1);
     for (const double radius : {0.0, 0.05, 0.5})
         expect_ghosts(division, radius,
-                      ghosts(division.cuts, division.points(), radius, MPI_COMM_WORLD));
+                      ghosts(division.cuts, division.points(), {.radius = radius}, MPI_COMM_WORLD));
 }
 
 TEST(Ghosts, include_all_points_of_a_part_that_ranks_share) {
     const Division division = divide(random_cloud(400, 3), (num_ranks() + 1) / 2);
     for (const double radius : {0.0, 0.1})
         expect_ghosts(division, radius,
-                      ghosts(division.cuts, division.points(), radius, MPI_COMM_WORLD));
+                      ghosts(division.cuts, division.points(), {.radius = radius}, MPI_COMM_WORLD));
 }
 
 TEST(Ghosts, follow_parts_to_the_ranks_that_have_them) {
     const Division division = divide(lattice_cloud(2), 2 * num_ranks(), 1);
     for (const double radius : {0.0, 1.0, 2.5})
-        expect_ghosts(division, radius,
-                      ghosts(division.cuts, division.points(), radius, division.ranks_of_parts,
-                             MPI_COMM_WORLD));
+        expect_ghosts(
+            division, radius,
+            ghosts(division.cuts, division.points(),
+                   {.radius = radius, .ranks_of_parts = division.ranks_of_parts}, MPI_COMM_WORLD));
 }
 
 TEST(Ghosts, keep_their_numbers_at_the_ends_of_the_range) {
     for (const double scale : {1e308, 1e-310}) {
         const Division division = divide(random_cloud(200, 3, scale), num_ranks());
         for (const double radius : {0.0, 0.1 * scale, 1.5 * scale})
-            expect_ghosts(division, radius,
-                          ghosts(division.cuts, division.points(), radius, MPI_COMM_WORLD));
+            expect_ghosts(
+                division, radius,
+                ghosts(division.cuts, division.points(), {.radius = radius}, MPI_COMM_WORLD));
     }
 }
 
@@ -227,7 +229,8 @@ TEST(Ghosts, of_points_outside_the_regions_of_their_rank_are_those_near_another)
             division.here.push_back(division.cloud.coordinates[2 * i + a]);
     }
     const double radius = 0.1;
-    const GhostPlan lists = ghosts(division.cuts, division.points(), radius, MPI_COMM_WORLD);
+    const GhostPlan lists =
+        ghosts(division.cuts, division.points(), {.radius = radius}, MPI_COMM_WORLD);
     const std::vector<std::int64_t> got = fetch(lists, division.numbers, MPI_COMM_WORLD);
     for (std::size_t j = 0; j < division.cloud.count(); ++j) {
         const bool is_near = distance_to_mine(division, division.cloud.position(j)) <= radius;
@@ -239,7 +242,7 @@ TEST(Ghosts, of_points_outside_the_regions_of_their_rank_are_those_near_another)
 TEST(Ghosts, come_from_neighbours_alone_in_one_message_each) {
     const std::vector<double> coordinates{rank() + 0.1, 0, rank() + 0.5, 0, rank() + 0.9, 0};
     const Points points = interleaved_points(coordinates, 2);
-    const GhostPlan lists = ghosts(test::slabs(), points, 0.2, MPI_COMM_WORLD);
+    const GhostPlan lists = ghosts(test::slabs(), points, {.radius = 0.2}, MPI_COMM_WORLD);
     std::vector<std::pair<int, LocalIndex>> expected;
     if (rank() > 0) expected.emplace_back(rank() - 1, 0);
     if (!test::is_last_rank()) expected.emplace_back(rank() + 1, 2);
@@ -271,7 +274,7 @@ TEST(Ghosts, at_exactly_the_radius_count) {
     // 0.25 from the cut, and the next number beyond what rounding may lose.
     const std::vector<double> coordinates{rank() + 0.75, 0, rank() + 0.75 - 0x1p-40, 0};
     const GhostPlan lists =
-        ghosts(test::slabs(), interleaved_points(coordinates, 2), 0.25, MPI_COMM_WORLD);
+        ghosts(test::slabs(), interleaved_points(coordinates, 2), {.radius = 0.25}, MPI_COMM_WORLD);
     EXPECT_EQ(lists.send_indices,
               test::is_last_rank() ? std::vector<LocalIndex>{} : std::vector<LocalIndex>{0});
 }
@@ -283,7 +286,8 @@ TEST(Ghosts, go_to_no_rank_whose_part_is_empty) {
     cuts.tree.back().at[0] = num_ranks() == 2 ? -std::numeric_limits<double>::infinity() : -1;
     const Part empty = num_ranks() == 2 ? 0 : num_ranks() - 2;
     const std::vector<double> coordinates{num_ranks() - 2.0, 0, 0.25, 0, num_ranks() - 0.5, 0};
-    const GhostPlan lists = ghosts(cuts, interleaved_points(coordinates, 2), 100, MPI_COMM_WORLD);
+    const GhostPlan lists =
+        ghosts(cuts, interleaved_points(coordinates, 2), {.radius = 100}, MPI_COMM_WORLD);
     for (const RankCount& share : lists.send) EXPECT_NE(share.rank, empty);
     EXPECT_EQ(lists.send.size(), static_cast<std::size_t>(num_ranks() - (rank() == empty ? 1 : 2)));
     EXPECT_EQ(lists.receive.empty(), rank() == empty);

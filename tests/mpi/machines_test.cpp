@@ -118,7 +118,8 @@ std::pair<GlobalCount, GlobalCount> ghosts_of(const Balance& balance, const Clou
                                               MPI_Comm comm) {
     const int dimension = cloud.points.dimension;
     const auto mine = transfer(plan(balance, comm), column(cloud.coordinates, dimension), comm);
-    const GhostPlan near = ghosts(balance.cuts, interleaved_points(mine, dimension), 0.02, comm);
+    const GhostPlan near =
+        ghosts(balance.cuts, interleaved_points(mine, dimension), {.radius = 0.02}, comm);
     GlobalCount counts[2] = {};
     for (const RankCount& from : near.receive) {
         if (from.rank / size != rank() / size) counts[0] += static_cast<GlobalCount>(from.count);

@@ -24,8 +24,7 @@ using test::rank;
 using Given = std::optional<std::vector<RankRange>>;
 
 GhostPlan ghosts_of(const Cuts& cuts, const Points& points, double radius, const Given& given) {
-    return given ? ghosts(cuts, points, radius, *given, MPI_COMM_WORLD)
-                 : ghosts(cuts, points, radius, MPI_COMM_WORLD);
+    return ghosts(cuts, points, {.radius = radius, .ranks_of_parts = given}, MPI_COMM_WORLD);
 }
 
 void expect_same(const std::vector<RankCount>& counts, const std::vector<RankCount>& expected) {
@@ -132,7 +131,7 @@ TEST(SpreadGhosts, of_points_on_the_ranks_of_their_parts_are_those_by_the_whole_
 std::string refusal(const Cuts& cuts) {
     const std::vector<double> coordinates{0.5, 0.5};
     try {
-        ghosts(cuts, interleaved_points(coordinates, 2), 1, MPI_COMM_WORLD);
+        ghosts(cuts, interleaved_points(coordinates, 2), {.radius = 1}, MPI_COMM_WORLD);
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
         return error.what();

@@ -196,7 +196,7 @@ TEST(TreeShape, ghosts_are_the_points_near_the_boxes_of_other_ranks) {
         const std::vector<double> coordinates = cloud_here(2);
         const Points points = interleaved_points(coordinates, 2);
         const Cuts cuts = balance(points, options, MPI_COMM_WORLD).cuts;
-        const GhostPlan found = ghosts(cuts, points, radius, MPI_COMM_WORLD);
+        const GhostPlan found = ghosts(cuts, points, {.radius = radius}, MPI_COMM_WORLD);
         std::vector<std::size_t> expected;
         for (int to = 0; to < num_ranks(); ++to) {
             for (LocalIndex i = 0; i < points.count && to != rank(); ++i) {

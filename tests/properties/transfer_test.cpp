@@ -117,7 +117,7 @@ TEST(Ghosts, are_all_points_near_the_regions_of_a_rank_and_no_others) {
             const Points points = interleaved_points(held.coordinates, input.shape.dimension);
             const Cuts cuts = balance(points, input.options(), MPI_COMM_WORLD).cuts;
             const double radius = radius_of(input, cloud);
-            const GhostPlan lists = ghosts(cuts, points, radius, MPI_COMM_WORLD);
+            const GhostPlan lists = ghosts(cuts, points, {.radius = radius}, MPI_COMM_WORLD);
             const auto [owners, indices] =
                 fetch(lists, columns(held.owners, held.indices), MPI_COMM_WORLD, limits_of(input));
             std::size_t next = 0;

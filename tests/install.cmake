@@ -78,16 +78,20 @@ endif()
 find_package(Python3 COMPONENTS Interpreter QUIET)
 if(Python3_FOUND)
   file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/rrcb/*.h
+       ${PROJECT_SOURCE_DIR}/include/rrcb/c/*.h
        ${PROJECT_SOURCE_DIR}/include/rrcb/*.hpp
        ${PROJECT_SOURCE_DIR}/include/rrcb/method/*.hpp)
   add_test(NAME install.symbols
            COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/symbols.py
                    $<TARGET_FILE:rrcb_shared> ${headers})
+  add_test(NAME install.names
+           COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/names.py
+                   ${PROJECT_SOURCE_DIR})
   add_test(NAME install.spack
            COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/spack.py
                    ${PROJECT_SOURCE_DIR}/packaging/spack/package.py
                    ${PROJECT_BINARY_DIR}/CMakeCache.txt ${PROJECT_SOURCE_DIR})
-  set_tests_properties(install.symbols install.spack PROPERTIES LABELS install TIMEOUT 60)
+  set_tests_properties(install.symbols install.names install.spack PROPERTIES LABELS install TIMEOUT 60)
   if(RRCB_ZOLTAN AND RRCB_PKG_CONFIG AND RRCB_FORTRAN AND MPI_Fortran_HAVE_F08_MODULE)
     add_test(NAME first_steps COMMAND ${CMAKE_COMMAND} -E env CMAKE_GENERATOR=${CMAKE_GENERATOR}
                                       ${CMAKE_CURRENT_SOURCE_DIR}/first_steps/run ${prefix})

@@ -37,13 +37,15 @@ int main(int argc, char** argv) {
     rrcb_balancer* balancer = NULL;
     check(rrcb_create(MPI_COMM_WORLD, &balancer));
     check(rrcb_set(balancer, "imbalance_tolerance", "1.02"));
-    check(rrcb_balance(balancer, 2, count, coordinates, NULL, parts));
+    const rrcb_points points = rrcb_interleaved_points(2, count, coordinates, NULL);
+    check(rrcb_balance(balancer, &points, parts));
     check(rrcb_make_plan(balancer, count, parts));
 
     rrcb_plan plan;
     check(rrcb_get_plan(balancer, &plan));
     double* here = malloc(2 * plan.num_points_after * sizeof *here);
-    check(rrcb_transfer(balancer, 2 * sizeof *here, coordinates, here));
+    const rrcb_column column = {RRCB_DOUBLE, 2, coordinates, here};
+    check(rrcb_transfer(balancer, 1, &column, NULL, NULL));
 
     rrcb_report report;
     check(rrcb_get_report(balancer, &report));
@@ -52,7 +54,7 @@ int main(int argc, char** argv) {
         printf("rank 0 sends %zu points, receives %zu and holds %zu\n", plan.num_exports,
                plan.num_imports, plan.num_points_after);
     }
-    rrcb_free(balancer);
+    rrcb_destroy(balancer);
     free(here);
     free(parts);
     free(coordinates);

@@ -8,7 +8,7 @@ program quick_start
   type(rrcb_balancer) :: balancer
   type(rrcb_plan) :: plan
   type(rrcb_report) :: report
-  real(c_double), allocatable :: coordinates(:, :), here(:, :)
+  real(c_double), allocatable, target :: coordinates(:, :), here(:, :)
   integer(c_int32_t), allocatable :: parts(:)
   integer :: rank, error
 
@@ -17,11 +17,11 @@ program quick_start
   coordinates = squares_of(rank)
   allocate (parts(size(coordinates, 2)))
 
-  call balancer%create(MPI_COMM_WORLD%mpi_val, error)
+  call balancer%create(MPI_COMM_WORLD, error)
   call check(error)
   call balancer%set("imbalance_tolerance", "1.02", error)
   call check(error)
-  call balancer%balance(coordinates, parts, error)
+  call balancer%balance(rrcb_interleaved_points(coordinates), parts, error)
   call check(error)
   call balancer%make_plan(parts, error)
   call check(error)
@@ -29,7 +29,7 @@ program quick_start
   call balancer%get_plan(plan, error)
   call check(error)
   allocate (here(2, plan%num_points_after))
-  call balancer%transfer(coordinates, here, error)
+  call balancer%transfer([rrcb_column(coordinates, here)], error)
   call check(error)
 
   call balancer%get_report(report, error)
@@ -39,7 +39,7 @@ program quick_start
     print '(3(a, i0))', "rank 0 sends ", size(plan%export_parts), " points, receives ", &
       size(plan%import_parts), " and holds ", size(here, 2)
   end if
-  call balancer%free()
+  call balancer%destroy()
   call MPI_Finalize()
 
 contains

@@ -81,8 +81,8 @@ RRCB_API void move_back(const GhostPlan& plan, std::span<const ByteColumn> of_gh
                         TransferReport* report, MPI_Comm comm);
 
 template <class T>
-void add_each(std::span<const LocalIndex> points, std::size_t components,
-              const std::vector<T>& values, std::vector<T>& sums) {
+void add_each(std::span<const LocalIndex> points, std::size_t components, const T* values,
+              T* sums) {
     static_assert(std::is_arithmetic_v<T>, "only numbers can be added");
     for (std::size_t k = 0; k < points.size(); ++k)
         for (std::size_t c = 0; c < components; ++c) {
@@ -104,8 +104,8 @@ std::tuple<std::vector<T>...> accumulated(const GhostPlan& plan,
         const std::array<ByteColumn, sizeof...(T)> kept{
             byte_column(std::get<I>(of_points), std::get<I>(sums))...};
         move_back(plan, sent, kept, limits, report, comm);
-        (add_each(plan.send_indices, std::get<I>(of_points).components, std::get<I>(arrived),
-                  std::get<I>(sums)),
+        (add_each(plan.send_indices, std::get<I>(of_points).components, std::get<I>(arrived).data(),
+                  std::get<I>(sums).data()),
          ...);
         return sums;
     }

@@ -64,10 +64,8 @@ void require(const void* pointer, const char* name) {
         throw Error(ErrorCode::invalid_argument, std::string(name) + " is null");
 }
 
-void require_arrays(std::size_t count, const void* coordinates, const void* parts) {
-    if (count == 0) return;
-    require(coordinates, "coordinates");
-    require(parts, "parts");
+void require_array(std::size_t count, const void* values, const char* name) {
+    if (count > 0) require(values, name);
 }
 
 void require_cuts(const rrcb_balancer& own) {
@@ -101,7 +99,7 @@ const char* rrcb_last_error(void) {
     return rrcb::c::last_failure.text.data();
 }
 
-void rrcb_free(rrcb_balancer* balancer) {
+void rrcb_destroy(rrcb_balancer* balancer) {
     delete balancer;
 }
 
@@ -124,9 +122,18 @@ int rrcb_get_report(const rrcb_balancer* balancer, rrcb_report* report) {
                               "the balancer has no report yet; call rrcb_balance");
         const rrcb::Report& from = *own.report;
         const rrcb::ReportDetails& details = from.details;
-        *report = {from.imbalance,     from.within_tolerance ? 1 : 0, from.kept ? 1 : 0,
-                   details.num_points, details.total_weight,          details.least_imbalance,
-                   details.rounds};
+        *report = {from.imbalance,
+                   from.within_tolerance ? 1 : 0,
+                   from.kept ? 1 : 0,
+                   details.num_points,
+                   details.total_weight,
+                   details.least_imbalance,
+                   details.estimated_imbalance,
+                   details.num_records,
+                   details.rounds,
+                   details.coincident_cuts,
+                   details.all_weights_zero ? 1 : 0,
+                   details.surplus_parts};
     });
 }
 
@@ -154,6 +161,26 @@ int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts) {
     });
 }
 
+int rrcb_part_of(const rrcb_balancer* balancer, const double* position, int32_t* part) {
+    return guarded(balancer, [&](const auto& own) {
+        require(position, "position");
+        require(part, "part");
+        require_cuts(own);
+        rrcb::Vector at{};
+        std::copy_n(position, own.cuts.dimension, at.begin());
+        *part = rrcb::part_of(own.cuts, at);
+    });
+}
+
+int rrcb_assign(const rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts) {
+    return guarded(balancer, [&](const auto& own) {
+        require_cuts(own);
+        const rrcb::Points positions = rrcb::c::points_of(points);
+        rrcb::c::require_array(positions.count, parts, "parts");
+        rrcb::assign(own.cuts, positions, {parts, positions.count});
+    });
+}
+
 int rrcb_box_of(const rrcb_balancer* balancer, int32_t part, double* lower, double* upper) {
     return guarded(balancer, [&](const auto& own) {
         require(lower, "lower");
@@ -163,6 +190,27 @@ int rrcb_box_of(const rrcb_balancer* balancer, int32_t part, double* lower, doub
         std::ranges::copy(box.lower, lower);
         std::ranges::copy(box.upper, upper);
     });
+}
+
+int rrcb_parts_touching(const rrcb_balancer* balancer, const double* lower, const double* upper,
+                        size_t capacity, int32_t* parts, size_t* count) {
+    return guarded(balancer, [&](const auto& own) {
+        require(lower, "lower");
+        require(upper, "upper");
+        require(count, "count");
+        rrcb::c::require_array(capacity, parts, "parts");
+        require_cuts(own);
+        rrcb::Box box{{}, {}};
+        std::copy_n(lower, own.cuts.dimension, box.lower.begin());
+        std::copy_n(upper, own.cuts.dimension, box.upper.begin());
+        const std::vector<rrcb::Part> touching = rrcb::parts_touching(own.cuts, box);
+        *count = touching.size();
+        std::copy_n(touching.begin(), std::min(capacity, touching.size()), parts);
+    });
+}
+
+int rrcb_release_buffers(rrcb_balancer* balancer) {
+    return guarded(balancer, [](const auto& own) { rrcb::release_buffers(own.comm); });
 }
 
 int rrcb_get_plan(const rrcb_balancer* balancer, rrcb_plan* plan) {

@@ -9,6 +9,7 @@
 #include <mpi.h>
 
 #include <optional>
+#include <span>
 #include <vector>
 
 /// What a program in C holds by a pointer.
@@ -35,19 +36,28 @@ int guarded(Body&& body) noexcept {
 /// Throws the Error of a null pointer.
 void require(const void* pointer, const char* name);
 
-/// The same for the arrays of a call, of which points need all.
-void require_arrays(std::size_t count, const void* coordinates, const void* parts);
+/// The same for arrays, unless they are empty.
+void require_array(std::size_t count, const void* values, const char* name);
+
+/// View of the points of a call. Throws Error if there is none, or it has no coordinates.
+Points points_of(const rrcb_points* points);
+
+/// View of an array, none if it is null.
+template <class T>
+std::span<const T> view(const T* values, std::size_t count) {
+    return values == nullptr ? std::span<const T>() : std::span(values, count);
+}
 
 /// Throws Error unless the balancer has cuts, or a plan.
 void require_cuts(const rrcb_balancer& own);
 void require_plan(const rrcb_balancer& own);
 
-/// The same for functions of a balancer.
-template <class Balancer, class Body>
-int guarded(Balancer* balancer, Body&& body) noexcept {
+/// The same for functions of a handle.
+template <class Handle, class Body>
+int guarded(Handle* handle, Body&& body, const char* name = "balancer") noexcept {
     return guarded([&] {
-        require(balancer, "balancer");
-        body(*balancer);
+        require(handle, name);
+        body(*handle);
     });
 }
 

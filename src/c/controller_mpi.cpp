@@ -21,25 +21,17 @@ struct rrcb_cost_model {
 
 namespace {
 
+using rrcb::c::view;
+
 template <class Controller, class Body>
 int with(Controller* controller, Body&& body) noexcept {
-    return rrcb::c::guarded([&] {
-        rrcb::c::require(controller, "controller");
-        body(*controller->controller);
-    });
+    return rrcb::c::guarded(
+        controller, [&](auto& own) { body(*own.controller); }, "controller");
 }
 
 template <class Model, class Body>
 int with_model(Model* model, Body&& body) noexcept {
-    return rrcb::c::guarded([&] {
-        rrcb::c::require(model, "model");
-        body(*model);
-    });
-}
-
-/// View of an array, none if it is null.
-std::span<const double> view(const double* values, std::size_t count) {
-    return values == nullptr ? std::span<const double>() : std::span(values, count);
+    return rrcb::c::guarded(model, body, "model");
 }
 
 void store(bool is_due, int* due) {
@@ -120,7 +112,8 @@ int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, size_t num_col
             throw rrcb::Error(rrcb::ErrorCode::invalid_argument,
                               "the cost model has " + std::to_string(own.num_columns) +
                                   " columns, not " + std::to_string(num_columns));
-        rrcb::c::require_arrays(count, columns, weights);
+        rrcb::c::require_array(count, columns, "columns");
+        rrcb::c::require_array(count, weights, "weights");
         std::ranges::copy(own.model->weights(view(columns, count * own.num_columns)), weights);
     });
 }

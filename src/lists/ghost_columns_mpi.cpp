@@ -1,9 +1,8 @@
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "lists/delivery_mpi.hpp"
+#include "lists/ghosts_mpi.hpp"
 #include "options/rejection.hpp"
-
-#include <rrcb/ghosts.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -26,16 +25,17 @@ LocalIndex check(const GhostPlan& plan, int num_ranks) {
     return num_ghosts;
 }
 
+/// Copies a column, unless its result stands in its place.
 void copy(const ByteColumn& column) {
     std::byte* result = column.resize(column.result, column.num_values);
+    if (result == column.from) return;
     std::copy_n(column.from, column.num_values * column.value_bytes, result);
 }
 
 }  // namespace
 
-void detail::move(const GhostPlan& plan, std::span<const ByteColumn> columns,
-                  const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
+void move(const GhostPlan& plan, std::span<const ByteColumn> columns, const TransferLimits& limits,
+          TransferReport* report, Participant& self) {
     Delivery delivery{.num_points = plan.num_points, .sent = plan.send_indices};
     self.attempt([&] {
         check(plan, mpi::size_of(self.comm));
@@ -45,10 +45,9 @@ void detail::move(const GhostPlan& plan, std::span<const ByteColumn> columns,
     deliver(delivery, columns, limits, report, self);
 }
 
-void detail::move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
-                       std::span<const ByteColumn> of_points, const TransferLimits& limits,
-                       TransferReport* report, MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
+void move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
+               std::span<const ByteColumn> of_points, const TransferLimits& limits,
+               TransferReport* report, Participant& self) {
     Delivery delivery;
     std::vector<LocalIndex> all;
     self.attempt([&] {
@@ -67,6 +66,19 @@ void detail::move_back(const GhostPlan& plan, std::span<const ByteColumn> of_gho
         delivery.from = plan.send;
     });
     deliver(delivery, of_ghosts, limits, report, self);
+}
+
+void detail::move(const GhostPlan& plan, std::span<const ByteColumn> columns,
+                  const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
+    Participant self{mpi::duplicate_of(user)};
+    rrcb::move(plan, columns, limits, report, self);
+}
+
+void detail::move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
+                       std::span<const ByteColumn> of_points, const TransferLimits& limits,
+                       TransferReport* report, MPI_Comm user) {
+    Participant self{mpi::duplicate_of(user)};
+    rrcb::move_back(plan, of_ghosts, of_points, limits, report, self);
 }
 
 }  // namespace rrcb

@@ -1,3 +1,5 @@
+#include "lists/ghosts_mpi.hpp"
+
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
@@ -11,8 +13,6 @@
 #include "options/rejection.hpp"
 #include "options/request.hpp"
 #include "options/validation.hpp"
-
-#include <rrcb/ghosts.hpp>
 
 #include <algorithm>
 #include <array>
@@ -265,8 +265,7 @@ GhostPlan ghosts(const Cuts& cuts, const GhostRequest& request, Participant& sel
 }  // namespace
 
 GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
-                 MPI_Comm comm) {
-    Participant self{mpi::duplicate_of(comm)};
+                 Participant& self) {
     GhostRequest request{
         points,
         {options.radius, options.radii},
@@ -276,6 +275,12 @@ GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& opt
     GhostPlan plan = ghosts(cuts, request, self);
     if (options.periodic) plan.periodic = *options.periodic;
     return plan;
+}
+
+GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
+                 MPI_Comm comm) {
+    Participant self{mpi::duplicate_of(comm)};
+    return ghosts(cuts, points, options, self);
 }
 
 void apply_shifts(const GhostPlan& plan, std::span<double> positions) {

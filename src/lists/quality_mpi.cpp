@@ -69,8 +69,7 @@ std::vector<double> part_weights(const Points& points, const Balance& balance, M
 }
 
 double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
-                      MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
+                      Participant& self) {
     std::array<double, 2> sums{};  // weight that moves, all weight
     self.attempt([&] {
         check_arguments(points, parts, num_parts);
@@ -86,6 +85,12 @@ double moved_fraction(const Points& points, std::span<const Part> parts, int num
     agree_on_parts(num_parts, self);
     sum_over_ranks(sums, self.comm);
     return sums[1] == 0 ? 0 : sums[0] / sums[1];
+}
+
+double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
+                      MPI_Comm user) {
+    Participant self{mpi::duplicate_of(user)};
+    return moved_fraction(points, parts, num_parts, self);
 }
 
 double moved_fraction(const Points& points, const Balance& balance, MPI_Comm comm) {

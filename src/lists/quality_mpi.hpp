@@ -14,4 +14,8 @@ namespace rrcb {
 std::vector<double> part_weights(const Points& points, std::span<const Part> parts, int num_parts,
                                  Participant& self);
 
+/// The same of moved_fraction().
+double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
+                      Participant& self);
+
 }  // namespace rrcb

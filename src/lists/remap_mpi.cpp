@@ -212,17 +212,6 @@ void check_parts(std::span<const Part> parts, const PreviousParts& previous,
                    " is none of the " + std::to_string(num_parts) + " parts");
 }
 
-/// Chooses between the two ways as a balance with default options does.
-Remap remap_by_size(std::span<const Part> parts, const PreviousParts& previous,
-                    std::span<const RankRange> ranks_of_parts, const TreeShape& shape,
-                    MPI_Comm user) {
-    Participant self{mpi::duplicate_of(user)};
-    const auto num_ranks = static_cast<std::size_t>(mpi::size_of(self.comm));
-    const bool is_spread = std::min(ranks_of_parts.size(), num_ranks) >
-                           static_cast<std::size_t>(Tuning{}.central_parts);
-    return remap(parts, previous, ranks_of_parts, shape, is_spread, self);
-}
-
 }  // namespace
 
 std::uint64_t hash_of(std::span<const RankRange> ranks_of_parts) {
@@ -276,14 +265,24 @@ Remap remap(std::span<const Part> parts, const PreviousParts& previous,
     return result;
 }
 
+Remap remap(std::span<const Part> parts, const PreviousParts& previous,
+            std::span<const RankRange> ranks_of_parts, const TreeShape& shape, Participant& self) {
+    const auto num_ranks = static_cast<std::size_t>(mpi::size_of(self.comm));
+    const bool is_spread = std::min(ranks_of_parts.size(), num_ranks) >
+                           static_cast<std::size_t>(Tuning{}.central_parts);
+    return remap(parts, previous, ranks_of_parts, shape, is_spread, self);
+}
+
 Remap remap(std::span<const Part> parts, std::span<const RankRange> ranks_of_parts, MPI_Comm user,
             const TreeShape& shape) {
-    return remap_by_size(parts, std::nullopt, ranks_of_parts, shape, user);
+    Participant self{mpi::duplicate_of(user)};
+    return remap(parts, std::nullopt, ranks_of_parts, shape, self);
 }
 
 Remap remap(std::span<const Part> parts, std::span<const Part> previous,
             std::span<const RankRange> ranks_of_parts, MPI_Comm user, const TreeShape& shape) {
-    return remap_by_size(parts, previous, ranks_of_parts, shape, user);
+    Participant self{mpi::duplicate_of(user)};
+    return remap(parts, PreviousParts(previous), ranks_of_parts, shape, self);
 }
 
 }  // namespace rrcb

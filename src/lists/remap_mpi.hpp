@@ -81,4 +81,8 @@ Remap remap(std::span<const Part> parts, const PreviousParts& previous,
             std::span<const RankRange> ranks_of_parts, const TreeShape& shape, bool is_spread,
             Participant& self);
 
+/// The same, in the way that a balance with default options takes. Collective.
+Remap remap(std::span<const Part> parts, const PreviousParts& previous,
+            std::span<const RankRange> ranks_of_parts, const TreeShape& shape, Participant& self);
+
 }  // namespace rrcb

@@ -8,15 +8,31 @@ program module_test
   type(rrcb_balancer) :: balancer, other
   type(rrcb_controller) :: controller
   type(rrcb_cost_model) :: model
+  type(rrcb_ghosts) :: ghosts
   type(rrcb_plan) :: plan
+  type(rrcb_ghost_plan) :: ghost_plan
   type(rrcb_report) :: report
-  type(rrcb_cut), pointer :: cuts(:)
-  real(c_double), allocatable :: x(:, :), weights(:), moved(:, :), moved_weights(:)
-  integer(c_int32_t), allocatable :: parts(:), again(:), numbers(:), moved_numbers(:)
-  integer(c_int64_t), allocatable :: long_numbers(:), moved_long_numbers(:)
-  real(c_double) :: lower(3), upper(3), columns(2)
+  type(rrcb_transfer_report) :: messages
+  type(rrcb_kept) :: kept
+  type(rrcb_rank_range) :: ranks
+  type(rrcb_cuts) :: cuts
+  real(c_double), allocatable, target :: x(:, :), weights(:), moved(:, :), moved_weights(:)
+  real(c_float), allocatable, target :: short(:), moved_short(:)
+  integer(c_int32_t), allocatable, target :: numbers(:), moved_numbers(:)
+  integer(c_int32_t), allocatable :: parts(:), again(:)
+  integer(c_int64_t), allocatable, target :: long_numbers(:), moved_long_numbers(:)
+  real(c_double), allocatable, target :: images(:, :)
+  real(c_double), target :: sizes(3) = [1, 3, 2]
+  real(c_double) :: lower(3), upper(3), columns(2), of_parts(3), value
+  integer(c_int32_t) :: part, new_numbers(3)
+  type :: particle
+    real(c_double) :: mass, x
+  end type
+  type(particle), allocatable, target :: particles(:)
+  real(c_double), allocatable, target :: positions(:)
+  type(rrcb_points) :: points
   integer, parameter :: counts(3) = [50, 150, 100]
-  integer :: rank, error, code, dimension, i, num_points
+  integer :: rank, error, code, i, k, num_points, kind_of_box
 
   call MPI_Init(error)
   call MPI_Comm_rank(MPI_COMM_WORLD, rank, error)
@@ -26,14 +42,17 @@ program module_test
   weights = 2
   numbers = [(i, i=1, num_points)]
   long_numbers = numbers*10000000000_c_int64_t
+  short = real(numbers, c_float)/2
+  allocate (particles(num_points))
+  particles%x = x(1, :)
 
   call balancer%create(MPI_COMM_WORLD, error)
   call expect(error == rrcb_ok, "create")
   call balancer%set("refine", "EXACT", error)
   call expect(error == rrcb_ok, "set")
-  call balancer%set_part_sizes([1.0_c_double, 3.0_c_double, 2.0_c_double], error)
+  call balancer%set_part_sizes(sizes, error)
   call expect(error == rrcb_ok, "set_part_sizes")
-  call balancer%balance(x, parts, error, weights)
+  call balancer%balance(rrcb_interleaved_points(x, weights), parts, error)
   call expect(error == rrcb_ok, "balance")
   ! Of sizes 1, 3 and 2: points 1 to 50, 51 to 200 and the rest.
   call expect(all(parts == merge(0, merge(1, 2, numbers <= 200), numbers <= 50)), "parts")
@@ -43,27 +62,67 @@ program module_test
 
   call balancer%gather_cuts(error)
   call expect(error == rrcb_ok, "gather_cuts")
-  call balancer%get_cuts(dimension, cuts, error)
-  call expect(error == rrcb_ok .and. dimension == 1 .and. size(cuts) == 2, "cuts")
-  call expect(cuts(1)%axis == 0 .and. cuts(1)%at(1) > 50 .and. cuts(1)%at(1) <= 51, "first cut")
+  call balancer%get_cuts(cuts, error)
+  call expect(error == rrcb_ok .and. cuts%dimension == 1 .and. size(cuts%tree) == 2, "cuts")
+  associate (at => cuts%tree(1)%at(1))
+    call expect(cuts%tree(1)%axis == 1 .and. at > 50 .and. at <= 51, "first cut")
+  end associate
   call balancer%box_of(1_c_int32_t, lower, upper, error)
-  call expect(lower(1) == cuts(1)%at(1) .and. upper(1) == cuts(2)%at(1), "box_of")
+  call expect(lower(1) == cuts%tree(1)%at(1) .and. upper(1) == cuts%tree(2)%at(1), "box_of")
+  call balancer%part_of([60.0_c_double], part, error)
+  call expect(error == rrcb_ok .and. part == 1, "part_of")
+  call balancer%parts_touching([40.0_c_double], [60.0_c_double], again, error)
+  call expect(error == rrcb_ok .and. size(again) == 2 .and. all(again == [0, 1]), "parts_touching")
 
   call other%create(MPI_COMM_WORLD, error)
-  call other%assign(x, again, error)
-  call expect(error == rrcb_invalid_argument .or. num_points == 0, "assign without cuts")
-  call other%set_cuts(dimension, cuts, error)
+  deallocate (again)
+  allocate (again(num_points))
+  call other%assign(rrcb_interleaved_points(x), again, error)
+  call expect(error == rrcb_invalid_argument, "assign without cuts")
+  call other%set_cuts(cuts, error)
   call expect(error == rrcb_ok, "set_cuts")
-  call other%assign(x, again, error)
+  call other%assign(rrcb_interleaved_points(x), again, error)
   call expect(error == rrcb_ok .and. all(again == parts), "assign")
   again = -1
-  call other%assign_all(x, again, error)
+  points = rrcb_points(dimension=1, count=num_points, stride=storage_size(particles)/8)
+  if (num_points > 0) points%axes(1) = c_loc(particles(1)%x)
+  call other%assign(points, again, error)
+  call expect(error == rrcb_ok .and. all(again == parts), "assign by components")
+  again = -1
+  positions = x(1, :)
+  call other%assign_all(rrcb_column_points(positions), again, error)
   call expect(error == rrcb_ok .and. all(again == parts), "assign_all")
   again = -1
   call other%set("refine", "NONE", error)
-  call other%rebalance(x, again, error)
+  call other%rebalance(rrcb_interleaved_points(x), again, error)
   call expect(error == rrcb_ok .and. all(again == parts), "rebalance")
-  call other%free()
+  call other%rebalance(rrcb_interleaved_points(x), again(2:), error)
+  call expect(error == rrcb_invalid_argument, "too few parts")
+  call other%rebalance(rrcb_interleaved_points(x, sizes), again, error)
+  call expect(error == rrcb_invalid_argument, "weights of other points")
+  call other%destroy()
+
+  call balancer%part_weights(rrcb_interleaved_points(x, weights), parts, of_parts, error)
+  call expect(error == rrcb_ok .and. all(of_parts == [100, 300, 200]), "part_weights")
+  call rrcb_imbalance(of_parts, value, error, sizes)
+  call expect(error == rrcb_ok .and. value == 1, "rrcb_imbalance")
+  call rrcb_load_unbalance_percent(of_parts, lower, error)
+  call expect(error == rrcb_ok .and. lower(2) == -50, "rrcb_load_unbalance_percent")
+  call rrcb_worst_load_unbalance_percent(of_parts, value, error)
+  call expect(error == rrcb_ok .and. value == 50, "rrcb_worst_load_unbalance_percent")
+  call balancer%moved_fraction(rrcb_interleaved_points(x), parts, value, error)
+  call expect(error == rrcb_ok .and. abs(value - 5.0_c_double/6) < 1e-15, "moved_fraction")
+  call rrcb_bounding_box(rrcb_interleaved_points(x), lower, upper, error)
+  call expect(error == rrcb_ok .and. (upper(1) == 300 .or. rank > 0), "rrcb_bounding_box")
+  call rrcb_ranks_of_part(2_c_int32_t, 3, 7, ranks, error)
+  call expect(error == rrcb_ok .and. ranks%first_rank == 5 .and. ranks%count == 2, "ranks_of_part")
+  ! All points are on rank 0, where the largest part is to be.
+  call balancer%remap(parts, new_numbers, error, kept=kept)
+  call expect(error == rrcb_ok .and. new_numbers(2) == 0 .and. kept%kept_after == 150, "remap")
+  call balancer%remap(parts, new_numbers, error, previous=parts)
+  call expect(error == rrcb_ok .and. all(new_numbers == [0, 1, 2]), "remap of previous")
+  call balancer%remap(parts, new_numbers, error, previous=[parts, 0])
+  call expect(error == rrcb_invalid_argument, "remap of too many")
 
   call balancer%make_plan(parts, error)
   call expect(error == rrcb_ok, "make_plan")
@@ -72,28 +131,57 @@ program module_test
   call expect(plan%num_points_after == num_points, "points after")
   call expect(size(plan%export_indices) == merge(250, 0, rank == 0), "exports")
   call expect(size(plan%import_ranks) == merge(0, num_points, rank == 0), "imports")
-  if (rank == 0) call expect(plan%export_indices(1) == 50 .and. plan%export_ranks(1) == 1, "export")
+  if (rank == 0) call expect(plan%export_indices(1) == 51 .and. plan%export_ranks(1) == 1, "export")
   allocate (moved(1, num_points), moved_weights(num_points), moved_numbers(num_points), &
-            moved_long_numbers(num_points))
-  call balancer%transfer(x, moved, error)
-  call expect(error == rrcb_ok, "transfer of vectors")
-  call balancer%transfer(weights, moved_weights, error)
-  call expect(error == rrcb_ok, "transfer of reals")
-  call balancer%transfer(numbers, moved_numbers, error)
-  call expect(error == rrcb_ok, "transfer of integers")
-  call balancer%transfer(long_numbers, moved_long_numbers, error)
-  call expect(error == rrcb_ok, "transfer of long integers")
+            moved_long_numbers(num_points), moved_short(num_points))
+  call balancer%transfer([rrcb_column(x, moved), rrcb_column(weights, moved_weights), &
+    rrcb_column(numbers, moved_numbers), rrcb_column(long_numbers, moved_long_numbers), &
+    rrcb_column(short, moved_short)], error, limit=4096_c_size_t, report=messages)
+  call expect(error == rrcb_ok .and. messages%bytes_sent == merge(250*32, 0, rank == 0), "transfer")
   numbers = [(i, i=1, num_points)] + sum(counts(:rank))
   call expect(all(moved(1, :) == numbers) .and. all(moved_numbers == numbers), "moved numbers")
   call expect(all(moved_long_numbers == numbers*10000000000_c_int64_t), "moved long numbers")
-  call expect(all(moved_weights == 2), "moved weights")
+  call expect(all(moved_weights == 2) .and. all(moved_short == numbers*0.5), "moved reals")
+
+  ! Points within 2 of the next part, and of the box that repeats after 300.
+  do kind_of_box = 1, 2
+    if (kind_of_box == 1) then
+      call ghosts%create(balancer, rrcb_interleaved_points(moved), error, radius=2.0_c_double)
+    else
+      call ghosts%create(balancer, rrcb_interleaved_points(moved), error, radius=2.0_c_double, &
+        lower=[0.5_c_double, 0.0_c_double, 0.0_c_double], &
+        upper=[300.5_c_double, 1.0_c_double, 1.0_c_double])
+    end if
+    call expect(error == rrcb_ok, "create ghosts")
+    call ghosts%get_plan(ghost_plan, error)
+    i = num_ghosts(kind_of_box == 2)
+    call expect(ghost_plan%num_ghosts == i .and. sum(ghost_plan%receive_counts) == i, "ghosts")
+    if (rank == 0) call expect(maxval(ghost_plan%send_indices) == 50, "send_indices")
+    allocate (images(1, i))
+    call ghosts%fetch([rrcb_column(moved, images)], error)
+    call expect(error == rrcb_ok, "fetch")
+    call ghosts%apply_shifts(images, error)
+    call expect(error == rrcb_ok .and. all([(is_near(images(1, k)), k=1, i)]), "images")
+    short = [(1.0_c_float, error=1, i)]
+    moved_short = 0
+    call ghosts%accumulate([rrcb_column(short, moved_short)], error)
+    call expect(error == rrcb_ok .and. nint(sum(moved_short)) == sum(ghost_plan%send_counts), "accumulate")
+    if (kind_of_box == 2) call expect(allocated(ghost_plan%shifts), "shifts")
+    deallocate (images)
+    call ghosts%destroy()
+  end do
+  call ghosts%create(balancer, rrcb_interleaved_points(moved), error, radii=0*moved_weights)
+  call expect(error == rrcb_ok, "ghosts by radii")
+  call ghosts%destroy()
+  call balancer%release_buffers(error)
+  call expect(error == rrcb_ok, "release_buffers")
 
   call balancer%set("colour", "blue", code)
   call expect(code == rrcb_invalid_argument, "code of an error")
   call expect(index(rrcb_last_error(), 'no option "colour"') > 0, "text of an error")
   call expect(index(rrcb_build_info(), "version: "//rrcb_version()) == 1, "build_info")
-  call balancer%free()
-  call balancer%balance(x, parts, error)
+  call balancer%destroy()
+  call balancer%balance(rrcb_interleaved_points(x), parts, error)
   call expect(error == rrcb_invalid_argument, "balance after free")
   call expect(.not. controller%due(), "due before create")
   call controller%create(MPI_COMM_WORLD, error)
@@ -118,17 +206,35 @@ program module_test
   call model%step(1.0_c_double, [1.0_c_double], error)
   call model%step(1.0_c_double, columns, error)
   call expect(error == rrcb_invalid_argument, "another number of columns")
-  call model%free()
-  call controller%free()
+  call model%destroy()
+  call controller%destroy()
 
   call controller%create(MPI_COMM_WORLD, error)
   call controller%step(1.0_c_double, error)
   call controller%step(1.0_c_double, error, points=10.0_c_double)
   call expect(error == rrcb_ok .and. .not. controller%due(), "step of the controller")
-  call controller%free()
+  call controller%destroy()
   call MPI_Finalize(error)
 
 contains
+
+  logical function is_near(position)
+    real(c_double), intent(in) :: position
+    call balancer%box_of(int(rank, c_int32_t), lower, upper, code)
+    lower(1) = max(lower(1), 0.5_c_double)
+    upper(1) = min(upper(1), 300.5_c_double)
+    is_near = position >= lower(1) - 2 .and. position <= upper(1) + 2
+  end function
+
+  !> Other points near the part of this rank, or images of any.
+  integer function num_ghosts(is_periodic)
+    logical, intent(in) :: is_periodic
+    num_ghosts = 0
+    do k = merge(-299, 1, is_periodic), merge(600, 300, is_periodic)
+      if (any(moved(1, :) == k)) cycle
+      if (is_near(real(k, c_double))) num_ghosts = num_ghosts + 1
+    end do
+  end function
 
   subroutine expect(condition, what)
     logical, intent(in) :: condition

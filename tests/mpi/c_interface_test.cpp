@@ -38,17 +38,20 @@ struct Cloud {
     }
     std::size_t count() const { return weights.size(); }
     Points points() const { return interleaved_points(coordinates, dimension, weights); }
+    rrcb_points in_c() const {
+        return rrcb_interleaved_points(dimension, count(), coordinates.data(), weights.data());
+    }
 };
 
 class CInterface : public testing::Test {
   protected:
     void SetUp() override { ASSERT_EQ(rrcb_create(MPI_COMM_WORLD, &balancer), RRCB_OK); }
-    void TearDown() override { rrcb_free(balancer); }
+    void TearDown() override { rrcb_destroy(balancer); }
 
     int balance(const Cloud& cloud) {
         parts.assign(cloud.count(), -1);
-        return rrcb_balance(balancer, cloud.dimension, cloud.count(), cloud.coordinates.data(),
-                            cloud.weights.data(), parts.data());
+        const rrcb_points points = cloud.in_c();
+        return rrcb_balance(balancer, &points, parts.data());
     }
 
     rrcb_balancer* balancer = nullptr;
@@ -112,33 +115,31 @@ TEST_F(CInterface, starts_from_cuts_that_it_is_given) {
     rrcb_cuts cuts;
     ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
 
+    const rrcb_points points = cloud.in_c();
     rrcb_balancer* other = nullptr;
     ASSERT_EQ(rrcb_create(MPI_COMM_WORLD, &other), RRCB_OK);
     ASSERT_EQ(rrcb_set_cuts(other, &cuts), RRCB_OK);
     parts.assign(cloud.count(), -1);
-    ASSERT_EQ(rrcb_assign(other, cloud.count(), cloud.coordinates.data(), parts.data()), RRCB_OK);
+    ASSERT_EQ(rrcb_assign(other, &points, parts.data()), RRCB_OK);
     EXPECT_EQ(parts, first);
     parts.assign(cloud.count(), -1);
     ASSERT_EQ(rrcb_gather_cuts(other), RRCB_OK);
-    ASSERT_EQ(rrcb_assign_all(other, cloud.count(), cloud.coordinates.data(), parts.data()),
-              RRCB_OK);
+    ASSERT_EQ(rrcb_assign_all(other, &points, parts.data()), RRCB_OK);
     EXPECT_EQ(parts, first);
     parts.assign(cloud.count(), -1);
-    ASSERT_EQ(rrcb_rebalance(other, 2, cloud.count(), cloud.coordinates.data(),
-                             cloud.weights.data(), parts.data()),
-              RRCB_OK);
+    ASSERT_EQ(rrcb_rebalance(other, &points, parts.data()), RRCB_OK);
     EXPECT_EQ(parts, first);
 
     const Vector middle{0.5, 0.5};
     std::int32_t part = -1;
-    ASSERT_EQ(rrcb_assign(other, 1, middle.data(), &part), RRCB_OK);
+    ASSERT_EQ(rrcb_part_of(other, middle.data(), &part), RRCB_OK);
     Box box;
     ASSERT_EQ(rrcb_box_of(other, part, box.lower.data(), box.upper.data()), RRCB_OK);
     for (std::size_t a = 0; a < 2; ++a) {
         EXPECT_LE(box.lower[a], middle[a]);
         EXPECT_GE(box.upper[a], middle[a]);
     }
-    rrcb_free(other);
+    rrcb_destroy(other);
 }
 
 TEST_F(CInterface, moves_points_along_the_plan_of_a_call_in_cpp) {
@@ -161,9 +162,16 @@ TEST_F(CInterface, moves_points_along_the_plan_of_a_call_in_cpp) {
     EXPECT_TRUE(equal(shown.import_parts, shown.num_imports, expected.import_parts));
 
     std::vector<double> here(3 * shown.num_points_after);
-    ASSERT_EQ(rrcb_transfer(balancer, 3 * sizeof(double), cloud.coordinates.data(), here.data()),
-              RRCB_OK);
+    std::vector<std::int32_t> parts_here(shown.num_points_after);
+    const std::array moved{rrcb_column{RRCB_DOUBLE, 3, cloud.coordinates.data(), here.data()},
+                           rrcb_column{RRCB_INT32, 1, parts.data(), parts_here.data()}};
+    const rrcb_transfer_limits limits{1 << 12};
+    rrcb_transfer_report report;
+    ASSERT_EQ(rrcb_transfer(balancer, 2, moved.data(), &limits, &report), RRCB_OK);
     EXPECT_EQ(here, transfer(expected, column(cloud.coordinates, 3), MPI_COMM_WORLD));
+    EXPECT_EQ(parts_here, transfer(expected, parts, MPI_COMM_WORLD));
+    EXPECT_EQ(report.bytes_sent, 28 * shown.num_exports);
+    EXPECT_LE(report.peak_bytes, limits.bytes);
 }
 
 TEST_F(CInterface, what_is_wrong_on_one_rank_fails_on_all) {
@@ -172,7 +180,9 @@ TEST_F(CInterface, what_is_wrong_on_one_rank_fails_on_all) {
     cloud.weights.push_back(1);
     parts.resize(cloud.count());
     const auto call = [&](int dimension, const double* coordinates, std::int32_t* out) {
-        return rrcb_balance(balancer, dimension, cloud.count(), coordinates, nullptr, out);
+        const rrcb_points points =
+            rrcb_interleaved_points(dimension, cloud.count(), coordinates, nullptr);
+        return rrcb_balance(balancer, &points, out);
     };
     const double* coordinates = cloud.coordinates.data();
     const int invalid = RRCB_INVALID_ARGUMENT;
@@ -187,40 +197,51 @@ TEST_F(CInterface, what_is_wrong_on_one_rank_fails_on_all) {
 
     if (is_last_rank()) cloud.coordinates.back() = 0.5;
     ASSERT_EQ(call(2, coordinates, parts.data()), RRCB_OK) << rrcb_last_error();
+    const rrcb_points points = cloud.in_c();
+    const rrcb_points* given = is_last_rank() ? nullptr : &points;
     std::int32_t* none_there = is_last_rank() ? nullptr : parts.data();
-    expect_error_everywhere(rrcb_assign_all(balancer, cloud.count(), coordinates, none_there),
-                            invalid, "parts is null");
+    double fraction;
+    expect_error_everywhere(rrcb_rebalance(balancer, given, parts.data()), invalid,
+                            "points is null");
+    for (const int code : {rrcb_assign_all(balancer, &points, none_there),
+                           rrcb_rebalance(balancer, &points, none_there),
+                           rrcb_make_plan(balancer, cloud.count(), none_there),
+                           rrcb_moved_fraction(balancer, &points, none_there, &fraction)})
+        expect_error_everywhere(code, invalid, "parts is null");
     expect_error_everywhere(
-        rrcb_rebalance(balancer, 2, cloud.count(), coordinates, nullptr, none_there), invalid,
-        "parts is null");
-    const std::int32_t* given = is_last_rank() ? nullptr : parts.data();
-    expect_error_everywhere(rrcb_make_plan(balancer, cloud.count(), given), invalid,
-                            "parts is null");
-    ASSERT_EQ(rrcb_make_plan(balancer, cloud.count(), parts.data()), RRCB_OK);
-    rrcb_plan plan;
-    ASSERT_EQ(rrcb_get_plan(balancer, &plan), RRCB_OK);
-    std::vector<double> here(plan.num_points_after);
-    const double* weights = cloud.weights.data();
+        rrcb_remap(balancer, cloud.count(), parts.data(), nullptr, nullptr, none_there, nullptr),
+        invalid, "numbers is null");
     expect_error_everywhere(
-        rrcb_transfer(balancer, sizeof(double), is_last_rank() ? nullptr : weights, here.data()),
-        invalid, "from is null");
-    const std::size_t bytes = is_last_rank() ? 4 : 8;
-    if (num_ranks() > 1)
-        expect_error_everywhere(rrcb_transfer(balancer, bytes, weights, here.data()), invalid, "");
-    ASSERT_EQ(rrcb_transfer(balancer, 8, weights, here.data()), RRCB_OK);
+        rrcb_part_weights(balancer, &points, parts.data(), is_last_rank() ? nullptr : &fraction),
+        invalid, "result is null");
 }
 
-TEST_F(CInterface, rank_without_room_fails_on_all) {
+TEST_F(CInterface, columns_that_are_wrong_on_one_rank_fail_on_all) {
     // Every rank holds a point of each part, so that points come to all.
     std::vector<double> x(static_cast<std::size_t>(num_ranks()));
     std::iota(x.begin(), x.end(), 0.0);
     parts.resize(x.size());
-    ASSERT_EQ(rrcb_balance(balancer, 1, x.size(), x.data(), nullptr, parts.data()), RRCB_OK);
+    const rrcb_points points = rrcb_interleaved_points(1, x.size(), x.data(), nullptr);
+    ASSERT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK);
     ASSERT_EQ(rrcb_make_plan(balancer, x.size(), parts.data()), RRCB_OK);
     std::vector<double> here(x.size());
+    const rrcb_column right{RRCB_DOUBLE, 1, x.data(), here.data()};
+    const auto move = [&](const rrcb_column& there) {
+        return rrcb_transfer(balancer, 1, is_last_rank() ? &there : &right, nullptr, nullptr);
+    };
+    const int invalid = RRCB_INVALID_ARGUMENT;
+    expect_error_everywhere(move({RRCB_DOUBLE, 1, nullptr, here.data()}), invalid, "from is null");
+    expect_error_everywhere(move({RRCB_DOUBLE, 1, x.data(), nullptr}), invalid, "to is null");
+    expect_error_everywhere(move({static_cast<rrcb_type>(7), 1, x.data(), here.data()}), invalid,
+                            "rrcb_type");
     expect_error_everywhere(
-        rrcb_transfer(balancer, sizeof(double), x.data(), is_last_rank() ? nullptr : here.data()),
-        RRCB_INVALID_ARGUMENT, "to is null");
+        rrcb_transfer(balancer, 1, is_last_rank() ? nullptr : &right, nullptr, nullptr), invalid,
+        "columns is null");
+    if (num_ranks() > 1) {
+        expect_error_everywhere(move({RRCB_FLOAT, 1, x.data(), here.data()}), invalid, "4 bytes");
+        expect_error_everywhere(move({RRCB_INT64, 1, x.data(), here.data()}), invalid, "whole");
+    }
+    ASSERT_EQ(move(right), RRCB_OK);
 }
 
 TEST_F(CInterface, options_that_differ_fail_on_all) {
@@ -256,7 +277,7 @@ TEST_F(CInterface, names_what_it_does_not_know) {
         EXPECT_EQ(rrcb_set_cuts(balancer, &nowhere), RRCB_INVALID_ARGUMENT);
         EXPECT_NE(std::strstr(rrcb_last_error(), "1, 2 or 3 dimensions"), nullptr);
     }
-    rrcb_free(nullptr);
+    rrcb_destroy(nullptr);
 }
 
 TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {
@@ -268,23 +289,33 @@ TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {
     rrcb_plan plan;
     Box box;
     std::int32_t part = 0;
-    const double x[] = {0.5, 0.5};
+    double x[] = {0.5, 0.5};
     double y[2];
+    const rrcb_points points = rrcb_interleaved_points(2, 1, x, nullptr);
+    const rrcb_column column{RRCB_DOUBLE, 1, x, y};
+    const rrcb_ghost_options options{};
+    rrcb_ghosts* ghosts = nullptr;
+    std::size_t count = 0;
     expect_missing(rrcb_get_report(balancer, &report), "report yet");
     expect_missing(rrcb_get_cuts(balancer, &cuts), "cuts yet");
     expect_missing(rrcb_get_plan(balancer, &plan), "plan yet");
     expect_missing(rrcb_box_of(balancer, 0, box.lower.data(), box.upper.data()), "cuts yet");
-    expect_missing(rrcb_assign(balancer, 1, x, &part), "cuts yet");
-    expect_missing(rrcb_assign_all(balancer, 1, x, &part), "cuts yet");
+    expect_missing(rrcb_assign(balancer, &points, &part), "cuts yet");
+    expect_missing(rrcb_assign_all(balancer, &points, &part), "cuts yet");
     expect_missing(rrcb_gather_cuts(balancer), "cuts yet");
-    expect_missing(rrcb_rebalance(balancer, 2, 1, x, nullptr, &part), "cuts yet");
+    expect_missing(rrcb_rebalance(balancer, &points, &part), "cuts yet");
     expect_missing(rrcb_make_plan(balancer, 1, &part), "cuts yet");
-    expect_missing(rrcb_transfer(balancer, 8, x, y), "plan yet");
+    expect_missing(rrcb_transfer(balancer, 1, &column, nullptr, nullptr), "plan yet");
+    expect_missing(rrcb_part_of(balancer, x, &part), "cuts yet");
+    expect_missing(rrcb_parts_touching(balancer, x, x, 1, &part, &count), "cuts yet");
+    expect_missing(rrcb_part_weights(balancer, &points, &part, y), "cuts yet");
+    expect_missing(rrcb_remap(balancer, 1, &part, nullptr, nullptr, &part, nullptr), "cuts yet");
+    expect_missing(rrcb_ghosts_create(balancer, &points, &options, &ghosts), "cuts yet");
 
     const rrcb_cuts given{2, 1, nullptr, 1, 0};
     ASSERT_EQ(rrcb_set_cuts(balancer, &given), RRCB_OK);
     EXPECT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
-    EXPECT_EQ(rrcb_assign(balancer, 1, x, &part), RRCB_OK);
+    EXPECT_EQ(rrcb_assign(balancer, &points, &part), RRCB_OK);
     for (const std::int32_t none : {-1, 1, 1000})
         EXPECT_EQ(rrcb_box_of(balancer, none, box.lower.data(), box.upper.data()),
                   RRCB_INVALID_ARGUMENT);

@@ -1,0 +1,76 @@
+#ifndef RRCB_C_GHOSTS_H
+#define RRCB_C_GHOSTS_H
+
+#include <rrcb/c/balancer.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Points that ranks send and receive as ghosts, and their communicator. */
+typedef struct rrcb_ghosts rrcb_ghosts;
+
+/** Distances at which points are needed, and where points and parts are; as rrcb::GhostOptions. */
+typedef struct rrcb_ghost_options {
+    double radius;       /**< cut-off of all points, in the unit of the coordinates */
+    const double* radii; /**< one for each point instead; null: none */
+    int each_radius;     /**< 1: by `radii`, also on ranks without points */
+    const double* lower; /**< of the periodic box, of length 3; null: none */
+    const double* upper; /**< of the same box */
+    const rrcb_rank_range* ranks_of_parts; /**< an entry for each part, as after rrcb_remap; null:
+                                              as by rrcb_ranks_of_part */
+} rrcb_ghost_options;
+
+/** Lists of points sent and received as ghosts, as rrcb::GhostPlan; indices count from 0. */
+typedef struct rrcb_ghost_plan {
+    size_t num_points;              /**< that this rank holds */
+    size_t num_ghosts;              /**< that it gets */
+    size_t num_send_ranks;          /**< length of `send` */
+    const rrcb_rank_count* send;    /**< how many points which ranks need; ranks ascending */
+    size_t num_sent;                /**< length of `send_indices` */
+    const size_t* send_indices;     /**< for one rank after the other, ascending for each */
+    size_t num_receive_ranks;       /**< length of `receive` */
+    const rrcb_rank_count* receive; /**< how many come from which ranks; ranks ascending */
+    const int32_t* shifts;          /**< three for each ghost: periods along each axis; null without
+                                         a periodic box */
+} rrcb_ghost_plan;
+
+/** Finds the points that other ranks need, from the cuts of the balancer; as rrcb::ghosts. They
+ *  belong to the caller and do not need the balancer any more.
+ *
+ *  Collective. If it fails, `*ghosts` is left unchanged. */
+RRCB_API int rrcb_ghosts_create(const rrcb_balancer* balancer, const rrcb_points* points,
+                                const rrcb_ghost_options* options, rrcb_ghosts** ghosts);
+
+/** Frees ghosts, which may be null, and what they have given. Not collective. */
+RRCB_API void rrcb_ghosts_destroy(rrcb_ghosts* ghosts);
+
+/** Shows the lists, which belong to the ghosts. Not collective. */
+RRCB_API int rrcb_ghosts_get_plan(const rrcb_ghosts* ghosts, rrcb_ghost_plan* plan);
+
+/** Fetches columns of the ghosts, as rrcb::fetch, which also says how long `ghosts` may be used.
+ *
+ *  Collective. A column has an entry for each of plan.num_points points, its result for each of
+ *  plan.num_ghosts. `limits` may be null, for the default, and so may `report`. */
+RRCB_API int rrcb_ghosts_fetch(const rrcb_ghosts* ghosts, size_t num_columns,
+                               const rrcb_column* columns, const rrcb_transfer_limits* limits,
+                               rrcb_transfer_report* report);
+
+/** Adds values of ghosts to those of their points, such as forces, as rrcb::accumulate.
+ *
+ *  Collective, otherwise as rrcb_ghosts_fetch. `from` has an entry for each ghost, `to` holds those
+ *  of the points, to which they are added. No type is RRCB_BYTE. If it fails, `to` is unchanged,
+ *  except on a rank on which a message fails. */
+RRCB_API int rrcb_ghosts_accumulate(const rrcb_ghosts* ghosts, size_t num_columns,
+                                    const rrcb_column* columns, const rrcb_transfer_limits* limits,
+                                    rrcb_transfer_report* report);
+
+/** Moves fetched positions, interleaved, to those of the images, as rrcb::apply_shifts. Not
+ *  collective. `length` is that of `positions`. */
+RRCB_API int rrcb_ghosts_apply_shifts(const rrcb_ghosts* ghosts, size_t length, double* positions);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,52 @@
+#ifndef RRCB_C_POINTS_H
+#define RRCB_C_POINTS_H
+
+#include <rrcb/export.h>
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Type of a value. */
+typedef enum rrcb_type {
+    RRCB_BYTE = 0,  /**< of a value of any other type: such values are moved, not added */
+    RRCB_INT32 = 1, /**< int32_t */
+    RRCB_INT64 = 2, /**< int64_t */
+    RRCB_FLOAT = 3, /**< float */
+    RRCB_DOUBLE = 4 /**< double */
+} rrcb_type;
+
+/** Borrowed view of one rank's points, as rrcb::Points. Zero is a view of no points of no
+ * dimension.
+ *
+ *  Coordinate a of point i lies at axes[a] + i * stride bytes. */
+typedef struct rrcb_points {
+    int dimension;         /**< 1 to 3, on every rank the same */
+    rrcb_type type;        /**< of the coordinates, RRCB_DOUBLE */
+    size_t count;          /**< points of this rank */
+    size_t stride;         /**< from a point to the next, in bytes */
+    const void* axes[3];   /**< first coordinate on each axis */
+    const double* weights; /**< one per point, or null: every point weighs 1 */
+} rrcb_points;
+
+/** Returns a view of `count` points stored one after another. Not collective. */
+RRCB_API rrcb_points rrcb_interleaved_points(int dimension, size_t count, const double* coordinates,
+                                             const double* weights);
+
+/** Returns a view of one array per axis, of which the axes beyond the dimension are ignored. Not
+ *  collective. */
+RRCB_API rrcb_points rrcb_column_points(int dimension, size_t count, const double* const* columns,
+                                        const double* weights);
+
+/** Writes the smallest box that holds all points, `lower` and `upper` of length 3; as
+ *  rrcb::bounding_box. Not collective. */
+RRCB_API int rrcb_bounding_box(const rrcb_points* points, double* lower, double* upper);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

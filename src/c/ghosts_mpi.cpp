@@ -1,0 +1,216 @@
+#include "lists/ghosts_mpi.hpp"
+
+#include "c/columns.hpp"
+#include "c/handle_mpi.hpp"
+#include "options/rejection.hpp"
+
+#include <algorithm>
+#include <optional>
+
+struct rrcb_ghosts {
+    MPI_Comm comm = MPI_COMM_NULL;
+    rrcb::GhostPlan plan{};
+    std::vector<rrcb_rank_count> send{};
+    std::vector<rrcb_rank_count> receive{};
+
+    std::size_t num_ghosts() const {
+        std::size_t sum = 0;
+        for (const rrcb_rank_count& share : receive) sum += share.count;
+        return sum;
+    }
+};
+
+namespace rrcb::c {
+
+namespace {
+
+/// Options of a call, with what they borrow.
+struct KeptOptions {
+    GhostOptions options{};
+    std::vector<RankRange> ranks{};
+
+    void read(const rrcb_ghost_options* from, LocalIndex num_points, int num_parts) {
+        require(from, "options");
+        options.radius = from->radius;
+        if (from->each_radius != 0) {
+            require_array(num_points, from->radii, "radii");
+            options.radii = view(from->radii, num_points);
+        }
+        if (from->lower != nullptr || from->upper != nullptr) {
+            require(from->lower, "lower");
+            require(from->upper, "upper");
+            options.periodic.emplace();
+            std::copy_n(from->lower, max_dimension, options.periodic->lower.begin());
+            std::copy_n(from->upper, max_dimension, options.periodic->upper.begin());
+        }
+        if (from->ranks_of_parts == nullptr) return;
+        for (int part = 0; part < num_parts; ++part)
+            ranks.push_back(
+                {from->ranks_of_parts[part].first_rank, from->ranks_of_parts[part].count});
+        options.ranks_of_parts = ranks;
+    }
+};
+
+std::vector<rrcb_rank_count> counts_of(std::span<const RankCount> counts) {
+    std::vector<rrcb_rank_count> result;
+    for (const RankCount& share : counts) result.push_back({share.rank, share.count});
+    return result;
+}
+
+void make_ghosts(const rrcb_balancer& own, const rrcb_points* given,
+                 const rrcb_ghost_options* given_options, rrcb_ghosts** ghosts) {
+    auto made = make_handle(own.comm, ghosts, "ghosts");
+    Participant self{mpi::duplicate_of(own.comm)};
+    Points points;
+    KeptOptions kept;
+    self.attempt([&] {
+        require_cuts(own);
+        points = points_of(given);
+        kept.read(given_options, points.count, own.cuts.num_parts);
+    });
+    made->comm = own.comm;
+    made->plan = rrcb::ghosts(own.cuts, points, kept.options, self);
+    self.attempt([&] {
+        made->send = counts_of(made->plan.send);
+        made->receive = counts_of(made->plan.receive);
+    });
+    agree(self);
+    *ghosts = made.release();
+}
+
+/// Values of ghosts as they arrive at their points.
+struct Arrived {
+    std::vector<std::byte> values{};
+    std::size_t value_bytes = 1;
+
+    static std::byte* resize(void* arrived, std::size_t num_values) {
+        auto& own = *static_cast<Arrived*>(arrived);
+        own.values.resize(num_values * own.value_bytes);
+        return own.values.data();
+    }
+};
+
+template <class T>
+void add(std::span<const LocalIndex> points, const rrcb_column& column, const Arrived& arrived) {
+    detail::add_each(points, column.components, reinterpret_cast<const T*>(arrived.values.data()),
+                     static_cast<T*>(column.to));
+}
+
+void add_values(std::span<const LocalIndex> points, const rrcb_column& column,
+                const Arrived& arrived) {
+    switch (column.type) {
+        case RRCB_INT32:
+            return add<int32_t>(points, column, arrived);
+        case RRCB_INT64:
+            return add<int64_t>(points, column, arrived);
+        case RRCB_FLOAT:
+            return add<float>(points, column, arrived);
+        case RRCB_DOUBLE:
+            return add<double>(points, column, arrived);
+        case RRCB_BYTE:
+            return;
+    }
+}
+
+void accumulate(const rrcb_ghosts& own, std::span<const rrcb_column> columns,
+                const TransferLimits& limits, TransferReport& report, Participant& self) {
+    std::vector<detail::ByteColumn> of_ghosts;
+    std::vector<detail::ByteColumn> of_points;
+    std::vector<Arrived> arrived;
+    self.attempt([&] {
+        of_ghosts = columns_of(columns, own.num_ghosts());
+        arrived.resize(columns.size());
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            if (columns[k].type == RRCB_BYTE) reject("only numbers can be added");
+            arrived[k].value_bytes = of_ghosts[k].value_bytes;
+            of_points.push_back(of_ghosts[k]);
+            of_points[k].from = static_cast<const std::byte*>(columns[k].to);
+            of_points[k].num_values = own.plan.num_points * columns[k].components;
+            of_ghosts[k].result = &arrived[k];
+            of_ghosts[k].resize = Arrived::resize;
+        }
+    });
+    move_back(own.plan, of_ghosts, of_points, limits, &report, self);
+    for (std::size_t k = 0; k < columns.size(); ++k)
+        add_values(own.plan.send_indices, columns[k], arrived[k]);
+}
+
+}  // namespace
+
+}  // namespace rrcb::c
+
+using rrcb::Participant;
+using rrcb::c::guarded;
+
+int rrcb_ghosts_create(const rrcb_balancer* balancer, const rrcb_points* points,
+                       const rrcb_ghost_options* options, rrcb_ghosts** ghosts) {
+    return guarded(balancer,
+                   [&](const auto& own) { rrcb::c::make_ghosts(own, points, options, ghosts); });
+}
+
+void rrcb_ghosts_destroy(rrcb_ghosts* ghosts) {
+    delete ghosts;
+}
+
+int rrcb_ghosts_get_plan(const rrcb_ghosts* ghosts, rrcb_ghost_plan* plan) {
+    return guarded(
+        ghosts,
+        [&](const auto& own) {
+            rrcb::c::require(plan, "plan");
+            const rrcb::GhostPlan& from = own.plan;
+            *plan = {from.num_points,
+                     own.num_ghosts(),
+                     own.send.size(),
+                     own.send.data(),
+                     from.send_indices.size(),
+                     from.send_indices.data(),
+                     own.receive.size(),
+                     own.receive.data(),
+                     from.shifts.empty() ? nullptr : from.shifts.front().data()};
+        },
+        "ghosts");
+}
+
+int rrcb_ghosts_fetch(const rrcb_ghosts* ghosts, size_t num_columns, const rrcb_column* columns,
+                      const rrcb_transfer_limits* limits, rrcb_transfer_report* report) {
+    return guarded(
+        ghosts,
+        [&](const auto& own) {
+            Participant self{rrcb::mpi::duplicate_of(own.comm)};
+            std::vector<rrcb::detail::ByteColumn> moved;
+            self.attempt([&] {
+                moved = rrcb::c::columns_of(rrcb::c::given_columns(columns, num_columns),
+                                            own.plan.num_points);
+            });
+            rrcb::TransferReport made;
+            rrcb::move(own.plan, moved, rrcb::c::limits_of(limits), &made, self);
+            rrcb::c::store(made, report);
+        },
+        "ghosts");
+}
+
+int rrcb_ghosts_accumulate(const rrcb_ghosts* ghosts, size_t num_columns,
+                           const rrcb_column* columns, const rrcb_transfer_limits* limits,
+                           rrcb_transfer_report* report) {
+    return guarded(
+        ghosts,
+        [&](const auto& own) {
+            Participant self{rrcb::mpi::duplicate_of(own.comm)};
+            std::span<const rrcb_column> given;
+            self.attempt([&] { given = rrcb::c::given_columns(columns, num_columns); });
+            rrcb::TransferReport made;
+            rrcb::c::accumulate(own, given, rrcb::c::limits_of(limits), made, self);
+            rrcb::c::store(made, report);
+        },
+        "ghosts");
+}
+
+int rrcb_ghosts_apply_shifts(const rrcb_ghosts* ghosts, size_t length, double* positions) {
+    return guarded(
+        ghosts,
+        [&](const auto& own) {
+            rrcb::c::require_array(length, positions, "positions");
+            rrcb::apply_shifts(own.plan, {positions, length});
+        },
+        "ghosts");
+}

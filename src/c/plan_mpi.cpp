@@ -1,0 +1,88 @@
+#include "lists/plan_mpi.hpp"
+
+#include "c/columns.hpp"
+#include "collective/duplicate.hpp"
+#include "lists/remap_mpi.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace rrcb::c {
+
+namespace {
+
+/// The ranks of all parts: those that are given, or those of ranks_of_part().
+std::vector<RankRange> ranks_of_parts(const rrcb_rank_range* given, int num_parts, int num_ranks) {
+    std::vector<RankRange> ranks;
+    for (Part part = 0; part < num_parts; ++part)
+        ranks.push_back(given == nullptr ? ranks_of_part(part, num_parts, num_ranks)
+                                         : RankRange{given[part].first_rank, given[part].count});
+    return ranks;
+}
+
+}  // namespace
+
+}  // namespace rrcb::c
+
+using rrcb::Participant;
+using rrcb::c::guarded;
+using rrcb::c::require_array;
+using rrcb::mpi::duplicate_of;
+
+int rrcb_ranks_of_part(int32_t part, int num_parts, int num_ranks, rrcb_rank_range* ranks) {
+    return guarded([&] {
+        rrcb::c::require(ranks, "ranks");
+        const rrcb::RankRange from = rrcb::ranks_of_part(part, num_parts, num_ranks);
+        *ranks = {from.first_rank, from.count};
+    });
+}
+
+int rrcb_make_plan(rrcb_balancer* balancer, size_t count, const int32_t* parts) {
+    return guarded(balancer, [&](auto& own) {
+        Participant self{duplicate_of(own.comm)};
+        self.attempt([&] {
+            rrcb::c::require_cuts(own);
+            require_array(count, parts, "parts");
+        });
+        own.plan = rrcb::plan(rrcb::c::view(parts, count), own.cuts.num_parts, self);
+    });
+}
+
+int rrcb_transfer(rrcb_balancer* balancer, size_t num_columns, const rrcb_column* columns,
+                  const rrcb_transfer_limits* limits, rrcb_transfer_report* report) {
+    return guarded(balancer, [&](auto& own) {
+        Participant self{duplicate_of(own.comm)};
+        std::vector<rrcb::detail::ByteColumn> moved;
+        self.attempt([&] {
+            rrcb::c::require_plan(own);
+            moved = rrcb::c::columns_of(rrcb::c::given_columns(columns, num_columns),
+                                        own.plan->num_points);
+        });
+        const rrcb::Plan none;
+        rrcb::TransferReport made;
+        rrcb::move(own.plan ? *own.plan : none, moved, rrcb::c::limits_of(limits), &made, self);
+        rrcb::c::store(made, report);
+    });
+}
+
+int rrcb_remap(rrcb_balancer* balancer, size_t count, const int32_t* parts, const int32_t* previous,
+               const rrcb_rank_range* ranks_of_parts, int32_t* numbers, rrcb_kept* kept) {
+    return guarded(balancer, [&](auto& own) {
+        Participant self{duplicate_of(own.comm)};
+        std::vector<rrcb::RankRange> ranks;
+        self.attempt([&] {
+            rrcb::c::require_cuts(own);
+            require_array(count, parts, "parts");
+            rrcb::c::require(numbers, "numbers");
+            ranks = rrcb::c::ranks_of_parts(ranks_of_parts, own.cuts.num_parts,
+                                            rrcb::mpi::size_of(self.comm));
+        });
+        rrcb::PreviousParts earlier;
+        if (previous != nullptr) earlier = rrcb::c::view(previous, count);
+        const rrcb::Remap made =
+            rrcb::remap(rrcb::c::view(parts, count), earlier, ranks, own.cuts.shape, self);
+        std::ranges::copy(made.numbers, numbers);
+        if (kept != nullptr)
+            *kept = {made.identity ? 1 : 0, made.num_points, made.kept_before, made.kept_after};
+    });
+}

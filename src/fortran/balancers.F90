@@ -1,0 +1,297 @@
+!> A balancer: communicator, options, cuts and plan.
+module rrcb_balancers
+  use, intrinsic :: iso_c_binding
+  use rrcb_types
+  use rrcb_c_balancer
+#ifdef RRCB_MPI_F08
+  use mpi_f08, only: MPI_Comm
+#endif
+  implicit none
+  private
+
+  !> A copy is the same balancer; one of them is destroyed.
+  type, public :: rrcb_balancer
+    type(c_ptr) :: handle = c_null_ptr                      !< for the library
+  contains
+    procedure, private :: create_by_number
+#ifdef RRCB_MPI_F08
+    procedure, private :: create_by_type
+    generic :: create => create_by_type
+#endif
+    generic :: create => create_by_number                   !< collective over the communicator
+    procedure :: destroy
+    procedure :: set
+    procedure :: set_part_sizes
+    procedure :: balance                                    !< collective
+    procedure :: rebalance                                  !< collective
+    procedure :: release_buffers
+    procedure :: get_report
+    procedure :: get_cuts
+    procedure :: gather_cuts                                !< collective
+    procedure :: set_cuts
+    procedure :: part_of
+    procedure :: assign
+    procedure :: assign_all                                 !< collective
+    procedure :: box_of
+    procedure :: parts_touching
+    procedure :: make_plan                                  !< collective
+    procedure :: get_plan
+    procedure :: transfer => transfer_columns               !< collective
+    procedure :: remap                                      !< collective
+    procedure :: part_weights                               !< collective
+    procedure :: moved_fraction                             !< collective
+  end type
+
+contains
+
+  subroutine create_by_number(self, comm, error)
+    class(rrcb_balancer), intent(inout) :: self
+    integer, intent(in) :: comm
+    integer, intent(out) :: error
+    error = c_create(int(comm, c_int), self%handle)
+  end subroutine
+
+#ifdef RRCB_MPI_F08
+  subroutine create_by_type(self, comm, error)
+    class(rrcb_balancer), intent(inout) :: self
+    type(MPI_Comm), intent(in) :: comm
+    integer, intent(out) :: error
+    call self%create(comm%mpi_val, error)
+  end subroutine
+#endif
+
+  subroutine destroy(self)
+    class(rrcb_balancer), intent(inout) :: self
+    call c_destroy(self%handle)
+    self%handle = c_null_ptr
+  end subroutine
+
+  subroutine set(self, option, value, error)
+    class(rrcb_balancer), intent(inout) :: self
+    character(*), intent(in) :: option, value
+    integer, intent(out) :: error
+    error = c_set(self%handle, option//c_null_char, value//c_null_char)
+  end subroutine
+
+  subroutine set_part_sizes(self, sizes, error)
+    class(rrcb_balancer), intent(inout) :: self
+    real(c_double), intent(in), contiguous :: sizes(:)
+    integer, intent(out) :: error
+    error = c_set_part_sizes(self%handle, size(sizes, kind=c_size_t), sizes)
+  end subroutine
+
+  !> `parts` has an entry for each point.
+  subroutine balance(self, points, parts, error)
+    class(rrcb_balancer), intent(inout) :: self
+    type(rrcb_points), intent(in) :: points
+    integer(c_int32_t), intent(inout), target, contiguous :: parts(:)
+    integer, intent(out) :: error
+    error = c_balance(self%handle, points, place_of(parts, points%count))
+  end subroutine
+
+  !> The same from the cuts that the balancer has, for points that moved little since.
+  subroutine rebalance(self, points, parts, error)
+    class(rrcb_balancer), intent(inout) :: self
+    type(rrcb_points), intent(in) :: points
+    integer(c_int32_t), intent(inout), target, contiguous :: parts(:)
+    integer, intent(out) :: error
+    error = c_rebalance(self%handle, points, place_of(parts, points%count))
+  end subroutine
+
+  !> Frees the buffers that calls on the communicator keep for the next ones.
+  subroutine release_buffers(self, error)
+    class(rrcb_balancer), intent(inout) :: self
+    integer, intent(out) :: error
+    error = c_release_buffers(self%handle)
+  end subroutine
+
+  subroutine get_report(self, report, error)
+    class(rrcb_balancer), intent(in) :: self
+    type(rrcb_report), intent(inout) :: report
+    integer, intent(out) :: error
+    error = c_get_report(self%handle, report)
+  end subroutine
+
+  !> An error before the first balance, and if the balancer holds a part of the cuts only.
+  subroutine get_cuts(self, cuts, error)
+    class(rrcb_balancer), intent(in) :: self
+    type(rrcb_cuts), intent(inout) :: cuts
+    integer, intent(out) :: error
+    type(c_cuts) :: from
+    type(rrcb_cut), pointer :: tree(:)
+    error = c_get_cuts(self%handle, from)
+    call c_f_pointer(from%tree, tree, [from%num_parts - 1])
+    cuts%dimension = from%dimension
+    cuts%group_size = from%group_size
+    cuts%larger_below = from%larger_below == 1
+    cuts%tree = tree
+    cuts%tree%axis = cuts%tree%axis + 1
+  end subroutine
+
+  !> Gives each rank's balancer all cuts, if each holds a part of them.
+  subroutine gather_cuts(self, error)
+    class(rrcb_balancer), intent(inout) :: self
+    integer, intent(out) :: error
+    error = c_gather_cuts(self%handle)
+  end subroutine
+
+  !> Copies cuts of an earlier run.
+  subroutine set_cuts(self, cuts, error)
+    class(rrcb_balancer), intent(inout) :: self
+    type(rrcb_cuts), intent(in) :: cuts
+    integer, intent(out) :: error
+    type(rrcb_cut), allocatable, target :: tree(:)
+    type(c_cuts) :: given
+    allocate (tree, source=cuts%tree)
+    tree%axis = tree%axis - 1
+    given = c_cuts(cuts%dimension, size(tree) + 1, c_null_ptr, cuts%group_size, &
+                   merge(1, 0, cuts%larger_below))
+    if (size(tree) > 0) given%tree = c_loc(tree)
+    error = c_set_cuts(self%handle, given)
+  end subroutine
+
+  !> `position` has an entry for each axis of the points.
+  subroutine part_of(self, position, part, error)
+    class(rrcb_balancer), intent(in) :: self
+    real(c_double), intent(in) :: position(:)
+    integer(c_int32_t), intent(inout) :: part
+    integer, intent(out) :: error
+    error = c_part_of(self%handle, three_of(position), part)
+  end subroutine
+
+  pure function three_of(values) result(three)
+    real(c_double), intent(in) :: values(:)
+    real(c_double) :: three(3)
+    three = 0
+    three(:min(size(values), 3)) = values(:min(size(values), 3))
+  end function
+
+  subroutine assign(self, points, parts, error)
+    class(rrcb_balancer), intent(in) :: self
+    type(rrcb_points), intent(in) :: points
+    integer(c_int32_t), intent(inout), target, contiguous :: parts(:)
+    integer, intent(out) :: error
+    error = c_assign(self%handle, points, place_of(parts, points%count))
+  end subroutine
+
+  !> The same wherever the cuts are held.
+  subroutine assign_all(self, points, parts, error)
+    class(rrcb_balancer), intent(in) :: self
+    type(rrcb_points), intent(in) :: points
+    integer(c_int32_t), intent(inout), target, contiguous :: parts(:)
+    integer, intent(out) :: error
+    error = c_assign_all(self%handle, points, place_of(parts, points%count))
+  end subroutine
+
+  subroutine box_of(self, part, lower, upper, error)
+    class(rrcb_balancer), intent(in) :: self
+    integer(c_int32_t), intent(in) :: part
+    real(c_double), intent(inout) :: lower(3), upper(3)
+    integer, intent(out) :: error
+    error = c_box_of(self%handle, part, lower, upper)
+  end subroutine
+
+  !> The parts that a box touches, whose ends have an entry for each axis of the points.
+  subroutine parts_touching(self, lower, upper, parts, error)
+    class(rrcb_balancer), intent(in) :: self
+    real(c_double), intent(in) :: lower(:), upper(:)
+    integer(c_int32_t), allocatable, intent(inout) :: parts(:)
+    integer, intent(out) :: error
+    integer(c_size_t) :: count
+    count = 16
+    do
+      if (allocated(parts)) deallocate (parts)
+      allocate (parts(count))
+      error = c_parts_touching(self%handle, three_of(lower), three_of(upper), &
+                               size(parts, kind=c_size_t), parts, count)
+      if (error /= rrcb_ok) count = 0
+      if (count <= size(parts)) exit
+    end do
+    parts = parts(:count)
+  end subroutine
+
+  subroutine make_plan(self, parts, error)
+    class(rrcb_balancer), intent(inout) :: self
+    integer(c_int32_t), intent(in), contiguous :: parts(:)
+    integer, intent(out) :: error
+    error = c_make_plan(self%handle, size(parts, kind=c_size_t), parts)
+  end subroutine
+
+  subroutine get_plan(self, plan, error)
+    class(rrcb_balancer), intent(in) :: self
+    type(rrcb_plan), intent(inout) :: plan
+    integer, intent(out) :: error
+    type(c_plan) :: from
+    error = c_get_plan(self%handle, from)
+    plan%num_points = from%num_points
+    plan%num_points_after = from%num_points_after
+    plan%export_indices = indices_at(from%export_indices, from%num_exports)
+    plan%export_ranks = numbers_at(from%export_ranks, from%num_exports)
+    plan%export_parts = numbers_at(from%export_parts, from%num_exports)
+    plan%import_indices = indices_at(from%import_indices, from%num_imports)
+    plan%import_ranks = numbers_at(from%import_ranks, from%num_imports)
+    plan%import_parts = numbers_at(from%import_parts, from%num_imports)
+  end subroutine
+
+  !> Moves columns: first the points that stay, then those that come.
+  subroutine transfer_columns(self, columns, error, limit, report)
+    class(rrcb_balancer), intent(inout) :: self
+    type(rrcb_column), intent(in) :: columns(:)
+    integer, intent(out) :: error
+    integer(c_size_t), intent(in), target, optional :: limit
+    type(rrcb_transfer_report), intent(inout), target, optional :: report
+    type(c_ptr) :: limits, made
+    limits = c_null_ptr
+    made = c_null_ptr
+    if (present(limit)) limits = c_loc(limit)
+    if (present(report)) made = c_loc(report)
+    error = c_transfer(self%handle, size(columns, kind=c_size_t), columns, limits, made)
+  end subroutine
+
+  !> Writes the new number of part p to numbers(p + 1). `previous` has the part that each point was
+  !> in; without it points stay on their ranks.
+  subroutine remap(self, parts, numbers, error, previous, ranks_of_parts, kept)
+    class(rrcb_balancer), intent(inout) :: self
+    integer(c_int32_t), intent(in), target, contiguous :: parts(:)
+    integer(c_int32_t), intent(inout), contiguous :: numbers(:)
+    integer, intent(out) :: error
+    integer(c_int32_t), intent(in), target, contiguous, optional :: previous(:)
+    type(rrcb_rank_range), intent(in), target, contiguous, optional :: ranks_of_parts(:)
+    type(rrcb_kept), intent(inout), target, optional :: kept
+    integer(c_int32_t), target :: nothing(1)
+    type(c_ptr) :: now, earlier, ranks, made
+    now = place_of(parts, size(parts, kind=c_size_t))
+    earlier = c_null_ptr
+    ranks = c_null_ptr
+    made = c_null_ptr
+    if (present(previous)) then
+      earlier = c_loc(nothing)
+      if (size(previous) > 0) earlier = c_loc(previous)
+      if (size(previous) /= size(parts)) now = c_null_ptr
+    end if
+    if (present(ranks_of_parts)) ranks = c_loc(ranks_of_parts)
+    if (present(kept)) made = c_loc(kept)
+    error = c_remap(self%handle, size(parts, kind=c_size_t), now, earlier, ranks, numbers, made)
+  end subroutine
+
+  !> Writes the weight of part p over all ranks to weights(p + 1).
+  subroutine part_weights(self, points, parts, weights, error)
+    class(rrcb_balancer), intent(in) :: self
+    type(rrcb_points), intent(in) :: points
+    integer(c_int32_t), intent(in), target, contiguous :: parts(:)
+    real(c_double), intent(inout), contiguous :: weights(:)
+    integer, intent(out) :: error
+    error = c_part_weights(self%handle, points, place_of(parts, points%count), weights)
+  end subroutine
+
+  !> Writes the share of the weight whose rank changes.
+  subroutine moved_fraction(self, points, parts, fraction, error)
+    class(rrcb_balancer), intent(in) :: self
+    type(rrcb_points), intent(in) :: points
+    integer(c_int32_t), intent(in), target, contiguous :: parts(:)
+    real(c_double), intent(inout) :: fraction
+    integer, intent(out) :: error
+    error = c_moved_fraction(self%handle, points, place_of(parts, points%count), fraction)
+  end subroutine
+
+end module rrcb_balancers

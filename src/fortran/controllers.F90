@@ -1,0 +1,174 @@
+!> When to rebalance, and what points cost.
+module rrcb_controllers
+  use, intrinsic :: iso_c_binding
+  use rrcb_types
+  use rrcb_c_functions
+  use rrcb_functions
+#ifdef RRCB_MPI_F08
+  use mpi_f08, only: MPI_Comm
+#endif
+  implicit none
+  private
+
+  !> Decides when to rebalance. A copy is the same controller; one of them is destroyed.
+  type, public :: rrcb_controller
+    type(c_ptr) :: handle = c_null_ptr                      !< for the library
+  contains
+    procedure, private :: controller_create
+#ifdef RRCB_MPI_F08
+    procedure, private :: controller_create_by_type
+    generic :: create => controller_create_by_type
+#endif
+    generic :: create => controller_create                  !< collective over the communicator
+    procedure :: destroy => controller_destroy              !< collective
+    procedure :: step => controller_step                    !< collective
+    procedure :: due => controller_due
+    procedure :: rebalanced => controller_rebalanced
+  end type
+
+  !> Learns what points cost. A copy is the same model; one of them is destroyed.
+  type, public :: rrcb_cost_model
+    type(c_ptr) :: handle = c_null_ptr                      !< for the library
+  contains
+    procedure, private :: cost_model_create
+#ifdef RRCB_MPI_F08
+    procedure, private :: cost_model_create_by_type
+    generic :: create => cost_model_create_by_type
+#endif
+    generic :: create => cost_model_create                  !< collective over the communicator
+    procedure :: destroy => cost_model_destroy              !< collective
+    procedure :: step => cost_model_step                    !< collective
+    procedure :: weights => cost_model_weights
+    procedure :: costs => cost_model_costs
+    procedure :: uses_costs => cost_model_uses_costs
+    procedure :: report => cost_model_report
+  end type
+
+contains
+
+#ifdef RRCB_MPI_F08
+  subroutine controller_create_by_type(self, comm, error)
+    class(rrcb_controller), intent(inout) :: self
+    type(MPI_Comm), intent(in) :: comm
+    integer, intent(out) :: error
+    call self%create(comm%mpi_val, error)
+  end subroutine
+
+  subroutine cost_model_create_by_type(self, comm, num_columns, error, controller)
+    class(rrcb_cost_model), intent(inout) :: self
+    type(MPI_Comm), intent(in) :: comm
+    integer, intent(in) :: num_columns
+    integer, intent(out) :: error
+    class(rrcb_controller), intent(in), optional :: controller
+    call self%create(comm%mpi_val, num_columns, error, controller)
+  end subroutine
+#endif
+
+  subroutine controller_create(self, comm, error)
+    class(rrcb_controller), intent(inout) :: self
+    integer, intent(in) :: comm
+    integer, intent(out) :: error
+    error = c_controller_create(int(comm, c_int), self%handle)
+  end subroutine
+
+  subroutine controller_destroy(self)
+    class(rrcb_controller), intent(inout) :: self
+    call c_controller_destroy(self%handle)
+    self%handle = c_null_ptr
+  end subroutine
+
+  !> With the points of this rank, or the sum of their weights, the load is smoothed.
+  subroutine controller_step(self, load, error, points)
+    class(rrcb_controller), intent(inout) :: self
+    real(c_double), intent(in) :: load
+    integer, intent(out) :: error
+    real(c_double), intent(in), optional :: points
+    integer(c_int) :: due
+    if (present(points)) then
+      error = c_controller_step_points(self%handle, load, points, due)
+    else
+      error = c_controller_step(self%handle, load, due)
+    end if
+  end subroutine
+
+  !> Whether to rebalance before the next step; false for a controller that was not created.
+  function controller_due(self) result(due)
+    class(rrcb_controller), intent(in) :: self
+    logical :: due
+    integer(c_int) :: answer
+    answer = 0
+    due = c_controller_due(self%handle, answer) == rrcb_ok .and. answer == 1
+  end function
+
+  subroutine controller_rebalanced(self, cost, error, report)
+    class(rrcb_controller), intent(inout) :: self
+    real(c_double), intent(in) :: cost
+    integer, intent(out) :: error
+    type(rrcb_report), intent(in), target, optional :: report
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(report)) address = c_loc(report)
+    error = c_controller_rebalanced(self%handle, address, cost)
+  end subroutine
+
+  !> Its sums travel with the steps of `controller`, which has recorded none and is destroyed later.
+  subroutine cost_model_create(self, comm, num_columns, error, controller)
+    class(rrcb_cost_model), intent(inout) :: self
+    integer, intent(in) :: comm, num_columns
+    integer, intent(out) :: error
+    class(rrcb_controller), intent(in), optional :: controller
+    type(c_ptr) :: steps
+    steps = c_null_ptr
+    if (present(controller)) steps = controller%handle
+    error = c_cost_model_create(int(comm, c_int), steps, int(num_columns, c_int), self%handle)
+  end subroutine
+
+  subroutine cost_model_destroy(self)
+    class(rrcb_cost_model), intent(inout) :: self
+    call c_cost_model_destroy(self%handle)
+    self%handle = c_null_ptr
+  end subroutine
+
+  subroutine cost_model_step(self, seconds, columns, error)
+    class(rrcb_cost_model), intent(inout) :: self
+    real(c_double), intent(in) :: seconds
+    real(c_double), intent(in), contiguous :: columns(:)
+    integer, intent(out) :: error
+    error = c_cost_model_step(self%handle, seconds, size(columns, kind=c_size_t), columns)
+  end subroutine
+
+  !> `columns` has the shape (columns, points), `weights` an entry for each point.
+  subroutine cost_model_weights(self, columns, weights, error)
+    class(rrcb_cost_model), intent(inout) :: self
+    real(c_double), intent(in), contiguous :: columns(:, :)
+    real(c_double), intent(out), contiguous :: weights(:)
+    integer, intent(out) :: error
+    error = c_cost_model_weights(self%handle, size(weights, kind=c_size_t), &
+      size(columns, 1, kind=c_size_t), columns, weights)
+  end subroutine
+
+  !> `costs` has an entry for each column.
+  subroutine cost_model_costs(self, costs, error)
+    class(rrcb_cost_model), intent(in) :: self
+    real(c_double), intent(inout), contiguous :: costs(:)
+    integer, intent(out) :: error
+    error = c_cost_model_costs(self%handle, costs)
+  end subroutine
+
+  !> Whether weights are by the costs; false for a model that was not created.
+  function cost_model_uses_costs(self) result(uses_costs)
+    class(rrcb_cost_model), intent(in) :: self
+    logical :: uses_costs
+    integer(c_int) :: answer
+    answer = 0
+    uses_costs = c_cost_model_uses_costs(self%handle, answer) == rrcb_ok .and. answer == 1
+  end function
+
+  !> Whether costs are used and why, in a sentence.
+  function cost_model_report(self) result(text)
+    class(rrcb_cost_model), intent(in) :: self
+    character(:), allocatable :: text
+    text = text_of(c_cost_model_report(self%handle))
+  end function
+
+end module rrcb_controllers

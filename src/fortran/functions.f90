@@ -1,0 +1,86 @@
+!> Functions of no balancer: texts, measures, and ranks of parts.
+module rrcb_functions
+  use, intrinsic :: iso_c_binding
+  use rrcb_types
+  use rrcb_c_functions
+  implicit none
+  private
+  public :: rrcb_version, rrcb_build_info, rrcb_last_error, rrcb_bounding_box, rrcb_ranks_of_part, &
+    rrcb_imbalance, rrcb_load_unbalance_percent, rrcb_worst_load_unbalance_percent, text_of
+
+contains
+
+  function text_of(address) result(text)
+    type(c_ptr), intent(in) :: address
+    character(:), allocatable :: text
+    character(kind=c_char), pointer :: letters(:)
+    integer :: i
+    call c_f_pointer(address, letters, [c_strlen(address)])
+    allocate (character(size(letters)) :: text)
+    do i = 1, size(letters)
+      text(i:i) = letters(i)
+    end do
+  end function
+
+  !> Version of the library, as "major.minor.patch".
+  function rrcb_version() result(text)
+    character(:), allocatable :: text
+    text = text_of(c_version())
+  end function
+
+  !> What the library was built from and with.
+  function rrcb_build_info() result(text)
+    character(:), allocatable :: text
+    text = text_of(c_build_info())
+  end function
+
+  !> What the last procedure that failed on this thread reports.
+  function rrcb_last_error() result(text)
+    character(:), allocatable :: text
+    text = text_of(c_last_error())
+  end function
+
+  !> The smallest box that holds all points, three entries of each end.
+  subroutine rrcb_bounding_box(points, lower, upper, error)
+    type(rrcb_points), intent(in) :: points
+    real(c_double), intent(inout) :: lower(3), upper(3)
+    integer, intent(out) :: error
+    error = c_bounding_box(points, lower, upper)
+  end subroutine
+
+  subroutine rrcb_ranks_of_part(part, num_parts, num_ranks, ranks, error)
+    integer(c_int32_t), intent(in) :: part
+    integer, intent(in) :: num_parts, num_ranks
+    type(rrcb_rank_range), intent(inout) :: ranks
+    integer, intent(out) :: error
+    error = c_ranks_of_part(part, num_parts, num_ranks, ranks)
+  end subroutine
+
+  !> Heaviest part / mean part. `part_sizes` are relative, one for each part.
+  subroutine rrcb_imbalance(part_weights, imbalance, error, part_sizes)
+    real(c_double), intent(in), contiguous :: part_weights(:)
+    real(c_double), intent(inout) :: imbalance
+    integer, intent(out) :: error
+    real(c_double), pointer, contiguous, intent(in), optional :: part_sizes(:)
+    error = c_imbalance(size(part_weights, kind=c_size_t), part_weights, address_of(part_sizes), imbalance)
+  end subroutine
+
+  subroutine rrcb_load_unbalance_percent(part_weights, percent, error, part_sizes)
+    real(c_double), intent(in), contiguous :: part_weights(:)
+    real(c_double), intent(inout), contiguous :: percent(:)
+    integer, intent(out) :: error
+    real(c_double), pointer, contiguous, intent(in), optional :: part_sizes(:)
+    error = c_load_unbalance_percent(size(part_weights, kind=c_size_t), part_weights, &
+      address_of(part_sizes), percent)
+  end subroutine
+
+  subroutine rrcb_worst_load_unbalance_percent(part_weights, percent, error, part_sizes)
+    real(c_double), intent(in), contiguous :: part_weights(:)
+    real(c_double), intent(inout) :: percent
+    integer, intent(out) :: error
+    real(c_double), pointer, contiguous, intent(in), optional :: part_sizes(:)
+    error = c_worst_load_unbalance_percent(size(part_weights, kind=c_size_t), part_weights, &
+      address_of(part_sizes), percent)
+  end subroutine
+
+end module rrcb_functions

@@ -1,0 +1,112 @@
+!> Points that ranks need from each other.
+module rrcb_ghost_lists
+  use, intrinsic :: iso_c_binding
+  use rrcb_types
+  use rrcb_c_functions
+  use rrcb_balancers
+  implicit none
+  private
+
+  !> A copy is the same ghosts; one of them is destroyed.
+  type, public :: rrcb_ghosts
+    type(c_ptr) :: handle = c_null_ptr                      !< for the library
+  contains
+    procedure :: create                                     !< collective
+    procedure :: destroy
+    procedure :: get_plan
+    procedure :: fetch                                      !< collective
+    procedure :: accumulate                                 !< collective
+    procedure :: apply_shifts
+  end type
+
+contains
+
+  !> Finds points within `radius`, or one radius of each point, from the cuts of the balancer;
+  !> `lower` and `upper` are the ends of a periodic box, three entries each.
+  subroutine create(self, balancer, points, error, radius, radii, lower, upper, ranks_of_parts)
+    class(rrcb_ghosts), intent(inout) :: self
+    class(rrcb_balancer), intent(in) :: balancer
+    type(rrcb_points), intent(in) :: points
+    integer, intent(out) :: error
+    real(c_double), intent(in), optional :: radius
+    real(c_double), intent(in), target, contiguous, optional :: radii(:)
+    real(c_double), intent(in), target, optional :: lower(3), upper(3)
+    type(rrcb_rank_range), intent(in), target, contiguous, optional :: ranks_of_parts(:)
+    type(c_ghost_options) :: options
+    if (present(radius)) options%radius = radius
+    if (present(radii)) then
+      options%each_radius = 1
+      if (size(radii) > 0 .and. size(radii, kind=c_size_t) == points%count) options%radii = c_loc(radii)
+    end if
+    if (present(lower)) options%lower = c_loc(lower)
+    if (present(upper)) options%upper = c_loc(upper)
+    if (present(ranks_of_parts)) options%ranks_of_parts = c_loc(ranks_of_parts)
+    error = c_ghosts_create(balancer%handle, points, options, self%handle)
+  end subroutine
+
+  subroutine destroy(self)
+    class(rrcb_ghosts), intent(inout) :: self
+    call c_ghosts_destroy(self%handle)
+    self%handle = c_null_ptr
+  end subroutine
+
+  subroutine get_plan(self, plan, error)
+    class(rrcb_ghosts), intent(in) :: self
+    type(rrcb_ghost_plan), intent(inout) :: plan
+    integer, intent(out) :: error
+    type(c_ghost_plan) :: from
+    type(c_rank_count), pointer :: send(:), receive(:)
+    error = c_ghosts_get_plan(self%handle, from)
+    call c_f_pointer(from%send, send, [from%num_send_ranks])
+    call c_f_pointer(from%receive, receive, [from%num_receive_ranks])
+    plan%num_points = from%num_points
+    plan%num_ghosts = from%num_ghosts
+    plan%send_ranks = send%rank
+    plan%send_counts = send%count
+    plan%send_indices = indices_at(from%send_indices, from%num_sent)
+    plan%receive_ranks = receive%rank
+    plan%receive_counts = receive%count
+    if (allocated(plan%shifts)) deallocate (plan%shifts)
+    if (c_associated(from%shifts)) &
+      plan%shifts = reshape(numbers_at(from%shifts, 3*from%num_ghosts), [3_c_size_t, from%num_ghosts])
+  end subroutine
+
+  !> Columns of the points give those of the ghosts.
+  subroutine fetch(self, columns, error, limit, report)
+    class(rrcb_ghosts), intent(in) :: self
+    type(rrcb_column), intent(in) :: columns(:)
+    integer, intent(out) :: error
+    integer(c_size_t), intent(in), target, optional :: limit
+    type(rrcb_transfer_report), intent(inout), target, optional :: report
+    type(c_ptr) :: limits, made
+    limits = c_null_ptr
+    made = c_null_ptr
+    if (present(limit)) limits = c_loc(limit)
+    if (present(report)) made = c_loc(report)
+    error = c_ghosts_fetch(self%handle, size(columns, kind=c_size_t), columns, limits, made)
+  end subroutine
+
+  !> Adds columns of the ghosts, `from`, to those of their points, `to`.
+  subroutine accumulate(self, columns, error, limit, report)
+    class(rrcb_ghosts), intent(in) :: self
+    type(rrcb_column), intent(in) :: columns(:)
+    integer, intent(out) :: error
+    integer(c_size_t), intent(in), target, optional :: limit
+    type(rrcb_transfer_report), intent(inout), target, optional :: report
+    type(c_ptr) :: limits, made
+    limits = c_null_ptr
+    made = c_null_ptr
+    if (present(limit)) limits = c_loc(limit)
+    if (present(report)) made = c_loc(report)
+    error = c_ghosts_accumulate(self%handle, size(columns, kind=c_size_t), columns, limits, made)
+  end subroutine
+
+  !> Moves fetched positions to those of the images: positions(dimension, ghosts).
+  subroutine apply_shifts(self, positions, error)
+    class(rrcb_ghosts), intent(in) :: self
+    real(c_double), intent(inout), contiguous :: positions(:, :)
+    integer, intent(out) :: error
+    error = c_ghosts_apply_shifts(self%handle, size(positions, kind=c_size_t), positions)
+  end subroutine
+
+end module rrcb_ghost_lists

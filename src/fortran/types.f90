@@ -1,0 +1,255 @@
+!> Types that the procedures take and give. Points and columns are views of contiguous arrays, which
+!> have the attribute `target` and are not copied.
+module rrcb_types
+  use, intrinsic :: iso_c_binding
+  implicit none
+  private
+
+  integer, parameter, public :: rrcb_ok = 0, rrcb_invalid_argument = 1, rrcb_out_of_memory = 2, &
+    rrcb_mpi_error = 3, rrcb_internal_error = 4
+  integer(c_int), parameter :: type_byte = 0, type_int32 = 1, type_int64 = 2, type_float = 3, &
+    type_double = 4
+
+  !> View of the points of this rank; coordinate a of point i is at axes(a) + (i - 1)*stride bytes.
+  !> Those who hold their points in derived types set axes(a) to c_loc(points(1)%x(a)).
+  type, public, bind(c) :: rrcb_points
+    integer(c_int) :: dimension = 0, type = type_double
+    integer(c_size_t) :: count = 0, stride = 0
+    type(c_ptr) :: axes(3) = c_null_ptr, weights = c_null_ptr
+  end type
+
+  !> A column of the points, and room for its result; made by rrcb_column(from, to).
+  type, public, bind(c) :: rrcb_column
+    integer(c_int) :: type = type_byte
+    integer(c_size_t) :: components = 1
+    type(c_ptr) :: from = c_null_ptr, to = c_null_ptr
+  end type
+
+  !> One cut; at(axis) is its plane.
+  type, public, bind(c) :: rrcb_cut
+    integer(c_int32_t) :: axis = 1, divides = 0
+    real(c_double) :: at(3) = 0
+  end type
+
+  !> The tree of cuts in preorder, one less than there are parts.
+  type, public :: rrcb_cuts
+    integer :: dimension = 0, group_size = 1
+    logical :: larger_below = .false.
+    type(rrcb_cut), allocatable :: tree(:)
+  end type
+
+  !> Of the last balance.
+  type, public, bind(c) :: rrcb_report
+    real(c_double) :: imbalance = 1
+    integer(c_int) :: within_tolerance = 0, kept = 0
+    integer(c_int64_t) :: num_points = 0
+    real(c_double) :: total_weight = 0, least_imbalance = 1, estimated_imbalance = 1
+    integer(c_int64_t) :: num_records = 0
+    integer(c_int) :: rounds = 0, coincident_cuts = 0, all_weights_zero = 0, surplus_parts = 0
+  end type
+
+  !> Lists of the points whose rank changes.
+  type, public :: rrcb_plan
+    integer(c_size_t) :: num_points = 0, num_points_after = 0
+    integer(c_size_t), allocatable :: export_indices(:), import_indices(:)
+    integer(c_int), allocatable :: export_ranks(:), import_ranks(:)
+    integer(c_int32_t), allocatable :: export_parts(:), import_parts(:)
+  end type
+
+  !> Lists of the points sent and received as ghosts; shifts(axis, ghost) of a periodic box.
+  type, public :: rrcb_ghost_plan
+    integer(c_size_t) :: num_points = 0, num_ghosts = 0
+    integer(c_int), allocatable :: send_ranks(:), receive_ranks(:)
+    integer(c_size_t), allocatable :: send_counts(:), receive_counts(:), send_indices(:)
+    integer(c_int32_t), allocatable :: shifts(:, :)
+  end type
+
+  !> Consecutive ranks that hold a part.
+  type, public, bind(c) :: rrcb_rank_range
+    integer(c_int) :: first_rank = 0, count = 1
+  end type
+
+  !> Memory and messages of a call on this rank.
+  type, public, bind(c) :: rrcb_transfer_report
+    integer(c_size_t) :: peak_bytes = 0, bytes_sent = 0, num_messages = 0
+  end type
+
+  !> What new numbers of parts save.
+  type, public, bind(c) :: rrcb_kept
+    integer(c_int) :: identity = 1
+    integer(c_int64_t) :: num_points = 0, kept_before = 0, kept_after = 0
+  end type
+
+  !> View of points stored one after another: coordinates(dimension, points), weights(points).
+  interface rrcb_interleaved_points
+    procedure :: interleaved_doubles
+  end interface
+
+  !> View of an array for each axis, of one length.
+  interface rrcb_column_points
+    procedure :: columns_of_doubles
+  end interface
+
+  !> Column of one value for each point, or of shape (components, points), or of a number of bytes.
+  interface rrcb_column
+    procedure :: column_of_reals, column_of_doubles, column_of_integers, column_of_longs, &
+      vectors_of_reals, vectors_of_doubles, vectors_of_integers, vectors_of_longs, column_of_bytes
+  end interface
+
+  public :: rrcb_interleaved_points, rrcb_column_points, address_of, place_of, &
+    indices_at, numbers_at
+
+contains
+
+  !> Address of weights or other numbers, null where there are none.
+  function address_of(values) result(address)
+    real(c_double), pointer, contiguous, intent(in), optional :: values(:)
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (.not. present(values)) return
+    if (size(values) > 0) address = c_loc(values)
+  end function
+
+  !> Whether an array has another length; then points have no coordinates, an error on all ranks.
+  function differs(values, count)
+    real(c_double), pointer, contiguous, intent(in), optional :: values(:)
+    integer(c_size_t), intent(in) :: count
+    logical :: differs
+    differs = .false.
+    if (present(values)) differs = size(values, kind=c_size_t) /= count
+  end function
+
+  !> Address of an array that has `count` entries, otherwise null, which is an error on all ranks.
+  function place_of(parts, count) result(address)
+    integer(c_int32_t), intent(in), target, contiguous :: parts(:)
+    integer(c_size_t), intent(in) :: count
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (size(parts, kind=c_size_t) >= count .and. size(parts) > 0) address = c_loc(parts)
+  end function
+
+  !> Indices of points from a list of C, which count from 1 here.
+  function indices_at(address, count) result(indices)
+    type(c_ptr), intent(in) :: address
+    integer(c_size_t), intent(in) :: count
+    integer(c_size_t), allocatable :: indices(:)
+    integer(c_size_t), pointer :: list(:)
+    call c_f_pointer(address, list, [count])
+    indices = list + 1
+  end function
+
+  !> Ranks, parts or shifts from a list of C.
+  function numbers_at(address, count) result(numbers)
+    type(c_ptr), intent(in) :: address
+    integer(c_size_t), intent(in) :: count
+    integer(c_int32_t), allocatable :: numbers(:)
+    integer(c_int32_t), pointer :: list(:)
+    call c_f_pointer(address, list, [count])
+    numbers = list
+  end function
+
+  function interleaved_doubles(coordinates, weights) result(points)
+    real(c_double), pointer, contiguous, intent(in) :: coordinates(:, :)
+    real(c_double), pointer, contiguous, intent(in), optional :: weights(:)
+    type(rrcb_points) :: points
+    integer :: axis
+    points%dimension = size(coordinates, 1, c_int)
+    points%count = size(coordinates, 2, c_size_t)
+    points%stride = size(coordinates, 1)*c_sizeof(0.0_c_double)
+    points%weights = address_of(weights)
+    if (size(coordinates) == 0 .or. differs(weights, points%count)) return
+    do axis = 1, min(size(coordinates, 1), 3)
+      points%axes(axis) = c_loc(coordinates(axis, 1))
+    end do
+  end function
+
+  function columns_of_doubles(x, y, z, weights) result(points)
+    real(c_double), pointer, contiguous, intent(in) :: x(:)
+    real(c_double), pointer, contiguous, intent(in), optional :: y(:), z(:), weights(:)
+    type(rrcb_points) :: points
+    points%dimension = 1
+    if (present(y)) points%dimension = merge(3, 2, present(z))
+    points%count = size(x, kind=c_size_t)
+    points%stride = c_sizeof(0.0_c_double)
+    points%weights = address_of(weights)
+    if (differs(y, points%count) .or. differs(z, points%count)) return
+    if (differs(weights, points%count)) return
+    points%axes = [address_of(x), address_of(y), address_of(z)]
+  end function
+
+  function column_of_reals(from, to) result(column)
+    real(c_float), pointer, contiguous, intent(in) :: from(:), to(:)
+    type(rrcb_column) :: column
+    column%type = type_float
+    if (size(from) > 0) column%from = c_loc(from)
+    if (size(to) > 0) column%to = c_loc(to)
+  end function
+
+  function column_of_doubles(from, to) result(column)
+    real(c_double), pointer, contiguous, intent(in) :: from(:), to(:)
+    type(rrcb_column) :: column
+    column%type = type_double
+    if (size(from) > 0) column%from = c_loc(from)
+    if (size(to) > 0) column%to = c_loc(to)
+  end function
+
+  function column_of_integers(from, to) result(column)
+    integer(c_int32_t), pointer, contiguous, intent(in) :: from(:), to(:)
+    type(rrcb_column) :: column
+    column%type = type_int32
+    if (size(from) > 0) column%from = c_loc(from)
+    if (size(to) > 0) column%to = c_loc(to)
+  end function
+
+  function column_of_longs(from, to) result(column)
+    integer(c_int64_t), pointer, contiguous, intent(in) :: from(:), to(:)
+    type(rrcb_column) :: column
+    column%type = type_int64
+    if (size(from) > 0) column%from = c_loc(from)
+    if (size(to) > 0) column%to = c_loc(to)
+  end function
+
+  function vectors_of_reals(from, to) result(column)
+    real(c_float), pointer, contiguous, intent(in) :: from(:, :), to(:, :)
+    type(rrcb_column) :: column
+    column%type = type_float
+    column%components = size(from, 1, c_size_t)
+    if (size(from) > 0) column%from = c_loc(from)
+    if (size(to) > 0) column%to = c_loc(to)
+  end function
+
+  function vectors_of_doubles(from, to) result(column)
+    real(c_double), pointer, contiguous, intent(in) :: from(:, :), to(:, :)
+    type(rrcb_column) :: column
+    column%type = type_double
+    column%components = size(from, 1, c_size_t)
+    if (size(from) > 0) column%from = c_loc(from)
+    if (size(to) > 0) column%to = c_loc(to)
+  end function
+
+  function vectors_of_integers(from, to) result(column)
+    integer(c_int32_t), pointer, contiguous, intent(in) :: from(:, :), to(:, :)
+    type(rrcb_column) :: column
+    column%type = type_int32
+    column%components = size(from, 1, c_size_t)
+    if (size(from) > 0) column%from = c_loc(from)
+    if (size(to) > 0) column%to = c_loc(to)
+  end function
+
+  function vectors_of_longs(from, to) result(column)
+    integer(c_int64_t), pointer, contiguous, intent(in) :: from(:, :), to(:, :)
+    type(rrcb_column) :: column
+    column%type = type_int64
+    column%components = size(from, 1, c_size_t)
+    if (size(from) > 0) column%from = c_loc(from)
+    if (size(to) > 0) column%to = c_loc(to)
+  end function
+
+  function column_of_bytes(bytes, from, to) result(column)
+    integer(c_size_t), intent(in) :: bytes
+    type(c_ptr), intent(in) :: from, to
+    type(rrcb_column) :: column
+    column = rrcb_column(type_byte, bytes, from, to)
+  end function
+
+end module rrcb_types

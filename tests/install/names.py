@@ -1,0 +1,175 @@
+#!/usr/bin/env python3
+"""names.py SOURCE: compares the functions of the interface in C++, C and Fortran.
+
+Fails unless each function that rrcb/rrcb.hpp declares is in C and Fortran, and no other is, except
+those listed here with a reason.
+"""
+import re
+import sys
+from pathlib import Path
+
+from symbols import bare
+
+# Functions in C++ under another name in C.
+RENAMED = {
+    "plan": "rrcb_make_plan",  # rrcb_plan is its type, as rrcb_ghosts is
+    "ghosts": "rrcb_ghosts_create",
+    "fetch": "rrcb_ghosts_fetch",
+    "accumulate": "rrcb_ghosts_accumulate",
+    "apply_shifts": "rrcb_ghosts_apply_shifts",
+}
+# Functions in C++ alone; a class stands for its methods.
+ONLY_CPP = {
+    "balance_into": "rrcb_balance keeps memory with the balancer",
+    "rebalance_into": "rrcb_rebalance keeps memory with the balancer",
+    "column": "rrcb_column is a struct",
+    "columns": "an array of rrcb_column",
+    "is_whole": "rrcb_get_cuts refuses cuts that are not",
+    "is_above": "rrcb_part_of descends by it",
+    "TreeShape": "for those who descend themselves",
+    "Points": "shorthands for members of a struct",
+    "AxisOrder": "rrcb_set reads it from a text",
+    "Error": "rrcb_code and rrcb_last_error",
+    "name_of": "stages are observed to develop the library",
+    "StageObserver": "stages are observed to develop the library",
+}
+# Functions in C alone: a handle holds what is an argument or a result in C++.
+ONLY_C = {
+    "rrcb_create", "rrcb_destroy", "rrcb_set", "rrcb_set_part_sizes", "rrcb_set_cuts",
+    "rrcb_get_cuts", "rrcb_get_plan", "rrcb_get_report", "rrcb_ghosts_destroy",
+    "rrcb_ghosts_get_plan",
+    "rrcb_last_error",  # the text of an Error
+    "rrcb_controller_step_points",  # an overload
+}
+# Functions in C that are no procedure of their own in Fortran.
+NOT_FORTRAN = {
+    "rrcb_controller_step_points": "an optional argument of step",
+}
+# Functions in C that Fortran does not call, but has as its own.
+OWN_OF_FORTRAN = {"rrcb_interleaved_points", "rrcb_column_points"}
+CLASSES = {"Controller": "controller", "CostModel": "cost_model"}
+HANDLES = ["controller", "cost_model", "ghosts", "balancer"]
+
+
+def declarations(text):
+    """(scope, access, head) of each declaration of a header, without nested bodies."""
+    scopes, access, start, skipped = [], ["public"], 0, 0
+    for at, letter in enumerate(text):
+        if skipped:
+            skipped += {"{": 1, "}": -1}.get(letter, 0)
+            start = at + 1
+            continue
+        if letter not in "{};":
+            continue
+        head = text[start:at]
+        for label in re.findall(r"\b(public|private|protected)\s*:", head):
+            access[-1] = label
+        head = re.sub(r"\b(public|private|protected)\s*:", "", head).strip()
+        start = at + 1
+        scope = re.match(r"(?:template\s*<.*?>\s*)?(namespace|class|struct)\s+(?:\w+_API\s+)?(\w+)",
+                         head, re.S)
+        if letter == "{" and scope and scope[2] != "detail":
+            scopes.append(scope[2])
+            access.append("private" if scope[1] == "class" else "public")
+        elif letter == "{":
+            yield scopes[1:], access[-1], head
+            skipped = 1
+        elif letter == "}":
+            if scopes:
+                scopes.pop()
+                access.pop()
+        else:
+            yield scopes[1:], access[-1], head
+
+
+def headers_of(folder, name, found):
+    """Adds a header and those that it includes to `found`."""
+    found[name] = folder / name
+    for included in re.findall(r"#include <(rrcb/\w+\.hpp)>", found[name].read_text()):
+        if included not in found:
+            headers_of(folder, included, found)
+    return found.values()
+
+
+def functions_of_cpp(headers):
+    """Names of functions and methods, "Class::method"."""
+    names = set()
+    for header in headers:
+        for scope, access, head in declarations(bare(header.read_text())):
+            head = re.sub(r"template\s*<[^()]*>\s*(?=\w)", "", head)
+            name = re.match(r"[^=(]*?(~?\w+)\s*\(", head)
+            if not name or access != "public" or re.search(r"\b(operator|friend)\b", head):
+                continue
+            if re.match(r"(static_assert|using|namespace|enum)\b", head):
+                continue
+            names.add("::".join(scope + [name[1]]))
+    return names
+
+
+def expected_in_c(name):
+    """Name in C of a function in C++; None if it is in C++ alone."""
+    scope, _, method = name.rpartition("::")
+    if scope in ONLY_CPP or name in ONLY_CPP:
+        return None
+    if not scope:
+        return RENAMED.get(name, f"rrcb_{name}")
+    method = {scope: "create", f"~{scope}": "destroy"}.get(method, method)
+    return f"rrcb_{CLASSES.get(scope, scope)}_{method}"
+
+
+def expected_in_fortran(name):
+    """Names of which one stands in Fortran for a function in C."""
+    for handle in HANDLES[:3]:
+        if name.startswith(f"rrcb_{handle}_"):
+            return {f"rrcb_{handle}%" + name.removeprefix(f"rrcb_{handle}_")}
+    return {"rrcb_balancer%" + name.removeprefix("rrcb_"), name}
+
+
+def procedures_of_fortran(folder):
+    """Public names of the module rrcb, and "type%binding" of its types."""
+    names = set()
+    for file in folder.iterdir():
+        text = re.sub(r"!.*", "", file.read_text())
+        for kind, body in re.findall(r"type, public :: (rrcb_\w+)\n(.*?)\n  end type", text, re.S):
+            names |= {f"{kind}%{binding}" for binding in
+                      re.findall(r"^ *(?:procedure|generic) :: (\w+)", body, re.M)}
+    module = re.sub(r"!.*|&\n", "", (folder / "rrcb.f90").read_text())
+    for line in re.findall(r"use \w+, only: (.*)", module):
+        names |= {name.strip() for name in line.split(",")}
+    return names
+
+
+def main():
+    source = Path(sys.argv[1])
+    include = source / "include/rrcb"
+    cpp = functions_of_cpp(headers_of(source / "include", "rrcb/rrcb.hpp", {}))
+    text = bare("".join(file.read_text() for file in [include / "rrcb.h", *include.glob("c/*.h")]))
+    c = set(re.findall(r"\b(rrcb_\w+)\(", text))
+    in_module = set(re.findall(r'name="(rrcb_\w+)"', "".join(
+        file.read_text() for file in (source / "src/fortran").glob("c_*.f90"))))
+    fortran = procedures_of_fortran(source / "src/fortran")
+    of_fortran = {name for name in c if name.endswith("_fortran")}
+    c -= of_fortran
+
+    wanted_c = {expected_in_c(name): name for name in cpp} | {name: name for name in ONLY_C}
+    wanted_c.pop(None, None)
+    problems = [f"{wanted_c[name]} is not in C, as {name}" for name in wanted_c.keys() - c]
+    problems += [f"{name} is not in C++" for name in c - wanted_c.keys()]
+    called = {name.removesuffix("_fortran") for name in in_module}
+    problems += [f"{name} is not called from Fortran" for name in c - called - OWN_OF_FORTRAN]
+    wanted = {name: expected_in_fortran(name) for name in c - NOT_FORTRAN.keys()}
+    problems += [f"{name} is not in Fortran, as {' or '.join(sorted(each))}"
+                 for name, each in wanted.items() if not each & fortran]
+    allowed = set().union(*wanted.values())
+    types = {name.lower() for name in re.findall(r"\brrcb_\w+", text, re.I)}
+    problems += [f"{name} of Fortran is not in C" for name in fortran - allowed - types]
+    exceptions = ONLY_CPP.keys() - {name.split("::")[0] for name in cpp}
+    problems += [f"the exception {name} is not needed" for name in exceptions | (ONLY_C - c)]
+    print("\n".join(sorted(problems)) or
+          f"{len(cpp)} functions in C++, {len(c)} in C, and "
+          f"{len(fortran & allowed)} procedures in Fortran")
+    return 1 if problems or not cpp else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

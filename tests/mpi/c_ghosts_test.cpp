@@ -1,0 +1,288 @@
+// Ghosts, part numbers and measures in C beside those in C++, which are the reference.
+#include "../support/ranks.hpp"
+
+#include <rrcb/rrcb.h>
+#include <rrcb/rrcb.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+using test::is_last_rank;
+using test::num_ranks;
+using test::rank;
+
+constexpr Box unit{{0, 0, 0}, {1, 1, 1}};
+
+/// Points in the unit cube with their weights; the second rank holds none. Balanced in C.
+class CGhosts : public testing::Test {
+  protected:
+    void SetUp() override {
+        std::mt19937_64 random(static_cast<unsigned>(rank() + 1));
+        std::uniform_real_distribution<double> uniform(0, 1);
+        const std::size_t count = rank() == 1 ? 0 : 200;
+        for (std::size_t i = 0; i < 3 * count; ++i) coordinates.push_back(uniform(random));
+        for (std::size_t i = 0; i < count; ++i) weights.push_back(uniform(random));
+        parts.resize(count);
+        ASSERT_EQ(rrcb_create(MPI_COMM_WORLD, &balancer), RRCB_OK);
+        in_c = rrcb_interleaved_points(3, count, coordinates.data(), weights.data());
+        ASSERT_EQ(rrcb_balance(balancer, &in_c, parts.data()), RRCB_OK) << rrcb_last_error();
+        cuts = rrcb::balance(points(), {}, MPI_COMM_WORLD).cuts;
+    }
+    void TearDown() override {
+        rrcb_ghosts_destroy(ghosts);
+        rrcb_destroy(balancer);
+    }
+
+    Points points() const { return interleaved_points(coordinates, 3, weights); }
+
+    void find(const rrcb_ghost_options& options) {
+        rrcb_ghosts_destroy(ghosts);
+        ghosts = nullptr;
+        ASSERT_EQ(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), RRCB_OK)
+            << rrcb_last_error();
+    }
+
+    /// Fails unless ghosts are those of C++, of which values come and return alike.
+    void expect_same(const GhostOptions& options) {
+        const GhostPlan expected = rrcb::ghosts(cuts, points(), options, MPI_COMM_WORLD);
+        rrcb_ghost_plan plan;
+        ASSERT_EQ(rrcb_ghosts_get_plan(ghosts, &plan), RRCB_OK);
+        EXPECT_EQ(plan.num_points, expected.num_points);
+        EXPECT_TRUE(std::equal(plan.send_indices, plan.send_indices + plan.num_sent,
+                               expected.send_indices.begin(), expected.send_indices.end()));
+        const auto is_same = [](const rrcb_rank_count& a, const RankCount& b) {
+            return a.rank == b.rank && a.count == b.count;
+        };
+        EXPECT_TRUE(std::equal(plan.send, plan.send + plan.num_send_ranks, expected.send.begin(),
+                               expected.send.end(), is_same));
+        EXPECT_TRUE(std::equal(plan.receive, plan.receive + plan.num_receive_ranks,
+                               expected.receive.begin(), expected.receive.end(), is_same));
+        EXPECT_EQ(plan.shifts != nullptr, !expected.shifts.empty());
+        for (std::size_t k = 0; k < expected.shifts.size(); ++k)
+            EXPECT_TRUE(std::equal(expected.shifts[k].begin(), expected.shifts[k].end(),
+                                   plan.shifts + 3 * k));
+
+        std::vector<double> near(3 * plan.num_ghosts);
+        std::vector<double> masses(plan.num_ghosts);
+        const std::array fetched{rrcb_column{RRCB_DOUBLE, 3, coordinates.data(), near.data()},
+                                 rrcb_column{RRCB_DOUBLE, 1, weights.data(), masses.data()}};
+        ASSERT_EQ(rrcb_ghosts_fetch(ghosts, 2, fetched.data(), nullptr, nullptr), RRCB_OK);
+        auto [near_in_cpp, masses_in_cpp] =
+            fetch(expected, columns(column(coordinates, 3), weights), MPI_COMM_WORLD);
+        EXPECT_EQ(masses, masses_in_cpp);
+        ASSERT_EQ(rrcb_ghosts_apply_shifts(ghosts, near.size(), near.data()), RRCB_OK);
+        apply_shifts(expected, near_in_cpp);
+        EXPECT_EQ(near, near_in_cpp);
+        expect_same_sums(expected, near, masses);
+    }
+
+    void expect_same_sums(const GhostPlan& expected, const std::vector<double>& near,
+                          const std::vector<double>& masses) {
+        std::vector<double> sums = coordinates;
+        std::vector<std::int32_t> numbers(weights.size(), rank());
+        const std::vector<std::int32_t> ones(masses.size(), 1);
+        const std::array added{rrcb_column{RRCB_DOUBLE, 3, near.data(), sums.data()},
+                               rrcb_column{RRCB_INT32, 1, ones.data(), numbers.data()}};
+        ASSERT_EQ(rrcb_ghosts_accumulate(ghosts, 2, added.data(), nullptr, nullptr), RRCB_OK);
+        const std::vector<std::int32_t> start(weights.size(), rank());
+        const auto [sums_in_cpp, numbers_in_cpp] =
+            accumulate(expected, columns(column(near, 3), ones),
+                       columns(column(coordinates, 3), start), MPI_COMM_WORLD);
+        EXPECT_EQ(sums, sums_in_cpp);
+        EXPECT_EQ(numbers, numbers_in_cpp);
+    }
+
+    rrcb_balancer* balancer = nullptr;
+    rrcb_ghosts* ghosts = nullptr;
+    std::vector<double> coordinates;
+    std::vector<double> weights;
+    std::vector<std::int32_t> parts;
+    rrcb_points in_c{};
+    Cuts cuts;
+};
+
+TEST_F(CGhosts, are_those_of_a_call_in_cpp) {
+    rrcb_ghost_options options{};
+    options.radius = 0.1;
+    find(options);
+    expect_same({.radius = 0.1});
+    options.lower = unit.lower.data();
+    options.upper = unit.upper.data();
+    find(options);
+    expect_same({.radius = 0.1, .periodic = unit});
+}
+
+TEST_F(CGhosts, take_a_radius_of_each_point_and_ranks_of_parts) {
+    std::vector<double> radii(weights.size());
+    for (std::size_t i = 0; i < radii.size(); ++i) radii[i] = 0.2 * weights[i];
+    std::vector<RankRange> ranks;
+    std::vector<rrcb_rank_range> ranks_in_c;
+    for (int part = 0; part < num_ranks(); ++part) {
+        ranks.push_back({num_ranks() - 1 - part, 1});
+        ranks_in_c.push_back({num_ranks() - 1 - part, 1});
+    }
+    rrcb_ghost_options options{};
+    options.each_radius = 1;
+    options.radii = radii.data();
+    options.ranks_of_parts = ranks_in_c.data();
+    find(options);
+    GhostOptions expected;
+    expected.radii = radii;
+    expected.ranks_of_parts = ranks;
+    expect_same(expected);
+}
+
+/// Fails unless the last error is this one on all ranks.
+void expect_error(int code, const std::string& word) {
+    EXPECT_EQ(code, RRCB_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(rrcb_last_error()).find(word), std::string::npos) << rrcb_last_error();
+}
+
+TEST_F(CGhosts, what_is_wrong_on_one_rank_fails_on_all) {
+    rrcb_ghost_options options{};
+    options.radius = 0.1;
+    const rrcb_ghost_options* none_there = is_last_rank() ? nullptr : &options;
+    expect_error(rrcb_ghosts_create(balancer, &in_c, none_there, &ghosts), "options is null");
+    EXPECT_EQ(ghosts, nullptr);
+    rrcb_ghosts** no_room = is_last_rank() ? nullptr : &ghosts;
+    expect_error(rrcb_ghosts_create(balancer, &in_c, &options, no_room), "ghosts is null");
+    const rrcb_points* no_points = is_last_rank() ? nullptr : &in_c;
+    expect_error(rrcb_ghosts_create(balancer, no_points, &options, &ghosts), "points is null");
+    if (is_last_rank()) options.lower = unit.lower.data();
+    expect_error(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), "upper is null");
+    options.lower = nullptr;
+    find(options);
+    double value = 0;
+    const rrcb_column column{is_last_rank() ? RRCB_BYTE : RRCB_DOUBLE, 0, &value, &value};
+    expect_error(rrcb_ghosts_accumulate(ghosts, 1, &column, nullptr, nullptr), "only numbers");
+    const rrcb_column* no_columns = is_last_rank() ? nullptr : &column;
+    expect_error(rrcb_ghosts_fetch(ghosts, 1, no_columns, nullptr, nullptr), "columns is null");
+    expect_error(rrcb_ghosts_accumulate(ghosts, 1, no_columns, nullptr, nullptr),
+                 "columns is null");
+    expect_error(rrcb_ghosts_fetch(nullptr, 0, nullptr, nullptr, nullptr), "ghosts is null");
+    if (num_ranks() > 1) {
+        const rrcb_transfer_limits limits{is_last_rank() ? std::size_t{1} << 20 : 1 << 21};
+        expect_error(rrcb_ghosts_fetch(ghosts, 0, nullptr, &limits, nullptr), "TransferLimits");
+    }
+}
+
+TEST_F(CGhosts, measures_are_those_of_cpp) {
+    const std::vector<double> expected =
+        part_weights(points(), parts, cuts.num_parts, MPI_COMM_WORLD);
+    std::vector<double> of_parts(expected.size());
+    ASSERT_EQ(rrcb_part_weights(balancer, &in_c, parts.data(), of_parts.data()), RRCB_OK);
+    EXPECT_EQ(of_parts, expected);
+    double number = -1;
+    ASSERT_EQ(rrcb_moved_fraction(balancer, &in_c, parts.data(), &number), RRCB_OK);
+    EXPECT_EQ(number, moved_fraction(points(), parts, cuts.num_parts, MPI_COMM_WORLD));
+    ASSERT_EQ(rrcb_imbalance(of_parts.size(), of_parts.data(), nullptr, &number), RRCB_OK);
+    EXPECT_EQ(number, imbalance(of_parts));
+    std::vector<double> sizes(of_parts.size(), 2);
+    sizes[0] = 1;
+    ASSERT_EQ(
+        rrcb_worst_load_unbalance_percent(of_parts.size(), of_parts.data(), sizes.data(), &number),
+        RRCB_OK);
+    EXPECT_EQ(number, worst_load_unbalance_percent(of_parts, sizes));
+    std::vector<double> percent(of_parts.size());
+    ASSERT_EQ(
+        rrcb_load_unbalance_percent(of_parts.size(), of_parts.data(), nullptr, percent.data()),
+        RRCB_OK);
+    EXPECT_EQ(percent, load_unbalance_percent(of_parts));
+    expect_error(rrcb_imbalance(1, nullptr, nullptr, &number), "part_weights is null");
+}
+
+TEST_F(CGhosts, look_ups_are_those_of_cpp) {
+    Vector lower;
+    Vector upper;
+    ASSERT_EQ(rrcb_bounding_box(&in_c, lower.data(), upper.data()), RRCB_OK);
+    const Box box = bounding_box(points());
+    EXPECT_EQ(lower, box.lower);
+    EXPECT_EQ(upper, box.upper);
+    lower = {0.4, 0.2, 0.1};
+    upper = {0.6, 0.9, 0.9};
+    const std::vector<Part> expected = parts_touching(cuts, {lower, upper});
+    std::vector<std::int32_t> touched(expected.size() + 1, -1);
+    std::size_t count = 0;
+    ASSERT_EQ(rrcb_parts_touching(balancer, lower.data(), upper.data(), expected.size(),
+                                  touched.data(), &count),
+              RRCB_OK);
+    EXPECT_EQ(count, expected.size());
+    EXPECT_TRUE(std::equal(expected.begin(), expected.end(), touched.begin()));
+    EXPECT_EQ(touched.back(), -1);
+    ASSERT_EQ(rrcb_parts_touching(balancer, lower.data(), upper.data(), 0, nullptr, &count),
+              RRCB_OK);
+    EXPECT_EQ(count, expected.size());
+    rrcb_rank_range ranks;
+    ASSERT_EQ(rrcb_ranks_of_part(2, 3, 7, &ranks), RRCB_OK);
+    EXPECT_EQ(ranks.first_rank, ranks_of_part(2, 3, 7).first_rank);
+    EXPECT_EQ(ranks.count, ranks_of_part(2, 3, 7).count);
+    expect_error(rrcb_ranks_of_part(3, 3, 7, &ranks), "");
+    EXPECT_EQ(rrcb_release_buffers(balancer), RRCB_OK);
+}
+
+TEST_F(CGhosts, points_have_strides) {
+    struct Particle {
+        double mass;
+        double at[3];
+    };
+    std::vector<Particle> particles;
+    std::vector<double> axes[3];
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        const double* x = &coordinates[3 * i];
+        particles.push_back({weights[i], {x[0], x[1], x[2]}});
+        for (std::size_t a = 0; a < 3; ++a) axes[a].push_back(x[a]);
+    }
+    rrcb_points strided = in_c;
+    strided.stride = sizeof(Particle);
+    for (std::size_t a = 0; a < 3 && !particles.empty(); ++a) strided.axes[a] = &particles[0].at[a];
+    std::vector<std::int32_t> again(parts.size());
+    ASSERT_EQ(rrcb_assign(balancer, &strided, again.data()), RRCB_OK) << rrcb_last_error();
+    EXPECT_EQ(again, parts);
+    const std::array<const double*, 3> columns{axes[0].data(), axes[1].data(), axes[2].data()};
+    const rrcb_points separate = rrcb_column_points(3, weights.size(), columns.data(), nullptr);
+    again.assign(parts.size(), -1);
+    ASSERT_EQ(rrcb_assign(balancer, &separate, again.data()), RRCB_OK) << rrcb_last_error();
+    EXPECT_EQ(again, parts);
+}
+
+TEST_F(CGhosts, part_numbers_are_those_of_cpp) {
+    std::vector<Part> previous(parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) previous[i] = (parts[i] + 1) % num_ranks();
+    std::vector<RankRange> ranks;
+    for (Part part = 0; part < num_ranks(); ++part)
+        ranks.push_back(ranks_of_part(part, num_ranks(), num_ranks()));
+    for (const bool by_previous : {false, true}) {
+        const Remap expected = by_previous
+                                   ? remap(parts, previous, ranks, MPI_COMM_WORLD, cuts.shape)
+                                   : remap(parts, ranks, MPI_COMM_WORLD, cuts.shape);
+        std::vector<std::int32_t> numbers(ranks.size());
+        // Not null, also on ranks without points.
+        const std::int32_t nothing = 0;
+        const std::int32_t* earlier = previous.empty() ? &nothing : previous.data();
+        rrcb_kept kept;
+        ASSERT_EQ(rrcb_remap(balancer, parts.size(), parts.data(), by_previous ? earlier : nullptr,
+                             nullptr, numbers.data(), &kept),
+                  RRCB_OK)
+            << rrcb_last_error();
+        EXPECT_EQ(numbers, expected.numbers);
+        EXPECT_EQ(kept.identity, expected.identity ? 1 : 0);
+        EXPECT_EQ(kept.num_points, expected.num_points);
+        EXPECT_EQ(kept.kept_before, expected.kept_before);
+        EXPECT_EQ(kept.kept_after, expected.kept_after);
+        EXPECT_TRUE(!by_previous || kept.kept_after == kept.num_points);
+    }
+}
+
+}  // namespace
+}  // namespace rrcb

@@ -44,6 +44,7 @@ const std::map<std::string, std::string>& documentation() {
         {"lists", "lists Zoltan returns: PARTS (default), EXPORT or ALL"},
         {"steps", "steps of the simulation; to the end of the scene"},
         {"every", "steps between rebalances, or auto (default): when they pay"},
+        {"cost", "learned: simulations compare learned costs of points with counting; count"},
         {"repeats", "timed calls of each method; 7"},
         {"seed", "seed of the cloud; 1"},
         {"drift", "fraction of its extent by which the cloud moves between calls; 0"},
@@ -130,6 +131,7 @@ void check_combination(const Texts& texts) {
     needs("only", is_scene, "--scene only; remove it");
     needs("steps", is_scene, "--scene only; remove it");
     needs("every", is_scene, "--scene only; remove it");
+    needs("cost", is_scene, "--scene only; remove it");
 }
 
 void use_default_sizes(Arguments& arguments) {
@@ -180,6 +182,8 @@ Arguments read_arguments(int argc, char** argv) {
                        {{"PARTS", Lists::parts}, {"EXPORT", Lists::exports}, {"ALL", Lists::all}});
     read_integer(texts, "steps", arguments.steps, 1, many);
     if (texts["every"] != "auto") read_integer(texts, "every", arguments.every, 1, many);
+    read_choice<Cost>(texts, "cost", arguments.cost,
+                      {{"count", Cost::count}, {"learned", Cost::learned}});
     read_integer(texts, "repeats", arguments.repeats, 1, 1000);
     read_integer<std::uint64_t>(texts, "seed", arguments.seed, 0,
                                 std::numeric_limits<std::uint64_t>::max());

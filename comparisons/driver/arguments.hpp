@@ -2,6 +2,7 @@
 
 #include "ghosts_mpi.hpp"
 #include "method.hpp"
+#include "simulation_mpi.hpp"
 #include "workload_mpi.hpp"
 
 #include <rrcb/points.hpp>
@@ -37,8 +38,9 @@ struct Arguments : MeasurementPlan {
     int dimension = 2;
     Layout layout = Layout::sorted;
     std::vector<Method> methods;
-    int steps = 0;  ///< of the simulation; 0: to the end of the scene
-    int every = 0;  ///< steps between rebalances; 0: a controller says when
+    int steps = 0;            ///< of the simulation; 0: to the end of the scene
+    int every = 0;            ///< steps between rebalances; 0: a controller says when
+    Cost cost = Cost::count;  ///< learned: the simulations also compare learned costs with counting
     std::string out = "comparisons/out";
     Only only = Only::all;
     bool data = true;  ///< write the points and boxes of which pictures are drawn

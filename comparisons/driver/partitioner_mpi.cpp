@@ -174,9 +174,9 @@ std::unique_ptr<Partitioner> make_partitioner(const Method& method, const Worklo
     return std::make_unique<ZoltanPartitioner>(zoltan_parameters(method, lists), workload, comm);
 }
 
-std::optional<mpm::Balancer> make_balancer(const Method& method) {
+std::optional<mpm::Balancer> make_balancer(const Method& method, const PointWeights& weights) {
     if (method.lb_method == on_arrays)
-        return rrcb_balancer(std::get<rrcb::Options>(*method.options));
+        return rrcb_balancer(std::get<rrcb::Options>(*method.options), weights);
     if (method.lb_method != "RCB" && method.lb_method != "RRCB") return std::nullopt;
     return zoltan_balancer(zoltan_parameters(method, Lists::parts));
 }

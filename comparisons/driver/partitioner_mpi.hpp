@@ -8,6 +8,7 @@
 
 #include <mpi.h>
 #include <mpm/decomposition.hpp>
+#include <rrcb_balancer_mpi.hpp>
 #include <zoltan.h>
 
 #include <cstdint>
@@ -65,10 +66,11 @@ class ZoltanPartitioner : public Partitioner {
 std::unique_ptr<Partitioner> make_partitioner(const Method& method, const Workload& workload,
                                               Lists lists, MPI_Comm comm);
 
-/// A method as the simulation takes it; none when its parts are no boxes (RIB, HSFC).
+/// A method as the simulation takes it; none when its parts are no boxes (RIB, HSFC). Only
+/// rrcb-arrays takes `weights`.
 ///
 /// Through Zoltan's callbacks, lists and look-ups, but for rrcb-arrays; with KEEP_CUTS=1 for the
 /// look-ups and REMAP=0, as part p goes to rank p.
-std::optional<mpm::Balancer> make_balancer(const Method& method);
+std::optional<mpm::Balancer> make_balancer(const Method& method, const PointWeights& weights = {});
 
 }  // namespace comparisons

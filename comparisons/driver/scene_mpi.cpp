@@ -22,10 +22,15 @@ namespace {
 constexpr int max_rounds = 6;
 
 /// One for each method that is simulated, between two without rebalancing.
-std::vector<SimulationRounds> contenders(std::span<const Method> methods) {
+std::vector<SimulationRounds> contenders(const Arguments& arguments) {
     std::vector<SimulationRounds> all(1, {"none", {}, {}});
-    for (const Method& method : methods)
+    for (const Method& method : arguments.methods)
         if (make_balancer(method)) all.push_back({method.label, {}, method});
+    if (arguments.cost == Cost::learned) {
+        const Method method = read_method("rrcb-arrays");
+        all.push_back({"count", {}, method});
+        all.push_back({"learned", {}, method, Cost::learned});
+    }
     all.push_back({"none again", {}, {}});
     return all;
 }
@@ -59,15 +64,16 @@ void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPl
     std::vector<std::unique_ptr<TimedSimulation>> simulations;
     for (const SimulationRounds& rounds : all) {
         const bool shows_the_scene = round == 0 && simulations.empty();
-        std::optional<mpm::Balancer> balancer;
-        if (rounds.balanced_by)
-            balancer =
-                make_balancer(with_next_seed(*rounds.balanced_by, static_cast<unsigned>(round)));
+        const auto make = [&](const PointWeights& weights) -> std::optional<mpm::Balancer> {
+            if (!rounds.balanced_by) return std::nullopt;
+            return make_balancer(with_next_seed(*rounds.balanced_by, static_cast<unsigned>(round)),
+                                 weights);
+        };
         auto& simulation = simulations.emplace_back();
         if (!rounds.has_failed())
             simulation = std::make_unique<TimedSimulation>(
-                plan, std::move(balancer),
-                observer(plan, progress, shows_the_scene ? &snapshots : nullptr), comm);
+                plan, make, observer(plan, progress, shows_the_scene ? &snapshots : nullptr), comm,
+                rounds.cost);
     }
     // Turns are long enough that each simulation finds its points in the cache again.
     constexpr int turn = 50;
@@ -138,7 +144,8 @@ Row history_row(const std::string& method, const LoadRecord& record, std::size_t
         .add("points", nine_digits(record.points[part]))
         .add("lu_percent", nine_digits(rrcb::load_unbalance_percent(record.points)[part]))
         .add("imbalance", nine_digits(rrcb::imbalance(record.points)))
-        .add("moved_fraction", nine_digits(record.moved_fraction));
+        .add("moved_fraction", nine_digits(record.moved_fraction))
+        .add("seconds", nine_digits(record.seconds[part]));
 }
 
 }  // namespace
@@ -173,7 +180,8 @@ std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& prog
                                       MPI_Comm comm) {
     std::vector<Workload> snapshots;
     progress.start("the " + plan.scene.name, plan.num_steps);
-    TimedSimulation simulation(plan, std::nullopt, observer(plan, progress, &snapshots), comm);
+    TimedSimulation simulation(plan, without_weights({}), observer(plan, progress, &snapshots),
+                               comm);
     simulation.advance(plan.num_steps);
     const std::string error = simulation.result().error;
     if (!error.empty()) throw Failure(plan.scene.name + ": " + error);
@@ -183,7 +191,7 @@ std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& prog
 std::vector<SimulationRounds> run_scene(const Arguments& arguments, const ResultsFolder& folder,
                                         Progress& progress, const SnapshotVisitor& visit,
                                         MPI_Comm comm) {
-    std::vector<SimulationRounds> all = contenders(arguments.methods);
+    std::vector<SimulationRounds> all = contenders(arguments);
     SimulationPlan plan = plan_scene(arguments, all.size() - 1, comm);
     const bool is_main_job = arguments.scene == "slope" && arguments.only == Only::all;
     if (is_main_job && arguments.steps == 0 && !arguments.quick)
@@ -221,7 +229,7 @@ std::string history_csv(std::span<const SimulationRounds> methods) {
                 rows.push_back(history_row(rounds.method, record, part));
         }
     }
-    return csv(history_row({}, {.points = {1}}, 0), rows);
+    return csv(history_row({}, {.points = {1}, .seconds = {0}}, 0), rows);
 }
 
 void print_round(std::ostream& out, int number, std::span<const SimulationRounds> methods) {

@@ -22,6 +22,7 @@ struct SimulationRounds {
     std::string method;
     std::vector<SimulationRun> runs;      ///< none after one that failed
     std::optional<Method> balanced_by{};  ///< none: nothing is rebalanced
+    Cost cost = Cost::count;
 
     bool has_failed() const { return !runs.empty() && !runs.back().error.empty(); }
 };
@@ -51,6 +52,7 @@ std::vector<Workload> scene_snapshots(const SimulationPlan& plan, Progress& prog
 /// is noise.
 /// The slope ends when its front lies still, unless steps or simulations only are asked for.
 /// `visit` is called behind the first round, so that nobody waits for all of them to see a table.
+/// With learned costs there are two more: "count" and "learned" weigh the points of rrcb-arrays.
 /// Methods that vary with the seed take another one each round.
 std::vector<SimulationRounds> run_scene(const Arguments& arguments, const ResultsFolder& folder,
                                         Progress& progress, const SnapshotVisitor& visit,

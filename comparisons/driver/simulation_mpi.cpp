@@ -22,13 +22,11 @@ double timed(Action&& action, PhaseLog& log, MPI_Comm comm) {
     return MPI_Wtime() - start;
 }
 
-LoadRecord record_load(const mpm::Simulation& simulation, MPI_Comm comm) {
-    const int size = size_of(comm);
-    LoadRecord record{simulation.step_count(), simulation.time(),
-                      std::vector<double>(static_cast<std::size_t>(size)), 0};
-    const auto count = static_cast<double>(simulation.positions().x.size());
-    MPI_Allgather(&count, 1, MPI_DOUBLE, record.points.data(), 1, MPI_DOUBLE, comm);
-    return record;
+/// The number of every rank.
+std::vector<double> gathered(double mine, MPI_Comm comm) {
+    std::vector<double> all(static_cast<std::size_t>(size_of(comm)));
+    MPI_Allgather(&mine, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, comm);
+    return all;
 }
 
 /// Runs `action` unless an earlier one has failed; notes a failure, which all ranks see alike.
@@ -71,16 +69,33 @@ double critical_path_s(const SimulationRun& run) {
            run.balance_cost.network_s;
 }
 
-TimedSimulation::TimedSimulation(const SimulationPlan& plan, std::optional<mpm::Balancer> balancer,
-                                 Observer observe, MPI_Comm comm)
-    : plan_(plan), balancer_(std::move(balancer)), observe_(std::move(observe)), comm_(comm) {
+TimedSimulation::TimedSimulation(const SimulationPlan& plan, const BalancerMaker& make_balancer,
+                                 Observer observe, MPI_Comm comm, Cost cost)
+    : plan_(plan), observe_(std::move(observe)), comm_(comm) {
     MPI_Comm_size(comm, &num_ranks_);
+    balancer_ = make_balancer(cost == Cost::learned ? PointWeights([this] { return weights(); })
+                                                    : PointWeights());
     unless_failed(run_, [&] {
-        if (balancer_ && plan.every == 0) controller_.emplace(comm);
         simulation_ = std::make_unique<mpm::Simulation>(plan.scene, comm);
+        if (balancer_) start_controller(cost);
         run_.num_points = simulation_->num_points();
         observe_(0, *simulation_);
     });
+}
+
+void TimedSimulation::start_controller(Cost cost) {
+    if (plan_.every == 0) controller_.emplace(comm_);
+    if (cost == Cost::count) return;
+    const auto num_columns = static_cast<int>(simulation_->work_columns().size());
+    if (controller_)
+        model_.emplace(*controller_, num_columns);
+    else
+        model_.emplace(comm_, num_columns);
+}
+
+std::vector<double> TimedSimulation::weights() {
+    return model_->weights(model_->uses_costs() ? simulation_->point_columns()
+                                                : std::vector<double>());
 }
 
 void TimedSimulation::advance(int num_steps) {
@@ -92,18 +107,36 @@ void TimedSimulation::advance(int num_steps) {
 
 void TimedSimulation::advance_one() {
     if (balancer_ && is_due()) rebalance();
-    if (steps_done_ % plan_.record_every == 0) {
-        run_.history.push_back(record_load(*simulation_, comm_));
-        run_.history.back().moved_fraction = moved_lately_;
-    }
+    if (steps_done_ % plan_.record_every == 0) record_load();
     loads_.push_back(static_cast<double>(simulation_->positions().x.size()));
     run_.step_s += timed([&] { simulation_->step(); }, steps_, comm_);
+    record_step();
     observe_(++steps_done_, *simulation_);
 }
 
-bool TimedSimulation::is_due() {
+void TimedSimulation::record_load() {
+    const double mean = seconds_since_record_ / std::max(1, steps_since_record_);
+    const auto count = static_cast<double>(simulation_->positions().x.size());
+    run_.history.push_back({simulation_->step_count(), simulation_->time(), gathered(count, comm_),
+                            moved_lately_, gathered(mean, comm_)});
+    seconds_since_record_ = 0;
+    steps_since_record_ = 0;
+}
+
+/// Of the step that has been done.
+void TimedSimulation::record_step() {
+    const double seconds = steps_.last_s(num_ranks_);
+    seconds_since_record_ += seconds;
+    ++steps_since_record_;
+    if (model_)
+        model_->step(seconds, simulation_->work_columns());
+    else if (controller_)
+        controller_->step(seconds, loads_.back());
+}
+
+bool TimedSimulation::is_due() const {
     if (!controller_) return steps_done_ % plan_.every == 0;
-    return steps_done_ == 0 || controller_->step(steps_.last_s(num_ranks_), loads_.back());
+    return steps_done_ == 0 || controller_->due();
 }
 
 void TimedSimulation::rebalance() {

@@ -4,14 +4,17 @@
 #include "progress.hpp"
 
 #include <rrcb/controller.hpp>
+#include <rrcb/cost.hpp>
 
 #include <mpm/simulation.hpp>
+#include <rrcb_balancer_mpi.hpp>
 
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace comparisons {
@@ -27,9 +30,10 @@ struct SimulationPlan {
 /// Points on every rank, after the rebalance of a step if it had one.
 struct LoadRecord {
     std::int64_t step = 0;
-    double time = 0;             ///< s
-    std::vector<double> points;  ///< per part
-    double moved_fraction = 0;   ///< of the points, by the latest rebalance; 0 before the first
+    double time = 0;                ///< s
+    std::vector<double> points;     ///< per part
+    double moved_fraction = 0;      ///< of the points, by the latest rebalance; 0 before the first
+    std::vector<double> seconds{};  ///< per part, of a step; mean since the record before
 };
 
 /// Cost of a whole simulation under one method; the same on every rank.
@@ -60,6 +64,17 @@ double critical_path_s(const SimulationRun& run);
 /// Called before the first step and after every step.
 using Observer = std::function<void(int steps_done, const mpm::Simulation&)>;
 
+/// What a point weighs: one, or the seconds that it is learned to cost.
+enum class Cost { count, learned };
+
+/// Returns the balancer of a method, whose points have these weights; none for no rebalancing.
+using BalancerMaker = std::function<std::optional<mpm::Balancer>(const PointWeights&)>;
+
+/// A balancer that takes no weights, or none.
+inline BalancerMaker without_weights(std::optional<mpm::Balancer> balancer) {
+    return [balancer = std::move(balancer)](const PointWeights&) { return balancer; };
+}
+
 /// A scene under one method, to be run in turns with others so that all meet the same noise.
 ///
 /// Rebalanced before step 0, every, 2 every, ... or when the controller says so, by processor time
@@ -68,8 +83,10 @@ using Observer = std::function<void(int steps_done, const mpm::Simulation&)>;
 /// The plan must outlive it.
 class TimedSimulation {
   public:
-    TimedSimulation(const SimulationPlan& plan, std::optional<mpm::Balancer> balancer,
-                    Observer observe, MPI_Comm comm);
+    TimedSimulation(const SimulationPlan& plan, const BalancerMaker& make_balancer,
+                    Observer observe, MPI_Comm comm, Cost cost = Cost::count);
+    TimedSimulation(const TimedSimulation&) = delete;
+    TimedSimulation& operator=(const TimedSimulation&) = delete;
 
     /// Advances by `num_steps`, at most to the end of the plan.
     void advance(int num_steps);
@@ -79,7 +96,11 @@ class TimedSimulation {
 
   private:
     void advance_one();
-    bool is_due();
+    void start_controller(Cost cost);
+    void record_load();
+    void record_step();
+    std::vector<double> weights();
+    bool is_due() const;
     void rebalance();
     void note_loads(SimulationRun& run) const;
 
@@ -90,11 +111,14 @@ class TimedSimulation {
     int num_ranks_ = 1;
     std::unique_ptr<mpm::Simulation> simulation_;
     std::optional<rrcb::Controller> controller_;
+    std::optional<rrcb::CostModel> model_;
     SimulationRun run_;
     PhaseLog steps_;
     PhaseLog balances_;
     std::vector<double> loads_;  ///< points on this rank in each step
     double moved_lately_ = 0;    ///< share of the points that the latest rebalance moved
+    double seconds_since_record_ = 0;
+    int steps_since_record_ = 0;
     int steps_done_ = 0;
 };
 

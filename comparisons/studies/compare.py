@@ -37,12 +37,15 @@ comparisons/run [option ...]
   --steps=N             of the simulation; to its end, of the slope until it lies still
   --every=auto          rebalance the simulation when it pays; or N: steps between two
                         rebalances
+  --cost=learned        the simulations also compare weights from learned costs with
+                        counting; of the default methods, else --cost=count
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import re
 import sys
 import time
 from pathlib import Path
@@ -77,6 +80,8 @@ def main() -> int:
         out = options.out or (OUT if name == "slope" else OUT / name)
         if options.methods:
             others.append(f"--methods={options.methods}")
+        elif not re.search(r"--(cost|cloud|file|replay)\b", " ".join(others)):
+            others.append("--cost=learned")
         if options.scene != "slope":
             others.append(f"--scene={options.scene}")
         return _compare(options.ranks, out, others)

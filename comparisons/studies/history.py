@@ -21,11 +21,13 @@ def draw_history(histories: dict[str, pd.DataFrame]) -> Figure | None:
     return plot.legend_above(figure, grid[0, 0], inches=3.4)
 
 
-def per_part(history: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
-    """Times of the steps, and the unbalance as an array of parts by steps."""
-    unbalance = history.pivot_table("lu_percent", "part", "step", dropna=False)
-    unbalance = unbalance.reindex(range(history["part"].max() + 1))
-    return history.groupby("step")["time"].first().to_numpy(), unbalance.to_numpy()
+def per_part(
+    history: pd.DataFrame, column: str = "lu_percent"
+) -> tuple[np.ndarray, np.ndarray]:
+    """Times of the steps, and the column as an array of parts by steps."""
+    values = history.pivot_table(column, "part", "step", dropna=False)
+    values = values.reindex(range(history["part"].max() + 1))
+    return history.groupby("step")["time"].first().to_numpy(), values.to_numpy()
 
 
 def one_point(history: pd.DataFrame) -> float:
@@ -49,6 +51,20 @@ def draw_worst(axes: Axes, histories: dict[str, pd.DataFrame]) -> None:
     axes.set_yscale("log")
     axes.set_ylabel("largest |Lu| [%]")
     axes.set_title("Largest |Lu| of the parts, Lu = (ideal − actual) / ideal; worst of each window")
+    axes.grid(True, axis="y")
+
+
+def draw_seconds(axes: Axes, history: pd.DataFrame) -> None:
+    """The time of each rank in a step, mean of each window; dashed: mean of the ranks."""
+    times, seconds = (values[..., 1:] for values in per_part(history, "seconds"))
+    windows = _windows(len(times))
+    lengths = np.diff([*windows, len(times)])
+    means = 1e3 * np.add.reduceat(seconds, windows, axis=1) / lengths
+    for part, of_part in enumerate(means):
+        axes.plot(times[windows], of_part, color=plot.PART_COLOURS[part % len(plot.PART_COLOURS)],
+                  linewidth=0.9)  # fmt: skip
+    axes.plot(times[windows], means.mean(axis=0), color="black", linestyle="--", linewidth=0.9)
+    axes.set_xlabel(TIME)
     axes.grid(True, axis="y")
 
 

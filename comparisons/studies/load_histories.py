@@ -16,7 +16,7 @@ NOISES = ("white", "correlated", "slow core", "stalls")
 class History:
     """Load of rank p in step t, with parts made before step s, over the mean of a first step:
 
-    base[t] (1 + shows[t] (drift[t, p] - drift[s, p]) + kept[p] back(t - s)) (1 + slow fade^(t - s))
+    base[t] (1 + shows[t] (drift[t, p] - drift[s, p]) + kept[t, p] back(t - s)) (1 + slow fade^(t - s))
     """
 
     name: str
@@ -36,6 +36,7 @@ class History:
         self.steps, self.ranks = self.drift.shape
         self.base_of = np.broadcast_to(np.asarray(self.base, float), self.steps)
         self.cost_of = np.broadcast_to(np.asarray(self.cost, float), self.steps)
+        self.kept_of = np.broadcast_to(np.asarray(self.kept, float), self.drift.shape)
         self.shows_of = np.broadcast_to(np.asarray(self.shows, float), self.steps)
 
     def loads(self, made: np.ndarray | int, steps: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -43,7 +44,7 @@ class History:
         drift = self.drift[steps] - self.drift[made]
         age = (steps - made)[:, None]
         back = 1 - 0.5 ** (age / self.decay) if self.decay else 1.0
-        share = np.maximum(0.05, 1 + self.shows_of[steps, None] * drift + self.kept * back)
+        share = np.maximum(0.05, 1 + self.shows_of[steps, None] * drift + self.kept_of[steps] * back)
         slow = 1 + self.slow * self.fade**age
         return self.base_of[steps, None] * share * slow, np.maximum(0.05, 1 + drift)
 
@@ -166,6 +167,60 @@ def foreign(seed: int) -> list[History]:
     add("cost falls", t(1500) * 0.003 * one(8), 20 * 0.1 ** (np.arange(1500) / 1500))
     add("cost unknown", t(800) * 0.005 * one(8), 12, cost_is_known=False)
     add("drift that turns", 0.4 * np.sin(TAU * t(3000) / 3000) * spread(24), 8)
+    return histories
+
+
+def strangers(seed: int) -> list[History]:
+    """60 more of other codes, none of which the rule was chosen by; each seed has its own sizes."""
+    random = np.random.default_rng([seed, 60])
+    histories: list[History] = []
+    ranks_of = (3, 6, 8, 12, 24, 48)
+
+    def add(name: str, drift: np.ndarray, cost: float, **others: object) -> None:
+        cost *= 3 ** random.uniform(-1, 1)
+        histories.append(History(f"{name}, {drift.shape[1]} ranks {seed}", drift, cost, **others))
+
+    def spread(*shape: int) -> np.ndarray:
+        return even_out(random.uniform(-1, 1, shape))
+
+    def some(low: float, high: float) -> float:
+        return low * (high / low) ** random.random()
+
+    def reverting(steps: int, ranks: int, over: float) -> np.ndarray:
+        """Noise that is correlated over so many steps."""
+        pushes, keeps = random.normal(size=(steps, ranks)), np.exp(-1 / over)
+        for step in range(1, steps):
+            pushes[step] = keeps * pushes[step - 1] + np.sqrt(1 - keeps**2) * pushes[step]
+        return even_out(pushes)
+
+    for number, ranks in enumerate(ranks_of):
+        steps = int(some(600, 3000))
+        t = np.arange(steps)
+        grows = t[:, None] * spread(ranks) * some(3e-4, 4e-3)
+        deepest = 1 << (1 + number)
+        levels = np.gcd(t, deepest) / (1 + np.log2(deepest) / 2)
+        add(f"block steps, {deepest} of the least", grows, some(1, 15), shows=levels, base=levels)
+        every = (5, 7, 10, 20, 50, 100)[number]
+        search = np.where(t % every == 0, some(2, 8), 0.1)
+        add(f"contact search every {every} steps", grows, some(1, 10), shows=search, base=1 + search / 4)
+        hiccups = 1 + some(3, 20) * (random.random(steps) < 1 / some(20, 200))
+        add("stalls of all ranks", grows, some(1, 20), base=hiccups)
+        place = (t[:, None] * some(1e-3, 2e-2) - np.arange(ranks) + ranks / 2) % ranks - ranks / 2
+        add("a cluster that goes round", even_out(some(0.3, 3) * np.exp(-(place**2))), some(1, 20))
+        length = int(some(5, 100))
+        hot = (np.convolve(random.random(steps) < 1 / some(100, 400), np.ones(length))[:steps] > 0)[:, None]
+        add(f"bursts of {length} steps", np.cumsum(hot * spread(ranks) * some(5e-3, 5e-2), 0), some(1, 15))
+        add(f"explosions of {length} steps", hot * spread(ranks) * some(0.1, 0.8), some(1, 15))
+        restarts = np.maximum.accumulate(np.where(random.random(steps) < 1 / some(50, 500), t, 0))
+        add("linear growth and reset", (t - restarts)[:, None] * spread(ranks) * some(1e-3, 1e-2), some(1, 15))
+        over = (3, 10, 30, 100, 300, 1000)[number]
+        add(f"load that varies over {over} steps", some(0.02, 0.2) * reverting(steps, ranks, over), some(0.5, 15))
+        slow = np.zeros((steps, ranks))
+        slow[steps // 3 : steps // 3 + 200, number % ranks] = some(0.1, 1)
+        add("a slow core for 200 steps", grows, some(1, 15), kept=slow)
+        jumps = np.cumsum((random.random(steps) < 1 / some(20, 300))[:, None] * spread(steps, ranks), 0)
+        add("refinement", some(0.05, 0.3) * jumps, some(1, 15), base=1 + np.arange(steps) / some(300, 3000),
+            slow=some(0.1, 1), fade=0.7)  # fmt: skip
     return histories
 
 

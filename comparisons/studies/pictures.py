@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 import plot
-from history import draw_history
+from history import draw_history, draw_seconds
 from intervals import value_of
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -179,9 +179,24 @@ def draw_unbalance(results: Results) -> Figure | None:
     return draw_history(results.histories())
 
 
+def draw_rank_times(results: Results) -> Figure | None:
+    """The time of each rank in a step over the simulation, if points are counted and if they weigh what
+    they are learned to cost; dashed: the mean of the ranks."""
+    histories = results.histories()
+    if not {"count", "learned"} <= histories.keys():
+        return None
+    figure, grid = plot.panels(1, 2, 10, 3.6, sharex=True, sharey=True)
+    for axes, method in zip(grid[0], ("count", "learned")):
+        draw_seconds(axes, histories[method])
+        axes.set_title(method)
+    grid[0, 0].set_ylabel("time of a step [ms]")
+    return figure
+
+
 PICTURES = {
     "price.png": draw_price,
     "parts.png": draw_parts,
     "moving_boxes.png": draw_moving_boxes,
     "unbalance_history.png": draw_unbalance,
+    "rank_times.png": draw_rank_times,
 }

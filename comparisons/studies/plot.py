@@ -62,6 +62,8 @@ _METHODS = {
     "rrcb[tol=1.001]": MethodStyle("#00508A", (0, (6, 1)), "o"),
     "rrcb-exact": MethodStyle("#0A2A66", (0, (4, 1)), "*"),
     "rrcb-arrays": MethodStyle("#7B2D8E", "-", "h"),
+    "count": MethodStyle("#A37ACC", (0, (2, 2)), "h"),
+    "learned": MethodStyle("#C2185B", "-", "*"),
 }
 _OTHER = MethodStyle("#7A5C4A", "-", "8")
 _LINES = ("--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 3)))

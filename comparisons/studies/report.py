@@ -21,7 +21,8 @@ DEFINITIONS = (
     " method's. bytes and messages: of one call over all ranks. into root: bytes that rank 0 receives."
     " moved: weight that changes rank. ghosts: copies of points that parts need from others, the price"
     " of their shape. neighbours: the most parts that a part needs them from. gain kept: of what ideal"
-    " balance without cost would gain. wall: by the clock. In brackets: intervals of 95 %; if the"
+    " balance without cost would gain; of even time: of what even times of all ranks without messages would"
+    " gain. count, learned: rrcb-arrays, whose points weigh 1 or the seconds that they cost. wall: by the clock. In brackets: intervals of 95 %; if the"
     " interval of a ratio contains 1, the two methods are not told apart."
 )
 
@@ -65,7 +66,11 @@ def _add_simulations(report: Report, results: Results) -> None:
         "times as fast as none": _texts(runs, "speed_up_critical_path", 2),
     }
     show(caption, pd.DataFrame(shown))
-    for text in (shared_cores(first["ranks"]), work_sentence(results.rounds)):
+    for text in (
+        shared_cores(first["ranks"]),
+        work_sentence(results.rounds),
+        cost_sentence(results.rounds),
+    ):
         report.text(text)
 
 
@@ -122,6 +127,7 @@ def simulation_table(runs: pd.DataFrame, rounds: pd.DataFrame) -> pd.DataFrame:
             "times as fast as none": [_ratio(v, m == "none") for v, m in zip(speeds, runs["method"])],
             f"as {ZOLTAN}": [_ratio(v, m == ZOLTAN) for v, m in zip(as_zoltan, runs["method"])],
             "gain kept %": _numbers(100 * runs["gain_kept"], ".1f"),
+            "of even time %": _numbers(100 * runs["gain_kept_time"], ".1f"),
             "rebalances": _numbers(runs["rebalances"], ".0f"),
             "moved %": _numbers(100 * runs["moved_fraction"], ".1f"),
             "wall s": _texts(runs, "wall_s", digits),
@@ -220,6 +226,17 @@ def _ghosts(rows: pd.DataFrame) -> str:
     return (
         f"In every step the application then pays for ghosts: those of rrcb's parts are"
         f" {in_digits(share, 3)} % of the points, {in_digits(ratio, 3)} times those of Zoltan's RCB."
+    )
+
+
+def cost_sentence(rounds: pd.DataFrame) -> str:
+    """What learned costs of points gain over counting them."""
+    if (time := paired(rounds, rounds["critical_path_s"], "learned", "count")) is None:
+        return ""
+    uneven = [of_method(rounds, uneven_work(rounds), method).text(3) for method in ("learned", "count")]
+    return (
+        f"With weights from learned costs the critical path took {_ratio(time)} times that of counting"
+        f" points; the slowest rank of a step took {uneven[0]} times the mean, by counting {uneven[1]}."
     )
 
 

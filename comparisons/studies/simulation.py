@@ -51,9 +51,10 @@ def _add_interval(rows: pd.DataFrame, name: str, values: object) -> None:
 
 def _compare_with_none(rows: pd.DataFrame, rounds: pd.DataFrame) -> None:
     """Adds the speed-up over none, of pairs; and the share that is kept of what could be gained if
-    rebalancing were free and the steps as short as under any method."""
+    rebalancing were free and the steps as short as under any method; and of what could be gained if
+    also the least work of any method were even over the ranks, without messages."""
     names = [f"speed_up_critical_path{end}" for end in ("", "_low", "_high")]
-    rows[[*names, "ideal_speed_up", "gain_kept"]] = np.nan
+    rows[[*names, "ideal_speed_up", "gain_kept", "gain_kept_time"]] = np.nan
     if "none" not in rows.index:
         return
     for method in rows.index:
@@ -65,6 +66,9 @@ def _compare_with_none(rows: pd.DataFrame, rounds: pd.DataFrame) -> None:
     rows["ideal_speed_up"] = longest / shortest
     if longest > shortest:
         rows["gain_kept"] = (longest - rows["critical_path_s"]) / (longest - shortest)
+    even = rows["step_work_s"].min() / rounds["ranks"].iloc[0]
+    if longest > even:
+        rows["gain_kept_time"] = (longest - rows["critical_path_s"]) / (longest - even)
 
 
 def _close_fixed_imbalances(rows: pd.DataFrame, of_method: object) -> None:

@@ -25,7 +25,7 @@ SimulationRun run(const std::optional<mpm::Balancer>& balancer,
     Zoltan_Initialize(0, nullptr, &version);
     const SimulationPlan plan{.scene = scene, .num_steps = 6, .every = every, .record_every = 2};
     TimedSimulation simulation(
-        plan, balancer, [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
+        plan, without_weights(balancer), [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
     simulation.advance(4);
     simulation.advance(4);
     return simulation.result();
@@ -138,7 +138,8 @@ SimulationRun run_widening(int record_every, std::vector<double>& moved) {
     const SimulationPlan plan{
         .scene = mpm::slope_scene(22), .num_steps = 15, .every = 5, .record_every = record_every};
     TimedSimulation simulation(
-        plan, widening_slabs(moved), [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
+        plan, without_weights(widening_slabs(moved)), [](int, const mpm::Simulation&) {},
+        MPI_COMM_WORLD);
     simulation.advance(15);
     SimulationRun result = simulation.result();
     EXPECT_EQ(result.error, "");
@@ -200,7 +201,7 @@ TEST(Simulation, a_controller_rebalances_where_no_interval_is_given) {
         return same;
     };
     TimedSimulation simulation(
-        plan, slabs, [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
+        plan, without_weights(slabs), [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
     simulation.advance(15);
     const SimulationRun result = simulation.result();
     EXPECT_EQ(result.error, "");
@@ -244,13 +245,15 @@ TEST(Simulation, methods_go_through_zoltan_unless_they_are_on_arrays) {
     }
 }
 
-std::vector<SimulationRounds> quick_scene(const std::string& methods, int repeats) {
+std::vector<SimulationRounds> quick_scene(const std::string& methods, int repeats,
+                                          Cost cost = Cost::count) {
     Arguments arguments;
     arguments.quick = true;
     arguments.steps = 4;
     arguments.every = 2;
     arguments.repeats = repeats;
     arguments.methods = read_methods(methods);
+    arguments.cost = cost;
     const ResultsFolder folder(
         testing::TempDir() + "rrcb_scene_rounds.np" + std::to_string(num_ranks()), MPI_COMM_WORLD);
     Progress progress(false);
@@ -285,9 +288,23 @@ TEST(Simulation, rounds_take_another_seed_each_and_keep_the_first_history) {
     const SimulationPlan plan{
         .scene = choose_scene("slope", true, MPI_COMM_WORLD), .num_steps = 4, .every = 2};
     TimedSimulation alone(
-        plan, seed_three, [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
+        plan, without_weights(seed_three), [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
     alone.advance(4);
     EXPECT_EQ(methods[2].runs[2].mean_imbalance, alone.result().mean_imbalance);
+}
+
+TEST(Simulation, learned_costs_are_compared_with_counting) {
+    const std::vector<SimulationRounds> methods = quick_scene("zoltan-rcb", 1, Cost::learned);
+    ASSERT_EQ(methods.size(), 5U);
+    EXPECT_EQ(methods[2].method, "count");
+    EXPECT_EQ(methods[3].method, "learned");
+    for (const SimulationRounds& rounds : methods) {
+        ASSERT_EQ(rounds.runs.front().error, "") << rounds.method;
+        const std::vector<LoadRecord>& history = rounds.runs.front().history;
+        ASSERT_EQ(history.size(), 4U) << rounds.method;
+        EXPECT_EQ(history[0].seconds.front(), 0) << rounds.method;
+        for (const double seconds : history[1].seconds) EXPECT_GT(seconds, 0) << rounds.method;
+    }
 }
 
 TEST(Simulation, a_balancer_that_fails_leaves_its_reason) {

@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 import plot
 import rebalancing
-from load_histories import NOISES, History, foreign, generated, noise, recorded
+from load_histories import NOISES, History, foreign, generated, noise, recorded, strangers
 
 GROWTH = np.arange(6)[:, None] * np.array([0.1, -0.1])
 
@@ -58,6 +58,15 @@ class HistoryTest(unittest.TestCase):
             (history,) = recorded(folder)
         np.testing.assert_allclose(history.drift, np.array([[0, 0], [0.1, -0.1], [0.2, -0.2], [0.3, -0.3]]))
         self.assertAlmostEqual(history.cost_of[0], 0.5)  # 0.05 s of steps of 0.1 s
+
+
+    def test_strangers_have_loads_of_their_own(self) -> None:
+        histories = strangers(1)
+        self.assertEqual(len({history.name for history in histories}), 60)
+        slow = next(h for h in histories if h.name.startswith("a slow core"))
+        loads, points = slow.loads(0, np.array([slow.steps // 3 - 1, slow.steps // 3]))
+        self.assertGreater(np.ptp(loads - points, axis=1)[1], 0.05)
+        np.testing.assert_allclose(loads[0], points[0])
 
 
 class RuleTest(unittest.TestCase):

@@ -34,9 +34,8 @@ class Exchange {
     void fill(std::span<const int> destinations, Write&& write) {
         RankOrder order(destinations, num_ranks_);
         make_outbox(order.counts(), destinations.size());
-        order.for_each([&](std::size_t k, std::size_t place) {
-            write(k, &buffers_.outbox[record_bytes_ * place]);
-        });
+        order.for_each([write, bytes = record_bytes_, outbox = buffers_.outbox.data()](
+                           std::size_t k, std::size_t place) { write(k, outbox + bytes * place); });
     }
 
     /// Announces the records to their ranks; returns how many come to this one, which allocates
@@ -55,9 +54,11 @@ class Exchange {
     /// Calls read(source, place) for every record that came: by rank, in the order written there.
     template <class Read>
     void for_each(Read&& read) const {
-        for (const Message& message : arrived_)
-            for (std::size_t i = 0; i < message.count; ++i)
-                read(message.source, &buffers_.inbox[record_bytes_ * (message.first + i)]);
+        for (const auto& [source, first, count] : arrived_) {
+            const std::byte* place = buffers_.inbox.data() + record_bytes_ * first;
+            for (std::size_t left = count; left > 0; --left, place += record_bytes_)
+                read(source, place);
+        }
     }
 
     /// Returns the memory, for another exchange; this one is over.

@@ -26,7 +26,10 @@ class RankOrder {
     void for_each(Visit&& visit) {
         for (std::size_t place = 0; place < order_.size(); ++place) visit(order_[place], place);
         if (!order_.empty()) return;
-        for (std::size_t k = 0; k < ranks_.size(); ++k) visit(k, next_[ranks_[k]]++);
+        // Copies, which what is visited can't change.
+        const std::span<const int> ranks = ranks_;
+        LocalIndex* const next = next_.data();
+        for (std::size_t k = 0; k < ranks.size(); ++k) visit(k, next[ranks[k]]++);
     }
 
   private:

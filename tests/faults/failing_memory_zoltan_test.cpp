@@ -8,6 +8,7 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 
 namespace {
 long num_arrays = 0;  // that the plug-in asked Zoltan's allocator for
@@ -76,7 +77,11 @@ TEST(FailingMemoryInZoltan, whatever_lists_are_asked_for) {
         program.set("RETURN_LISTS", lists);
         num_arrays = 0;
         fail_in_partition(program);
-        EXPECT_GT(num_arrays, 0);
+        // Room for a list that no agreement follows is made before it is known whether any object
+        // moves.
+        const std::string_view asked = lists;
+        const bool makes_room = asked == "EXPORT" || asked == "PARTS";
+        EXPECT_EQ(num_arrays > 0, makes_room || (asked != "NONE" && program.num_ranks > 1));
     }
 }
 

@@ -1,6 +1,7 @@
 #include "zoltan/call/kept_objects_mpi.hpp"
 
 #include "cells/point_layout.hpp"
+#include "cells/vector_clones.hpp"
 #include "collective/communicator.hpp"
 #include "collective/mix.hpp"
 
@@ -21,8 +22,8 @@ std::uint64_t join(std::uint64_t entries, double entry) {
 }
 
 template <bool Weighted, class Layout>
-std::uint64_t checksum_of(const Layout& x, std::span<const double> weights,
-                          std::span<const Part> parts) {
+RRCB_VECTOR_CLONES std::uint64_t checksum_of(const Layout& x, std::span<const double> weights,
+                                             std::span<const Part> parts) {
     std::uint64_t sum = 0;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         std::uint64_t entries = static_cast<std::uint64_t>(parts[i]) + 1;
@@ -47,7 +48,7 @@ Placed find_placed(const Objects& objects, const LastPartition& last, const Kept
     const PartMap& map = last.map();
     if (!map.one_each && !objects.names_parts) return {};
     const auto count = static_cast<std::size_t>(objects.count);
-    const int* named = objects.initial_parts.get();
+    const int* named = objects.initial_parts;
     parts.assign(count, rank);
     if (named != nullptr) std::copy_n(named, count, parts.begin());
     // Cuts that this rank does not know, or that divide objects in one place, put none elsewhere.

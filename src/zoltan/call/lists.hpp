@@ -3,18 +3,16 @@
 #include "zoltan/call/objects.hpp"
 #include "zoltan/handle/part_map.hpp"
 
+#include <cstddef>
 #include <span>
+#include <utility>
 
 namespace rrcb::zoltan {
 
-/// One of Zoltan's two lists. Arrays of an empty list are null. A count of -1 stands for a list
-/// that was not asked for.
-struct List {
-    int count = 0;
-    ZoltanArray<IdWord> global_ids;
-    ZoltanArray<IdWord> local_ids;
-    ZoltanArray<int> ranks;
-    ZoltanArray<int> parts;
+/// Both of Zoltan's lists.
+struct Lists {
+    List imports;
+    List exports;
 };
 
 /// The caller's variables for one of the two lists; `parts` may be null.
@@ -32,18 +30,40 @@ struct CallerLists {
     CallerList exports;
 };
 
-/// Objects that leave this rank.
-struct Exports {
-    List list;
-    bool moves = false;  ///< the rank or part of some object of this rank changes
+/// The objects of this rank whose rank or part changes. Without a callback that names parts, an
+/// object is in the part of its rank's number, as in Zoltan.
+class Moves {
+  public:
+    /// Finds them if `objects` has room for their indices. Borrows all. Never throws.
+    Moves(Objects& objects, std::span<const Part> parts, const PartMap& map, int my_rank);
+
+    int count() const { return count_; }
+
+    /// Writes them to `list`, which has room for them, in their order. It may hold the ids of all
+    /// objects. Never throws.
+    void write(const IdWidths& widths, List& list) const;
+
+    /// Lists all objects with their new ranks and parts, in the room that holds the ids.
+    List list_all() const;
+
+    /// Takes the room that holds the ids.
+    List take_room() const { return std::move(objects_.room); }
+
+  private:
+    int rank_of(std::size_t i) const {
+        return map_.one_each ? parts_[i] : map_.destination(parts_[i], i, my_rank_);
+    }
+    template <class Widths>
+    void write_by(const Widths& widths, List& list) const;
+
+    Objects& objects_;
+    std::span<const Part> parts_;
+    const PartMap& map_;
+    int my_rank_;
+    int count_ = 0;
 };
 
-/// Objects of this rank whose rank or part changes; all of them where RETURN_LISTS asks for parts.
-/// It takes the arrays out of `objects`, so it cannot fail. Not collective.
-Exports make_exports(Objects&& objects, const Parameters& parameters,
-                     std::span<const Part> new_parts, const PartMap& map, int my_rank);
-
-/// All objects of this rank with the parts they are in. It takes the arrays, so it cannot fail.
+/// Lists all objects of this rank with the parts they are in, in the room that holds the ids.
 List list_in_place(Objects&& objects, int my_rank);
 
 }  // namespace rrcb::zoltan

@@ -10,77 +10,72 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// An object on its way: words of its global id, of its local id, and its part.
+/// Objects on their way: words of a global id, of a local id, and a part. Copies, which the bytes
+/// that are written can't change.
 template <class Widths>
-struct Record {
-    Widths widths;
+struct Records {
+    Records(const Widths& words, const List& list)
+        : widths(words),
+          global_ids(list.global_ids.get()),
+          local_ids(list.local_ids.get()),
+          parts(list.parts.get()) {}
 
-    std::size_t bytes() const {
-        return (widths.global + widths.local) * sizeof(IdWord) + sizeof(int);
+    void write(std::size_t i, std::byte* place) const {
+        place = put(global_ids + i * widths.global, widths.global, place);
+        place = put(local_ids + i * widths.local, widths.local, place);
+        std::memcpy(place, &parts[i], sizeof parts[i]);
     }
 
-    void write(const List& list, std::size_t i, std::byte* place) const {
-        place = put(list.global_ids.get(), widths.global, i, place);
-        place = put(list.local_ids.get(), widths.local, i, place);
-        put(list.parts.get(), 1, i, place);
-    }
-
-    void read(const std::byte* place, std::size_t i, List& list) const {
-        place = get(place, widths.global, i, list.global_ids.get());
-        place = get(place, widths.local, i, list.local_ids.get());
-        get(place, 1, i, list.parts.get());
+    void read(const std::byte* place, std::size_t i) const {
+        place = get(place, widths.global, global_ids + i * widths.global);
+        place = get(place, widths.local, local_ids + i * widths.local);
+        std::memcpy(&parts[i], place, sizeof parts[i]);
     }
 
   private:
     // Copied word by word: widths are small, and known at run time only.
-    template <typename T>
-    static std::byte* put(const T* array, std::size_t width, std::size_t i, std::byte* place) {
-        for (std::size_t word = 0; word < width; ++word, place += sizeof(T))
-            std::memcpy(place, &array[i * width + word], sizeof(T));
+    static std::byte* put(const IdWord* words, std::size_t width, std::byte* place) {
+        for (std::size_t word = 0; word < width; ++word, place += sizeof(IdWord))
+            std::memcpy(place, &words[word], sizeof(IdWord));
         return place;
     }
 
-    template <typename T>
-    static const std::byte* get(const std::byte* place, std::size_t width, std::size_t i,
-                                T* array) {
-        for (std::size_t word = 0; word < width; ++word, place += sizeof(T))
-            std::memcpy(&array[i * width + word], place, sizeof(T));
+    static const std::byte* get(const std::byte* place, std::size_t width, IdWord* words) {
+        for (std::size_t word = 0; word < width; ++word, place += sizeof(IdWord))
+            std::memcpy(&words[word], place, sizeof(IdWord));
         return place;
     }
+
+    Widths widths;
+    IdWord* global_ids;
+    IdWord* local_ids;
+    int* parts;
 };
-
-List make_list(std::size_t count, const IdWidths& widths) {
-    List list;
-    list.count = mpi::to_int(static_cast<std::int64_t>(count));
-    list.global_ids = ZoltanArray<IdWord>(count * widths.global);
-    list.local_ids = ZoltanArray<IdWord>(count * widths.local);
-    list.ranks = ZoltanArray<int>(count);
-    list.parts = ZoltanArray<int>(count);
-    return list;
-}
 
 /// Import list that answers the export lists of all ranks. Collective.
 List invert(const List& exports, const Parameters& parameters, ExchangeBuffers& memory,
             Participant& self) {
     const IdWidths widths(parameters);
-    Exchange exchange(Record{widths}.bytes(), mpi::size_of(self.comm), std::move(memory));
+    const std::size_t bytes = (widths.global + widths.local) * sizeof(IdWord) + sizeof(int);
+    Exchange exchange(bytes, mpi::size_of(self.comm), std::move(memory));
     self.attempt([&] {
         const std::span ranks(exports.ranks.get(), static_cast<std::size_t>(exports.count));
         visit_widths(widths, [&](const auto& known) {
-            exchange.fill(ranks, [&](std::size_t i, std::byte* place) {
-                Record{known}.write(exports, i, place);
-            });
+            exchange.fill(ranks, [records = Records(known, exports)](
+                                     std::size_t i, std::byte* place) { records.write(i, place); });
         });
     });
     const std::size_t count = exchange.announce(self);
     List imports;
-    self.attempt([&] { imports = make_list(count, widths); });
+    self.attempt(
+        [&] { imports = make_list(mpi::to_int(static_cast<std::int64_t>(count)), widths); });
     agree(self);
     exchange.run(self);
     visit_widths(widths, [&](const auto& known) {
-        exchange.for_each([&, i = std::size_t{0}](int source, const std::byte* place) mutable {
-            imports.ranks[i] = source;
-            Record{known}.read(place, i++, imports);
+        exchange.for_each([records = Records(known, imports), ranks = imports.ranks.get(),
+                           i = std::size_t{0}](int source, const std::byte* place) mutable {
+            ranks[i] = source;
+            records.read(place, i++);
         });
     });
     memory = exchange.take_memory();
@@ -89,20 +84,32 @@ List invert(const List& exports, const Parameters& parameters, ExchangeBuffers& 
 
 }  // namespace
 
-void select_lists(const Parameters& parameters, bool changes, ExchangeBuffers& memory,
-                  Participant& self, List& imports, List& exports) {
+Lists select_lists(const Parameters& parameters, const Moves& moves, bool changes,
+                   ExchangeBuffers& memory, Participant& self) {
     constexpr int not_asked = -1;
     const ReturnLists asked = parameters.return_lists;
-    if (!changes) return;
+    const IdWidths widths(parameters);
+    Lists lists;
+    List& exports = lists.exports;
+    if (asked == ReturnLists::parts) exports = moves.list_all();
+    if (!changes) return lists;
     if (asked == ReturnLists::all || asked == ReturnLists::imports) {
-        imports = invert(exports, parameters, memory, self);
+        self.attempt([&] {
+            exports = make_list(moves.count(), widths);
+            moves.write(widths, exports);
+        });
+        lists.imports = invert(exports, parameters, memory, self);
     } else {
-        imports.count = not_asked;
+        lists.imports.count = not_asked;
     }
-    if (asked == ReturnLists::imports || asked == ReturnLists::none) {
+    if (asked == ReturnLists::exports) {
+        exports = moves.take_room();
+        moves.write(widths, exports);
+    } else if (asked == ReturnLists::imports || asked == ReturnLists::none) {
         exports = List{};
         exports.count = not_asked;
     }
+    return lists;
 }
 
 }  // namespace rrcb::zoltan

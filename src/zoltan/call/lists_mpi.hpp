@@ -5,13 +5,13 @@
 
 namespace rrcb::zoltan {
 
-/// Drops the lists or completes them as RETURN_LISTS asks, where any object `changes` its rank:
-/// with the import list that answers the export lists of all ranks, by rank, in the order of that
+/// Makes the lists that RETURN_LISTS asks for, without imports if no object of any rank `changes`
+/// its rank or part. Imports answer the export lists of all ranks, by rank, in the order of that
 /// rank's list. They travel in `memory`, which grows.
 ///
 /// Collective over `self.comm` where imports are asked for, as Exchange is, with a reduction.
 /// Throws Error on all ranks where one has no memory, on one alone where its message fails.
-void select_lists(const Parameters& parameters, bool changes, ExchangeBuffers& memory,
-                  Participant& self, List& imports, List& exports);
+Lists select_lists(const Parameters& parameters, const Moves& moves, bool changes,
+                   ExchangeBuffers& memory, Participant& self);
 
 }  // namespace rrcb::zoltan

@@ -43,23 +43,21 @@ class Collector {
         objects_.names_parts = tells_parts();
         if (objects_.count > 0) {
             const auto count = static_cast<std::size_t>(objects_.count);
-            objects_.global_ids = ZoltanArray<IdWord>(count * widths_.global);
-            objects_.local_ids = ZoltanArray<IdWord>(count * widths_.local);
+            allocate(count);
             read_ids_and_weights(count);
             read_coordinates(count);
             read_initial_parts(count);
-            allocate(count);
         }
         return std::move(objects_);
     }
 
   private:
     ZOLTAN_ID_PTR global_id(std::size_t i) const {
-        return as_zoltan_ids(objects_.global_ids.get() + i * widths_.global);
+        return as_zoltan_ids(objects_.global_ids + i * widths_.global);
     }
     ZOLTAN_ID_PTR local_id(std::size_t i) const {
         if (widths_.local == 0) return nullptr;
-        return as_zoltan_ids(objects_.local_ids.get() + i * widths_.local);
+        return as_zoltan_ids(objects_.local_ids + i * widths_.local);
     }
 
     void check(int code, const char* name) {
@@ -180,12 +178,12 @@ class Collector {
         const auto multi = callback<ZOLTAN_PART_MULTI_FN>(zz_, ZOLTAN_PART_MULTI_FN_TYPE);
         const auto single = callback<ZOLTAN_PART_FN>(zz_, ZOLTAN_PART_FN_TYPE);
         if (!objects_.names_parts) return;
-        objects_.initial_parts = ZoltanArray<int>(count);
+        objects_.initial_parts = workspace_.initial_parts.get(count);
         const int gid = parameters_.num_gid_entries;
         const int lid = parameters_.num_lid_entries;
         int code = ZOLTAN_OK;
         if (multi) {
-            multi(gid, lid, objects_.count, global_id(0), local_id(0), objects_.initial_parts.get(),
+            multi(gid, lid, objects_.count, global_id(0), local_id(0), objects_.initial_parts,
                   &code);
             check(code, "ZOLTAN_PART_MULTI_FN");
             return;
@@ -198,9 +196,16 @@ class Collector {
 
     /// Allocates memory for later steps: they run between messages, where no rank may fail alone.
     void allocate(std::size_t count) {
-        if (parameters_.return_lists == ReturnLists::none) return;
-        objects_.new_ranks = ZoltanArray<int>(count);
-        objects_.new_parts = ZoltanArray<int>(count);
+        const ReturnLists asked = parameters_.return_lists;
+        if (asked != ReturnLists::none) objects_.moving = workspace_.moving.get(count);
+        if (asked == ReturnLists::exports || asked == ReturnLists::parts) {
+            objects_.room = make_list(objects_.count, widths_);
+            objects_.global_ids = objects_.room.global_ids.get();
+            objects_.local_ids = objects_.room.local_ids.get();
+            return;
+        }
+        objects_.global_ids = workspace_.global_ids.get(count * widths_.global);
+        if (widths_.local > 0) objects_.local_ids = workspace_.local_ids.get(count * widths_.local);
     }
 
     Zoltan_Struct* zz_;
@@ -212,6 +217,13 @@ class Collector {
 };
 
 }  // namespace
+
+List make_list(int count, const IdWidths& widths) {
+    const auto size = static_cast<std::size_t>(count);
+    return {count, ZoltanArray<IdWord>(size * widths.global),
+            ZoltanArray<IdWord>(size * widths.local), ZoltanArray<int>(size),
+            ZoltanArray<int>(size)};
+}
 
 Objects collect_objects(Zoltan_Struct* zz, const Parameters& parameters, Workspace& workspace) {
     return Collector(zz, parameters, workspace).collect();

@@ -46,17 +46,30 @@ void visit_widths(const IdWidths& widths, Visit&& visit) {
     visit(widths);
 }
 
-/// One rank's objects, as its callbacks describe them.
+/// One of Zoltan's two lists. Arrays of an empty list are null. A count of -1 stands for a list
+/// that was not asked for.
+struct List {
+    int count = 0;
+    ZoltanArray<IdWord> global_ids;
+    ZoltanArray<IdWord> local_ids;
+    ZoltanArray<int> ranks;
+    ZoltanArray<int> parts;
+};
+
+/// A list with room for so many entries. Throws std::bad_alloc.
+List make_list(int count, const IdWidths& widths);
+
+/// One rank's objects, as its callbacks describe them, in memory of the workspace.
 struct Objects {
     int count = 0;
     bool warned = false;       ///< a callback returned ZOLTAN_WARN
     bool names_parts = false;  ///< a callback tells the part of each object
-    ZoltanArray<IdWord> global_ids;
-    ZoltanArray<IdWord> local_ids;   ///< null when ids have no local part
-    ZoltanArray<int> initial_parts;  ///< null when no callback tells them
-    ZoltanArray<int> new_ranks;      ///< buffer for where each object goes, while a failure
-    ZoltanArray<int> new_parts;      ///< can still be agreed on; null when not asked for
-    Points points;                   ///< borrowed from the workspace
+    IdWord* global_ids = nullptr;
+    IdWord* local_ids = nullptr;   ///< null when ids have no local part
+    int* initial_parts = nullptr;  ///< null when no callback tells them
+    int* moving = nullptr;         ///< room for the indices of those that move; null without lists
+    Points points;
+    List room;  ///< holds the ids if they are handed out without another agreement of the ranks
 };
 
 /// Objects by the registered callbacks, with at most one weight each. Not collective. Throws

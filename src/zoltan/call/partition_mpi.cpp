@@ -143,21 +143,14 @@ Preparation prepare(const Call& call, const Layout& layout, int dimension, Parti
     return made;
 }
 
-/// Lists the objects that leave, and keeps the checksum by which the next call knows them again.
-/// Collective unless RETURN_LISTS is NONE: one reduction.
-void list_exports(const Call& call, const Layout& layout, Objects&& objects,
-                  std::span<const Part> parts, Partition& result) {
-    const Parameters& parameters = call.state.parameters;
-    if (parameters.return_lists == ReturnLists::none) {
-        result.changes = true;
-        return;
-    }
-    const Communicator& comm = *call.state.communicator;
-    KeptObjects kept{{}, checksum_of(objects.points, parts)};
-    Exports exports = make_exports(std::move(objects), parameters, parts, layout.map, comm.rank());
-    result.exports = std::move(exports.list);
-    result.changes = add_up(exports.moves, kept.checksum, comm.get());
-    call.state.kept = std::move(kept);
+/// Returns true if an object moves on any rank, or if that is not known. Keeps the checksum by
+/// which the next call finds the objects unchanged. Collective unless RETURN_LISTS is NONE: one
+/// reduction.
+bool may_change(State& state, const Moves& moves, const Points& points,
+                std::span<const Part> parts) {
+    if (state.parameters.return_lists == ReturnLists::none) return true;
+    KeptObjects& kept = state.kept.emplace(KeptObjects{{}, checksum_of(points, parts)});
+    return add_up(moves.count() > 0, kept.checksum, state.communicator->get());
 }
 
 /// Keeps cuts, numbers of parts and report for look-ups and for the next call.
@@ -183,7 +176,7 @@ void serve_fortran(const Call& call, Partition& result, Participant& self) {
 /// whose parts no callback names are. Not collective.
 bool are_in_own_part(const Objects& objects, const PartMap& map, int rank) {
     if (!map.one_each) return false;
-    const int* named = objects.initial_parts.get();
+    const int* named = objects.initial_parts;
     if (named == nullptr) return true;
     return std::all_of(named, named + objects.count, [&](int part) { return part == rank; });
 }
@@ -220,10 +213,11 @@ int balance_objects(const Call& call, Objects&& objects, Partition& result) {
     Preparation prepared = prepare(call, layout, objects.points.dimension, self);
     Balance balanced = divide(call, layout, prepared, objects, self);
     auto [remap, numbering] = prepared.renumbering->run(objects, balanced.parts, self);
-    list_exports(call, layout, std::move(objects), balanced.parts, result);
+    const Moves moves(objects, balanced.parts, layout.map, call.state.communicator->rank());
+    result.changes = may_change(call.state, moves, objects.points, balanced.parts);
     if (prepared.is_spread) agree(self);
-    select_lists(parameters, result.changes, call.state.workspace.records, self, result.imports,
-                 result.exports);
+    static_cast<Lists&>(result) =
+        select_lists(parameters, moves, result.changes, call.state.workspace.records, self);
     serve_fortran(call, result, self);
     if (call.outcome.any_keeps_cuts && !is_whole(balanced.cuts))
         balanced.cuts = gather_cuts(balanced.cuts, self);
@@ -240,8 +234,7 @@ int balance_objects(const Call& call, Objects&& objects, Partition& result) {
 void dump_inputs(DumpReason reason, const Call& call, const Objects& objects,
                  const LocalStatus& status) {
     dump(reason, call.outcome.dump, call.state,
-         {call.function, objects.points, objects.initial_parts.get(), status.code,
-          status.text.data()});
+         {call.function, objects.points, objects.initial_parts, status.code, status.text.data()});
 }
 
 /// The end of a call that fails on all ranks alike.

@@ -16,12 +16,10 @@ struct Summary {
 };
 
 /// Result of Zoltan_LB_Partition beside its code.
-struct Partition {
+struct Partition : Lists {
     bool changes = false;
-    bool with_caller = false;  ///< the arrays are in the caller's variables already
-    bool is_zoltans = false;   ///< the real Zoltan is to answer the call; all else is empty
-    List imports;
-    List exports;
+    bool with_caller = false;        ///< the arrays are in the caller's variables already
+    bool is_zoltans = false;         ///< the real Zoltan is to answer the call; all else is empty
     std::optional<Summary> summary;  ///< empty if the call fails or is the real Zoltan's
 };
 

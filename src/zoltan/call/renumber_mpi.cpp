@@ -36,7 +36,7 @@ Renumbering::Renumbering(const Parameters& parameters, const Layout& layout, boo
 Renumbered Renumbering::run(const Objects& objects, std::span<Part> parts, Participant& self) {
     if (!buffers_) return {};
     PreviousParts previous;
-    if (objects.names_parts) previous.emplace(objects.initial_parts.get(), parts.size());
+    if (objects.names_parts) previous.emplace(objects.initial_parts, parts.size());
     auto [summary, boxes] = find_numbers(parts, previous, *buffers_, self);
     // A rank without memory has no numbers; the next agreement tells the others.
     if (summary.identity || self.failed()) return {};
@@ -44,9 +44,7 @@ Renumbered Renumbering::run(const Objects& objects, std::span<Part> parts, Parti
     Renumbered result{std::move(summary)};
     result.numbering = boxes_.empty() ? Numbering::of_some(std::move(boxes), std::move(numbers))
                                       : Numbering::of_all(std::move(numbers), std::move(boxes_));
-    // A failure elsewhere, which no rank knows of yet, may have lost a number.
-    for (Part& part : parts)
-        if (const Part number = result.numbering.number_of(part); number != no_part) part = number;
+    result.numbering.apply(parts);
     return result;
 }
 

@@ -29,4 +29,15 @@ Part Numbering::number_of(Part box) const {
     return numbers_[found - boxes_.begin()];
 }
 
+void Numbering::apply(std::span<Part> boxes) const {
+    if (is_whole() && !is_unchanged()) {
+        const Part* const numbers = numbers_.data();
+        for (Part& box : boxes) box = numbers[box];
+        return;
+    }
+    // A failure elsewhere, of which no rank knows yet, may have lost a number.
+    for (Part& box : boxes)
+        if (const Part number = number_of(box); number != no_part) box = number;
+}
+
 }  // namespace rrcb::zoltan

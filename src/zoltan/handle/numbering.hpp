@@ -2,6 +2,7 @@
 
 #include <rrcb/points.hpp>
 
+#include <span>
 #include <vector>
 
 namespace rrcb::zoltan {
@@ -25,6 +26,9 @@ class Numbering {
 
     /// The number of a box; no_part where it is not known.
     Part number_of(Part box) const;
+
+    /// Writes the numbers of boxes in their place. A box keeps its own where it is not known.
+    void apply(std::span<Part> boxes) const;
 
     /// The box of a part, where all are known.
     Part box_of(Part number) const { return is_unchanged() ? number : boxes_[number]; }

@@ -5,6 +5,7 @@
 #include <rrcb/points.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -34,6 +35,10 @@ struct Workspace {
     Scratch<double> coordinates;
     Scratch<double> weights;
     Scratch<float> callback_weights;
+    Scratch<std::uint32_t> global_ids;
+    Scratch<std::uint32_t> local_ids;
+    Scratch<int> initial_parts;
+    Scratch<int> moving;  ///< indices of objects that move
     std::vector<Part> parts;
     ExchangeBuffers records;  ///< of objects that move
 };

@@ -42,7 +42,7 @@ class ZoltanArray {
     void shrink(std::size_t size) {
         if (size == 0) {
             *this = ZoltanArray();
-        } else if (data_ != nullptr) {
+        } else if (data_ != nullptr && size < size_) {
             T* shrunk =
                 reinterpret_cast<T*>(Zoltan_Realloc(data_, size * sizeof(T), file(), __LINE__));
             if (shrunk != nullptr) data_ = shrunk;

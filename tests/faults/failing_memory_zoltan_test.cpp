@@ -6,9 +6,11 @@
 #include <unistd.h>
 
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <string_view>
+#include <utility>
 
 namespace {
 long num_arrays = 0;  // that the plug-in asked Zoltan's allocator for
@@ -38,11 +40,14 @@ struct ShortProgram : Program {
         zoltan_test::scatter_points(*this, 40);
         set("LB_METHOD", "RRCB");
         set("OBJ_WEIGHT_DIM", "1");
+        first_otherwise = std::nextafter(coordinates[0], 2.0);
     }
 
     /// Code of a call of LB_Partition, with its lists in the program's raw ones.
     int call() {
         free_lists();
+        // On one rank objects at rest would be recognized, which takes no memory.
+        std::swap(coordinates[0], first_otherwise);
         RawList& in = raw_imports;
         RawList& out = raw_exports;
         int widths[2];
@@ -59,6 +64,7 @@ struct ShortProgram : Program {
     }
 
     int changes = 0;
+    double first_otherwise = 0;  ///< the first coordinate in every other call
 };
 
 void fail_in_partition(ShortProgram& program, int success = ZOLTAN_OK) {

@@ -97,7 +97,7 @@ struct Tuning {
 /// Options of `balance`; must be the same on every rank, which is checked.
 struct Options {
     int num_parts = 0;                  ///< parts to make; 0: one per rank
-    std::vector<double> part_sizes;     ///< relative weight of each part, >= 0, some > 0; empty:
+    std::vector<double> part_sizes{};   ///< relative weight of each part, >= 0, some > 0; empty:
                                         ///< equal
     double imbalance_tolerance = 1.01;  ///< heaviest part / mean part to reach, >= 1, finite
     Refine refine = Refine::tolerance;  ///< accuracy of the cuts

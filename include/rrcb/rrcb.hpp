@@ -6,6 +6,7 @@
 #include <rrcb/cuts.hpp>
 #include <rrcb/error.hpp>
 #include <rrcb/ghosts.hpp>
+#include <rrcb/groups.hpp>
 #include <rrcb/options.hpp>
 #include <rrcb/plan.hpp>
 #include <rrcb/points.hpp>

@@ -2,6 +2,7 @@
 #include "collective/duplicate.hpp"
 #include "lists/delivery_mpi.hpp"
 #include "lists/ghosts_mpi.hpp"
+#include "lists/groups_mpi.hpp"
 #include "options/rejection.hpp"
 
 #include <algorithm>
@@ -23,6 +24,41 @@ LocalIndex check(const GhostPlan& plan, int num_ranks) {
         std::ranges::all_of(plan.send_indices, [&](LocalIndex i) { return i < plan.num_points; }),
         "send_indices of the plan must be below num_points");
     return num_ghosts;
+}
+
+/// Throws Error unless the groups hold together; returns how many other ranks have.
+LocalIndex check(const Groups& groups, int num_ranks) {
+    const LocalIndex num_elsewhere = check(groups.plan, num_ranks);
+    const LocalIndex num_groups = groups.plan.num_points + num_elsewhere;
+    require(std::ranges::all_of(groups.of_points, [&](LocalIndex g) { return g < num_groups; }),
+            "of_points of the groups must be below the number of groups");
+    return num_elsewhere;
+}
+
+/// Values of a column of all groups that this rank knows.
+struct GroupValues {
+    std::size_t value_bytes;
+    std::vector<std::byte> bytes{};
+
+    /// Returns the column with this as its result.
+    ByteColumn result_of(ByteColumn column) {
+        column.result = this;
+        column.resize = [](void* result, std::size_t num_values) {
+            auto& values = *static_cast<GroupValues*>(result);
+            values.bytes.resize(num_values * values.value_bytes);
+            return values.bytes.data();
+        };
+        return column;
+    }
+};
+
+/// Copies the value of the group of each point.
+void spread(const Groups& groups, const GroupValues& values, std::size_t point_bytes,
+            std::byte* to) {
+    for (const LocalIndex group : groups.of_points) {
+        std::copy_n(&values.bytes[group * point_bytes], point_bytes, to);
+        to += point_bytes;
+    }
 }
 
 /// Copies a column, unless its result stands in its place.
@@ -68,6 +104,59 @@ void move_back(const GhostPlan& plan, std::span<const ByteColumn> of_ghosts,
     deliver(delivery, of_ghosts, limits, report, self);
 }
 
+void move(const Groups& groups, std::span<const ByteColumn> columns, const TransferLimits& limits,
+          TransferReport* report, Participant& self) {
+    const LocalIndex num_groups = groups.plan.num_points;
+    Delivery delivery{
+        .num_points = num_groups, .num_kept = num_groups, .sent = groups.plan.send_indices};
+    std::vector<GroupValues> values;
+    std::vector<ByteColumn> of_groups;
+    std::vector<std::byte*> results;
+    self.attempt([&] {
+        check(groups, mpi::size_of(self.comm));
+        values.reserve(columns.size());
+        for (const ByteColumn& column : columns) {
+            results.push_back(
+                column.resize(column.result, groups.of_points.size() * column.components));
+            of_groups.push_back(values.emplace_back(column.value_bytes).result_of(column));
+        }
+        delivery.to = groups.plan.send;
+        delivery.from = groups.plan.receive;
+    });
+    deliver(delivery, of_groups, limits, report, self);
+    for (std::size_t k = 0; k < columns.size(); ++k)
+        spread(groups, values[k], columns[k].components * columns[k].value_bytes, results[k]);
+}
+
+std::vector<double> sums(const Groups& groups, std::span<const double> values,
+                         std::size_t components, Participant& self) {
+    std::vector<double> all;
+    std::vector<double> elsewhere;
+    std::vector<double> arrived;
+    std::vector<LocalIndex> numbers;
+    Delivery delivery;
+    self.attempt([&] {
+        delivery.num_points = check(groups, mpi::size_of(self.comm));
+        check_column(detail::byte_column(Column<double>{values, components}, all),
+                     groups.of_points.size(), "points of the groups");
+        all.resize((groups.plan.num_points + delivery.num_points) * components);
+        detail::add_each(groups.of_points, components, values.data(), all.data());
+        elsewhere.assign(
+            all.begin() + static_cast<std::ptrdiff_t>(groups.plan.num_points * components),
+            all.end());
+        all.resize(groups.plan.num_points * components);
+        numbers.resize(delivery.num_points);
+        std::iota(numbers.begin(), numbers.end(), LocalIndex{0});
+        delivery.sent = numbers;
+        delivery.to = groups.plan.receive;
+        delivery.from = groups.plan.send;
+    });
+    const std::array columns{detail::byte_column(Column<double>{elsewhere, components}, arrived)};
+    deliver(delivery, columns, {}, nullptr, self);
+    detail::add_each(groups.plan.send_indices, components, arrived.data(), all.data());
+    return all;
+}
+
 void detail::move(const GhostPlan& plan, std::span<const ByteColumn> columns,
                   const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
     Participant self{mpi::duplicate_of(user)};
@@ -79,6 +168,18 @@ void detail::move_back(const GhostPlan& plan, std::span<const ByteColumn> of_gho
                        TransferReport* report, MPI_Comm user) {
     Participant self{mpi::duplicate_of(user)};
     rrcb::move_back(plan, of_ghosts, of_points, limits, report, self);
+}
+
+void detail::move(const Groups& groups, std::span<const ByteColumn> columns,
+                  const TransferLimits& limits, TransferReport* report, MPI_Comm user) {
+    Participant self{mpi::duplicate_of(user)};
+    rrcb::move(groups, columns, limits, report, self);
+}
+
+std::vector<double> sums(const Groups& groups, std::span<const double> values, MPI_Comm user,
+                         std::size_t components) {
+    Participant self{mpi::duplicate_of(user)};
+    return sums(groups, values, components, self);
 }
 
 }  // namespace rrcb

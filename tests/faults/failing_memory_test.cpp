@@ -140,6 +140,23 @@ TEST(FailingMemory, in_cuts_that_are_spread_over_the_ranks) {
             [&](const Cuts& found) { EXPECT_EQ(found.tree.size(), whole.tree.size()); });
 }
 
+TEST(FailingMemory, in_groups) {
+    const std::vector<double> coordinates = cloud_here(2);
+    const Points points = interleaved_points(coordinates, 2);
+    std::vector<std::uint64_t> keys;
+    for (LocalIndex i = 0; i < points.count; ++i) keys.push_back(i / 3);
+    const auto groups_here = [&] { return groups(points, keys, MPI_COMM_WORLD); };
+    const Groups right = groups_here();
+    fail_in(groups_here,
+            [&](const Groups& found) { EXPECT_EQ(found.coordinates, right.coordinates); });
+    const std::vector<double> expected = fetch(right, right.weights, MPI_COMM_WORLD);
+    fail_in([&] { return fetch(right, right.weights, MPI_COMM_WORLD); },
+            [&](const std::vector<double>& found) { EXPECT_EQ(found, expected); });
+    fail_in(
+        [&] { return sums(right, expected, MPI_COMM_WORLD); },
+        [&](const std::vector<double>& found) { EXPECT_EQ(found.size(), right.weights.size()); });
+}
+
 TEST(FailingMemory, in_a_correction_of_all_cuts) {
     Options options;
     options.num_parts = 2;

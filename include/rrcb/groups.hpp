@@ -1,0 +1,82 @@
+#pragma once
+
+#include <rrcb/ghosts.hpp>
+#include <rrcb/points.hpp>
+#include <rrcb/transfer.hpp>
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace rrcb {
+
+/// Key of a point that is a group of its own.
+inline constexpr std::uint64_t no_group = std::numeric_limits<std::uint64_t>::max();
+
+/// Position that stands for a group.
+enum class GroupPlace {
+    centre,  ///< of weight; of the points if all of them weigh 0. Depends on the ranks that have
+             ///< them by rounding only. Positions must not be wrapped in a periodic box
+    first_point  ///< of the lowest rank that has one. Its exact position; may change with the ranks
+};
+
+/// Points that go to one part together, such as bonded particles or bodies, as one point each.
+struct Groups {
+    int dimension = 0;                  ///< of the points
+    std::vector<double> coordinates{};  ///< of the groups of this rank, by their first point here
+    std::vector<double> weights{};      ///< sums over all points of each
+    /// Group of each point of this rank: those of this rank first, then those that other ranks
+    /// have, in the order of fetch() by `plan`.
+    std::vector<LocalIndex> of_points{};
+    GhostPlan plan{};  ///< between the ranks that share groups
+
+    /// Returns the groups of this rank as points, for balance() and rebalance(). Not collective.
+    Points points() const { return interleaved_points(coordinates, dimension, weights); }
+};
+
+/// Finds the groups of all points with equal keys, over all ranks.
+///
+/// Collective over `comm`. `keys` has one entry for each point, no_group for those that need none;
+/// `place` is the same on every rank. The lowest rank with points of a group has it. Balance
+/// groups.points() as any points: weights, imbalance and look-ups are those of the groups, and one
+/// heavier than a part stays whole. Then fetch(groups, balance.parts, comm) returns the parts of
+/// the points, for plan(). Between rebalances take assign_all() for the balance. The same input on
+/// the same ranks gives the same bits.
+///
+/// Throws Error on every rank alike: for unusable points, keys of another length, another `place`
+/// or dimension than the others, or no memory. Cost: three exchanges, of ceil(log2 R) messages from
+/// each of R ranks and a reduction. In the first each key travels once from each rank that has it,
+/// in 16 bytes, to a rank by its hash; the others are for groups on several ranks.
+RRCB_API Groups groups(const Points& points, std::span<const std::uint64_t> keys, MPI_Comm comm,
+                       GroupPlace place = GroupPlace::centre);
+
+/// Returns the sums of values over the points of each group of this rank, in the order of
+/// groups.points(): `components` sums for each.
+///
+/// Collective over `comm`, otherwise as accumulate(): `values` has `components` for each point of
+/// this rank. Each rank adds in the order of its points, then partial sums are added by ascending
+/// rank.
+RRCB_API std::vector<double> sums(const Groups& groups, std::span<const double> values,
+                                  MPI_Comm comm, std::size_t components = 1);
+
+namespace detail {
+
+RRCB_API void move(const Groups& groups, std::span<const ByteColumn> columns,
+                   const TransferLimits& limits, TransferReport* report, MPI_Comm comm);
+
+}  // namespace detail
+
+/// Returns columns of the points with the values of their groups, such as parts.
+///
+/// Collective over `comm`, otherwise as transfer(): `columns` hold one entry, or `components`, for
+/// each of the groups of this rank, and the result as many for each of its points.
+template <class Columns>
+auto fetch(const Groups& groups, const Columns& columns, MPI_Comm comm,
+           const TransferLimits& limits = {}, TransferReport* report = nullptr) {
+    return detail::moved(groups, columns, comm, limits, report);
+}
+
+}  // namespace rrcb

@@ -6,13 +6,14 @@
 #include "collective/machines_mpi.hpp"
 #include "cuts/cut_limits.hpp"
 #include "cuts/direct_assignment.hpp"
+#include "cuts/tree.hpp"
 #include "gather/earlier_cuts.hpp"
 #include "gather/keeping.hpp"
 #include "gather/kept_parts_mpi.hpp"
 #include "gather/merge_tree_mpi.hpp"
 #include "gather/spread_reuse_mpi.hpp"
+#include "options/rejection.hpp"
 #include "options/stage_scope.hpp"
-#include "options/validation.hpp"
 #include "settlement_mpi.hpp"
 
 #include <algorithm>
@@ -37,7 +38,7 @@ namespace {
 struct Call {
     Call(const Points& given, StageObserver* observer, Participant& self,
          std::vector<Part>&& memory)
-        : points(given), ranks{mpi::size_of(self.comm), mpi::ranks_per_machine(self)} {
+        : points(given), ranks(ranks_of(self)) {
         options.parts.observer = observer;
         result.parts = std::move(memory);
     }
@@ -57,11 +58,29 @@ void introduce(const Options& given, const Box& box, const Cuts* previous, Call&
     const Points& points = call.points;
     Options options = complete(given, call.ranks, previous);
     check_options(options, points.dimension);
+    require(options.tree.dealt == 0 || !is_spread(options, call.ranks.number),
+            "tree.dealt must be 0 if many ranks make the parts; raise tuning.central_parts");
     if (previous) check_previous(*previous, options, points.dimension);
     call.mine.summary = summarize(points, box);
     call.mine.summary.request = request_of(options, points.dimension, previous);
+    if (!options.part_sizes.empty() && options.tree.dealt != 0)
+        for (Part end = 0; end < options.num_parts; ++end)
+            options.part_sizes[end] =
+                given.part_sizes[options.tree.part_at(end, options.num_parts)];
     call.options = call_options(std::move(options), call.ranks.number);
     call.result.parts.resize(points.count);
+}
+
+/// Gives parts their numbers in place of the ends of the tree. Overwrites the sizes of the parts.
+void number_parts(Call& call) {
+    const Cuts& cuts = call.result.cuts;
+    if (cuts.shape.dealt == 0) return;
+    number_parts(cuts, call.result.parts);
+    std::vector<double>& of_parts = call.result.report.part_weights;
+    std::vector<double>& of_ends = call.options.parts.part_sizes;
+    if (of_parts.empty()) return;
+    std::ranges::copy(of_parts, of_ends.begin());
+    for (Part end = 0; end < cuts.num_parts; ++end) of_parts[part_at(cuts, end)] = of_ends[end];
 }
 
 /// Gives every rank the decision of rank 0, or throws the error of one rank on all. Collective.
@@ -124,6 +143,7 @@ Balance balance_from_scratch(const Points& points, const Options& given, bool ma
     }
     if (is_kept) kept.keep(call.options, call.decision, call.result, self);
     if (call.options.is_spread()) hold_cuts(call.points, options, call.result, self);
+    number_parts(call);
     return std::move(call.result);
 }
 
@@ -245,12 +265,18 @@ Balance balance_from_earlier(const Points& points, const Options& given, const C
         return std::move(call.result);
     }
     if (!is_kept) settle_from_earlier(call, earlier, self);
+    number_parts(call);
     if (!may_be_poor(call.result.report, call.options.parts)) return std::move(call.result);
     return better(std::move(call.result), balance_from_scratch(points, given, false, self, {}),
                   call.options.parts);
 }
 
 }  // namespace
+
+Ranks ranks_of(Participant& self) {
+    const mpi::Machines machines = mpi::machines_of(self);
+    return {mpi::size_of(self.comm), machines.num_ranks, machines.dealt};
+}
 
 Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_keep,
                 Participant& self, std::vector<Part> memory) {

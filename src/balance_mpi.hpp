@@ -1,12 +1,16 @@
 #pragma once
 
 #include "collective/participant.hpp"
+#include "options/validation.hpp"
 
 #include <rrcb/balance.hpp>
 
 #include <vector>
 
 namespace rrcb {
+
+/// Returns where the parts of a call lie. Collective as mpi::machines_of().
+Ranks ranks_of(Participant& self);
 
 /// Balances as the public functions do, over a communicator that is a duplicate already.
 ///

@@ -70,7 +70,10 @@ void Settlement::prepare(const CallOptions& options, bool counts, const Particip
 void Settlement::assign(const Points& points, bool counts, Balance& result, Participant& self) {
     const StageScope stage(options_->parts.observer, Stage::assignment);
     self.attempt([&] {
-        if (!counts) return rrcb::assign(result.cuts, points, result.parts);
+        if (!counts) {
+            assign_known(result.cuts, points, result.parts);
+            return;
+        }
         const PartTotals totals = assign_and_count(result.cuts, points, result.parts);
         std::ranges::copy(totals.weights, sums_.here().begin());
     });

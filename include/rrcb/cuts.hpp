@@ -30,7 +30,8 @@ RRCB_API bool is_above(const Cut& cut, const Vector& position, int dimension);
 /// The tree of a recursive bisection into `num_parts` parts.
 ///
 /// `tree` holds num_parts - 1 cuts in preorder. A node of n parts leaves shape.lower_parts(n) of
-/// them, the lower numbers, below its cut. Same bits on every rank after `balance`.
+/// them below its cut. End k of the tree, from the lowest, is part shape.part_at(k, num_parts): k
+/// itself unless parts are dealt to groups. Same bits on every rank after `balance`.
 ///
 /// With Options::cuts = own, if many ranks make the parts, `tree` holds only some cuts: those
 /// above the points and the parts of this rank, and `nodes` contains their numbers, also on a rank

@@ -109,10 +109,11 @@ struct Options {
     Axes axes{};  ///< that are cut, and where
 
     /// Shape of the tree of cuts. With a group_size of 0 whole machines are cut off first, so that
-    /// less is sent between machines. That needs the same number of consecutive ranks on each
-    /// machine, or fewer on the last, and the same number of parts on each rank. Otherwise, and on
-    /// 1, 2, 4, ... full machines, the parts are halved. A call from earlier cuts keeps their
-    /// shape.
+    /// less is sent between machines. That needs as many ranks on each machine, or fewer on the
+    /// last, and as many parts on each rank. Ranks are consecutive on a machine, or dealt to the
+    /// machines in turn; the latter only if rank 0 makes all parts. Otherwise, and on 1, 2, 4, ...
+    /// full machines with consecutive ranks, the parts are halved. A call from earlier cuts keeps
+    /// their shape.
     TreeShape tree{0};
     Tuning tuning{};  ///< for experts
 

@@ -4,26 +4,57 @@ namespace rrcb {
 
 /// Shape of a tree of cuts: the parts that lie below each of them.
 ///
+/// The ends of the tree, from the lowest, are the parts of one group after the other. The parts of
+/// a group have consecutive numbers, so that end k is part k, or are dealt to the groups in turn.
+///
 /// A node of several groups halves the number of groups, a node within one group the number of its
 /// parts. The parts of a group are therefore all parts of one node. The default halves the number
 /// of parts at every node.
 struct TreeShape {
-    int group_size = 1;  ///< consecutive parts in a group, such as those of one machine, >= 1;
-                         ///< the last group may have fewer
+    int group_size = 1;  ///< parts in a group, such as those of one machine, >= 1; the last group
+                         ///< may have fewer
     bool larger_below = false;  ///< side of the larger half if the number is odd
+    int dealt = 0;  ///< so many consecutive parts go to the first group, the next to the second
+                    ///< ...; 0: all of a group are consecutive
 
     /// Returns the number of a node's parts below its cut; `num_parts` >= 2. Not collective.
     constexpr int lower_parts(int num_parts) const {
         if (group_size <= 1 || num_parts <= group_size) return lower_half(num_parts);
-        return lower_half((num_parts - 1) / group_size + 1) * group_size;
+        return lower_half(num_groups(num_parts)) * group_size;
+    }
+
+    /// Returns the part at an end of a tree of `num_parts`, which number_fits(). Not collective.
+    constexpr int part_at(int end, int num_parts) const {
+        if (dealt == 0) return end;
+        const int turn = end % group_size / dealt * num_groups(num_parts) + end / group_size;
+        return turn * dealt + end % dealt;
+    }
+
+    /// Returns the end of the tree at which a part is; the reverse of part_at(). Not collective.
+    constexpr int end_of(int part, int num_parts) const {
+        if (dealt == 0) return part;
+        const int turn = part / dealt;
+        const int groups = num_groups(num_parts);
+        return turn % groups * group_size + turn / groups * dealt + part % dealt;
+    }
+
+    /// Returns true if so many parts can be dealt to the groups: all have as many, or the last one
+    /// turn less. Not collective.
+    constexpr bool number_fits(int num_parts) const {
+        if (dealt == 0) return true;
+        return dealt > 0 && group_size % dealt == 0 && num_parts % dealt == 0 &&
+               (num_parts % group_size == 0 || num_parts % group_size == group_size - dealt);
     }
 
     /// Returns true if both give every node the same parts. Not collective.
     friend constexpr bool operator==(const TreeShape& a, const TreeShape& b) {
-        return a.group_size == b.group_size && a.larger_below == b.larger_below;
+        return a.group_size == b.group_size && a.larger_below == b.larger_below &&
+               a.dealt == b.dealt;
     }
 
   private:
+    constexpr int num_groups(int num_parts) const { return (num_parts - 1) / group_size + 1; }
+
     constexpr int lower_half(int number) const {
         return number / 2 + (larger_below ? number % 2 : 0);
     }

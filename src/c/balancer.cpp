@@ -33,7 +33,7 @@ Cuts copy_of(const rrcb_cuts& given) {
     const auto size = static_cast<std::size_t>(std::max(given.num_parts, 1) - 1);
     if (size > 0) require(given.tree, "tree");
     Cuts cuts{given.dimension, given.num_parts, std::vector<Cut>(size)};
-    cuts.shape = {given.group_size, given.larger_below != 0};
+    cuts.shape = {given.group_size, given.larger_below != 0, given.dealt};
     std::ranges::transform(std::span(given.tree, size), cuts.tree.begin(), [](const rrcb_cut& cut) {
         return Cut{cut.axis, cut.divides, std::to_array(cut.at)};
     });
@@ -148,9 +148,12 @@ int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts) {
             throw rrcb::Error(rrcb::ErrorCode::invalid_argument,
                               "the balancer holds a part of the cuts; call rrcb_gather_cuts on all "
                               "ranks");
-        *cuts = {own.cuts.dimension, own.cuts.num_parts,
-                 reinterpret_cast<const rrcb_cut*>(own.cuts.tree.data()), own.cuts.shape.group_size,
-                 own.cuts.shape.larger_below ? 1 : 0};
+        *cuts = {own.cuts.dimension,
+                 own.cuts.num_parts,
+                 reinterpret_cast<const rrcb_cut*>(own.cuts.tree.data()),
+                 own.cuts.shape.group_size,
+                 own.cuts.shape.larger_below ? 1 : 0,
+                 own.cuts.shape.dealt};
     });
 }
 

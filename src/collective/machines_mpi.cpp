@@ -4,6 +4,7 @@
 #include "collective/attribute_mpi.hpp"
 #include "collective/communicator.hpp"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -11,58 +12,69 @@ namespace rrcb::mpi {
 
 namespace {
 
-/// Ranks of a machine, as kept with a communicator.
-struct Kept {
-    int number = 1;
-};
-
 /// What is kept with `comm`, or null. A rank without a key has kept none, so no rank has.
-const Kept* find(MPI_Comm comm) {
-    const Kept* kept = nullptr;
-    attempt([&] { kept = Attribute<Kept>::find(comm); });
+const Machines* find(MPI_Comm comm) {
+    const Machines* kept = nullptr;
+    attempt([&] { kept = Attribute<Machines>::find(comm); });
     return kept;
 }
 
-/// Ranks on the machine of this one.
-struct RanksHere {
-    int lowest = 0;
-    int number = 1;
+/// The machine of this rank.
+struct MachineHere {
+    int num_ranks = 1;
+    std::array<int, 2> lowest{};  ///< ranks on it; the same twice if there is one only
 };
 
 /// Collective.
-RanksHere ranks_here(Participant& self) {
-    RanksHere ranks{rank_of(self.comm)};
+MachineHere machine_here(Participant& self) {
+    MachineHere here{1, {rank_of(self.comm), rank_of(self.comm)}};
     MPI_Comm machine = MPI_COMM_NULL;
     self.check(MPI_Comm_split_type(self.comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine),
                "MPI_Comm_split_type");
-    if (machine == MPI_COMM_NULL) return ranks;
-    self.check(MPI_Comm_size(machine, &ranks.number), "MPI_Comm_size");
-    // Ranks are ordered as in `comm`, so that the first is the lowest.
-    self.check(MPI_Bcast(&ranks.lowest, 1, MPI_INT, 0, machine), "MPI_Bcast");
+    if (machine == MPI_COMM_NULL) return here;
+    self.check(MPI_Comm_size(machine, &here.num_ranks), "MPI_Comm_size");
+    MPI_Group of_machine = MPI_GROUP_NULL;
+    MPI_Group all = MPI_GROUP_NULL;
+    self.check(MPI_Comm_group(machine, &of_machine), "MPI_Comm_group");
+    self.check(MPI_Comm_group(self.comm, &all), "MPI_Comm_group");
+    // Ranks are ordered as in `comm`, so that the first are the lowest.
+    const std::array first{0, std::min(1, here.num_ranks - 1)};
+    self.check(MPI_Group_translate_ranks(of_machine, 2, first.data(), all, here.lowest.data()),
+               "MPI_Group_translate_ranks");
+    self.check(MPI_Group_free(&of_machine), "MPI_Group_free");
+    self.check(MPI_Group_free(&all), "MPI_Group_free");
     self.check(MPI_Comm_free(&machine), "MPI_Comm_free");
-    return ranks;
+    return here;
 }
 
 }  // namespace
 
-int ranks_per_machine(Participant& self) {
-    if (const Kept* kept = find(self.comm)) return kept->number;
-    const RanksHere ranks = ranks_here(self);
-    int number = ranks.number;
-    check(MPI_Bcast(&number, 1, MPI_INT, root, self.comm), "MPI_Bcast");
-    Kept* kept = nullptr;
-    self.attempt(
-        [&] { kept = Attribute<Kept>::keep(std::make_unique<Kept>(Kept{number}), self.comm); });
-    // The machines are alike if each rank lies where the size of the first one puts it.
-    const bool fits = ranks.lowest == rank_of(self.comm) / number * number;
+Machines machines_of(Participant& self) {
+    if (const Machines* known = find(self.comm)) return *known;
+    const MachineHere here = machine_here(self);
+    // Of the first machine: its ranks, and the distance between the two lowest.
+    std::array first{here.num_ranks, here.lowest[1] - here.lowest[0]};
+    check(MPI_Bcast(first.data(), 2, MPI_INT, root, self.comm), "MPI_Bcast");
+    const auto [num_ranks, distance] = first;
+    const int rank = rank_of(self.comm);
+    Machines made{num_ranks, distance > 1};
+    // The machines are alike if the lowest rank of each is where the first one puts it.
+    const int lowest = made.dealt ? rank % distance : rank / num_ranks * num_ranks;
+    // Of machines in turn only the last one may have fewer.
+    const bool ends_well = !made.dealt || (size_of(self.comm) + 1) % distance <= 1;
+    // A constant on rank 0, so that ranks differ if any is elsewhere.
+    const bool fits = here.lowest[0] == lowest && (rank == root || ends_well);
     const std::array shared{Shared{"machines", fits ? 0u : 1u}};
+    Machines* kept = nullptr;
+    self.attempt(
+        [&] { kept = Attribute<Machines>::keep(std::make_unique<Machines>(made), self.comm); });
     try {
-        if (find_difference(self, shared) == 0) kept->number = 1;
+        if (find_difference(self, shared) == 0) made = *kept = Machines{};
     } catch (...) {
-        if (kept != nullptr) Attribute<Kept>::forget(self.comm);
+        if (kept != nullptr) Attribute<Machines>::forget(self.comm);
         throw;
     }
-    return kept->number;
+    return made;
 }
 
 }  // namespace rrcb::mpi

@@ -4,13 +4,19 @@
 
 namespace rrcb::mpi {
 
-/// Returns the ranks of a machine if every machine has as many consecutive ones, the last perhaps
-/// fewer; otherwise 1.
+/// Ranks of each machine of a communicator, if the machines are alike.
+struct Machines {
+    int num_ranks = 1;   ///< of each, the last may have fewer; 1 also if machines are not alike
+    bool dealt = false;  ///< ranks are dealt to the machines in turn; otherwise consecutive ones
+};
+
+/// Finds the machines if all have as many ranks, the last perhaps fewer, which are consecutive or
+/// dealt in turn.
 ///
 /// Collective over `self.comm`, a duplicate of the library's own, when called for the first time
 /// with it: a communicator is made and freed, with a broadcast on it, and a broadcast and a
 /// reduction over all ranks. Throws the same Error on every rank if one of them has failed; then
 /// nothing is kept.
-int ranks_per_machine(Participant& self);
+Machines machines_of(Participant& self);
 
 }  // namespace rrcb::mpi

@@ -27,6 +27,7 @@ std::vector<Part> assign_all(const Cuts& cuts, const Points& points, Participant
                  {"the number of parts", static_cast<std::uint64_t>(cuts.num_parts)},
                  {"whether the tree is whole", is_whole(cuts) ? 1u : 0u}});
     if (buffers) search_together(*buffers, self);
+    number_parts(cuts, parts);
     return parts;
 }
 

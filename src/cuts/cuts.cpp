@@ -90,6 +90,12 @@ int num_levels(const TreeShape& shape, int num_parts) {
     return halvings((num_parts - 1) / group_size + 1) + halvings(std::min(group_size, num_parts));
 }
 
+void number_parts(const Cuts& cuts, std::span<Part> ends) {
+    if (cuts.shape.dealt == 0) return;
+    for (Part& end : ends)
+        if (end >= 0) end = part_at(cuts, end);
+}
+
 Descent descend(const Cuts& cuts, const Vector& position, Descent at) {
     while (!at.is_part()) {
         const Cut* cut = find_cut(cuts, at.node);
@@ -150,11 +156,11 @@ Part part_of(const Cuts& cuts, const Vector& position) {
     Descent at = root_of(cuts);
     if (!is_whole(cuts)) [[unlikely]] {
         at = descend(cuts, position, at);
-        return at.is_part() ? at.first_part : no_part;
+        return at.is_part() ? part_at(cuts, at.first_part) : no_part;
     }
     while (!at.is_part())
         at = is_above(cuts.tree[at.node], position, cuts.dimension) ? at.upper() : at.lower();
-    return at.first_part;
+    return part_at(cuts, at.first_part);
 }
 
 Box box_of(const Cuts& cuts, Part part) {
@@ -162,8 +168,9 @@ Box box_of(const Cuts& cuts, Part part) {
     if (part < 0 || part >= cuts.num_parts)
         reject("part " + std::to_string(part) + " is none of the " +
                std::to_string(cuts.num_parts) + " parts of the cuts");
-    const Box region = region_of(cuts, part);
-    return is_region_empty(cuts, part, region) ? Box{} : region;
+    const Part end = end_of(cuts, part);
+    const Box region = region_of(cuts, end);
+    return is_region_empty(cuts, end, region) ? Box{} : region;
 }
 
 std::vector<Part> parts_touching(const Cuts& cuts, const Box& box) {
@@ -177,6 +184,8 @@ std::vector<Part> parts_touching(const Cuts& cuts, const Box& box) {
     visit_touching(cuts, root_of(cuts), box, [&](Part part) {
         if (!is_region_empty(cuts, part, region_of(cuts, part))) parts.push_back(part);
     });
+    number_parts(cuts, parts);
+    if (cuts.shape.dealt != 0) std::ranges::sort(parts);
     return parts;
 }
 

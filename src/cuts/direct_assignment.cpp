@@ -92,6 +92,7 @@ void assign(const Cuts& cuts, const Points& points, std::span<Part> parts) {
     require(parts.size() == points.count, "parts must have one entry per point");
     if (!assign_known(cuts, points, parts)) reject_coordinates(points);
     if (!is_whole(cuts) && std::ranges::any_of(parts, is_unknown)) reject_unknown();
+    number_parts(cuts, parts);
 }
 
 PartTotals assign_and_count(const Cuts& cuts, const Points& points, std::span<Part> parts) {

@@ -15,12 +15,12 @@ struct PartTotals {
     bool all_finite = true;       ///< no coordinate is NaN or infinite; otherwise the rest is void
 };
 
-/// Part of every point, as assign() has it, or unknown_below() a node that is not known. Returns
-/// whether all coordinates are finite; otherwise the parts are void.
+/// End of the tree for every point, see TreeShape, or unknown_below() a node that is not known.
+/// Returns whether all coordinates are finite; otherwise the parts are void.
 bool assign_known(const Cuts& cuts, const Points& points, std::span<Part> parts);
 
-/// Part of every point by the cuts, into `parts` (length points.count), as the look-up has it, and
-/// what each part holds: in one pass over the coordinates, without cells.
+/// End of the tree for every point, into `parts` (length points.count), and what each end holds:
+/// in one pass over the coordinates, without cells.
 ///
 /// Takes memory by the number of parts alone, or by that of the known cuts. By cuts that are not
 /// all known each part below a node that is not known is unknown_below() it, in `parts` and in the

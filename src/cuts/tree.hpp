@@ -34,6 +34,17 @@ inline Descent root_of(const Cuts& cuts) {
     return root_of(cuts.num_parts, cuts.shape);
 }
 
+/// The part at an end of the tree, and the end of a part.
+inline Part part_at(const Cuts& cuts, Part end) {
+    return cuts.shape.part_at(end, cuts.num_parts);
+}
+inline Part end_of(const Cuts& cuts, Part part) {
+    return cuts.shape.end_of(part, cuts.num_parts);
+}
+
+/// Writes the parts in place of the ends of the tree.
+void number_parts(const Cuts& cuts, std::span<Part> ends);
+
 /// Levels of cuts that lead to the parts of a node.
 int num_levels(const TreeShape& shape, int num_parts);
 

@@ -124,6 +124,7 @@ contains
     cuts%dimension = from%dimension
     cuts%group_size = from%group_size
     cuts%larger_below = from%larger_below == 1
+    cuts%dealt = from%dealt
     cuts%tree = tree
     cuts%tree%axis = cuts%tree%axis + 1
   end subroutine
@@ -145,7 +146,7 @@ contains
     allocate (tree, source=cuts%tree)
     tree%axis = tree%axis - 1
     given = c_cuts(cuts%dimension, size(tree) + 1, c_null_ptr, cuts%group_size, &
-                   merge(1, 0, cuts%larger_below))
+                   merge(1, 0, cuts%larger_below), cuts%dealt)
     if (size(tree) > 0) given%tree = c_loc(tree)
     error = c_set_cuts(self%handle, given)
   end subroutine

@@ -33,7 +33,7 @@ module rrcb_types
 
   !> The tree of cuts in preorder, one less than there are parts.
   type, public :: rrcb_cuts
-    integer :: dimension = 0, group_size = 1
+    integer :: dimension = 0, group_size = 1, dealt = 0
     logical :: larger_below = .false.
     type(rrcb_cut), allocatable :: tree(:)
   end type

@@ -27,7 +27,8 @@ class Reader {
           by_number_(by_number),
           by_count_(std::ranges::all_of(extents, [](const Extent& p) { return p.weight == 0; })),
           ranks_(extents.size()) {
-        std::iota(ranks_.begin(), ranks_.end(), std::size_t{0});
+        for (std::size_t end = 0; end < ranks_.size(); ++end)
+            ranks_[end] = static_cast<std::size_t>(part_at(estimate, static_cast<Part>(end)));
         kept_.cuts = estimate;
         gaps_.resize(estimate.tree.size());
         kept_.parts.resize(extents.size());
@@ -128,8 +129,8 @@ class Reader {
 
     /// Points in one place lie in the order of their ranks, so parts in another order divide none.
     bool may_divide() const {
-        return by_number_ && options_.coincident == Coincident::divide &&
-               options_.refine != Refine::none;
+        return by_number_ && options_.tree.dealt == 0 &&
+               options_.coincident == Coincident::divide && options_.refine != Refine::none;
     }
 
     bool has_size(const Descent& at) const {

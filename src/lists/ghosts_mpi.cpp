@@ -28,21 +28,24 @@ namespace rrcb {
 
 namespace {
 
-/// The ranks that hold the parts: those that are given, or those of ranks_of_part.
+/// The ranks that hold the part at each end of the tree: those that are given, or those of
+/// ranks_of_part().
 struct Holders {
     std::optional<std::span<const RankRange>> given;
+    TreeShape shape;
     int num_parts;
     int rank;  ///< this one
     int num_ranks;
 
-    RankRange operator()(Part part) const {
+    RankRange operator()(Part end) const {
+        const Part part = shape.part_at(end, num_parts);
         return given ? (*given)[part] : ranks_of_part(part, num_parts, num_ranks);
     }
 
-    /// The parts that this rank holds alone, in ranges as long as can be.
+    /// The ends of the parts that this rank holds alone, in ranges as long as can be.
     std::vector<PartRange> alone_here() const {
         PartRange among{0, num_parts};
-        if (!given) among = parts_on(rank, num_parts, num_ranks);
+        if (!given && shape.dealt == 0) among = parts_on(rank, num_parts, num_ranks);
         std::vector<PartRange> ranges;
         for (Part part = among.first; part < among.end; ++part) {
             const RankRange ranks = (*this)(part);
@@ -104,7 +107,8 @@ class Neighbourhood {
           search_(cuts, alone_) {
         if (images_) search_of_images_.emplace(cuts, std::span<const PartRange>{});
         if (alone_.size() != 1 || alone_[0].end - alone_[0].first != 1) return;
-        if (knows_path(cuts, alone_[0].first)) home_ = box_of(cuts, alone_[0].first);
+        const Part end = alone_[0].first;
+        if (knows_path(cuts, end)) home_ = box_of(cuts, part_at(cuts, end));
     }
 
     /// Notes the ranks that need a point or its images. Points come in ascending order.
@@ -135,7 +139,7 @@ class Neighbourhood {
         const auto first = std::ssize(ranks_);
         (is_image ? *search_of_images_ : search_)
             .for_each_part(
-                ball, [&](Part part) { note(holders_(part), is_image); },
+                ball, [&](Part end) { note(holders_(end), is_image); },
                 [&](std::size_t node) { lacking_.insert(node); },
                 is_image ? images_->apart(ball.centre()) : Vector{});
         // A rank may hold several of the parts.
@@ -266,11 +270,11 @@ GhostPlan ghosts(const Cuts& cuts, const GhostRequest& request, Participant& sel
 
 GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
                  Participant& self) {
-    GhostRequest request{
-        points,
-        {options.radius, options.radii},
-        {options.ranks_of_parts, cuts.num_parts, mpi::rank_of(self.comm), mpi::size_of(self.comm)},
-        {}};
+    GhostRequest request{points,
+                         {options.radius, options.radii},
+                         {options.ranks_of_parts, cuts.shape, cuts.num_parts,
+                          mpi::rank_of(self.comm), mpi::size_of(self.comm)},
+                         {}};
     if (options.periodic) request.images.emplace(*options.periodic, points.dimension);
     GhostPlan plan = ghosts(cuts, request, self);
     if (options.periodic) plan.periodic = *options.periodic;

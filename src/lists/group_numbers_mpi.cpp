@@ -12,7 +12,7 @@ namespace {
 
 /// The groups as parts, of which each keeps the points of its present number.
 NumberRule rule_of_groups(const NumberRule& rule) {
-    return {(rule.num_parts - 1) / rule.group_size + 1, rule.num_ranks, false};
+    return {(rule.num_parts - 1) / rule.shape.group_size + 1, rule.num_ranks, false};
 }
 
 /// What the points of a rank say of the groups.
@@ -29,11 +29,11 @@ GroupsHere groups_here(std::span<const Part> parts, const PreviousParts& previou
     here.origins.resize(parts.size());
     const Origins origins(previous, rule, rank);
     // Only groups of the same size may change places, which the last one may not have.
-    const int num_full = rule.num_parts / rule.group_size;
+    const int num_full = rule.num_parts / rule.shape.group_size;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const std::int32_t origin = origins.of(i);
         const Part from = origin == no_origin ? no_part : rule.group_of(origin);
-        here.groups[i] = parts[i] / rule.group_size;
+        here.groups[i] = rule.group_of_part(parts[i]);
         here.origins[i] = here.groups[i] < num_full && from < num_full ? from : no_part;
         if (origin != no_origin && rule.home_of(parts[i]) == origin) ++here.kept;
     }
@@ -44,7 +44,7 @@ GroupsHere groups_here(std::span<const Part> parts, const PreviousParts& previou
 
 GroupBuffers::GroupBuffers(const NumberRule& rule, int rank, bool wants_all)
     : parts(rule, rank, wants_all) {
-    if (rule.group_size == 1 || rule.is_spread) return;
+    if (rule.shape.group_size == 1 || rule.is_spread) return;
     groups.emplace(rule_of_groups(rule), rank);
     numbers.resize(static_cast<std::size_t>(rule.num_parts));
 }
@@ -58,7 +58,10 @@ NewNumbers find_numbers(std::span<const Part> parts, const PreviousParts& previo
     const std::vector<Part> numbers_of_groups =
         find_numbers(here.groups, here.origins, *buffers.groups, self).remap.numbers;
     const auto moved = [&](Part part) {
-        return numbers_of_groups[part / rule.group_size] * rule.group_size + part % rule.group_size;
+        const Part end = rule.shape.end_of(part, rule.num_parts);
+        const int size = rule.shape.group_size;
+        return rule.shape.part_at(numbers_of_groups[end / size] * size + end % size,
+                                  rule.num_parts);
     };
     std::ranges::transform(parts, here.groups.begin(), moved);
     NewNumbers found = find_numbers(here.groups, previous, buffers.parts, self);

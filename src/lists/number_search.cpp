@@ -27,6 +27,14 @@ PartRange NumberRule::numbers_of(std::int32_t origin) const {
     return listed.empty() ? parts_from(origin, num_parts, num_ranks) : parts_from(origin, listed);
 }
 
+int NumberRule::group_of(std::int32_t origin) const {
+    const PartRange numbers = numbers_of(origin);
+    const int group = group_of_part(numbers.first);
+    for (Part number = numbers.first + 1; number < numbers.end; ++number)
+        if (group_of_part(number) != group) return -1;
+    return group;
+}
+
 int NumberRule::searcher_of(Part part) const {
     return is_spread ? ranks_of_part(part, num_parts, num_ranks).first_rank : 0;
 }

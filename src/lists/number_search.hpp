@@ -4,6 +4,7 @@
 #include "cuts/owned_cuts.hpp"
 
 #include <rrcb/plan.hpp>
+#include <rrcb/tree_shape.hpp>
 
 #include <array>
 #include <cstdint>
@@ -30,7 +31,7 @@ struct NumberRule {
     bool is_spread = false;  ///< all ranks search; else rank 0 does
     /// Ranks of the parts, ascending; the first one of a part counts. Empty: as ranks_of_part().
     std::span<const RankRange> listed{};
-    int group_size = 1;  ///< of TreeShape; parts get the numbers of parts of their group
+    TreeShape shape{};  ///< of the tree; parts get the numbers of parts of their group
 
     /// Origin whose points a part of this number keeps, and the numbers that keep those of it.
     std::int32_t home_of(Part number) const;
@@ -38,14 +39,12 @@ struct NumberRule {
 
     /// Whether the numbers that keep the points of an origin are of the group of a part.
     bool is_in_group(Part part, std::int32_t origin) const {
-        return group_size == 1 || origin == no_origin || group_of(origin) == part / group_size;
+        return shape.group_size == 1 || origin == no_origin ||
+               group_of(origin) == group_of_part(part);
     }
     /// The group of the numbers that keep the points of an origin; -1 if they are of several.
-    int group_of(std::int32_t origin) const {
-        const PartRange numbers = numbers_of(origin);
-        const int group = numbers.first / group_size;
-        return group == (numbers.end - 1) / group_size ? group : -1;
-    }
+    int group_of(std::int32_t origin) const;
+    int group_of_part(Part part) const { return shape.end_of(part, num_parts) / shape.group_size; }
 
     int searcher_of(Part part) const;
     int searcher_of_origin(std::int32_t origin) const {

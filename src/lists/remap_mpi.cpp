@@ -251,15 +251,17 @@ Remap remap(std::span<const Part> parts, const PreviousParts& previous,
     self.attempt([&] {
         check_ranks(ranks_of_parts, num_ranks);
         check_parts(parts, previous, ranks_of_parts.size());
-        require(shape.group_size >= 1, "shape.group_size must be at least 1");
         const auto num_parts = static_cast<int>(ranks_of_parts.size());
-        buffers.emplace(NumberRule{num_parts, num_ranks, !previous, is_spread, ranks_of_parts,
-                                   shape.group_size},
-                        mpi::rank_of(self.comm));
+        require(shape.group_size >= 1 && shape.number_fits(num_parts),
+                "shape.group_size must be at least 1, and shape.dealt fit the parts");
+        buffers.emplace(
+            NumberRule{num_parts, num_ranks, !previous, is_spread, ranks_of_parts, shape},
+            mpi::rank_of(self.comm));
     });
     agree(self, {{"ranks_of_parts", hash_of(ranks_of_parts)},
                  {"previous", previous ? 1u : 0u},
-                 {"shape.group_size", static_cast<std::uint64_t>(shape.group_size)}});
+                 {"shape.group_size", static_cast<std::uint64_t>(shape.group_size)},
+                 {"shape.dealt", static_cast<std::uint64_t>(shape.dealt)}});
     Remap result = find_numbers(parts, previous, *buffers, self).remap;
     if (is_spread) agree(self);
     return result;

@@ -73,10 +73,12 @@ std::uint64_t bits_of(const Cuts& cuts) {
     // Of cuts that are spread over the ranks each has others.
     if (!is_whole(cuts))
         return hash_of(std::array{-1.0, 1.0 * cuts.num_parts, 1.0 * cuts.dimension,
-                                  1.0 * cuts.shape.group_size, 1.0 * cuts.shape.larger_below});
+                                  1.0 * cuts.shape.group_size, 1.0 * cuts.shape.larger_below,
+                                  1.0 * cuts.shape.dealt});
     Hash hash((1 + max_dimension) * cuts.tree.size());
     hash.add(cuts.shape.group_size);
     hash.add(cuts.shape.larger_below);
+    hash.add(cuts.shape.dealt);
     for (const Cut& cut : cuts.tree) {
         hash.add(cut.axis);
         for (const double x : cut.at) hash.add(x);
@@ -91,8 +93,8 @@ std::vector<double> values_of_part_sizes(const Options& options) {
 std::vector<double> values_of_tree(const Options& options) {
     const AxisOrder& order = options.axes.order;
     std::vector<double> values{1.0 * options.tree.group_size, 1.0 * options.tree.larger_below,
-                               1.0 * options.axes.plain, 1.0 * order.is_grouped(),
-                               1.0 * order.is_given()};
+                               1.0 * options.tree.dealt,      1.0 * options.axes.plain,
+                               1.0 * order.is_grouped(),      1.0 * order.is_given()};
     values.insert(values.end(), order.axes().begin(), order.axes().end());
     for (const auto& limits : {min_width_of(options), grid_of(options)}) {
         values.push_back(-1);

@@ -66,7 +66,8 @@ void check_coordinates(const Points& points) {
 /// Whether the tree holds all of its cuts, or some and their numbers.
 bool has_its_cuts(const Cuts& cuts) {
     const std::vector<std::int32_t>& nodes = cuts.nodes;
-    if (cuts.num_parts < 1 || cuts.shape.group_size < 1) return false;
+    if (cuts.num_parts < 1 || cuts.shape.group_size < 1 || !cuts.shape.number_fits(cuts.num_parts))
+        return false;
     if (is_whole(cuts)) return cuts.tree.size() + 1 == static_cast<std::size_t>(cuts.num_parts);
     return nodes.size() == cuts.tree.size() && nodes.front() >= 0 &&
            nodes.back() < cuts.num_parts - 1 &&
@@ -99,13 +100,15 @@ void check_given(std::span<const int> axes, int num_parts, int dimension) {
         require(axis >= 0 && axis < dimension, "axes.order must hold axes of the points");
 }
 
-/// Parts in a group of those of a machine; 1 where halving the parts makes the same tree, or where
+/// Groups of the parts of each machine; none where halving the parts makes the same tree, or where
 /// machines do not hold as many parts each.
-int parts_per_machine(int num_parts, const Ranks& ranks) {
+TreeShape shape_by_machines(int num_parts, const Ranks& ranks) {
     const bool is_full = ranks.number % ranks.per_machine == 0;
     const auto machines = static_cast<unsigned>((ranks.number - 1) / ranks.per_machine + 1);
-    if (num_parts % ranks.number != 0 || (is_full && std::has_single_bit(machines))) return 1;
-    return num_parts / ranks.number * ranks.per_machine;
+    if (num_parts % ranks.number != 0 || ranks.per_machine == 1) return {};
+    const int parts_of_rank = num_parts / ranks.number;
+    if (!ranks.dealt && is_full && std::has_single_bit(machines)) return {};
+    return {parts_of_rank * ranks.per_machine, false, ranks.dealt ? parts_of_rank : 0};
 }
 
 }  // namespace
@@ -113,8 +116,14 @@ int parts_per_machine(int num_parts, const Ranks& ranks) {
 Options complete(Options options, const Ranks& ranks, const Cuts* previous) {
     if (options.num_parts == 0) options.num_parts = ranks.number;
     if (options.tree.group_size == 0) {
-        options.tree.group_size = previous ? std::max(previous->shape.group_size, 1)
-                                           : parts_per_machine(options.num_parts, ranks);
+        const TreeShape shape =
+            previous ? previous->shape : shape_by_machines(options.num_parts, ranks);
+        // Ranks hold the cuts above consecutive parts if many make them.
+        const bool is_central =
+            std::min(options.num_parts, ranks.number) <= options.tuning.central_parts;
+        const bool fits = shape.dealt == 0 || (is_central && shape.number_fits(options.num_parts));
+        options.tree.group_size = fits ? std::max(shape.group_size, 1) : 1;
+        options.tree.dealt = fits ? shape.dealt : 0;
         require(previous || options.tree.group_size == 1 || !options.axes.order.is_given(),
                 "axes.order gives the axis of each cut; set tree to the shape of the tree that "
                 "they are for, as the machines ask for another one by default");
@@ -139,6 +148,9 @@ void check_part_sizes(const Options& options, int) {
 void check_tree_options(const Options& options, int dimension) {
     require(options.tree.group_size >= 0,
             "tree.group_size must be at least 1, or 0 for the parts of each machine");
+    require(options.tree.number_fits(options.num_parts),
+            "tree.dealt must divide tree.group_size and num_parts; the last group must be full, or "
+            "lack so many parts");
     const AxisOrder& order = options.axes.order;
     if (order.is_grouped()) check_grouped(order.axes(), dimension);
     if (order.is_given()) check_given(order.axes(), options.num_parts, dimension);

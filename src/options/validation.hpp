@@ -11,7 +11,8 @@ namespace rrcb {
 /// Where the parts of a call lie.
 struct Ranks {
     int number = 1;
-    int per_machine = 1;  ///< see mpi::ranks_per_machine()
+    int per_machine = 1;  ///< see mpi::Machines
+    bool dealt = false;
 };
 
 /// Options with nothing left to default except the sizes of equal parts. `previous` may be null.

@@ -248,7 +248,7 @@ TEST_F(CInterface, options_that_differ_fail_on_all) {
     if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
     ASSERT_EQ(rrcb_set(balancer, "imbalance_tolerance", is_last_rank() ? "1.1" : "1.2"), RRCB_OK);
     expect_error_everywhere(balance(Cloud(2)), RRCB_INVALID_ARGUMENT, "imbalance_tolerance");
-    rrcb_cuts cuts{2, 1, nullptr, 1, 0};
+    rrcb_cuts cuts{2, 1, nullptr, 1, 0, 0};
     rrcb_balancer* none = nullptr;
     expect_error_everywhere(rrcb_create(MPI_COMM_NULL, &none), RRCB_INVALID_ARGUMENT, "COMM_NULL");
     EXPECT_EQ(none, nullptr);
@@ -265,15 +265,15 @@ TEST_F(CInterface, names_what_it_does_not_know) {
     EXPECT_NE(std::strstr(rrcb_last_error(), "EXACT"), nullptr) << rrcb_last_error();
     EXPECT_EQ(rrcb_set(nullptr, "refine", "NONE"), RRCB_INVALID_ARGUMENT);
     EXPECT_STREQ(rrcb_last_error(), "balancer is null");
-    const rrcb_cuts no_tree{2, 3, nullptr, 1, 0};
+    const rrcb_cuts no_tree{2, 3, nullptr, 1, 0, 0};
     EXPECT_EQ(rrcb_set_cuts(balancer, &no_tree), RRCB_INVALID_ARGUMENT);
-    const rrcb_cuts no_parts{2, 0, nullptr, 1, 0};
+    const rrcb_cuts no_parts{2, 0, nullptr, 1, 0, 0};
     EXPECT_EQ(rrcb_set_cuts(balancer, &no_parts), RRCB_INVALID_ARGUMENT);
-    const rrcb_cuts no_group{2, 1, nullptr, 0, 0};
+    const rrcb_cuts no_group{2, 1, nullptr, 0, 0, 0};
     EXPECT_EQ(rrcb_set_cuts(balancer, &no_group), RRCB_INVALID_ARGUMENT);
     EXPECT_NE(std::strstr(rrcb_last_error(), "groups of 1 or more"), nullptr);
     for (const int dimension : {-1, 0, 4, 9}) {
-        const rrcb_cuts nowhere{dimension, 1, nullptr, 1, 0};
+        const rrcb_cuts nowhere{dimension, 1, nullptr, 1, 0, 0};
         EXPECT_EQ(rrcb_set_cuts(balancer, &nowhere), RRCB_INVALID_ARGUMENT);
         EXPECT_NE(std::strstr(rrcb_last_error(), "1, 2 or 3 dimensions"), nullptr);
     }
@@ -312,7 +312,7 @@ TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {
     expect_missing(rrcb_remap(balancer, 1, &part, nullptr, nullptr, &part, nullptr), "cuts yet");
     expect_missing(rrcb_ghosts_create(balancer, &points, &options, &ghosts), "cuts yet");
 
-    const rrcb_cuts given{2, 1, nullptr, 1, 0};
+    const rrcb_cuts given{2, 1, nullptr, 1, 0, 0};
     ASSERT_EQ(rrcb_set_cuts(balancer, &given), RRCB_OK);
     EXPECT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
     EXPECT_EQ(rrcb_assign(balancer, &points, &part), RRCB_OK);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <functional>
 #include <numeric>
 #include <vector>
@@ -73,9 +74,55 @@ TEST(Machines, count_several_parts_on_a_rank) {
     EXPECT_EQ(group_size(blocks_of(2), options), 1);
 }
 
+auto dealt_to(int machines) {
+    return [machines](int rank, int) { return rank % machines; };
+}
+
+/// Whether all but the last of so many machines have as many ranks, and the last one fewer at most.
+bool can_be_dealt(int machines) {
+    return machines < num_ranks() && (num_ranks() + 1) % machines <= 1;
+}
+
+TEST(Machines, to_which_ranks_are_dealt_in_turn_have_the_parts_of_these_ranks) {
+    const Cloud cloud(2);
+    for (const int machines : {2, 3, 4, 5}) {
+        if (!can_be_dealt(machines)) {
+            EXPECT_EQ(group_size(dealt_to(machines)), 1) << machines;
+            continue;
+        }
+        for (const int parts_each : {1, 3}) {
+            SCOPED_TRACE(testing::Message() << machines << " machines, " << parts_each << " parts");
+            Options options;
+            options.num_parts = parts_each * num_ranks();
+            with_machines(dealt_to(machines), [&](MPI_Comm comm) {
+                const Balance made = balance(cloud.points, options, comm);
+                const int size = (num_ranks() - 1) / machines + 1;
+                EXPECT_EQ(made.cuts.shape, (TreeShape{parts_each * size, false, parts_each}));
+                std::vector<Part> parts(cloud.points.count);
+                assign(made.cuts, cloud.points, parts);
+                EXPECT_EQ(parts, made.parts);
+                EXPECT_EQ(assign_all(made.cuts, cloud.points, comm), made.parts);
+                EXPECT_EQ(part_weights(cloud.points, made.parts, options.num_parts, comm),
+                          made.report.part_weights);
+                EXPECT_EQ(rebalance(cloud.points, options, made.cuts, comm).parts, made.parts);
+                // Points that lie where they should are kept.
+                const auto mine = transfer(plan(made, comm), column(cloud.coordinates, 2), comm);
+                const Balance again = balance(interleaved_points(mine, 2), options, comm);
+                EXPECT_EQ(again.report.kept, parts_each == 1);
+                if (parts_each > 1) return;
+                EXPECT_EQ(again.parts, std::vector<Part>(mine.size() / 2, rank()));
+                assign(again.cuts, interleaved_points(mine, 2), parts = again.parts);
+                EXPECT_EQ(parts, again.parts);
+                EXPECT_EQ(part_weights(cloud.points, made.parts, options.num_parts, comm),
+                          again.report.part_weights);
+            });
+        }
+    }
+}
+
 TEST(Machines, that_are_not_alike_are_not_looked_at) {
     if (num_ranks() < 4) return;
-    EXPECT_EQ(group_size([](int rank, int) { return rank % 2; }), 1);
+    EXPECT_EQ(group_size([](int rank, int) { return rank / 2 % 2; }), 1);
     EXPECT_EQ(group_size([](int rank, int) { return rank == 0 ? 0 : 1; }), 1);
     EXPECT_EQ(group_size([](int rank, int n) { return rank < n - 2 ? 2 - rank % 2 : 0; }), 1);
 }
@@ -114,7 +161,7 @@ TEST(Machines, of_earlier_cuts_stay) {
 }
 
 /// Ghosts that come from other machines, of all ranks, and all ghosts.
-std::pair<GlobalCount, GlobalCount> ghosts_of(const Balance& balance, const Cloud& cloud, int size,
+std::pair<GlobalCount, GlobalCount> ghosts_of(const Balance& balance, const Cloud& cloud,
                                               MPI_Comm comm) {
     const int dimension = cloud.points.dimension;
     const auto mine = transfer(plan(balance, comm), column(cloud.coordinates, dimension), comm);
@@ -122,31 +169,53 @@ std::pair<GlobalCount, GlobalCount> ghosts_of(const Balance& balance, const Clou
         ghosts(balance.cuts, interleaved_points(mine, dimension), {.radius = 0.02}, comm);
     GlobalCount counts[2] = {};
     for (const RankCount& from : near.receive) {
-        if (from.rank / size != rank() / size) counts[0] += static_cast<GlobalCount>(from.count);
+        if (machine_of(from.rank, num_ranks()) != machine_of(rank(), num_ranks()))
+            counts[0] += static_cast<GlobalCount>(from.count);
         counts[1] += static_cast<GlobalCount>(from.count);
     }
     MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPI_INT64_T, MPI_SUM, comm);
     return {counts[0], counts[1]};
 }
 
+void expect_fewer_ghosts(std::function<int(int, int)> machine) {
+    for (const int dimension : {2, 3}) {
+        SCOPED_TRACE(dimension);
+        const Cloud cloud(dimension, 24000);
+        with_machines(machine, [&](MPI_Comm comm) {
+            Options halving;
+            halving.tree = TreeShape{};
+            const Balance halved = balance(cloud.points, halving, comm);
+            const Balance grouped = balance(cloud.points, {}, comm);
+            const auto [off, all] = ghosts_of(grouped, cloud, comm);
+            const auto [off_halved, all_halved] = ghosts_of(halved, cloud, comm);
+            EXPECT_LT(static_cast<double>(off), 0.9 * static_cast<double>(off_halved));
+            EXPECT_LT(static_cast<double>(all), 1.15 * static_cast<double>(all_halved));
+            EXPECT_LE(grouped.report.imbalance, 1.01);
+        });
+    }
+}
+
+TEST(Machines, make_the_same_parts_however_their_ranks_are_numbered) {
+    for (const int size : {2, 3, 4}) {
+        if (num_ranks() % size != 0 || num_ranks() == size) continue;
+        SCOPED_TRACE(size);
+        const Cloud cloud(3, 24000);
+        std::array<std::pair<GlobalCount, GlobalCount>, 2> ghosts;
+        with_machines(blocks_of(size), [&](MPI_Comm comm) {
+            ghosts[0] = ghosts_of(balance(cloud.points, {}, comm), cloud, comm);
+        });
+        with_machines(dealt_to(num_ranks() / size), [&](MPI_Comm comm) {
+            ghosts[1] = ghosts_of(balance(cloud.points, {}, comm), cloud, comm);
+        });
+        EXPECT_EQ(ghosts[0], ghosts[1]);
+    }
+}
+
 TEST(Machines, send_each_other_fewer_ghosts_at_the_same_balance) {
     for (const int size : {2, 4}) {
-        if (num_ranks() % size != 0 || !matters(size)) continue;
-        for (const int dimension : {2, 3}) {
-            SCOPED_TRACE(testing::Message() << size << " ranks a machine, " << dimension << "-D");
-            const Cloud cloud(dimension, 24000);
-            with_machines(blocks_of(size), [&](MPI_Comm comm) {
-                Options halving;
-                halving.tree = TreeShape{};
-                const Balance halved = balance(cloud.points, halving, comm);
-                const Balance grouped = balance(cloud.points, {}, comm);
-                const auto [off, all] = ghosts_of(grouped, cloud, size, comm);
-                const auto [off_halved, all_halved] = ghosts_of(halved, cloud, size, comm);
-                EXPECT_LT(static_cast<double>(off), 0.9 * static_cast<double>(off_halved));
-                EXPECT_LT(static_cast<double>(all), 1.15 * static_cast<double>(all_halved));
-                EXPECT_LE(grouped.report.imbalance, 1.01);
-            });
-        }
+        if (num_ranks() % size != 0) continue;
+        SCOPED_TRACE(testing::Message() << size << " ranks a machine");
+        if (matters(size)) expect_fewer_ghosts(blocks_of(size));
     }
 }
 

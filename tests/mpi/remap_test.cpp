@@ -186,6 +186,21 @@ TEST(Remap, of_groups_keeps_points_on_their_ranks) {
     EXPECT_EQ(result.kept_after, 10 * num_ranks());
 }
 
+TEST(Remap, of_groups_to_which_parts_are_dealt_leaves_them_together) {
+    const int groups = num_ranks() > 2 ? 3 : 1;
+    const int num_parts = 12;
+    std::vector<Part> parts;
+    for (Part part = 0; part < num_parts; ++part)
+        parts.insert(parts.end(), (part * 7 + rank() * 5) % 11, part);
+    const TreeShape shape{num_parts / groups, false, 2};
+    const std::vector<Part> previous(parts.rbegin(), parts.rend());
+    const std::vector<RankRange> ranks(num_parts);
+    const Remap result = remap(parts, previous, ranks, MPI_COMM_WORLD, shape);
+    for (Part part = 0; part < num_parts; ++part)
+        EXPECT_EQ(result.numbers[static_cast<std::size_t>(part)] / 2 % groups,
+                  result.numbers[static_cast<std::size_t>(part / 2 % groups * 2)] / 2 % groups);
+}
+
 TEST(Remap, of_groups_that_divide_the_parts_of_a_rank_leaves_them_together) {
     // Two parts on each rank, in groups of three: numbers of some ranks are of two groups.
     const int num_parts = 2 * num_ranks();

@@ -24,14 +24,16 @@ using test::share_of_cloud;
 struct Machines {
     int count;
     int parts_each;
+    int dealt = 0;
 };
 
-constexpr Machines machines[] = {{3, 4}, {5, 3}, {6, 2}, {3, 28}};
+constexpr Machines machines[] = {{3, 4},    {5, 3},    {6, 2},    {3, 28},
+                                 {3, 4, 1}, {5, 4, 2}, {6, 2, 1}, {4, 9, 3}};
 
 Options options_for(const Machines& all, bool larger_below) {
     Options options;
     options.num_parts = all.count * all.parts_each;
-    options.tree = {all.parts_each, larger_below};
+    options.tree = {all.parts_each, larger_below, all.dealt};
     return options;
 }
 
@@ -40,7 +42,21 @@ std::vector<double> cloud_here(int dimension) {
                           [](std::size_t, int axis, double u) { return std::pow(u, 1 + axis); });
 }
 
-/// The parts of each node in preorder, as the documentation of TreeShape describes it.
+/// The parts in the order of the ends of the tree, as
+/// the documentation of TreeShape describes it.
+std::vector<Part> parts_of_ends(const Machines& all) {
+    std::vector<std::vector<Part>> groups(static_cast<std::size_t>(all.count));
+    const int at_once = all.dealt == 0 ? all.parts_each : all.dealt;
+    for (Part part = 0; part < all.count * all.parts_each; ++part)
+        groups[static_cast<std::size_t>(part / at_once % all.count)].push_back(part);
+    std::vector<Part> parts;
+    for (const std::vector<Part>& group : groups)
+        parts.insert(parts.end(), group.begin(), group.end());
+    return parts;
+}
+
+/// The ends of the tree below each node in preorder, as the documentation of TreeShape describes
+/// it.
 struct Node {
     Part first;
     int num_below;
@@ -65,13 +81,13 @@ std::vector<Node> nodes_of(const Machines& all, bool larger_below) {
     return nodes;
 }
 
-/// Whether all cuts have the position on the side of a part.
-bool leave_to(Part part, const Cuts& cuts, const std::vector<Node>& nodes, const Vector& x) {
+/// Whether all cuts have the position on the side of an end of the tree.
+bool leave_to(Part end, const Cuts& cuts, const std::vector<Node>& nodes, const Vector& x) {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
         const Node& node = nodes[k];
-        if (part < node.first || part >= node.first + node.num_parts) continue;
-        const bool is_part_above = part >= node.first + node.num_below;
-        if (is_above(cuts.tree[k], x, cuts.dimension) != is_part_above) return false;
+        if (end < node.first || end >= node.first + node.num_parts) continue;
+        const bool is_end_above = end >= node.first + node.num_below;
+        if (is_above(cuts.tree[k], x, cuts.dimension) != is_end_above) return false;
     }
     return true;
 }
@@ -82,7 +98,7 @@ void for_each_shape(Check&& check) {
     for (const Machines& all : machines) {
         for (const bool larger_below : {false, true}) {
             SCOPED_TRACE(std::to_string(all.count) + " x " + std::to_string(all.parts_each) +
-                         (larger_below ? ", larger below" : ""));
+                         (all.dealt > 0 ? " dealt" : "") + (larger_below ? ", larger below" : ""));
             check(all, larger_below);
         }
     }
@@ -113,9 +129,11 @@ TEST(TreeShape, each_point_is_where_the_cuts_of_whole_groups_put_it) {
             EXPECT_EQ(result.cuts.shape, options.tree);
             const std::vector<Node> nodes = nodes_of(all, larger_below);
             ASSERT_EQ(result.cuts.tree.size(), nodes.size());
+            const std::vector<Part> numbers = parts_of_ends(all);
             for (LocalIndex i = 0; i < points.count; ++i) {
                 const Vector x = points.position(i);
-                ASSERT_TRUE(leave_to(result.parts[i], result.cuts, nodes, x));
+                const auto end = std::ranges::find(numbers, result.parts[i]) - numbers.begin();
+                ASSERT_TRUE(leave_to(static_cast<Part>(end), result.cuts, nodes, x));
                 ASSERT_EQ(part_of(result.cuts, x), result.parts[i]);
                 ASSERT_EQ(parts_touching(result.cuts, {x, x}), std::vector{result.parts[i]});
             }
@@ -130,6 +148,9 @@ void expect_exact(const Balance& result, const Points& points) {
     const int num_parts = result.cuts.num_parts;
     const std::vector<double> weights =
         part_weights(points, result.parts, num_parts, MPI_COMM_WORLD);
+    if (!result.report.part_weights.empty()) {
+        EXPECT_EQ(result.report.part_weights, weights);
+    }
     for (std::size_t p = 0; p < weights.size(); ++p)
         EXPECT_NEAR(weights[p], (p == 1 ? 2 : 1) * 6000.0 / (num_parts + 1), 2);
 }
@@ -143,6 +164,7 @@ TEST(TreeShape, exact_leaves_each_part_within_two_points_of_the_ideal) {
         const std::vector<double> coordinates = cloud_here(3);
         const Points points = interleaved_points(coordinates, 3);
         expect_exact(balance(points, options, MPI_COMM_WORLD), points);
+        if (all.dealt > 0) return;
         options.tuning.central_parts = 2;
         expect_exact(balance(points, options, MPI_COMM_WORLD), points);
     });
@@ -153,6 +175,10 @@ TEST(TreeShape, is_that_of_cuts_by_many_ranks) {
     for_each_shape([](const Machines& all, bool larger_below) {
         Options options = options_for(all, larger_below);
         options.tuning.central_parts = 2;
+        if (all.dealt > 0) {
+            EXPECT_THROW(balance(interleaved_points({}, 3), options, MPI_COMM_WORLD), Error);
+            return;
+        }
         options.cuts = HeldCuts::own;
         const std::vector<double> coordinates = cloud_here(3);
         const Points points = interleaved_points(coordinates, 3);
@@ -187,6 +213,11 @@ TEST(TreeShape, of_no_parts_in_a_group_is_refused) {
     Options options;
     options.tree.group_size = -1;
     EXPECT_THROW(balance(interleaved_points({}, 2), options, MPI_COMM_WORLD), Error);
+    options.num_parts = 10;
+    for (const TreeShape& shape : {TreeShape{4, false, 1}, {5, false, 2}, {3, false, -1}}) {
+        options.tree = shape;
+        EXPECT_THROW(balance(interleaved_points({}, 2), options, MPI_COMM_WORLD), Error);
+    }
 }
 
 TEST(TreeShape, ghosts_are_the_points_near_the_boxes_of_other_ranks) {

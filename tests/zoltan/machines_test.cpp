@@ -13,25 +13,32 @@ namespace rrcb::zoltan_test {
 namespace {
 
 int ranks_per_machine = 2;
+bool is_dealt = false;  ///< to half as many machines as ranks
+
+int num_machines(int num_ranks) {
+    return (num_ranks - 1) / ranks_per_machine + 1;
+}
+int machine_of(int rank, int num_ranks) {
+    return is_dealt ? rank % num_machines(num_ranks) : rank / ranks_per_machine;
+}
 
 using Boxes = std::vector<std::array<double, 4>>;
 
 /// Box of the points on each machine: lower bounds, and upper bounds negated.
 Boxes boxes_of_machines(const Program& program, const Outcome& outcome) {
-    const auto num_machines =
-        static_cast<std::size_t>((program.num_ranks - 1) / ranks_per_machine + 1);
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Boxes boxes(num_machines, {infinity, infinity, infinity, infinity});
+    Boxes boxes(static_cast<std::size_t>(num_machines(program.num_ranks)),
+                {infinity, infinity, infinity, infinity});
     const std::vector<int> parts = parts_by_object(outcome);
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        auto& box = boxes[static_cast<std::size_t>(parts[i] / ranks_per_machine)];
+        auto& box = boxes[static_cast<std::size_t>(machine_of(parts[i], program.num_ranks))];
         for (std::size_t axis = 0; axis < 2; ++axis) {
             const double x = program.coordinates[2 * i + axis];
             box[axis] = std::min(box[axis], x);
             box[2 + axis] = std::min(box[2 + axis], -x);
         }
     }
-    MPI_Allreduce(MPI_IN_PLACE, boxes.data(), static_cast<int>(4 * num_machines), MPI_DOUBLE,
+    MPI_Allreduce(MPI_IN_PLACE, boxes.data(), static_cast<int>(4 * boxes.size()), MPI_DOUBLE,
                   MPI_MIN, MPI_COMM_WORLD);
     return boxes;
 }
@@ -86,6 +93,54 @@ TEST(Machines, are_cut_off_whole_from_earlier_cuts) {
     EXPECT_TRUE(program.keeps_machines_apart());
 }
 
+/// The look-ups of each object find its part, which its rank has.
+void expect_own_parts(Scattered& program, const Outcome& outcome) {
+    const std::vector<int> parts = parts_by_object(outcome);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        double* at = &program.coordinates[2 * i];
+        int rank = -1;
+        int part = -1;
+        ASSERT_EQ(Zoltan_LB_Point_PP_Assign(program.zz, at, &rank, &part), ZOLTAN_OK);
+        ASSERT_EQ(part, parts[i]);
+        ASSERT_EQ(rank, parts[i]);
+        std::vector<int> touched(static_cast<std::size_t>(program.num_ranks));
+        std::vector<int> ranks(touched.size());
+        int num_ranks = 0;
+        int num_parts = 0;
+        ASSERT_EQ(Zoltan_LB_Box_PP_Assign(program.zz, at[0], at[1], 0, at[0], at[1], 0,
+                                          ranks.data(), &num_ranks, touched.data(), &num_parts),
+                  ZOLTAN_OK);
+        ASSERT_EQ(num_parts, 1);
+        ASSERT_EQ(touched[0], parts[i]);
+        double box[6] = {};
+        int dimension = 0;
+        ASSERT_EQ(Zoltan_RCB_Box(program.zz, part, &dimension, &box[0], &box[1], &box[2], &box[3],
+                                 &box[4], &box[5]),
+                  ZOLTAN_OK);
+        for (std::size_t axis = 0; axis < 2; ++axis)
+            ASSERT_TRUE(box[axis] <= at[axis] && at[axis] <= box[3 + axis]);
+    }
+}
+
+TEST(Machines, to_which_ranks_are_dealt_in_turn_are_cut_off_whole) {
+    is_dealt = true;
+    for (const char* remap : {"1", "0"}) {
+        SCOPED_TRACE(remap);
+        Scattered program;
+        program.set("REMAP", remap);
+        program.set("KEEP_CUTS", "1");
+        const Outcome outcome = program.partition();
+        EXPECT_TRUE(are_apart(boxes_of_machines(program, outcome)));
+        expect_own_parts(program, outcome);
+        for (double& x : program.coordinates) x += 0.01 * x;
+        program.set("RCB_REUSE", "1");
+        const Outcome again = program.partition();
+        EXPECT_TRUE(are_apart(boxes_of_machines(program, again)));
+        expect_own_parts(program, again);
+    }
+    is_dealt = false;
+}
+
 TEST(Machines, are_not_looked_at_if_that_is_switched_off) {
     Scattered program;
     EXPECT_EQ(program.set("RRCB_MACHINES", "off"), ZOLTAN_OK);
@@ -107,6 +162,8 @@ TEST(Machines, do_not_matter_if_parts_lie_unevenly) {
 
 extern "C" int MPI_Comm_split_type(MPI_Comm comm, int, int key, MPI_Info, MPI_Comm* made) {
     int rank = 0;
+    int num_ranks = 1;
     MPI_Comm_rank(comm, &rank);
-    return PMPI_Comm_split(comm, rank / rrcb::zoltan_test::ranks_per_machine, key, made);
+    MPI_Comm_size(comm, &num_ranks);
+    return PMPI_Comm_split(comm, rrcb::zoltan_test::machine_of(rank, num_ranks), key, made);
 }

@@ -26,6 +26,7 @@ typedef struct rrcb_cuts {
     const rrcb_cut* tree; /**< num_parts - 1 cuts, borrowed */
     int group_size;       /**< of rrcb::TreeShape, 1 or more */
     int larger_below;     /**< 1: rrcb::TreeShape::larger_below */
+    int dealt;            /**< of rrcb::TreeShape, 0 or more */
 } rrcb_cuts;
 
 /** Of the last balance, as rrcb::Report; the same on every rank. */

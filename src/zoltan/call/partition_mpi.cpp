@@ -3,7 +3,6 @@
 #include "balance_mpi.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "collective/machines_mpi.hpp"
 #include "cuts/gather_cuts_mpi.hpp"
 #include "gather/call_options.hpp"
 #include "options/validation.hpp"
@@ -127,7 +126,7 @@ Preparation prepare(const Call& call, const Layout& layout, int dimension, Parti
         made.previous = &call.previous->cuts();
     const bool locks = fits && call.previous->answers_look_ups();
     const Communicator& comm = *call.state.communicator;
-    const Ranks ranks{comm.size(), mpi::ranks_per_machine(self)};
+    const Ranks ranks = ranks_of(self);
     self.attempt([&] {
         made.options =
             make_options(parameters, layout, dimension, locks ? &*call.previous : nullptr);
@@ -136,7 +135,7 @@ Preparation prepare(const Call& call, const Layout& layout, int dimension, Parti
         if (parameters.paper_domain) made.paper = make_paper_options(parameters, layout);
         made.is_spread = !parameters.paper_domain && rrcb::is_spread(made.options, comm.size());
         made.renumbering.emplace(parameters, layout, call.outcome.any_names_parts,
-                                 made.options.tree.group_size, comm, made.is_spread);
+                                 made.options.tree, comm, made.is_spread);
         const bool looks_up = !made.is_spread || call.outcome.any_keeps_cuts;
         made.last.emplace(looks_up ? static_cast<std::size_t>(layout.map.num_parts) : 0);
     });

@@ -19,13 +19,13 @@ bool may_change_numbers(const Parameters& parameters, const Layout& layout) {
 }  // namespace
 
 Renumbering::Renumbering(const Parameters& parameters, const Layout& layout, bool any_names_parts,
-                         int group_size, const Communicator& comm, bool is_spread) {
+                         const TreeShape& shape, const Communicator& comm, bool is_spread) {
     const PartMap& map = layout.map;
     NumberRule rule{map.num_parts, comm.size()};
     rule.by_rank = map.one_each || !any_names_parts;
     rule.is_spread = is_spread && map.is_even;
     rule.listed = map.listed;
-    if (!parameters.paper_domain) rule.group_size = group_size;
+    if (!parameters.paper_domain) rule.shape = shape;
     // A single rank keeps its objects under any numbers.
     const bool matters = comm.size() > 1 || !rule.by_rank;
     if (!matters || !may_change_numbers(parameters, layout)) return;

@@ -29,7 +29,7 @@ class Renumbering {
     /// numbers together if the parts are evenly on the ranks. `layout` outlives it. Throws
     /// std::bad_alloc, which all ranks must agree on before run(). Not collective.
     Renumbering(const Parameters& parameters, const Layout& layout, bool any_names_parts,
-                int group_size, const Communicator& comm, bool is_spread);
+                const TreeShape& shape, const Communicator& comm, bool is_spread);
 
     /// Writes the new numbers to `parts`. Collective if numbers may change, as find_numbers() is.
     Renumbered run(const Objects& objects, std::span<Part> parts, Participant& self);

@@ -10,7 +10,8 @@ void LastPartition::keep(Cuts&& cuts, PartMap&& map, Numbering&& numbering) noex
     map_ = std::move(map);
     numbering_ = std::move(numbering);
     if (!shows_all()) return;
-    tree_.pack(cuts_, [this](Part part, const Box&) { return numbering_.number_of(part); });
+    tree_.pack(cuts_,
+               [this](Part end, const Box&) { return numbering_.number_of(part_at(cuts_, end)); });
 }
 
 LastPartition LastPartition::copy() const {
@@ -29,8 +30,8 @@ TreeNode LastPartition::tree_node(int node) const {
         at = at.towards(node);
         parent = node > middle ? -(middle + 1) : middle + 1;
     }
-    const auto name = [](const Descent& child) {
-        return child.is_part() ? -child.first_part : child.upper().first_part;
+    const auto name = [this](const Descent& child) {
+        return child.is_part() ? -part_at(cuts_, child.first_part) : child.upper().first_part;
     };
     return {parent, name(at.lower()), name(at.upper())};
 }

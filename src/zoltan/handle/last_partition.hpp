@@ -58,7 +58,9 @@ class LastPartition {
     int parts_touching(const Box& box, Part* parts) const;
 
     /// Region of a part, open sides +-infinity.
-    Box region_of(Part part) const { return rrcb::region_of(cuts_, numbering_.box_of(part)); }
+    Box region_of(Part part) const {
+        return rrcb::region_of(cuts_, end_of(cuts_, numbering_.box_of(part)));
+    }
 
     /// Node 1 ... parts - 1 of the tree; node 0 stands above the root. Its numbers are those before
     /// REMAP, as in Zoltan.

@@ -101,6 +101,7 @@ void write(Writer& writer, const LastPartition& last) {
     writer.value(last.cuts().dimension);
     writer.value(last.cuts().shape.group_size);
     writer.value(last.cuts().shape.larger_below);
+    writer.value(last.cuts().shape.dealt);
     writer.value<std::uint64_t>(last.cuts().tree.size());
     for (const Cut& cut : last.cuts().tree) {
         writer.value(cut.axis);
@@ -141,7 +142,8 @@ bool is_consistent(const Cuts& cuts, const PartMap& map, const std::vector<Part>
                std::ranges::none_of(cut.at, [](double x) { return std::isnan(x); });
     };
     return cuts.dimension >= 1 && cuts.dimension <= max_dimension && cuts.shape.group_size >= 1 &&
-           is_consistent(map) && cuts.tree.size() + 1 == static_cast<std::size_t>(map.num_parts) &&
+           cuts.shape.number_fits(map.num_parts) && is_consistent(map) &&
+           cuts.tree.size() + 1 == static_cast<std::size_t>(map.num_parts) &&
            (numbers.empty() || numbers.size() == cuts.tree.size() + 1) &&
            std::ranges::all_of(cuts.tree, valid_cut) && is_permutation(numbers);
 }
@@ -151,6 +153,7 @@ LastPartition read_last(Reader& reader) {
     cuts.dimension = reader.value<int>();
     cuts.shape.group_size = reader.value<int>();
     cuts.shape.larger_below = reader.flag();
+    cuts.shape.dealt = reader.value<int>();
     for (auto left = reader.value<std::uint64_t>(); left > 0; --left) {
         const auto axis = reader.value<std::int32_t>();
         const auto divides = reader.value<std::int32_t>();

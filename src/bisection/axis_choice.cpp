@@ -6,7 +6,8 @@ namespace rrcb {
 
 namespace {
 
-/// One axis per level: as many cuts across each as halving the longest extent asks for, in groups.
+/// Returns one axis per level: the numbers of cuts that result from halving the longest extent, in
+/// groups.
 std::vector<int> group_levels(std::span<const int> order, Box box, int dimension, int num_levels) {
     constexpr double enough = 1;
     std::array<int, max_dimension> cuts_across{};

@@ -9,29 +9,30 @@
 
 namespace rrcb {
 
-/// Share of the greatest extent from which on axes of a statistical domain count as equally long.
+/// Share of the greatest extent above which axes of a statistical domain count as equally long.
 inline constexpr double near_longest = 0.9;
 
-/// The first axis whose extent is at least the share `enough` of the greatest.
+/// Returns the first axis whose extent is at least the share `enough` of the greatest.
 int longest_axis(const Box& box, int dimension, double enough);
 
-/// Choice of the axis that each cut crosses: the one it was given, the one of its level, or its
-/// longest.
+/// Chooses the axis that each cut crosses: the given one, that of its level, or the longest.
 ///
-/// The extents of an analytic domain are estimates: axes of nearly the same extent count as equals,
-/// or the cuts of a cube would turn, and half of the points move, whenever these change a little.
+/// The extents of an analytic domain are estimates, so axes of nearly the same extent count as
+/// equal. Otherwise small changes would turn the cuts of a cube and move half of the points.
 class AxisChoice {
   public:
     /// `box` is that of all points; options are complete and checked.
     AxisChoice(const Options& options, const Box& box, int dimension);
 
-    /// Axis of cut number `node` in preorder, at `depth` cuts below the root, across `box`.
+    /// Returns the axis of cut number `node` in preorder, at `depth` cuts below the root, across
+    /// `box`.
     int operator()(std::size_t node, int depth, const Box& box) const;
 
-    /// True when the axis of a cut does not depend on what it divides.
+    /// Returns true if the axis of a cut does not depend on the domain.
     bool is_given() const { return !cut_axes_.empty() || !level_axes_.empty(); }
 
-    /// The axes of the cuts below the root of a tree, in preorder; empty if they are not given.
+    /// Returns the axes of the cuts below the root of a tree, in preorder; empty if they are not
+    /// given.
     std::vector<int> given(const Descent& root) const;
 
   private:

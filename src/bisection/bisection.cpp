@@ -26,12 +26,12 @@ struct Task {
     Bisection result;
 };
 
-/// The cut that leaves the share `below` (0 ... 1) of the domain's weight below it.
+/// Returns the cut that leaves the share `below` (0 ... 1) of the domain's weight below it.
 Cut choose_cut(const StatisticalDomain& domain, double below, int depth, const Task& task) {
     const double weight = weight_of(domain);
     const Box box = extent_of(domain);
     const int axis = task.axis_of(task.result.cuts.tree.size(), depth, box);
-    // First: a side of size 0 stays empty whatever there is to divide.
+    // First, because a side of size 0 is always empty.
     if (below >= 1) return plane(axis, infinity);
     if (below <= 0 || !(weight > 0)) return plane(axis, -infinity);
     return weighted_quantile(Profile(domain, axis), below * weight, task.options.axes.plain);

@@ -4,16 +4,15 @@
 
 namespace rrcb {
 
-/// Share of a node's weight that belongs below its cut, from the relative sizes of its parts, of
-/// which the first `num_below` lie there.
+/// Returns the share of a node's weight below its cut, from the relative sizes of its parts, of
+/// which the first `num_below` are below.
 double share_below(std::span<const double> sizes, int num_below);
 
-/// Share of a node's weight by which an estimated cut is expected to be off: more where a node,
-/// `depth` cuts below the root, has fewer cells left.
+/// Returns the expected error of an estimated cut, as a share of the node's weight. It grows with
+/// `depth`, the number of cuts above, because fewer cells are left.
 double expected_error(int depth);
 
-/// Bisects as the public function does, by complete options; on request with the brackets of the
-/// cuts.
+/// Bisects as the public function, by complete options; on request with the brackets of the cuts.
 Bisection bisect(StatisticalDomain domain, const Options& options, bool with_brackets);
 
 }  // namespace rrcb

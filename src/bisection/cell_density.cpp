@@ -24,7 +24,7 @@ struct Piece {
     double bow = 0;
 };
 
-/// The quadratic density on all of an interval, in units of half its length, that has a spread: the
+/// Returns the quadratic density of a spread on an interval, in units of half its length. The
 /// Legendre polynomials P1 and P2 have the squared norms 2/3 and 2/5.
 Piece quadratic(const Spread& spread) {
     const double square = spread.variance + spread.mean * spread.mean;
@@ -38,8 +38,8 @@ bool is_nowhere_negative(const Piece& density) {
     return !has_inner_minimum || 1 - density.bow / 2 - slope * slope / (6 * density.bow) >= 0;
 }
 
-/// The density of a spread with mean <= 0 that is not quadratic on all of the cell, as one or two
-/// pieces.
+/// Returns the density of a spread with mean <= 0 that no quadratic density on the cell has, as one
+/// or two pieces.
 std::array<Piece, 2> pieces_of(const Spread& spread) {
     const auto [mean, variance] = spread;
     // A parabola that is 0 at both ends has the variance half^2 / 5.

@@ -18,8 +18,8 @@ struct DensityPiece {
 /// A density along one axis: one piece, or two, the second then has a share above 0.
 using AxisDensity = std::array<DensityPiece, 2>;
 
-/// Density on [lower, upper] that has this mean and this deviation; of what moments it has where
-/// no points in there have these, see analytic_domain().
+/// Returns a density on [lower, upper] with this mean and deviation, or with nearby ones if no
+/// points of the interval have these; see analytic_domain().
 AxisDensity density_of(double mean, double deviation, double lower, double upper);
 
 }  // namespace rrcb

@@ -17,8 +17,8 @@ void set_piece(const DensityPiece& piece, double weight, std::size_t axis, Patch
     patch.weight = weight;
 }
 
-/// Gives the patches from `first` on, all of one cell, their densities along an axis. Each becomes
-/// as many as there are pieces.
+/// Sets the densities along an axis of the patches from `first` on, all of one cell. Each becomes
+/// one patch per piece.
 void spread(std::vector<Patch>& patches, std::size_t first, std::size_t axis,
             std::span<const DensityPiece> pieces) {
     const std::size_t last = patches.size();

@@ -7,11 +7,11 @@
 
 namespace rrcb {
 
-/// Weight of each cell, or its count where no cell has weight.
+/// Returns the weight of each cell, or its count if no cell has weight.
 std::vector<double> weights_of(std::span<const CellMoments> cells);
 
-/// Weight from which a cell counts as heavy among cells of these weights: cuts may divide one more
-/// than once, and so few do that their patches are not many more than those of the others.
+/// Returns the weight above which a cell counts as heavy: cuts may divide it more than once. Few
+/// cells are heavy, so their extra patches cost little.
 double least_heavy_weight(std::span<const double> weights, int dimension);
 
 /// Appends the patches of a cell, of this weight, as analytic_domain() makes them; `box` holds all

@@ -57,8 +57,8 @@ Tilted tilted(double b, double c) {
     return density;
 }
 
-/// Newton's method on the convex function log sum - b mean - c square, whose gradient is what the
-/// moments are off; halved steps keep it falling.
+/// Newton's method on the convex function log sum - b mean - c square, whose gradient is the error
+/// of the moments. Steps are halved until it falls.
 bool find_tilt(double mean, double square, Tilted& density) {
     constexpr int most_steps = 40;
     constexpr double enough = 1e-13;
@@ -88,7 +88,7 @@ bool find_tilt(double mean, double square, Tilted& density) {
     return false;
 }
 
-/// Appends one piece of a density, of the moments that its nodes have.
+/// Appends one piece of a density, with the moments of its nodes.
 void append_piece(std::size_t piece, const Tilted& density, double lower, double upper,
                   std::vector<DensityPiece>& pieces) {
     const std::size_t first = piece * gauss_nodes.size();
@@ -117,7 +117,7 @@ void append_piece(std::size_t piece, const Tilted& density, double lower, double
 
 std::vector<DensityPiece> entropy_density_of(double mean, double deviation, double lower,
                                              double upper) {
-    constexpr double reach = 4;  // deviations, beyond which next to nothing lies
+    constexpr double reach = 4;  // deviations; almost no weight is beyond
     const AxisDensity simple = density_of(mean, deviation, lower, upper);
     std::vector<DensityPiece> pieces(simple.begin(),
                                      simple.begin() + (simple[1].share > 0 ? 2 : 1));

@@ -57,7 +57,7 @@ struct Trial {
     double below;
 };
 
-/// A node with what it divides.
+/// A node and the domain that it divides.
 struct Piece {
     StatisticalDomain domain;  ///< of patches
     Descent at;
@@ -83,8 +83,8 @@ Trial trial_in(const StatisticalDomain& domain, int axis, double place) {
     return {cut, weight_below(domain, cut)};
 }
 
-/// Returns the cut in the places of `way` with about the weight `target` below it: of the lines on
-/// both sides of the exact place the one that comes nearer.
+/// Returns the cut at an allowed place of `way` with about the weight `target` below it: of the
+/// lines on both sides of the exact place the nearer one.
 Trial trial_at(const StatisticalDomain& domain, const Way& way, double target, const Task& task) {
     const bool is_plain = task.options.axes.plain;
     const AxisLimits& limits = task.limits.across(way.axis);
@@ -108,7 +108,7 @@ Trial trial_across(const Piece& piece, const Way& way, const Task& task) {
                     limits.nearest(middle, way.places.first, way.places.last));
 }
 
-/// Returns the cut across the first axis on which it is about as good as asked for, or the best.
+/// Returns the cut across the first axis that reaches about the required accuracy, or the best cut.
 Cut cut_in_places(const Piece& piece, int preferred, const Box& extent, Task& task) {
     constexpr double bearable = 0.005;
     const double weight = weight_of(piece.domain);

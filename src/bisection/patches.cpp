@@ -14,7 +14,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The axis that tells on which side of the cut a patch lies: later ones only where it is tied.
+/// Returns the axis that decides the side of a patch; later axes only for ties.
 int deciding_axis(const Cut& cut, const Patch& patch, int dimension) {
     const auto tied = [&](int axis) {
         return patch.lower[axis] == cut.at[axis] && patch.upper[axis] == cut.at[axis];

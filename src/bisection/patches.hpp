@@ -10,7 +10,7 @@ namespace rrcb {
 double weight_of(const StatisticalDomain& domain);
 Box extent_of(const StatisticalDomain& domain);
 
-/// Where the cut may lie when the domain is a little wrong; `below` is the share of the weight
+/// Returns the range of the cut if the domain is slightly wrong; `below` is the share of the weight
 /// below it, `depth` the number of cuts above.
 Bracket bracket_of(const StatisticalDomain& domain, const Cut& cut, double below, int depth);
 

@@ -7,8 +7,8 @@
 
 namespace rrcb {
 
-/// Where about the weight of a domain lies along an axis: a histogram, to which each patch gives
-/// its weight evenly. It saves a search for the place of a cut most of the patches.
+/// Histogram of the weight of a domain along an axis; each patch adds its weight evenly. With it
+/// the search for a cut visits few patches.
 class Profile {
   public:
     /// The domain is borrowed.
@@ -32,8 +32,7 @@ class Profile {
     int axis_;
     double lower_ = 0;
     double upper_ = 0;
-    std::vector<double>
-        weights_below_;  ///< each edge of the bins; empty where there are few patches
+    std::vector<double> weights_below_;  ///< each edge of the bins; empty if there are few patches
 };
 
 }  // namespace rrcb

@@ -23,14 +23,14 @@ inline Slice slice_of(const Patch& patch, std::size_t axis) {
     return {patch.lower[axis], patch.upper[axis], patch.weight, patch.slope[axis], patch.bow[axis]};
 }
 
-/// Share of [lower, upper] that lies below `value`, which must be inside; lower < upper.
+/// Returns the share of [lower, upper] below `value`, which must be inside; lower < upper.
 inline double fraction_below(double lower, double value, double upper) {
     const double extent = upper - lower;
     if (std::isinf(extent)) return (value / 2 - lower / 2) / (upper / 2 - lower / 2);
     return (value - lower) / extent;
 }
 
-/// Weight below `value`, which may lie outside: none to all of it.
+/// Returns the weight below `value`, which may be outside: from none to all.
 inline double weight_below(const Slice& slice, double value) {
     if (slice.upper < value || (slice.upper == value && !slice.is_jump())) return slice.weight;
     if (slice.lower >= value) return 0;

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Weight that round-off may leave on the wrong side; it must not decide on which side of a gap
-/// between clusters a cut falls.
+/// Weight that round-off may leave on the wrong side. It must not decide the side of a gap between
+/// clusters.
 double negligible(double weight) {
     return 1e-12 * weight;
 }
@@ -42,7 +42,7 @@ double pivot_of(std::span<const double> breakpoints) {
     return *middle;
 }
 
-/// Moves one end of the crossing to `pivot` and drops what then lies outside.
+/// Moves one end of the crossing to `pivot` and drops the intervals outside.
 void narrow(Crossing& crossing, double pivot, double target) {
     double below = crossing.below;
     for (const Interval& interval : crossing.active) below += weight_below(interval, pivot);
@@ -92,7 +92,7 @@ bool passes(double below, double target) {
     return below > target - negligible(target);
 }
 
-/// The whole range of a crossing; nothing of one that does not hold it.
+/// Returns the range of the crossing, or nothing if the given range does not contain it.
 Crossing crossing_in(const Subset& subset, const Profile::Range& range, double target) {
     Crossing crossing{range.lower, range.upper, 0, {}};
     subset.for_each([&](const Patch& patch, std::size_t number) {
@@ -116,9 +116,9 @@ Crossing find_crossing(const Subset& subset, const Profile::Range& range, double
         breakpoints.push_back(interval.lower);
         if (!interval.is_jump()) breakpoints.push_back(interval.upper);
     }
-    // The weight below `left` is less than the target, that below `right` is not. `below` and the
-    // active intervals tell the weight below any value between, where all breakpoints left lie.
-    // Each round takes one of them at least, half of them as a rule.
+    // The weight below `left` is less than the target, that below `right` is not. The other
+    // breakpoints are between; `below` and the active intervals determine the weight below each. A
+    // round removes at least one of them, usually half.
     const auto drop_outside = [&] {
         std::erase_if(breakpoints,
                       [&](double b) { return b <= crossing.left || b >= crossing.right; });
@@ -128,7 +128,8 @@ Crossing find_crossing(const Subset& subset, const Profile::Range& range, double
     return crossing;
 }
 
-/// Value with the jump at the left end of the crossing below it, and as little else as possible.
+/// Returns a value with the jump at the left end of the crossing below it, and as little else as
+/// possible.
 double after_jump(const Subset& subset, double jump) {
     double next = infinity;
     subset.for_each([&](const Patch& patch, std::size_t) {
@@ -138,7 +139,7 @@ double after_jump(const Subset& subset, double jump) {
     return next == infinity ? next : std::max(std::nextafter(jump, infinity), jump / 2 + next / 2);
 }
 
-/// Middle of the gap that begins at `value`, or `value` where weight begins at once.
+/// Returns the middle of the gap that begins at `value`, or `value` if weight begins at once.
 double middle_of_gap(const Subset& subset, double value) {
     double next = infinity;
     subset.for_each([&](const Patch& patch, std::size_t) {
@@ -149,8 +150,8 @@ double middle_of_gap(const Subset& subset, double value) {
 }
 
 /// Value inside the crossing with the target below it, by the Illinois variant of false position
-/// (Dowell, Jarratt: A modified regula falsi method, 1971): at once where the weight is spread
-/// evenly. `from` is the weight below right behind the left end, `to` that below the right one.
+/// (Dowell, Jarratt: A modified regula falsi method, 1971): one step if the weight is even. `from`
+/// is the weight below just behind the left end, `to` that below the right end.
 double pass(const Crossing& crossing, double target, double from, double to) {
     constexpr int most_steps = 64;
     double left = crossing.left;
@@ -159,7 +160,7 @@ double pass(const Crossing& crossing, double target, double from, double to) {
     double beyond = to - target;
     if (!(short_of > 0)) return left;
     double value = std::lerp(left, right, short_of / (short_of + beyond));
-    // The value sought lies between left and right; both differences are above 0.
+    // The value is between left and right; both differences are above 0.
     int side = 0;
     for (int step = 0; step < most_steps; ++step) {
         const double error = weight_below(crossing, value) - target;
@@ -177,13 +178,13 @@ double pass(const Crossing& crossing, double target, double from, double to) {
     return value;
 }
 
-/// Share of the patches that lies below a cut.
+/// Share of the patches below a cut.
 enum class Below { none, some, all };
 
 Below divide(const Subset& subset, const Profile::Range& range, std::span<const int> axes,
              double target, Vector& at);
 
-/// Divides the patches that have no extent and lie at the left end of the crossing.
+/// Divides the patches without extent at the left end of the crossing.
 Below divide_jump(const Subset& subset, const Crossing& crossing, std::span<const int> axes,
                   double target, Vector& at) {
     std::vector<std::size_t> tied;
@@ -208,8 +209,8 @@ Below divide(const Subset& subset, const Profile::Range& range, std::span<const 
              double target, Vector& at) {
     const Crossing crossing = find_crossing(subset, range, target);
     double& cut = at[subset.axis];
-    // The target lies in the jump at `left`, on the slope from there to `right`, or, by round-off,
-    // behind a jump with nothing on the slope.
+    // The target is in the jump at `left`, on the slope from there to `right`, or, by round-off,
+    // behind a jump with an empty slope.
     double below = crossing.below;
     double jump = 0;
     double slope = 0;

@@ -19,7 +19,7 @@ double least_double(double from, double guess, Holds&& holds) {
         if (holds(x) && !holds(std::nextafter(x, -infinity))) return x;
     std::int64_t below = double_rank(from);
     std::int64_t at = double_rank(infinity);
-    // What is looked for lies in (below, at].
+    // The result is in (below, at].
     while (at - 1 > below) {
         const std::int64_t middle = below / 2 + at / 2 + (below % 2 + at % 2) / 2;
         (holds(double_of_rank(middle)) ? at : below) = middle;
@@ -57,7 +57,7 @@ double AxisLimits::next_behind(double face) const {
     if (!has_grid())
         return least_double(face, std::max(face + min_width_, std::nextafter(face, infinity)),
                             [&](double x) { return is_apart(face, x); });
-    // More cells than doubles tell apart are behind all points.
+    // There are more cells than different doubles behind all points.
     if (!(min_width_ / grid_.spacing < 0x1p52)) return infinity;
     double k = line_below(std::min(face + min_width_, std::numeric_limits<double>::max()));
     while (is_apart(face, line(k))) --k;

@@ -4,12 +4,12 @@
 
 namespace rrcb {
 
-/// Where cuts across one axis may lie, and how far apart.
+/// Allowed places of cuts across one axis, and their least distance.
 ///
-/// Boxes lie side by side between two faces, which may be anywhere; what is between two of them is
-/// a cut. `upper - lower` of each box, as computed, is at least `min_width`; above 0 without one.
-/// All results are exact to the bit: first_behind() and last_before() are each other's inverse, so
-/// that boxes that fit when counted from one end fit from the other.
+/// Boxes are side by side between two faces, which may be anywhere, with a cut between two of them.
+/// `upper - lower` of each box, as computed, is at least `min_width`; above 0 without one. All
+/// results are exact to the bit: first_behind() and last_before() are each other's inverse, so that
+/// boxes that fit when counted from one end fit from the other.
 class AxisLimits {
   public:
     /// `min_width` 0 and a `spacing` of 0 stand for none.
@@ -18,20 +18,20 @@ class AxisLimits {
 
     bool has_grid() const { return grid_.spacing > 0; }
 
-    /// True when doubles up to `magnitude` can tell the lines of the grid apart.
+    /// Returns true if the lines of the grid are different doubles up to `magnitude`.
     bool resolves(double magnitude) const;
 
-    /// The least place of a cut with room for `count` boxes between `face` and it; infinity where
-    /// there is none.
+    /// Returns the least place of a cut with room for `count` boxes between `face` and it, or
+    /// infinity.
     double first_behind(double face, int count) const;
 
-    /// The greatest place of a cut with room for `count` boxes between it and `face`.
+    /// Returns the greatest place of a cut with room for `count` boxes between it and `face`.
     double last_before(double face, int count) const;
 
     /// Number of boxes with room between two faces, from 1 to `most`.
     int count_between(double lower, double upper, int most) const;
 
-    /// The place in [first, last], which are places, that is next to `value`.
+    /// Returns the place nearest to `value` in [first, last], which are places.
     double nearest(double value, double first, double last) const;
 
     /// The next place above and below a value, wherever the faces are.

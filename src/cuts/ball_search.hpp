@@ -18,7 +18,7 @@ class Ball {
           reach_(std::min(radius * (1 + 4 * epsilon), std::numeric_limits<double>::max())),
           unit_(reach_ > 0 ? reach_ : 1) {}
 
-    /// True when it is in the interior of a box.
+    /// Returns true if it is in the interior of a box.
     bool is_inside(const Box& box, int dimension) const {
         for (int a = 0; a < dimension; ++a)
             if (!(centre_[a] - box.lower[a] > reach_ && box.upper[a] - centre_[a] > reach_))
@@ -54,8 +54,8 @@ class Ball {
     double unit_;   ///< of lengths, so that their squares do not overflow
 };
 
-/// Finds the parts whose closed region a ball touches, but for some that are left out. A region
-/// that holds no position is touched by none.
+/// Finds the parts whose closed region a ball touches, except some. An empty region is never
+/// touched.
 class BallSearch {
   public:
     /// Leaves out the parts in `ranges`, which ascend. `cuts` outlives the search.
@@ -64,9 +64,9 @@ class BallSearch {
               return is_in(ranges, part) || is_region_empty(cuts, part, region) ? left_out : part;
           }) {}
 
-    /// Calls visit(part), and lack(node) where the cut of a node is not known; both ascend. In time
-    /// as there are such parts times the depth of the tree. The centre is `apart` from a box to
-    /// which the regions are limited.
+    /// Calls visit(part), and lack(node) for nodes whose cut is unknown, both ascending. Time: such
+    /// parts times the depth of the tree. The regions are limited to a box at the distances `apart`
+    /// from the centre.
     template <class Visit, class Lack>
     void for_each_part(const Ball& ball, Visit&& visit, Lack&& lack,
                        const Vector& apart = {}) const {

@@ -13,11 +13,12 @@ int halvings(int room) {
     return std::bit_width(static_cast<unsigned>(room)) - 1;
 }
 
-/// The least number in [first, last] that `holds`, as do all above it; last + 1 where none does.
+/// Returns the least number in [first, last] for which `holds` is true, as for all above it; last +
+/// 1 if there is none.
 template <class Holds>
 int least_number(int first, int last, Holds&& holds) {
     int end = last + 1;
-    // All below `first` do not hold, all from `end` on do.
+    // False for all below `first`, true from `end` on.
     while (first < end) {
         const int middle = first + (end - first) / 2;
         if (holds(middle)) {
@@ -59,7 +60,7 @@ std::size_t BoxPacking::shape_of(const Descent& at) const {
 }
 
 bool BoxPacking::fits(std::size_t shape, const Room& room) {
-    // Along the axis of most room, so that there is least to look up.
+    // Along the axis of most room, which needs the fewest look-ups.
     Room sorted = room;
     std::ranges::sort(sorted);
     if (sorted[2] >= shapes_[shape].num_parts) return true;
@@ -74,7 +75,7 @@ int BoxPacking::least_room(const Descent& at, int axis, Room room, int most) {
     });
 }
 
-/// The least room along one axis for that along the others.
+/// Returns the least room along one axis, given that along the others.
 int BoxPacking::least_length(std::size_t number, int width, int height) {
     const Shape shape = shapes_[number];
     if (shape.num_parts <= 1) return 1;
@@ -88,7 +89,7 @@ int BoxPacking::least_length(std::size_t number, int width, int height) {
     return lengths_[key] = least;
 }
 
-/// The least room that both children need beside each other, `width` being divided among them.
+/// Returns the least room that both children need side by side, if `width` is divided among them.
 int BoxPacking::shared_length(const Shape& shape, int width, int height) {
     const auto length = [&](std::size_t child, int part_of_width) {
         return least_length(child, std::min(part_of_width, height),
@@ -98,7 +99,7 @@ int BoxPacking::shared_length(const Shape& shape, int width, int height) {
         return std::max(length(shape.lower, below), length(shape.upper, width - below));
     };
     if (width < 2) return shape.num_parts;
-    // The length that the lower child needs falls with what lies below, that of the upper rises.
+    // With more below the cut the lower child needs less length, the upper more.
     const int crossing = least_number(1, width - 2, [&](int below) {
         return length(shape.lower, below) <= length(shape.upper, width - below);
     });

@@ -12,12 +12,12 @@ namespace rrcb {
 /// Number of boxes with room side by side, along each axis.
 using Room = std::array<int, max_dimension>;
 
-/// Which bisections have room, where each part takes one unit of room along each axis.
+/// Bisections that have room, if each part takes one unit of room along each axis.
 ///
-/// The room along an axis is divided by a cut across it: i units lie below, the others above. A
-/// node fits when there is an axis and a division that fit both children; more room never harms,
-/// so there is a least room along one axis for what there is along the others. Found by recursion
-/// over the shapes of nodes: two per level of halving, if no part has size 0.
+/// A cut divides the room along its axis: i units below, the others above. A node fits if some axis
+/// and division fit both children. More room never harms, so there is a least room along one axis
+/// for given room along the others. Found by recursion over the shapes of nodes: two per level of
+/// halving, if no part has size 0.
 class BoxPacking {
   public:
     /// Of the tree that bisects parts of these relative sizes; those of size 0 take no room.
@@ -27,8 +27,8 @@ class BoxPacking {
 
     bool fits(const Descent& at, const Room& room) { return fits(shape_of(at), room); }
 
-    /// The least room along `axis`, of which room[axis] is not read, that the node fits in; more
-    /// than `most` where that is not enough.
+    /// Returns the least room along `axis` in which the node fits, without reading room[axis]; more
+    /// than `most` if that is not enough.
     int least_room(const Descent& at, int axis, Room room, int most);
 
   private:
@@ -55,7 +55,7 @@ class BoxPacking {
     std::map<std::array<std::size_t, 3>, int> lengths_;  ///< found so far
 };
 
-/// The most parts of equal size, up to `most`, that there is room for in a tree of this shape.
+/// Returns the most parts of equal size, up to `most`, with room in a tree of this shape.
 int most_parts(const Room& room, const TreeShape& shape, int most);
 
 }  // namespace rrcb

@@ -87,7 +87,7 @@ Room CutLimits::room_in(const Box& region, int most) const {
     return room;
 }
 
-/// The least place of a cut across `axis` with room for a node between `face` and it.
+/// Returns the least place of a cut across `axis` with room for a node between `face` and it.
 double CutLimits::first_face_behind(const Descent& at, int axis, double face) const {
     if (at.is_part()) return across(axis).first_behind(face, 1);
     if (!divides(at)) return first_face_behind(with_parts(at), axis, face);
@@ -99,7 +99,7 @@ double CutLimits::first_face_behind(const Descent& at, int axis, double face) co
     return first_face_behind(at.upper(), axis, std::max(behind_lower, gap.first));
 }
 
-/// The greatest place of a cut across `axis` with room for a node between it and `face`.
+/// Returns the greatest place of a cut across `axis` with room for a node between it and `face`.
 double CutLimits::last_face_before(const Descent& at, int axis, double face) const {
     if (at.is_part()) return across(axis).last_before(face, 1);
     if (!divides(at)) return last_face_before(with_parts(at), axis, face);

@@ -7,10 +7,10 @@
 
 namespace rrcb {
 
-/// True when the options limit where cuts may lie: by min_width or a grid.
+/// Returns true if the options limit the places of cuts: by min_width or a grid.
 bool are_cuts_limited(const Options& options);
 
-/// What the options ask of cuts across each axis; for any options.
+/// Returns the limits of cuts across each axis; for any options.
 std::array<AxisLimits, max_dimension> axis_limits(const Options& options);
 
 /// Places that a cut may have, both ends included.
@@ -22,24 +22,24 @@ struct Places {
     bool all() const { return first < -std::numeric_limits<double>::max(); }
 };
 
-/// Axes of the cuts of a tree in preorder, and the places that each may have by itself: any where
-/// `gaps` is empty. Both are empty where axes are free.
+/// Axes of the cuts of a tree in preorder, and the places that each may have by itself: any if
+/// `gaps` is empty. Both are empty if axes are free.
 struct GivenAxes {
     std::vector<int> axes{};
     std::vector<Places> gaps{};
 };
 
-/// Where the cuts of a tree may lie, so that all parts keep their widths and all cuts lie on lines.
+/// Allowed places of the cuts of a tree: all parts keep their widths, and all cuts are on lines.
 ///
-/// Where there is room for the whole tree, any cut within its places leaves places to all cuts
-/// below it, and no other does.
+/// If there is room for the complete tree, a cut leaves places to all cuts below it exactly if it
+/// is at one of its own.
 class CutLimits {
   public:
-    /// By complete options that limit the cuts, for points in the box `points`. Throws Error where
-    /// the grid is too fine.
+    /// By complete options that limit the cuts, for points in the box `points`. Throws Error if the
+    /// grid is too fine.
     CutLimits(const Options& options, const Box& points, int dimension, GivenAxes given = {});
 
-    /// What the cuts divide.
+    /// Box that the cuts divide.
     const Box& region() const { return region_; }
 
     int dimension() const { return dimension_; }
@@ -47,19 +47,19 @@ class CutLimits {
 
     bool has_room();
 
-    /// Throws Error, with the number of parts that there is room for, where there is not enough.
+    /// Throws Error with the number of parts that fit if there is not enough room.
     void require_room();
 
-    /// True when weight may lie on both sides of the cut of a node.
+    /// Returns true if weight may be on both sides of the cut of a node.
     bool divides(const Descent& at) const {
         return packing_.num_parts(at.lower()) > 0 && packing_.num_parts(at.upper()) > 0;
     }
 
-    /// Places of the cut of a node that divides, of what is in `region`, across `axis`: the one
-    /// given where axes are.
+    /// Returns the places of the cut of a node that divides `region` across `axis`, the given axis
+    /// if axes are given.
     Places places(const Descent& at, const Box& region, int axis);
 
-    /// `cut` where it lies in one of its places; otherwise the plane in the nearest.
+    /// Returns `cut` if it is at one of its places; otherwise the plane at the nearest.
     Cut nearest(const Cut& cut, const Places& places) const;
 
     const AxisLimits& across(int axis) const { return axes_[axis]; }
@@ -67,7 +67,7 @@ class CutLimits {
   private:
     Room room_in(const Box& region, int most) const;
     bool has_room_across(const Descent& at, int axis);
-    /// The side of a node that does not divide on which its parts lie.
+    /// Returns the side of the parts of a node that does not divide.
     Descent with_parts(const Descent& at) const {
         return packing_.num_parts(at.lower()) > 0 ? at.lower() : at.upper();
     }

@@ -10,7 +10,7 @@
 
 namespace rrcb {
 
-/// Rank that knows the cut of a node on behalf of all: the first one of its first part.
+/// Returns the owner of the cut of a node: the first rank of its first part.
 inline int owner_of(const Descent& node, int num_parts, int num_ranks) {
     return ranks_of_part(node.first_part, num_parts, num_ranks).first_rank;
 }
@@ -27,8 +27,8 @@ PartRange parts_on(int rank, int num_parts, int num_ranks);
 PartRange parts_from(int rank, int num_parts, int num_ranks);
 PartRange parts_from(int rank, std::span<const RankRange> ranks_of_parts);
 
-/// Calls visit(node, cut) for each cut that a rank owns, in preorder. Throws Error where it lacks
-/// one.
+/// Calls visit(node, cut) for each cut that a rank owns, in preorder. Throws Error if one is
+/// missing.
 void for_each_owned(const Cuts& cuts, int rank, int num_ranks,
                     const std::function<void(std::size_t node, const Cut& cut)>& visit);
 

@@ -9,15 +9,15 @@
 
 namespace rrcb {
 
-/// Search of the parts of points by cuts of which each rank knows some.
+/// Finds the parts of points by cuts of which each rank knows some.
 class PathSearch : public TierSearch {
   public:
-    /// Of points whose `parts` are told by `known`, or unknown_below() a node. The points and their
-    /// parts outlive it.
+    /// Takes points whose `parts` were found by `known`, or are unknown_below() a node. The points
+    /// and their parts outlive it.
     PathSearch(const Cuts& known, const Points& points, std::span<Part> parts);
 
-    /// Follows the points with the cuts that have come, and asks for those that it lacks. Returns
-    /// whether there are any.
+    /// Follows the points with the cuts received, and asks for the missing ones. Returns whether
+    /// any are missing.
     bool ask(Butterfly& asked);
 
     /// Points whose parts were not known at first.

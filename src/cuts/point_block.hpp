@@ -15,17 +15,16 @@ namespace rrcb {
 
 inline constexpr LocalIndex block_length = 512;
 
-/// In place of a plane: all points lie below it.
+/// Stands for a plane that all points are below.
 inline constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 /// The coordinates of the points of a block, one array per axis.
 using Columns = std::array<std::array<double, block_length>, max_dimension>;
 
-/// 1 for points of a block that lie on a plane on which position decides.
+/// 1 for points of a block on a plane that breaks ties by position.
 using TiedPoints = std::array<std::int32_t, block_length>;
 
-/// Copies a block of points; returns a number whose highest bit is 1 where a coordinate is not
-/// finite.
+/// Copies a block of points; returns a number whose highest bit is 1 if a coordinate is not finite.
 template <class Layout>
 RRCB_VECTOR_CLONES std::uint64_t copy_block(const Layout& x, LocalIndex first, LocalIndex length,
                                             Columns& columns) {

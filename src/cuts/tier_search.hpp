@@ -10,31 +10,31 @@
 
 namespace rrcb {
 
-/// Search for cuts of which each rank knows some: one rank's part in it, without the messages.
+/// Local part of a search for cuts of which each rank knows some, without the messages.
 ///
-/// The tree is looked at in tiers, of 6 levels at its top and of 7 below. First each rank shares
-/// the cuts that it owns: the owner of the first node of a tier gets the cuts of that tier, 127 at
-/// most. Then ranks ask the owners for the tiers that they lack, until they lack none: once for
-/// each tier on the way down, twice in trees of up to 2^20 parts of which all know the top one.
+/// The tree is divided into tiers, of 6 levels at the top and of 7 below. First each rank shares
+/// the cuts that it owns: the owner of the first node of a tier gets its cuts, at most 127. Then
+/// ranks ask these owners for missing tiers: once for each tier on the way down, or twice in trees
+/// of up to 2^20 parts if all ranks know the top tier.
 ///
 /// Join the shared with join_cuts() and the asked with join_questions().
 class TierSearch {
   public:
     explicit TierSearch(const Cuts& known) : cuts_(known) {}
 
-    /// Adds the cuts that this rank owns. Throws Error where it lacks one.
+    /// Adds the cuts that this rank owns. Throws Error if one is missing.
     void share(Butterfly& shared) const;
 
-    /// Adds a record for each tier that nodes are in, whose cuts this rank lacks.
+    /// Adds a record for the tier of each node whose cut is missing.
     void ask(std::span<const std::size_t> nodes, Butterfly& asked);
 
-    /// Answers the records that came to this rank, after `shared` has got to all owners.
+    /// Answers the records received, once all owners have `shared`.
     void answer(const Butterfly& shared, Butterfly& asked) const;
 
-    /// Takes the cuts that came back. Throws Error where some did not.
+    /// Takes the cuts of the answers. Throws Error if some are missing.
     void learn(const Butterfly& asked);
 
-    /// The cuts that were known, and those that came.
+    /// Returns the cuts that were known, and those received.
     const Cuts& cuts() const { return cuts_; }
     Cuts take() { return std::move(cuts_); }
 

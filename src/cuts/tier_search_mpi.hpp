@@ -7,11 +7,11 @@
 
 namespace rrcb {
 
-/// What a rank needs to take part in a search for cuts: that of a class derived from TierSearch,
-/// whose ask(asked) asks for what it lacks, and returns whether it does.
+/// Buffers of a rank for a search by a class derived from TierSearch. Its ask(asked) asks for
+/// missing cuts, and returns whether there are any.
 template <class Search>
 struct SearchBuffers {
-    /// Throws Error where the rank lacks a cut that it owns.
+    /// Throws Error if the rank lacks a cut that it owns.
     SearchBuffers(Search made, MPI_Comm comm)
         : search(std::move(made)),
           shared(mpi::rank_of(comm), mpi::size_of(comm), Search::join_cuts),
@@ -25,10 +25,10 @@ struct SearchBuffers {
     ButterflyMessages messages{};
 };
 
-/// Asks until no rank lacks cuts; returns whether any did.
+/// Asks until no rank lacks cuts. Returns whether any rank did.
 ///
-/// Collective: a pass through the ranks where none asks. Otherwise one to share cuts, two for each
-/// time that some rank asks, and one to end. All ranks have made their buffers and agreed on that.
+/// Collective. One pass through the ranks if none asks; otherwise one to share cuts, two for each
+/// round of questions, and one to end. All ranks have made their buffers and agreed on that.
 template <class Search>
 bool search_together(SearchBuffers<Search>& buffers, Participant& self) {
     for (bool is_shared = false;; is_shared = true) {

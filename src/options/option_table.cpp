@@ -44,7 +44,7 @@ bool equal_words(std::string_view a, std::string_view b) {
         [](unsigned char c) { return std::toupper(c); });
 }
 
-/// Numbers with blanks or commas between them; nothing where the text has anything else.
+/// Returns numbers separated by blanks or commas; nothing if the text contains anything else.
 std::optional<std::vector<double>> numbers_in(std::string_view text) {
     std::vector<double> numbers;
     const char* at = text.data();

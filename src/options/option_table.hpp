@@ -12,9 +12,9 @@
 #include <variant>
 #include <vector>
 
-// What there is to know of each option stands here once. The checks, the comparison between ranks,
-// the parameters of the plug-in, the list for Teuchos and the table of docs/parameters.md are made
-// of it. C++17, as the header of Teuchos' validators is no C++20.
+// Describes each option once. The checks, the comparison between ranks, the parameters of the
+// plug-in, the list for Teuchos and the table of docs/parameters.md follow from it. C++17, as the
+// header of Teuchos' validators is no C++20.
 
 namespace rrcb {
 
@@ -47,14 +47,14 @@ struct Range {
     bool above_least = false;    ///< `least` itself is not legal
     Number most_in_3d = most;    ///< the most for points in space
     const char* unit = "";       ///< as it follows a number
-    const char* zero = nullptr;  ///< what 0 stands for, beside what lies in the range
+    const char* zero = nullptr;  ///< meaning of 0, if it is legal besides the range
 };
 
 /// A value of an option by its name.
 struct Word {
     const char* word;
     int value;
-    const char* text;  ///< what it makes of the option
+    const char* text;  ///< its meaning
 };
 
 /// Values of an option that is an enumeration.
@@ -71,9 +71,9 @@ struct Choice {
 /// Throws Error that names the option; `options` have their number of parts.
 using Check = void (*)(const Options& options, int dimension);
 
-/// Values of an option, or of several that belong together, of any number; no text stands for them.
+/// Values of one option, or of several that belong together, without a form as text.
 struct Lists {
-    std::vector<double> (*get)(const Options&);  ///< what is compared between ranks
+    std::vector<double> (*get)(const Options&);  ///< compared between ranks
     Check check;
 };
 
@@ -82,16 +82,16 @@ struct Lists {
 struct Rows {
     std::vector<double> (*get)(const Options&);
     Check check;
-    bool (*set)(Options&, const std::vector<double>& numbers);  ///< false where they are not legal
+    bool (*set)(Options&, const std::vector<double>& numbers);  ///< false if they are illegal
     std::size_t row_length;
-    const char* text;  ///< what there is for each axis
+    const char* text;  ///< content of a row
     const char* example;
 };
 
 struct Option {
     const char* name;       ///< in Options, as errors have it
     const char* parameter;  ///< in the plug-in and in Teuchos' list; empty: in neither
-    const char* text;       ///< what it sets
+    const char* text;       ///< its effect
     std::variant<Range<int>, Range<double>, Choice, Lists, Rows> kind;
 };
 
@@ -102,16 +102,16 @@ inline constexpr Word refine_words[] = {
     {"EXACT", static_cast<int>(Refine::exact), "to the weighted median"}};
 
 inline constexpr Word coincident_words[] = {
-    {"TOGETHER", static_cast<int>(Coincident::together), "they share a part"},
+    {"TOGETHER", static_cast<int>(Coincident::together), "share a part"},
     {"DIVIDE", static_cast<int>(Coincident::divide),
-     "by number, where cuts are refined and not plain"}};
+     "are divided by number, if cuts are refined and not plain"}};
 
 inline constexpr Word held_cuts_words[] = {
     {"WHOLE", static_cast<int>(HeldCuts::whole), "all of them"},
     {"OWN", static_cast<int>(HeldCuts::own), "those above its points and its parts"}};
 
-inline constexpr Word machine_words[] = {{"ON", 1, "whole machines first"},
-                                         {"OFF", 0, "the parts are halved"}};
+inline constexpr Word machine_words[] = {{"ON", 1, "yes"},
+                                         {"OFF", 0, "no, the number of parts is halved"}};
 
 inline int machines_of(const Options& options) {
     return options.tree.group_size == 0 ? 1 : 0;
@@ -161,9 +161,9 @@ inline constexpr Option option_table[] = {
      Range<int>{field<&Options::tuning, &Tuning::support_mesh>, 1, 4096, false, 256,
                 " cells per axis", "as many as suit the points of the rank"}},
     {"one of tree, axes.order, axes.plain, axes.min_width, axes.grid", "",
-     "Which tree of cuts, across which axes, and where", Lists{values_of_tree, check_tree_options}},
+     "Tree, axes and places of the cuts", Lists{values_of_tree, check_tree_options}},
     {"tree.group_size", "RRCB_MACHINES",
-     "Whether the parts of each machine are cut off together, where machines are alike",
+     "Whether whole machines are cut off first, if machines are alike",
      Choice{machine_words, std::size(machine_words), machines_of, set_machines}},
     {"axes.min_width", "RRCB_MIN_WIDTH", "Least extent of every part along each axis",
      Rows{min_width_of, check_min_width, set_min_width, 1, "a number above 0 for each axis",
@@ -171,19 +171,19 @@ inline constexpr Option option_table[] = {
     {"axes.grid", "RRCB_GRID", "Lines of a grid across each axis that all cuts lie on",
      Rows{grid_of, check_grid, set_grid, 2, "an origin and a spacing above 0 for each axis",
           "0 0.05, 0 0.05"}},
-    {"refine", "RRCB_REFINE", "How far the estimated cuts are moved by what the ranks really hold",
+    {"refine", "RRCB_REFINE",
+     "Accuracy to which the estimated cuts are corrected by counting objects",
      choice_of<Refine, &Options::refine>(refine_words)},
-    {"coincident", "RRCB_COINCIDENT",
-     "What becomes of points in one place where the balance asked for divides them",
+    {"coincident", "RRCB_COINCIDENT", "Coincident points that a balanced cut would divide",
      choice_of<Coincident, &Options::coincident>(coincident_words)},
     {"imbalance_tolerance", "IMBALANCE_TOL",
      "Heaviest part / mean part to reach with RRCB_REFINE=TOLERANCE",
      Range<double>{field<&Options::imbalance_tolerance>, 1, std::numeric_limits<double>::max()}},
     {"tuning.central_parts", "RRCB_CENTRAL_PARTS",
-     "Parts that one rank makes; where there are more, and more ranks, many ranks make them",
+     "Most parts that rank 0 makes; if there are more, and more ranks, many ranks make them",
      Range<int>{field<&Options::tuning, &Tuning::central_parts>, 2,
                 std::numeric_limits<int>::max()}},
-    {"cuts", "", "Cuts that each rank gets where many ranks make the parts",
+    {"cuts", "", "Cuts that each rank gets if many ranks make the parts",
      choice_of<HeldCuts, &Options::cuts>(held_cuts_words)},
 };
 
@@ -192,11 +192,11 @@ constexpr bool is_compared(const Option& option) {
     return !std::holds_alternative<Rows>(option.kind);
 }
 
-/// The option of a name in Options, or of a parameter; null where there is none.
+/// Returns the option with a name in Options, or of a parameter; null if there is none.
 const Option* find_option(std::string_view name);
 const Option* find_parameter(std::string_view parameter);
 
-/// Calls visit(kind) with what kind of values the option has.
+/// Calls visit(kind) with the kind of the option's values.
 template <class Visit>
 decltype(auto) visit_kind(const Option& option, Visit&& visit) {
     return std::visit(visit, option.kind);
@@ -205,26 +205,26 @@ decltype(auto) visit_kind(const Option& option, Visit&& visit) {
 /// True when the value in `options` is legal for points of this dimension; of lists always.
 bool is_legal(const Option& option, const Options& options, int dimension);
 
-/// Condition on a number, as an error words it: "at least 1".
+/// Returns the condition on a number for the text of an error: "at least 1".
 std::string requirement(const Option& option, int dimension);
 
-/// The words of a choice: "WEIGHTED or MIDPOINT".
+/// Returns the words of a choice: "WEIGHTED or MIDPOINT".
 std::string words_of(const Choice& choice);
 
-/// Texts that may stand for the option: "a number above 0, at most 1", "WEIGHTED or MIDPOINT".
+/// Returns the legal texts of the option: "a number above 0, at most 1", "WEIGHTED or MIDPOINT".
 std::string legal_values(const Option& option);
 
-/// Sentence on what the option sets and which values it takes.
+/// Returns a sentence on the effect and the values of the option.
 std::string documentation(const Option& option);
 
-/// Reads a value in points of any dimension: a number, a word in any case, AUTO where 0 stands for
-/// something. False, and nothing is set, for what is no legal value.
+/// Reads a value that is legal in some dimension: a number, a word in any case, or AUTO if 0 has a
+/// meaning. Returns false, and sets nothing, if the value is illegal.
 bool read_option(const Option& option, std::string_view text, Options& options);
 
-/// The value as read_option() takes it.
+/// Returns the value in the form of read_option().
 std::string write_option(const Option& option, const Options& options);
 
-/// Makes the option what it is in `from`.
+/// Copies the option of `from`.
 void copy_option(const Option& option, const Options& from, Options& to);
 
 }  // namespace rrcb

@@ -20,24 +20,24 @@ inline constexpr std::size_t num_compared = [] {
 }();
 
 /// Request of a rank, which must be the same on every rank: the bits of each value, or a hash. It
-/// holds the dimension, every option that is compared in the order of the table, the cuts of an
-/// earlier call, and how this thread does arithmetic.
+/// contains the dimension, every compared option in the order of the table, the cuts of an earlier
+/// call, and the arithmetic of this thread.
 using Request = std::array<std::uint64_t, num_compared + 3>;
 
-/// Number for how this thread rounds and treats subnormal numbers, found out by computing. Ranks
-/// with different numbers get different results from the same operands.
+/// Returns a number that depends on rounding and subnormal numbers in this thread, by computing.
+/// Ranks with different numbers get different results from the same operands.
 std::uint64_t arithmetic_in_use();
 
 inline constexpr std::string_view name_of_arithmetic =
     "the floating-point environment (rounding, subnormal numbers)";
 
-/// Hash of numbers and how many they are.
+/// Returns a hash of numbers and their count.
 std::uint64_t hash_of(std::span<const double> values);
 
-/// The bits of one option, or a hash.
+/// Returns the bits of one option, or a hash.
 std::uint64_t bits_of(const Option& option, const Options& options);
 
-/// Hash of cuts; of those that are spread over the ranks, that they are.
+/// Returns a hash of cuts; a constant if they are spread over the ranks.
 std::uint64_t bits_of(const Cuts& cuts);
 
 /// Request of options in which empty `part_sizes` still stand for equal parts.

@@ -58,8 +58,7 @@ void agree_on(const PaperOptions& options, int dimension, const Participant& sel
                  {name_of_arithmetic, arithmetic_in_use()}});
 }
 
-/// Step 1: reduces the points of this rank to the moments of the cells of its support mesh. For the
-/// paper's RCB the points stay as they are.
+/// Step 1: reduces the local points to the moments of cells; the paper's RCB keeps the points.
 std::vector<double> reduce_points(const Points& points, const Box& box,
                                   const PaperOptions& options) {
     if (options.domain == PaperDomain::points) return pack_points(points);
@@ -76,7 +75,7 @@ void gather(std::vector<double>& packed, StageObserver* observer, Participant& s
     gather_records(packed, self);
 }
 
-/// What rank 0 reports of a bisection.
+/// Returns the report of a bisection, on rank 0.
 Verdict verdict_of(const PaperRecords& all, std::span<const double> part_weights,
                    const PaperOptions& options) {
     Verdict verdict;
@@ -89,8 +88,8 @@ Verdict verdict_of(const PaperRecords& all, std::span<const double> part_weights
     return verdict;
 }
 
-/// Steps 3 and 4, on rank 0: makes the statistical domain, of points drawn from the cells or of the
-/// real ones, and bisects it.
+/// Steps 3 and 4, on rank 0: makes the statistical domain, of random points or the real ones, and
+/// bisects it.
 Verdict bisect_domain(std::span<const double> packed, PaperOptions options, Cuts& cuts) {
     const StageScope stage(options.observer, Stage::bisection);
     normalize(options.part_sizes, options.num_parts);
@@ -107,8 +106,7 @@ Verdict bisect_domain(std::span<const double> packed, PaperOptions options, Cuts
     return verdict_of(all, bisection.part_weights, options);
 }
 
-/// Step 5: gives every rank the cuts, whose boxes are the parts, or throws on every rank what
-/// failed on one. Collective.
+/// Step 5: sends the cuts to every rank, or throws the error of one rank on all. Collective.
 void broadcast(Verdict& verdict, std::vector<Cut>& tree, StageObserver* observer,
                Participant& self) {
     const StageScope stage(observer, Stage::broadcast);

@@ -6,8 +6,8 @@
 
 namespace rrcb {
 
-/// Divides as the public function does, over a communicator that is a duplicate already. A failure
-/// from before the call is thrown on all ranks; the options of that rank are not used.
+/// Divides as the public function, over a duplicated communicator. An earlier failure of a rank is
+/// thrown on all ranks; its options are not used.
 Balance balance_as_in_paper(const Points& points, const PaperOptions& options, Participant& self);
 
 }  // namespace rrcb

@@ -35,14 +35,14 @@ Head head_of(const Points& points) {
     return head;
 }
 
-/// Puts the head in front of the records, which leave room for it.
+/// Writes the head in front of the records.
 void complete(std::vector<double>& packed, const Points& points) {
     Head head = head_of(points);
     head.num_doubles = static_cast<double>(packed.size() - head_length);
     std::ranges::copy(std::bit_cast<HeadNumbers>(head), packed.begin());
 }
 
-/// Calls unpack_block(head, doubles, all) for what each rank packed.
+/// Calls unpack_block(head, doubles, all) for the data of each rank.
 template <class UnpackBlock>
 PaperRecords unpack(std::span<const double> packed, UnpackBlock&& unpack_block) {
     PaperRecords all;

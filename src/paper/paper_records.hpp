@@ -22,7 +22,7 @@ struct PaperRecords {
 std::vector<double> pack_moments(const Points& points, std::span<const CellMoments> cells);
 std::vector<double> pack_points(const Points& points);
 
-/// Unpacks what the ranks packed, one after the other. Throws Error if the sum of weights
+/// Unpacks the data of all ranks, one after the other. Throws Error if the sum of weights
 /// overflows.
 PaperRecords unpack_moments(std::span<const double> packed, int dimension);
 PaperRecords unpack_points(std::span<const double> packed, int dimension);

@@ -28,7 +28,7 @@ bool read_positive(double& number, std::string_view text, double most) {
     return true;
 }
 
-/// The word that a text is; null for none.
+/// Returns the word equal to a text, or null.
 const Word* find_word(const Choice& words, std::string_view text) {
     const auto* found = std::ranges::find(words, text, &Word::word);
     return found == words.end() ? nullptr : found;

@@ -18,7 +18,7 @@ bool read_sigma_multiplier(double& multiplier, std::string_view text);
 bool read_sample_fraction(double& fraction, std::string_view text);
 bool read_seed(std::uint64_t& seed, std::string_view text);
 
-/// Texts as the readers take them.
+/// Return texts in the form of the readers.
 std::string name_of(CutRule rule);
 std::string name_of(PaperDomain domain);
 

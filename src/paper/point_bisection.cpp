@@ -50,7 +50,7 @@ std::size_t cut_points(std::span<MassPoint> points, double below, const Task& ta
     const Box box = extent_of(points);
     const double weight = weight_of(points);
     const int axis = longest_axis(box, dimension, longest_only);
-    // First: a side of size 0 stays empty, whatever points there are.
+    // First, because a side of size 0 is always empty.
     cut = plane(axis, below >= 1 ? infinity : -infinity);
     if (below >= 1) return points.size();
     if (below <= 0 || !(weight > 0)) return 0;

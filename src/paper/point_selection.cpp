@@ -17,16 +17,16 @@ struct Place {
     double below;  ///< weight of the points before it
 };
 
-/// Brings the point in which the cumulative weight reaches the target to its place in the order,
-/// those before it to the front.
+/// Sorts the point at which the cumulative weight reaches the target into its position, and smaller
+/// points before it.
 Place select(std::span<MassPoint> points, const PositionOrder& before, double target) {
-    // What round-off may leave must not decide on which side of a gap between clusters a cut falls.
+    // Round-off must not decide the side of a gap between clusters.
     const double enough = target - 1e-12 * target;
     std::size_t first = 0;
     std::size_t last = points.size();
     double below = 0;
-    // The point lies in first ... last - 1; those before lie before these in the order and weigh
-    // `below`, those behind lie behind these.
+    // The point is in first ... last - 1. Points before this range are smaller and weigh `below`;
+    // points behind it are greater.
     while (last - first > 1) {
         const std::size_t middle = first + (last - first) / 2;
         const auto left = points.subspan(first, last - first);
@@ -43,7 +43,7 @@ Place select(std::span<MassPoint> points, const PositionOrder& before, double ta
     return {first, below};
 }
 
-/// Points that can't be told apart, consecutive, with the weight below them.
+/// Equal points, consecutive, with the weight below them.
 struct Ties {
     std::size_t begin;
     std::size_t end;
@@ -70,7 +70,7 @@ Ties gather_ties(std::span<MassPoint> points, const PositionOrder& before, const
 }
 
 /// A cut between the last point below it and the first above, halfway or `on` the latter, along the
-/// first axis that tells them apart.
+/// first axis on which they differ.
 void cut_between(const Vector& last_below, const Vector& first_above, const PositionOrder& order,
                  bool on, Cut& cut) {
     auto deciding = order.axes().begin();

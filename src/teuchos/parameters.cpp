@@ -115,7 +115,7 @@ void add_parameters_of_paper(ParameterList& list) {
                "a number above 0.");
     add_number(list, "RRCB_SAMPLE_FRACTION", 1.0, {least, 1.0},
                "Plug-in only, SAMPLED: points drawn per real point: a number above 0, at most 1.");
-    // Teuchos knows no unsigned number of 64 bits.
+    // Teuchos has no unsigned 64-bit number.
     add_number(list, "RRCB_SEED", 1LL, {0LL, std::numeric_limits<long long>::max()},
                "Plug-in only, SAMPLED: seed of the points: a whole number, 0 or more.");
 }
@@ -201,8 +201,8 @@ ParameterList completed(const ParameterList& given) {
     return list;
 }
 
-/// Value of an entry as text for the plug-in. 0 stands for a choice of the library's own: Zoltan
-/// knows DEFAULT for that, and no number.
+/// Returns the value of an entry as text for the plug-in. 0 is the library's own choice, Zoltan's
+/// DEFAULT.
 std::string zoltan_string(const ParameterEntry& entry) {
     const Teuchos::any& value = entry.getAny(false);
     if (entry.isType<std::string>()) return Teuchos::any_cast<std::string>(value);

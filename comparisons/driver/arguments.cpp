@@ -37,7 +37,7 @@ const std::map<std::string, std::string>& documentation() {
         {"cloud", "generated points: " + cloud_names()},
         {"points", "points of the cloud; 1000000"},
         {"dim", "dimension of the cloud: 2 (default) or 3"},
-        {"layout", "how points lie on the ranks: sorted (default) or scattered"},
+        {"layout", "distribution of the points over the ranks: sorted (default) or scattered"},
         {"file", "CSV file of points: x,y[,z][,weight]"},
         {"replay", "folder of a dump of the plug-in's (RRCB_DUMP)"},
         {"methods", "methods, by commas, parameters in brackets, or all: " + method_names()},
@@ -48,7 +48,7 @@ const std::map<std::string, std::string>& documentation() {
         {"repeats", "timed calls of each method; 7"},
         {"seed", "seed of the cloud; 1"},
         {"drift", "fraction of its extent by which the cloud moves between calls; 0"},
-        {"radius", "cut-off that ghosts are counted by; twice the mean spacing of the points"},
+        {"radius", "cut-off of the counted ghosts; twice the mean spacing of the points"},
         {"ranks-per-node", "ranks on each machine, to count ghosts between machines"},
         {"only", "of a scene: calls on its snapshots or simulations; both"},
         {"out", "folder of the results; comparisons/out"},
@@ -64,8 +64,8 @@ std::optional<std::string> parse(int argc, char** argv, Texts& texts) {
     for (const auto& [name, text] : documentation()) {
         processor.setOption(name.c_str(), &texts.values[name], text.c_str());
     }
-    processor.setOption("quick", "no-quick", &texts.quick, "a small run that tries everything");
-    processor.setOption("data", "no-data", &texts.data, "write what pictures are drawn from");
+    processor.setOption("quick", "no-quick", &texts.quick, "a small run of everything");
+    processor.setOption("data", "no-data", &texts.data, "write the data of the pictures");
     processor.setOption("progress", "no-progress", &texts.progress, "show a progress bar");
     processor.setOption("version", "no-version", &texts.version, "print the versions");
     std::ostringstream output;

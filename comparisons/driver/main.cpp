@@ -73,11 +73,11 @@ std::string run_record(const Arguments& arguments, const std::string& command, M
 
 /// What the columns of a table mean, in a few lines.
 constexpr const char* definitions =
-    "imbalance: heaviest part / mean part, the median where 10 seeds were tried.\n"
+    "imbalance: heaviest part / mean part, of 10 seeds the median.\n"
     "time: slowest rank, median of the repeats, first call left out.\n"
-    "95 %: where the true median lies; of 6 repeats or more.\n"
+    "95 %: confidence interval of the median, for 6 repeats or more.\n"
     "of Zoltan's: this method's time / zoltan-rcb's.\n"
-    "bytes: of one call over all ranks, as handed to MPI and got from it.\n"
+    "bytes: given to MPI and received from it in one call, all ranks.\n"
     "ghosts: copies of points that parts need from others: a point counts once for each "
     "other\n"
     "part that has a point within the radius of it.\n"

@@ -43,7 +43,7 @@ CutLimits::CutLimits(const Options& options, const Box& points, int dimension, G
         if (!axes_[a].has_grid()) continue;
         if (!axes_[a].resolves(std::max(std::abs(points.lower[a]), std::abs(points.upper[a]))))
             reject("axes.grid is finer along axis " + std::to_string(a) +
-                   " than coordinates as large as these can tell; give a larger spacing");
+                   " than doubles resolve at these coordinates; give a larger spacing");
         // A line through the last points has a cell of points above it.
         if (options.axes.min_width.empty())
             region_.upper[a] = std::nextafter(points.upper[a], infinity);
@@ -77,7 +77,7 @@ void CutLimits::require_room() {
     for (int axis = 0; axis < dimension_; ++axis)
         side_by_side += (axis == 0 ? "" : " x ") + std::to_string(room[axis]);
     reject(limited + " room for " + side_by_side +
-           " parts side by side, not for what the axes given to the cuts ask for");
+           " parts side by side, not enough for the given axes of the cuts");
 }
 
 Room CutLimits::room_in(const Box& region, int most) const {

@@ -135,8 +135,8 @@ TEST(MinWidth, tells_when_the_axes_given_leave_no_room) {
     options.axes.order = AxisOrder::given({0, 0, 0});
     EXPECT_EQ(
         message_of(points, options),
-        "rank 0: axes.min_width leaves room for 3 x 4 parts side by side, not for what the axes "
-        "given to the cuts ask for");
+        "rank 0: axes.min_width leaves room for 3 x 4 parts side by side, not enough for the given "
+        "axes of the cuts");
     options.axes.order = AxisOrder::given({0, 1, 1});
     EXPECT_EQ(message_of(points, options), "");
     options.axes.order = AxisOrder::grouped({1, 0});
@@ -178,10 +178,10 @@ TEST(Grid, that_coordinates_cannot_tell_apart_is_refused) {
     Options options;
     options.num_parts = 2;
     options.axes.grid = {{0, 0.1}, {0, 0.1}};
-    EXPECT_EQ(
-        message_of(points, options),
-        "rank 0: axes.grid is finer along axis 0 than coordinates as large as these can tell; "
-        "give a larger spacing");
+    EXPECT_EQ(message_of(points, options),
+              "rank 0: axes.grid is finer along axis 0 than doubles resolve at these coordinates; "
+              "give a larger "
+              "spacing");
 }
 
 TEST(Limits, that_differ_between_ranks_are_an_error_on_all) {

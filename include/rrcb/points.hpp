@@ -10,7 +10,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <ranges>
 #include <span>
+#include <type_traits>
 
 namespace rrcb {
 
@@ -37,18 +39,24 @@ struct Box {
 /// at any other stride, as members of structs are.
 ///
 /// Coordinate a of point i is `axes[a][i * stride]`; the axes may lie in one array or in several.
-/// `weights` is empty (every point weighs 1) or
-/// holds one finite, non-negative weight per point. The arrays must outlive the view. Nothing is
-/// checked here: `balance` checks on all ranks together, so that no rank fails alone.
+/// Coordinates of type float lie in `float_axes` instead, and are the doubles of the same values.
+/// `weights` is empty (every point weighs 1) or holds one finite, non-negative weight per point.
+/// The arrays must outlive the view. Nothing is checked here: `balance` checks on all ranks
+/// together, so that no rank fails alone.
 struct Points {
     int dimension = 0;       ///< 1 to 3, on every rank the same
     LocalIndex count = 0;    ///< points of this rank
-    std::size_t stride = 1;  ///< from a point to the next, in doubles
-    std::array<std::span<const double>, max_dimension> axes{};  ///< from the first point on
-    std::span<const double> weights{};                          ///< one per point, or none
+    std::size_t stride = 1;  ///< from a point to the next, in coordinates; not 0
+    std::array<std::span<const double>, max_dimension> axes{};       ///< from the first point on
+    std::span<const double> weights{};                               ///< one per point, or none
+    std::array<std::span<const float>, max_dimension> float_axes{};  ///< in place of `axes`
 
-    /// Returns the coordinate of point `i` along `axis`. Not collective, as all of these.
-    double coordinate(LocalIndex i, int axis) const { return axes[axis][i * stride]; }
+    /// Returns true if coordinates are floats. Not collective, as all of these.
+    bool has_floats() const { return float_axes[0].data() != nullptr; }
+    /// Returns the coordinate of point `i` along `axis`.
+    double coordinate(LocalIndex i, int axis) const {
+        return has_floats() ? float_axes[axis][i * stride] : axes[axis][i * stride];
+    }
     /// Returns the weight of point `i`.
     double weight(LocalIndex i) const { return weights.empty() ? 1.0 : weights[i]; }
     /// Returns the coordinates of point `i`; 0 beyond the dimension.
@@ -65,10 +73,31 @@ struct Points {
 RRCB_API Points interleaved_points(std::span<const double> coordinates, int dimension,
                                    std::span<const double> weights = {});
 
+namespace detail {
+
+template <class Range>
+concept FloatRange =
+    std::ranges::contiguous_range<Range> && std::is_same_v < std::ranges::range_value_t<Range>,
+float > ;
+
+RRCB_API Points interleaved_floats(std::span<const float> coordinates, int dimension,
+                                   std::span<const double> weights);
+
+}  // namespace detail
+
+/// Returns the same view of an array of floats of any kind. Not collective.
+template <detail::FloatRange Floats>
+Points interleaved_points(const Floats& coordinates, int dimension,
+                          std::span<const double> weights = {}) {
+    return detail::interleaved_floats(coordinates, dimension, weights);
+}
+
 /// Returns a view of one array per axis. Not collective.
 ///
 /// 1 to 3 `columns` of the same length; `weights` is empty or as long as they are.
 RRCB_API Points column_points(std::span<const std::span<const double>> columns,
+                              std::span<const double> weights = {});
+RRCB_API Points column_points(std::span<const std::span<const float>> columns,
                               std::span<const double> weights = {});
 
 /// Returns the smallest box that holds all points; the empty box if there are none. Not collective.

@@ -15,3 +15,4 @@
 #include <rrcb/stages.hpp>
 #include <rrcb/transfer.hpp>
 #include <rrcb/version.hpp>
+#include <rrcb/views.hpp>

@@ -22,11 +22,11 @@ struct ColumnLayout {
     double operator()(LocalIndex i, int axis) const { return axes[axis][i]; }
 };
 
-/// Points of any stride, such as members of structs.
-template <int Dimension>
+/// Points of any stride, such as members of structs, or of floats.
+template <int Dimension, class Scalar = double>
 struct StridedLayout {
     static constexpr int dimension = Dimension;
-    std::array<const double*, Dimension> axes;
+    std::array<const Scalar*, Dimension> axes;
     std::size_t stride;
 
     double operator()(LocalIndex i, int axis) const { return axes[axis][i * stride]; }
@@ -34,6 +34,11 @@ struct StridedLayout {
 
 template <int Dimension, class Visit>
 decltype(auto) visit_layout_of(const Points& points, Visit&& visit) {
+    if (points.has_floats()) {
+        StridedLayout<Dimension, float> floats{{}, points.stride};
+        for (std::size_t a = 0; a < Dimension; ++a) floats.axes[a] = points.float_axes[a].data();
+        return visit(floats);
+    }
     std::array<const double*, Dimension> axes;
     bool is_interleaved = points.stride == Dimension;
     for (std::size_t a = 0; a < Dimension; ++a) {
@@ -45,7 +50,8 @@ decltype(auto) visit_layout_of(const Points& points, Visit&& visit) {
     return visit(StridedLayout<Dimension>{axes, points.stride});
 }
 
-/// Calls `visit(layout)` with the layout of `points`: columns, interleaved, or any other stride.
+/// Calls `visit(layout)` with the layout of `points`: columns, interleaved, or any other stride;
+/// only the last if coordinates are floats.
 template <class Visit>
 decltype(auto) visit_layout(const Points& points, Visit&& visit) {
     if (points.dimension == 1) return visit_layout_of<1>(points, visit);

@@ -70,7 +70,8 @@ Box box_of_values(std::span<const double> values, std::size_t stride) {
 }
 
 /// Smallest and largest of every stride-th value, on axis 0.
-Box box_of_strided(const double* values, LocalIndex count, std::size_t stride) {
+template <class Scalar>
+Box box_of_strided(const Scalar* values, LocalIndex count, std::size_t stride) {
     Box box;
     double poison = 0;
     for (LocalIndex i = 0; i < count; ++i) {
@@ -84,40 +85,74 @@ Box box_of_strided(const double* values, LocalIndex count, std::size_t stride) {
     return box;
 }
 
+/// Smallest and largest coordinates along an axis, on axis 0.
+Box box_of_axis(const Points& points, int axis) {
+    if (points.has_floats())
+        return box_of_strided(points.float_axes[axis].data(), points.count, points.stride);
+    if (points.stride == 1) return box_of_values(points.axes[axis].first(points.count), 1);
+    return box_of_strided(points.axes[axis].data(), points.count, points.stride);
+}
+
 /// Throws Error when points lie beyond their arrays.
 void check_reach(const Points& points) {
     check_dimension(points.dimension, "points");
     require(points.stride >= 1, "the stride of the points must be at least 1");
     for (int a = 0; a < points.dimension; ++a) {
-        const std::size_t size = points.axes[a].size();
+        const std::size_t size =
+            points.has_floats() ? points.float_axes[a].size() : points.axes[a].size();
         require(points.count == 0 || (size > 0 && (size - 1) / points.stride >= points.count - 1),
                 "coordinate arrays must reach to the last point, (count - 1) * stride");
     }
+}
+
+/// Sets the axes of points that lie one after another.
+template <class Scalar>
+void interleave(std::span<const Scalar> coordinates, Points& points,
+                std::array<std::span<const Scalar>, max_dimension>& axes) {
+    if (points.dimension < 1 || points.dimension > max_dimension) return;
+    points.stride = static_cast<std::size_t>(points.dimension);
+    points.count = coordinates.size() / points.stride;
+    for (std::size_t a = 0; a < points.stride && a <= coordinates.size(); ++a)
+        axes[a] = coordinates.subspan(a);
+}
+
+/// Sets one array per axis.
+template <class Scalar>
+void set_columns(std::span<const std::span<const Scalar>> columns, Points& points,
+                 std::array<std::span<const Scalar>, max_dimension>& axes) {
+    points.dimension = static_cast<int>(columns.size());
+    if (columns.empty() || columns.size() > max_dimension) return;
+    points.count = columns[0].size();
+    std::copy(columns.begin(), columns.end(), axes.begin());
 }
 
 }  // namespace
 
 Points interleaved_points(std::span<const double> coordinates, int dimension,
                           std::span<const double> weights) {
-    Points points;
-    points.dimension = dimension;
-    points.weights = weights;
-    if (dimension < 1 || dimension > max_dimension) return points;
-    points.stride = static_cast<std::size_t>(dimension);
-    points.count = coordinates.size() / points.stride;
-    for (std::size_t a = 0; a < points.stride && a <= coordinates.size(); ++a)
-        points.axes[a] = coordinates.subspan(a);
+    Points points{.dimension = dimension, .weights = weights};
+    interleave(coordinates, points, points.axes);
+    return points;
+}
+
+Points detail::interleaved_floats(std::span<const float> coordinates, int dimension,
+                                  std::span<const double> weights) {
+    Points points{.dimension = dimension, .weights = weights};
+    interleave(coordinates, points, points.float_axes);
     return points;
 }
 
 Points column_points(std::span<const std::span<const double>> columns,
                      std::span<const double> weights) {
-    Points points;
-    points.dimension = static_cast<int>(columns.size());
-    points.weights = weights;
-    if (columns.empty() || columns.size() > max_dimension) return points;
-    points.count = columns[0].size();
-    std::copy(columns.begin(), columns.end(), points.axes.begin());
+    Points points{.weights = weights};
+    set_columns(columns, points, points.axes);
+    return points;
+}
+
+Points column_points(std::span<const std::span<const float>> columns,
+                     std::span<const double> weights) {
+    Points points{.weights = weights};
+    set_columns(columns, points, points.float_axes);
     return points;
 }
 
@@ -125,12 +160,10 @@ Box bounding_box(const Points& points) {
     check_reach(points);
     if (points.count == 0) return {};
     if (is_interleaved(points))
-        return box_of_values(points.axes[0].first(points.count * points.stride), points.stride);
+        return box_of_values({points.axes[0].data(), points.count * points.stride}, points.stride);
     Box box;
     for (int a = 0; a < points.dimension; ++a) {
-        const Box axis = points.stride == 1
-                             ? box_of_values(points.axes[a].first(points.count), 1)
-                             : box_of_strided(points.axes[a].data(), points.count, points.stride);
+        const Box axis = box_of_axis(points, a);
         box.lower[a] = axis.lower[0];
         box.upper[a] = axis.upper[0];
     }

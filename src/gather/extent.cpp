@@ -13,8 +13,13 @@ namespace {
 Points range_of(const Points& points, LocalIndex first, LocalIndex last) {
     Points range = points;
     range.count = last - first;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a)
-        range.axes[a] = points.axes[a].subspan(first * points.stride);
+    const std::size_t begin = first * points.stride;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a) {
+        if (points.has_floats())
+            range.float_axes[a] = points.float_axes[a].subspan(begin);
+        else
+            range.axes[a] = points.axes[a].subspan(begin);
+    }
     return range;
 }
 

@@ -40,26 +40,48 @@ void check_weights(const Points& points) {
     reject("the sum of the weights overflows; scale them down");
 }
 
-/// Throws Error when the coordinates do not fit the dimension and number of the points. Not whether
-/// they are finite.
-void check_coordinates(const Points& points) {
+/// True when `axes` lie in one array, point after point.
+template <class Axes>
+bool are_interleaved(const Points& points, const Axes& axes) {
+    const auto dimension = static_cast<std::size_t>(points.dimension);
+    if (points.stride != dimension) return false;
+    for (std::size_t a = 1; a < dimension; ++a)
+        if (axes[a].data() != axes[0].data() + a) return false;
+    return true;
+}
+
+template <class Axes>
+void check_axes(const Points& points, const Axes& axes) {
     constexpr const char* left_over =
         "the length of the coordinate array must be a multiple of the dimension";
-    check_dimension(points.dimension, "points");
     const auto dimension = static_cast<std::size_t>(points.dimension);
-    require(points.stride >= 1, "the stride of the points must be at least 1");
     if (points.count == 0) {
-        require(points.stride > dimension || points.axes[0].empty(), left_over);
+        require(points.stride > dimension || axes[0].empty(), left_over);
         return;
     }
-    const bool interleaved = dimension > 1 && is_interleaved(points);
-    require(!interleaved || points.axes[0].size() == points.count * dimension, left_over);
+    const bool interleaved = dimension > 1 && are_interleaved(points, axes);
+    require(!interleaved || axes[0].size() <= points.count * dimension, left_over);
     for (std::size_t a = 0; a < dimension; ++a) {
-        const std::size_t size = points.axes[a].size();
+        const std::size_t size = axes[a].size();
         require(points.stride > 1 || size == points.count,
                 "coordinate arrays must all have the same length");
         require(size > 0 && (size - 1) / points.stride >= points.count - 1,
                 "coordinate arrays must reach to the last point, (count - 1) * stride");
+    }
+}
+
+/// Throws Error when the coordinates do not fit the dimension and number of the points. Not whether
+/// they are finite.
+void check_coordinates(const Points& points) {
+    check_dimension(points.dimension, "points");
+    require(points.stride >= 1,
+            "the stride of the points must be at least 1, and the same along all axes, as their "
+            "length");
+    if (points.has_floats()) {
+        require(points.axes[0].empty(), "give coordinates in axes or float_axes, not in both");
+        check_axes(points, points.float_axes);
+    } else {
+        check_axes(points, points.axes);
     }
 }
 
@@ -248,12 +270,7 @@ void reject_coordinates(const Points& points) {
 }
 
 bool is_interleaved(const Points& points) {
-    const auto dimension = static_cast<std::size_t>(points.dimension);
-    if (points.stride != dimension || points.axes[0].size() < points.count * dimension)
-        return false;
-    for (std::size_t a = 1; a < dimension; ++a)
-        if (points.axes[a].data() != points.axes[0].data() + a) return false;
-    return true;
+    return !points.has_floats() && are_interleaved(points, points.axes);
 }
 
 void check_dimension(int dimension, const char* name) {

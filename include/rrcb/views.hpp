@@ -1,0 +1,128 @@
+#pragma once
+
+#include <rrcb/points.hpp>
+
+#include <concepts>
+#include <cstddef>
+#include <ranges>
+#include <type_traits>
+#include <utility>
+
+namespace rrcb {
+
+namespace detail {
+
+template <class T>
+concept Scalar = std::same_as<T, double> || std::same_as<T, float>;
+
+template <class T>
+concept Array = requires(const T& array) {
+    array[0];
+};
+
+template <class View>
+concept StridedView = requires(const View& view) {
+    view.extent(0);
+    view.stride(0);
+};
+
+/// Sets one axis. Nothing is thrown here: balance() refuses a stride of 0 on all ranks together.
+template <Scalar T>
+void set_axis(Points& points, int axis, const T* first, LocalIndex count, std::ptrdiff_t stride) {
+    if (axis == 0) points.count = count;
+    if (axis == 0) points.stride = stride > 0 ? static_cast<std::size_t>(stride) : 0;
+    if (points.stride != static_cast<std::size_t>(stride)) points.stride = 0;
+    const std::size_t size = count == 0 ? 0 : (count - 1) * points.stride + 1;
+    if constexpr (std::same_as<T, double>)
+        points.axes[axis] = {first, size};
+    else
+        points.float_axes[axis] = {first, size};
+}
+
+template <StridedView View>
+constexpr std::size_t rank_of() {
+    if constexpr (requires { View::rank(); })
+        return View::rank();
+    else
+        return View::Rank;
+}
+
+template <StridedView View>
+auto data_of(const View& view) {
+    if constexpr (requires { view.data_handle(); })
+        return view.data_handle();
+    else
+        return view.data();
+}
+
+}  // namespace detail
+
+/// Returns a view of coordinates that are members of structs, one for each axis, such as
+/// member_points(particles, &Particle::x, &Particle::y). Not collective.
+///
+/// `structs` is a vector or an array of any kind. Members are doubles or floats. Set weights in the
+/// result.
+template <std::ranges::contiguous_range Structs, detail::Scalar T, class Struct,
+          std::same_as<T Struct::*>... Others>
+Points member_points(const Structs& structs, T Struct::*first, Others... others) {
+    using Element = std::ranges::range_value_t<Structs>;
+    static_assert(sizeof(Element) % sizeof(T) == 0, "structs must hold whole coordinates");
+    static_assert(sizeof...(others) < max_dimension);
+    Points points{.dimension = 1 + static_cast<int>(sizeof...(others))};
+    const Element* elements = std::ranges::data(structs);
+    const LocalIndex count = std::ranges::size(structs);
+    int axis = 0;
+    for (T Struct::*const member : {first, others...})
+        detail::set_axis(points, axis++, count == 0 ? nullptr : &(elements->*member), count,
+                         sizeof(Element) / sizeof(T));
+    return points;
+}
+
+/// Returns a view of positions that are one member, an array: member_points(particles,
+/// &Particle::position). Not collective. Set a lower dimension in the result to use fewer axes.
+template <std::ranges::contiguous_range Structs, detail::Array Position, class Struct>
+Points member_points(const Structs& structs, Position Struct::*position) {
+    using Element = std::ranges::range_value_t<Structs>;
+    using T = std::remove_cvref_t<decltype(std::declval<const Position&>()[0])>;
+    static_assert(sizeof(Element) % sizeof(T) == 0, "structs must hold whole coordinates");
+    static_assert(sizeof(Position) <= max_dimension * sizeof(T));
+    Points points{.dimension = static_cast<int>(sizeof(Position) / sizeof(T))};
+    const Element* elements = std::ranges::data(structs);
+    const LocalIndex count = std::ranges::size(structs);
+    for (int axis = 0; axis < points.dimension; ++axis)
+        detail::set_axis(points, axis, count == 0 ? nullptr : &(elements->*position)[axis], count,
+                         sizeof(Element) / sizeof(T));
+    return points;
+}
+
+/// Returns a view of a Kokkos::View in memory of the host, or a std::mdspan, of any layout with
+/// strides: points by axes, or one view with a single extent for each axis. Not collective.
+///
+/// Elements are doubles or floats. Views of the axes have the same extent and stride.
+template <detail::StridedView First, detail::StridedView... Others>
+Points view_points(const First& first, const Others&... others) {
+    static_assert(sizeof...(others) < max_dimension);
+    const LocalIndex count = first.extent(0);
+    const auto stride = [&](const auto& view) {
+        return count > 1 ? static_cast<std::ptrdiff_t>(view.stride(0)) : 1;
+    };
+    Points points;
+    if constexpr (detail::rank_of<First>() == 2) {
+        static_assert(sizeof...(others) == 0);
+        points.dimension = static_cast<int>(first.extent(1));
+        for (int axis = 0; axis < points.dimension && axis < max_dimension; ++axis)
+            detail::set_axis(points, axis, detail::data_of(first) + axis * first.stride(1), count,
+                             stride(first));
+    } else {
+        static_assert(detail::rank_of<First>() == 1);
+        const auto add = [&](const auto& view) {
+            const LocalIndex length = view.extent(0);
+            detail::set_axis(points, points.dimension++, detail::data_of(view), length,
+                             length == count ? stride(view) : 0);
+        };
+        (add(first), ..., add(others));
+    }
+    return points;
+}
+
+}  // namespace rrcb

@@ -1,0 +1,132 @@
+#include "../support/clouds.hpp"
+#include "../support/ranks.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/error.hpp>
+#include <rrcb/ghosts.hpp>
+#include <rrcb/views.hpp>
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+template <class T>
+struct Particle {
+    T x;
+    T others[2];
+    T y;
+    T z;
+};
+
+/// Points of this rank in several arrangements.
+template <class T>
+struct Cloud {
+    Cloud(std::size_t count, int dimension_of_points) : dimension(dimension_of_points) {
+        for (const double x : test::uniform_cloud(count * static_cast<std::size_t>(dimension), 1,
+                                                  static_cast<unsigned>(5 + test::rank())))
+            values.push_back(static_cast<T>(x));
+        doubles.assign(values.begin(), values.end());
+        const auto d = static_cast<std::size_t>(dimension);
+        axes.resize(d);
+        for (std::size_t i = 0; i < count; ++i) {
+            particles.push_back(
+                {values[i * d], {7, 7}, values[i * d + d / 2], values[i * d + d - 1]});
+            for (std::size_t a = 0; a < d; ++a) axes[a].push_back(values[i * d + a]);
+        }
+    }
+
+    std::vector<Points> arrangements() const {
+        using P = Particle<T>;
+        const std::vector<std::span<const T>> columns(axes.begin(), axes.end());
+        const Points structs = dimension == 1   ? member_points(particles, &P::x)
+                               : dimension == 2 ? member_points(particles, &P::x, &P::y)
+                                                : member_points(particles, &P::x, &P::y, &P::z);
+        return {interleaved_points(values, dimension), column_points(columns), structs};
+    }
+
+    int dimension;
+    std::vector<T> values{};
+    std::vector<double> doubles{};
+    std::vector<std::vector<T>> axes{};
+    std::vector<Particle<T>> particles{};
+};
+
+std::vector<std::uint64_t> bits(const Cuts& cuts) {
+    std::vector<std::uint64_t> all;
+    for (const Cut& cut : cuts.tree)
+        for (const double at : cut.at) all.push_back(std::bit_cast<std::uint64_t>(at));
+    return all;
+}
+
+template <class T>
+void expect_same_bits(std::size_t count) {
+    for (int dimension = 1; dimension <= 3; ++dimension) {
+        const Cloud<T> cloud(count, dimension);
+        const std::vector<double> weights(count, 0.3);
+        Points reference = interleaved_points(cloud.doubles, dimension, weights);
+        for (const Refine refine : {Refine::none, Refine::tolerance, Refine::exact}) {
+            const Options options{.num_parts = 11, .refine = refine};
+            const Balance expected = balance(reference, options, MPI_COMM_WORLD);
+            const GhostPlan near =
+                ghosts(expected.cuts, reference, {.radius = 0.05}, MPI_COMM_WORLD);
+            for (Points points : cloud.arrangements()) {
+                points.weights = weights;
+                const Balance found = balance(points, options, MPI_COMM_WORLD);
+                EXPECT_EQ(found.parts, expected.parts);
+                EXPECT_EQ(bits(found.cuts), bits(expected.cuts));
+                EXPECT_EQ(bounding_box(points).lower, bounding_box(reference).lower);
+                EXPECT_EQ(assign_all(found.cuts, points, MPI_COMM_WORLD), expected.parts);
+                EXPECT_EQ(rebalance(points, options, found.cuts, MPI_COMM_WORLD).parts,
+                          rebalance(reference, options, found.cuts, MPI_COMM_WORLD).parts);
+                EXPECT_EQ(ghosts(found.cuts, points, {.radius = 0.05}, MPI_COMM_WORLD).send_indices,
+                          near.send_indices);
+            }
+        }
+    }
+}
+
+TEST(Inputs, of_any_arrangement_give_the_same_bits) {
+    const bool is_empty = test::num_ranks() > 2 && test::rank() == 1;
+    expect_same_bits<double>(is_empty ? 0 : 1500);
+    expect_same_bits<float>(is_empty ? 0 : 1500);
+}
+
+void expect_refusal(const Points& points, const std::string& text) {
+    try {
+        balance(points, {}, MPI_COMM_WORLD);
+        ADD_FAILURE() << "nothing was thrown instead of: " << text;
+    } catch (const Error& error) {
+        const std::string expected = "rank " + std::to_string(test::num_ranks() - 1) + ": " + text;
+        EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+    }
+}
+
+TEST(Inputs, that_are_unusable_on_one_rank_are_refused_on_all) {
+    const bool last = test::is_last_rank();
+    std::vector<float> x{0, 1, 2, 3};
+    Points points = interleaved_points(x, 2);
+    if (last) points.stride = static_cast<std::size_t>(-2);
+    expect_refusal(points, "coordinate arrays must reach to the last point");
+    points = interleaved_points(x, 2);
+    if (last) points.count = 3;
+    expect_refusal(points, "coordinate arrays must reach to the last point");
+    const std::vector<double> doubles(4);
+    points = interleaved_points(x, 2);
+    if (last) points.axes[0] = doubles;
+    expect_refusal(points, "give coordinates in axes or float_axes, not in both");
+    if (last) x[3] = std::numeric_limits<float>::quiet_NaN();
+    expect_refusal(interleaved_points(x, 2), "coordinate of object 1 on axis 1 is NaN or infinite");
+    const std::vector<float> five(5);
+    expect_refusal(interleaved_points(std::span(five).first(last ? 5 : 4), 2),
+                   "the length of the coordinate array must be a multiple of the dimension");
+}
+
+}  // namespace
+}  // namespace rrcb

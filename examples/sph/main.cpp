@@ -1,0 +1,79 @@
+// Smoothed particle hydrodynamics in a periodic box: densities, then forces between pairs.
+#include "fluid.hpp"
+
+#include <rrcb/rrcb.hpp>
+
+constexpr double skin = 0.02;
+constexpr double time_step = 0.002;
+constexpr double cost = 20000;  // of a rebalance, in pairs as the loads; a simulation takes seconds
+
+Particles simulate(Particles own, int num_steps, MPI_Comm comm) {
+    using rrcb::column;
+    rrcb::Controller controller(comm);
+    rrcb::Balance balance;
+    rrcb::GhostPlan near;
+    std::vector<int> numbers;
+    double travelled = skin;
+    for (int step = 0; step < num_steps; ++step) {
+        if (2 * travelled >= skin) {  // from now on the plan may lack pairs
+            for (double& x : own.positions) x -= std::floor(x);
+            const rrcb::Points points = rrcb::interleaved_points(own.positions, 2);
+            const bool is_due = step == 0 || controller.due();
+            if (is_due) balance = rrcb::balance(points, {}, comm);
+            if (is_due) controller.rebalanced(balance.report, cost);
+            if (!is_due) balance.parts = rrcb::assign_all(balance.cuts, points, comm);
+            const auto columns = rrcb::columns(column(own.positions, 2), column(own.velocities, 2),
+                                               column(own.numbers));
+            std::tie(own.positions, own.velocities, own.numbers) =
+                rrcb::transfer(rrcb::plan(balance, comm), columns, comm);
+            near = rrcb::ghosts(balance.cuts, rrcb::interleaved_points(own.positions, 2),
+                                {.radius = reach + skin, .periodic = {{{0, 0}, {1, 1}}}}, comm);
+            numbers = joined(own.numbers, rrcb::fetch(near, own.numbers, comm));
+            travelled = 0;
+        }
+        const std::size_t count = own.numbers.size();
+        std::vector<double> ghosts = rrcb::fetch(near, column(own.positions, 2), comm);
+        rrcb::apply_shifts(near, ghosts);
+        const std::vector<double> x = joined(own.positions, ghosts);
+        const std::vector<Pair> pairs = pairs_among(x, count);
+        own.densities.assign(count, kernel(0));
+        for (const auto& [i, j, distance] : pairs) {
+            own.densities[i] += kernel(distance);
+            if (j < count) own.densities[j] += kernel(distance);
+        }
+        const auto densities = joined(own.densities, rrcb::fetch(near, own.densities, comm));
+        std::vector<double> forces(x.size());
+        for (const auto& [i, j, distance] : pairs) {
+            if (j >= count && numbers[i] > numbers[j]) continue;  // the other rank's
+            for (std::size_t a = 0; a < 2; ++a) {
+                const double force =
+                    push(distance, densities[i], densities[j]) * (x[2 * i + a] - x[2 * j + a]);
+                forces[2 * i + a] += force;
+                forces[2 * j + a] -= force;
+            }
+        }
+        const std::span all(forces);
+        const std::vector<double> sums = rrcb::accumulate(near, column(all.subspan(2 * count), 2),
+                                                          column(all.first(2 * count), 2), comm);
+        double fastest = 0;
+        for (std::size_t k = 0; k < 2 * count; ++k) {
+            own.velocities[k] += time_step * sums[k];
+            own.positions[k] += time_step * own.velocities[k];
+            fastest = std::max(fastest, std::abs(own.velocities[k]));
+        }
+        MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, comm);
+        travelled += time_step * fastest * std::sqrt(2);
+        controller.step(static_cast<double>(pairs.size()), static_cast<double>(count));
+    }
+    return own;
+}
+
+int main(int argc, char** argv) {
+    MPI_Init(&argc, &argv);
+    const Particles own = simulate(share_of(MPI_COMM_WORLD), 100, MPI_COMM_WORLD);
+    double momentum = 0;
+    for (const double velocity : own.velocities) momentum += mass * velocity;
+    MPI_Allreduce(MPI_IN_PLACE, &momentum, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    MPI_Finalize();
+    return std::abs(momentum - 2) < 1e-12 ? 0 : 1;
+}

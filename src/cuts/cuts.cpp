@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The cut of a node that the look-up can't do without.
+/// Returns the cut of a node that the look-up needs.
 const Cut& known_cut(const Cuts& cuts, const Descent& at) {
     const Cut* cut = find_cut(cuts, at.node);
     if (cut == nullptr) reject_unknown();
@@ -25,7 +25,7 @@ const Cut& known_cut(const Cuts& cuts, const Descent& at) {
     return *cut;
 }
 
-/// Throws Error unless each node has its place in the tree.
+/// Throws Error unless each node is in the tree.
 void check_shape(const Cuts& cuts) {
     check_dimension(cuts.dimension, "cuts");
     const auto num_nodes = static_cast<std::size_t>(std::max(cuts.num_parts, 1)) - 1;
@@ -35,8 +35,8 @@ void check_shape(const Cuts& cuts) {
             "it holds");
 }
 
-/// True when no position is on the upper side of `lower` and on the lower side of `upper`, which
-/// cross one axis; null where that side is open.
+/// Returns true if no position is on the upper side of `lower` and on the lower side of `upper`,
+/// which cross one axis; null is an open side.
 bool leave_nothing(const Cut* lower, const Cut* upper, int dimension) {
     if (lower == nullptr && upper == nullptr) return false;
     if (lower == nullptr) return upper->at[upper->axis] == -infinity;
@@ -128,12 +128,12 @@ Box region_of(const Cuts& cuts, Part part) {
 }
 
 bool is_region_empty(const Cuts& cuts, Part part, const Box& region) {
-    // Only bounds that meet or are in reverse leave nothing.
+    // Only bounds that meet or are reversed leave nothing.
     bool may_be_empty = false;
     for (int a = 0; a < cuts.dimension; ++a)
         may_be_empty = may_be_empty || !(region.lower[a] < region.upper[a]);
     if (!may_be_empty) return false;
-    // The nearest cuts on both sides, by the order in which they take positions.
+    // The nearest cuts on both sides, in the order of positions across them.
     std::array<const Cut*, max_dimension> lower{};
     std::array<const Cut*, max_dimension> upper{};
     for (Descent at = root_of(cuts); !at.is_part(); at = at.towards(part)) {

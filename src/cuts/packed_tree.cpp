@@ -26,7 +26,7 @@ void descend_top(const PackedTree::Top& top, const Columns& columns, LocalIndex 
     }
 }
 
-/// Takes each point of a block down one level, and marks those on a plane if asked to.
+/// Takes each point of a block down one level, and marks those on a plane on request.
 template <bool marks>
 void descend_level(const double* planes, const std::int32_t* axes, const std::int32_t* lowers,
                    const double* columns, LocalIndex length, std::int32_t* nodes,
@@ -40,7 +40,7 @@ void descend_level(const double* planes, const std::int32_t* axes, const std::in
     }
 }
 
-/// Marks the points on one plane, wherever it ends.
+/// Marks all points on a plane, beyond its box as well.
 RRCB_VECTOR_CLONES
 void mark_tied(double plane, const double* x, LocalIndex length, std::int32_t* tied) {
     for (LocalIndex i = 0; i < length; ++i) tied[i] |= x[i] == plane ? 1 : 0;
@@ -80,7 +80,7 @@ void PackedTree::resize(std::int32_t num_nodes) {
     items_.resize(num_nodes);
 }
 
-/// Fills `node` with the cuts at or below `at`, whose positions all lie in `box`.
+/// Fills `node` with the cuts at or below `at`, whose positions are all in `box`.
 void PackedTree::add(const Packing& packing, Descent at, const Box& box, std::int32_t node,
                      int depth) {
     const Cut* cut = nullptr;

@@ -11,7 +11,7 @@
 
 namespace rrcb {
 
-/// Number in place of a part if the cut of a node above it is not known.
+/// Returns a number that stands for a part below a node whose cut is unknown.
 constexpr Part unknown_below(std::size_t node) {
     return ~static_cast<Part>(node);
 }
@@ -22,13 +22,13 @@ constexpr std::size_t unknown_node(Part part) {
     return static_cast<std::size_t>(~part);
 }
 
-/// In place of a part that a search leaves out.
+/// Stands for a part that a search leaves out.
 inline constexpr Part left_out = std::numeric_limits<Part>::min();
 
 /// The known cuts of a tree in arrays, for many look-ups.
 ///
-/// Both nodes below a cut are neighbours. The tree ends at parts and at nodes whose cuts are not
-/// known. A point stays at its end, so that all points of a block take the same number of steps.
+/// Both nodes below a cut are neighbours. The tree ends at parts and at nodes whose cuts are
+/// unknown. A point remains at its end, so all points of a block take the same number of steps.
 class PackedTree {
   public:
     /// Returns the entry for a part, given the box between the cuts above it, see region_of().
@@ -66,7 +66,7 @@ class PackedTree {
     bool is_end(std::int32_t node) const { return lower_of(node) == node; }
     Part entry_at(std::int32_t node) const { return entries_[items_[node]]; }
 
-    /// The node below a cut, in front of the one above it.
+    /// The lower node of a cut, followed by the upper one.
     std::int32_t lower_of(std::int32_t node) const { return lowers_[node]; }
 
     int axis_of(std::int32_t node) const { return axes_[node]; }
@@ -92,7 +92,7 @@ class PackedTree {
     struct Top {
         std::array<double, num_top_nodes> planes;
         std::array<std::int32_t, num_top_nodes> axes;
-        /// As doubles, which vectors select as fast as they compare.
+        /// Doubles, because vectors select them as fast as they compare.
         std::array<double, num_top_nodes + 1> exits;
     };
 
@@ -125,7 +125,7 @@ class PackedTree {
     std::vector<std::int32_t> items_;   ///< index of the cut, or number of the end
     std::vector<Part> entries_;         ///< of ends
     int depth_ = 0;
-    bool is_plain_ = true;  ///< every cut is a plane, none breaks ties by position
+    bool is_plain_ = true;  ///< every cut is a plane, without ties by position
     Top top_{};
 };
 

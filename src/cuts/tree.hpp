@@ -8,7 +8,7 @@
 
 namespace rrcb {
 
-/// A node on the way down the tree: its place in the preorder and the parts below it.
+/// Node on the way down the tree: its position in the preorder and the parts below it.
 struct Descent {
     std::size_t node = 0;
     Part first_part = 0;
@@ -34,7 +34,7 @@ inline Descent root_of(const Cuts& cuts) {
     return root_of(cuts.num_parts, cuts.shape);
 }
 
-/// The part at an end of the tree, and the end of a part.
+/// Return the part at an end of the tree, and the end of a part.
 inline Part part_at(const Cuts& cuts, Part end) {
     return cuts.shape.part_at(end, cuts.num_parts);
 }
@@ -45,10 +45,10 @@ inline Part end_of(const Cuts& cuts, Part part) {
 /// Writes the parts in place of the ends of the tree.
 void number_parts(const Cuts& cuts, std::span<Part> ends);
 
-/// Levels of cuts that lead to the parts of a node.
+/// Returns the number of levels of cuts above the parts of a node.
 int num_levels(const TreeShape& shape, int num_parts);
 
-/// The cut of a node; null where the tree is not whole and does not hold it.
+/// Returns the cut of a node; null if it is not among the known cuts.
 inline const Cut* find_cut(const Cuts& cuts, std::size_t node) {
     if (is_whole(cuts)) return &cuts.tree[node];
     const auto found = std::ranges::lower_bound(cuts.nodes, static_cast<std::int32_t>(node));
@@ -56,28 +56,28 @@ inline const Cut* find_cut(const Cuts& cuts, std::size_t node) {
     return &cuts.tree[found - cuts.nodes.begin()];
 }
 
-/// The part of a position at or below `at`, or the first node on the way to it that is not known.
+/// Returns the part of a position at or below `at`, or the first unknown node on the way.
 Descent descend(const Cuts& cuts, const Vector& position, Descent at);
 
-/// A node and how many are above it.
+/// Node and the number of nodes above it.
 struct DeepNode {
     Descent at;
     int depth;
 };
 
-/// The node of this number in preorder.
+/// Returns the node with a number in preorder.
 DeepNode node_at(const Cuts& cuts, std::size_t node);
 
-/// True when all cuts above a part are known.
+/// Returns true if all cuts above a part are known.
 bool knows_path(const Cuts& cuts, Part part);
 
-/// Throws the Error of a look-up that needs a cut which is not known.
+/// Throws the Error of a look-up that needs an unknown cut.
 [[noreturn]] void reject_unknown();
 
-/// True when a cut is a plane, which breaks no ties by position.
+/// Returns true if a cut is a plane, without ties by position.
 bool is_plane(const Cut& cut, int dimension);
 
-/// Sides of a cut that a box reaches; both only when the cut crosses it.
+/// Sides of a cut that a box reaches; both only if the cut crosses it.
 struct Sides {
     bool below;
     bool above;
@@ -87,7 +87,7 @@ inline Sides sides_of(const Box& box, const Cut& cut, int dimension) {
     return {!is_above(cut, box.lower, dimension), is_above(cut, box.upper, dimension)};
 }
 
-/// The box on either side of a cut.
+/// Boxes on the two sides of a cut.
 inline Box box_below(Box region, const Cut& cut) {
     region.upper[cut.axis] = std::min(region.upper[cut.axis], cut.at[cut.axis]);
     return region;
@@ -97,14 +97,15 @@ inline Box box_above(Box region, const Cut& cut) {
     return region;
 }
 
-/// Axis of each cut of a whole tree, in preorder.
+/// Returns the axis of each cut of a complete tree, in preorder.
 inline std::vector<int> axes_of(std::span<const Cut> tree) {
     std::vector<int> axes;
     for (const Cut& cut : tree) axes.push_back(cut.axis);
     return axes;
 }
 
-/// The node at or below `at` where the cuts first part a box, or the part that holds all of it.
+/// Returns the first node at or below `at` whose cut divides a box, or the part that contains the
+/// box.
 inline Descent first_crossing(const Cuts& cuts, const Box& box, Descent at) {
     while (!at.is_part()) {
         const Sides sides = sides_of(box, cuts.tree[at.node], cuts.dimension);
@@ -117,15 +118,15 @@ inline Descent first_crossing(const Cuts& cuts, const Box& box, Descent at) {
 /// Without bounds.
 inline constexpr Box everywhere{Box{}.upper, Box{}.lower};
 
-/// Least box between the cuts above a part. Its bounds may be in reverse, as box_of() has none.
-/// Throws Error if a cut is not known.
+/// Returns the least box between the cuts above a part. Its bounds may be reversed if the region is
+/// empty. Throws Error if a cut is unknown.
 Box region_of(const Cuts& cuts, Part part);
 
-/// True when the cuts above a part, which are known, leave no position to its region along some
-/// axis, nor points that a cut divides. `region` is its region_of().
+/// Returns true if the cuts above a part, all known, leave no position to its region along some
+/// axis, and no coincident points that a cut divides. `region` is its region_of().
 bool is_region_empty(const Cuts& cuts, Part part, const Box& region);
 
-/// True when a closed box holds the place of points that lie on both sides of a cut.
+/// Returns true if a closed box contains the position of coincident points on both sides of a cut.
 inline bool holds_divided_points(const Box& box, const Cut& cut, int dimension) {
     if (cut.divides == 0) return false;
     for (int a = 0; a < dimension; ++a)

@@ -46,7 +46,7 @@ rrcb_part(RRCB_TEUCHOS AUTO "The parameter lists and timers of Trilinos (needs T
 rrcb_part(RRCB_FORTRAN ${top_level_parts} "The Fortran module (needs a Fortran compiler)")
 rrcb_part(RRCB_MPM ${examples} "The material point example")
 rrcb_part(RRCB_MPM_SCENES ${examples}
-          "Its scene files and its program (need Teuchos and muParser)")
+          "Its scene files and its program (need Teuchos)")
 rrcb_part(RRCB_COMPARISONS ${examples}
           "The comparison driver (needs the plug-in and the material point example)")
 rrcb_part(RRCB_BENCHMARKS ${top_level_parts} "The benchmarks (need Google Benchmark)")
@@ -85,8 +85,6 @@ if(RRCB_TEUCHOS OR RRCB_MPM_SCENES)
   endforeach()
 endif()
 if(RRCB_MPM_SCENES)
-  find_package(muParser MODULE QUIET)
-  rrcb_needs(RRCB_MPM_SCENES muParser_FOUND muParser libmuparser-dev)
   rrcb_needs(RRCB_MPM_SCENES RRCB_MPM RRCB_MPM)
 endif()
 foreach(option IN ITEMS RRCB_ZOLTAN RRCB_MPM_SCENES)

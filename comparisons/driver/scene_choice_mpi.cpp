@@ -61,9 +61,9 @@ std::string scene_names() {
 
 void check_scene(const std::string& name_or_file) {
     const std::string ending = std::filesystem::path(name_or_file).extension();
-    if (find_row(name_or_file) != nullptr || ending == ".yaml" || ending == ".xml") return;
+    if (find_row(name_or_file) != nullptr || ending == ".yaml") return;
     throw Failure("--scene: unknown value '" + name_or_file + "'; choose from: " + scene_names() +
-                  ", or name a scene file (.yaml or .xml)");
+                  ", or name a scene file (.yaml)");
 }
 
 mpm::Scene choose_scene(const std::string& name_or_file, bool quick, MPI_Comm comm) {

@@ -10,7 +10,7 @@ namespace comparisons {
 /// Names of the shipped scenes that are workloads, by commas.
 std::string scene_names();
 
-/// Throws Failure unless it is one of these names or a file's with the ending .yaml or .xml. Not
+/// Throws Failure unless it is one of these names or a file's with the ending .yaml. Not
 /// collective.
 void check_scene(const std::string& name_or_file);
 

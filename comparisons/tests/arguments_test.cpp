@@ -45,7 +45,7 @@ TEST(Arguments, reads_a_comparison) {
 TEST(Arguments, take_a_scene_by_its_name_or_file) {
     EXPECT_EQ(read({}).scene, "slope");
     EXPECT_EQ(read({"--scene=torpedo_anchor"}).scene, "torpedo_anchor");
-    EXPECT_EQ(read({"--scene=my/own.xml"}).scene, "my/own.xml");
+    EXPECT_EQ(read({"--scene=my/own.yaml"}).scene, "my/own.yaml");
 }
 
 TEST(Arguments, compare_settings_unless_methods_are_named) {

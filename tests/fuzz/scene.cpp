@@ -1,4 +1,4 @@
-// A scene file, XML where it begins with '<' and YAML otherwise: read, or refused with its name.
+// A scene file: read, or refused with its name.
 #include "fuzzing.hpp"
 
 #include <scene_file/scene_file_mpi.hpp>
@@ -8,10 +8,8 @@
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using rrcb::fuzz::expect;
     const std::string text(rrcb::fuzz::text_of(data, size));
-    const bool is_xml = text.starts_with('<');
     try {
-        const mpm::SceneFile file = mpm::parse_scene(
-            text, is_xml ? mpm::SceneFormat::xml : mpm::SceneFormat::yaml, "scene.yaml");
+        const mpm::SceneFile file = mpm::parse_scene(text, "scene.yaml");
         expect(file.scene.dimension == 2 || file.scene.dimension == 3, "2 or 3 dimensions");
         expect(file.scene.grid.spacing > 0, "cells of some size");
         expect(file.output.history_every >= 0 && file.output.vtk_every >= 0, "steps in range");

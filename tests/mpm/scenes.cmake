@@ -2,17 +2,17 @@
 rrcb_add_test(NAME mpm_soil_test SOURCES materials/soil_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
 rrcb_add_test(NAME mpm_balancers_test SOURCES parallel/balancers_test.cpp
-              LIBRARIES mpm_test_support mpm_balancers mpm_scene RANKS 1 2 3 4 7 LABELS mpm)
+              LIBRARIES mpm_test_support mpm_balancers mpm_scene RANKS 1 2 3 7 LABELS mpm)
 rrcb_add_test(NAME mpm_anchor_test SOURCES effects/anchor_test.cpp
-              LIBRARIES mpm_test_support mpm_scene RANKS 1 2 LABELS mpm hard)
+              LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm hard)
 rrcb_add_test(NAME mpm_energy_test SOURCES effects/energy_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
 rrcb_add_test(NAME mpm_scene_file_test SOURCES scene/scene_file_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 3 LABELS mpm)
 rrcb_add_test(NAME mpm_scene_reports_test SOURCES scene/scene_reports_test.cpp
-              LIBRARIES mpm_test_support mpm_scene RANKS 1 3 LABELS mpm)
+              LIBRARIES mpm_test_support mpm_scene RANKS 3 LABELS mpm)
 rrcb_add_test(NAME mpm_state_test SOURCES step/state_test.cpp LIBRARIES mpm_test_support mpm_scene
-              RANKS 1 2 3 4 7 LABELS mpm)
+              RANKS 1 3 7 LABELS mpm)
 rrcb_add_test(NAME mpm_reference_test SOURCES analytic/reference_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 2 LABELS mpm)
 rrcb_add_test(NAME mpm_time_step_test SOURCES analytic/time_step_test.cpp
@@ -136,7 +136,7 @@ set_tests_properties(mpm_warning PROPERTIES TIMEOUT 60 LABELS mpm PASS_REGULAR_E
 
 # A run that feeds on its transfers is told; no shipped scene is.
 file(READ ${PROJECT_SOURCE_DIR}/examples/mpm/scenes/elastic_structure.yaml unstable)
-string(REPLACE "  method:\n" "  method:\n    least_node_mass: 0.125\n    flip_fraction: 0\n" unstable
+string(REPLACE "  method:\n" "  method:\n    least_node_mass: 0.125\n    transfer: apic\n    flip_fraction: 0\n" unstable
                "${unstable}")
 string(REGEX REPLACE "courant_number: [0-9.]+" "courant_number: 0.5" unstable "${unstable}")
 file(CONFIGURE OUTPUT unstable.yaml CONTENT "${unstable}" @ONLY)
@@ -149,22 +149,17 @@ set_tests_properties(mpm_warning_of_gain PROPERTIES TIMEOUT 60 LABELS mpm PASS_R
 mpm_add_scene(slope RANKS 3 BALANCER rrcb CELL_SIZE 5 END_TIME 1 VTK_EVERY 40 POINTS 1960)
 mpm_add_scene(elastic_structure RANKS 2 BALANCER rrcb-exact CELL_SIZE 0.25 END_TIME 0.2 VTK_EVERY 10
               POINTS 384)
-mpm_add_scene(cantilever RANKS 2 BALANCER rrcb CELL_SIZE 0.5 END_TIME 0.2 VTK_EVERY 10 POINTS 160)
 mpm_add_scene(submarine_slide RANKS 3 BALANCER rrcb CELL_SIZE 2.5 END_TIME 1 VTK_EVERY 50 POINTS 4096)
 mpm_add_scene(torpedo_anchor RANKS 3 BALANCER rrcb CELL_SIZE 0.375 END_TIME 0.1 VTK_EVERY 20 POINTS 4288)
 mpm_add_scene(anchor_plate RANKS 4 BALANCER rrcb-exact CELL_SIZE 0.5 END_TIME 0.2 VTK_EVERY 40
               POINTS 3888)
 mpm_add_scene(axial_bar RANKS 2 BALANCER none CELL_SIZE 1 END_TIME 0.5 VTK_EVERY 40 POINTS 100)
-mpm_add_scene(piston RANKS 3 BALANCER rrcb CELL_SIZE 0.5 END_TIME 1 VTK_EVERY 40 POINTS 160)
 mpm_add_scene(granular_column RANKS 2 BALANCER zoltan-rcb CELL_SIZE 0.2 END_TIME 0.3 VTK_EVERY 40
               POINTS 450)
 mpm_add_scene(vertical_cut RANKS 3 BALANCER rrcb CELL_SIZE 0.5 END_TIME 0.2 VTK_EVERY 40 POINTS 864)
-mpm_add_scene(rotating_square RANKS 4 BALANCER rrcb CELL_SIZE 0.25 END_TIME 0.2 VTK_EVERY 40
-              POINTS 256)
 mpm_add_scene(two_disks RANKS 4 BALANCER rrcb CELL_SIZE 0.05 END_TIME 0.2 VTK_EVERY 40 POINTS 1624)
 mpm_add_scene(hydrostatic_column RANKS 2 BALANCER root-rcb CELL_SIZE 0.0125 END_TIME 0.02 VTK_EVERY 40
               POINTS 512)
-mpm_add_scene(infinite_slope RANKS 2 BALANCER rrcb CELL_SIZE 1 END_TIME 0.3 VTK_EVERY 40 POINTS 2048)
 mpm_add_scene(falling_body RANKS 2 BALANCER rrcb CELL_SIZE 0.25 END_TIME 0.3 VTK_EVERY 40 POINTS 64)
 mpm_add_scene(dam_break RANKS 4 BALANCER rrcb CELL_SIZE 0.2 END_TIME 1.4 VTK_EVERY 200 POINTS 800)
 mpm_add_scene(incline_block RANKS 3 BALANCER rrcb-sampled CELL_SIZE 0.25 END_TIME 0.5 VTK_EVERY 40
@@ -187,16 +182,4 @@ if(has_matplotlib)
     set_tests_properties(mpm_${kind}_anchor PROPERTIES FIXTURES_REQUIRED mpm_scene_torpedo_anchor
                                                        TIMEOUT 60 LABELS mpm)
   endforeach()
-  add_test(NAME mpm_beams_test COMMAND ${RRCB_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/beams_test.py)
-  add_test(NAME mpm_ladder_test COMMAND ${RRCB_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/ladder_test.py)
-  add_test(NAME mpm_ladder
-           COMMAND
-             ${RRCB_PYTHON} ${PROJECT_SOURCE_DIR}/examples/mpm/plots/ladder.py
-             $<TARGET_FILE:rrcb_mpm> ${PROJECT_SOURCE_DIR}/examples/mpm/scenes
-             ${CMAKE_CURRENT_BINARY_DIR}/ladder --small incline_block hydrostatic_column)
-  # Of linear functions, h / 4 H. A ladder that fails on the way does not come to its tables.
-  set_tests_properties(
-    mpm_ladder PROPERTIES PASS_REGULAR_EXPRESSION
-                          "column . linear . flip . 2 . 0.025 . 6.25e-02 . 24192.*Tables: ")
-  set_tests_properties(mpm_beams_test mpm_ladder_test mpm_ladder PROPERTIES TIMEOUT 60 LABELS mpm)
 endif()

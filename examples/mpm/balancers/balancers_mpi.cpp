@@ -71,7 +71,7 @@ std::optional<mpm::Balancer> make_balancer(const std::string& name, const mpm::S
     if (weights && !takes_weights) refuse(name, "takes no weights, as --cost=learned gives them");
     if (name == "none") return std::nullopt;
     if (name == "rrcb-sampled" || name == "root-rcb") return rrcb_balancer(paper_options_of(name));
-    if (name != "zoltan-rcb") return rrcb_balancer(options_of(name, scene), weights);
+    if (name != "zoltan-rcb") return rrcb_rebalancer(options_of(name, scene), weights);
 #ifdef RRCB_MPM_ZOLTAN
     return zoltan_balancer({{"DEBUG_LEVEL", "0"}, {"LB_METHOD", "RCB"}, {"CHECK_GEOM", "0"}});
 #else

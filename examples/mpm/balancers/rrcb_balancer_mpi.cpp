@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace {
@@ -25,35 +26,54 @@ mpm::Box closed_box(const rrcb::Cuts& cuts, rrcb::Part part, bool on_faces) {
     return {box.lower, box.upper};
 }
 
-mpm::Decomposition decomposition_of(rrcb::Balance balance, bool on_faces) {
+/// The decomposition of a balance, whose parts it takes.
+mpm::Decomposition decomposition_of(rrcb::Balance& balance, bool on_faces) {
     mpm::Decomposition decomposition;
     for (rrcb::Part part = 0; part < balance.cuts.num_parts; ++part)
         decomposition.boxes.push_back(closed_box(balance.cuts, part, on_faces));
     decomposition.local_owners = std::move(balance.parts);
-    decomposition.owners = [cuts = std::move(balance.cuts)](mpm::Positions at,
-                                                            std::span<int> owners) {
+    decomposition.owners = [cuts = balance.cuts](mpm::Positions at, std::span<int> owners) {
         rrcb::assign(cuts, points_of(at), owners);
     };
     return decomposition;
 }
 
+/// Every rank has the boxes of all, and looks up owners by itself.
+rrcb::Options with_whole_cuts(rrcb::Options options) {
+    options.cuts = rrcb::HeldCuts::whole;
+    return options;
+}
+
 }  // namespace
 
 mpm::Balancer rrcb_balancer(const rrcb::Options& asked, const PointWeights& weights) {
-    rrcb::Options options = asked;
-    // Every rank has the boxes of all, and looks up owners by itself.
-    options.cuts = rrcb::HeldCuts::whole;
-    return [options, weights](mpm::Positions positions, MPI_Comm comm) {
+    return [options = with_whole_cuts(asked), weights](mpm::Positions positions, MPI_Comm comm) {
         const std::vector<double> weight = weights ? weights() : std::vector<double>();
         rrcb::Points points = points_of(positions);
         points.weights = weight;
-        return decomposition_of(rrcb::balance(points, options, comm), !options.axes.grid.empty());
+        rrcb::Balance balance = rrcb::balance(points, options, comm);
+        return decomposition_of(balance, !options.axes.grid.empty());
     };
+}
+
+mpm::Balancer rrcb_rebalancer(const rrcb::Options& asked, const PointWeights& weights) {
+    const auto last = std::make_shared<std::optional<rrcb::Balance>>();
+    return
+        [options = with_whole_cuts(asked), weights, last](mpm::Positions positions, MPI_Comm comm) {
+            const std::vector<double> weight = weights ? weights() : std::vector<double>();
+            rrcb::Points points = points_of(positions);
+            points.weights = weight;
+            if (last->has_value())
+                rrcb::rebalance_into(**last, points, options, (*last)->cuts, comm);
+            else
+                *last = rrcb::balance(points, options, comm);
+            return decomposition_of(**last, !options.axes.grid.empty());
+        };
 }
 
 mpm::Balancer rrcb_balancer(const rrcb::PaperOptions& options) {
     return [options](mpm::Positions positions, MPI_Comm comm) {
-        return decomposition_of(rrcb::balance_as_in_paper(points_of(positions), options, comm),
-                                false);
+        rrcb::Balance balance = rrcb::balance_as_in_paper(points_of(positions), options, comm);
+        return decomposition_of(balance, false);
     };
 }

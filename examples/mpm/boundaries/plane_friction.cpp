@@ -1,5 +1,4 @@
 #include "boundaries/boundaries.hpp"
-#include "boundaries/contact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +6,31 @@
 namespace mpm {
 
 namespace {
+
+template <int D>
+double along_normal(const Components<D>& normal, const Components<D>& vector) {
+    double across = 0;
+    for (std::size_t a = 0; a < D; ++a) across += vector[a] * normal[a];
+    return across;
+}
+
+/// Solid ground behind a plane.
+template <int D>
+struct Ground {
+    explicit Ground(const Plane& plane) {
+        double square = 0;
+        for (std::size_t a = 0; a < D; ++a) square += plane.normal[a] * plane.normal[a];
+        for (std::size_t a = 0; a < D; ++a) {
+            normal[a] = plane.normal[a] / std::sqrt(square);
+            level += normal[a] * plane.point[a];
+        }
+    }
+
+    double height(const Components<D>& at) const { return along_normal<D>(normal, at) - level; }
+
+    Components<D> normal;  ///< outward, of unit length
+    double level = 0;      ///< along the normal, m
+};
 
 /// Columns of the points for one plane.
 template <int D>
@@ -30,18 +54,20 @@ class RubbingPlane {
     RubbingPlane(const Plane& plane, double wave_speed, double spacing,
                  const PlaneColumns<D>& columns)
         : ground_(plane),
-          friction_(plane.wall.friction),
+          friction_(plane.friction),
           spacing_(spacing),
           rate_(wave_speed / spacing),
           columns_(columns) {}
 
-    /// Points that begin within their width of the plane touch it there. Otherwise a body would
-    /// fall until enough of its lowest points have come to the plane.
+    /// Points touch the plane when it is half their width away. Those that begin within their width
+    /// touch it there, or a body on an inclined plane would fall until enough of its lowest points
+    /// have come to the plane.
     void start(Particles& particles) const {
-        for (std::size_t p = 0; p < particles.size(); ++p)
-            particles.data(columns_.reach)[p] =
-                std::min(ground_.height(ground_.origin(position_of(particles, p), 0)),
-                         width_of(particles, p));
+        for (std::size_t p = 0; p < particles.size(); ++p) {
+            const double height = ground_.height(position_of(particles, p));
+            const double width = width_of(particles, p);
+            particles.data(columns_.reach)[p] = height < width ? height : 0.5 * width;
+        }
     }
 
     /// Finds the forces of the next step on a block of points.
@@ -53,19 +79,17 @@ class RubbingPlane {
             force[a] = particles.data(columns_.force[a]);
         }
         const double* const reach = particles.data(columns_.reach);
-        const double end = block.time + block.time_step;
-        const Components<D> moved = ground_.origin({}, end), speed = ground_.velocity(end);
         for (std::size_t p = block.begin; p < block.end; ++p) {
             Components<D> at;
-            for (std::size_t a = 0; a < D; ++a) at[a] = position[a][p] + moved[a];
+            for (std::size_t a = 0; a < D; ++a) at[a] = position[a][p];
             const double depth = reach[p] - ground_.height(at);
             double& damping = particles.data(columns_.damping)[p];
-            damping = depth > 0 ? damping_of(particles, p, speed, block.time_step) : 0;
+            damping = depth > 0 ? damping_of(particles, p, block.time_step) : 0;
             const double spring = depth > 0 ? spring_of(particles, p, depth) : 0;
             damping = std::max(damping, -spring);
             const double push = spring + damping;
             const Components<D> held =
-                push > 0 ? hold(particles, p, at, push, block.time_step) : Components<D>{};
+                push > 0 ? friction_on(particles, p, at, push, block.time_step) : Components<D>{};
             for (std::size_t a = 0; a < D; ++a) force[a][p] = push * ground_.normal[a] + held[a];
         }
     }
@@ -97,17 +121,16 @@ class RubbingPlane {
 
     /// Force of the dashpot out of the plane, N. In a step it takes no more than the velocity of
     /// half a cell of points, those that a node on the plane stands for.
-    double damping_of(const Particles& particles, std::size_t p, const Components<D>& speed,
-                      double time_step) const {
+    double damping_of(const Particles& particles, std::size_t p, double time_step) const {
         double across = 0;
         for (std::size_t a = 0; a < D; ++a)
-            across += (particles[columns_.motion.velocity[a]][p] - speed[a]) * ground_.normal[a];
+            across += particles[columns_.motion.velocity[a]][p] * ground_.normal[a];
         return -mass_above(particles, p) * std::min(rate_, 0.5 / time_step) * across;
     }
 
     /// Force along the plane, N. Where the spring is at the friction, the anchor is dragged along.
-    Components<D> hold(Particles& particles, std::size_t p, const Components<D>& at, double push,
-                       double time_step) const {
+    Components<D> friction_on(Particles& particles, std::size_t p, const Components<D>& at,
+                              double push, double time_step) const {
         const double stiffness =
             std::min(mass_above(particles, p) * rate_ * rate_,
                      particles[columns_.motion.mass][p] / (time_step * time_step));
@@ -167,16 +190,13 @@ template <int D>
 NodeKernel<D> force_kernel(const Ground<D>& ground, std::size_t first) {
     return [ground, first](GridPatch<D>& patch, const StepTime& now) {
         const std::vector<double>& damping = patch.fields[first + D];
-        const double across = along_normal<D>(ground.normal, ground.velocity(now.time));
         for (std::size_t n = 0; n < patch.sums.size(); ++n) {
             NodeSums<D>& node = patch.sums[n];
             Components<D> force;
             for (std::size_t a = 0; a < D; ++a) force[a] = patch.fields[first + a][n];
             const double push = along_normal<D>(ground.normal, force);
             if (!(push > 0)) continue;
-            const double inward =
-                across * node.mass - along_normal<D>(ground.normal, node.momentum);
-            const double stop = inward / now.time_step;
+            const double stop = -along_normal<D>(ground.normal, node.momentum) / now.time_step;
             const double left = std::clamp(damping[n], std::min(stop, 0.0), std::max(stop, 0.0));
             const double share = std::max(0.0, 1 - (damping[n] - left) / push);
             for (std::size_t a = 0; a < D; ++a) node.force[a] += share * force[a];
@@ -194,8 +214,8 @@ Scene with_ground(Scene scene) {
     for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
         for (const std::size_t end : {0, 1}) {
             Wall& wall = *sides[a][end];
-            if (!has_friction(wall) && wall.motion.speeds.empty()) continue;
-            Plane plane{.name = "wall", .point = ends[end], .wall = wall};
+            if (wall.kind != Wall::frictional) continue;
+            Plane plane{.name = "wall", .point = ends[end], .friction = wall.friction};
             plane.normal[a] = end == 0 ? 1 : -1;
             scene.planes.push_back(plane);
             wall = Wall::open;
@@ -209,12 +229,11 @@ template <int D>
 void add_plane_friction(const Scene& scene, double wave_speed, Particles& particles,
                         Stages<D>& stages) {
     for (std::size_t k = 0; k < scene.planes.size(); ++k) {
-        if (!has_friction(scene.planes[k].wall)) continue;
         const std::size_t first = stages.fields.size();
         const RubbingPlane<D> plane(
             scene.planes[k], wave_speed, scene.grid.spacing,
             add_columns<D>("plane_" + std::to_string(k + 1), particles, stages));
-        stages.starts.push_back([plane](Particles& points) { plane.start(points); });
+        stages.preparations.push_back([plane](Particles& points) { plane.start(points); });
         stages.forces.push_back(
             {"plane_friction", force_kernel<D>(Ground<D>(scene.planes[k]), first)});
         stages.after_materials.push_back(

@@ -154,10 +154,9 @@ void build(const EffectBuilder<D>& builder) {
                                       note_start(*ledger, patch);
                                   }});
     // After all kernels that change the strain velocities.
-    auto& last = remaps_velocities(builder.scene) ? stages.remapped_velocities : stages.moved;
-    last.push_back({"energy_audit", [ledger](GridPatch<D>& patch, const StepTime&) {
-                        close_step(*ledger, patch);
-                    }});
+    stages.moved.push_back({"energy_audit", [ledger](GridPatch<D>& patch, const StepTime&) {
+                                close_step(*ledger, patch);
+                            }});
     stages.work = {builder.particles.add_column("internal_work"),
                    builder.particles.add_column("plastic_work")};
     const PointKernel<D> work = work_kernel<D>(add_stress_columns<D>(builder.particles),

@@ -16,17 +16,12 @@ void build(const EffectBuilder<D>& builder) {
         throw std::invalid_argument(
             "effects / geostatic: stresses of the full weight are there from the start, so gravity "
             "must be, too; leave out its 'ramp'");
-    for (const Material& material : builder.scene.materials)
-        if (material.model == "neo_hookean")
-            throw std::invalid_argument("effects / geostatic: the material '" + material.name +
-                                        "' is neo_hookean, whose stress follows from its strain "
-                                        "alone; take elastic");
     const double pull = -builder.stages.gravity->acceleration[vertical];
     const double surface = builder.values.number("surface");
     const double ratio = builder.values.number("lateral_ratio");
     const MotionColumns motion = add_motion_columns(builder.particles, D);
     const StressColumns<D> stress = add_stress_columns<D>(builder.particles);
-    builder.stages.starts.push_back([=](Particles& particles) {
+    builder.stages.preparations.push_back([=](Particles& particles) {
         for (std::size_t p = 0; p < particles.size(); ++p) {
             const double depth = surface - particles[motion.position[vertical]][p];
             const double density = particles[motion.mass][p] / particles[motion.volume][p];

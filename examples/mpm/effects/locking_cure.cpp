@@ -1,47 +1,49 @@
 #include "effects/effect.hpp"
-
-#include <stdexcept>
+#include "transfer/p2g.hpp"
 
 namespace mpm {
 
 namespace {
 
-/// Side of a cell along an axis that its node number `n` is on: +1 the upper, -1 the lower.
-double side(std::size_t n, std::size_t axis) {
-    return (n >> axis & 1) != 0 ? 1 : -1;
-}
+/// Shape functions at the centre of the points that share their nodes: of a cell, or of the square
+/// around a node.
+template <int D, class Shape>
+struct Centre {
+    static constexpr std::size_t num_nodes = power(Shape::num_nodes, D);
+    using Slopes = std::array<Components<D>, num_nodes>;  ///< per cell
 
-/// Derivative along an axis of the shape function of node `n` at u in a cell, per cell.
-template <int D>
-double slope_at(const Components<D>& u, std::size_t n, std::size_t axis) {
-    double slope = side(n, axis);
-    for (std::size_t a = 0; a < D; ++a)
-        if (a != axis) slope *= side(n, a) > 0 ? u[a] : 1 - u[a];
-    return slope;
-}
+    static Slopes slopes_at(const Components<D>& u) {
+        std::array<Weights<Shape::num_nodes>, D> weights;
+        for (std::size_t a = 0; a < D; ++a) weights[a] = Shape().at(u[a]);
+        Slopes slopes;
+        unrolled<num_nodes>([&](auto n) {
+            unrolled<D>(
+                [&](auto a) { slopes[n][a] = slope_of<D, Shape::num_nodes, n, a>(weights); });
+        });
+        return slopes;
+    }
 
-/// Divergence of the nodal velocities at the centre of the cell of a run, 1/s.
-template <int D>
-double divergence_at_centre(const GridPatch<D>& patch, const CellRun<D>& run) {
-    constexpr double num_edges = 1 << (D - 1);
-    double sum = 0;
-    std::size_t n = 0;
-    visit_run_nodes<D>(patch, run, [&](std::size_t node) {
-        for (std::size_t a = 0; a < D; ++a)
-            sum += side(n, a) * patch.motion[node].strain_velocity[a];
-        ++n;
-    });
-    return sum / (num_edges * patch.shape.spacing);
-}
+    static Slopes slopes() {
+        Components<D> centre;
+        centre.fill(0.5 * (Shape::num_nodes - 1));
+        return slopes_at(centre);
+    }
+};
 
-/// Gives all points of a cell the volume change of its centre. Each point keeps its own shear.
-template <int D>
+/// Gives all points of a run the volume change of its centre. Each point keeps its own shear.
+template <int D, class Shape>
 GradientKernel<D> average_kernel(Column volume) {
-    return [volume](Particles& particles, const GridPatch<D>& patch,
-                    std::span<const CellRun<D>> runs, const PointBlock<D>& block) {
+    return [volume, slopes = Centre<D, Shape>::slopes()](
+               Particles& particles, const GridPatch<D>& patch, std::span<const CellRun<D>> runs,
+               const PointBlock<D>& block) {
         double* const volumes = particles.data(volume);
+        const auto offsets = node_offsets<D, Shape::num_nodes>(patch);
         for (const CellRun<D>& run : runs) {
-            const double centre = divergence_at_centre<D>(patch, run);
+            double centre = 0;
+            for (std::size_t n = 0; n < offsets.size(); ++n)
+                for (std::size_t a = 0; a < D; ++a)
+                    centre += slopes[n][a] * patch.motion[run.node + offsets[n]].strain_velocity[a];
+            centre /= patch.shape.spacing;
             for (std::size_t p = run.begin; p < run.end; ++p) {
                 double own = 0;
                 for (std::size_t a = 0; a < D; ++a) own += block.gradient(a, a)[p - block.begin];
@@ -53,14 +55,13 @@ GradientKernel<D> average_kernel(Column volume) {
     };
 }
 
-/// Forces whose work is that of the stress in these strains.
-///
-/// The mean of the stresses along the axes acts at the centre of the cell, not at the point.
-template <int D>
+/// Forces whose work is that of the stress in these strains: the mean of the stresses along the
+/// axes acts at the centre, not at the point.
+template <int D, class Shape>
 ScatterKernel<D> force_kernel(const MotionColumns& motion, const StressColumns<D>& stress) {
-    return [=](const Particles& particles, std::span<const CellRun<D>> runs, GridPatch<D>& patch) {
-        Components<D> centre;
-        centre.fill(0.5);
+    return [=, slopes = Centre<D, Shape>::slopes()](
+               const Particles& particles, std::span<const CellRun<D>> runs, GridPatch<D>& patch) {
+        const auto offsets = node_offsets<D, Shape::num_nodes>(patch);
         for (const CellRun<D>& run : runs)
             for (std::size_t p = run.begin; p < run.end; ++p) {
                 double pull = 0;
@@ -71,32 +72,35 @@ ScatterKernel<D> force_kernel(const MotionColumns& motion, const StressColumns<D
                     u[a] = (particles[motion.position[a]][p] - run.corner[a]) / patch.shape.spacing;
                 }
                 pull *= particles[motion.volume][p] / patch.shape.spacing;
-                std::size_t n = 0;
-                visit_run_nodes<D>(patch, run, [&](std::size_t node) {
+                const auto own = Centre<D, Shape>::slopes_at(u);
+                for (std::size_t n = 0; n < own.size(); ++n)
                     for (std::size_t a = 0; a < D; ++a)
-                        patch.sums[node].force[a] -=
-                            pull * (slope_at<D>(centre, n, a) - slope_at<D>(u, n, a));
-                    ++n;
-                });
+                        patch.sums[run.node + offsets[n]].force[a] -=
+                            pull * (slopes[n][a] - own[n][a]);
             }
     };
 }
 
+template <int D, class Shape>
+void add(const EffectBuilder<D>& builder) {
+    const MotionColumns motion = add_motion_columns(builder.particles, D);
+    const StressColumns<D> stress = add_stress_columns<D>(builder.particles);
+    builder.stages.scatters.push_back({"locking_cure", force_kernel<D, Shape>(motion, stress)});
+    builder.stages.gradients.push_back({"locking_cure", average_kernel<D, Shape>(motion.volume)});
+}
+
 template <int D>
 void build(const EffectBuilder<D>& builder) {
-    if (builder.scene.shape_function != ShapeFunction::linear)
-        throw std::invalid_argument(
-            "effects / locking_cure: needs linear shape functions; others lock much less");
-    const MotionColumns motion = add_motion_columns(builder.particles, D);
-    builder.stages.scatters.push_back(
-        {"locking_cure", force_kernel<D>(motion, add_stress_columns<D>(builder.particles))});
-    builder.stages.gradients.push_back({"locking_cure", average_kernel<D>(motion.volume)});
+    if (builder.scene.shape_function == ShapeFunction::linear)
+        add<D, LinearShape>(builder);
+    else
+        add<D, QuadraticShape>(builder);
 }
 
 }  // namespace
 
-/// A cure of locking near incompressibility: a point changes its volume as the centre of its cell
-/// (selective reduced integration, as the B-bar method of Hughes 1980).
+/// A cure of locking where volume is kept: the points that share their nodes change their volume as
+/// their centre (selective reduced integration, as the B-bar method of Hughes 1980).
 EffectKind locking_cure_effect() {
     return {"locking_cure", {}, build<2>, build<3>};
 }

@@ -45,7 +45,7 @@ void add_probes(const Scene& scene, Particles& particles, Stages<D>& stages) {
     const MotionColumns motion = add_motion_columns(particles, D);
     const Column probe = particles.add_column(probe_column);
     const StressColumns<D> columns = add_strain_columns<D>(particles);
-    stages.starts.push_back([=, points = probed_points(scene)](Particles& all) {
+    stages.preparations.push_back([=, points = probed_points(scene)](Particles& all) {
         const Positions positions = positions_of(all, motion, D);
         // From the last on, so that the first of those that follow one point marks it.
         for (std::size_t k = points.size(); k-- > 0;)

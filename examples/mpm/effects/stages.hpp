@@ -57,16 +57,12 @@ struct WorkColumns {
 /// Places of kernels in a step, in its order. An empty stage is a loop over nothing.
 template <int D>
 struct Stages {
-    std::vector<std::function<void(Particles&)>> starts;  ///< once, on the points in place
+    std::vector<std::function<void(Particles&)>> preparations;  ///< once, of the points in place
     std::vector<NodeField> fields;                        ///< summed with mass, momentum and force
     std::vector<Named<ScatterKernel<D>>> scatters;        ///< to the sums of this rank
     std::vector<Named<NodeKernel<D>>> forces;             ///< on the sums over all ranks
     std::vector<Named<NodeKernel<D>>> constraints;        ///< after all forces
     std::vector<Named<NodeKernel<D>>> moved;              ///< after the nodes have moved
-    /// Stages of the velocity remap (velocity_remap.hpp), empty without one. The first acts on this
-    /// rank's momenta, the second on NodeMotion::strain_velocity: walls must hold it again.
-    std::vector<Named<ScatterKernel<D>>> velocity_scatters;
-    std::vector<Named<NodeKernel<D>>> remapped_velocities;
     std::vector<Named<GradientKernel<D>>> gradients;      ///< after points have moved
     std::vector<Named<PointKernel<D>>> before_materials;  ///< stresses are the old ones
     std::vector<Named<PointKernel<D>>> after_materials;   ///< stresses are the new ones

@@ -71,7 +71,7 @@ void build(const EffectBuilder<D>& builder) {
     check_face<D>(builder.scene, face, place);
     const MotionColumns motion = add_motion_columns(builder.particles, D);
     const Column area = builder.add_own_column("_area");
-    stages.starts.push_back([=, scene = builder.scene](Particles& particles) {
+    stages.preparations.push_back([=, scene = builder.scene](Particles& particles) {
         const Positions positions = positions_of(particles, motion, D);
         for (std::size_t p = 0; p < particles.size(); ++p)
             particles.data(area)[p] = area_at<D>(scene, face, positions[p]);

@@ -46,6 +46,7 @@ struct NodeRange {
     std::array<int, D> begin{};
     std::array<int, D> count{};
 
+    bool operator==(const NodeRange&) const = default;
     bool empty() const {
         for (const int n : count)
             if (n <= 0) return true;

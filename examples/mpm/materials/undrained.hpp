@@ -72,7 +72,7 @@ double shear_rate(const PointBlock<D>& block, std::size_t k) {
 }
 
 /// Return of a trial stress to von Mises' sqrt(J2) <= strength. Where clay flows in plane strain,
-/// it ends on Tresca's hexagon (tresca.hpp) as well.
+/// it ends on Tresca's hexagon as well.
 template <int D>
 inline Stress<D> returned(double strength, const Stress<D>& trial) {
     const double pressure = mean(trial);

@@ -10,67 +10,39 @@ namespace {
 
 constexpr int ghost_tag = 1;
 
-/// Slice of all sums and fields of a patch.
 template <int D>
-struct AllSums {
-    GridPatch<D>& patch;
+std::size_t width(const GridPatch<D>& patch) {
+    static_assert(sizeof(NodeSums<D>) == (1 + 2 * D) * sizeof(double));
+    return 1 + 2 * D + patch.fields.size();
+}
 
-    std::size_t width() const {
-        static_assert(sizeof(NodeSums<D>) == (1 + 2 * D) * sizeof(double));
-        return 1 + 2 * D + patch.fields.size();
-    }
-    double* pack(std::size_t n, double* to) const {
+/// Copies the sums and fields of nodes into a message.
+template <int D>
+void pack(const GridPatch<D>& patch, const std::vector<std::size_t>& nodes,
+          std::vector<double>& message) {
+    message.resize(nodes.size() * width(patch));
+    double* to = message.data();
+    for (const std::size_t n : nodes) {
         const NodeSums<D>& node = patch.sums[n];
         *to++ = node.mass;
         to = std::copy(node.momentum.begin(), node.momentum.end(), to);
         to = std::copy(node.force.begin(), node.force.end(), to);
         for (const std::vector<double>& field : patch.fields) *to++ = field[n];
-        return to;
     }
-    const double* add(const double* from, std::size_t n) const {
+}
+
+/// Adds a message to the sums and fields of nodes.
+template <int D>
+void unpack(const std::vector<double>& message, const std::vector<std::size_t>& nodes,
+            GridPatch<D>& patch) {
+    const double* from = message.data();
+    for (const std::size_t n : nodes) {
         NodeSums<D>& node = patch.sums[n];
         node.mass += *from++;
         for (double& component : node.momentum) component += *from++;
         for (double& component : node.force) component += *from++;
         for (std::vector<double>& field : patch.fields) field[n] += *from++;
-        return from;
     }
-    void clear(std::size_t n) const {
-        patch.sums[n] = {};
-        for (std::vector<double>& field : patch.fields) field[n] = 0;
-    }
-};
-
-/// Slice of the momenta of a patch.
-template <int D>
-struct Momenta {
-    GridPatch<D>& patch;
-
-    std::size_t width() const { return D; }
-    double* pack(std::size_t n, double* to) const {
-        return std::ranges::copy(patch.sums[n].momentum, to).out;
-    }
-    const double* add(const double* from, std::size_t n) const {
-        for (double& component : patch.sums[n].momentum) component += *from++;
-        return from;
-    }
-    void clear(std::size_t n) const { patch.sums[n].momentum = {}; }
-};
-
-/// Copies a slice of nodes into a message.
-template <typename Slice>
-void pack(const Slice& slice, const std::vector<std::size_t>& nodes, std::vector<double>& message) {
-    message.resize(nodes.size() * slice.width());
-    double* to = message.data();
-    for (const std::size_t n : nodes) to = slice.pack(n, to);
-}
-
-/// Adds a message to a slice of nodes.
-template <typename Slice>
-void unpack(const std::vector<double>& message, const std::vector<std::size_t>& nodes,
-            const Slice& slice) {
-    const double* from = message.data();
-    for (const std::size_t n : nodes) from = slice.add(from, n);
 }
 
 }  // namespace
@@ -100,27 +72,19 @@ GhostNodes<D>::GhostNodes(std::span<const NodeRange<D>> patches, MPI_Comm comm)
 
 template <int D>
 void GhostNodes<D>::sum(GridPatch<D>& patch) {
-    add_up(AllSums<D>{patch});
-}
-
-template <int D>
-void GhostNodes<D>::sum_momentum(GridPatch<D>& patch) {
-    add_up(Momenta<D>{patch});
-}
-
-template <int D>
-template <typename Slice>
-void GhostNodes<D>::add_up(Slice slice) {
-    exchange(slice);
-    pack(slice, shared_, own_);
-    for (const std::size_t n : shared_) slice.clear(n);
+    exchange(patch);
+    pack(patch, shared_, own_);
+    for (const std::size_t n : shared_) {
+        patch.sums[n] = {};
+        for (std::vector<double>& field : patch.fields) field[n] = 0;
+    }
     // All ranks add from 0 on in the order of the ranks, so they get the same bits.
     std::size_t neighbour = 0;
     for (; neighbour < ranks_.size() && ranks_[neighbour] < rank_; ++neighbour)
-        unpack(incoming_[neighbour], nodes_[neighbour], slice);
-    unpack(own_, shared_, slice);
+        unpack(incoming_[neighbour], nodes_[neighbour], patch);
+    unpack(own_, shared_, patch);
     for (; neighbour < ranks_.size(); ++neighbour)
-        unpack(incoming_[neighbour], nodes_[neighbour], slice);
+        unpack(incoming_[neighbour], nodes_[neighbour], patch);
 }
 
 template <int D>
@@ -131,16 +95,15 @@ void GhostNodes<D>::mark_counted(GridPatch<D>& patch) const {
 }
 
 template <int D>
-template <typename Slice>
-void GhostNodes<D>::exchange(const Slice& slice) {
+void GhostNodes<D>::exchange(const GridPatch<D>& patch) {
     const std::size_t num_neighbours = ranks_.size();
     for (std::size_t k = 0; k < num_neighbours; ++k) {
-        incoming_[k].resize(nodes_[k].size() * slice.width());
+        incoming_[k].resize(nodes_[k].size() * width(patch));
         MPI_Irecv(incoming_[k].data(), static_cast<int>(incoming_[k].size()), MPI_DOUBLE, ranks_[k],
                   ghost_tag, comm_, &requests_[k]);
     }
     for (std::size_t k = 0; k < num_neighbours; ++k) {
-        pack(slice, nodes_[k], outgoing_[k]);
+        pack(patch, nodes_[k], outgoing_[k]);
         MPI_Isend(outgoing_[k].data(), static_cast<int>(outgoing_[k].size()), MPI_DOUBLE, ranks_[k],
                   ghost_tag, comm_, &requests_[num_neighbours + k]);
     }

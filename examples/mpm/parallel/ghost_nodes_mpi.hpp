@@ -23,9 +23,6 @@ class GhostNodes {
     /// order of the ranks, so that all hold the same bits.
     void sum(GridPatch<D>& patch);
 
-    /// Sums the momenta alone. Collective over the neighbours.
-    void sum_momentum(GridPatch<D>& patch);
-
     /// Marks the nodes that this rank counts in sums over the ranks. The lowest rank of a node
     /// does.
     void mark_counted(GridPatch<D>& patch) const;
@@ -37,11 +34,7 @@ class GhostNodes {
     const std::vector<int>& neighbours() const { return ranks_; }
 
   private:
-    /// Sums a slice: some of the numbers of each node.
-    template <typename Slice>
-    void add_up(Slice slice);
-    template <typename Slice>
-    void exchange(const Slice& slice);
+    void exchange(const GridPatch<D>& patch);
 
     MPI_Comm comm_;
     int rank_;

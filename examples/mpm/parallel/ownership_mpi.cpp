@@ -11,11 +11,37 @@
 
 namespace mpm {
 
+namespace {
+
+/// What ranks agree on: the largest fault, reach and speed, and the sum of the leavers.
+struct Worst {
+    double fault, reach, speed, num_leavers;
+};
+
+void join(void* from, void* into, int* length, MPI_Datatype*) {
+    const Worst* const a = static_cast<const Worst*>(from);
+    Worst* const b = static_cast<Worst*>(into);
+    for (int i = 0; i < *length; ++i)
+        b[i] = {std::max(a[i].fault, b[i].fault), std::max(a[i].reach, b[i].reach),
+                std::max(a[i].speed, b[i].speed), a[i].num_leavers + b[i].num_leavers};
+}
+
+}  // namespace
+
 Ownership::Ownership(const GridShape& grid, MPI_Comm comm)
     : comm_(comm),
       rank_(rank_of(comm)),
       num_ranks_(static_cast<std::size_t>(size_of(comm))),
-      grid_{grid.lower, grid.upper()} {}
+      grid_{grid.lower, grid.upper()} {
+    MPI_Type_contiguous(sizeof(Worst) / sizeof(double), MPI_DOUBLE, &worst_type_);
+    MPI_Type_commit(&worst_type_);
+    MPI_Op_create(join, 1, &worst_of_);
+}
+
+Ownership::~Ownership() {
+    MPI_Op_free(&worst_of_);
+    MPI_Type_free(&worst_type_);
+}
 
 /// Whether a point lies in the box along all axes.
 template <int D>
@@ -82,30 +108,65 @@ void Ownership::find_leavers(const Decomposition& decomposition, Positions posit
         find_outside<2>(box, positions, ids);
     else
         find_outside<3>(box, positions, ids);
-    leavers_.owners.resize(leavers_.points.size());
+    leavers_.owners.clear();
     if (leavers_.points.empty() || !ask_owners(decomposition, {at_[0], at_[1], at_[2]})) return;
+    for (std::size_t k = 0; k < owners_.size(); ++k)
+        check_owner(decomposition, owners_[k], {at_[0], at_[1], at_[2]}, k);
     leavers_.owners.assign(owners_.begin(), owners_.end());
-    for (const int owner : leavers_.owners) {
-        const bool near = std::ranges::binary_search(neighbours, owner);
-        reach_ = std::max(reach_, near ? Reach::neighbours : Reach::anywhere);
-    }
+    measure_reach(neighbours);
 }
 
-void Ownership::find_reassigned(const Decomposition& next, Positions positions) {
+void Ownership::find_reassigned(const Decomposition& next, Positions positions,
+                                std::span<const int> neighbours) {
     leavers_.points.clear();
     leavers_.owners.clear();
     if (next.boxes.size() != num_ranks_) return report(Fault::no_owner);
-    if (next.local_owners.empty()) {
-        if (!ask_owners(next, positions)) return;
-    } else {
-        owners_ = next.local_owners;
-        if (!check_owners(next, positions)) return;
+    if (next.local_owners.empty() && !ask_owners(next, positions)) return;
+    const std::vector<int>& owners = next.local_owners.empty() ? owners_ : next.local_owners;
+    if (owners.size() != positions.size()) return report(Fault::no_owner);
+    if (positions.z.empty())
+        take_owners<2>(next, owners, positions);
+    else
+        take_owners<3>(next, owners, positions);
+    measure_reach(neighbours);
+}
+
+/// Takes the points of other owners as leavers. Blocks of points that stay are checked two points
+/// at a time.
+template <int D>
+void Ownership::take_owners(const Decomposition& decomposition, std::span<const int> owners,
+                            Positions positions) {
+    constexpr std::size_t block = 256;
+    const std::array<const double*, 3> at{positions.x.data(), positions.y.data(),
+                                          positions.z.data()};
+    const Box& mine = decomposition.boxes[static_cast<std::size_t>(rank_)];
+    for (std::size_t begin = 0; begin < owners.size(); begin += block) {
+        const std::size_t end = std::min(begin + block, owners.size());
+        int differ = 0;
+        for (std::size_t p = begin; p < end; ++p) differ |= owners[p] ^ rank_;
+        if (differ == 0 && are_inside<D>(mine, at, begin, end)) continue;
+        for (std::size_t p = begin; p < end; ++p) {
+            check_owner(decomposition, owners[p], positions, p);
+            if (owners[p] == rank_) continue;
+            leavers_.points.push_back(p);
+            leavers_.owners.push_back(owners[p]);
+        }
     }
-    for (std::size_t p = 0; p < owners_.size(); ++p) {
-        if (owners_[p] == rank_) continue;
-        leavers_.points.push_back(p);
-        leavers_.owners.push_back(owners_[p]);
-        reach_ = Reach::anywhere;
+}
+
+/// Reports an owner that does not exist or whose box does not hold the point.
+void Ownership::check_owner(const Decomposition& decomposition, int owner, Positions positions,
+                            std::size_t point) {
+    if (static_cast<std::size_t>(owner) >= num_ranks_)
+        report(Fault::no_owner);
+    else if (!contains(decomposition.boxes[static_cast<std::size_t>(owner)], positions[point]))
+        report(Fault::misplaced);
+}
+
+void Ownership::measure_reach(std::span<const int> neighbours) {
+    for (const int owner : leavers_.owners) {
+        const bool near = std::ranges::binary_search(neighbours, owner);
+        reach_ = std::max(reach_, near ? Reach::neighbours : Reach::anywhere);
     }
 }
 
@@ -117,22 +178,7 @@ bool Ownership::ask_owners(const Decomposition& decomposition, Positions positio
         report(Fault::no_owner);
         return false;
     }
-    return check_owners(decomposition, positions);
-}
-
-bool Ownership::check_owners(const Decomposition& decomposition, Positions positions) {
-    if (owners_.size() != positions.x.size()) {
-        report(Fault::no_owner);
-        return false;
-    }
-    for (std::size_t p = 0; p < owners_.size(); ++p) {
-        const auto owner = static_cast<std::size_t>(owners_[p]);
-        if (owner >= num_ranks_)
-            report(Fault::no_owner);
-        else if (!contains(decomposition.boxes[owner], positions[p]))
-            report(Fault::misplaced);
-    }
-    return fault_ == Fault::none;
+    return true;
 }
 
 void Ownership::report(Fault fault) {
@@ -140,14 +186,16 @@ void Ownership::report(Fault fault) {
 }
 
 Agreement Ownership::agree(double speed) {
-    std::array<double, 3> worst{static_cast<double>(fault_), static_cast<double>(reach_), speed};
-    MPI_Allreduce(MPI_IN_PLACE, worst.data(), 3, MPI_DOUBLE, MPI_MAX, comm_);
-    const auto fault = static_cast<Fault>(static_cast<int>(worst[0]));
+    Worst worst{static_cast<double>(fault_), static_cast<double>(reach_), speed,
+                static_cast<double>(leavers_.points.size())};
+    MPI_Allreduce(MPI_IN_PLACE, &worst, 1, worst_type_, worst_of_, comm_);
+    const auto fault = static_cast<Fault>(static_cast<int>(worst.fault));
     const bool is_mine = fault_ == fault;
     fault_ = Fault::none;
     reach_ = Reach::nowhere;
     if (fault != Fault::none) throw_fault(fault, is_mine);
-    return {static_cast<Reach>(static_cast<int>(worst[1])), worst[2]};
+    return {static_cast<Reach>(static_cast<int>(worst.reach)), worst.speed,
+            static_cast<std::int64_t>(worst.num_leavers)};
 }
 
 void Ownership::throw_fault(Fault fault, bool is_mine) {

@@ -7,6 +7,7 @@
 #include <mpm/scene.hpp>
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -16,12 +17,16 @@ namespace mpm {
 struct Agreement {
     Reach reach = Reach::nowhere;
     double max_speed = 0;  ///< m/s
+    std::int64_t num_leavers = 0;
 };
 
 /// Finds the points that belong to other ranks, and makes all ranks agree on what follows.
 class Ownership {
   public:
     Ownership(const GridShape& grid, MPI_Comm comm);
+    ~Ownership();
+    Ownership(const Ownership&) = delete;
+    Ownership& operator=(const Ownership&) = delete;
 
     /// Finds the points that have left this rank's box. `now` and the numbers of the points are for
     /// the message about one that has left the grid. Not collective.
@@ -29,10 +34,14 @@ class Ownership {
                       std::span<const double> ids, double now, std::span<const int> neighbours);
 
     /// Finds the points that a new decomposition gives to other ranks. Not collective.
-    void find_reassigned(const Decomposition& next, Positions positions);
+    ///
+    /// Ranks that no point leaves touch each point's position once. `neighbours` are those of
+    /// migrate().
+    void find_reassigned(const Decomposition& next, Positions positions,
+                         std::span<const int> neighbours);
 
-    /// Largest reach and speed over the ranks. Collective. Throws std::runtime_error on all ranks
-    /// where one has found a fault since the last agreement.
+    /// Largest reach and speed over the ranks, and sum of the leavers. Collective. Throws
+    /// std::runtime_error on all ranks where one has found a fault since the last agreement.
     Agreement agree(double speed);
 
     const Leavers& leavers() const { return leavers_; }
@@ -53,9 +62,16 @@ class Ownership {
     template <int D>
     void find_outside(const Box& box, Positions positions, std::span<const double> ids);
     bool ask_owners(const Decomposition& decomposition, Positions positions);
-    bool check_owners(const Decomposition& decomposition, Positions positions);
+    void check_owner(const Decomposition& decomposition, int owner, Positions positions,
+                     std::size_t point);
+    template <int D>
+    void take_owners(const Decomposition& decomposition, std::span<const int> owners,
+                     Positions positions);
+    void measure_reach(std::span<const int> neighbours);
 
     MPI_Comm comm_;
+    MPI_Datatype worst_type_ = MPI_DATATYPE_NULL;
+    MPI_Op worst_of_ = MPI_OP_NULL;
     int rank_;
     std::size_t num_ranks_;
     Box grid_;

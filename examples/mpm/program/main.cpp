@@ -58,7 +58,8 @@ void report_scene(const std::string& path, const mpm::Scene& scene) {
                     static_cast<long long>(body.num_points), body.mass, body.asked_mass);
         warn(path, body.warning);
     }
-    warn(path, mpm::courant_warning(scene));
+    for (const std::string& warning : mpm::scene_warnings(scene)) warn(path, warning);
+    for (const std::string& note : mpm::damping_notes(scene)) std::printf("%s\n", note.c_str());
 }
 
 /// Files that the output plan asks for, in a folder that rank 0 makes.
@@ -75,16 +76,18 @@ class Recorder {
         vtk_.emplace(folder, file.scene, comm);
     }
 
-    void record(const mpm::Simulation& simulation, bool is_last) {
+    /// Returns whether a state was written.
+    bool record(const mpm::Simulation& simulation, bool is_last) {
         const bool is_time = passes(simulation.time());
         if (is_due(plan_.history_every, is_time, simulation, is_last)) {
             history_->write(simulation);
             if (probes_) probes_->write(simulation);
         }
         if (is_due(plan_.vtk_every, is_time, simulation, is_last)) vtk_->write(simulation);
-        if (is_due_by_steps(state_every_, simulation, is_last))
-            simulation.write_state(folder_ + "/state_" + std::to_string(simulation.step_count()) +
-                                   ".mpm");
+        if (!is_due_by_steps(state_every_, simulation, is_last)) return false;
+        simulation.write_state(folder_ + "/state_" + std::to_string(simulation.step_count()) +
+                               ".mpm");
+        return true;
     }
 
   private:
@@ -196,12 +199,28 @@ class Schedule {
     std::optional<rrcb::CostModel> model_;
 };
 
-void show_progress(const mpm::Simulation& simulation, double end_time, bool is_last) {
-    if (!isatty(STDERR_FILENO) || (simulation.step_count() % 20 != 0 && !is_last)) return;
-    std::fprintf(stderr, "\r%10.4g of %.4g s, step %lld, %lld points%s", simulation.time(),
-                 end_time, static_cast<long long>(simulation.step_count()),
-                 static_cast<long long>(simulation.num_points()), is_last ? "\n" : "");
-}
+/// Shows the share that is done and the time that is left, about once a second.
+class Progress {
+  public:
+    Progress(double start_time, double end_time) : from_(start_time), to_(end_time) {}
+
+    void show(const mpm::Simulation& simulation, bool is_last) {
+        const double now = MPI_Wtime();
+        if (!isatty(STDERR_FILENO) || (now - shown_ < 1 && !is_last)) return;
+        shown_ = now;
+        const double share =
+            to_ > from_ ? std::min((simulation.time() - from_) / (to_ - from_), 1.0) : 1;
+        std::fprintf(stderr, "\r%5.1f %% of %.4g s, step %lld", 100 * share, to_,
+                     static_cast<long long>(simulation.step_count()));
+        if (share > 0)
+            std::fprintf(stderr, ", %.0f s left   ", (now - begin_) * (1 - share) / share);
+        if (is_last) std::fprintf(stderr, "\n");
+    }
+
+  private:
+    double from_, to_;
+    double begin_ = MPI_Wtime(), shown_ = begin_ - 1;
+};
 
 /// Warns where the transfers have gained energy by a hundredth of what there is.
 void warn_of_gain(const mpm::Simulation& simulation, MPI_Comm comm) {
@@ -220,14 +239,19 @@ void simulate(mpm::Simulation& simulation, const mpm::Scene& scene, const Argume
               Recorder& recorder, MPI_Comm comm) {
     Schedule schedule(arguments.every, arguments.learns_cost, simulation.step_count(), comm);
     const auto weights = [&] { return schedule.weights(simulation); };
-    const std::optional<mpm::Balancer> balancer = make_balancer(
-        arguments.balancer, scene, arguments.learns_cost ? PointWeights(weights) : PointWeights());
+    const auto new_balancer = [&] {
+        return make_balancer(arguments.balancer, scene,
+                             arguments.learns_cost ? PointWeights(weights) : PointWeights());
+    };
+    std::optional<mpm::Balancer> balancer = new_balancer();
+    Progress progress(simulation.time(), arguments.end_time);
     LoadTable loads(arguments.out + "/loads.csv", arguments.load_every, comm);
     for (bool is_last = false; !is_last;) {
         is_last = !(simulation.time() < arguments.end_time);
         if (balancer && !is_last) schedule.rebalance_if_due(simulation, *balancer);
-        recorder.record(simulation, is_last);
-        if (mpm::rank_of(comm) == 0) show_progress(simulation, arguments.end_time, is_last);
+        // A restart knows no cuts of before, so from a written state on this run knows none either.
+        if (recorder.record(simulation, is_last)) balancer = new_balancer();
+        if (mpm::rank_of(comm) == 0) progress.show(simulation, is_last);
         if (is_last) break;
         simulation.step();
         loads.add(simulation);
@@ -261,7 +285,8 @@ void run(Arguments arguments, MPI_Comm comm) {
     if (arguments.cell_size > 0) mpm::resize_cells(file.scene, arguments.cell_size);
     if (arguments.every_time > 0) file.output.every_time = arguments.every_time;
     if (arguments.vtk_every >= 0) file.output.vtk_every = arguments.vtk_every;
-    if (!(arguments.end_time > 0)) arguments.end_time = file.scene.end_time;
+    if (arguments.end_time > 0) file.scene.end_time = arguments.end_time;
+    arguments.end_time = file.scene.end_time;
     mpm::Simulation simulation = start(arguments, file.scene, comm);
     if (arguments.list_kernels) {
         if (mpm::rank_of(comm) == 0) list_kernels(simulation);

@@ -225,31 +225,31 @@ double StartPlaces::fingerprint() const {
     return static_cast<double>(hash >> 11);
 }
 
-Extent extent_of(const Scene& scene) {
+ScenePoints scene_points(const Scene& scene) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Extent extent{0,
-                  {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}},
-                  StartPlaces(scene.grid.lower[0])};
+    ScenePoints points{0,
+                       {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}},
+                       StartPlaces(scene.grid.lower[0])};
     for (const Body& body : scene.bodies) {
-        const std::int64_t num_before = extent.num_points;
+        const std::int64_t num_before = points.num_points;
         const double spacing = lattice_spacing(scene, body)[0];
         visit_body(scene, body, [&](const Vector& at, int i) {
             check_velocity(scene, body, at);
             check_alone(scene, body, at);
-            extent.starts.append(at, i, spacing);
-            ++extent.num_points;
+            points.start_places.append(at, i, spacing);
+            ++points.num_points;
             for (std::size_t a = 0; a < 3; ++a) {
-                extent.box.lower[a] = std::min(extent.box.lower[a], at[a]);
-                extent.box.upper[a] = std::max(extent.box.upper[a], at[a]);
+                points.box.lower[a] = std::min(points.box.lower[a], at[a]);
+                points.box.upper[a] = std::max(points.box.upper[a], at[a]);
             }
         });
-        if (extent.num_points == num_before)
+        if (points.num_points == num_before)
             throw std::invalid_argument("bodies / " + body.name +
                                         ": holds no point; it must lie in the domain, and be no "
                                         "smaller than the distance of points in a cell");
     }
     for (const Plane& plane : scene.planes) check_in_front(scene, plane, "planes / " + plane.name);
-    return extent;
+    return points;
 }
 
 void visit_points(const Scene& scene,

@@ -42,15 +42,15 @@ class StartPlaces {
 };
 
 /// Number and place of the points of a scene.
-struct Extent {
+struct ScenePoints {
     std::int64_t num_points = 0;
     Box box;  ///< empty without points
-    StartPlaces starts;
+    StartPlaces start_places;
 };
 
-/// Extent of a scene. Throws std::invalid_argument that names a body without points, or a point
-/// whose velocity is not finite or that lies in two bodies or behind a plane.
-Extent extent_of(const Scene& scene);
+/// Points of a scene. Throws std::invalid_argument that names a body without points, or a
+/// point whose velocity is not finite or that lies in two bodies or behind a plane.
+ScenePoints scene_points(const Scene& scene);
 
 /// Calls visit(body, place) for each point of a scene in the order of their numbers.
 void visit_points(const Scene& scene, const std::function<void(const Body&, const Vector&)>& visit);

@@ -1,5 +1,4 @@
 #include "effects/effect.hpp"
-#include "effects/time_function.hpp"
 #include "materials/material.hpp"
 
 #include <mpm/scene.hpp>
@@ -16,13 +15,17 @@ void require(bool condition, const std::string& text) {
 }
 
 void check_grid(const Scene& scene) {
+    constexpr double most_cells = 1e9;
+    double num_cells = 1;
     require(scene.dimension == 2 || scene.dimension == 3, "the dimension must be 2 or 3");
     require(scene.grid.spacing > 0 && std::isfinite(scene.grid.spacing),
             "the size of a cell must be positive");
     for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a) {
         require(std::isfinite(scene.grid.lower[a]), "the domain must have a finite lower corner");
         require(scene.grid.num_cells[a] > 0, "the domain needs a cell along each axis");
+        num_cells *= scene.grid.num_cells[a];
     }
+    require(num_cells <= most_cells, "the domain has more than 1e9 cells; take larger ones");
 }
 
 void check_body(const Scene& scene, const Body& body) {
@@ -31,25 +34,6 @@ void check_body(const Scene& scene, const Body& body) {
         require(body.points_per_cell[a] > 0,
                 "a body needs at least one point per cell along each axis");
     material_of(scene, body);
-}
-
-/// What moves across the grid is an effect, moving_plane: nodes and springs would give way to it.
-void check_motion(const Wall& wall, const Vector& normal, int dimension, const std::string& place) {
-    const Motion& motion = wall.motion;
-    if (motion.speeds.empty()) return;
-    double square = 0, across = 0, largest = 0;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
-        square += motion.direction[a] * motion.direction[a];
-        across += motion.direction[a] * normal[a];
-        largest += std::abs(motion.direction[a] * normal[a]);
-    }
-    require(square > 0 && std::isfinite(square),
-            place + " must move along a direction that is not zero");
-    require(std::abs(across) <= 1e-9 * largest,
-            place + " must move along itself; what moves across is an effect, moving_plane");
-    require(wall.kind == Wall::fixed || (wall.kind == Wall::frictional && wall.friction > 0),
-            place + " moves nothing along it; it must be fixed or have friction");
-    TimeFunction(motion.times, motion.speeds, "scene: " + place);
 }
 
 void check_walls(const Scene& scene) {
@@ -62,9 +46,6 @@ void check_walls(const Scene& scene) {
         const std::string place = std::string("the wall '") + names[k] + "'";
         require(wall.friction >= 0 && std::isfinite(wall.friction),
                 "the friction of " + place + " must not be negative");
-        Vector normal{};
-        normal[k / 2] = 1;
-        check_motion(wall, normal, scene.dimension, place);
     }
 }
 
@@ -78,10 +59,8 @@ void check_planes(const Scene& scene) {
         }
         require(square > 0 && std::isfinite(square),
                 "plane '" + plane.name + "' must have a normal that is not zero");
-        require(plane.wall.kind != Wall::open, "plane '" + plane.name + "' must not be open");
-        require(plane.wall.friction >= 0 && std::isfinite(plane.wall.friction),
+        require(plane.friction >= 0 && std::isfinite(plane.friction),
                 "the friction of plane '" + plane.name + "' must not be negative");
-        check_motion(plane.wall, plane.normal, scene.dimension, "plane '" + plane.name + "'");
     }
 }
 
@@ -99,16 +78,6 @@ void check_transfer(const Scene& scene) {
             "the Courant number must lie in 0 ... 1");
     require(scene.least_node_mass >= 0 && scene.least_node_mass < 1,
             "the least mass of a node must lie in 0 ... 1");
-    require(!remaps_velocities(scene) || scene.transfer == Transfer::flip,
-            "the modified time integration works with the transfer flip only");
-    if (scene.shape_function != ShapeFunction::gimp) return;
-    require(scene.transfer != Transfer::apic, "APIC works with linear and quadratic shapes only");
-    for (const Body& body : scene.bodies)
-        for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a)
-            require(body.points_per_cell[a] == scene.bodies.front().points_per_cell[a] &&
-                        body.points_per_cell[a] > 1,
-                    "GIMP needs the same number of points per cell in all bodies, at least 2 "
-                    "along each axis");
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include "materials/material.hpp"
 #include "scene/lattice.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 namespace mpm {
@@ -83,6 +85,51 @@ std::string warning_of(const Scene& scene, const Body& body, const BodyPoints& p
     return text.str();
 }
 
+std::string written(double number) {
+    std::ostringstream text;
+    text << std::setprecision(3) << number;
+    return text.str();
+}
+
+/// Whether an effect of a scene is of a kind.
+bool has_effect(const Scene& scene, const std::string& kind) {
+    return std::ranges::any_of(scene.effects, [&](const Effect& effect) {
+        return (effect.kind.empty() ? effect.name : effect.kind) == kind;
+    });
+}
+
+/// Stress that the scene's own weight can cause, Pa; 0 without gravity.
+double weight_stress(const Scene& scene, double density) {
+    double most = 0;
+    for (const Effect& effect : scene.effects)
+        if (const auto found = effect.parameters.find("acceleration");
+            found != effect.parameters.end())
+            for (const double along : std::get<std::vector<double>>(found->second))
+                most = std::max(most, std::abs(along));
+    return density * most * scene.grid.num_cells[1] * scene.grid.spacing;
+}
+
+void append_material_warnings(const Scene& scene, const Material& material,
+                              std::vector<std::string>& warnings) {
+    const Values values = values_of(material, scene.dimension);
+    const std::string place = "materials / " + material.name + ": ";
+    const double density = values.number("density");
+    const double weight = weight_stress(scene, density);
+    if (weight > 0 && (density < 10 || density > 30e3))
+        warnings.push_back(place + "the density " + written(density) + " must be in kg/m^3");
+    if (weight > values.number("youngs_modulus"))
+        warnings.push_back(place + "its weight presses more than the youngs_modulus " +
+                           written(values.number("youngs_modulus")) + "; that must be in Pa");
+    if (material.model != "drucker_prager") return;
+    const double angle = values.number("friction_angle");
+    if (angle > 0 && angle < 1.6)
+        warnings.push_back(place + "the friction_angle " + written(angle) + " must be in degrees");
+    if (angle > 0 && values.number("dilation_angle") == 0 && !has_effect(scene, "locking_cure"))
+        warnings.push_back(place +
+                           "frictional soil without dilation is too strong by a tenth or "
+                           "more, as cells lock; name the effect locking_cure");
+}
+
 }  // namespace
 
 std::vector<BodyReport> report_on_bodies(const Scene& scene) {
@@ -103,26 +150,44 @@ std::vector<BodyReport> report_on_bodies(const Scene& scene) {
 
 double stable_courant_number(const Scene& scene) {
     const bool is_affine = scene.transfer == Transfer::apic;
-    if (remaps_velocities(scene)) return 1;
-    switch (scene.shape_function) {
-        case ShapeFunction::linear:
-            return is_affine ? 0.3 : 0.6;
-        case ShapeFunction::quadratic:
-            return is_affine ? 0.8 : 0.7;
-        case ShapeFunction::gimp:
-            return 0.7;
-    }
-    return 0;
+    if (scene.shape_function == ShapeFunction::linear) return is_affine ? 0.3 : 0.6;
+    return is_affine ? 0.8 : 0.7;
 }
 
-std::string courant_warning(const Scene& scene) {
+std::vector<std::string> scene_warnings(const Scene& scene) {
+    std::vector<std::string> warnings;
     const double stable = stable_courant_number(scene);
-    if (scene.courant_number <= stable) return "";
-    std::ostringstream text;
-    text << "method: the courant_number " << scene.courant_number << " is above " << stable
-         << ", up to which these shape functions, transfer and time integration were found stable; "
-         << "lower it";
-    return text.str();
+    if (scene.courant_number > stable)
+        warnings.push_back("method: the courant_number " + written(scene.courant_number) +
+                           " is above " + written(stable) +
+                           ", up to which these shape functions and this transfer were found "
+                           "stable; lower it");
+    for (const Material& material : scene.materials)
+        append_material_warnings(scene, material, warnings);
+    for (const Probe& probe : scene.probes) {
+        const Vector nearest = nearest_point(scene, probe.position);
+        const double distance =
+            std::hypot(nearest[0] - probe.position[0], nearest[1] - probe.position[1],
+                       nearest[2] - probe.position[2]);
+        if (distance > scene.grid.spacing)
+            warnings.push_back("probes / " + probe.name + ": the nearest point is " +
+                               written(distance) + " m away; place it in a body");
+    }
+    return warnings;
+}
+
+std::vector<std::string> damping_notes(const Scene& scene) {
+    std::vector<std::string> notes;
+    if (scene.flip_fraction == 1 || scene.transfer == Transfer::apic) return notes;
+    for (const Material& material : scene.materials) {
+        const Values values = values_of(material, scene.dimension);
+        const double viscosity = (1 - scene.flip_fraction) * values.number("density") *
+                                 find_material_kind(material).wave_speed(values) *
+                                 scene.grid.spacing;
+        notes.push_back("method: the flip_fraction " + written(scene.flip_fraction) +
+                        " is a viscosity of " + written(viscosity) + " Pa s in " + material.name);
+    }
+    return notes;
 }
 
 }  // namespace mpm

@@ -23,12 +23,15 @@ struct BodyReport {
 std::vector<BodyReport> report_on_bodies(const Scene& scene);
 
 /// Largest Courant number at which an elastic beam of 2 or 3 points along a side of a cell vibrates
-/// without gaining energy, by the shape function, transfer and time integration of a scene.
-///
-/// From the sweep of examples/mpm/courant, in steps of 0.1.
+/// without gaining energy, by the shape function and transfer of a scene, in steps of 0.1.
 double stable_courant_number(const Scene& scene);
 
-/// Tells that the Courant number of a scene is beyond the stable one; empty where it is not.
-std::string courant_warning(const Scene& scene);
+/// Values of a scene that may not be meant, each with a fix: a Courant number beyond the stable
+/// one, frictional soil that locks, numbers that look as if in other units, probes far from points.
+std::vector<std::string> scene_warnings(const Scene& scene);
+
+/// The damping that the method of a scene adds to its materials: what flip_fraction leaves out is a
+/// viscosity of (1 - flip_fraction) * density * wave speed * cell size. None with 1.
+std::vector<std::string> damping_notes(const Scene& scene);
 
 }  // namespace mpm

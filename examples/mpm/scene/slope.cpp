@@ -24,20 +24,21 @@ Scene slope_scene(int cells_across) {
         .points_per_cell = {5, 4, 1},
         .material = "soil"};
     const int cells_up = static_cast<int>(std::ceil((crest - base) / spacing)) + 1;
-    return {.name = "slope",
-            .grid = {.lower = {0, base}, .spacing = spacing, .num_cells = {cells_across, cells_up}},
-            .materials = {{"soil",
-                           "drucker_prager",
-                           {{"density", 2100.0},
-                            {"youngs_modulus", 70e6},
-                            {"poissons_ratio", 0.3},
-                            {"cohesion", 10e3},
-                            {"friction_angle", 20.0},
-                            {"tension_cut_off", 27.48e3}}}},
-            .bodies = {soil},
-            .walls = {.left = Wall::roller, .right = Wall::roller, .bottom = Wall::fixed},
-            .effects = {{"gravity", {{"acceleration", std::vector<double>{0, -9.81}}}}},
-            .end_time = 8};
+    return {
+        .name = "slope",
+        .grid = {.lower = {0, base}, .spacing = spacing, .num_cells = {cells_across, cells_up}},
+        .materials = {{"soil",
+                       "drucker_prager",
+                       {{"density", 2100.0},
+                        {"youngs_modulus", 70e6},
+                        {"poissons_ratio", 0.3},
+                        {"cohesion", 10e3},
+                        {"friction_angle", 20.0},
+                        {"tension_cut_off", 27.48e3}}}},
+        .bodies = {soil},
+        .walls = {.left = Wall::roller, .right = Wall::roller, .bottom = Wall::fixed},
+        .effects = {{"gravity", {{"acceleration", std::vector<double>{0, -9.81}}, {"ramp", 1.0}}}},
+        .end_time = 8};
 }
 
 }  // namespace mpm

@@ -1,7 +1,5 @@
 #include "scene_file/bodies.hpp"
 
-#include "scene_file/expression.hpp"
-
 #include <mpm/region.hpp>
 
 #include <algorithm>
@@ -130,47 +128,19 @@ Shape read_shapes(List shapes, int dimension) {
     return whole;
 }
 
-/// The velocity that expressions give along each axis.
-VelocityField read_expressions(List& list, int dimension) {
-    std::vector<Expression> components;
-    for (const std::string& text : list.take_texts("expressions", dimension)) try {
-            components.push_back(parse_expression(text, dimension));
-        } catch (const std::invalid_argument& error) {
-            list.refuse("expressions", std::string("has ") + error.what());
-        }
-    return [components](const Vector& at) {
-        Vector velocity{};
-        for (std::size_t a = 0; a < components.size(); ++a) velocity[a] = components[a](at);
-        return velocity;
-    };
-}
-
-VelocityField sum_of(VelocityField one, VelocityField other) {
-    return [one = std::move(one), other = std::move(other)](const Vector& at) {
-        Vector velocity = one(at);
-        const Vector more = other(at);
-        for (std::size_t a = 0; a < velocity.size(); ++a) velocity[a] += more[a];
-        return velocity;
-    };
-}
-
-VelocityField read_velocity(List list, int dimension) {
-    VelocityField expressions;
-    if (list.has("expressions")) expressions = read_expressions(list, dimension);
+VelocityField read_velocity(const List& list, int dimension) {
     const std::vector<double> zero(static_cast<std::size_t>(dimension), 0.0);
     const Values values =
         list.values({vector("constant", "m/s", zero), number("rotation_rate", "rad/s", 0.0),
                      vector("rotation_centre", "m", zero), vector("sine_amplitude", "m/s", zero),
                      vector("sine_wave_number", "rad/m", zero), number("sine_phase", "rad", 0.0)},
                     dimension);
-    VelocityField forms =
-        velocity_field({.constant = vector_of(values.list("constant")),
-                        .rotation_rate = values.number("rotation_rate"),
-                        .rotation_centre = vector_of(values.list("rotation_centre")),
-                        .sine_amplitude = vector_of(values.list("sine_amplitude")),
-                        .sine_wave_number = vector_of(values.list("sine_wave_number")),
-                        .sine_phase = values.number("sine_phase")});
-    return expressions ? sum_of(std::move(forms), std::move(expressions)) : forms;
+    return velocity_field({.constant = vector_of(values.list("constant")),
+                           .rotation_rate = values.number("rotation_rate"),
+                           .rotation_centre = vector_of(values.list("rotation_centre")),
+                           .sine_amplitude = vector_of(values.list("sine_amplitude")),
+                           .sine_wave_number = vector_of(values.list("sine_wave_number")),
+                           .sine_phase = values.number("sine_phase")});
 }
 
 }  // namespace

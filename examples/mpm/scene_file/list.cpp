@@ -4,9 +4,7 @@
 #include <Teuchos_TwoDArray.hpp>
 
 #include <algorithm>
-#include <iomanip>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 
 namespace mpm {
@@ -72,24 +70,6 @@ std::vector<Vector> List::take_rows(const std::string& name, int dimension) {
         refuse(name, "must be rows of " + std::to_string(dimension) + " numbers");
     list_.remove(name);
     return rows;
-}
-
-std::vector<std::string> List::take_texts(const std::string& name, int dimension) {
-    std::vector<std::string> texts;
-    const Entry* entry = list_.getEntryPtr(name);
-    if (entry != nullptr && entry->isType<Teuchos::Array<std::string>>())
-        texts = Teuchos::getValue<Teuchos::Array<std::string>>(*entry).toVector();
-    const std::optional<Value> numbers = entry != nullptr ? value_of(*entry) : std::nullopt;
-    if (numbers && std::holds_alternative<std::vector<double>>(*numbers))
-        for (const double number : std::get<std::vector<double>>(*numbers)) {
-            std::ostringstream text;
-            text << std::setprecision(17) << number;
-            texts.push_back(text.str());
-        }
-    if (texts.size() != static_cast<std::size_t>(dimension))
-        refuse(name, "must be a list of " + std::to_string(dimension) + " texts in quotes");
-    list_.remove(name);
-    return texts;
 }
 
 Parameters List::parameters() const {

@@ -27,8 +27,6 @@ class List {
     List take_list(const std::string& name);
     /// Takes out rows of as many numbers as there are dimensions.
     std::vector<Vector> take_rows(const std::string& name, int dimension);
-    /// Takes out as many texts as there are dimensions. Numbers count as texts, too.
-    std::vector<std::string> take_texts(const std::string& name, int dimension);
     /// Entries not taken, which must be numbers, words and rows of numbers.
     Parameters parameters() const;
     /// Entries not taken, checked by the rules.

@@ -3,7 +3,6 @@
 #include "parallel/communicator_mpi.hpp"
 #include "scene_file/bodies.hpp"
 
-#include <Teuchos_XMLParameterListCoreHelpers.hpp>
 #include <Teuchos_YamlParameterListCoreHelpers.hpp>
 
 #include <algorithm>
@@ -19,14 +18,13 @@ namespace {
 
 constexpr double most_steps = 1e9;
 
-Teuchos::ParameterList parse(const std::string& text, SceneFormat format) {
+Teuchos::ParameterList parse(const std::string& text) {
     try {
-        return format == SceneFormat::xml ? *Teuchos::getParametersFromXmlString(text)
-                                          : *Teuchos::getParametersFromYamlString(text);
+        return *Teuchos::getParametersFromYamlString(text);
     } catch (const std::exception& error) {
         throw std::invalid_argument(
-            std::string("is not understood; it must be one list named scene, in ") +
-            (format == SceneFormat::xml ? "XML" : "YAML") + ":\n" + error.what());
+            std::string("is not understood; it must be one list named scene, in YAML:\n") +
+            error.what());
     }
 }
 
@@ -40,31 +38,17 @@ GridShape read_domain(const List& list, int dimension) {
     return grid;
 }
 
-Motion read_motion(const List& list, int dimension) {
-    const Values values =
-        list.values({vector("direction", ""), numbers("times", "s", std::vector<double>{0}),
-                     numbers("speeds", "m/s")},
-                    dimension);
-    return {vector_of(values.list("direction")), values.list("times"), values.list("speeds")};
-}
-
-Walls read_walls(List list, int dimension) {
+Walls read_walls(const List& list, int dimension) {
     Walls walls;
     const std::vector<std::pair<std::string, Wall*>> sides{
         {"left", &walls.left}, {"right", &walls.right}, {"bottom", &walls.bottom},
         {"top", &walls.top},   {"back", &walls.back},   {"front", &walls.front}};
     const auto num_sides = static_cast<std::size_t>(2 * dimension);
     std::vector<Rule> rules;
-    std::string lists;
     for (std::size_t side = 0; side < num_sides; ++side) {
-        const std::string motion = sides[side].first + "_motion";
-        if (list.has(motion))
-            sides[side].second->motion = read_motion(list.take_list(motion), dimension);
         rules.push_back(choice(sides[side].first, {"open", "roller", "fixed", "frictional"}));
         rules.push_back(optional(not_negative(sides[side].first + "_friction", "")));
-        lists += (lists.empty() ? "" : ", ") + motion;
     }
-    list.refuse_other_lists(lists);
     const Values values = list.values(rules, dimension);
     for (std::size_t side = 0; side < num_sides; ++side) {
         const auto& [name, wall] = sides[side];
@@ -78,42 +62,25 @@ Walls read_walls(List list, int dimension) {
     return walls;
 }
 
-Plane read_plane(List list, const std::string& name, int dimension) {
-    const Motion motion =
-        list.has("motion") ? read_motion(list.take_list("motion"), dimension) : Motion{};
-    const Values values = list.values(
-        {vector("point", "m"), vector("normal", ""),
-         choice("kind", {"roller", "fixed", "frictional"}), optional(not_negative("friction", ""))},
-        dimension);
-    Plane plane{.name = name,
-                .point = vector_of(values.list("point")),
-                .normal = vector_of(values.list("normal")),
-                .wall = Wall::roller};
-    const std::string& kind = values.word("kind");
-    if (kind == "fixed") plane.wall = Wall::fixed;
-    if (kind == "frictional") plane.wall = Wall::frictional;
-    if ((kind == "frictional") != values.has("friction"))
-        list.refuse("friction", "must be there for a frictional plane, and only there");
-    if (kind == "frictional") plane.wall.friction = values.number("friction");
-    plane.wall.motion = motion;
-    return plane;
+Plane read_plane(const List& list, const std::string& name, int dimension) {
+    const Values values =
+        list.values({vector("point", "m"), vector("normal", ""), choice("kind", {"frictional"}),
+                     not_negative("friction", "")},
+                    dimension);
+    return {name, vector_of(values.list("point")), vector_of(values.list("normal")),
+            values.number("friction")};
 }
 
 void read_method(const List& list, int dimension, Scene& scene) {
-    const Values values =
-        list.values({choice("shape_function", {"linear", "quadratic", "gimp"}),
-                     choice("transfer", {"flip", "apic"}),
-                     choice("time_integration", {"update_stress_last", "modified"}),
-                     within("flip_fraction", "", 0, 1, scene.flip_fraction),
-                     within("courant_number", "", 1e-6, 1, scene.courant_number),
-                     within("least_node_mass", "", 0, 0.5, 0.0)},
-                    dimension);
-    const std::string& shape = values.word("shape_function");
-    if (shape == "quadratic") scene.shape_function = ShapeFunction::quadratic;
-    if (shape == "gimp") scene.shape_function = ShapeFunction::gimp;
+    const Values values = list.values(
+        {choice("shape_function", {"linear", "quadratic"}), choice("transfer", {"flip", "apic"}),
+         within("flip_fraction", "", 0, 1, scene.flip_fraction),
+         within("courant_number", "", 1e-6, 1, scene.courant_number),
+         within("least_node_mass", "", 0, 0.5, 0.0)},
+        dimension);
+    if (values.word("shape_function") == "quadratic")
+        scene.shape_function = ShapeFunction::quadratic;
     if (values.word("transfer") == "apic") scene.transfer = Transfer::apic;
-    if (values.word("time_integration") == "modified")
-        scene.time_integration = TimeIntegration::modified;
     scene.flip_fraction = values.number("flip_fraction");
     scene.courant_number = values.number("courant_number");
     scene.least_node_mass = values.number("least_node_mass");
@@ -187,9 +154,9 @@ std::string text_of(const std::string& path) {
 
 }  // namespace
 
-SceneFile parse_scene(const std::string& text, SceneFormat format, const std::string& name) {
+SceneFile parse_scene(const std::string& text, const std::string& name) {
     try {
-        return read_list({parse(text, format), "scene"}, std::filesystem::path(name).stem());
+        return read_list({parse(text), "scene"}, std::filesystem::path(name).stem());
     } catch (const std::invalid_argument& error) {
         throw std::invalid_argument(name + ": " + error.what());
     }
@@ -200,8 +167,7 @@ SceneFile read_scene(const std::string& path, MPI_Comm comm) {
     if (text.empty())
         throw std::invalid_argument(path +
                                     ": cannot be read, or is empty; it must be a scene file");
-    const bool is_xml = std::filesystem::path(path).extension() == ".xml";
-    return parse_scene(text, is_xml ? SceneFormat::xml : SceneFormat::yaml, path);
+    return parse_scene(text, path);
 }
 
 void resize_cells(Scene& scene, double cell_size) {

@@ -20,15 +20,13 @@ struct SceneFile {
     OutputPlan output;
 };
 
-enum class SceneFormat { yaml, xml };
-
 /// Scene of a text. `name` is that of the file, for errors and as the scene's name. Not collective.
 ///
 /// Throws std::invalid_argument that names the file, the place and the key, and tells what is
 /// allowed.
-SceneFile parse_scene(const std::string& text, SceneFormat format, const std::string& name);
+SceneFile parse_scene(const std::string& text, const std::string& name);
 
-/// Scene of a file, XML where its name ends in .xml and YAML otherwise.
+/// Scene of a file in YAML.
 ///
 /// Collective over `comm`: rank 0 reads, and an error is thrown on all ranks.
 SceneFile read_scene(const std::string& path, MPI_Comm comm);

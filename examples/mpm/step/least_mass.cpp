@@ -17,9 +17,8 @@ double layers_of(const Body& body, int dimension) {
 ///
 /// On linear functions a node that only the rim of a layer touches is as stiff as a full one, but
 /// light. In units of cell and wave speed, its frequency squared is 1 / (layers * share of mass).
-/// The frequency must stay near 1 per time step beside heavier neighbours and at a corner. GIMP
-/// functions come near to linear ones where points are small. The slopes of quadratic ones vanish
-/// at the rim as their values do, so that they need no share.
+/// The frequency must stay near 1 per time step beside heavier neighbours and at a corner. The
+/// slopes of quadratic functions vanish at the rim as their values do, so that they need no share.
 double least_share(const Scene& scene, const Body& body) {
     constexpr double least = 0.01;
     if (scene.least_node_mass > 0) return scene.least_node_mass;

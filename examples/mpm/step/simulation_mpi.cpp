@@ -1,14 +1,30 @@
 #include "step/stepper.hpp"
 
+#include <algorithm>
+
 namespace mpm {
 
-Simulation::Simulation(const Scene& scene, MPI_Comm comm) {
-    validate(scene);
-    const Extent extent = extent_of(scene);
+namespace {
+
+/// Materials that no body uses would cost each point a column.
+Scene without_unused_materials(Scene scene) {
+    std::erase_if(scene.materials, [&](const Material& material) {
+        return std::ranges::none_of(
+            scene.bodies, [&](const Body& body) { return body.material == material.name; });
+    });
+    return scene;
+}
+
+}  // namespace
+
+Simulation::Simulation(const Scene& whole, MPI_Comm comm) {
+    validate(whole);
+    const Scene scene = without_unused_materials(whole);
+    const ScenePoints points = scene_points(scene);
     if (scene.dimension == 2)
-        model_ = std::make_unique<Stepper<2>>(scene, extent, comm);
+        model_ = std::make_unique<Stepper<2>>(scene, points, comm);
     else
-        model_ = std::make_unique<Stepper<3>>(scene, extent, comm);
+        model_ = std::make_unique<Stepper<3>>(scene, points, comm);
 }
 
 Simulation::Simulation(const Scene& scene, const std::string& state, MPI_Comm comm)
@@ -59,10 +75,10 @@ Positions Simulation::positions() const {
     return model_->positions();
 }
 std::vector<Vector> Simulation::displacements() const {
-    return model_->starts.displacements(positions(), particles()["id"]);
+    return model_->start_places.displacements(positions(), particles()["id"]);
 }
 double Simulation::front_x(double way) const {
-    return model_->starts.front_x(positions(), particles()["id"], way);
+    return model_->start_places.front_x(positions(), particles()["id"], way);
 }
 const Decomposition& Simulation::decomposition() const {
     return model_->decomposition;

@@ -51,7 +51,7 @@ StateHead Stepper<D>::state_head() const {
                    .boxes = decomposition.boxes};
     append(scene_.grid.lower, head.scene);
     append(scene_.grid.num_cells, head.scene);
-    head.scene.push_back(starts.fingerprint());
+    head.scene.push_back(start_places.fingerprint());
     for (const Probe& probe : scene_.probes) append(probe.position, head.scene);
     return head;
 }
@@ -86,7 +86,7 @@ void Stepper<D>::write_state(const std::string& path) const {
 
 /// Takes the motion of the nodes of a section that this rank has, too.
 template <int D>
-void Stepper<D>::take_motion(StateSection& section) {
+void Stepper<D>::read_motion(StateSection& section) {
     NodeRange<D> nodes;
     for (int& begin : nodes.begin) begin = static_cast<int>(section.next());
     for (int& count : nodes.count) count = static_cast<int>(section.next());
@@ -133,7 +133,7 @@ void Stepper<D>::take_section(StateSection section, bool is_mine, bool is_divide
     load(stages_.states, true, sums);
     const auto num_out_of_order = static_cast<std::size_t>(section.next());
     const int steps_since_sort = static_cast<int>(section.next());
-    if (stages_.carries_motion) take_motion(section);
+    if (stages_.carries_motion) read_motion(section);
     if (is_divided_anew) return take_points(section.rest());
     if (!is_mine) return;
     num_out_of_order_ = num_out_of_order;
@@ -156,7 +156,7 @@ void Stepper<D>::read_state(const std::string& path) {
     particles.remove(all);
     const std::size_t num_sections = reader.head().boxes.size();
     const bool is_divided_anew = num_sections != mine.boxes.size();
-    if (!is_divided_anew) adopt(within(reader.head().boxes));
+    if (!is_divided_anew) divide_by(within(reader.head().boxes));
     std::ranges::fill(patch_.motion, NodeMotion<D>{});
     load(stages_.states, false, reader.head().effects);
     load(stages_.states, true, std::vector<double>(saved(stages_.states, true).size(), 0.0));
@@ -178,8 +178,8 @@ template std::vector<double> Stepper<2>::state_section() const;
 template std::vector<double> Stepper<3>::state_section() const;
 template void Stepper<2>::write_state(const std::string&) const;
 template void Stepper<3>::write_state(const std::string&) const;
-template void Stepper<2>::take_motion(StateSection&);
-template void Stepper<3>::take_motion(StateSection&);
+template void Stepper<2>::read_motion(StateSection&);
+template void Stepper<3>::read_motion(StateSection&);
 template void Stepper<2>::take_points(std::span<const double>);
 template void Stepper<3>::take_points(std::span<const double>);
 template void Stepper<2>::take_section(StateSection, bool, bool);

@@ -7,7 +7,7 @@
 #include "scene/lattice.hpp"
 #include "step/state_file_mpi.hpp"
 #include "step/work_clock.hpp"
-#include "transfer/velocity_remap.hpp"
+#include "transfer/transfers.hpp"
 
 #include <mpm/simulation.hpp>
 
@@ -19,7 +19,7 @@ namespace mpm {
 /// A simulation of either dimension. Its virtual calls are per step, never per point.
 class Simulation::Model {
   public:
-    explicit Model(const StartPlaces& places) : starts(places) {}
+    explicit Model(const StartPlaces& places) : start_places(places) {}
     virtual ~Model() = default;
     virtual void step() = 0;
     virtual RebalanceReport rebalance(const Balancer& balancer) = 0;
@@ -34,7 +34,7 @@ class Simulation::Model {
     virtual void read_state(const std::string& path) = 0;
 
     Particles particles;
-    StartPlaces starts;
+    StartPlaces start_places;
     Decomposition decomposition;
     std::int64_t num_points = 0, num_steps = 0;
     std::int64_t num_sent = 0;  ///< by this rank
@@ -47,7 +47,7 @@ class Simulation::Model {
 template <int D>
 class Stepper final : public Simulation::Model {
   public:
-    Stepper(const Scene& scene, const Extent& extent, MPI_Comm comm);
+    Stepper(const Scene& scene, const ScenePoints& points, MPI_Comm comm);
     ~Stepper() override { MPI_Comm_free(&comm_); }
 
     void step() override;
@@ -67,13 +67,13 @@ class Stepper final : public Simulation::Model {
     StateHead state_head() const;
     std::vector<double> state_section() const;
     void take_section(StateSection section, bool is_mine, bool is_divided_anew);
-    void take_motion(StateSection& section);
+    void read_motion(StateSection& section);
     void take_points(std::span<const double> rows);
     void start_points();
     double strain_energy(std::size_t point) const;
-    void adopt(Decomposition next);
+    void divide_by(Decomposition next);
+    void lay_patches(std::vector<NodeRange<D>> patches);
     void advance_nodes();
-    void remap_velocities();
     void advance_points();
     void apply_materials(const PointBlock<D>& block);
     double fastest_point() const;
@@ -89,12 +89,12 @@ class Stepper final : public Simulation::Model {
     std::vector<MaterialModel<D>> materials_;
     std::optional<Column> material_column_;  ///< where the scene has several materials
     Stages<D> stages_;
-    std::unique_ptr<VelocityRemap<D>> velocity_remap_;  ///< where the scene asks for it
     LeastMass least_mass_;
 
     Ownership ownership_;
     GridPatch<D> patch_;
-    std::vector<NodeRange<D>> patches_;  ///< of all ranks
+    std::vector<NodeRange<D>> patches_;       ///< of all ranks
+    std::vector<NodeMotion<D>> last_motion_;  ///< of the patch before, a buffer
     std::optional<GhostNodes<D>> ghosts_;
     std::vector<CellRun<D>> runs_;
     std::unique_ptr<VelocityGradients<D>> gradients_ = std::make_unique<VelocityGradients<D>>();

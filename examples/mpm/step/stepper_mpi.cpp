@@ -43,7 +43,6 @@ Stages<D> build_stages(const Scene& scene, const Scene& ground, double wave_spee
                        Particles& particles) {
     Stages<D> stages;
     add_walls<D>(ground, stages);
-    add_planes<D>(ground, stages);
     add_plane_friction<D>(ground, wave_speed, particles, stages);
     for (const NamedEffect& effect : effects_of(scene)) {
         const EffectBuilder<D> builder{scene,     effect.name, effect.values,
@@ -60,8 +59,8 @@ Stages<D> build_stages(const Scene& scene, const Scene& ground, double wave_spee
 }  // namespace
 
 template <int D>
-Stepper<D>::Stepper(const Scene& scene, const Extent& extent, MPI_Comm comm)
-    : Model(extent.starts),
+Stepper<D>::Stepper(const Scene& scene, const ScenePoints& points, MPI_Comm comm)
+    : Model(points.start_places),
       scene_(scene),
       ground_(with_ground(scene)),
       comm_(duplicate(comm)),
@@ -74,12 +73,11 @@ Stepper<D>::Stepper(const Scene& scene, const Extent& extent, MPI_Comm comm)
         add_plastic_work<D>(scene_.materials[k], particles, stages_.work->plastic, materials_[k]);
     least_mass_ = add_least_mass<D>(scene_, motion_.mass, stages_);
     add_images<D>(ground_, stages_);
-    velocity_remap_ = make_velocity_remap<D>(scene_, FlipShare(scene_, wave_speed_), particles);
     patch_.shape = ground_.grid;
     patch_.margin = transfers_->margin();
     patch_.fields.resize(stages_.fields.size());
-    num_points = extent.num_points;
-    adopt(slabs(extent.box, size_of(comm_)));
+    num_points = points.num_points;
+    divide_by(slabs(points.box, size_of(comm_)));
     place_points(scene_, decomposition, rank_of(comm_), motion_, particles);
     start_points();
     transfers_->sort(particles, patch_);
@@ -93,20 +91,27 @@ void Stepper<D>::build_materials() {
         materials_.push_back(build_material<D>(material, particles));
 }
 
-/// Lays the patches of all ranks by the boxes of a decomposition.
+/// Divides space by a decomposition. The grid is kept while no box begins or ends in another cell.
 template <int D>
-void Stepper<D>::adopt(Decomposition next) {
+void Stepper<D>::divide_by(Decomposition next) {
     decomposition = std::move(next);
     decomposition.local_owners.clear();
     std::vector<NodeRange<D>> patches;
+    patches.reserve(decomposition.boxes.size());
     for (const Box& box : decomposition.boxes)
-        patches.push_back(with_images(ground_, nodes_of<D>(ground_.grid, box, patch_.margin)));
+        patches.push_back(nodes_of<D>(ground_.grid, box, patch_.margin));
+    if (patches != patches_) lay_patches(std::move(patches));
+}
+
+/// Lays the patches of all ranks. Collective if the motion of nodes is carried.
+template <int D>
+void Stepper<D>::lay_patches(std::vector<NodeRange<D>> patches) {
     const bool carries = stages_.carries_motion && !patches_.empty();
-    const GridPatch<D> last = carries ? patch_ : GridPatch<D>{};
+    if (carries) std::swap(last_motion_, patch_.motion);
     resize<D>(patch_, patches[static_cast<std::size_t>(rank_of(comm_))]);
     ghosts_.emplace(patches, comm_);
     if (stages_.counts_nodes) ghosts_->mark_counted(patch_);
-    if (carries) carry_motion<D>(patches_, patches, last, patch_, comm_);
+    if (carries) carry_motion<D>(patches_, patches, last_motion_, patch_, comm_);
     patches_ = std::move(patches);
 }
 
@@ -128,18 +133,6 @@ void Stepper<D>::advance_nodes() {
     for (const auto& effect : stages_.constraints) effect.kernel(patch_, now);
     move_nodes(patch_, time_step, least_mass_);
     for (const auto& effect : stages_.moved) effect.kernel(patch_, now);
-    if (velocity_remap_) remap_velocities();
-}
-
-template <int D>
-void Stepper<D>::remap_velocities() {
-    velocity_remap_->scatter(particles, runs_, time_step, patch_);
-    for (const auto& effect : stages_.velocity_scatters) effect.kernel(particles, runs_, patch_);
-    work.pause();
-    ghosts_->sum_momentum(patch_);
-    work.resume();
-    strain_by_momentum(patch_);
-    for (const auto& effect : stages_.remapped_velocities) effect.kernel(patch_, {time, time_step});
 }
 
 template <int D>
@@ -203,6 +196,8 @@ template <int D>
 void Stepper<D>::set_time_step(double fastest) {
     max_speed = fastest;
     time_step = scene_.courant_number * scene_.grid.spacing / (wave_speed_ + max_speed);
+    // The last step ends at the end.
+    if (time < scene_.end_time) time_step = std::min(time_step, scene_.end_time - time);
 }
 
 /// Counts the arrivals. Sorts once so many points are out of order that they slow the transfers
@@ -242,21 +237,19 @@ void Stepper<D>::step() {
 template <int D>
 RebalanceReport Stepper<D>::rebalance(const Balancer& balancer) {
     Decomposition next = balancer(positions(), comm_);
-    ownership_.find_reassigned(next, positions());
+    ownership_.find_reassigned(next, positions(), ghosts_->neighbours());
     const Agreement agreement = ownership_.agree(0);
-
-    RebalanceReport report;
-    report.moved_points = static_cast<std::int64_t>(ownership_.leavers().points.size());
-    num_sent += report.moved_points;
-    MPI_Allreduce(MPI_IN_PLACE, &report.moved_points, 1, MPI_INT64_T, MPI_SUM, comm_);
-    adopt(std::move(next));
-    take_in(migrate(particles, ownership_.leavers(), agreement.reach, {}, comm_));
-    return report;
+    num_sent += static_cast<std::int64_t>(ownership_.leavers().points.size());
+    const std::size_t num_arrived =
+        migrate(particles, ownership_.leavers(), agreement.reach, ghosts_->neighbours(), comm_);
+    divide_by(std::move(next));
+    take_in(num_arrived);
+    return {agreement.num_leavers};
 }
 
 template <int D>
 std::size_t Stepper<D>::doubles_per_ghost_node() const {
-    return 1 + 2 * D + stages_.fields.size() + (velocity_remap_ ? D : 0);
+    return 1 + 2 * D + stages_.fields.size();
 }
 
 template <int D>

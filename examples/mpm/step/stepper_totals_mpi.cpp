@@ -29,8 +29,6 @@ std::vector<std::string> Stepper<D>::kernels() const {
     append_names(stages_.constraints, names);
     names.push_back("move_nodes");
     append_names(stages_.moved, names);
-    if (velocity_remap_) names.push_back("remap");
-    append_names(stages_.remapped_velocities, names);
     names.push_back("g2p");
     append_names(stages_.gradients, names);
     append_names(stages_.before_materials, names);
@@ -51,8 +49,8 @@ double Stepper<D>::strain_energy(std::size_t point) const {
 /// Starts the points. The energy that they hold from the start is no loss.
 template <int D>
 void Stepper<D>::start_points() {
-    for (const auto& start : stages_.starts) start(particles);
-    if (stages_.starts.empty() || !stages_.work) return;
+    for (const auto& prepare : stages_.preparations) prepare(particles);
+    if (stages_.preparations.empty() || !stages_.work) return;
     for (std::size_t p = 0; p < particles.size(); ++p)
         particles.data(stages_.work->internal)[p] = strain_energy(p);
 }

@@ -151,7 +151,7 @@ template <int D, class Shape, bool is_affine>
         std::array<Weights<N>, D> weights;
         unrolled<D>([&](auto a) __attribute__((always_inline)) {
             u[a] = (points.position[a][p] - corner[a]) * inverse_spacing;
-            weights[a] = shape.at(u[a], a);
+            weights[a] = shape.at(u[a]);
         });
         double expansion = 0;
         unrolled<D>([&](auto a) __attribute__((always_inline)) {

@@ -163,7 +163,7 @@ template <int D, class Shape, bool is_affine>
         std::array<Weights<N>, D> weights;
         unrolled<D>([&](auto a) __attribute__((always_inline)) {
             u[a] = (from.position[a][p] - run.corner[a]) * inverse_spacing;
-            weights[a] = shape.at(u[a], a);
+            weights[a] = shape.at(u[a]);
         });
         const Contribution<D> point = from.at(p, inverse_spacing);
         unrolled<power(N, D)>([&](auto n) __attribute__((always_inline)) {

@@ -2,7 +2,6 @@
 
 #include "grid/grid.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -20,8 +19,6 @@ struct LinearShape {
     static constexpr std::size_t num_nodes = 2;
     static constexpr int margin = 0;
 
-    explicit LinearShape(const Scene&) {}
-
     /// Lowest node of a coordinate.
     int first_node(const GridShape& shape, double coordinate, std::size_t axis) const {
         return cell_of(shape, coordinate, axis);
@@ -31,7 +28,7 @@ struct LinearShape {
     ///
     /// On a face both stay above 0. The slopes need the velocities of both nodes there, and a node
     /// without mass has no velocity.
-    Weights<2> at(double u, std::size_t) const {
+    Weights<2> at(double u) const {
         const double above = u > least ? u : least;
         const double inside = above < most ? above : most;
         return {{1 - inside, inside}, {-1, 1}};
@@ -42,55 +39,23 @@ struct LinearShape {
     double least = 1e-12, most = 1 - 1e-12;
 };
 
-/// Lowest of the three nodes around the nearest one.
-inline int node_below_nearest(const GridShape& shape, double coordinate, std::size_t axis) {
-    const double cells_per_metre = 1 / shape.spacing;
-    return static_cast<int>((coordinate - shape.lower[axis]) * cells_per_metre + 0.5) - 1;
-}
-
 /// Quadratic B-spline (Steffen, Kirby and Berzins 2008): smooth gradients, so that points
 /// cross cells without noise.
 struct QuadraticShape {
     static constexpr std::size_t num_nodes = 3;
     static constexpr int margin = 1;
 
-    explicit QuadraticShape(const Scene&) {}
-
+    /// Lowest of the three nodes around the nearest one.
     int first_node(const GridShape& shape, double coordinate, std::size_t axis) const {
-        return node_below_nearest(shape, coordinate, axis);
+        const double cells_per_metre = 1 / shape.spacing;
+        return static_cast<int>((coordinate - shape.lower[axis]) * cells_per_metre + 0.5) - 1;
     }
 
-    Weights<3> at(double u, std::size_t) const {
+    Weights<3> at(double u) const {
         const double d = u - 1;
         return {{0.5 * (0.5 - d) * (0.5 - d), 0.75 - d * d, 0.5 * (0.5 + d) * (0.5 + d)},
                 {d - 0.5, -2 * d, d + 0.5}};
     }
-};
-
-/// Linear functions averaged over the box of a point that keeps its size (uGIMP, Bardenhagen and
-/// Kober 2004).
-struct GimpShape {
-    static constexpr std::size_t num_nodes = 3;
-    static constexpr int margin = 1;
-
-    explicit GimpShape(const Scene& scene);
-
-    int first_node(const GridShape& shape, double coordinate, std::size_t axis) const {
-        return node_below_nearest(shape, coordinate, axis);
-    }
-
-    Weights<3> at(double u, std::size_t axis) const {
-        const double d = u - 1, half = half_size[axis];
-        const double inside = std::clamp(d, -half, half);
-        const double below = half - inside, above = half + inside;
-        const double left = below * below / (4 * half) + std::max(-d - half, 0.0);
-        const double right = above * above / (4 * half) + std::max(d - half, 0.0);
-        const double left_slope = -below / (2 * half), right_slope = above / (2 * half);
-        return {{left, 1 - left - right, right},
-                {left_slope, -left_slope - right_slope, right_slope}};
-    }
-
-    std::array<double, 3> half_size{};  ///< of a point's box, in cells
 };
 
 }  // namespace mpm

@@ -9,8 +9,7 @@ namespace mpm {
 template <int D, class Shape, bool is_affine>
 class TransfersOf final : public Transfers<D> {
   public:
-    TransfersOf(const Scene& scene, const FlipShare& flip, Particles& particles)
-        : shape_(scene), flip_(flip) {
+    TransfersOf(const FlipShare& flip, Particles& particles) : flip_(flip) {
         columns_.motion = add_motion_columns(particles, D);
         columns_.stress = add_stress_columns<D>(particles);
         for (std::size_t a = 0; is_affine && a < D; ++a)
@@ -77,7 +76,7 @@ class TransfersOf final : public Transfers<D> {
                 if (values[p] == 0) continue;  // as forces on most points are
                 std::array<Weights<N>, D> weights;
                 for (std::size_t a = 0; a < D; ++a) {
-                    weights[a] = shape_.at((at[a][p] - run.corner[a]) * inverse_spacing, a);
+                    weights[a] = shape_.at((at[a][p] - run.corner[a]) * inverse_spacing);
                     if (static_cast<int>(a) != axis) continue;
                     for (std::size_t i = 0; i < N; ++i)
                         weights[a].value[i] = inverse_spacing * weights[a].slope[i];
@@ -143,22 +142,16 @@ template <int D, class Shape>
 std::unique_ptr<Transfers<D>> make_with(const Scene& scene, const FlipShare& flip,
                                         Particles& particles) {
     if (scene.transfer == Transfer::apic)
-        return std::make_unique<TransfersOf<D, Shape, true>>(scene, flip, particles);
-    return std::make_unique<TransfersOf<D, Shape, false>>(scene, flip, particles);
+        return std::make_unique<TransfersOf<D, Shape, true>>(flip, particles);
+    return std::make_unique<TransfersOf<D, Shape, false>>(flip, particles);
 }
 
 template <int D>
 std::unique_ptr<Transfers<D>> make_transfers(const Scene& scene, const FlipShare& flip,
                                              Particles& particles) {
-    switch (scene.shape_function) {
-        case ShapeFunction::linear:
-            return make_with<D, LinearShape>(scene, flip, particles);
-        case ShapeFunction::quadratic:
-            return make_with<D, QuadraticShape>(scene, flip, particles);
-        case ShapeFunction::gimp:
-            break;
-    }
-    return std::make_unique<TransfersOf<D, GimpShape, false>>(scene, flip, particles);
+    if (scene.shape_function == ShapeFunction::linear)
+        return make_with<D, LinearShape>(scene, flip, particles);
+    return make_with<D, QuadraticShape>(scene, flip, particles);
 }
 
 }  // namespace mpm

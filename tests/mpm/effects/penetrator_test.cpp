@@ -1,4 +1,3 @@
-#include "boundaries/contact.hpp"
 #include "effects/penetrator/friction_bands.hpp"
 #include "support.hpp"
 
@@ -74,13 +73,6 @@ TEST(FrictionBands, bound_friction_by_the_limit_on_their_area) {
     EXPECT_EQ(bands.most_at(1.5, 0.3), 0.3) << "1 N on it: Coulomb allows less";
 }
 
-TEST(Contact, keeps_a_velocity_out_of_the_surface) {
-    using Velocity = Components<2>;
-    const Velocity up{0, 1};
-    EXPECT_EQ(after_contact<2>(up, {3, -2}), (Velocity{3, 0}));
-    EXPECT_EQ(after_contact<2>(up, {3, 2}), (Velocity{3, 2})) << "it leaves";
-}
-
 /// A block that floats in an open grid with a plate that falls on its upper side.
 Scene struck_block(double mass, double speed) {
     return {.name = "struck",
@@ -135,12 +127,9 @@ double lost_momentum(Scene scene, double mass, double speed) {
 // A wall that cuts body and block in halves takes no momentum along it, whatever reaches beyond it.
 TEST(Penetrator, keeps_momentum_at_a_wall_through_its_axis) {
     constexpr double mass = 2000, speed = 2;
-    for (const ShapeFunction shape :
-         {ShapeFunction::linear, ShapeFunction::quadratic, ShapeFunction::gimp}) {
+    for (const ShapeFunction shape : {ShapeFunction::linear, ShapeFunction::quadratic}) {
         Scene scene = struck_block(mass, speed);
         scene.shape_function = shape;
-        EXPECT_NEAR(lost_momentum(scene, mass, speed), 0, 1e-10);
-        scene.time_integration = TimeIntegration::modified;
         EXPECT_NEAR(lost_momentum(scene, mass, speed), 0, 1e-10);
     }
 }

@@ -92,21 +92,17 @@ TEST(PlasticStrain, is_none_below_the_strength) {
 
 TEST(PlasticWork, is_strength_times_plastic_strain) {
     constexpr double strain = 0.05, strength = 2e3;
-    for (const char* criterion : {"von_mises", "tresca"}) {
-        Strained point(
-            soil_of("von_mises", {{"strength", strength}, {"criterion", std::string(criterion)}}));
-        shear_to_and_fro(point, strain);
-        const double expected = volume * strength * 3 * (strain - strength / shear_modulus);
-        EXPECT_NEAR(point["plastic_work"], expected, 1e-3 * expected) << criterion;
-    }
+    Strained point(soil_of("von_mises", {{"strength", strength}}));
+    shear_to_and_fro(point, strain);
+    const double expected = volume * strength * 3 * (strain - strength / shear_modulus);
+    EXPECT_NEAR(point["plastic_work"], expected, 1e-3 * expected);
 }
 
 // A fluid without strength that is sheared at one rate: viscosity * rate^2, once its elastic part
 // has caught up.
 TEST(PlasticWork, is_what_viscosity_takes) {
     constexpr double viscosity = 1e3, rate = 0.5, time_step = 1e-3;
-    Strained point(
-        soil_of("herschel_bulkley", {{"yield_stress", 0.0}, {"consistency", viscosity}}));
+    Strained point(soil_of("bingham", {{"viscosity", viscosity}}));
     for (int step = 0; step < 100; ++step) point.shear(rate, time_step);
     const double before = point["plastic_work"];
     for (int step = 0; step < 100; ++step) point.shear(rate, time_step);
@@ -130,11 +126,9 @@ TEST(PlasticWork, and_stored_energy_are_the_work_of_stress) {
 }
 
 TEST(PlasticWork, is_none_in_what_is_elastic) {
-    for (const char* model : {"elastic", "neo_hookean"}) {
-        Strained point(soil_of(model, {}));
-        shear_to_and_fro(point, 0.05);
-        EXPECT_EQ(point["plastic_work"], 0) << model;
-    }
+    Strained point(soil_of("elastic", {}));
+    shear_to_and_fro(point, 0.05);
+    EXPECT_EQ(point["plastic_work"], 0);
 }
 
 // The same stress, to the bit, and a column only where the scene asks for it.

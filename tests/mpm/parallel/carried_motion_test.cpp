@@ -42,7 +42,7 @@ void expect_carried(const std::vector<NodeRange<3>>& before,
     visit_nodes<3>(from.nodes,
                    [&](const auto& node) { from.motion[from.index(node)] = motion_of(node); });
     for (NodeMotion<3>& motion : to.motion) motion.velocity[0] = -1;
-    carry_motion<3>(before, after, from, to, MPI_COMM_WORLD);
+    carry_motion<3>(before, after, from.motion, to, MPI_COMM_WORLD);
     visit_nodes<3>(to.nodes, [&](const std::array<int, 3>& node) {
         const NodeMotion<3>&found = to.motion[to.index(node)], expected = motion_of(node);
         EXPECT_EQ(found.velocity, expected.velocity);
@@ -68,7 +68,7 @@ TEST(CarriedMotion, is_rest_where_no_rank_had_the_node) {
     const std::vector<NodeRange<3>> after = slab_patches(0, false, 2);
     GridPatch<3> from = patch_of(nowhere), to = patch_of(after);
     for (NodeMotion<3>& motion : to.motion) motion = motion_of({1, 2, 3});
-    carry_motion<3>(nowhere, after, from, to, MPI_COMM_WORLD);
+    carry_motion<3>(nowhere, after, from.motion, to, MPI_COMM_WORLD);
     for (const NodeMotion<3>& motion : to.motion) {
         EXPECT_EQ(motion.velocity, Components<3>{});
         EXPECT_EQ(motion.strain_velocity, Components<3>{});

@@ -73,7 +73,6 @@ TEST(Decomposition, does_not_show_whatever_the_dimension_shape_and_transfer) {
         expect_serial(falling_cube(dimension, ShapeFunction::linear, Transfer::apic));
         expect_serial(falling_cube(dimension, ShapeFunction::quadratic, Transfer::flip));
         expect_serial(falling_cube(dimension, ShapeFunction::quadratic, Transfer::apic));
-        expect_serial(falling_cube(dimension, ShapeFunction::gimp, Transfer::flip));
     }
 }
 

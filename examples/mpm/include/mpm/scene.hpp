@@ -45,13 +45,6 @@ struct Material {
     Parameters parameters;
 };
 
-/// Motion of a wall or plane: its speed at some times, with straight lines between them.
-struct Motion {
-    Vector direction{};               ///< of any length
-    std::vector<double> times = {};   ///< s, ascending
-    std::vector<double> speeds = {};  ///< along the direction, m/s; none: it rests
-};
-
 /// A side of the domain.
 struct Wall {
     enum Kind {
@@ -64,8 +57,7 @@ struct Wall {
     Wall(Kind the_kind = open, double the_friction = 0) : kind(the_kind), friction(the_friction) {}
 
     Kind kind;
-    double friction;     ///< coefficient of a frictional wall
-    Motion motion = {};  ///< along itself, of one that is fixed or has friction
+    double friction;  ///< coefficient of a frictional wall
 };
 
 struct Walls {
@@ -74,19 +66,19 @@ struct Walls {
     Wall back = {}, front = {};  ///< across z
 };
 
-/// A plane through the domain, with solid ground behind it.
+/// A plane through the domain, with solid ground behind it, that pushes and rubs points.
 struct Plane {
     std::string name;
-    Vector point{};   ///< on the plane, m
-    Vector normal{};  ///< out of the ground, of any length
-    Wall wall = {};   ///< its hold on nodes behind it, with friction on points; not open
+    Vector point{};       ///< on the plane, m
+    Vector normal{};      ///< out of the ground, of any length
+    double friction = 0;  ///< Coulomb's coefficient
 };
 
 /// An effect, with its parameters; see effect.hpp.
 struct Effect {
     std::string name;  ///< of its kind, where that is not given
     Parameters parameters;
-    std::string kind = {};  ///< a scene may have several tractions and moving planes
+    std::string kind = {};  ///< a scene may have several tractions
 };
 
 /// The point nearest to a position at the start, whose motion, stress and strain are recorded.
@@ -96,19 +88,13 @@ struct Probe {
 };
 
 enum class ShapeFunction {
-    linear,     ///< 2 nodes along an axis
-    quadratic,  ///< B-spline, 3 nodes
-    gimp        ///< linear, averaged over the box of a point (uGIMP), 3 nodes
+    linear,    ///< 2 nodes along an axis
+    quadratic  ///< B-spline, 3 nodes
 };
 
 enum class Transfer {
     flip,  ///< points carry their velocity, see flip_fraction
     apic   ///< points carry an affine velocity field: its mean as with flip, its slope of the grid
-};
-
-enum class TimeIntegration {
-    update_stress_last,  ///< nodes strain the points with the velocities the step ends with
-    modified             ///< with those of the points at its end, mapped to the nodes once more
 };
 
 /// A scene in SI units.
@@ -129,12 +115,9 @@ struct Scene {
     ShapeFunction shape_function = ShapeFunction::linear;
     Transfer transfer = Transfer::flip;
     /// Share of the velocity that the points carry (FLIP) through a quarter of the time in which a
-    /// wave crosses a cell; over a step, the power of it that is a step's share of that time. They
-    /// read the rest back from the grid (PIC), which filters out all that the grid cannot
-    /// represent. One per cent of PIC calms cell-crossing noise within 25 such crossings. It leaves
-    /// waves longer than a few cells alone. With 0 all is read back, at every step.
-    double flip_fraction = 0.99;
-    TimeIntegration time_integration = TimeIntegration::update_stress_last;
+    /// wave crosses a cell. They read the rest back from the grid (PIC), which is a viscosity:
+    /// pic_viscosity(). With 0 all is read back, at every step.
+    double flip_fraction = 1;
     double courant_number = 0.5;  ///< time step * (wave speed + point speed) / grid spacing
     /// Share of a full node's mass below which a node's acceleration strains points less
     /// (move_nodes). 0: the least at which the time step is stable, and at least 0.01; none with
@@ -142,11 +125,6 @@ struct Scene {
     double least_node_mass = 0;
     double end_time = 0;  ///< s
 };
-
-/// Whether velocities are mapped back to the nodes before they strain the points.
-inline bool remaps_velocities(const Scene& scene) {
-    return scene.time_integration == TimeIntegration::modified;
-}
 
 /// Checks a scene. Throws std::invalid_argument that names its fault.
 void validate(const Scene& scene);

@@ -112,6 +112,7 @@ Crossing crossing_in(const Subset& subset, const Profile::Range& range, double t
 Crossing find_crossing(const Subset& subset, const Profile::Range& range, double target) {
     Crossing crossing = crossing_in(subset, range, target);
     std::vector<double> breakpoints;
+    breakpoints.reserve(2 * crossing.active.size());
     for (const Interval& interval : crossing.active) {
         breakpoints.push_back(interval.lower);
         if (!interval.is_jump()) breakpoints.push_back(interval.upper);

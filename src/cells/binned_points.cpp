@@ -91,6 +91,10 @@ class Binner {
             to.insert(to.end(), values.begin(), values.end());
         };
         const auto& totals = sums_.totals();
+        if constexpr (Weighted) binned_.weights.reserve(totals.size());
+        for (auto* sums : {&binned_.first_moments, &binned_.second_moments, &binned_.origins})
+            sums->reserve(dimension * totals.size());
+        binned_.counts.reserve(totals.size());
         for (std::size_t cell = 0; cell < totals.size(); ++cell) {
             if constexpr (Weighted) binned_.weights.push_back(totals[cell].weight.sum);
             append(binned_.first_moments, totals[cell].first);

@@ -2,14 +2,37 @@
 
 #include "cells/cell_finder.hpp"
 
+#include <rrcb/cuts.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
 namespace rrcb {
 
 namespace {
+
+/// Calls visit(i, cell) for the points in cells that are marked by 1, as visit_cells().
+template <class Layout, class Visit>
+void visit_marked_cells(const CellFinder& mesh, const Layout& x, LocalIndex count,
+                        const std::uint8_t* marks, const Visit& visit) {
+    constexpr LocalIndex block_length = 256;
+    std::array<std::int32_t, block_length> cells;
+    std::array<std::uint32_t, block_length> marked;
+    in_ranges(count, block_length, [&](LocalIndex first, LocalIndex last) {
+        find_cells(mesh, x, first, last - first, cells.data());
+        std::size_t num_marked = 0;
+        // Without branches, as the points come in any order.
+        for (std::uint32_t k = 0; k < last - first; ++k) {
+            marked[num_marked] = k;
+            num_marked += marks[cells[k]];
+        }
+        for (const std::uint32_t k : std::span(marked).first(num_marked))
+            visit(first + k, static_cast<std::size_t>(cells[k]));
+    });
+}
 
 template <bool Weighted, class Layout>
 void scatter(const Layout& points, const BinnedPoints& binned, SortedPoints& sorted) {
@@ -27,7 +50,29 @@ void scatter(const Layout& points, const BinnedPoints& binned, SortedPoints& sor
         original[place] = i;
         if constexpr (Weighted) weights[place] = weights_before[i];
     };
-    visit_cells(CellFinder(binned.mesh), points, 0, binned.points.count, add);
+    const CellFinder finder(binned.mesh);
+    if (sorted.is_sorted.empty()) return visit_cells(finder, points, 0, binned.points.count, add);
+    visit_marked_cells(finder, points, binned.points.count, sorted.is_sorted.data(), add);
+}
+
+void scatter(const BinnedPoints& binned, SortedPoints& sorted) {
+    visit_layout(binned.points, [&](const auto& x) {
+        if (binned.points.weights.empty()) return scatter<false>(x, binned, sorted);
+        scatter<true>(x, binned, sorted);
+    });
+}
+
+/// Weights of the cells if not all are sorted, added up in the order of sorted ones.
+std::vector<double> weigh_cells(const BinnedPoints& binned) {
+    const Points& points = binned.points;
+    std::vector<double> sums(points.weights.empty() ? 0 : binned.counts.size());
+    if (sums.empty()) return sums;
+    visit_layout(points, [&](const auto& x) {
+        visit_cells(CellFinder(binned.mesh), x, 0, points.count,
+                    [to = sums.data(), weights = points.weights.data()](
+                        LocalIndex i, std::size_t cell) { to[cell] += weights[i]; });
+    });
+    return sums;
 }
 
 /// Without a copy of the entries if it grows.
@@ -39,7 +84,8 @@ void resize(Uninitialized<Value>& values, std::size_t size) {
 
 }  // namespace
 
-SortedPoints sort_by_cell(const BinnedPoints& binned, SortedPoints memory) {
+SortedPoints sort_by_cell(const BinnedPoints& binned, SortedPoints memory,
+                          std::vector<std::uint8_t> is_sorted) {
     const Points& points = binned.points;
     SortedPoints sorted = std::move(memory);
     sorted.mesh = binned.mesh;
@@ -48,11 +94,33 @@ SortedPoints sort_by_cell(const BinnedPoints& binned, SortedPoints memory) {
     resize(sorted.coordinates, points.count * static_cast<std::size_t>(points.dimension));
     resize(sorted.weights, points.weights.size());
     resize(sorted.original, points.count);
-    visit_layout(points, [&](const auto& x) {
-        if (points.weights.empty()) return scatter<false>(x, binned, sorted);
-        scatter<true>(x, binned, sorted);
-    });
+    sorted.is_sorted = std::move(is_sorted);
+    sorted.binned = sorted.is_sorted.empty() ? nullptr : &binned;
+    sorted.cell_weights.clear();
+    if (sorted.binned != nullptr) sorted.cell_weights = weigh_cells(binned);
+    scatter(binned, sorted);
     return sorted;
+}
+
+void sort_rest(SortedPoints& points) {
+    for (std::uint8_t& mark : points.is_sorted) mark = 1 - mark;
+    scatter(*points.binned, points);
+    points.is_sorted.clear();
+}
+
+void write_parts_of_cells(const BinnedPoints& binned, std::span<const Part> parts_of_cells,
+                          std::span<Part> parts) {
+    static_assert(no_part == -1);
+    visit_layout(binned.points, [&](const auto& x) {
+        visit_cells(
+            CellFinder(binned.mesh), x, 0, binned.points.count,
+            [from = parts_of_cells.data(), to = parts.data()](LocalIndex i, std::size_t cell) {
+                // Without a branch, as the points come in any order: all bits of no_part are 1.
+                const Part part = from[cell];
+                const Part keeps = part >> std::numeric_limits<Part>::digits;
+                to[i] = part ^ ((part ^ to[i]) & keeps);
+            });
+    });
 }
 
 Box enclosing_box(const SupportMesh& mesh, LocalIndex cell) {

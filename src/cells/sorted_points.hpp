@@ -3,6 +3,8 @@
 #include "cells/binned_points.hpp"
 #include "cells/uninitialized.hpp"
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace rrcb {
@@ -10,14 +12,18 @@ namespace rrcb {
 /// Copy of one rank's points in the order of the cells of its support mesh.
 ///
 /// Points of one cell keep the order they came in. Cell c holds the entries begins[c] up to, not
-/// including, begins[c + 1].
+/// including, begins[c + 1]. Those of cells that are left out are not written.
 struct SortedPoints {
     SupportMesh mesh;
-    Uninitialized<double> coordinates;   ///< interleaved
-    Uninitialized<double> weights;       ///< empty when every point weighs 1
-    Uninitialized<LocalIndex> original;  ///< index each entry had before
-    std::vector<LocalIndex> begins;      ///< length num_cells + 1
+    Uninitialized<double> coordinates;     ///< interleaved
+    Uninitialized<double> weights;         ///< empty when every point weighs 1
+    Uninitialized<LocalIndex> original;    ///< index each entry had before
+    std::vector<LocalIndex> begins;        ///< length num_cells + 1
+    std::vector<std::uint8_t> is_sorted;   ///< 1 for each cell that is; empty: none is left out
+    const BinnedPoints* binned = nullptr;  ///< borrowed if cells are or were left out
+    std::vector<double> cell_weights;      ///< likewise; empty when every point weighs 1
 
+    bool is_left_out(LocalIndex cell) const { return !is_sorted.empty() && is_sorted[cell] == 0; }
     int dimension() const { return mesh.dimension; }
     LocalIndex count() const { return original.size(); }
     double weight(LocalIndex i) const { return weights.empty() ? 1.0 : weights[i]; }
@@ -32,8 +38,17 @@ struct SortedPoints {
     }
 };
 
-/// Copy of binned points, sorted in one pass, in the memory of other ones. Not collective.
-SortedPoints sort_by_cell(const BinnedPoints& binned, SortedPoints memory = {});
+/// Copy of binned points, sorted in one pass, in the memory of other ones. Leaves cells out for
+/// which `is_sorted` is 0, unless it is empty; then `binned` is borrowed. Not collective.
+SortedPoints sort_by_cell(const BinnedPoints& binned, SortedPoints memory = {},
+                          std::vector<std::uint8_t> is_sorted = {});
+
+/// Sorts the points of the cells that were left out. Throws std::bad_alloc.
+void sort_rest(SortedPoints& points);
+
+/// Writes the part of each point of a cell that has one in `parts_of_cells`, else no_part.
+void write_parts_of_cells(const BinnedPoints& binned, std::span<const Part> parts_of_cells,
+                          std::span<Part> parts);
 
 /// Box that holds the points sorted into a cell: the cell with a margin for the round-off of
 /// finding it. Not collective.

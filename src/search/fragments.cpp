@@ -101,14 +101,44 @@ double weight_of(const std::vector<Fragment>& fragments) {
     return weight;
 }
 
+std::vector<std::uint8_t> cells_in_brackets(const BinnedPoints& binned, const Cuts& cuts,
+                                            std::span<const Bracket> brackets) {
+    // Of the points. With 0.48 of them in reach an exact call takes 0.93 times as long as if all
+    // are sorted, with 0.17 of a million 0.65 times, with 0.82 1.11 times.
+    constexpr double most = 0.5;
+    std::vector<std::uint8_t> cells(binned.counts.size());
+    LocalIndex num_points = 0;
+    for (LocalIndex cell = 0; cell < cells.size(); ++cell) {
+        if (binned.counts[cell] == 0) continue;
+        const Box box = enclosing_box(binned.mesh, cell);
+        for (Descent at = root_of(cuts); !at.is_part() && cells[cell] == 0;) {
+            const auto axis = static_cast<std::size_t>(cuts.tree[at.node].axis);
+            const bool is_below = box.upper[axis] < brackets[at.node].lower;
+            const bool is_above = box.lower[axis] > brackets[at.node].upper;
+            if (!is_below && !is_above) cells[cell] = 1;
+            at = is_above ? at.upper() : at.lower();
+        }
+        num_points += cells[cell] * binned.counts[cell];
+    }
+    const double share = static_cast<double>(num_points);
+    if (share > most * static_cast<double>(binned.points.count)) cells.clear();
+    return cells;
+}
+
 std::vector<Fragment> cell_fragments(const SortedPoints& points) {
     std::vector<Fragment> fragments;
+    fragments.reserve(points.begins.size());
     for (LocalIndex cell = 0; cell + 1 < points.begins.size(); ++cell) {
         const LocalIndex begin = points.begins[cell];
         const LocalIndex end = points.begins[cell + 1];
         if (begin == end) continue;
-        fragments.push_back(
-            {begin, end, weight_of(points, begin, end), enclosing_box(points.mesh, cell)});
+        Fragment& fragment =
+            fragments.emplace_back(Fragment{begin, end, 0, enclosing_box(points.mesh, cell)});
+        const bool is_left_out = points.is_left_out(cell);
+        if (is_left_out) fragment.cell_left_out = static_cast<std::int32_t>(cell);
+        fragment.weight = is_left_out && !points.cell_weights.empty() ? points.cell_weights[cell]
+                          : is_left_out ? static_cast<double>(end - begin)
+                                        : weight_of(points, begin, end);
     }
     return fragments;
 }
@@ -128,6 +158,8 @@ std::pair<std::vector<Fragment>, std::vector<Fragment>> split(
     const std::vector<Fragment>& fragments, const Cut& cut, const Lot& lot, SortedPoints& points) {
     std::vector<Fragment> lower;
     std::vector<Fragment> upper;
+    lower.reserve(fragments.size());
+    upper.reserve(fragments.size());
     const int axis = cut.axis;
     Divider divider(cut, lot, points);
     for (const Fragment& fragment : fragments) {
@@ -173,11 +205,15 @@ void write_parts(const std::vector<Fragment>& fragments, const Cuts& cuts, const
 }
 
 double write_part(const std::vector<Fragment>& fragments, Part part, const SortedPoints& points,
-                  std::span<Part> parts) {
+                  std::span<Part> parts, std::span<Part> parts_of_cells) {
     double weight = 0;
     for (const Fragment& fragment : fragments) {
-        for (LocalIndex i = fragment.begin; i < fragment.end; ++i) parts[points.original[i]] = part;
         weight += fragment.weight;
+        if (is_left_out(fragment, points)) {
+            parts_of_cells[fragment.cell_left_out] = part;
+            continue;
+        }
+        for (LocalIndex i = fragment.begin; i < fragment.end; ++i) parts[points.original[i]] = part;
     }
     return weight;
 }

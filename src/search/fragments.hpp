@@ -4,7 +4,10 @@
 #include "cuts/tree.hpp"
 
 #include <rrcb/cuts.hpp>
+#include <rrcb/method/bisection.hpp>
 
+#include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -16,11 +19,23 @@ struct Fragment {
     LocalIndex begin = 0;
     LocalIndex end = 0;
     double weight = 0;
-    Box box;  ///< encloses the entries
+    Box box;                            ///< encloses the entries
+    std::int32_t cell_left_out = none;  ///< whose entries may not be sorted yet
+
+    static constexpr std::int32_t none = -1;
 };
+
+/// Marks by 1 the cells that a bracket of these cuts reaches, whose points a search for cuts in
+/// the brackets needs. Empty if these are so many points that to sort all is faster.
+std::vector<std::uint8_t> cells_in_brackets(const BinnedPoints& binned, const Cuts& cuts,
+                                            std::span<const Bracket> brackets);
 
 /// A fragment for every cell that holds points.
 std::vector<Fragment> cell_fragments(const SortedPoints& points);
+
+inline bool is_left_out(const Fragment& fragment, const SortedPoints& points) {
+    return fragment.cell_left_out != Fragment::none && points.is_left_out(fragment.cell_left_out);
+}
 
 /// Lot of the points exactly at a cut, which no cut tells apart. They form one row over all ranks,
 /// of which the first go below the cut.
@@ -52,8 +67,9 @@ std::pair<std::vector<Fragment>, std::vector<Fragment>> split_by_parts(
 void write_parts(const std::vector<Fragment>& fragments, const Cuts& cuts, const Descent& at,
                  const SortedPoints& points, std::span<Part> parts, std::span<double> weights);
 
-/// Sets the part of every point of the fragments, by its original index; returns their weight.
+/// Sets the part of every point of the fragments, by its original index, or that of their cell if
+/// it is left out; returns their weight.
 double write_part(const std::vector<Fragment>& fragments, Part part, const SortedPoints& points,
-                  std::span<Part> parts);
+                  std::span<Part> parts, std::span<Part> parts_of_cells = {});
 
 }  // namespace rrcb

@@ -1,14 +1,18 @@
 #include "search/local_search.hpp"
 
+#include "cells/running_sums.hpp"
 #include "search/sample.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace rrcb {
 
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The entries of a histogram, to add to.
 class Tally {
@@ -42,6 +46,28 @@ class Tally {
     std::size_t dimension_;
 };
 
+/// Calls visit(i) for the entries of a fragment from `lower` to below `upper` across an axis;
+/// returns how many lie below. Without branches on coordinates, as these come in any order.
+template <class Visit>
+LocalIndex visit_between(double lower, double upper, int axis, const Fragment& fragment,
+                         const SortedPoints& points, Visit&& visit) {
+    std::array<LocalIndex, 256> inside;
+    const auto stride = static_cast<LocalIndex>(points.dimension());
+    const double* const x = points.coordinates.data() + axis;
+    LocalIndex num_below = 0;
+    in_ranges(fragment.end - fragment.begin, inside.size(), [&](LocalIndex first, LocalIndex last) {
+        std::size_t num_inside = 0;
+        for (LocalIndex i = fragment.begin + first; i < fragment.begin + last; ++i) {
+            const double value = x[i * stride];
+            inside[num_inside] = i;
+            num_inside += (value >= lower ? 1 : 0) & (value < upper ? 1 : 0);
+            num_below += value < lower ? 1 : 0;
+        }
+        for (const LocalIndex i : std::span(inside).first(num_inside)) visit(i);
+    });
+    return num_below;
+}
+
 }  // namespace
 
 void LocalSearch::count(const CutSearch& search, const HistogramLayout& layout,
@@ -71,6 +97,7 @@ void LocalSearch::count_fragments(const CutSearch& search, const HistogramLayout
     const int axis = current_axis(search);
     const int d = points_.dimension();
     const Bins bins = bins_of(search, layout);
+    const int last_slot = layout.num_bins + 1;
     for (const Fragment& fragment : fragments_) {
         tally.widen(fragment.box.lower, fragment.box.upper);
         const std::int32_t first = bins.slot_of(fragment.box.lower[axis]);
@@ -79,8 +106,23 @@ void LocalSearch::count_fragments(const CutSearch& search, const HistogramLayout
             tally.add(first, fragment.weight, static_cast<double>(fragment.end - fragment.begin));
             continue;
         }
-        for (LocalIndex i = fragment.begin; i < fragment.end; ++i)
+        const auto add = [&](LocalIndex i) {
             tally.add(bins.slot_of(points_.coordinates[i * d + axis]), points_.weight(i), 1);
+        };
+        if (!points_.weights.empty()) {
+            for (LocalIndex i = fragment.begin; i < fragment.end; ++i) add(i);
+            continue;
+        }
+        LocalIndex num_inside = 0;
+        const LocalIndex num_below =
+            visit_between(search.lower, search.upper, axis, fragment, points_, [&](LocalIndex i) {
+                add(i);
+                ++num_inside;
+            });
+        const auto below = static_cast<double>(num_below);
+        const auto count = static_cast<double>(fragment.end - fragment.begin - num_inside);
+        tally.add(0, below, below);
+        tally.add(last_slot, count - below, count - below);
     }
 }
 
@@ -101,6 +143,7 @@ void LocalSearch::keep_chosen(const CutSearch& before, const CutSearch& after,
         return;
     }
     const Bins bins = bins_of(before, layout);
+    const int last_slot = layout.num_bins + 1;
     const int axis = current_axis(before);
     const int d = points_.dimension();
     const auto is_chosen = [&](LocalIndex i) {
@@ -111,11 +154,13 @@ void LocalSearch::keep_chosen(const CutSearch& before, const CutSearch& after,
             std::erase_if(candidates_, [&](LocalIndex i) { return !is_chosen(i); });
         return;
     }
+    const double lower = after.chosen == 0 ? -infinity : bins.edge(after.chosen - 1);
+    const double upper = after.chosen == last_slot ? infinity : bins.edge(after.chosen);
     for (const Fragment& fragment : fragments_) {
         if (bins.slot_of(fragment.box.lower[axis]) > after.chosen) continue;
         if (bins.slot_of(fragment.box.upper[axis]) < after.chosen) continue;
-        for (LocalIndex i = fragment.begin; i < fragment.end; ++i)
-            if (is_chosen(i)) candidates_.push_back(i);
+        visit_between(lower, upper, axis, fragment, points_,
+                      [&](LocalIndex i) { candidates_.push_back(i); });
     }
 }
 

@@ -114,11 +114,17 @@ void Refinement::search_once(const Bin& bin, std::span<Part> parts, Participant&
                       is_counted};
     std::optional<TreeSearch> search;
     self.attempt([&] {
-        search.emplace(tree_, rounds_.rank(), guide, sort_by_cell(bin(), std::move(memory_.sorted)),
-                       parts);
+        const BinnedPoints& binned = bin();
+        // A search to a tolerance goes on beyond the brackets.
+        std::vector<std::uint8_t> cells;
+        if (tree_.rule.is_exact && !limits_)
+            cells = cells_in_brackets(binned, estimate_.cuts, estimate_.brackets);
+        search.emplace(tree_, rounds_.rank(), guide,
+                       sort_by_cell(binned, std::move(memory_.sorted), std::move(cells)), parts);
     });
     refined_.rounds += rounds_.run(search, self);
     refined_.coincident_cuts += search->num_coincident();
+    search->write_rest();
     memory_.sorted = search->take_points();
     measure(self);
 }

@@ -118,7 +118,13 @@ void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<con
     }
     const bool is_done = next.stage == CutSearch::done;
     if (is_done && !(next.lot_below > 0)) return end_at_cut(std::move(node), {});
-    if (is_done) node.question = Question::lot;
+    const int axis = next.cut.axis;
+    if (is_done) {
+        node.question = Question::lot;
+        sort_between(next.cut.at[axis], next.cut.at[axis], axis, node.content);
+    } else if (before.stage == CutSearch::over_fragments) {
+        sort_between(next.lower, next.upper, axis, node.content);
+    }
     if (before.stage == CutSearch::sampling)
         node.local.take_splitters(
             splitters_of(positions_in(more, dimension_), order_of(next), layout_));

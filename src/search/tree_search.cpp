@@ -77,6 +77,7 @@ TreeSearch::TreeSearch(const PartTree& tree, int rank, const Guide& guide, Sorte
       all_sizes_(sum_of_sizes(tree)),
       layout_{.limits = tree.limits},
       points_(std::move(points)),
+      parts_of_cells_(points_.is_sorted.size(), no_part),
       parts_(parts) {
     Content content{cell_fragments(points_), Box{}, tree.weight};
     if (guide.limits) content.box = guide.limits->region();
@@ -164,7 +165,11 @@ void TreeSearch::add_node(const Descent& at, Content&& content, Question questio
     const LocalSearch local(content.fragments, points_);
     Node& node = nodes_.emplace_back(Node{at, std::move(content), question, {}, local});
     if (question != Question::cut) return;
-    if (is_central()) return start_from_guide(node);
+    if (is_central()) {
+        start_from_guide(node);
+        return sort_between(node.search.lower, node.search.upper, node.search.cut.axis,
+                            node.content);
+    }
     node.search = first_search(at, node.content.box, node.content.weight);
 }
 
@@ -172,6 +177,7 @@ void TreeSearch::add_node(const Descent& at, Content&& content, Question questio
 void TreeSearch::divide(const Descent& at, const Content& content, const Cut& cut, const Lot& lot,
                         double below) {
     note(at.node, cut);
+    sort_between(cut.at[cut.axis], cut.at[cut.axis], cut.axis, content);
     auto [lower, upper] = is_central() ? split(content.fragments, cut, lot, points_)
                                        : split_tightly(content.fragments, cut, lot);
     // A side of a divided lot may weigh up to a point more or less than asked for. The next count
@@ -198,6 +204,20 @@ void TreeSearch::note(std::size_t node, const Cut& cut) {
     } else {
         known_.push_back({node, cut});
     }
+}
+
+/// Sorts all points once those of a cell are needed that was left out: between the ends of a search
+/// or at a cut.
+void TreeSearch::sort_between(double lower, double upper, int axis, const Content& content) {
+    const auto is_needed = [&](const Fragment& fragment) {
+        return is_left_out(fragment, points_) && fragment.box.upper[axis] >= lower &&
+               fragment.box.lower[axis] <= upper;
+    };
+    if (std::ranges::any_of(content.fragments, is_needed)) sort_rest(points_);
+}
+
+void TreeSearch::write_rest() {
+    if (!parts_of_cells_.empty()) write_parts_of_cells(*points_.binned, parts_of_cells_, parts_);
 }
 
 /// Splits fragments whose boxes touch their entries; so do those of the halves.
@@ -239,7 +259,8 @@ void TreeSearch::end_at_cut(Node&& node, const LotAnswer& told) {
 }
 
 void TreeSearch::end_at_part(const Descent& at, const Content& content) {
-    const double weight = write_part(content.fragments, at.first_part, points_, parts_);
+    const double weight =
+        write_part(content.fragments, at.first_part, points_, parts_, parts_of_cells_);
     if (is_central()) {
         guide_->sums.here()[at.first_part] = weight;
     } else if (owner_of(at) == rank_) {

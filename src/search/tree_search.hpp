@@ -86,8 +86,8 @@ class TreeSearch {
     TreeSearch(const PartTree& tree, int rank, const Regions& regions, SortedPoints&& points,
                std::span<Part> parts);
 
-    /// Starts a central search; `tree` has part sizes. All is borrowed but the points. Throws
-    /// std::bad_alloc.
+    /// Starts a central search; `tree` has part sizes. All is borrowed but the points, of which
+    /// cells that no bracket reaches may be left out if cuts are exact. Throws std::bad_alloc.
     TreeSearch(const PartTree& tree, int rank, const Guide& guide, SortedPoints&& points,
                std::span<Part> parts);
     TreeSearch(const TreeSearch&) = delete;
@@ -119,6 +119,10 @@ class TreeSearch {
     /// Cuts with points in one place that the target divides: of a central search all, of a spread
     /// one those that this rank owns.
     int num_coincident() const { return num_coincident_; }
+
+    /// Writes the parts of the points in cells that the search has left out. To be called when it
+    /// is over.
+    void write_rest();
 
     /// The points, for another search; this one is over. They are in the order of their cells.
     SortedPoints take_points() { return std::move(points_); }
@@ -199,6 +203,7 @@ class TreeSearch {
     void divide(const Descent& at, const Content& content, const Cut& cut, const Lot& lot,
                 double below);
     void note(std::size_t node, const Cut& cut);
+    void sort_between(double lower, double upper, int axis, const Content& content);
     Halves split_tightly(const std::vector<Fragment>& fragments, const Cut& cut, const Lot& lot);
     Halves split_by_parts(const std::vector<Fragment>& fragments, Part first_above);
     void end_at_cut(Node&& node, const LotAnswer& told);
@@ -230,6 +235,7 @@ class TreeSearch {
     std::vector<double> ones_;  ///< sizes of the parts of a region, see sizes_of()
     HistogramLayout layout_;
     SortedPoints points_;
+    std::vector<Part> parts_of_cells_;  ///< if cells are left out; no_part: points have their own
     std::span<Part> parts_;
     std::vector<Node> nodes_;  ///< ascending
     std::vector<KnownCut> known_;

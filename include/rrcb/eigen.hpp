@@ -10,14 +10,14 @@ namespace rrcb {
 
 /// Returns a view of a column-major matrix with one point per column as points. Not collective.
 ///
-/// `coordinates` has `dimension` (1 to 3) rows, contiguous columns and must outlive the view;
+/// `coordinates` has `dimension` (1 to 3) rows of doubles or floats and must outlive the view;
 /// `weights` is empty or holds one entry per column.
-template <int Rows>
-Points eigen_points(const Eigen::Matrix<double, Rows, Eigen::Dynamic>& coordinates,
+template <class Scalar, int Rows>
+Points eigen_points(const Eigen::Matrix<Scalar, Rows, Eigen::Dynamic>& coordinates,
                     std::span<const double> weights = {}) {
     const auto size = static_cast<std::size_t>(coordinates.size());
-    return interleaved_points({coordinates.data(), size}, static_cast<int>(coordinates.rows()),
-                              weights);
+    return interleaved_points(std::span(coordinates.data(), size),
+                              static_cast<int>(coordinates.rows()), weights);
 }
 
 }  // namespace rrcb

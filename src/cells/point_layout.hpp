@@ -5,25 +5,25 @@
 namespace rrcb {
 
 /// Points one after another, for the loops that touch every point.
-template <int Dimension>
+template <int Dimension, class Scalar>
 struct InterleavedLayout {
     static constexpr int dimension = Dimension;
-    const double* coordinates;
+    const Scalar* coordinates;
 
     double operator()(LocalIndex i, int axis) const { return coordinates[i * Dimension + axis]; }
 };
 
 /// Points in an array per axis.
-template <int Dimension>
+template <int Dimension, class Scalar>
 struct ColumnLayout {
     static constexpr int dimension = Dimension;
-    std::array<const double*, Dimension> axes;
+    std::array<const Scalar*, Dimension> axes;
 
     double operator()(LocalIndex i, int axis) const { return axes[axis][i]; }
 };
 
-/// Points of any stride, such as members of structs, or of floats.
-template <int Dimension, class Scalar = double>
+/// Points of any stride, such as members of structs.
+template <int Dimension, class Scalar>
 struct StridedLayout {
     static constexpr int dimension = Dimension;
     std::array<const Scalar*, Dimension> axes;
@@ -32,26 +32,28 @@ struct StridedLayout {
     double operator()(LocalIndex i, int axis) const { return axes[axis][i * stride]; }
 };
 
-template <int Dimension, class Visit>
-decltype(auto) visit_layout_of(const Points& points, Visit&& visit) {
-    if (points.has_floats()) {
-        StridedLayout<Dimension, float> floats{{}, points.stride};
-        for (std::size_t a = 0; a < Dimension; ++a) floats.axes[a] = points.float_axes[a].data();
-        return visit(floats);
-    }
-    std::array<const double*, Dimension> axes;
-    bool is_interleaved = points.stride == Dimension;
+template <int Dimension, class Scalar, class Visit>
+decltype(auto) visit_layout_of(const std::array<std::span<const Scalar>, max_dimension>& arrays,
+                               std::size_t stride, Visit&& visit) {
+    std::array<const Scalar*, Dimension> axes;
+    bool is_interleaved = stride == Dimension;
     for (std::size_t a = 0; a < Dimension; ++a) {
-        axes[a] = points.axes[a].data();
+        axes[a] = arrays[a].data();
         is_interleaved = is_interleaved && axes[a] == axes[0] + a;
     }
-    if (points.stride == 1) return visit(ColumnLayout<Dimension>{axes});
-    if (is_interleaved) return visit(InterleavedLayout<Dimension>{axes[0]});
-    return visit(StridedLayout<Dimension>{axes, points.stride});
+    if (stride == 1) return visit(ColumnLayout<Dimension, Scalar>{axes});
+    if (is_interleaved) return visit(InterleavedLayout<Dimension, Scalar>{axes[0]});
+    return visit(StridedLayout<Dimension, Scalar>{axes, stride});
 }
 
-/// Calls `visit(layout)` with the layout of `points`: columns, interleaved, or any other stride;
-/// only the last if coordinates are floats.
+template <int Dimension, class Visit>
+decltype(auto) visit_layout_of(const Points& points, Visit&& visit) {
+    if (points.has_floats())
+        return visit_layout_of<Dimension>(points.float_axes, points.stride, visit);
+    return visit_layout_of<Dimension>(points.axes, points.stride, visit);
+}
+
+/// Calls `visit(layout)` with the layout of `points`: columns, interleaved, or any other stride.
 template <class Visit>
 decltype(auto) visit_layout(const Points& points, Visit&& visit) {
     if (points.dimension == 1) return visit_layout_of<1>(points, visit);

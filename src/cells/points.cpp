@@ -12,6 +12,17 @@ namespace {
 /// Values in one register: the order of a minimum is free, but the compiler may not know it.
 constexpr std::size_t width = 4;
 typedef double Row __attribute__((vector_size(width * sizeof(double))));
+typedef float FloatRow __attribute__((vector_size(width * sizeof(float))));
+
+[[gnu::always_inline]] inline void load(const double* values, Row& row) {
+    std::memcpy(&row, values, sizeof row);
+}
+
+[[gnu::always_inline]] inline void load(const float* values, Row& row) {
+    FloatRow floats;
+    std::memcpy(&floats, values, sizeof floats);
+    row = __builtin_convertvector(floats, Row);
+}
 
 // Independent of each other, and of values that are a multiple of every stride, so that each entry
 // keeps to one axis.
@@ -24,9 +35,10 @@ struct Span {
     Row upper = Row{} + Box{}.upper[0];
     Row poison{};  ///< 0 * x is 0 just for finite x
 
-    [[gnu::always_inline]] void widen(const double* values) {
+    template <class Scalar>
+    [[gnu::always_inline]] void widen(const Scalar* values) {
         Row value;
-        std::memcpy(&value, values, sizeof value);
+        load(values, value);
         lower = lower < value ? lower : value;
         upper = upper > value ? upper : value;
         poison += 0 * value;
@@ -34,8 +46,9 @@ struct Span {
 };
 
 /// Takes in whole multiples of num_lanes values; returns how many.
-RRCB_VECTOR_CLONES
-std::size_t widen(std::span<const double> values, std::array<Span, num_rows>& spans) {
+template <class Scalar>
+RRCB_VECTOR_CLONES std::size_t widen(std::span<const Scalar> values,
+                                     std::array<Span, num_rows>& spans) {
     std::array<Span, num_rows> kept = spans;
     std::size_t k = 0;
     for (; k + num_lanes <= values.size(); k += num_lanes)
@@ -45,15 +58,16 @@ std::size_t widen(std::span<const double> values, std::array<Span, num_rows>& sp
 }
 
 /// Smallest and largest of the values, entry k of axis k % stride; NaN in place of infinities.
-Box box_of_values(std::span<const double> values, std::size_t stride) {
+template <class Scalar>
+Box box_of_values(std::span<const Scalar> values, std::size_t stride) {
     std::array<Span, num_rows> spans;
     std::size_t k = widen(values, spans);
     // The last few, and others of their axes in place of those that are missing.
     if (k < values.size()) {
-        std::array<double, num_lanes> rest;
+        std::array<Scalar, num_lanes> rest;
         for (std::size_t lane = 0; lane < num_lanes; ++lane)
             rest[lane] = values[k + lane < values.size() ? k + lane : lane % stride];
-        widen(rest, spans);
+        widen(std::span<const Scalar>(rest), spans);
     }
     Box box;
     for (std::size_t lane = 0; lane < num_lanes; ++lane) {
@@ -85,12 +99,24 @@ Box box_of_strided(const Scalar* values, LocalIndex count, std::size_t stride) {
     return box;
 }
 
-/// Smallest and largest coordinates along an axis, on axis 0.
-Box box_of_axis(const Points& points, int axis) {
-    if (points.has_floats())
-        return box_of_strided(points.float_axes[axis].data(), points.count, points.stride);
-    if (points.stride == 1) return box_of_values(points.axes[axis].first(points.count), 1);
-    return box_of_strided(points.axes[axis].data(), points.count, points.stride);
+/// Box of the points of these axes.
+template <class Scalar>
+Box box_of_axes(const Points& points,
+                const std::array<std::span<const Scalar>, max_dimension>& axes) {
+    const auto values = [&](std::size_t axis, LocalIndex count) {
+        return std::span(axes[axis].data(), count);
+    };
+    if (is_interleaved(points))
+        return box_of_values(values(0, points.count * points.stride), points.stride);
+    Box box;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(points.dimension); ++a) {
+        const Box axis = points.stride == 1
+                             ? box_of_values(values(a, points.count), 1)
+                             : box_of_strided(axes[a].data(), points.count, points.stride);
+        box.lower[a] = axis.lower[0];
+        box.upper[a] = axis.upper[0];
+    }
+    return box;
 }
 
 /// Throws Error when points lie beyond their arrays.
@@ -159,15 +185,8 @@ Points column_points(std::span<const std::span<const float>> columns,
 Box bounding_box(const Points& points) {
     check_reach(points);
     if (points.count == 0) return {};
-    if (is_interleaved(points))
-        return box_of_values({points.axes[0].data(), points.count * points.stride}, points.stride);
-    Box box;
-    for (int a = 0; a < points.dimension; ++a) {
-        const Box axis = box_of_axis(points, a);
-        box.lower[a] = axis.lower[0];
-        box.upper[a] = axis.upper[0];
-    }
-    return box;
+    return points.has_floats() ? box_of_axes(points, points.float_axes)
+                               : box_of_axes(points, points.axes);
 }
 
 }  // namespace rrcb

@@ -270,7 +270,8 @@ void reject_coordinates(const Points& points) {
 }
 
 bool is_interleaved(const Points& points) {
-    return !points.has_floats() && are_interleaved(points, points.axes);
+    return points.has_floats() ? are_interleaved(points, points.float_axes)
+                               : are_interleaved(points, points.axes);
 }
 
 void check_dimension(int dimension, const char* name) {

@@ -32,7 +32,7 @@ void check_arrays(const Points& points);
 /// unusable.
 Box check_points(const Points& points);
 
-/// True when all coordinates are doubles in one array, point after point, without anything else.
+/// True when all coordinates lie in one array, point after point, without anything else.
 bool is_interleaved(const Points& points);
 
 /// Throws Error that names what has another number of axes than 1, 2 or 3.

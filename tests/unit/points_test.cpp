@@ -39,6 +39,8 @@ TEST(Points, eigen_matrices_are_viewed_in_place) {
     EXPECT_EQ(points.count, 2u);
     EXPECT_EQ(points.position(1), (Vector{2, 4, 6}));
     EXPECT_EQ(points.axes[0].data(), matrix.data());
+    const Eigen::Matrix<float, 3, Eigen::Dynamic> floats = matrix.cast<float>();
+    EXPECT_EQ(eigen_points(floats).position(1), (Vector{2, 4, 6}));
 }
 
 TEST(Points, bounding_box_takes_every_point_in_for_any_count) {

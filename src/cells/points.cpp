@@ -1,4 +1,5 @@
 #include "cells/vector_clones.hpp"
+#include "collective/non_stop.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 
@@ -183,6 +184,7 @@ Points column_points(std::span<const std::span<const float>> columns,
 }
 
 Box bounding_box(const Points& points) {
+    const NonStop arithmetic;
     check_reach(points);
     if (points.count == 0) return {};
     return points.has_floats() ? box_of_axes(points, points.float_axes)

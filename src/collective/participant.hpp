@@ -2,6 +2,7 @@
 
 #include "collective/communicator.hpp"
 #include "collective/failure.hpp"
+#include "collective/non_stop.hpp"
 
 #include <mpi.h>
 
@@ -24,6 +25,7 @@ struct Participant {
     MPI_Comm comm;
     Failure failure{};            ///< first one on this rank
     int failing_there = no_rank;  ///< rank of whose failure a message told
+    NonStop arithmetic{};
 
     bool failed() const { return failure.failed; }
     bool can_go_on() const { return !failed() && failing_there == no_rank; }

@@ -1,6 +1,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "collective/non_stop.hpp"
 #include "controller/controller_state_mpi.hpp"
 
 #include <rrcb/error.hpp>
@@ -162,12 +163,14 @@ Controller::Controller(Controller&&) noexcept = default;
 Controller& Controller::operator=(Controller&&) noexcept = default;
 
 bool Controller::step(double load) {
+    const NonStop arithmetic;
     state_->finish();
     state_->start({load, load});
     return state_->is_due;
 }
 
 bool Controller::step(double load, double points) {
+    const NonStop arithmetic;
     state_->finish();
     const bool is_legal = is_amount(load) && is_amount(points);
     state_->start({load, is_legal ? state_->point_cost.smoothed(load, points) : -1});

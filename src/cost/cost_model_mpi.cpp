@@ -1,4 +1,5 @@
 #include "collective/agreement_mpi.hpp"
+#include "collective/non_stop.hpp"
 #include "controller/controller_state_mpi.hpp"
 #include "cost/cost_rule.hpp"
 
@@ -64,6 +65,7 @@ CostModel::CostModel(CostModel&&) noexcept = default;
 CostModel& CostModel::operator=(CostModel&&) noexcept = default;
 
 void CostModel::step(double seconds, std::span<const double> columns) {
+    const NonStop arithmetic;
     auto& [reducer, rule, own] = *state_;
     reducer.finish();
     if (reducer.has_started()) {
@@ -89,6 +91,7 @@ bool CostModel::uses_costs() const {
 }
 
 std::vector<double> CostModel::weights(std::span<const double> columns) {
+    const NonStop arithmetic;
     CostRule& rule = state_->rule;
     rule.divide();
     const std::size_t length = rule.num_columns();

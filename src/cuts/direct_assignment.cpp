@@ -1,6 +1,7 @@
 #include "cuts/direct_assignment.hpp"
 
 #include "cells/running_sums.hpp"
+#include "collective/non_stop.hpp"
 #include "cuts/packed_tree.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
@@ -84,6 +85,7 @@ class Counter {
 
 bool assign_known(const Cuts& cuts, const Points& points, std::span<Part> parts) {
     if (points.count == 0) return true;
+    const NonStop arithmetic;
     return Assigner(cuts, points).run(points, parts, [](LocalIndex, LocalIndex) {});
 }
 
@@ -96,6 +98,7 @@ void assign(const Cuts& cuts, const Points& points, std::span<Part> parts) {
 }
 
 PartTotals assign_and_count(const Cuts& cuts, const Points& points, std::span<Part> parts) {
+    const NonStop arithmetic;
     Assigner assigner(cuts, points);
     const std::size_t num_bins = assigner.parts_of_bins().size();
     PartTotals totals;

@@ -9,6 +9,7 @@
 
 #include <cfenv>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -58,22 +59,28 @@ std::vector<Case> cases(int dimension) {
     return all;
 }
 
-/// Points crowd to one corner, lie in a few places, or are few.
+/// Points crowd to one corner, lie in a few places, are few, or reach the ends of a double's range.
 std::vector<std::vector<double>> clouds(int dimension) {
     const auto crowd = [](std::size_t, int axis, double u) { return std::pow(u, 1 + axis); };
     const auto places = [](std::size_t, int, double u) { return std::floor(4 * u) / 4; };
+    const auto ends = [](std::size_t i, int, double u) {
+        return std::ldexp(2 * u - 1, i % 2 == 0 ? 1024 : -1060);
+    };
     return {test::share_of_cloud(3000, dimension, crowd),
-            test::share_of_cloud(300, dimension, places),
-            test::share_of_cloud(2, dimension, crowd)};
+            test::share_of_cloud(300, dimension, places), test::share_of_cloud(2, dimension, crowd),
+            test::share_of_cloud(300, dimension, ends)};
 }
 
 TEST(Exceptions, are_raised_by_no_call) {
     for (const int dimension : {1, 2, 3}) {
-        for (const std::vector<double>& coordinates : clouds(dimension)) {
+        const auto all = clouds(dimension);
+        for (const std::vector<double>& coordinates : all) {
             const Points points = interleaved_points(coordinates, dimension);
             std::vector<double> moved = coordinates;
-            for (double& x : moved) x += 0.03 * x;
+            for (double& x : moved) x -= 0.03 * x;
             for (const auto& [name, options] : cases(dimension)) {
+                // The lines of this grid are too close for such coordinates.
+                if (name == "grid" && &coordinates == &all.back()) continue;
                 const std::string where = name + " in " + std::to_string(dimension) + "-D";
                 Balance first;
                 {
@@ -96,6 +103,21 @@ TEST(Exceptions, are_raised_by_no_call) {
                 parts_touching(first.cuts, box_of(first.cuts, 0));
             }
         }
+    }
+}
+
+TEST(Exceptions, are_raised_by_no_bad_input) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
+                             std::numeric_limits<double>::signaling_NaN(), infinity}) {
+        const std::vector<double> coordinates{0.5, bad, 0.25};
+        const Points points = interleaved_points(coordinates, 1);
+        Options options;
+        const Watch watch("bad input");
+        EXPECT_THROW(balance(points, options, MPI_COMM_WORLD), Error);
+        EXPECT_THROW(assign_all(Cuts{1, 1, {}, {}}, points, MPI_COMM_WORLD), Error);
+        options.imbalance_tolerance = bad;
+        EXPECT_THROW(balance({}, options, MPI_COMM_WORLD), Error);
     }
 }
 

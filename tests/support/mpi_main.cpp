@@ -1,9 +1,27 @@
 // Runs every test on all ranks; rank 0 reports, other ranks speak only when they fail.
+// Floating-point exceptions end a test, unless RRCB_TEST_TRAPS=OFF: some programs trap them.
 #include <gtest/gtest.h>
 #include <mpi.h>
 
+#include <cfenv>
+#include <cstdlib>
+#include <cstring>
+
+namespace {
+
+void trap_exceptions() {
+#ifdef __GLIBC__
+    const char* value = std::getenv("RRCB_TEST_TRAPS");
+    if (value == nullptr || std::strcmp(value, "OFF") != 0)
+        feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+#endif
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
     MPI_Init(&argc, &argv);
+    trap_exceptions();
     testing::InitGoogleTest(&argc, argv);
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);

@@ -4,6 +4,7 @@
 #include "cells/vector_clones.hpp"
 #include "collective/communicator.hpp"
 #include "collective/mix.hpp"
+#include "collective/non_stop.hpp"
 
 #include <algorithm>
 #include <array>
@@ -45,6 +46,7 @@ std::uint64_t checksum_of(const Points& points, std::span<const Part> parts) {
 
 Placed find_placed(const Objects& objects, const LastPartition& last, const KeptObjects& kept,
                    int rank, std::vector<Part>& parts) {
+    const NonStop arithmetic;
     const PartMap& map = last.map();
     if (!map.one_each && !objects.names_parts) return {};
     const auto count = static_cast<std::size_t>(objects.count);

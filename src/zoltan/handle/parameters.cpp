@@ -1,5 +1,6 @@
 #include "zoltan/handle/parameters.hpp"
 
+#include "collective/non_stop.hpp"
 #include "options/option_table.hpp"
 
 #include <rrcb/points.hpp>
@@ -92,6 +93,7 @@ Options default_options() {
 
 Setting set_own(Parameters& parameters, std::string_view name, const char* value) {
     if (!is_own(name)) return Setting::unknown;
+    const NonStop arithmetic;
     const Option* option = find_parameter(name);
     const ParameterRow* row = find_row(name);
     if (option == nullptr && row == nullptr) return Setting::unknown;

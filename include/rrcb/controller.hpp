@@ -20,9 +20,9 @@ namespace rrcb {
 ///         controller.step(seconds_of_work, points.count);
 ///     }
 ///
-/// docs/rebalancing.md explains the rule, which has no settings. The decision is the same on every
-/// rank and rests on the loads up to two steps before. Cost: one reduction of 72 bytes a step on a
-/// communicator of its own, which overlaps with the next step; only the constructor allocates.
+/// docs/design/rebalancing.md explains the rule, which has no settings. The decision is the same on
+/// every rank and rests on the loads up to two steps before. Cost: one reduction of 72 bytes a step
+/// on a communicator of its own, which overlaps with the next step; only the constructor allocates.
 class Controller {
   public:
     /// Makes a communicator of its own. Collective over `comm`, which may be freed before the

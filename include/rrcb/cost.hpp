@@ -26,7 +26,7 @@ namespace rrcb {
 ///     }
 ///
 /// A column is a number that a rank counts and that its time may depend on. The first is the number
-/// of points. docs/weights.md has examples, and explains when the model prefers to count.
+/// of points. docs/weights.md has examples.
 class CostModel {
   public:
     /// Makes a model without a controller, on a communicator of its own.

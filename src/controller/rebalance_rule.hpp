@@ -18,7 +18,7 @@ struct StepLoad {
 StepLoad smoothed_load(double work, double mean, double heaviest);
 
 /// Decides when a rebalance pays, from the loads of the steps and the costs of the rebalances;
-/// docs/rebalancing.md explains it. Does not communicate or allocate.
+/// docs/design/rebalancing.md explains it. Does not communicate or allocate.
 ///
 /// Loads and costs have any unit in common. Excess is heaviest / mean - 1, waste the sum of excess
 /// times mean, and a cycle the steps from one rebalance to the next.

@@ -1,5 +1,5 @@
 // Traces of a moving cluster with true costs: what learned weights cost beyond counting, in true
-// time. The table of docs/weights.md is this test's output.
+// time.
 #include "cost_traces.hpp"
 
 #include <gtest/gtest.h>

@@ -114,14 +114,16 @@ int main(int argc, char** argv) {
         check(rrcb_controller_due(controller, &due));
         if (step == 0 || due) {
             check(rrcb_cost_model_weights(model, count, 2, columns, weights));
-            const rrcb_points points = rrcb_interleaved_points(2, count, positions, weights);
+            const rrcb_points points =
+                rrcb_interleaved_points(RRCB_DOUBLE, 2, count, positions, weights);
             check(rrcb_balance(balancer, &points, parts));
             rrcb_report report;
             check(rrcb_get_report(balancer, &report));
             check(rrcb_controller_rebalanced(controller, &report, cost));
             ++rebalances;
         } else {
-            const rrcb_points points = rrcb_interleaved_points(2, count, positions, NULL);
+            const rrcb_points points =
+                rrcb_interleaved_points(RRCB_DOUBLE, 2, count, positions, NULL);
             check(rrcb_assign_all(balancer, &points, parts));
         }
         rrcb_plan plan;
@@ -135,7 +137,7 @@ int main(int argc, char** argv) {
         free(positions);
         count = plan.num_points_after;
 
-        const rrcb_points mine = rrcb_interleaved_points(2, count, here, NULL);
+        const rrcb_points mine = rrcb_interleaved_points(RRCB_DOUBLE, 2, count, here, NULL);
         const rrcb_ghost_options options = {.radius = radius};
         rrcb_ghosts* ghosts = NULL;
         rrcb_ghost_plan near;

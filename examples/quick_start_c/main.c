@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
     rrcb_balancer* balancer = NULL;
     check(rrcb_create(MPI_COMM_WORLD, &balancer));
     check(rrcb_set(balancer, "imbalance_tolerance", "1.02"));
-    const rrcb_points points = rrcb_interleaved_points(2, count, coordinates, NULL);
+    const rrcb_points points = rrcb_interleaved_points(RRCB_DOUBLE, 2, count, coordinates, NULL);
     check(rrcb_balance(balancer, &points, parts));
     check(rrcb_make_plan(balancer, count, parts));
 

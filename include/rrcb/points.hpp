@@ -97,6 +97,7 @@ Points interleaved_points(const Floats& coordinates, int dimension,
 /// 1 to 3 `columns` of the same length; `weights` is empty or as long as they are.
 RRCB_API Points column_points(std::span<const std::span<const double>> columns,
                               std::span<const double> weights = {});
+/// Returns the same view of floats. Not collective.
 RRCB_API Points column_points(std::span<const std::span<const float>> columns,
                               std::span<const double> weights = {});
 

@@ -12,6 +12,7 @@
 #include <rrcb/c/balancer.h>
 #include <rrcb/c/controller.h>
 #include <rrcb/c/ghosts.h>
+#include <rrcb/c/groups.h>
 #include <rrcb/c/quality.h>
 #include <rrcb/version.h>
 

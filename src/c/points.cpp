@@ -4,8 +4,28 @@
 #include <rrcb/points.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 namespace rrcb::c {
+
+namespace {
+
+std::size_t bytes_of(rrcb_type type) {
+    return type == RRCB_FLOAT ? sizeof(float) : sizeof(double);
+}
+
+/// Coordinates of a type from the first point on.
+template <class T, std::size_t N>
+void set_axes(const rrcb_points& from, Points& points, std::array<std::span<const T>, N>& axes) {
+    for (int axis = 0; axis < points.dimension; ++axis) {
+        require(from.axes[axis], "coordinates");
+        axes[axis] = {static_cast<const T*>(from.axes[axis]),
+                      (points.count - 1) * points.stride + 1};
+    }
+}
+
+}  // namespace
 
 Points points_of(const rrcb_points* from) {
     require(from, "points");
@@ -14,33 +34,37 @@ Points points_of(const rrcb_points* from) {
     points.count = from->count;
     if (points.count == 0 || points.dimension < 1 || points.dimension > max_dimension)
         return points;
-    if (from->type != RRCB_DOUBLE || from->stride % sizeof(double) != 0)
-        reject("coordinates have the type RRCB_DOUBLE, and a stride of a whole number of them");
-    points.stride = from->stride / sizeof(double);
-    for (int axis = 0; axis < points.dimension; ++axis) {
-        require(from->axes[axis], "coordinates");
-        points.axes[axis] = {static_cast<const double*>(from->axes[axis]),
-                             (points.count - 1) * points.stride + 1};
-    }
+    const std::size_t bytes = bytes_of(from->type);
+    if ((from->type != RRCB_DOUBLE && from->type != RRCB_FLOAT) || from->stride < bytes ||
+        from->stride % bytes != 0)
+        reject(
+            "coordinates have the type RRCB_DOUBLE or RRCB_FLOAT, and a stride of a whole number "
+            "of them");
+    points.stride = from->stride / bytes;
+    if (from->type == RRCB_FLOAT)
+        set_axes(*from, points, points.float_axes);
+    else
+        set_axes(*from, points, points.axes);
     points.weights = view(from->weights, points.count);
     return points;
 }
 
 }  // namespace rrcb::c
 
-rrcb_points rrcb_interleaved_points(int dimension, size_t count, const double* coordinates,
-                                    const double* weights) {
-    rrcb_points points{dimension, RRCB_DOUBLE, count, 0, {}, weights};
-    points.stride = static_cast<std::size_t>(std::max(dimension, 0)) * sizeof(double);
+rrcb_points rrcb_interleaved_points(rrcb_type type, int dimension, size_t count,
+                                    const void* coordinates, const double* weights) {
+    rrcb_points points{dimension, type, count, 0, {}, weights};
+    const std::size_t bytes = rrcb::c::bytes_of(type);
+    points.stride = static_cast<std::size_t>(std::max(dimension, 0)) * bytes;
     if (coordinates == nullptr) return points;
     for (int axis = 0; axis < std::min(dimension, rrcb::max_dimension); ++axis)
-        points.axes[axis] = coordinates + axis;
+        points.axes[axis] = static_cast<const std::byte*>(coordinates) + axis * bytes;
     return points;
 }
 
-rrcb_points rrcb_column_points(int dimension, size_t count, const double* const* columns,
-                               const double* weights) {
-    rrcb_points points{dimension, RRCB_DOUBLE, count, sizeof(double), {}, weights};
+rrcb_points rrcb_column_points(rrcb_type type, int dimension, size_t count,
+                               const void* const* columns, const double* weights) {
+    rrcb_points points{dimension, type, count, rrcb::c::bytes_of(type), {}, weights};
     if (columns == nullptr) return points;
     for (int axis = 0; axis < std::min(dimension, rrcb::max_dimension); ++axis)
         points.axes[axis] = columns[axis];

@@ -19,23 +19,23 @@ module rrcb_balancers
     generic :: create => create_by_type
 #endif
     generic :: create => create_by_number                   !< collective over the communicator
-    procedure :: destroy
-    procedure :: set
-    procedure :: set_part_sizes
+    procedure :: destroy                                    !< frees the handle
+    procedure :: set                                        !< an option by its name
+    procedure :: set_part_sizes                             !< relative weights of the parts
     procedure :: balance                                    !< collective
     procedure :: rebalance                                  !< collective
-    procedure :: release_buffers
-    procedure :: get_report
-    procedure :: get_cuts
+    procedure :: release_buffers                            !< of the communicator
+    procedure :: get_report                                 !< of the last balance
+    procedure :: get_cuts                                   !< a copy of them
     procedure :: gather_cuts                                !< collective
-    procedure :: set_cuts
-    procedure :: part_of
-    procedure :: assign
+    procedure :: set_cuts                                   !< those of an earlier run
+    procedure :: part_of                                    !< a position
+    procedure :: assign                                     !< parts of positions by local cuts
     procedure :: assign_all                                 !< collective
-    procedure :: box_of
-    procedure :: parts_touching
+    procedure :: box_of                                     !< region of a part
+    procedure :: parts_touching                             !< a box
     procedure :: make_plan                                  !< collective
-    procedure :: get_plan
+    procedure :: get_plan                                   !< a copy of it
     procedure :: transfer => transfer_columns               !< collective
     procedure :: remap                                      !< collective
     procedure :: part_weights                               !< collective
@@ -44,6 +44,7 @@ module rrcb_balancers
 
 contains
 
+  !> Collective over the communicator.
   subroutine create_by_number(self, comm, error)
     class(rrcb_balancer), intent(inout) :: self
     integer, intent(in) :: comm

@@ -116,6 +116,39 @@ module rrcb_c_functions
       integer(c_size_t), value :: length
       real(c_double), intent(inout) :: positions(*)
     end function
+    integer(c_int) function c_groups_create(balancer, points, keys, place, handle) &
+      bind(c, name="rrcb_groups_create")
+      import
+      type(c_ptr), value :: balancer, keys
+      type(rrcb_points), intent(in) :: points
+      integer(c_int), value :: place
+      type(c_ptr), intent(inout) :: handle
+    end function
+    subroutine c_groups_destroy(handle) bind(c, name="rrcb_groups_destroy")
+      import
+      type(c_ptr), value :: handle
+    end subroutine
+    integer(c_int) function c_groups_points(handle, points) bind(c, name="rrcb_groups_points")
+      import
+      type(c_ptr), value :: handle
+      type(rrcb_points), intent(inout) :: points
+    end function
+    integer(c_int) function c_groups_fetch(handle, num_columns, columns, limits, report) &
+      bind(c, name="rrcb_groups_fetch")
+      import
+      type(c_ptr), value :: handle
+      integer(c_size_t), value :: num_columns
+      type(rrcb_column), intent(in) :: columns(*)
+      type(c_ptr), value :: limits, report
+    end function
+    integer(c_int) function c_groups_sums(handle, components, values, sums) &
+      bind(c, name="rrcb_groups_sums")
+      import
+      type(c_ptr), value :: handle
+      integer(c_size_t), value :: components
+      real(c_double), intent(in) :: values(*)
+      real(c_double), intent(inout) :: sums(*)
+    end function
     integer(c_int) function c_controller_create(comm, handle) bind(c, name="rrcb_controller_create_fortran")
       import
       integer(c_int), value :: comm

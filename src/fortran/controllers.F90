@@ -22,8 +22,8 @@ module rrcb_controllers
     generic :: create => controller_create                  !< collective over the communicator
     procedure :: destroy => controller_destroy              !< collective
     procedure :: step => controller_step                    !< collective
-    procedure :: due => controller_due
-    procedure :: rebalanced => controller_rebalanced
+    procedure :: due => controller_due                      !< whether to rebalance before the next step
+    procedure :: rebalanced => controller_rebalanced        !< records a rebalance
   end type
 
   !> Learns what points cost. A copy is the same model; one of them is destroyed.
@@ -38,10 +38,10 @@ module rrcb_controllers
     generic :: create => cost_model_create                  !< collective over the communicator
     procedure :: destroy => cost_model_destroy              !< collective
     procedure :: step => cost_model_step                    !< collective
-    procedure :: weights => cost_model_weights
-    procedure :: costs => cost_model_costs
-    procedure :: uses_costs => cost_model_uses_costs
-    procedure :: report => cost_model_report
+    procedure :: weights => cost_model_weights              !< of points, in seconds
+    procedure :: costs => cost_model_costs                  !< of a unit of each column
+    procedure :: uses_costs => cost_model_uses_costs        !< whether weights are by the costs
+    procedure :: report => cost_model_report                !< a sentence that says why
   end type
 
 contains
@@ -64,6 +64,7 @@ contains
   end subroutine
 #endif
 
+  !> Collective over the communicator.
   subroutine controller_create(self, comm, error)
     class(rrcb_controller), intent(inout) :: self
     integer, intent(in) :: comm

@@ -10,6 +10,7 @@ module rrcb_functions
 
 contains
 
+  !> Text of C at an address.
   function text_of(address) result(text)
     type(c_ptr), intent(in) :: address
     character(:), allocatable :: text
@@ -48,6 +49,7 @@ contains
     error = c_bounding_box(points, lower, upper)
   end subroutine
 
+  !> The ranks of a part.
   subroutine rrcb_ranks_of_part(part, num_parts, num_ranks, ranks, error)
     integer(c_int32_t), intent(in) :: part
     integer, intent(in) :: num_parts, num_ranks
@@ -65,6 +67,7 @@ contains
     error = c_imbalance(size(part_weights, kind=c_size_t), part_weights, address_of(part_sizes), imbalance)
   end subroutine
 
+  !> Load unbalance of each part in percent.
   subroutine rrcb_load_unbalance_percent(part_weights, percent, error, part_sizes)
     real(c_double), intent(in), contiguous :: part_weights(:)
     real(c_double), intent(inout), contiguous :: percent(:)
@@ -74,6 +77,7 @@ contains
       address_of(part_sizes), percent)
   end subroutine
 
+  !> The largest absolute value of rrcb_load_unbalance_percent.
   subroutine rrcb_worst_load_unbalance_percent(part_weights, percent, error, part_sizes)
     real(c_double), intent(in), contiguous :: part_weights(:)
     real(c_double), intent(inout) :: percent

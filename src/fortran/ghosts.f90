@@ -12,11 +12,11 @@ module rrcb_ghost_lists
     type(c_ptr) :: handle = c_null_ptr                      !< for the library
   contains
     procedure :: create                                     !< collective
-    procedure :: destroy
-    procedure :: get_plan
+    procedure :: destroy                                    !< frees the handle
+    procedure :: get_plan                                   !< a copy of the lists
     procedure :: fetch                                      !< collective
     procedure :: accumulate                                 !< collective
-    procedure :: apply_shifts
+    procedure :: apply_shifts                               !< to positions of images
   end type
 
 contains

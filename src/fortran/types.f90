@@ -82,12 +82,12 @@ module rrcb_types
 
   !> View of points stored one after another: coordinates(dimension, points), weights(points).
   interface rrcb_interleaved_points
-    procedure :: interleaved_doubles
+    procedure :: interleaved_doubles, interleaved_reals
   end interface
 
   !> View of an array for each axis, of one length.
   interface rrcb_column_points
-    procedure :: columns_of_doubles
+    procedure :: columns_of_doubles, columns_of_reals
   end interface
 
   !> Column of one value for each point, or of shape (components, points), or of a number of bytes.
@@ -175,6 +175,43 @@ contains
     if (differs(y, points%count) .or. differs(z, points%count)) return
     if (differs(weights, points%count)) return
     points%axes = [address_of(x), address_of(y), address_of(z)]
+  end function
+
+  function interleaved_reals(coordinates, weights) result(points)
+    real(c_float), pointer, contiguous, intent(in) :: coordinates(:, :)
+    real(c_double), pointer, contiguous, intent(in), optional :: weights(:)
+    type(rrcb_points) :: points
+    integer :: axis
+    points%type = type_float
+    points%dimension = size(coordinates, 1, c_int)
+    points%count = size(coordinates, 2, c_size_t)
+    points%stride = size(coordinates, 1)*c_sizeof(0.0_c_float)
+    points%weights = address_of(weights)
+    if (size(coordinates) == 0 .or. differs(weights, points%count)) return
+    do axis = 1, min(size(coordinates, 1), 3)
+      points%axes(axis) = c_loc(coordinates(axis, 1))
+    end do
+  end function
+
+  function columns_of_reals(x, y, z, weights) result(points)
+    real(c_float), pointer, contiguous, intent(in) :: x(:)
+    real(c_float), pointer, contiguous, intent(in), optional :: y(:), z(:)
+    real(c_double), pointer, contiguous, intent(in), optional :: weights(:)
+    type(rrcb_points) :: points
+    points%type = type_float
+    points%dimension = 1
+    if (present(y)) points%dimension = merge(3, 2, present(z))
+    points%count = size(x, kind=c_size_t)
+    points%stride = c_sizeof(0.0_c_float)
+    points%weights = address_of(weights)
+    if (differs(weights, points%count) .or. size(x) == 0) return
+    points%axes(1) = c_loc(x)
+    if (present(y)) then
+      if (size(y) == size(x)) points%axes(2) = c_loc(y)
+    end if
+    if (present(z)) then
+      if (size(z) == size(x)) points%axes(3) = c_loc(z)
+    end if
   end function
 
   function column_of_reals(from, to) result(column)

@@ -9,6 +9,7 @@ program module_test
   type(rrcb_controller) :: controller
   type(rrcb_cost_model) :: model
   type(rrcb_ghosts) :: ghosts
+  type(rrcb_groups) :: groups
   type(rrcb_plan) :: plan
   type(rrcb_ghost_plan) :: ghost_plan
   type(rrcb_report) :: report
@@ -17,9 +18,12 @@ program module_test
   type(rrcb_rank_range) :: ranks
   type(rrcb_cuts) :: cuts
   real(c_double), allocatable, target :: x(:, :), weights(:), moved(:, :), moved_weights(:)
+  real(c_float), allocatable, target :: short_x(:, :), short_positions(:)
   real(c_float), allocatable, target :: short(:), moved_short(:)
   integer(c_int32_t), allocatable, target :: numbers(:), moved_numbers(:)
   integer(c_int32_t), allocatable :: parts(:), again(:)
+  integer(c_int32_t), allocatable, target :: parts_of_groups(:), parts_of_points(:)
+  real(c_double), allocatable :: sums(:, :)
   integer(c_int64_t), allocatable, target :: long_numbers(:), moved_long_numbers(:)
   real(c_double), allocatable, target :: images(:, :)
   real(c_double), target :: sizes(3) = [1, 3, 2]
@@ -89,6 +93,14 @@ program module_test
   call other%assign(points, again, error)
   call expect(error == rrcb_ok .and. all(again == parts), "assign by components")
   again = -1
+  again = -1
+  short_x = real(x, c_float)
+  call other%assign(rrcb_interleaved_points(short_x), again, error)
+  call expect(error == rrcb_ok .and. all(again == parts), "assign of real(4)")
+  again = -1
+  short_positions = short_x(1, :)
+  call other%assign(rrcb_column_points(short_positions), again, error)
+  call expect(error == rrcb_ok .and. all(again == parts), "assign of columns of real(4)")
   positions = x(1, :)
   call other%assign_all(rrcb_column_points(positions), again, error)
   call expect(error == rrcb_ok .and. all(again == parts), "assign_all")
@@ -173,6 +185,25 @@ program module_test
   call ghosts%create(balancer, rrcb_interleaved_points(moved), error, radii=0*moved_weights)
   call expect(error == rrcb_ok, "ghosts by radii")
   call ghosts%destroy()
+  ! Pairs of points, which cuts do not part, though ranks do.
+  call groups%create(balancer, rrcb_interleaved_points(moved), int((numbers + 1)/2, c_int64_t), error)
+  call expect(error == rrcb_ok, "create groups")
+  call groups%points(points, error)
+  call expect(error == rrcb_ok .and. points%count == num_points/2, "points of groups")
+  deallocate (again)
+  allocate (again(points%count))
+  call other%create(MPI_COMM_WORLD, error)
+  call other%balance(points, again, error)
+  call expect(error == rrcb_ok, "balance of groups")
+  parts_of_groups = again
+  parts_of_points = numbers
+  call groups%fetch([rrcb_column(parts_of_groups, parts_of_points)], error)
+  call expect(error == rrcb_ok .and. all(parts_of_points(1::2) == parts_of_points(2::2)), "fetch of groups")
+  allocate (sums(1, points%count))
+  call groups%sums(moved, sums, error)
+  call expect(error == rrcb_ok .and. all(sums(1, :) == moved(1, 1::2) + moved(1, 2::2)), "sums")
+  call groups%destroy()
+  call other%destroy()
   call balancer%release_buffers(error)
   call expect(error == rrcb_ok, "release_buffers")
 

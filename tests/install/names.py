@@ -17,6 +17,8 @@ RENAMED = {
     "fetch": "rrcb_ghosts_fetch",
     "accumulate": "rrcb_ghosts_accumulate",
     "apply_shifts": "rrcb_ghosts_apply_shifts",
+    "groups": "rrcb_groups_create",
+    "sums": "rrcb_groups_sums",
 }
 # Functions in C++ alone; a class stands for its methods.
 ONLY_CPP = {
@@ -24,6 +26,8 @@ ONLY_CPP = {
     "rebalance_into": "rrcb_rebalance keeps memory with the balancer",
     "column": "rrcb_column is a struct",
     "columns": "an array of rrcb_column",
+    "member_points": "rrcb_points has a stride in bytes",
+    "view_points": "takes the views of C++ libraries",
     "is_whole": "rrcb_get_cuts refuses cuts that are not",
     "is_above": "rrcb_part_of descends by it",
     "TreeShape": "for those who descend themselves",
@@ -37,7 +41,8 @@ ONLY_CPP = {
 ONLY_C = {
     "rrcb_create", "rrcb_destroy", "rrcb_set", "rrcb_set_part_sizes", "rrcb_set_cuts",
     "rrcb_get_cuts", "rrcb_get_plan", "rrcb_get_report", "rrcb_ghosts_destroy",
-    "rrcb_ghosts_get_plan",
+    "rrcb_ghosts_get_plan", "rrcb_groups_destroy",
+    "rrcb_groups_fetch",  # an overload
     "rrcb_last_error",  # the text of an Error
     "rrcb_controller_step_points",  # an overload
 }
@@ -47,8 +52,8 @@ NOT_FORTRAN = {
 }
 # Functions in C that Fortran does not call, but has as its own.
 OWN_OF_FORTRAN = {"rrcb_interleaved_points", "rrcb_column_points"}
-CLASSES = {"Controller": "controller", "CostModel": "cost_model"}
-HANDLES = ["controller", "cost_model", "ghosts", "balancer"]
+CLASSES = {"Controller": "controller", "CostModel": "cost_model", "Groups": "groups"}
+HANDLES = ["controller", "cost_model", "ghosts", "groups"]
 
 
 def declarations(text):
@@ -119,7 +124,7 @@ def expected_in_c(name):
 
 def expected_in_fortran(name):
     """Names of which one stands in Fortran for a function in C."""
-    for handle in HANDLES[:3]:
+    for handle in HANDLES:
         if name.startswith(f"rrcb_{handle}_"):
             return {f"rrcb_{handle}%" + name.removeprefix(f"rrcb_{handle}_")}
     return {"rrcb_balancer%" + name.removeprefix("rrcb_"), name}

@@ -35,7 +35,7 @@ class CGhosts : public testing::Test {
         for (std::size_t i = 0; i < count; ++i) weights.push_back(uniform(random));
         parts.resize(count);
         ASSERT_EQ(rrcb_create(MPI_COMM_WORLD, &balancer), RRCB_OK);
-        in_c = rrcb_interleaved_points(3, count, coordinates.data(), weights.data());
+        in_c = rrcb_interleaved_points(RRCB_DOUBLE, 3, count, coordinates.data(), weights.data());
         ASSERT_EQ(rrcb_balance(balancer, &in_c, parts.data()), RRCB_OK) << rrcb_last_error();
         cuts = rrcb::balance(points(), {}, MPI_COMM_WORLD).cuts;
     }
@@ -249,11 +249,63 @@ TEST_F(CGhosts, points_have_strides) {
     std::vector<std::int32_t> again(parts.size());
     ASSERT_EQ(rrcb_assign(balancer, &strided, again.data()), RRCB_OK) << rrcb_last_error();
     EXPECT_EQ(again, parts);
-    const std::array<const double*, 3> columns{axes[0].data(), axes[1].data(), axes[2].data()};
-    const rrcb_points separate = rrcb_column_points(3, weights.size(), columns.data(), nullptr);
+    const std::array<const void*, 3> columns{axes[0].data(), axes[1].data(), axes[2].data()};
+    const rrcb_points separate =
+        rrcb_column_points(RRCB_DOUBLE, 3, weights.size(), columns.data(), nullptr);
     again.assign(parts.size(), -1);
     ASSERT_EQ(rrcb_assign(balancer, &separate, again.data()), RRCB_OK) << rrcb_last_error();
     EXPECT_EQ(again, parts);
+}
+
+TEST_F(CGhosts, coordinates_may_be_floats) {
+    const std::vector<float> floats(coordinates.begin(), coordinates.end());
+    std::vector<Part> expected(parts.size());
+    assign(cuts, interleaved_points(floats, 3), expected);
+    const rrcb_points short_points =
+        rrcb_interleaved_points(RRCB_FLOAT, 3, parts.size(), floats.data(), nullptr);
+    std::vector<std::int32_t> again(parts.size(), -1);
+    ASSERT_EQ(rrcb_assign(balancer, &short_points, again.data()), RRCB_OK) << rrcb_last_error();
+    EXPECT_EQ(again, expected);
+    rrcb_points odd = in_c;
+    odd.stride += 4;
+    if (odd.count > 0) expect_error(rrcb_assign(balancer, &odd, again.data()), "stride");
+}
+
+TEST_F(CGhosts, groups_are_those_of_cpp) {
+    std::vector<std::uint64_t> keys(parts.size());
+    for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = i % 7 == 0 ? RRCB_NO_GROUP : i / 4;
+    for (const bool first : {false, true}) {
+        const Groups expected = rrcb::groups(points(), keys, MPI_COMM_WORLD,
+                                             first ? GroupPlace::first_point : GroupPlace::centre);
+        rrcb_groups* groups = nullptr;
+        ASSERT_EQ(rrcb_groups_create(balancer, &in_c, keys.data(),
+                                     first ? RRCB_FIRST_POINT : RRCB_CENTRE, &groups),
+                  RRCB_OK)
+            << rrcb_last_error();
+        rrcb_points shown;
+        ASSERT_EQ(rrcb_groups_points(groups, &shown), RRCB_OK);
+        const std::size_t count = shown.count;
+        ASSERT_EQ(count, expected.weights.size());
+        const double* x = static_cast<const double*>(shown.axes[0]);
+        EXPECT_TRUE(std::equal(x, x + 3 * count, expected.coordinates.begin()));
+        EXPECT_TRUE(std::equal(shown.weights, shown.weights + count, expected.weights.begin()));
+
+        std::vector<std::int32_t> numbers(count);
+        for (std::size_t g = 0; g < count; ++g)
+            numbers[g] = 1000 * rank() + static_cast<std::int32_t>(g);
+        std::vector<std::int32_t> of_points(parts.size());
+        const rrcb_column column{RRCB_INT32, 1, numbers.data(), of_points.data()};
+        ASSERT_EQ(rrcb_groups_fetch(groups, 1, &column, nullptr, nullptr), RRCB_OK);
+        EXPECT_EQ(of_points, fetch(expected, numbers, MPI_COMM_WORLD));
+        std::vector<double> added(3 * count);
+        ASSERT_EQ(rrcb_groups_sums(groups, 3, coordinates.data(), added.data()), RRCB_OK);
+        EXPECT_EQ(added, sums(expected, coordinates, MPI_COMM_WORLD, 3));
+        rrcb_groups_destroy(groups);
+    }
+    rrcb_groups* groups = nullptr;
+    expect_error(rrcb_groups_create(balancer, is_last_rank() ? nullptr : &in_c, keys.data(),
+                                    RRCB_CENTRE, &groups),
+                 "points is null");
 }
 
 TEST_F(CGhosts, part_numbers_are_those_of_cpp) {

@@ -39,7 +39,8 @@ struct Cloud {
     std::size_t count() const { return weights.size(); }
     Points points() const { return interleaved_points(coordinates, dimension, weights); }
     rrcb_points in_c() const {
-        return rrcb_interleaved_points(dimension, count(), coordinates.data(), weights.data());
+        return rrcb_interleaved_points(RRCB_DOUBLE, dimension, count(), coordinates.data(),
+                                       weights.data());
     }
 };
 
@@ -181,7 +182,7 @@ TEST_F(CInterface, what_is_wrong_on_one_rank_fails_on_all) {
     parts.resize(cloud.count());
     const auto call = [&](int dimension, const double* coordinates, std::int32_t* out) {
         const rrcb_points points =
-            rrcb_interleaved_points(dimension, cloud.count(), coordinates, nullptr);
+            rrcb_interleaved_points(RRCB_DOUBLE, dimension, cloud.count(), coordinates, nullptr);
         return rrcb_balance(balancer, &points, out);
     };
     const double* coordinates = cloud.coordinates.data();
@@ -221,7 +222,7 @@ TEST_F(CInterface, columns_that_are_wrong_on_one_rank_fail_on_all) {
     std::vector<double> x(static_cast<std::size_t>(num_ranks()));
     std::iota(x.begin(), x.end(), 0.0);
     parts.resize(x.size());
-    const rrcb_points points = rrcb_interleaved_points(1, x.size(), x.data(), nullptr);
+    const rrcb_points points = rrcb_interleaved_points(RRCB_DOUBLE, 1, x.size(), x.data(), nullptr);
     ASSERT_EQ(rrcb_balance(balancer, &points, parts.data()), RRCB_OK);
     ASSERT_EQ(rrcb_make_plan(balancer, x.size(), parts.data()), RRCB_OK);
     std::vector<double> here(x.size());
@@ -291,7 +292,7 @@ TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {
     std::int32_t part = 0;
     double x[] = {0.5, 0.5};
     double y[2];
-    const rrcb_points points = rrcb_interleaved_points(2, 1, x, nullptr);
+    const rrcb_points points = rrcb_interleaved_points(RRCB_DOUBLE, 2, 1, x, nullptr);
     const rrcb_column column{RRCB_DOUBLE, 1, x, y};
     const rrcb_ghost_options options{};
     rrcb_ghosts* ghosts = nullptr;

@@ -25,7 +25,7 @@ typedef enum rrcb_type {
  *  Coordinate a of point i lies at axes[a] + i * stride bytes. */
 typedef struct rrcb_points {
     int dimension;         /**< 1 to 3, on every rank the same */
-    rrcb_type type;        /**< of the coordinates, RRCB_DOUBLE */
+    rrcb_type type;        /**< of the coordinates, RRCB_DOUBLE or RRCB_FLOAT */
     size_t count;          /**< points of this rank */
     size_t stride;         /**< from a point to the next, in bytes */
     const void* axes[3];   /**< first coordinate on each axis */
@@ -33,13 +33,13 @@ typedef struct rrcb_points {
 } rrcb_points;
 
 /** Returns a view of `count` points stored one after another. Not collective. */
-RRCB_API rrcb_points rrcb_interleaved_points(int dimension, size_t count, const double* coordinates,
-                                             const double* weights);
+RRCB_API rrcb_points rrcb_interleaved_points(rrcb_type type, int dimension, size_t count,
+                                             const void* coordinates, const double* weights);
 
 /** Returns a view of one array per axis, of which the axes beyond the dimension are ignored. Not
  *  collective. */
-RRCB_API rrcb_points rrcb_column_points(int dimension, size_t count, const double* const* columns,
-                                        const double* weights);
+RRCB_API rrcb_points rrcb_column_points(rrcb_type type, int dimension, size_t count,
+                                        const void* const* columns, const double* weights);
 
 /** Writes the smallest box that holds all points, `lower` and `upper` of length 3; as
  *  rrcb::bounding_box. Not collective. */

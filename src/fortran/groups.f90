@@ -1,0 +1,79 @@
+!> Points that go to one part together.
+module rrcb_group_lists
+  use, intrinsic :: iso_c_binding
+  use rrcb_types
+  use rrcb_c_functions
+  use rrcb_balancers
+  implicit none
+  private
+
+  !> A copy is the same groups; one of them is destroyed.
+  type, public :: rrcb_groups
+    type(c_ptr) :: handle = c_null_ptr                      !< for the library
+  contains
+    procedure :: create                                     !< collective
+    procedure :: destroy                                    !< frees the handle
+    procedure :: points => points_of_groups                 !< the groups as points
+    procedure :: fetch                                      !< collective
+    procedure :: sums                                       !< collective
+  end type
+
+contains
+
+  !> Finds the groups of points with equal keys, -1 for a point without others; each at its centre of
+  !> weight, or its first point.
+  subroutine create(self, balancer, points, keys, error, at_first_point)
+    class(rrcb_groups), intent(inout) :: self
+    class(rrcb_balancer), intent(in) :: balancer
+    type(rrcb_points), intent(in) :: points
+    integer(c_int64_t), intent(in), target, contiguous :: keys(:)
+    integer, intent(out) :: error
+    logical, intent(in), optional :: at_first_point
+    type(c_ptr) :: address
+    integer(c_int) :: place
+    address = c_null_ptr
+    if (size(keys) > 0 .and. size(keys, kind=c_size_t) == points%count) address = c_loc(keys)
+    place = 0
+    if (present(at_first_point)) place = merge(1, 0, at_first_point)
+    error = c_groups_create(balancer%handle, points, address, place, self%handle)
+  end subroutine
+
+  subroutine destroy(self)
+    class(rrcb_groups), intent(inout) :: self
+    call c_groups_destroy(self%handle)
+    self%handle = c_null_ptr
+  end subroutine
+
+  !> The groups of this rank as points, for balance().
+  subroutine points_of_groups(self, points, error)
+    class(rrcb_groups), intent(in) :: self
+    type(rrcb_points), intent(inout) :: points
+    integer, intent(out) :: error
+    error = c_groups_points(self%handle, points)
+  end subroutine
+
+  !> Columns of the groups give those of the points, such as parts.
+  subroutine fetch(self, columns, error, limit, report)
+    class(rrcb_groups), intent(in) :: self
+    type(rrcb_column), intent(in) :: columns(:)
+    integer, intent(out) :: error
+    integer(c_size_t), intent(in), target, optional :: limit
+    type(rrcb_transfer_report), intent(inout), target, optional :: report
+    type(c_ptr) :: limits, made
+    limits = c_null_ptr
+    made = c_null_ptr
+    if (present(limit)) limits = c_loc(limit)
+    if (present(report)) made = c_loc(report)
+    error = c_groups_fetch(self%handle, size(columns, kind=c_size_t), columns, limits, made)
+  end subroutine
+
+  !> Sums of values(components, points) over the points of each group: sums(components, groups).
+  subroutine sums(self, values, of_groups, error)
+    class(rrcb_groups), intent(in) :: self
+    real(c_double), intent(in), contiguous :: values(:, :)
+    real(c_double), intent(inout), contiguous :: of_groups(:, :)
+    integer, intent(out) :: error
+    error = c_groups_sums(self%handle, size(values, 1, c_size_t), values, of_groups)
+  end subroutine
+
+end module rrcb_group_lists

@@ -18,13 +18,24 @@ namespace {
 
 constexpr double most_steps = 1e9;
 
+/// What Teuchos says of a text, without the places in its own source.
+std::string readable(const std::string& message) {
+    std::istringstream lines(message);
+    std::string readable;
+    for (std::string line; std::getline(lines, line);)
+        if (!line.empty() && !line.starts_with("./") && !line.starts_with("Throw") &&
+            !line.starts_with("error: Parser failure"))
+            readable += "\n" + line;
+    return readable;
+}
+
 Teuchos::ParameterList parse(const std::string& text) {
     try {
         return *Teuchos::getParametersFromYamlString(text);
     } catch (const std::exception& error) {
         throw std::invalid_argument(
-            std::string("is not understood; it must be one list named scene, in YAML:\n") +
-            error.what());
+            "is not understood; it must be one list named scene, in YAML, each key once:" +
+            readable(error.what()));
     }
 }
 

@@ -151,6 +151,13 @@ template <int D, std::size_t N, std::size_t n, bool is_affine>
     }
 }
 
+/// Sums of the points of a run on its nodes. Unrolled over axes and nodes, it is
+///
+///     for each point p of the run
+///         for each node n of the run
+///             mass[n] += weight(n, p) * mass[p]
+///             momentum[n] += weight(n, p) * mass[p] * velocity[p]
+///             force[n] -= volume[p] * stress[p] * slope(n, p)
 template <int D, class Shape, bool is_affine>
 [[gnu::always_inline]] inline std::array<NodeSums<D>, power(Shape::num_nodes, D)> sum_run(
     const PointReader<D, is_affine>& from, const Shape& shape, const CellRun<D>& run,

@@ -40,6 +40,8 @@ class ZoltanPartitioner : public Partitioner {
     void free_lists() override;                  ///< Zoltan_LB_Free_Part
     void use_seed(std::uint64_t seed) override;  ///< RRCB_SEED
 
+    Zoltan_Struct* handle() { return zoltan_; }  ///< for settings of other kinds
+
     /// Box of a part by the kept cuts; open sides are +-infinity. Throws Failure without KEEP_CUTS.
     /// Not collective.
     rrcb::Box box_of(rrcb::Part part) const;

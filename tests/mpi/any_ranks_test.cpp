@@ -1,0 +1,131 @@
+// Exact cuts across given axes divide points in the same way on any number of ranks, however these
+// hold the points.
+#include "clouds.hpp"
+#include "ranks.hpp"
+
+#include <rrcb/balance.hpp>
+#include <rrcb/points.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace rrcb {
+namespace {
+
+using test::num_ranks;
+using test::rank;
+
+struct Cloud {
+    int dimension = 1;
+    std::vector<double> coordinates{};
+    std::vector<double> weights{};
+
+    std::size_t size() const { return coordinates.size() / static_cast<std::size_t>(dimension); }
+    void append(const Cloud& from, std::size_t point) {
+        const auto axes = static_cast<std::size_t>(dimension);
+        for (std::size_t axis = 0; axis < axes; ++axis)
+            coordinates.push_back(from.coordinates[point * axes + axis]);
+        if (!from.weights.empty()) weights.push_back(from.weights[point]);
+    }
+};
+
+/// A coordinate, by the point and a random number.
+using Coordinate = std::function<double(int i, double u)>;
+/// A weight whose sums are exact; 0: there are none.
+using Weight = std::function<double(double u)>;
+
+Cloud cloud_of(int dimension, const Coordinate& coordinate, const Weight& weight, unsigned seed) {
+    std::mt19937_64 random(seed);
+    Cloud cloud{dimension};
+    for (int i = 0; i < 600; ++i) {
+        for (int axis = 0; axis < dimension; ++axis)
+            cloud.coordinates.push_back(coordinate(i, test::uniform(random)));
+        if (const double w = weight(test::uniform(random)); w > 0) cloud.weights.push_back(w);
+    }
+    return cloud;
+}
+
+/// Parts of all points by the cuts of the first ranks, to which points are dealt at random; nothing
+/// on other ranks. Collective.
+std::vector<Part> parts_by(int ranks, const Cloud& cloud, const Options& options, unsigned deal) {
+    MPI_Comm comm = MPI_COMM_NULL;
+    MPI_Comm_split(MPI_COMM_WORLD, rank() < ranks ? 0 : 1, 0, &comm);
+    std::vector<Part> parts;
+    if (rank() < ranks) {
+        std::vector<std::size_t> order(cloud.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::mt19937_64 random(deal);
+        std::ranges::shuffle(order, random);
+        Cloud mine{cloud.dimension};
+        for (const std::size_t i : order)
+            // Some ranks have no points in every other deal.
+            if (static_cast<int>(random() % static_cast<unsigned>(ranks) / (deal % 2 + 1)) ==
+                rank())
+                mine.append(cloud, i);
+        const Balance made = balance(
+            interleaved_points(mine.coordinates, mine.dimension, mine.weights), options, comm);
+        parts.resize(cloud.size());
+        assign(made.cuts, interleaved_points(cloud.coordinates, cloud.dimension), parts);
+    }
+    MPI_Comm_free(&comm);
+    return parts;
+}
+
+void expect_same_parts(const Cloud& cloud, const Options& options) {
+    const std::vector<Part> expected = parts_by(1, cloud, options, 0);
+    for (const int ranks : {1, 2, 3, 5, 8, 13, 16, 64}) {
+        if (ranks > num_ranks()) break;
+        for (unsigned deal = 0; deal < 2; ++deal) {
+            SCOPED_TRACE(testing::Message() << ranks << " ranks, deal " << deal);
+            const std::vector<Part> parts = parts_by(ranks, cloud, options, deal);
+            if (rank() == 0) {
+                EXPECT_TRUE(parts == expected);
+            }
+        }
+    }
+}
+
+/// Options whose axes do not depend on estimates.
+std::vector<Options> options_for(int dimension, int num_parts) {
+    Options options;
+    options.num_parts = num_parts;
+    options.refine = Refine::exact;
+    options.tree = TreeShape{};
+    std::vector<int> axes;
+    for (int k = 0; k + 1 < num_parts; ++k) axes.push_back(k % dimension);
+    if (dimension > 1) options.axes.order = AxisOrder::given(axes);
+    Options by_many = options;
+    by_many.tuning.central_parts = 2;
+    return {options, by_many};
+}
+
+TEST(AnyRanks, divide_points_in_the_same_way) {
+    const Coordinate places[] = {
+        [](int, double u) { return u * u; }, [](int, double u) { return std::floor(12 * u); },
+        [](int, double u) { return std::floor(3 * u) + 0.01 * (3 * u - std::floor(3 * u)); },
+        [](int i, double u) { return i % 3 == 0 ? 0.25 : u; }};
+    const Weight weights[] = {[](double) { return 0; },
+                              [](double u) { return 1 + std::floor(9 * u); },
+                              [](double u) { return std::ldexp(1 + std::floor(64 * u), -3); }};
+    unsigned seed = 0;
+    for (const Coordinate& place : places)
+        for (const Weight& weight : weights)
+            for (int dimension = 1; dimension <= 3; ++dimension) {
+                const int num_parts = 5 + static_cast<int>(++seed % 4) * 3;
+                SCOPED_TRACE(testing::Message() << "seed " << seed << ", " << dimension << "-D");
+                const Cloud cloud = cloud_of(dimension, place, weight, seed);
+                for (const Options& options : options_for(dimension, num_parts)) {
+                    SCOPED_TRACE(options.tuning.central_parts);
+                    expect_same_parts(cloud, options);
+                }
+            }
+}
+
+}  // namespace
+}  // namespace rrcb

@@ -39,8 +39,8 @@ MUTATIONS = [
     Mutation(
         "a dropped weight in the second moment",
         "src/cells/binned_points.cpp",
-        "sum.second[a] += moment[a] * x[a];",
-        "sum.second[a] += x[a] * x[a];",
+        "cell.second[a] += moment[a] * x[a];",
+        "cell.second[a] += x[a] * x[a];",
         ("unit_moments",),
     ),
     Mutation(

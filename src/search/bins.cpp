@@ -10,11 +10,10 @@ namespace rrcb {
 
 Bins::Bins(double lower, double upper, bool by_bits, int num_bins)
     : lower_(lower), upper_(upper), num_bins_(num_bins), by_bits_(by_bits) {
-    // A bracket that takes in the largest double ends at infinity; its bins are as wide all the
-    // same.
+    // A bracket that includes the largest double ends at infinity; its width is still finite.
     width_ = std::min(upper, std::numeric_limits<double>::max()) / num_bins - lower / num_bins;
     lower_rank_ = double_rank(lower);
-    // Modulo 2^64: the difference of two ranks may be no signed number.
+    // Modulo 2^64: the difference of two numbers of doubles may overflow a signed integer.
     num_doubles_ =
         static_cast<std::uint64_t>(double_rank(upper)) - static_cast<std::uint64_t>(lower_rank_);
     const auto bins = static_cast<std::uint64_t>(num_bins);

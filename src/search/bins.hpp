@@ -7,12 +7,12 @@
 
 namespace rrcb {
 
-/// Bins of a bracket [lower, upper), numbered from 1; slot 0 is below the bracket, slot
-/// num_bins + 1 above it.
+/// Bins of a bracket [lower, upper), numbered from 1. Slot 0 is below the bracket, slot num_bins +
+/// 1 above it.
 ///
-/// Of equal width; or, `by_bits`, of equal numbers of doubles, which divides a cloud over hundreds
-/// of decades as evenly as others; or of equal numbers of cells of a grid, as cuts lie on its
-/// lines.
+/// Bins have equal width, or hold equal numbers of doubles (`by_bits`), or equal numbers of cells
+/// of a grid. Bins by doubles divide points over hundreds of decades evenly. With a grid, cuts can
+/// only be on its lines.
 class Bins {
   public:
     Bins(double lower, double upper, bool by_bits, int num_bins);
@@ -39,12 +39,12 @@ class Bins {
     std::int32_t bin_by_width(double value) const {
         const double share = width_ > 0 ? (value - lower_) / width_ : 0;
         int bin = static_cast<int>(std::clamp(share, 0.0, num_bins_ - 1.0));
-        // The edges as they are rounded decide, since cuts are put on them.
+        // Rounded edges decide, because cuts are put on them.
         while (bin > 0 && value < edge(bin)) --bin;
         while (bin + 1 < num_bins_ && value >= edge(bin + 1)) ++bin;
         return bin;
     }
-    // By doubles or cells; apart, as most bins are of equal width and each instruction tells there.
+    // By doubles or cells. Not inlined: most bins are of equal width, and their loop is hot.
     [[gnu::noinline]] double edge_by_number(int k) const;
     [[gnu::noinline]] std::int32_t slot_by_number(double value) const;
 
@@ -53,7 +53,7 @@ class Bins {
     int num_bins_;
     bool by_bits_;
     double width_ = 0;               ///< of a bin
-    std::int64_t lower_rank_ = 0;    ///< of `lower` in the order of all doubles
+    std::int64_t lower_rank_ = 0;    ///< of `lower` among all doubles, in ascending order
     std::uint64_t num_doubles_ = 0;  ///< in the bracket
     std::uint64_t doubles_a_bin_ = 1;
     AxisLimits limits_{};

@@ -10,7 +10,7 @@
 
 namespace rrcb {
 
-/// A point that may still lie on either side of a cut.
+/// A point that may still end on either side of a cut.
 struct Candidate {
     Vector position{};
     double weight = 0;
@@ -31,10 +31,11 @@ struct Ties {
 struct Division {
     std::size_t num_below = 0;
     double below = 0;  ///< weight of the node below the cut
-    Ties ties;         ///< that the target lies in, of several candidates; else empty
+    Ties ties;         ///< the target is in it, if it has several candidates; else empty
 };
 
-/// The division of sorted candidates, all above the base of the target, with the least excess.
+/// Returns the division with the least excess of sorted candidates, all above the base of the
+/// target.
 Division best_division(std::span<const Candidate> sorted, const PositionOrder& before,
                        const CutTarget& target);
 

@@ -21,7 +21,7 @@ class Corrector {
           counts_(counts),
           values_(values) {}
 
-    /// `is_changed` where a cut above has moved.
+    /// `is_changed` if a cut above has moved.
     void run(const Descent& at, bool is_changed) {
         if (at.is_part()) return;
         const Slab& slab = slabs_[at.node];
@@ -39,7 +39,7 @@ class Corrector {
     }
 
   private:
-    /// Moves a cut from where it is until as much as belongs there lies below it; returns where.
+    /// Moves a cut until the weight below it is as its target says; returns the new place.
     double move(const Descent& at, const Slab& slab, double cut) {
         const double below = weight_of(at.lower(), part_weights_);
         const double weight = below + weight_of(at.upper(), part_weights_);
@@ -62,7 +62,7 @@ class Corrector {
         return counts.first(at.lower().num_parts);
     }
 
-    /// Brings a share of a bin below the cut of a node, or above it where the share is negative.
+    /// Brings a share of a bin below the cut of a node, or above it if the share is negative.
     void bring(const Descent& at, std::span<const double> counts, double share) {
         const std::size_t num_below = lower_of(counts, at).size();
         for (std::size_t k = 0; k < counts.size(); ++k) {

@@ -10,11 +10,11 @@ namespace rrcb {
 
 namespace {
 
-/// Corrections that are worth their messages: then what is left is no matter of cuts that move
-/// together, but of points that share coordinates.
+/// Corrections beyond this number are not worth their messages: the rest is due to points that
+/// share coordinates, not to cuts that move together.
 constexpr int most_corrections = 4;
 
-/// Parts beyond which a correction of earlier cuts sends up to 1.8 times the bytes of a search by
+/// With more parts a correction of earlier cuts sends up to 1.8 times the bytes of a search by
 /// levels, in 3 to 11 % fewer messages.
 constexpr int most_parts_at_once = 128;
 
@@ -52,7 +52,7 @@ int Correction::run(const TargetRule& rule, const Points& points, std::span<cons
     return rounds;
 }
 
-/// Moves the cuts by what all ranks have in their slabs. Collective; throws where one failed.
+/// Moves the cuts by the counts of all ranks in their slabs. Collective; throws if a rank failed.
 void Correction::correct_together(const TargetRule& rule, const PartSums& sums, Cuts& cuts,
                                   Participant& self) {
     const std::span here(here_.get(), totals_.counts + 1);
@@ -74,7 +74,7 @@ void Correction::correct_together(const TargetRule& rule, const PartSums& sums, 
     move(cuts);
 }
 
-/// Moves the cuts to where the root has them.
+/// Moves the cuts to the places that the root found.
 void Correction::move(Cuts& cuts) const {
     for (std::size_t k = 0; k < cuts.tree.size(); ++k) {
         if (!slabs_[k].moves()) continue;

@@ -10,21 +10,21 @@
 
 namespace rrcb {
 
-/// Corrects all cuts at once by what lies in slabs about them.
+/// Corrects all cuts at once by the points in slabs about them.
 ///
-/// The constructor makes what the messages need.
+/// The constructor makes the buffers of the messages.
 class Correction {
   public:
     /// For the tree below `top`; `memory` is borrowed. Not collective. Throws std::bad_alloc.
     Correction(const Descent& top, bool is_root, UndecidedPoints& memory);
 
-    /// Moves `cuts`, whose parts are too uneven, until these are within the tolerance, as counted;
-    /// or until that gets on no further. Returns in how many rounds, 0 where nothing was moved.
+    /// Moves `cuts`, whose parts are too uneven, until the counted parts are within the tolerance
+    /// or no longer improve. Returns the number of rounds, 0 if nothing was moved.
     ///
-    /// Collective: two reductions and two broadcasts for each of 4 corrections at most. `parts` and
-    /// `sums` hold what the cuts make, before and after, and `imbalance` that of the sums. All
-    /// arguments but `points`, `parts` and the sums of this rank are the same on every rank. What
-    /// fails on one rank, before or here, is thrown on all, unless nothing is moved.
+    /// Collective: two reductions and two broadcasts for each of a few corrections. `parts` and
+    /// `sums` belong to the cuts, before and after, and `imbalance` is that of the sums. All
+    /// arguments except `points`, `parts` and the sums of this rank are the same on every rank. A
+    /// failure on one rank, before or here, is thrown on all, unless nothing is moved.
     int run(const TargetRule& rule, const Points& points, std::span<const Bracket> brackets,
             Cuts& cuts, std::span<Part> parts, PartSums& sums, double& imbalance,
             Participant& self);
@@ -35,11 +35,12 @@ class Correction {
     void move(Cuts& cuts) const;
 
     SlabTotals totals_;
-    std::vector<Slab> slabs_;  ///< of all cuts; none where there are too many
+    std::vector<Slab> slabs_;  ///< of all cuts; empty if there are too many cuts
     UndecidedPoints& points_;
-    std::unique_ptr<double[]> here_;    ///< in bins of slabs, and 1 where this rank failed
-    std::unique_ptr<double[]> joined_;  ///< the same of all ranks; null elsewhere than at the root
-    std::vector<double> values_;        ///< of moving cuts, and how many ranks failed
+    std::unique_ptr<double[]> here_;    ///< weights in bins of slabs, then 1 if this rank failed
+    std::unique_ptr<double[]> joined_;  ///< the sums of `here_` over all ranks; null except on the
+                                        ///< root
+    std::vector<double> values_;        ///< of moving cuts, then how many ranks failed
     std::vector<double> expected_;      ///< weights of the parts once the cuts have moved
 };
 

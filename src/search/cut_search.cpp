@@ -12,7 +12,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Times that candidates are counted in bins before splitters take over.
+/// Counts of candidates in bins before splitters are used.
 constexpr int most_counts = 4;
 
 std::size_t axis_index(const CutSearch& search, int tied) {
@@ -25,7 +25,7 @@ void finish(CutSearch& search, double value, double below) {
     search.below = below;
 }
 
-/// Ends with the cut at a position, which is the first above it.
+/// Ends with the cut at a position, which is then the first above it.
 void finish_at(CutSearch& search, const Vector& position, double below) {
     const PositionOrder order = order_of(search);
     for (const std::size_t axis : order.axes()) search.cut.at[axis] = position[axis];
@@ -33,14 +33,14 @@ void finish_at(CutSearch& search, const Vector& position, double below) {
     search.below = below;
 }
 
-/// Ends with the cut behind a position, the last below it.
+/// Ends with the cut behind a position, which is then the last below it.
 void finish_behind(CutSearch& search, Vector position, double below) {
     const std::size_t last = order_of(search).axes().back();
     position[last] = std::nextafter(position[last], infinity);
     finish_at(search, position, below);
 }
 
-/// Ends among points that no cut tells apart: divides them, or leaves all of them on the side with
+/// Ends among points that no cut separates: divides them, or leaves all of them on the side with
 /// the smaller excess.
 void finish_among_ties(CutSearch& search, const CutTarget& target, const Vector& position,
                        double below_ties, double weight) {
@@ -56,8 +56,8 @@ void finish_among_ties(CutSearch& search, const CutTarget& target, const Vector&
     }
 }
 
-/// Goes on along the next axis where all candidates share their coordinate on this one; ends where
-/// they share all of them.
+/// Goes on along the next axis if all candidates share their coordinate on this one; ends if they
+/// share all of them.
 void break_tie(CutSearch& search, CutTarget& target, std::span<const double> extents,
                std::span<const double> weights) {
     const double value = extents[max_dimension + axis_index(search, search.tied)];
@@ -83,17 +83,18 @@ struct Extent {
     double largest;
 };
 
-/// Goes on with the candidates in the chosen slot: by another count in bins, or by splitters once
-/// bins have had their chance.
+/// Goes on with the candidates in the chosen slot: by another count in bins, or by splitters after
+/// most_counts of them.
 void narrow(CutSearch& search, CutTarget& target, const Bins& bins, int num_bins, Extent extent) {
     const int slot = search.chosen;
     const double lower = slot == 0 ? extent.smallest : bins.edge(slot - 1);
     const double upper =
         slot > num_bins ? std::nextafter(extent.largest, infinity) : bins.edge(slot);
-    // Some candidates lie where the cut may not: another count tells what they weigh.
+    // The cut may not be among some of the candidates: another count finds their weight.
     const bool is_limited =
         search.tied == 0 && (lower < target.places.first || upper > target.places.last);
-    // Twice in bins of equal width, the fragments included; what is left then is no even cloud.
+    // The first two counts use bins of equal width. Candidates that are still undecided are
+    // unevenly spread, so later bins hold equal numbers of doubles.
     search.by_bits = search.stage == CutSearch::over_candidates ? 1 : 0;
     search.lower = is_limited ? std::max(lower, target.places.first) : lower;
     search.upper = is_limited ? std::min(upper, target.places.last) : upper;
@@ -118,7 +119,7 @@ Chosen choose(double base, double target, std::span<const double> weights) {
     Chosen chosen{0, base};
     const int last = static_cast<int>(weights.size()) - 1;
     // All slots before this one together, with the base, weigh less than the target. So the target
-    // is in it, or round-off left the target behind all of them and the last slot has to do.
+    // is in this slot, or round-off left the target behind all slots and the last one is taken.
     while (chosen.slot < last) {
         const double next = chosen.below + weights[chosen.slot];
         if (next >= target) break;
@@ -141,7 +142,8 @@ EdgeErrors errors_at(const Chosen& chosen, double weight, const CutTarget& targe
     return {target.excess(chosen.below), target.excess(chosen.below + weight)};
 }
 
-/// True when all candidates share a coordinate, at which a cut may lie and may break ties.
+/// Returns true if all candidates share a coordinate at which the cut is allowed and may break
+/// ties.
 bool may_break_tie(const CutSearch& search, const CutTarget& target, const Extent& extent,
                    const HistogramLayout& layout) {
     if (extent.smallest != extent.largest) return false;
@@ -150,7 +152,7 @@ bool may_break_tie(const CutSearch& search, const CutTarget& target, const Exten
            extent.largest < search.upper;
 }
 
-/// Ends where it is limited: at the first or the last place when the target lies beyond it.
+/// Ends a limited search: at the first or the last allowed place if the target is beyond it.
 bool finish_at_limit(CutSearch& search, const CutTarget& target, std::span<const double> weights,
                      const Chosen& chosen) {
     if (target.places.all() || search.tied > 0) return false;
@@ -162,7 +164,7 @@ bool finish_at_limit(CutSearch& search, const CutTarget& target, std::span<const
     return is_first || is_last;
 }
 
-/// Goes on in the slot of a grid that was chosen; ends at the nearer edge of a single cell.
+/// Goes on in the chosen slot of a grid; ends at the nearer edge of a single cell.
 void narrow_on_lines(CutSearch& search, const CutTarget& target, const HistogramLayout& layout,
                      const EdgeErrors& errors, double weight) {
     const Bins bins = bins_of(search, layout);
@@ -180,7 +182,7 @@ void narrow_on_lines(CutSearch& search, const CutTarget& target, const Histogram
     search.stage = CutSearch::over_candidates;
 }
 
-/// Notes which slot the search goes on in, and what is in it.
+/// Notes the chosen slot and its weight and count.
 void go_on_in(const Chosen& chosen, double count, CutSearch& search, CutTarget& target) {
     search.chosen = chosen.slot;
     target.base = chosen.below;
@@ -219,7 +221,7 @@ std::vector<Vector> splitters_of(std::vector<Vector> sample, const PositionOrder
     sample.erase(std::unique(sample.begin(), sample.end(), same), sample.end());
     const std::size_t most = (layout.num_slots() - 1) / 2;
     const std::size_t count = std::min(most, sample.size());
-    // Evenly spread over the sample where there is no room for all of it.
+    // Evenly spread over the sample, if `count` is less than its length.
     for (std::size_t k = 0; k < count; ++k)
         sample[k] = sample[(2 * k + 1) * sample.size() / (2 * count)];
     sample.resize(count);
@@ -270,8 +272,8 @@ void decide_by_splitters(CutSearch& search, CutTarget& target, const HistogramLa
     const int slot = chosen.slot;
     const EdgeErrors errors = errors_at(chosen, weights[slot], target);
     const bool at_splitter = slot % 2 == 1;
-    // Between two slots lies the near or the far side of a splitter; the outermost edges were
-    // looked at before.
+    // Between two slots is the near or the far side of a splitter. The outermost edges were
+    // considered before.
     const std::size_t edge = errors.at_lower() ? slot : slot + 1;
     if (errors.least() <= target.slack && edge > 0 && edge < weights.size()) {
         const double below = chosen.below + (errors.at_lower() ? 0 : weights[slot]);
@@ -317,7 +319,7 @@ void decide_among(CutSearch& search, CutTarget& target, std::span<const double> 
     }
     const Vector& last_below = candidates[best - 1].position;
     const Vector& first_above = candidates[best].position;
-    // The two differ along an axis that is open, as the division is between positions.
+    // The two positions differ along an open axis, because the division is between them.
     while (last_below[axis_index(search, search.tied)] ==
            first_above[axis_index(search, search.tied)]) {
         const std::size_t axis = axis_index(search, search.tied++);

@@ -13,7 +13,7 @@
 
 namespace rrcb {
 
-/// Consecutive entries of the sorted points that lie in one node of the tree: a cell, or the piece
+/// Consecutive entries of the sorted points that are in one node of the tree: a cell, or the piece
 /// of a cell that earlier cuts left.
 struct Fragment {
     LocalIndex begin = 0;
@@ -25,45 +25,45 @@ struct Fragment {
     static constexpr std::int32_t none = -1;
 };
 
-/// Marks by 1 the cells that a bracket of these cuts reaches, whose points a search for cuts in
-/// the brackets needs. Empty if these are so many points that to sort all is faster.
+/// Marks by 1 the cells that the bracket of a cut reaches; a search in the brackets needs their
+/// points. Returns an empty vector if these are so many points that sorting all of them is faster.
 std::vector<std::uint8_t> cells_in_brackets(const BinnedPoints& binned, const Cuts& cuts,
                                             std::span<const Bracket> brackets);
 
-/// A fragment for every cell that holds points.
+/// Returns a fragment for every cell that holds points.
 std::vector<Fragment> cell_fragments(const SortedPoints& points);
 
 inline bool is_left_out(const Fragment& fragment, const SortedPoints& points) {
     return fragment.cell_left_out != Fragment::none && points.is_left_out(fragment.cell_left_out);
 }
 
-/// Lot of the points exactly at a cut, which no cut tells apart. They form one row over all ranks,
-/// of which the first go below the cut.
+/// Lot of the points exactly at a cut, which no cut separates. They form one row over all ranks, in
+/// the order of the ranks; the first of the row go below the cut.
 struct Lot {
     double before = 0;  ///< weight of those on lower ranks
     double below = 0;   ///< weight of the row that belongs below; 0: all of it stays above
 };
 
-/// Weight of all points of the fragments.
+/// Returns the weight of all points of the fragments.
 double weight_of(const std::vector<Fragment>& fragments);
 
-/// Weight of the points exactly at a cut.
+/// Returns the weight of the points exactly at a cut.
 double weight_at(const Cut& cut, const std::vector<Fragment>& fragments,
                  const SortedPoints& points);
 
-/// Fragments below and above a cut. Those it crosses are divided in place: entries of `points`
-/// change places within the fragment.
+/// Returns the fragments below and above a cut. Those it crosses are divided in place: entries of
+/// `points` change places within the fragment.
 std::pair<std::vector<Fragment>, std::vector<Fragment>> split(
     const std::vector<Fragment>& fragments, const Cut& cut, const Lot& lot, SortedPoints& points);
 
-/// Fragments of the points in parts below `first_above`, and of the others, by `parts` of the
-/// original indices. Those with both are divided in place, and keep their boxes.
+/// Returns the fragments of the points in parts below `first_above`, and of the others, by `parts`
+/// of the original indices. Fragments with both are divided in place, and keep their boxes.
 std::pair<std::vector<Fragment>, std::vector<Fragment>> split_by_parts(
     const std::vector<Fragment>& fragments, Part first_above, std::span<const Part> parts,
     SortedPoints& points);
 
-/// Sets the part of every point of the fragments by the cuts at `at` and below, and writes what the
-/// parts there weigh into `weights`, which has one entry per part of the whole tree.
+/// Sets the part of every point of the fragments by the cuts at `at` and below, and writes the
+/// weights of these parts into `weights`, which has one entry per part of the whole tree.
 void write_parts(const std::vector<Fragment>& fragments, const Cuts& cuts, const Descent& at,
                  const SortedPoints& points, std::span<Part> parts, std::span<double> weights);
 

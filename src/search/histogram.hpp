@@ -9,15 +9,16 @@
 
 namespace rrcb {
 
-/// Layout of a histogram, which tells of one search in a round: weights and counts in the slots of
-/// a bracket or between splitters, or a sample.
+/// Layout of a histogram, the data of one search in a round: weights and counts in the slots of a
+/// bracket or between splitters, or a sample.
 ///
-/// It begins with num_extents entries of which the largest counts: minus the lower ends of the
-/// extent, its upper ends, and the dimension of the sample, 0 for none. Behind them are
-/// 2 * num_slots entries to be summed, or a sample.
+/// The first num_extents entries are joined by their maximum: minus the lower ends of the extent,
+/// its upper ends, and the dimension of the sample, 0 for none. They are followed by 2 * num_slots
+/// entries to be summed, or a sample.
 struct HistogramLayout {
     int num_bins = 64;
-    std::array<AxisLimits, max_dimension> limits{};  ///< the edges of bins lie on their grids
+    std::array<AxisLimits, max_dimension> limits{};  ///< of the grids on whose lines bins have
+                                                     ///< their edges
 
     std::size_t num_slots() const { return static_cast<std::size_t>(num_bins) + 2; }
     static constexpr std::size_t sample_dimension = 2 * max_dimension;
@@ -28,16 +29,16 @@ struct HistogramLayout {
 /// Makes an empty histogram.
 void clear_histogram(std::span<double> histogram);
 
-/// Makes an empty sample of positions; returns where it lies.
+/// Makes an empty sample of positions; returns its entries.
 std::span<double> clear_to_sample(int dimension, std::span<double> histogram);
 
-/// The sample in a histogram that holds one.
+/// Returns the sample in a histogram that holds one.
 inline std::span<const double> sample_in(std::span<const double> histogram) {
     return histogram.subspan(HistogramLayout::num_extents);
 }
 
-/// Takes in the histogram of other ranks, of the same kind. In any order it gives the same bits
-/// where weights are multiples of a common quantum.
+/// Joins the histogram of other ranks, of the same kind. Any order gives the same bits if weights
+/// are multiples of a common quantum.
 void join_histograms(std::span<const double> other, std::span<double> histogram);
 
 }  // namespace rrcb

@@ -47,7 +47,8 @@ class Tally {
 };
 
 /// Calls visit(i) for the entries of a fragment from `lower` to below `upper` across an axis;
-/// returns how many lie below. Without branches on coordinates, as these come in any order.
+/// returns the number of entries below `lower`. Without branches on coordinates, because these are
+/// in no order.
 template <class Visit>
 LocalIndex visit_between(double lower, double upper, int axis, const Fragment& fragment,
                          const SortedPoints& points, Visit&& visit) {

@@ -15,8 +15,8 @@ class LocalSearch {
     LocalSearch(std::span<const Fragment> fragments, const SortedPoints& points)
         : fragments_(fragments), points_(points) {}
 
-    /// Adds what this rank holds to `histogram` (length layout.length()): weights in multiples of
-    /// the quantum of the search, counts and extents.
+    /// Adds the points of this rank to `histogram` (length layout.length()): weights in multiples
+    /// of the quantum of the search, counts and extents.
     void count(const CutSearch& search, const HistogramLayout& layout,
                std::span<double> histogram) const;
 
@@ -44,11 +44,11 @@ class LocalSearch {
     std::vector<Vector> splitters_;
 };
 
-/// Power of two of which sums of weights up to about `weight` are rounded to multiples, so that
-/// doubles hold sums of them exactly.
+/// Returns the power of two to which weights are rounded, so that doubles hold sums up to about
+/// `weight` exactly.
 double quantum_for(double weight);
 
-/// `value` in multiples of a quantum.
+/// Returns `value` in multiples of a quantum.
 double rounded_to(double quantum, double value);
 
 }  // namespace rrcb

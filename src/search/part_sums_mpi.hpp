@@ -15,7 +15,7 @@ class PartSums {
   public:
     PartSums() = default;
 
-    /// Makes what the messages of add_up() need. Not collective. Throws std::bad_alloc.
+    /// Makes the buffers of add_up(). Not collective. Throws std::bad_alloc.
     explicit PartSums(std::size_t num_parts) : here_(num_parts + 1), sums_(num_parts + 2) {}
 
     /// Weights of this rank's points, one entry per part, to be written before each add_up().
@@ -23,29 +23,30 @@ class PartSums {
 
     /// Adds them up on every rank; returns the imbalance of the sums.
     ///
-    /// Collective: a reduction and a broadcast, which tell of failures as well; throws where a rank
-    /// has failed. `part_sizes` has one entry per part.
+    /// Collective: a reduction and a broadcast, which carry failures as well; throws if a rank has
+    /// failed. `part_sizes` has one entry per part.
     double add_up(std::span<const double> part_sizes, const Participant& self);
 
-    /// Takes what was counted and added up elsewhere.
+    /// Sets weights and sums that were counted elsewhere.
     void set(std::span<const double> here, std::span<const double> sums);
 
     /// Takes the sums of the parts from `first` on.
     void set_sums(Part first, std::span<const double> sums);
 
-    /// What was added up last, one entry per part.
+    /// Returns the latest sums, one entry per part.
     std::span<const double> sums() const { return std::span(sums_).first(sums_.size() - 2); }
 
-    /// The sums, one entry per part. What takes them leaves none.
+    /// Moves the sums out, one entry per part.
     std::vector<double> take();
 
-    /// A copy of the sums, to be put back by restore(). Throws std::bad_alloc.
+    /// Returns a copy of the sums, to be put back by restore(). Throws std::bad_alloc.
     std::vector<double> saved() const { return sums_; }
     void restore(std::vector<double>&& saved) { sums_ = std::move(saved); }
 
   private:
-    std::vector<double> here_;  ///< behind the weights 1 where this rank failed
-    std::vector<double> sums_;  ///< behind the weights how many ranks failed, and the imbalance
+    std::vector<double> here_;  ///< the weights, then 1 if this rank failed
+    std::vector<double> sums_;  ///< the sums, then the number of ranks that failed, and the
+                                ///< imbalance
 };
 
 }  // namespace rrcb

@@ -41,7 +41,7 @@ Refined Refinement::refine(Estimate&& estimate, const Points& points, const Bin&
     return std::move(refined_);
 }
 
-/// Searches the cuts, and once more, exactly, where that misses a tolerance. Collective.
+/// Searches the cuts, and once more, exactly, if they miss a tolerance. Collective.
 void Refinement::search(const Bin& bin, std::span<Part> parts, Participant& self) {
     if (limits_) {
         search_for_better(bin, parts, self);
@@ -52,7 +52,7 @@ void Refinement::search(const Bin& bin, std::span<Part> parts, Participant& self
     if (missed && !std::exchange(tree_.rule.is_exact, true)) search_for_better(bin, parts, self);
 }
 
-/// Takes an estimate, and derives from it what belongs below cuts and where they may lie.
+/// Takes an estimate, and derives the targets and the limits of its cuts.
 void Refinement::start(Estimate&& estimate, Participant& self) {
     const auto& sizes = options_.part_sizes;
     const bool is_limited = are_cuts_limited(options_);
@@ -78,8 +78,8 @@ void Refinement::start(Estimate&& estimate, Participant& self) {
     }
 }
 
-/// True when there is nothing to search: the estimated cuts are good enough as they are, and
-/// `parts` is complete, or the kept parts are. Collective.
+/// Returns true if there is nothing to search: the estimated cuts are good enough, or the points
+/// stay; `parts` is complete then. Collective.
 bool Refinement::accept_estimate(const Points& points, std::span<Part> parts, Participant& self) {
     self.attempt([&] {
         const PartTotals totals = assign_and_count(estimate_.cuts, points, parts);
@@ -91,8 +91,8 @@ bool Refinement::accept_estimate(const Points& points, std::span<Part> parts, Pa
     return refined_.imbalance <= tolerance || estimate_.kept_imbalance <= tolerance;
 }
 
-/// True when counted cuts, corrected all at once, are good enough, and `parts` is complete.
-/// Otherwise the cuts are counted as they are now. Collective.
+/// Returns true if counted cuts, corrected all at once, are good enough, and `parts` is complete.
+/// Otherwise the current cuts are counted. Collective.
 bool Refinement::correct(const Points& points, std::span<Part> parts, Participant& self) {
     if (!correction_) return false;
     refined_.rounds += correction_->run(tree_.rule, points, estimate_.brackets, estimate_.cuts,
@@ -101,7 +101,8 @@ bool Refinement::correct(const Points& points, std::span<Part> parts, Participan
     return refined_.imbalance <= options_.imbalance_tolerance;
 }
 
-/// Adds up what the parts weigh on all ranks, on every rank. Collective; throws where one failed.
+/// Adds up the weights of the parts over all ranks, on every rank. Collective; throws if one
+/// failed.
 void Refinement::measure(const Participant& self) {
     refined_.imbalance = sums_.add_up(options_.part_sizes, self);
     tree_.rule.counted_weight = sum_of(sums_.sums());
@@ -115,7 +116,7 @@ void Refinement::search_once(const Bin& bin, std::span<Part> parts, Participant&
     std::optional<TreeSearch> search;
     self.attempt([&] {
         const BinnedPoints& binned = bin();
-        // A search to a tolerance goes on beyond the brackets.
+        // A search to a tolerance may leave the brackets.
         std::vector<std::uint8_t> cells;
         if (tree_.rule.is_exact && !limits_)
             cells = cells_in_brackets(binned, estimate_.cuts, estimate_.brackets);
@@ -129,7 +130,7 @@ void Refinement::search_once(const Bin& bin, std::span<Part> parts, Participant&
     measure(self);
 }
 
-/// Searches all cuts, and keeps them where they are better than those before. Collective.
+/// Searches all cuts, and keeps the new ones if they are better. Collective.
 void Refinement::search_for_better(const Bin& bin, std::span<Part> parts, Participant& self) {
     struct {
         std::vector<Cut> tree;

@@ -24,44 +24,44 @@ struct Estimate {
     Cuts cuts;
     std::vector<Bracket> brackets;  ///< one per cut
     double total_weight = 0;        ///< over all ranks
-    double common_weight = 0;       ///< weight of each point where all weigh the same, else 0
-    /// Of the parts that may stay instead; infinite if there are none.
+    double common_weight = 0;       ///< weight of each point if all weigh the same, else 0
+    /// Imbalance of the parts that may stay instead; infinite if there are none.
     double kept_imbalance = std::numeric_limits<double>::infinity();
-    bool is_counted = false;  ///< `parts` and the sums hold what the cuts make, not good enough
+    bool is_counted = false;  ///< `parts` and the sums are those of the cuts, not good enough
     double heaviest = 0;      ///< weight of the heaviest point
     bool is_earlier = false;  ///< the cuts are those of an earlier call
     Box box{};                ///< of all points, if cuts are limited
 };
 
-/// The points by cells, for a search. May throw. Made of a std::ref, it takes no memory.
+/// Returns the points by cells, for a search. May throw. Made of a std::ref, it takes no memory.
 using Bin = std::function<const BinnedPoints&()>;
 
-/// Refined cuts and how even the parts really are; the same on every rank. After a central
-/// refinement the weights of the parts are in the PartSums.
+/// Refined cuts and their measured imbalance; the same on every rank. After a central refinement
+/// the weights of the parts are in the PartSums.
 struct Refined {
     Cuts cuts;
     double imbalance = 1;
     int rounds = 0;           ///< of counting and deciding
-    int coincident_cuts = 0;  ///< that keep points together which the target divides
+    int coincident_cuts = 0;  ///< cuts that keep points together although the target divides them
 };
 
-/// Moves estimated cuts of all parts until these are as even as asked, as rank 0 decides.
+/// Moves estimated cuts until all parts are as even as asked, as rank 0 decides.
 ///
-/// To a tolerance, all cuts are first corrected at once, see Correction. Where that does not serve,
+/// To a tolerance, all cuts are first corrected at once, see Correction. If that is not enough,
 /// they are searched, see TreeSearch. Buffers are made before the first message.
 class Refinement {
   public:
-    /// By complete options. `options` and `sums` are borrowed. Not collective. Throws Error or
+    /// Takes complete options. `options` and `sums` are borrowed. Not collective. Throws Error or
     /// std::bad_alloc.
     Refinement(const Options& options, const Participant& self, PartSums& sums);
 
     /// Refines the cuts of `estimate`, once.
     ///
     /// Collective. Writes the part of each point into `parts`; a search works on a sorted copy of
-    /// the points. Where a tolerance is missed because slack was spent on upper levels that lower
-    /// ones need, it searches once more, exactly, and keeps the better cuts. Limited cuts are all
-    /// searched in their places, and the estimate is kept where it is better. Without weight
-    /// anywhere the cuts stay. A failure on one rank, before or here, is thrown on all.
+    /// the points. A tolerance can be missed because upper levels used slack that lower ones need.
+    /// Then it searches once more, exactly, and keeps the better cuts. Limited cuts are all
+    /// searched in their places, and the estimate is kept if it is better. Without any weight the
+    /// cuts stay. A failure on one rank, before or here, is thrown on all.
     Refined refine(Estimate&& estimate, const Points& points, const Bin& bin, std::span<Part> parts,
                    Participant& self);
 
@@ -79,24 +79,24 @@ class Refinement {
     Workspace& memory_;
     PartTree tree_;
     Estimate estimate_;
-    std::optional<CutLimits> limits_;       ///< nothing where cuts may lie anywhere
-    std::optional<Correction> correction_;  ///< to a tolerance, where cuts may lie anywhere
+    std::optional<CutLimits> limits_;       ///< empty if cuts are not limited
+    std::optional<Correction> correction_;  ///< with a tolerance, if cuts are not limited
     TreeRounds rounds_;
     Refined refined_;
 };
 
-/// Makes the parts below regions, as the owners of nodes decide, with buffers made before the first
-/// message.
+/// Makes the parts below regions by the decisions of the nodes' owners, with buffers made before
+/// the first message.
 class RegionRefinement {
   public:
     /// Not collective. Throws Error or std::bad_alloc.
     explicit RegionRefinement(const Participant& self);
 
-    /// Finds the cuts below `regions`, of which each rank gets those that it knows, and writes the
-    /// part of each point into `parts`.
+    /// Finds the cuts below `regions` and writes the part of each point into `parts`. Returns the
+    /// cuts that this rank knows.
     ///
-    /// Collective. `regions` and `tree` are the same on every rank. A tolerance that is missed has
-    /// it search once more, exactly and without the regions, and keep the better cuts. Throws on
+    /// Collective. `regions` and `tree` are the same on every rank. If a tolerance is missed, it
+    /// searches once more, exactly and without the regions, and keeps the better cuts. Throws on
     /// every rank the failure of one, before or here; but a failure in the last messages stays with
     /// its rank for the next agreement.
     Refined refine(const Regions& regions, PartTree tree, const BinnedPoints& binned,

@@ -11,7 +11,7 @@ namespace {
 constexpr double empty = -1;
 
 /// Order of records: the greatest key first, equal keys by position, so that the order of joining
-/// stays free.
+/// does not matter.
 bool precedes(std::span<const double> a, std::span<const double> b) {
     return std::ranges::lexicographical_compare(b, a);
 }

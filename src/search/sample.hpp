@@ -16,17 +16,17 @@ constexpr std::size_t sample_record(int dimension) {
 /// A random key, at least 0: of a point by its rank and its index there, the same in every call.
 double sample_key(int rank, LocalIndex index);
 
-// A sample is as many records as `sample` has room for, those of the greatest keys in descending
-// order. The samples of two disjoint sets of points joined are the sample of their union, so that
-// the order in which they are joined is free.
+// A sample holds as many records as `sample` has room for: those of the greatest keys, descending.
+// Joining the samples of two disjoint sets of points gives the sample of their union, in any order
+// of joining.
 
 /// Leaves nothing in a sample.
 void clear_sample(std::span<double> sample);
 
-/// Takes in one more position, unless `sample` is full of greater keys.
+/// Adds one more position, unless `sample` is full of greater keys.
 void add_to_sample(double key, const Vector& position, int dimension, std::span<double> sample);
 
-/// Takes in all positions of another sample of the same length.
+/// Adds all positions of another sample of the same length.
 void join_samples(std::span<const double> other, int dimension, std::span<double> sample);
 
 /// The positions of a sample.

@@ -28,7 +28,7 @@ class Layer {
           part_weights_(part_weights),
           slabs_(slabs) {}
 
-    /// `gain` is what cuts above may bring into the node or take out of it.
+    /// `gain` is the weight that cuts above may bring into the node or take out of it.
     void lay(const Descent& at, int depth, double gain) {
         if (at.is_part()) return;
         const Cut& cut = cuts_.tree[at.node];
@@ -57,10 +57,10 @@ class Layer {
 
   private:
     static constexpr double caution = 3;
-    /// Share of a bracket that a slab is wider than need be, as brackets are estimates.
+    /// Extra width of a slab as a share of its bracket, because brackets are estimates.
     static constexpr double floor = 0.25;
 
-    /// Lays a slab for a cut below which `missing` is missing, and as much more or less as `open`.
+    /// Lays a slab for a cut that lacks the weight `missing` below it, give or take `open`.
     void lay_about(double value, double missing, double open, double weight, const Descent& at,
                    int depth) {
         const Bracket& bracket = brackets_[at.node];
@@ -85,7 +85,7 @@ class Layer {
     std::span<Slab> slabs_;
     SlabTotals totals_;
     bool is_possible_ = true;
-    double weight_ = 0;  ///< that is expected in all slabs
+    double weight_ = 0;  ///< expected in all slabs
 };
 
 }  // namespace

@@ -14,8 +14,8 @@
 
 namespace rrcb {
 
-/// Range across the axis of a cut that the cut is corrected in: lower <= cut <= upper. One value
-/// where the cut stays.
+/// Range across the axis of a cut in which the cut is corrected: lower <= cut <= upper. A single
+/// value if the cut stays.
 struct Slab {
     static constexpr std::size_t stays = ~std::size_t{0};
 
@@ -27,45 +27,47 @@ struct Slab {
     bool moves() const { return number != stays; }
 };
 
-/// What slabs need of a message.
+/// Lengths that slabs need in a message.
 struct SlabTotals {
     std::size_t moving = 0;  ///< cuts that move
     std::size_t counts = 0;  ///< in bins of their slabs
 };
 
-/// The most that slabs of all cuts at or below a node need.
+/// Returns the most that slabs of all cuts at or below a node need.
 SlabTotals most_slabs(const Descent& top);
 
-/// Slabs of all cuts, into `slabs` (length of the tree), by what the parts were counted to weigh
-/// and where brackets expect how much weight about the cuts.
+/// Lays slabs of all cuts, into `slabs` (length of the tree), by the counted weights of the parts
+/// and the weight that brackets expect about the cuts.
 ///
-/// A slab reaches three times as far as its cut is off, and holds what cuts above may bring along.
-/// None moves where the slabs would hold half the weight: then it is no correction. Takes no
-/// memory.
+/// A slab reaches three times as far as its cut is off, plus the weight that cuts above may bring
+/// along. No cut moves if the slabs would hold half the weight: a search is better then. Allocates
+/// no memory.
 SlabTotals lay_slabs(const TargetRule& rule, const Cuts& cuts, std::span<const Bracket> brackets,
                      std::span<const double> part_weights, std::span<Slab> slabs);
 
 /// Bins on either side of a cut in its slab, numbered from the end of the slab on. They get
-/// narrower towards the cut, two for each halving of the distance, as it is not known how far the
-/// cut has to move.
+/// narrower towards the cut, two for each halving of the distance, because the distance the cut has
+/// to move is unknown.
 inline constexpr int bins_a_side = 16;
 
-/// Bin of a position across the axis, in the slab, on this side of the cut.
+/// Returns the bin of a position across the axis, in the slab, on this side of the cut.
 inline int bin_of(const Slab& slab, double cut, bool above, double position) {
     const double share =
         above ? (position - cut) / (slab.upper - cut) : (cut - position) / (cut - slab.lower);
-    // Exponent and first digit of the share make a number that is one less from bin to bin.
+    // The exponent and the first digit of the share form a number that decreases by one from bin to
+    // bin.
     constexpr int first_digit = std::numeric_limits<double>::digits - 2;
     const auto number = static_cast<int>(std::bit_cast<std::uint64_t>(share) >> first_digit);
     constexpr auto outermost = static_cast<int>(std::bit_cast<std::uint64_t>(0.75) >> first_digit);
     return std::clamp(outermost - number, 0, bins_a_side - 1);
 }
 
-/// Where a cut lies that leaves this share of a bin (0 ... 1, from the cut on) behind it.
+/// Returns the place of a cut that leaves this share of a bin (0 ... 1, from the cut on) behind it.
 double place_in_bin(const Slab& slab, double cut, bool above, int bin, double share);
 
-/// The counts in a bin, one for each part of the node of its cut: for the parts on the side of the
-/// bin, what each has in it; for those on the other side, what would come to each.
+/// Returns the counts in a bin, one for each part of the node of its cut. For parts on the side of
+/// the bin: the weight they have in it. For parts on the other side: the weight they would get from
+/// it.
 template <class Count>
 std::span<Count> bin_in(std::span<Count> counts, const Descent& at, const Slab& slab, bool above,
                         int bin) {

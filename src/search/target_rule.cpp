@@ -11,7 +11,7 @@ namespace rrcb {
 
 namespace {
 
-/// What the smallest of the parts is to weigh.
+/// Returns the weight that the smallest of the parts should have.
 double smallest_weight(std::span<const double> sizes, const TargetRule& rule) {
     double smallest = std::numeric_limits<double>::infinity();
     for (const double size : sizes)
@@ -19,8 +19,8 @@ double smallest_weight(std::span<const double> sizes, const TargetRule& rule) {
     return smallest;
 }
 
-/// The tolerance with which the smallest of the parts still holds whole points, where all of them
-/// weigh the same: where 16.16 points are allowed it can have no more than 16.
+/// Returns the tolerance with which the smallest of the parts still holds whole points, if all of
+/// them weigh the same: if 16.16 points are allowed it holds at most 16.
 double attainable_tolerance(std::span<const double> sizes, const TargetRule& rule) {
     if (rule.common_weight == 0) return rule.tolerance;
     const double smallest = smallest_weight(sizes, rule);
@@ -35,7 +35,7 @@ double weight_of(const Descent& at, std::span<const double> part_weights) {
 }
 
 bool TargetRule::are_within(const Descent& at, std::span<const double> part_weights) const {
-    // To the bit as the imbalance, which decides at the end.
+    // Bit-identical to the imbalance, which decides at the end.
     const double sizes = sum_of(part_sizes);
     for (int k = 0; k < at.num_parts; ++k) {
         const int part = at.first_part + k;
@@ -58,8 +58,9 @@ bool TargetRule::may_stay(const Descent& at, std::span<const double> part_weight
     return may(at.lower()) && may(at.upper());
 }
 
-/// The most that a node may weigh so that cuts below, each off by a little, still bring its parts
-/// within the tolerance: the more levels there are, the more of it is left to these, up to half.
+/// Returns the most that a node may weigh so that cuts below, each off by a little, still bring its
+/// parts within the tolerance. With more levels below, more of the tolerance is left to them, up to
+/// half.
 double TargetRule::most_weight(const Descent& at) const {
     const auto sizes = sizes_of(at);
     const int all_levels = num_levels(at.shape, static_cast<int>(part_sizes.size()));
@@ -68,8 +69,8 @@ double TargetRule::most_weight(const Descent& at) const {
     return weight_per_size * sum_of(sizes) * (1 + excess);
 }
 
-/// The end of the allowed weights below a cut that is nearest to what lies there, but for space to
-/// end the search in.
+/// Returns the end of the allowed weights below a cut that is nearest to the present weight, less a
+/// margin for the search to end in.
 CutTarget TargetRule::nearest_target(const Descent& at, double weight, double below) const {
     constexpr double share_of_gap = 16;
     const double most = std::min(most_weight(at.lower()), weight);
@@ -100,11 +101,11 @@ CutTarget TargetRule::target_of(const Descent& at, double weight, double below) 
     // The point on the target goes to one of the sides.
     const double of_both = 2 * target.share * (1 - target.share);
     target.slack = of_both * common_weight;
-    // Less by a hair: an odd point goes above the cut, wherever the search began.
+    // Slightly less: an odd point goes above the cut, wherever the search began.
     if (is_exact) target.target = std::max(0.0, target.target - std::ldexp(common_weight, -12));
     if (is_exact || !(weight > 0)) return target;
     if (is_earlier && below >= 0) return nearest_target(at, weight, below);
-    // A part may end up too heavy by the tolerance in all. What is left of it at this node is
+    // A part may be too heavy by the tolerance in all. The rest of the tolerance at this node is
     // shared evenly with the levels below, as factors.
     const double ideal = weight_per_size * sum_of(sizes);
     const int levels = num_levels(at.shape, at.num_parts);

@@ -10,17 +10,17 @@ namespace rrcb {
 
 inline constexpr double not_counted = -1;
 
-/// Rule for what belongs below each cut of the tree, and how far from it a cut may end.
+/// Rule for the weight that belongs below each cut of the tree, and for its slack.
 ///
-/// Where cuts are `earlier` ones, each moves as little as lets all parts be within the tolerance,
-/// so that few points change parts; otherwise to the share of the parts below it.
+/// If cuts are `earlier` ones, each moves as little as all parts within the tolerance allow, so
+/// that few points change parts. Otherwise each moves to the share of the parts below it.
 struct TargetRule {
     std::span<const double> part_sizes;
     double tolerance = 1;        ///< of the imbalance of all parts
-    double common_weight = 0;    ///< weight of each point where all weigh the same, else 0
+    double common_weight = 0;    ///< weight of each point if all weigh the same, else 0
     double heaviest = 0;         ///< weight of the heaviest point
     double weight_per_size = 0;  ///< weight that a part of size 1 is to have
-    double counted_weight = 0;   ///< of all parts, where these were counted
+    double counted_weight = 0;   ///< of all parts, if these were counted
     bool is_exact = false;       ///< no slack but half a point
     bool is_earlier = false;     ///< the cuts are those of an earlier call, not limited
 
@@ -31,20 +31,20 @@ struct TargetRule {
     /// Share of a node's weight that belongs below its cut.
     double share_below(const Descent& at) const;
 
-    /// Whether the parts of a node weigh no more than the tolerance allows. `part_weights` has one
-    /// entry per part of the whole tree.
+    /// Returns whether the parts of a node weigh no more than the tolerance allows. `part_weights`
+    /// has one entry per part of the whole tree.
     bool are_within(const Descent& at, std::span<const double> part_weights) const;
 
-    /// Whether the tolerance leaves the smallest part room for several of the heaviest points, so
-    /// that cuts can be told by weights in bins.
+    /// Returns whether the smallest part holds several of the heaviest points within the tolerance,
+    /// so that weights in bins determine the cuts.
     bool are_points_light() const;
 
-    /// Whether a cut may stay where it is: each side either is within the tolerance or weighs so
-    /// little that cuts below can bring it there.
+    /// Returns whether a cut may stay: each side either is within the tolerance or weighs so little
+    /// that cuts below can bring it there.
     bool may_stay(const Descent& at, std::span<const double> part_weights) const;
 
-    /// Target of a node's cut, by what the node was counted to weigh, and what of it lies below
-    /// its cut as it is, where that was counted.
+    /// Returns the target of a node's cut, from the counted weight of the node, and the weight
+    /// below its present cut, if that was counted.
     CutTarget target_of(const Descent& at, double weight, double below = not_counted) const;
 
   private:
@@ -52,7 +52,7 @@ struct TargetRule {
     CutTarget nearest_target(const Descent& at, double weight, double below) const;
 };
 
-/// What the parts of a node weigh together.
+/// Returns the weight of all parts of a node.
 double weight_of(const Descent& at, std::span<const double> part_weights);
 
 }  // namespace rrcb

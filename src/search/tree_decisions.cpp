@@ -62,8 +62,8 @@ void TreeSearch::decide(Butterfly& butterfly) {
     });
 }
 
-/// Has searches sample their candidates in place of gathering them where these are too many for
-/// one rank.
+/// Makes searches sample their candidates instead of gathering them if these are too many for one
+/// rank.
 void TreeSearch::limit_gathering() {
     GlobalCount num_points = 0;
     for (Node& node : nodes_) {
@@ -116,7 +116,7 @@ TreeSearch::LotAnswer TreeSearch::place_lot(const Node& node,
     return answer;
 }
 
-/// Target of the cut of a node; of a spread search by the rule for a tree of its own.
+/// Returns the target of the cut of a node; for a spread search by the rule for a tree of its own.
 CutTarget TreeSearch::target_of(const Node& node, double weight) const {
     const Descent& at = node.at;
     if (is_central()) {
@@ -125,7 +125,7 @@ CutTarget TreeSearch::target_of(const Node& node, double weight) const {
         return target;
     }
     TargetRule rule = tree_.rule;
-    // Of equal parts an exact cut asks only for how many are on each side.
+    // For equal parts an exact cut asks only for the number of parts on each side.
     const int below = at.lower_parts();
     const std::array<double, 2> sides{1.0 * below, 1.0 * (at.num_parts - below)};
     const bool by_sides = tree_.part_sizes.empty() && rule.is_exact;
@@ -133,7 +133,8 @@ CutTarget TreeSearch::target_of(const Node& node, double weight) const {
     return rule.target_of(root_of(static_cast<int>(rule.part_sizes.size()), tree_.shape), weight);
 }
 
-/// Moves a search on by the records of all ranks, of which some have points left to it.
+/// Advances a search with the joined records of all ranks. Empty records mean that it has no points
+/// left.
 CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
     CutSearch search = node.search;
     if (payload.empty()) {
@@ -158,7 +159,7 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
     return search;
 }
 
-/// Decides among candidates in an order that does not depend on the ways that they came.
+/// Decides among candidates in an order that does not depend on their routes to the owner.
 void TreeSearch::decide_among_candidates(const Node& node, std::span<const double> payload,
                                          CutSearch& search) const {
     const std::size_t length = static_cast<std::size_t>(dimension_) + 1;

@@ -29,8 +29,9 @@ void TreeSearch::start_from_guide(Node& node) {
     node.search = search_across(axis, bracket, node.content.weight);
 }
 
-/// Where the cut of a node is looked for: to a tolerance in wider bins than for an exact cut, so
-/// that a cut that is far off is found as soon; where it is known how far, on one side of it.
+/// Returns the bracket of a node's cut. With a tolerance it is wider than for an exact cut, so that
+/// a cut that is far off is found in as many rounds. If the cut is known to be off in one
+/// direction, the bracket is on that side.
 Bracket TreeSearch::bracket_of(const Node& node) const {
     constexpr double largest = std::numeric_limits<double>::max();
     constexpr double caution = 2;
@@ -51,7 +52,7 @@ Bracket TreeSearch::bracket_of(const Node& node) const {
             std::lerp(value, bracket.upper, widths)};
 }
 
-/// Writes the parts below a node by the cuts as they are, and appends their weights on this rank.
+/// Writes the parts below a node by the current cuts, and appends their weights on this rank.
 void TreeSearch::count_parts(const Node& node, std::vector<double>& payload) {
     const auto& fragments = node.content.fragments;
     const auto here = guide_->sums.here();
@@ -62,7 +63,7 @@ void TreeSearch::count_parts(const Node& node, std::vector<double>& payload) {
     payload.insert(payload.end(), weights.begin(), weights.end());
 }
 
-/// Goes on with a node once all ranks know the weights of its parts.
+/// Goes on with a node, given the weights of its parts over all ranks.
 void TreeSearch::take_sums(Node&& node, std::span<const double> sums) {
     guide_->sums.set_sums(node.at.first_part, sums);
     node.content.are_parts_counted = true;

@@ -12,7 +12,7 @@ namespace rrcb {
 
 namespace {
 
-/// The value that doubles begin with.
+/// Returns the value that doubles begin with.
 template <class Value>
 Value read(std::span<const double> doubles) {
     Value value;
@@ -67,7 +67,8 @@ void TreeSearch::join(std::span<const double> a, std::span<const double> b,
     const bool adds = !a.empty() && !b.empty() && a.size() == b.size() &&
                       (a[0] == mark_of_histogram || a[0] == mark_of_parts);
     joined.insert(joined.end(), a.begin(), a.end());
-    // Records that do not fit together follow a failure, which all ranks hear of after the pass.
+    // Records that do not fit together follow from a failure, which all ranks learn of after the
+    // pass.
     if (!is_alike) return;
     const auto sum = std::span(joined).last(adds ? a.size() - 1 : 0);
     if (!adds) {
@@ -85,7 +86,7 @@ void TreeSearch::follow(const Butterfly& butterfly) {
     nodes_.reserve(before.size());
     RecordReader answers = butterfly.answers().read();
     Record answer;
-    // Both ascend. Answers to others may have gone through this rank.
+    // Both ascend. Answers for other ranks may have passed through this one.
     for (Node& node : before) {
         while (!answers.at_end() && (answer.payload.empty() || answer.key < key_of(node.at)))
             answer = answers.next();

@@ -16,9 +16,9 @@ Flags flags_of(const std::optional<TreeSearch>& search) {
 
 int TreeRounds::run(std::optional<TreeSearch>& search, Participant& self) {
     const bool is_central = butterfly_.is_central();
-    // Rank 0 of a central search knows all nodes, and says with its answers whether any are left.
+    // Rank 0 of a central search knows all nodes, and sends with its answers whether any are left.
     const bool follows_first = is_central && rank() == root;
-    // All ranks know the same flags after each round, and so which messages follow.
+    // All ranks know the same flags after each round, and therefore agree on the next messages.
     for (int rounds = 0;; ++rounds) {
         butterfly_.clear();
         self.attempt([&] { search->ask(butterfly_); });

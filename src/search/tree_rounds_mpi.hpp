@@ -15,7 +15,7 @@ class TreeRounds {
     TreeRounds(int rank, int num_ranks, Butterfly::Way way)
         : butterfly_(rank, num_ranks, TreeSearch::join, way) {}
 
-    /// Ends a search, which this rank lacks if it has failed; returns in how many rounds.
+    /// Ends a search, which this rank lacks if it has failed; returns the number of rounds.
     ///
     /// Collective: each round is a pass to the owners and one back, and a spread search ends with
     /// one to the owners. Throws on every rank the failure of one, before or here; but a failure in

@@ -94,7 +94,7 @@ double TreeSearch::share_below(const Descent& at) const {
     return rrcb::share_below(sizes_of(at), at.lower_parts());
 }
 
-/// Sizes of the parts of a node; of equal ones to a tolerance only.
+/// Returns the sizes of the parts of a node; for equal ones only with a tolerance.
 std::span<const double> TreeSearch::sizes_of(const Descent& at) const {
     const auto count = static_cast<std::size_t>(at.num_parts);
     if (tree_.part_sizes.empty()) return tree_.ones.first(count);
@@ -118,7 +118,7 @@ void TreeSearch::enter_region(const Regions& regions, const Descent& region, con
     enter_region(regions, region.upper(), at.upper(), std::move(upper), box_above(box, cut));
 }
 
-/// Begins to search the cut of a node; goes on to its children where counting does not find it.
+/// Begins to search the cut of a node; goes on to its children if no counting is needed.
 void TreeSearch::enter(const Descent& at, Content&& content) {
     if (ends_at(at, content)) return;
     if (recounts() && !content.are_parts_counted)
@@ -135,7 +135,7 @@ void TreeSearch::enter(const Descent& at, Content&& content) {
     divide(at, content, cut_unsearched(at, content, share), {}, below);
 }
 
-/// True when there is nothing to search at a node or below; writes the part that it is.
+/// Returns true if there is nothing to search at a node or below; then its part is written.
 bool TreeSearch::ends_at(const Descent& at, Content& content) {
     if (content.are_parts_counted) {
         const auto sums = guide_->sums.sums();
@@ -148,8 +148,8 @@ bool TreeSearch::ends_at(const Descent& at, Content& content) {
     return ends;
 }
 
-/// The cut of a node that counting does not find. Nothing lies on a side without size. In a node
-/// without weight all lies below, unless a guide's cut stays.
+/// Returns the cut of a node that needs no counting. Nothing goes to a side of size 0. Without
+/// weight all goes below, unless a guide's cut stays.
 Cut TreeSearch::cut_unsearched(const Descent& at, const Content& content, double share) {
     if (!is_central())
         return plane(tree_.cut_axes.empty() ? 0 : tree_.cut_axes[at.node],
@@ -161,7 +161,7 @@ Cut TreeSearch::cut_unsearched(const Descent& at, const Content& content, double
 }
 
 void TreeSearch::add_node(const Descent& at, Content&& content, Question question) {
-    // A vector that is moved keeps its entries where they are.
+    // Moving the vector leaves its entries at their addresses.
     const LocalSearch local(content.fragments, points_);
     Node& node = nodes_.emplace_back(Node{at, std::move(content), question, {}, local});
     if (question != Question::cut) return;
@@ -181,7 +181,7 @@ void TreeSearch::divide(const Descent& at, const Content& content, const Cut& cu
     auto [lower, upper] = is_central() ? split(content.fragments, cut, lot, points_)
                                        : split_tightly(content.fragments, cut, lot);
     // A side of a divided lot may weigh up to a point more or less than asked for. The next count
-    // finds out; until then the node's weight is a bound.
+    // measures it; until then the node's weight is a bound.
     const bool divides_lot = lot.below > 0;
     const double above = divides_lot ? content.weight : content.weight - below;
     if (divides_lot) below = content.weight;
@@ -206,8 +206,8 @@ void TreeSearch::note(std::size_t node, const Cut& cut) {
     }
 }
 
-/// Sorts all points once those of a cell are needed that was left out: between the ends of a search
-/// or at a cut.
+/// Sorts all points if those of a left-out cell are needed: between the ends of a search or at a
+/// cut.
 void TreeSearch::sort_between(double lower, double upper, int axis, const Content& content) {
     const auto is_needed = [&](const Fragment& fragment) {
         return is_left_out(fragment, points_) && fragment.box.upper[axis] >= lower &&
@@ -220,7 +220,7 @@ void TreeSearch::write_rest() {
     if (!parts_of_cells_.empty()) write_parts_of_cells(*points_.binned, parts_of_cells_, parts_);
 }
 
-/// Splits fragments whose boxes touch their entries; so do those of the halves.
+/// Splits fragments whose boxes touch their entries; the boxes of the halves do so as well.
 TreeSearch::Halves TreeSearch::split_tightly(const std::vector<Fragment>& fragments, const Cut& cut,
                                              const Lot& lot) {
     Halves halves = split(fragments, cut, lot, points_);
@@ -233,7 +233,7 @@ TreeSearch::Halves TreeSearch::split_tightly(const std::vector<Fragment>& fragme
     return halves;
 }
 
-/// The same by the parts that points are in.
+/// Splits fragments by the parts of their points.
 TreeSearch::Halves TreeSearch::split_by_parts(const std::vector<Fragment>& fragments,
                                               Part first_above) {
     Halves halves = rrcb::split_by_parts(fragments, first_above, parts_, points_);
@@ -274,15 +274,15 @@ double TreeSearch::ideal_share(const Descent& at) const {
     return (tree_.part_sizes.empty() ? 1.0 : sizes_of(at)[0]) / all_sizes_;
 }
 
-/// Whether the round-off of a remainder may be large beside the weight of a part, so that the part
-/// must be weighed by its points.
+/// Returns whether the round-off of a remainder may be large compared with the weight of a part, so
+/// that the points of the part must be weighed.
 bool TreeSearch::is_tiny(const Descent& part) const {
     constexpr double least_share = 0x1p-20;
     const double share = tree_.part_sizes.empty() ? 1 : ideal_share(part);
     return share > 0 && share < least_share;
 }
 
-/// A search for the cut of a node before anything is counted.
+/// Returns a search for the cut of a node before anything is counted.
 CutSearch TreeSearch::search_across(int axis, const Bracket& bracket, double weight) const {
     CutSearch search;
     search.cut.axis = axis;
@@ -295,7 +295,7 @@ CutSearch TreeSearch::search_across(int axis, const Bracket& bracket, double wei
     return search;
 }
 
-/// The search in the box of a node, or to weigh a part.
+/// Returns the search in the box of a node, or one that weighs a part.
 CutSearch TreeSearch::first_search(const Descent& at, const Box& box, double weight) const {
     const int number = tree_.cut_axes.empty() || at.is_part()
                            ? longest_axis(box, dimension_, tree_.share_of_longest)

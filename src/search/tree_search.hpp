@@ -35,14 +35,15 @@ struct PartTree {
     double weight = 0;                     ///< of all points
     std::span<const double> part_sizes{};  ///< one per part; empty: equal
     std::span<const int> cut_axes{};       ///< of all cuts in preorder; empty: free
-    std::span<const double> ones{};        ///< as many as a region has equal parts; empty: made
+    std::span<const double> ones{};        ///< as many as a region has parts, if they are equal;
+                                           ///< empty: made
     TargetRule rule{};            ///< of a spread search without the sizes and the weight per size
     double share_of_longest = 1;  ///< see longest_axis()
     bool plain_cuts = false;
-    bool divides_coincident = false;                 ///< points in one place, see Coincident
+    bool divides_coincident = false;                 ///< divides coincident points, see Coincident
     std::array<AxisLimits, max_dimension> limits{};  ///< of a central search
 
-    /// The first rank that holds the first part of a node.
+    /// Returns the first rank that holds the first part of a node.
     int first_rank_of(const Descent& at) const;
 };
 
@@ -51,14 +52,14 @@ struct Regions {
     Cuts cuts{};                        ///< between them
     std::span<const double> weights{};  ///< over all ranks
     Box box{};                          ///< of all points
-    int num_coincident = 0;             ///< cuts between them with points that the target divides
+    int num_coincident = 0;             ///< cuts between them that divide coincident points
 };
 
 /// Cuts to start from; the same on every rank.
 struct Guide {
-    Cuts& cuts;  ///< whose axes stay; the search moves them
+    Cuts& cuts;  ///< whose axes stay; the search moves the cuts
     std::span<const Bracket> brackets;
-    CutLimits* limits;  ///< null where cuts may lie anywhere
+    CutLimits* limits;  ///< null if cuts are not limited
     PartSums& sums;     ///< of the parts that the cuts make, if they were counted; moved as well
     bool is_counted;    ///< the sums and the parts of the points are those of the cuts
 };
@@ -66,14 +67,14 @@ struct Guide {
 /// One rank's part in the search for the cuts of a tree.
 ///
 /// Each rank sends the owner of a node a summary of its points there; the owner decides on the cut
-/// and answers. Nodes do not wait for others on their level. In a round each rank asks,
-/// the butterfly carries that to the owners, they decide, it carries their answers back, and each
-/// rank follows. All rounds of all ranks are over once none is_searching(). Not collective.
+/// and answers. Nodes do not wait for others on their level. Each round has five steps: ask, a pass
+/// of the butterfly to the owners, decide, a pass back, follow. The search ends when is_searching()
+/// is false on all ranks. Not collective.
 ///
-/// Spread: a rank takes part in a node in which it has points, or where one of its own parts lies.
-/// The first rank of the first part owns it, and only those that take part know the cut. Axes are
-/// free or given. Memory and messages follow from the nodes that a rank takes part in, about 1.2 kB
-/// a node, and at the owner up to 1024 positions and weights.
+/// Spread: a rank takes part in a node if it has points in it or owns one of its parts. The first
+/// rank of the first part owns the node, and only those that take part know the cut. Axes are free
+/// or given. Memory and messages are in proportion to the nodes in which a rank takes part, about
+/// 1.2 kB a node. Owners also hold gathered positions and weights.
 ///
 /// Central: rank 0 owns all nodes, in which all ranks take part. Cuts start from a Guide, which
 /// fixes their axes, and may be limited. A cut that is good enough as counted stays, with all cuts
@@ -81,13 +82,14 @@ struct Guide {
 class TreeSearch {
   public:
     /// Starts a spread search below the regions; `parts` and the spans of `tree` are borrowed. If a
-    /// cut between regions divides points in one place, `parts` has their sides, by the numbers of
-    /// the whole tree. Throws std::bad_alloc.
+    /// cut between regions divides coincident points, `parts` contains their sides, by the numbers
+    /// of the whole tree. Throws std::bad_alloc.
     TreeSearch(const PartTree& tree, int rank, const Regions& regions, SortedPoints&& points,
                std::span<Part> parts);
 
-    /// Starts a central search; `tree` has part sizes. All is borrowed but the points, of which
-    /// cells that no bracket reaches may be left out if cuts are exact. Throws std::bad_alloc.
+    /// Starts a central search; `tree` has part sizes. Everything except the points is borrowed. If
+    /// cuts are exact, cells that no bracket reaches may be left out of the points. Throws
+    /// std::bad_alloc.
     TreeSearch(const PartTree& tree, int rank, const Guide& guide, SortedPoints&& points,
                std::span<Part> parts);
     TreeSearch(const TreeSearch&) = delete;
@@ -101,8 +103,8 @@ class TreeSearch {
     /// Decides on the nodes that this rank owns. Throws std::bad_alloc.
     void decide(Butterfly& butterfly);
 
-    /// Follows the decisions, and writes the parts that are complete. A node without an answer,
-    /// which a failure has lost, stays as it is. Throws std::bad_alloc.
+    /// Follows the decisions, and writes the parts that are complete. A node whose answer a failure
+    /// has lost is left unchanged. Throws std::bad_alloc.
     void follow(const Butterfly& butterfly);
 
     /// Joins two records of a node; see Butterfly::Join.
@@ -113,11 +115,12 @@ class TreeSearch {
     /// Throws std::bad_alloc.
     Cuts cuts() const;
 
-    /// Of the parts that this rank owns, in a spread search; 0 where these are empty.
+    /// Returns the imbalance of the parts that this rank owns, in a spread search; 0 if these are
+    /// empty.
     double imbalance() const { return imbalance_; }
 
-    /// Cuts with points in one place that the target divides: of a central search all, of a spread
-    /// one those that this rank owns.
+    /// Returns the number of cuts with coincident points that the target divides: all in a central
+    /// search, those that this rank owns in a spread one.
     int num_coincident() const { return num_coincident_; }
 
     /// Writes the parts of the points in cells that the search has left out. To be called when it
@@ -128,7 +131,7 @@ class TreeSearch {
     SortedPoints take_points() { return std::move(points_); }
 
   private:
-    /// A record of a node, from a rank with points there, begins with a mark: for a histogram, the
+    /// First entry of a node's record from a rank with points there: it contains a histogram, the
     /// candidates, the weights of ranks, or those of the parts below.
     static constexpr double mark_of_histogram = 0;
     static constexpr double mark_of_candidates = 1;
@@ -139,7 +142,7 @@ class TreeSearch {
     enum class Question {
         cut,    ///< the place of the cut, or the weight of a part
         lot,    ///< the weight of each rank at the cut, which is known
-        parts,  ///< the weights of the parts below by the cuts as they are
+        parts,  ///< the weights of the parts below by the current cuts
     };
 
     /// Points and weight of a node.
@@ -147,7 +150,7 @@ class TreeSearch {
         std::vector<Fragment> fragments;
         Box box;                 ///< spread: holds its points on all ranks; central: see CutLimits
         double weight = 0;       ///< over all ranks
-        bool is_counted = true;  ///< false where the weight is off by a part of a point's
+        bool is_counted = true;  ///< false if the weight is off by a part of a point's
         bool are_parts_counted = false;  ///< the guide's sums hold its parts' weights
         int depth = 0;                   ///< number of cuts above
     };
@@ -161,8 +164,8 @@ class TreeSearch {
         LocalSearch local;
         CutTarget target{};          ///< at the owner only
         CutSearch decided{};         ///< likewise
-        double below = not_counted;  ///< weight below the cut as it is, where that was counted
-        Places places{};             ///< of the cut
+        double below = not_counted;  ///< weight below the current cut, if that was counted
+        Places places{};             ///< allowed for the cut
     };
 
     using Halves = std::pair<std::vector<Fragment>, std::vector<Fragment>>;
@@ -172,14 +175,13 @@ class TreeSearch {
         Cut cut;
     };
 
-    /// Answer of an owner. Behind it stand the weights of the parts below, the sample that
-    /// splitters come from, a LotAnswer, or the box of a node that was first counted in a spread
-    /// search.
+    /// Answer of an owner. It is followed by the weights of the parts below, the sample for
+    /// splitters, a LotAnswer, or the box of a node that was first counted in a spread search.
     struct Answer {
         CutSearch search;
         double weight = 0;
     };
-    /// Of a lot those before the dividing rank have theirs below, those after it above.
+    /// Divides a lot: ranks before the dividing one have their points below, ranks after it above.
     struct LotAnswer {
         double dividing_rank = 0;
         double before = 0;  ///< weight on the ranks before it
@@ -235,7 +237,8 @@ class TreeSearch {
     std::vector<double> ones_;  ///< sizes of the parts of a region, see sizes_of()
     HistogramLayout layout_;
     SortedPoints points_;
-    std::vector<Part> parts_of_cells_;  ///< if cells are left out; no_part: points have their own
+    std::vector<Part> parts_of_cells_;  ///< if cells are left out; no_part: the points have parts
+                                        ///< of their own
     std::span<Part> parts_;
     std::vector<Node> nodes_;  ///< ascending
     std::vector<KnownCut> known_;

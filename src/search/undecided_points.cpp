@@ -17,7 +17,7 @@ namespace {
 
 constexpr LocalIndex block_length = 512;
 
-/// For each part the box of positions that no cut can leave to another part.
+/// Shrinks the box of each part to the positions that no cut can leave to another part.
 void shrink(const Cuts& cuts, std::span<const Slab> slabs, const Descent& at, const Box& box,
             std::vector<Box>& boxes) {
     if (at.is_part()) {
@@ -145,7 +145,7 @@ std::vector<std::vector<Step>> ways_to_parts(const Cuts& cuts, std::span<const S
     return ways;
 }
 
-/// Where a position that is on one side of the cut of a node would be on the other side.
+/// Returns the part of a position if it were on the other side of the cut of a node.
 Part part_across(const Cuts& cuts, const Step& step, const Vector& position) {
     Descent at = step.above ? step.at.lower() : step.at.upper();
     while (!at.is_part()) {

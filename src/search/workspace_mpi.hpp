@@ -9,9 +9,9 @@
 
 namespace rrcb {
 
-/// Memory for each point, which the calls on a communicator use again in place of new pages.
+/// Memory for each point that the calls on a communicator reuse.
 ///
-/// A step may move an entry out; what it does not put back is freed.
+/// A step may move an entry out; if it does not put it back, the memory is freed.
 struct Workspace {
     SortedPoints sorted{};  ///< of searches: 8 bytes a point for each coordinate, 8, 8 weighted
     UndecidedPoints undecided{};  ///< of corrections: some of the points

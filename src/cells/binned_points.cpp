@@ -33,7 +33,7 @@ struct CellSum {
     }
 };
 
-/// A cell while points are added. Of 64 bytes in 2-D, which are cheap to multiply by.
+/// A cell while points are added: 64 bytes in 2-D, a size that is cheap to multiply by.
 template <std::size_t Dimension, bool Weighted>
 struct alignas(2 * sizeof(double)) RunningCell : CellSum<Dimension, Weighted> {
     std::array<double, Dimension> origin{};  ///< its first point
@@ -62,8 +62,8 @@ class Binner {
     }
 
   private:
-    /// Returns what adds point `i` to its cell. It holds no reference to anything that the sums
-    /// might overlap, as far as the compiler knows.
+    /// Returns a function that adds point `i` to its cell. It captures copies, so that the compiler
+    /// knows that nothing overlaps the sums.
     auto adder() {
         return [points = x_, scale = scale_, cells = &sums_[0],
                 weights = binned_.points.weights.data(),
@@ -73,7 +73,7 @@ class Binner {
             for (std::size_t a = 0; a < dimension; ++a)
                 x[a] = points(i, static_cast<int>(a)) * scale[a];
             if (++cell.num_others == 0) cell.origin = x;
-            // Copies, and one loop for each sum: else they could not be vectors.
+            // Copies, and one loop for each sum: otherwise the loops would not be vectorized.
             for (std::size_t a = 0; a < dimension; ++a) x[a] -= cell.origin[a];
             Position moment = x;
             if constexpr (Weighted) {

@@ -24,10 +24,10 @@ struct BinnedPoints {
     }
 };
 
-/// Adds up finite points that lie in the box of `mesh`, in one pass. Not collective.
+/// Adds up finite points in the box of `mesh`, in one pass. Not collective.
 BinnedPoints bin_by_cell(const Points& points, const SupportMesh& mesh);
 
-/// Moments as the public function has them, of points that are added up.
+/// Returns the moments of points that are added up, as the public function does.
 std::vector<CellMoments> cell_moments(const BinnedPoints& binned);
 
 }  // namespace rrcb

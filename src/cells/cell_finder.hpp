@@ -11,7 +11,7 @@
 
 namespace rrcb {
 
-/// A support mesh as the loop over points needs it, one entry per axis.
+/// A support mesh in the form that the loop over points needs, one entry per axis.
 struct CellFinder {
     explicit CellFinder(const SupportMesh& mesh) : scale(mesh.scale) {
         for (std::size_t a = 0; a < max_dimension; ++a) {
@@ -29,7 +29,7 @@ struct CellFinder {
     Vector below_num_cells{};  ///< the number before it
 };
 
-/// Finds the cells of consecutive points. Cheap enough to be done again instead of kept in memory.
+/// Finds the cells of consecutive points. Repeating it is cheaper than keeping the cells in memory.
 template <class Layout>
 RRCB_ARITHMETIC_CLONES void find_cells(const CellFinder& mesh, const Layout& points,
                                        LocalIndex first, LocalIndex length, std::int32_t* cells) {

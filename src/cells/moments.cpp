@@ -52,17 +52,17 @@ Centred<Dimension> sums_about_first_points(const BinnedPoints& binned) {
     return result;
 }
 
-/// True when an origin lies too far off the mean. The variance is the mean of the squares less the
-/// square of that distance; it would lose more than a digit.
+/// Returns true if an origin is too far from the mean. The variance is the mean of the squares less
+/// the square of that distance; it would lose more than a digit.
 bool is_far_off(double first, double second, double weight) {
     constexpr double most_variances = 16;
     const double rest = first / weight;
     return rest * rest * (most_variances + 1) > second / weight * most_variances;
 }
 
-/// Moves origins that lie too far off to the mean. Only a first point that is an outlier among many
-/// lies there: of n points of equal weight none is more than sqrt(n) standard deviations from the
-/// mean.
+/// Moves origins that are too far off to the mean. Only a first point that is an outlier among many
+/// is so far off: of n points of equal weight none is more than sqrt(n) standard deviations from
+/// the mean.
 template <std::size_t Dimension>
 bool move_origins(const BinnedPoints& binned, Centred<Dimension>& cells) {
     bool moved = false;
@@ -145,10 +145,10 @@ std::vector<CellMoments> moments_of_cells(const Layout& x, const BinnedPoints& b
     return cells;
 }
 
-/// Mean of two groups, from the mean and the share of each; between `a` and `b` whatever the
-/// rounding.
+/// Returns the mean of two groups, from the mean and the share of each; between `a` and `b`
+/// whatever the rounding.
 double joint_mean(double a, double share_a, double b, double share_b) {
-    // Of opposite signs the difference may overflow; of one sign it keeps what they share.
+    // With opposite signs the difference may overflow; with the same sign it is exact enough.
     const double mean =
         std::signbit(a) != std::signbit(b) ? share_a * a + share_b * b : a + share_b * (b - a);
     return std::clamp(mean, std::min(a, b), std::max(a, b));

@@ -46,7 +46,7 @@ struct Span {
     }
 };
 
-/// Takes in whole multiples of num_lanes values; returns how many.
+/// Takes multiples of num_lanes values; returns how many.
 template <class Scalar>
 RRCB_VECTOR_CLONES std::size_t widen(std::span<const Scalar> values,
                                      std::array<Span, num_rows>& spans) {
@@ -63,7 +63,7 @@ template <class Scalar>
 Box box_of_values(std::span<const Scalar> values, std::size_t stride) {
     std::array<Span, num_rows> spans;
     std::size_t k = widen(values, spans);
-    // The last few, and others of their axes in place of those that are missing.
+    // The last few values, with others of their axes for those that are missing.
     if (k < values.size()) {
         std::array<Scalar, num_lanes> rest;
         for (std::size_t lane = 0; lane < num_lanes; ++lane)

@@ -13,7 +13,7 @@ namespace rrcb {
 /// with members that stay.
 ///
 /// One long running sum would lose a digit for every tenfold of the entries. So the running sums
-/// are emptied into others now and then, and these into the totals more seldom.
+/// are emptied into others from time to time, and these into the totals less often.
 template <class Sum, class Running = Sum>
 class RunningSums {
   public:

@@ -24,7 +24,7 @@ void visit_marked_cells(const CellFinder& mesh, const Layout& x, LocalIndex coun
     in_ranges(count, block_length, [&](LocalIndex first, LocalIndex last) {
         find_cells(mesh, x, first, last - first, cells.data());
         std::size_t num_marked = 0;
-        // Without branches, as the points come in any order.
+        // Without branches, because the points come in any order.
         for (std::uint32_t k = 0; k < last - first; ++k) {
             marked[num_marked] = k;
             num_marked += marks[cells[k]];
@@ -38,7 +38,7 @@ template <bool Weighted, class Layout>
 void scatter(const Layout& points, const BinnedPoints& binned, SortedPoints& sorted) {
     constexpr auto dimension = static_cast<std::size_t>(Layout::dimension);
     std::vector<LocalIndex> places(sorted.begins.begin(), sorted.begins.end() - 1);
-    // Copies, which the writes can't change.
+    // Copies, so that the compiler knows that writes do not change them.
     const auto add = [x = points, next = places.data(), to = sorted.coordinates.data(),
                       original = sorted.original.data(), weights = sorted.weights.data(),
                       weights_before = binned.points.weights.data()](LocalIndex i,
@@ -75,7 +75,7 @@ std::vector<double> weigh_cells(const BinnedPoints& binned) {
     return sums;
 }
 
-/// Without a copy of the entries if it grows.
+/// Avoids a copy of the entries if it grows.
 template <class Value>
 void resize(Uninitialized<Value>& values, std::size_t size) {
     values.clear();
@@ -115,7 +115,8 @@ void write_parts_of_cells(const BinnedPoints& binned, std::span<const Part> part
         visit_cells(
             CellFinder(binned.mesh), x, 0, binned.points.count,
             [from = parts_of_cells.data(), to = parts.data()](LocalIndex i, std::size_t cell) {
-                // Without a branch, as the points come in any order: all bits of no_part are 1.
+                // Without a branch, because the points come in any order: all bits of no_part are
+                // 1.
                 const Part part = from[cell];
                 const Part keeps = part >> std::numeric_limits<Part>::digits;
                 to[i] = part ^ ((part ^ to[i]) & keeps);

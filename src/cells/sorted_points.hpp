@@ -38,7 +38,7 @@ struct SortedPoints {
     }
 };
 
-/// Copy of binned points, sorted in one pass, in the memory of other ones. Leaves cells out for
+/// Copies binned points, sorted in one pass, into the memory of other ones. Leaves cells out for
 /// which `is_sorted` is 0, unless it is empty; then `binned` is borrowed. Not collective.
 SortedPoints sort_by_cell(const BinnedPoints& binned, SortedPoints memory = {},
                           std::vector<std::uint8_t> is_sorted = {});
@@ -50,8 +50,8 @@ void sort_rest(SortedPoints& points);
 void write_parts_of_cells(const BinnedPoints& binned, std::span<const Part> parts_of_cells,
                           std::span<Part> parts);
 
-/// Box that holds the points sorted into a cell: the cell with a margin for the round-off of
-/// finding it. Not collective.
+/// Returns the box that holds the points sorted into a cell: the cell with a margin for the
+/// round-off of finding it. Not collective.
 Box enclosing_box(const SupportMesh& mesh, LocalIndex cell);
 
 }  // namespace rrcb

@@ -7,7 +7,7 @@
 
 namespace rrcb {
 
-/// Leaves new entries as the memory was, in place of zeros that are overwritten at once.
+/// Leaves new entries uninitialized: they are overwritten at once.
 template <class Value>
 struct UninitializedAllocator : std::allocator<Value> {
     template <class Other>

@@ -16,7 +16,8 @@ namespace rrcb {
 
 namespace {
 
-/// Regions that rank 0 makes at most. With more it would receive more than a rank that owns nodes.
+/// Largest number of regions that rank 0 makes. With more, rank 0 would receive more than a rank
+/// that owns nodes.
 constexpr int most_regions = 64;
 
 constexpr std::size_t most_cells_of_regions = 112;
@@ -36,15 +37,16 @@ void append_axes(const Descent& at, int num_regions, std::span<const int> cut_ax
     append_axes(at.upper(), num_regions / 2, cut_axes, axes);
 }
 
-/// The most levels below `at`, up to `most`, on which no node is a part.
+/// Returns the number of levels below `at`, up to `most`, on which no node is a part.
 int full_levels(const Descent& at, int most) {
     if (most == 0 || at.is_part()) return 0;
     return 1 + std::min(full_levels(at.lower(), most - 1), full_levels(at.upper(), most - 1));
 }
 
-/// As many regions as the lowest full level up to central_parts and most_regions has nodes, and a
-/// tolerance that leaves the levels below theirs. For exact cuts there is one region: rank 0 would
-/// gather a few points about each cut, and a number from each rank.
+/// Returns the options of regions: as many as the lowest full level up to central_parts and
+/// most_regions has nodes, with a tolerance that leaves the levels below their share. For exact
+/// cuts there is one region; with more, rank 0 would gather points about each cut, and a number
+/// from each rank.
 Options region_options(const Options& parts) {
     const auto most = static_cast<unsigned>(std::min(parts.tuning.central_parts, most_regions));
     const bool is_exact = parts.refine == Refine::exact;

@@ -12,7 +12,7 @@ namespace rrcb {
 
 namespace {
 
-/// What a block of records is made of: cells of a mesh or of a lattice.
+/// Content of a block of records: cells of a mesh or of a lattice.
 enum class Form { lattice, lean };
 
 /// Head of a block of records.
@@ -20,7 +20,7 @@ struct BlockOfCells {
     double num_cells = 0;
     double form = 0;
     double exponent = 0;    ///< of the lattice, or of lean weights
-    double are_counts = 0;  ///< in place of lean weights
+    double are_counts = 0;  ///< 1: counts replace lean weights
     double num_packed = 0;  ///< doubles of lean cells
 };
 
@@ -75,8 +75,8 @@ CellMoments take_cell(std::span<const double>& records, int dimension) {
     return cell;
 }
 
-/// The cube of a mean, or what a uniform density with the moments fills where that is more: the
-/// cells that were merged may reach far out of the cube.
+/// Returns the box of a merged cell: the cube of its mean, or the extent of a uniform density with
+/// its moments if that is larger, as merged cells may reach far out of the cube.
 Box box_of_merged(const Moments& moments, int dimension, int exponent) {
     constexpr double largest = std::numeric_limits<double>::max();
     const Vector cube = cube_of(moments.mean, dimension, exponent);
@@ -97,7 +97,7 @@ void append_mesh(const SupportMesh& mesh, std::vector<double>& records) {
     records.insert(records.end(), mesh.cells.begin(), mesh.cells.begin() + mesh.dimension);
 }
 
-/// The mesh, as far as it follows from the boxes of its cells.
+/// Reads a mesh, or the part of it that the boxes of its cells need.
 SupportMesh take_mesh(std::span<const double>& records, int dimension) {
     Box box;
     box.lower = take_vector(records, dimension);

@@ -17,11 +17,11 @@ void append_lean_cells(std::span<const CellMoments> cells, const SupportMesh& me
 /// Appends cells that were merged on the lattice of their exponent.
 void append_cells(const CellSet& merged, int dimension, std::vector<double>& records);
 
-/// Cells in the order appended. A cell of a lattice gets the cube of its mean as its box, or along
-/// an axis mean +- sqrt(3) sigma if that reaches farther.
+/// Returns the cells in the order appended. The box of a lattice's cell is the cube of its mean, or
+/// along an axis mean +- sqrt(3) sigma if that is wider.
 CellSet read_cells(std::span<const double> records, int dimension);
 
-/// Cube of the lattice of `exponent` that holds a position, in units of its edge.
+/// Returns the cube of the lattice of `exponent` that holds a position, in units of its edge.
 Vector cube_of(const Vector& position, int dimension, int exponent);
 
 }  // namespace rrcb

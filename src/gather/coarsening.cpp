@@ -22,7 +22,7 @@ std::size_t num_cubes(std::span<const CellMoments> cells, int dimension, int exp
     return static_cast<std::size_t>(std::unique(cubes.begin(), cubes.end()) - cubes.begin());
 }
 
-/// Half the longest edge of the box of the means, which no coordinates let overflow.
+/// Returns half the longest edge of the box of the means; does not overflow for any coordinates.
 double half_extent(std::span<const CellMoments> cells, int dimension) {
     double longest = 0;
     for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
@@ -35,7 +35,8 @@ double half_extent(std::span<const CellMoments> cells, int dimension) {
     return longest;
 }
 
-/// The finest lattice that is worth a try: of the last binary digits of the greatest coordinate.
+/// Returns the finest lattice worth trying: that of the last binary digits of the greatest
+/// coordinate.
 int last_digit(std::span<const CellMoments> cells, int dimension) {
     constexpr int digits = 52;
     constexpr int smallest_exponent = -1000;
@@ -46,9 +47,9 @@ int last_digit(std::span<const CellMoments> cells, int dimension) {
     return greatest > 0 ? std::ilogb(greatest) - digits : smallest_exponent;
 }
 
-/// Search for the finest lattice that is coarse enough. It starts at the edge with
-/// which a cloud that fills its cube has about as many cells as wanted: other clouds leave most of
-/// the lattice empty.
+/// Finds the finest lattice that is coarse enough. The search starts at the edge at which points
+/// that fill their cube have about as many cells as wanted; other points leave most of the lattice
+/// empty.
 int finest_exponent(const CellSet& set, int dimension, std::size_t most) {
     const int lowest = std::max(set.exponent, last_digit(set.cells, dimension));
     const double half = half_extent(set.cells, dimension);

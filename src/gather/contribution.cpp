@@ -23,7 +23,7 @@ void join(Box& mine, const Box& next) {
     }
 }
 
-/// Keeps the first difference met in the order of the ranks.
+/// Keeps the first difference in the order of the ranks.
 void join_differences(Summary& mine, const Summary& next) {
     if (mine.differing_rank != no_rank) return;
     mine.difference = next.difference;
@@ -44,18 +44,18 @@ void coarsen_records(Contribution& all, int dimension, std::size_t most) {
     all.summary.num_cells = static_cast<std::int64_t>(merged.cells.size());
 }
 
-/// Cells per axis at which an estimate errs by about a percent among a few hundred parts.
+/// Cells per axis with which an estimate errs by about a percent for a few hundred parts.
 double fine_cells(int dimension) {
     return dimension == 1 ? 128 : dimension == 2 ? 22 : 10;
 }
 
-/// Cells per axis beyond which more of them cost more than they gain, for any number of points.
+/// Cells per axis beyond which more cells cost more than they gain, for any number of points.
 double most_cells_per_axis(int dimension) {
     return dimension == 1 ? 400 : dimension == 2 ? 42 : 15;
 }
 
-/// A mesh whose cells are one or more cells of the grid that limits the cuts, so that it is known
-/// what lies between the lines; nothing if the numbers do not allow it.
+/// Returns a mesh whose cells are one or more cells of the grid that limits the cuts, so that the
+/// weight between the lines is known; nullopt if the numbers do not allow it.
 std::optional<SupportMesh> mesh_on_lines(const Box& box, int dimension, const Options& options) {
     SupportMesh mesh = make_support_mesh(box, dimension, 1);
     const auto limits = axis_limits(options);
@@ -154,7 +154,7 @@ void join(Summary& mine, const Summary& next) {
 
 void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t most) {
     const auto first_total = mine.records.end() - next.num_total_doubles;
-    // Others than here come from a rank that asked for something else.
+    // Other lengths come from a rank with other options.
     if (std::ssize(mine.part_totals) == next.num_total_doubles)
         std::transform(first_total, mine.records.end(), mine.part_totals.begin(),
                        mine.part_totals.begin(), std::plus<>());

@@ -14,12 +14,11 @@
 
 namespace rrcb {
 
-/// Summary of one rank, or of all ranks of a subtree: whether they can go on, their request,
-/// and their totals.
+/// Summary of one rank, or of all ranks of a subtree: failures, requests and totals.
 struct Summary {
-    std::int32_t first_rank = 0;            ///< lowest of the ranks it speaks for
-    std::int32_t failing_rank = no_rank;    ///< lowest of those that can't go on
-    std::int32_t differing_rank = no_rank;  ///< one that asks for something else than ...
+    std::int32_t first_rank = 0;            ///< lowest rank of the summary
+    std::int32_t failing_rank = no_rank;    ///< lowest of the ranks that can't go on
+    std::int32_t differing_rank = no_rank;  ///< one whose request differs from that of ...
     std::int32_t reference_rank = no_rank;  ///< ... this one
     std::uint64_t difference = 0;           ///< see name_of_request
     Request request{};                      ///< of the first rank
@@ -46,14 +45,14 @@ struct Contribution {
     std::vector<double> part_totals{};
 };
 
-/// Cells per axis of a rank's mesh if the options leave it open: some for each part, as many as
-/// cost little beside the points, not so many that cells are nearly empty.
+/// Returns the cells per axis of a rank's mesh if the options leave it open: several for each part,
+/// at little cost compared with the points, and not nearly empty.
 int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options& options);
 
-/// Finds the cells of checked points in the support mesh that the options ask for.
+/// Finds the cells of checked points in the support mesh of the options.
 BinnedPoints bin_by_options(const Points& points, const Box& box, const Options& options);
 
-/// Totals of checked points.
+/// Returns the totals of checked points.
 Summary summarize(const Points& points, const Box& box);
 
 /// Reduces checked points to the moments of their cells.
@@ -62,19 +61,19 @@ void add_records(const Points& points, const BinnedPoints& binned, Contribution&
 /// Adds the weights and counts of the parts of earlier cuts.
 void add_totals(const PartTotals& totals, Contribution& mine);
 
-/// Cells that the options let a merging leave: a fixed number, whatever the number of ranks, unless
-/// the mesh was asked for. Twice as many lean ones may be handed on as they are.
+/// Returns the most cells that merging leaves: a fixed number, whatever the number of ranks, unless
+/// the options choose the mesh. Twice as many lean cells may be handed on as they are.
 std::size_t most_cells(const Options& options);
 
 /// Adds the totals of the ranks that follow, and their failures and differences.
 void join(Summary& mine, const Summary& next);
 
-/// Takes in the records, extents and part totals of the ranks that follow, already at the end of
-/// `mine.records`: joins the summaries, adds the totals up, and coarsens to `most` cells if
-/// there are more than twice as many. Not collective.
+/// Adds the records, extents and part totals of the ranks that follow, already at the end of
+/// `mine.records`: joins the summaries, adds the totals up, and coarsens to `most` cells if there
+/// are more than twice as many. Not collective.
 void absorb(Contribution& mine, const Summary& next, int dimension, std::size_t most);
 
-/// Domain that the root bisects, from the contributions of all ranks.
+/// Returns the domain that the root bisects, from the contributions of all ranks.
 StatisticalDomain build_domain(const Contribution& all, int dimension);
 
 }  // namespace rrcb

@@ -43,7 +43,7 @@ Verdict verdict_of(const Summary& summary, const Bisection& bisection,
     return verdict;
 }
 
-/// Imbalance of a partition with the heaviest point alone in the largest part.
+/// Returns the imbalance of a partition whose largest part is the heaviest point.
 double least_imbalance(double heaviest, double weight, int num_parts,
                        std::span<const double> part_sizes) {
     if (!(weight > 0)) return 1;
@@ -52,7 +52,7 @@ double least_imbalance(double heaviest, double weight, int num_parts,
     return std::max(1.0, heaviest / weight * parts);
 }
 
-/// Throws Error when the ranks do not fit together.
+/// Throws Error if the ranks differ or one has failed.
 void check_together(const Summary& summary) {
     if (summary.differing_rank != no_rank)
         throw Error(ErrorCode::invalid_argument,
@@ -65,8 +65,8 @@ void check_together(const Summary& summary) {
                     "the sum of the weights of all ranks overflows; scale them down");
 }
 
-/// Calls `visit` with each array of the message: of the kept parts if points are kept, otherwise of
-/// the new cuts; of earlier cuts, which all ranks have, the weights of their parts.
+/// Calls `visit` with each array of the message: the kept parts if points are kept, the weights of
+/// the parts of earlier cuts if all ranks have these cuts, otherwise the new cuts.
 template <class Visit>
 void for_each_array(Decision& decision, Visit&& visit) {
     if (decision.reuses) return visit(std::span(decision.part_weights));
@@ -77,7 +77,7 @@ void for_each_array(Decision& decision, Visit&& visit) {
     if (!keeps) visit(std::span(decision.bisection.brackets));
 }
 
-/// The message, as long as its arrays.
+/// Returns the message, as long as its arrays.
 std::span<std::byte> message_of(Decision& decision) {
     std::size_t length = 0;
     for_each_array(decision, [&](auto array) { length += array.size_bytes(); });
@@ -114,7 +114,7 @@ Bisection bisect_gathered(const Contribution& all, const Options& options, int d
     return bisect(std::move(domain), options, with_brackets);
 }
 
-/// Weighs the parts of earlier cuts, if the ranks have counted points in them.
+/// Computes the imbalance of earlier cuts, if the ranks have counted points in their parts.
 void weigh_parts(const Contribution& all, const Options& options, Decision& decision) {
     const std::size_t num_parts = decision.part_weights.size();
     if (num_parts == 0 || all.summary.num_points == 0) return;
@@ -225,7 +225,7 @@ void broadcast(Decision& decision, const Participant& self) {
         std::ranges::copy(in_head(), space.begin());
     }
     broadcast_head(head, decision.verdict, self);
-    // Now all know how long the message is.
+    // All ranks now know the length of the message.
     std::ranges::copy(space.first(in_head().size()), in_head().begin());
     mpi::broadcast(message_of(decision).subspan(in_head().size()), root, self.comm);
     unpack(decision);

@@ -35,27 +35,27 @@ struct Verdict {
     double measured_imbalance = not_known;  ///< of the parts of earlier cuts, if counted
 };
 
-/// What every rank expects of the root first, whatever it was asked for: the verdict, and as much
-/// of the decision as fits behind it.
+/// First message from the root, on every rank, whatever the options: the verdict, and as much of
+/// the decision as fits after it.
 using Head = std::array<std::byte, 2048>;
 
-/// The decision of the root: how it went, and the cuts to assign by or to start from.
+/// Decision of the root: its verdict, and the cuts to assign by or to start from.
 struct Decision {
     Verdict verdict;
     Bisection bisection;
     KeptTree kept{};                     ///< on all ranks once the points are kept
     bool reuses = false;                 ///< the cuts are earlier ones, which all ranks have
     std::vector<double> part_weights{};  ///< of their parts, if counted
-    std::vector<std::byte> message;      ///< either of them on its way
+    std::vector<std::byte> message;      ///< the cuts, or the kept parts, on their way
 };
 
-/// Report on a partition that nobody has measured. No sizes stand for equal ones.
+/// Returns the report on a partition that was not measured. Empty sizes: equal parts.
 Report report_of(const Verdict& verdict, int num_parts, std::span<const double> part_sizes);
 
-/// Adds how even the parts are, as counted.
+/// Adds the counted imbalance.
 void report_measured(double imbalance, double tolerance, Report& report);
 
-/// Weight of all points, or their number if they are balanced by that.
+/// Returns the weight of all points, or their number if they are balanced by count.
 double weight_of(const Report& report);
 
 /// Returns true if the cuts are to be moved by counts of all ranks.
@@ -73,26 +73,26 @@ bool counts_earlier_parts(const Options& options);
 /// their parts. Not collective.
 void make_buffers_to_reuse(Decision& decision, const Options& options, const Cuts& previous);
 
-/// Bisects the cells of all ranks on rank 0, or weighs the parts of earlier cuts.
-/// Finds out whether the parts that the ranks hold are so good that the points are kept. Throws
-/// Error when the ranks do not fit together.
+/// Bisects the cells of all ranks on rank 0, or weighs the parts of earlier cuts. Determines
+/// whether the ranks already hold parts good enough to be kept. Throws Error if the ranks differ or
+/// one has failed.
 void decide(const Contribution& all, const Options& options, Decision& decision);
 
-/// Gives everybody the root's decision, or throws everywhere why there is none. Collective.
+/// Sends the root's decision to all ranks, or throws its error on all. Collective.
 ///
-/// One message for a few dozen cuts, two for more: the first must be as long on a rank that does
-/// not know how many are coming.
+/// One message for a few dozen cuts, two for more: the first has a fixed length, because the other
+/// ranks do not know how many are coming.
 void broadcast(Decision& decision, const Participant& self);
 
-/// Decides on rank 0, and gives every rank the decision, or throws the error of one rank on all.
+/// Decides on rank 0, and sends every rank the decision, or throws the error of one rank on all.
 /// Collective.
 void decide_together(const Contribution& all, const Options& options, Decision& decision,
                      Participant& self);
 
-/// Smallest box that holds those of all ranks. Collective.
+/// Returns the smallest box that holds those of all ranks. Collective.
 Box box_together(Box box, const Participant& self);
 
-/// Gives everybody the parts that the root has read: the points are kept after all. Collective.
+/// Sends the parts that the root has read to all ranks: the points are kept after all. Collective.
 void broadcast_kept(Decision& decision, const Participant& self);
 
 }  // namespace rrcb

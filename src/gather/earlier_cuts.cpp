@@ -30,7 +30,7 @@ void bracket_node(const Cuts& cuts, const Descent& at, Box box, int depth,
     bracket_node(cuts, at.upper(), box, depth + 1, brackets);
 }
 
-/// Leaves nothing in parts of size 0, and makes the cut a plane if that is asked for.
+/// Leaves nothing in parts of size 0, and makes the cut a plane if the options ask for planes.
 void fit(const Options& options, const Descent& at, Cut& cut) {
     const auto axis = static_cast<std::size_t>(cut.axis);
     double value = cut.at[axis];

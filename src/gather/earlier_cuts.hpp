@@ -6,13 +6,13 @@
 
 namespace rrcb {
 
-/// The cuts of an earlier call, or those that this rank knows, such as complete options ask for:
-/// planes, and nothing in parts of size 0. They divide no points of one place, which the look-up
-/// keeps together.
+/// Returns the cuts of an earlier call, or those of them that this rank knows, fitted to complete
+/// options: planes if asked for, and nothing in parts of size 0. They divide no coincident points,
+/// which the look-up keeps together.
 Cuts fitted(Cuts previous, const Options& options);
 
-/// Adds brackets about cuts, as wide as those that estimated cuts of an even cloud in `box` would
-/// have; none if the box is empty. Takes memory for one per cut.
+/// Adds brackets about cuts, as wide as estimated cuts of evenly spread points in `box` would have;
+/// none if the box is empty. Takes memory for one per cut.
 void bracket_earlier(const Cuts& cuts, const Box& box, std::vector<Bracket>& brackets);
 
 }  // namespace rrcb

@@ -9,7 +9,7 @@ namespace rrcb {
 
 namespace {
 
-/// Range of consecutive points.
+/// Returns a range of consecutive points.
 Points range_of(const Points& points, LocalIndex first, LocalIndex last) {
     Points range = points;
     range.count = last - first;
@@ -23,7 +23,7 @@ Points range_of(const Points& points, LocalIndex first, LocalIndex last) {
     return range;
 }
 
-/// Looks for the ends across `axis` of the order of the points in `box`.
+/// Widens the ends of the order across `axis` by the points in `box`.
 void widen(const Points& points, const Box& box, int axis, Extent& extent) {
     const auto a = static_cast<std::size_t>(axis);
     const PositionOrder is_before(axis, 1, points.dimension);
@@ -69,7 +69,7 @@ Extent extent_of(const Points& points, const Box& box, double weight) {
     Extent extent;
     extent.count = static_cast<double>(points.count);
     extent.weight = weight;
-    // The faces of the box hold few points, and their blocks are found at the cost of its own.
+    // Few points are on the faces of the box; finding their blocks costs as much as the box.
     in_ranges(points.count, block_length, [&](LocalIndex first, LocalIndex last) {
         const Points block = range_of(points, first, last);
         const Box its_own = bounding_box(block);

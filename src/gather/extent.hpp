@@ -27,16 +27,16 @@ struct Extent {
     }
 };
 
-/// Extent of checked points that weigh `weight` and span `box`.
+/// Returns the extent of checked points that weigh `weight` and span `box`.
 Extent extent_of(const Points& points, const Box& box, double weight);
 
-/// Takes in the points of another extent.
+/// Adds the points of another extent.
 void join(Extent& extent, const Extent& other, int dimension);
 
 /// Appends an extent as 2 + 2 dimension^2 doubles.
 void append_extent(const Extent& extent, int dimension, std::vector<double>& doubles);
 
-/// Places in the order appended.
+/// Returns the extents in the order appended.
 std::vector<Extent> read_extents(std::span<const double> doubles, int dimension);
 
 }  // namespace rrcb

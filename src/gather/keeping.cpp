@@ -12,7 +12,7 @@ bool may_keep_parts(const Options& options, int num_ranks) {
 }
 
 bool reads_kept_tree(const Options& options, int num_ranks) {
-    // As many as rank 0 divides alone by default.
+    // As many as rank 0 divides by default.
     return num_ranks <= Tuning{}.central_parts && may_keep_parts(options, num_ranks);
 }
 
@@ -21,14 +21,14 @@ bool keeps_at_once(double kept, double tolerance) {
 }
 
 bool is_worth_moving(double kept, double offered, const Options& options) {
-    // NaN, if it was not counted, raises no exception in these comparisons.
+    // NaN, if nothing was counted, raises no exception in these comparisons.
     constexpr double rounding = 1e-12;
     const double tolerance = options.imbalance_tolerance;
     if (kept > tolerance && std::islessequal(offered, tolerance)) return true;
     const bool gains = std::isgreater(kept - offered, std::max((tolerance - 1) / 20, rounding));
     const bool is_half = std::islessequal(offered - 1, (kept - 1) / 2);
-    // What a search found is the best there is, an estimate is as good as chance has it, and so are
-    // the axes of limited cuts.
+    // A search finds the best imbalance. An estimate, and the axes of limited cuts, depend on
+    // chance.
     const bool was_searched =
         kept > tolerance && options.refine != Refine::none && !are_cuts_limited(options);
     return gains && (is_half || was_searched);

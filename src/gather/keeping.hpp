@@ -8,8 +8,8 @@ namespace rrcb {
 /// complete.
 bool may_keep_parts(const Options& options, int num_ranks);
 
-/// Returns true if rank 0 reads the extents and weights of the points of all ranks, which are not
-/// too many. It then knows the imbalance of the parts that they hold.
+/// Returns true if rank 0 reads the extents and weights of the points of all ranks, if there are
+/// not too many. It then knows the imbalance of the parts that they hold.
 bool reads_kept_tree(const Options& options, int num_ranks);
 
 /// Returns true for an imbalance so small that no better parts are searched.
@@ -18,8 +18,9 @@ bool keeps_at_once(double kept, double tolerance);
 /// Returns true if parts of the imbalance `offered` are worth moving points out of parts of the
 /// imbalance `kept`.
 ///
-/// So points that do not move are kept after a few calls. Each call that moves points reduces the
-/// imbalance: by a twentieth of (tolerance - 1), or from above the tolerance to within it.
+/// Points that do not move are therefore kept after a few calls. Each call that moves points
+/// reduces the imbalance: by a twentieth of (tolerance - 1), or from above the tolerance to within
+/// it.
 bool is_worth_moving(double kept, double offered, const Options& options);
 
 }  // namespace rrcb

@@ -12,25 +12,26 @@
 namespace rrcb {
 
 /// The parts that the ranks hold, one each, in which the points may be kept. Rank 0 reads them from
-/// the extents of all ranks, or if many ranks make the parts, these do.
+/// the extents of all ranks. If many ranks make the parts, these ranks read them.
 class KeptParts {
   public:
     /// Notes the extent of this rank's points, which are checked and add up to `mine`; adds it to
-    /// that if rank 0 reads it. Not collective. Throws std::bad_alloc. `options` outlive this.
+    /// `mine` if rank 0 reads it. Not collective. Throws std::bad_alloc. `options` outlive this.
     void prepare(const CallOptions& options, const Points& points, bool may_keep, int rank,
                  int num_ranks, Contribution& mine);
 
-    /// True if rank 0 may read them.
+    /// Returns true if rank 0 may read them.
     bool is_central() const { return is_central_; }
 
     /// Determines their imbalance; `estimate` has the cuts and the report of rank 0. Collective if
     /// many ranks make the parts.
     void read(const Verdict& verdict, const Balance& estimate, Participant& self);
 
-    /// True if the ranks hold parts, and these are so even that no better ones are searched.
+    /// Returns true if the ranks hold parts, so even that no better ones are searched.
     bool are_good(double tolerance) const;
 
-    /// True if the ranks hold parts, and those of another `imbalance` are not worth moving points.
+    /// Returns true if the ranks hold parts, and those of another `imbalance` are not worth moving
+    /// points.
     bool do_as_well_as(double imbalance, const Options& options) const;
 
     /// Makes them the result. Collective.

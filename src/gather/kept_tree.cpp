@@ -43,14 +43,14 @@ class Reader {
     }
 
   private:
-    /// Reads what the ranks hold as the parts of a node; `expected` while all cuts above lie
+    /// Reads the points of a group of ranks as the parts of a node. `expected`: all cuts above are
     /// across the axes of the estimate.
     bool read_node(const Descent& at, std::span<std::size_t> ranks, bool expected) {
         if (at.is_part()) return settle(at.first_part, ranks.front());
         const int usual = estimate_.tree[at.node].axis;
         const auto num_below = static_cast<std::size_t>(at.lower().num_parts);
         if (!has_size(at.lower()) || !has_size(at.upper())) {
-            // All points belong to the parts with a size.
+            // All points belong to the parts with a size above 0.
             kept_.cuts.tree[at.node] = plane(usual, has_size(at.lower()) ? infinity : -infinity);
             return read_node(at.lower(), ranks.first(num_below), expected) &&
                    read_node(at.upper(), ranks.subspan(num_below), expected);
@@ -74,7 +74,8 @@ class Reader {
         return false;
     }
 
-    /// Positions of a cut between the points of two groups: behind the last, not behind the first.
+    /// Returns the positions of a cut between the points of two groups: behind the last below, not
+    /// behind the first above.
     Places gap_between(const Extent& below, const Extent& above, int axis) const {
         const auto a = static_cast<std::size_t>(axis);
         const double last = below.last[a][a];
@@ -127,7 +128,7 @@ class Reader {
         return all;
     }
 
-    /// Points in one place lie in the order of their ranks, so parts in another order divide none.
+    /// Coincident points are in the order of their ranks, so parts in another order divide none.
     bool may_divide() const {
         return by_number_ && options_.tree.dealt == 0 &&
                options_.coincident == Coincident::divide && options_.refine != Refine::none;
@@ -154,7 +155,7 @@ class Reader {
     const Options& options_;
     bool by_number_;
     bool by_count_;
-    std::vector<std::size_t> ranks_;  ///< in the order of the parts, as far as read
+    std::vector<std::size_t> ranks_;  ///< in the order of the parts that were read
     std::vector<Places> gaps_;        ///< between the points on both sides of each cut
     KeptTree kept_;
 };

@@ -23,7 +23,7 @@ double share_of(std::byte code) {
     return std::to_integer<int>(code) / steps;
 }
 
-/// Both in half extents, which no coordinates let overflow.
+/// Both in half extents, which do not overflow for any coordinates.
 std::byte code_of_mean(double mean, double lower, double upper) {
     const double half = upper / 2 - lower / 2;
     return half > 0 ? code_of((mean / 2 - lower / 2) / half) : std::byte{0};
@@ -51,8 +51,8 @@ std::byte code_of_deviation(double deviation, double lower, double upper) {
         static_cast<int>(std::max(1.0, std::round(first_root + steps_down))));
 }
 
-/// Mean of a cell of this deviation. One that came out on a face, where the deviation tells that
-/// not all points lie there, stands where that of an even density beside the face would.
+/// Returns the mean of a cell. If it is on a face although the deviation is not 0, it is moved to
+/// the mean of a uniform density that touches the face.
 double mean_of(std::byte code, double deviation, double lower, double upper) {
     const double share = share_of(code);
     if (share > 0 && share < 1) return std::lerp(lower, upper, share);
@@ -94,7 +94,7 @@ void append_numbers(std::span<const CellMoments> cells, std::vector<std::byte>& 
     }
 }
 
-/// A weight in units of 2^exponent.
+/// Returns a weight in units of 2^exponent.
 float lean_weight(double weight, int exponent) {
     const auto lean = static_cast<float>(std::ldexp(weight, -exponent));
     return weight > 0 ? std::max(lean, std::numeric_limits<float>::denorm_min()) : 0.0F;
@@ -111,7 +111,7 @@ int exponent_of(std::span<const CellMoments> cells, bool are_counts) {
     return greatest > 0 ? std::ilogb(greatest) : 0;
 }
 
-/// Places of the faces of a mesh across each axis, as cell_box() has them.
+/// Faces of a mesh across each axis, bit-identical to those of cell_box().
 class Faces {
   public:
     explicit Faces(const SupportMesh& mesh) : mesh_(mesh) {

@@ -44,8 +44,8 @@ void send_records(std::span<const double> records, int to, mpi::Tag tag, Partici
              self);
 }
 
-/// Appends `count` doubles that it receives. Without memory it still receives them, as their sender
-/// waits for that.
+/// Appends `count` doubles that it receives. Without memory it still receives them, because the
+/// sender waits for that.
 void receive_records(std::vector<double>& records, std::size_t count, int from, mpi::Tag tag,
                      Participant& self) {
     const std::size_t start = records.size();
@@ -75,7 +75,7 @@ void send_up(Contribution& mine, int to, Participant& self) {
     send_records(std::span(mine.records).subspan(in_first.size()), to, mpi::contribution_tag, self);
 }
 
-/// Takes in the contribution of a child.
+/// Receives and adds the contribution of a child.
 void receive_up(Contribution& mine, int child, int dimension, std::size_t most, Participant& self) {
     FirstMessage first;
     receive(std::as_writable_bytes(std::span(&first, 1)), child, mpi::contribution_tag, self);
@@ -95,7 +95,7 @@ void merge_up(Contribution& mine, int dimension, const MergeTree& tree, std::siz
     const int rank = mpi::rank_of(self.comm);
     mine.summary.first_rank = rank;
     tree.for_each_child(rank, [&](int child) { receive_up(mine, child, dimension, most, self); });
-    // In one message with the cells.
+    // Sent with the cells, in one message.
     if (rank != 0)
         self.attempt([&] {
             std::vector<double>& records = mine.records;

@@ -8,16 +8,17 @@
 
 namespace rrcb {
 
-/// Tree along which contributions travel to rank 0. Each rank takes in those of the ranks that
-/// follow it before it hands all on.
+/// Tree along which contributions travel to rank 0. Each rank adds those of the ranks that follow
+/// it before it sends all on.
 ///
-/// A rank that is a multiple of radix^k takes in, for each smaller power s of the radix, the
+/// A rank that is a multiple of radix^k receives, for each smaller power s of the radix, the
 /// subtrees of s ranks each that begin s, 2 s, ... (radix - 1) s after it.
 struct MergeTree {
     int num_ranks = 1;
     int radix = 8;
 
-    /// Calls `visit(child)` in the order in which a rank takes its children in: by rank.
+    /// Calls `visit(child)` for the children of a rank, in the order in which it receives them: by
+    /// rank.
     template <class Visit>
     void for_each_child(int rank, Visit&& visit) const {
         for (std::int64_t stride = 1; stride < num_ranks && rank % (stride * radix) == 0;
@@ -27,7 +28,7 @@ struct MergeTree {
                 visit(static_cast<int>(child));
     }
 
-    /// Rank that takes in the contribution of `rank` (> 0).
+    /// Returns the rank that receives the contribution of `rank` (> 0).
     int parent(int rank) const {
         std::int64_t stride = radix;
         while (rank % stride == 0) stride *= radix;
@@ -35,15 +36,15 @@ struct MergeTree {
     }
 };
 
-/// Gives rank 0 the contributions of all ranks, merged on the way. Collective over `comm`.
+/// Brings the contributions of all ranks to rank 0, merged on the way. Collective over `comm`.
 ///
-/// A rank that failed, before or here, sends its number in place of records. A failure after that
+/// A rank that failed, before or here, sends its number instead of records. A failure after that
 /// stays with the rank for the next agreement.
 void merge_up(Contribution& mine, int dimension, const MergeTree& tree, std::size_t most,
               Participant& self);
 
 /// Appends the records of all ranks to those of the root, by rank. Collective over `comm`: each
-/// sends the number of its doubles, then these.
+/// sends the number of its doubles, then the doubles.
 ///
 /// A failure stays with its rank for the next agreement.
 void gather_records(std::vector<double>& records, Participant& self);

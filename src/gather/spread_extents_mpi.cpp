@@ -21,8 +21,8 @@ namespace {
 
 using CutWords = std::array<double, sizeof(Cut) / sizeof(double)>;
 
-/// The points below a cut and those above it, as far as cuts show: of each side the ends that face
-/// the other, the box, and as count whether there are any.
+/// The points below a cut and those above it, as far as a cut needs them: the ends of each side
+/// that face the other, the box, and as count whether there are any.
 struct FacingExtents {
     Extent below, above;
 };
@@ -103,7 +103,7 @@ std::optional<SpreadKeptTree> SpreadExtents::read(double total, bool by_count, c
     return parts;
 }
 
-/// Weight of the points of this rank over the ideal weight of its part.
+/// Returns the weight of the points of this rank over the ideal weight of its part.
 double SpreadExtents::share(double total, bool by_count) const {
     const double weight = by_count ? mine_.count : mine_.weight;
     const auto& sizes = options_.part_sizes;
@@ -144,7 +144,7 @@ bool SpreadExtents::decide_cuts() {
     return are_cut;
 }
 
-/// Across the axis that a new cut would have, if one may be there, or else another long one.
+/// Tries the axis that a new cut would have, then the other long ones.
 std::optional<Cut> SpreadExtents::cut_of(std::size_t node, const Extent& below,
                                          const Extent& above) const {
     Extent all = below;
@@ -168,7 +168,8 @@ std::optional<Cut> SpreadExtents::cut_of(std::size_t node, const Extent& below,
     return std::nullopt;
 }
 
-/// The cuts above the part of this rank, of the answers, which may be to others too.
+/// Returns the cuts above the part of this rank, from the answers, which may include those for
+/// other ranks.
 SpreadKeptTree SpreadExtents::parts_told() const {
     SpreadKeptTree parts{{dimension_, options_.num_parts, {}, {}, options_.tree}};
     RecordReader answers = butterfly_.answers().read();

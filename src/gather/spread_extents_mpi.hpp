@@ -18,24 +18,25 @@ namespace rrcb {
 struct SpreadKeptTree {
     Cuts cuts;  ///< those above the part of this rank
     double imbalance = 1;
-    int num_divided = 0;  ///< cuts that this rank owns and that divide points in one place
+    int num_divided = 0;  ///< cuts that this rank owns and that divide coincident points
 };
 
-/// The extent of this rank's points, which owners of nodes read with those of the others as a
-/// bisection, part r being on rank r. As read_kept_tree(), but if axes are free a cut may be
-/// across any long one of the points that it divides.
+/// Extent of this rank's points. The owners of nodes read it with those of the others as a
+/// bisection, with part r on rank r. As read_kept_tree(), except that with free axes a cut may be
+/// across any long axis of the points that it divides.
 class SpreadExtents {
   public:
-    /// By complete options that ask for a part for each rank and outlive this. `may_keep` may
+    /// Takes complete options that ask for a part for each rank and outlive this. `may_keep` may
     /// differ between ranks; nothing is read unless all may. Not collective. Throws std::bad_alloc.
     SpreadExtents(const Options& options, const Extent& mine, bool may_keep, int dimension,
                   int rank);
 
-    /// The parts that the ranks hold, of the weight `total` together or, `by_count`, of as many
-    /// points; nothing if they are no bisection. `regions` has the cuts of rank 0 between regions.
+    /// Returns the parts that the ranks hold; nullopt if they are no bisection. `total` is their
+    /// weight or, `by_count`, their number of points. `regions` contains the cuts of rank 0 between
+    /// regions.
     ///
-    /// Collective: one pass of records to their owners, and if all may keep theirs one of cuts
-    /// back. A message has 16 (1 + dimension + dimension^2) bytes at most for each cut above a
+    /// Collective: one pass of records to their owners, and if all may keep their points one of
+    /// cuts back. A message has at most 16 (1 + dimension + dimension^2) bytes for each cut above a
     /// part. Throws the error of one rank on all; but a failure in the last messages stays with its
     /// rank for the next agreement.
     std::optional<SpreadKeptTree> read(double total, bool by_count, const Cuts& regions,

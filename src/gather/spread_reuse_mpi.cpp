@@ -25,7 +25,7 @@ void add(std::span<const double> a, std::span<const double> b, std::vector<doubl
     std::ranges::transform(a, b, std::back_inserter(joined), std::plus<>());
 }
 
-/// Cuts with their numbers, also if they are all.
+/// Returns cuts with their numbers, also if they are all.
 Cuts numbered(Cuts cuts) {
     if (is_whole(cuts)) {
         cuts.nodes.resize(cuts.tree.size());
@@ -47,7 +47,7 @@ SpreadReuse::SpreadReuse(const Cuts& previous, const CallOptions& options, const
       buffers_(PathSearch(cuts_, points, parts), comm),
       sums_(mpi::rank_of(comm), mpi::size_of(comm), add) {}
 
-/// Adds the parts known at once, and the points that were searched one by one.
+/// Adds up the parts found at once, and those of points that were searched one by one.
 void SpreadReuse::add_up(bool by_count) {
     const std::vector<double>& known = by_count ? totals_.counts : totals_.weights;
     for (std::size_t k = 0; k < known.size(); ++k)
@@ -61,7 +61,7 @@ void SpreadReuse::add_up(bool by_count) {
     }
 }
 
-/// Largest weight of a part that this rank owns over its ideal weight.
+/// Returns the largest weight of a part that this rank owns over its ideal weight.
 double SpreadReuse::largest_share(double total_weight) const {
     const std::vector<double>& sizes = options_.parts.part_sizes;
     const double all_sizes = sizes.empty() ? cuts_.num_parts : sum_of(sizes);
@@ -73,7 +73,7 @@ double SpreadReuse::largest_share(double total_weight) const {
     return largest;
 }
 
-/// Imbalance of the parts, the same on every rank. Collective.
+/// Returns the imbalance of the parts, the same on every rank. Collective.
 double SpreadReuse::measure(double total_weight, bool by_count, Participant& self) {
     search_together(buffers_, self);
     cuts_ = buffers_.search.take();
@@ -85,8 +85,8 @@ double SpreadReuse::measure(double total_weight, bool by_count, Participant& sel
     return sums_.flags()[1];
 }
 
-/// All cuts if each rank has and gets them; otherwise those above the points and the parts of
-/// this rank, and those between regions.
+/// Returns all cuts if each rank has and gets them; otherwise those above the points and the parts
+/// of this rank, and those between regions.
 Cuts SpreadReuse::kept_cuts() const {
     if (was_whole_ && options_.parts.cuts == HeldCuts::whole)
         return {cuts_.dimension, cuts_.num_parts, cuts_.tree, {}, cuts_.shape};

@@ -12,8 +12,8 @@
 
 namespace rrcb {
 
-/// Reuse of earlier cuts of which each rank knows some, or all. Memory follows from the parts that
-/// the points of a rank are in, and the cuts above them.
+/// Reuse of earlier cuts of which each rank knows some, or all. Memory is in proportion to the
+/// parts of a rank's points, and the cuts above them.
 class SpreadReuse {
   public:
     /// Assigns the points, whose `parts` it writes. `options`, `points` and `parts` outlive it. Not
@@ -24,12 +24,12 @@ class SpreadReuse {
     /// Returns false if a coordinate is NaN or infinite; then the rest is void.
     bool all_finite() const { return totals_.all_finite; }
 
-    /// Finds the parts of all points and counts them. If they are within the tolerance, completes
-    /// the report of `result` and gives it the cuts above the points and parts of this rank, and
-    /// those between regions. Returns false if they are not.
+    /// Finds the parts of all points and counts them. Returns false if they are not within the
+    /// tolerance. Otherwise it completes the report of `result`, and stores the cuts above the
+    /// points and parts of this rank, and those between regions.
     ///
-    /// Collective: one pass through the ranks, or more if one lacks cuts, to find the parts, one
-    /// to add up and one to compare.
+    /// Collective: one pass through the ranks to find the parts, or more if one lacks cuts, one to
+    /// add up and one to compare.
     bool ends(Balance& result, Participant& self);
 
   private:

@@ -22,7 +22,7 @@ namespace {
 
 using detail::ByteColumn;
 
-/// One column as it travels: the bytes of a point lie together.
+/// One column in a message: the bytes of a point are consecutive.
 struct Lane {
     const std::byte* from;
     std::byte* to;
@@ -40,7 +40,7 @@ std::size_t point_bytes_of(std::span<const ByteColumn> columns) {
     return bytes;
 }
 
-/// What must be the same of a column on every rank.
+/// Properties of a column that must be the same on every rank.
 struct ColumnType {
     std::uint64_t components = 0;
     std::uint64_t value_bytes = 0;
@@ -76,7 +76,7 @@ Value of_root(Value value, const Participant& self) {
 }
 
 /// Throws the Error that names the first column of the lowest rank that differs from the root's.
-/// Collective, once the hashes of the columns were found to differ.
+/// Collective, called if the hashes of the columns differ.
 void refuse_types(std::span<const ByteColumn> columns, Participant& self) {
     const std::size_t num_of_root = of_root(columns.size(), self);
     self.attempt([&] {
@@ -149,7 +149,7 @@ void keep(const Delivery& delivery, const Lane& lane) {
     copy_run(delivery.num_points);
 }
 
-/// With the number of bytes known to the compiler where it is a common one.
+/// The compiler knows the number of bytes if it is a common one.
 void gather(const Lane& lane, std::span<const LocalIndex> points, std::byte* to) {
     const auto gather_by = [&](auto bytes) {
         for (const LocalIndex point : points) {

@@ -28,8 +28,8 @@ void check_column(const detail::ByteColumn& column, LocalIndex count, const std:
 
 /// Moves columns into their results.
 ///
-/// Collective as exchange_counts() is, then one reduction and the messages. What went wrong on a
-/// rank before is told to all.
+/// Collective as exchange_counts() is, then one reduction and the messages. An earlier failure on
+/// one rank is thrown on all.
 void deliver(const Delivery& delivery, std::span<const detail::ByteColumn> columns,
              const TransferLimits& limits, TransferReport* report, Participant& self);
 

@@ -14,7 +14,7 @@ namespace {
 
 using detail::ByteColumn;
 
-/// Throws Error unless the plan holds together; returns the number of ghosts.
+/// Throws Error unless the plan is consistent; returns the number of ghosts.
 LocalIndex check(const GhostPlan& plan, int num_ranks) {
     check_counts(plan.send, plan.send_indices.size(), num_ranks);
     LocalIndex num_ghosts = 0;
@@ -26,7 +26,7 @@ LocalIndex check(const GhostPlan& plan, int num_ranks) {
     return num_ghosts;
 }
 
-/// Throws Error unless the groups hold together; returns how many other ranks have.
+/// Throws Error unless the groups are consistent; returns how many other ranks have.
 LocalIndex check(const Groups& groups, int num_ranks) {
     const LocalIndex num_elsewhere = check(groups.plan, num_ranks);
     const LocalIndex num_groups = groups.plan.num_points + num_elsewhere;
@@ -61,7 +61,7 @@ void spread(const Groups& groups, const GroupValues& values, std::size_t point_b
     }
 }
 
-/// Copies a column, unless its result stands in its place.
+/// Copies a column, unless its result is the same array.
 void copy(const ByteColumn& column) {
     std::byte* result = column.resize(column.result, column.num_values);
     if (result == column.from) return;

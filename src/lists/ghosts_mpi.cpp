@@ -42,7 +42,7 @@ struct Holders {
         return given ? (*given)[part] : ranks_of_part(part, num_parts, num_ranks);
     }
 
-    /// The ends of the parts that this rank holds alone, in ranges as long as can be.
+    /// Returns the ends of the parts that only this rank holds, in ranges as long as possible.
     std::vector<PartRange> alone_here() const {
         PartRange among{0, num_parts};
         if (!given && shape.dealt == 0) among = parts_on(rank, num_parts, num_ranks);
@@ -88,14 +88,14 @@ struct Radii {
         require(std::ranges::all_of(*each, is_usable), "each radius must be finite, 0 or more");
     }
 
-    /// For comparison between ranks, which have radii of their own or the same one.
+    /// Returns bits to compare between ranks, which have radii of their own or the same one.
     std::uint64_t bits() const {
         return std::bit_cast<std::uint64_t>(each ? std::numeric_limits<double>::infinity()
                                                  : same + 0.0);
     }
 };
 
-/// Which of this rank's points which other ranks need, by the cuts that are known.
+/// Finds which of this rank's points other ranks need, by the cuts that are known.
 class Neighbourhood {
   public:
     Neighbourhood(const Cuts& cuts, const Holders& holders,
@@ -129,7 +129,7 @@ class Neighbourhood {
         });
     }
 
-    /// Nodes near points whose cuts are not known.
+    /// Returns the nodes near points whose cuts are not known.
     std::vector<std::size_t> lacking() const { return {lacking_.begin(), lacking_.end()}; }
 
   private:
@@ -161,14 +161,14 @@ class Neighbourhood {
     std::vector<PartRange> alone_;
     BallSearch search_;
     std::optional<BallSearch> search_of_images_;  ///< of all parts
-    std::optional<Box> home_;  ///< region of the only part that is this rank's alone
+    std::optional<Box> home_;  ///< region of the only part that this rank does not share
     std::vector<LocalIndex> points_;
     std::vector<int> ranks_;     ///< each to get one of the points
     std::vector<Shift> shifts_;  ///< of these, if there are images
     std::set<std::size_t> lacking_;
 };
 
-/// What a plan is made from on this rank.
+/// Input of a plan on this rank.
 struct GhostRequest {
     const Points& points;
     Radii radii;
@@ -188,8 +188,8 @@ struct GhostRequest {
                     "positions must lie in the periodic box");
     }
 
-    /// Lists what this rank sends, with its shifts; returns the nodes whose cuts it lacks for the
-    /// rest.
+    /// Lists the points that this rank sends, with their shifts; returns the nodes whose cuts it
+    /// lacks for the rest.
     std::vector<std::size_t> list_sent(const Cuts& cuts, GhostPlan& plan) const {
         Neighbourhood neighbourhood(cuts, holders, images);
         for (LocalIndex i = 0; i < points.count; ++i)
@@ -223,7 +223,7 @@ class GhostSearch : public TierSearch {
     GhostPlan& plan_;
 };
 
-/// Hands the shifts of what is sent to the ranks that get it. Collective.
+/// Sends the shifts of ghosts to the ranks that get these. Collective.
 void exchange_shifts(GhostPlan& plan, Participant& self) {
     const std::vector<Shift> sent = std::exchange(plan.shifts, {});
     std::vector<LocalIndex> all;
@@ -239,7 +239,7 @@ void exchange_shifts(GhostPlan& plan, Participant& self) {
     deliver(delivery, columns, {}, nullptr, self);
 }
 
-/// Collective; what went wrong on a rank before is told to all.
+/// Collective; an earlier failure on one rank is thrown on all.
 GhostPlan ghosts(const Cuts& cuts, const GhostRequest& request, Participant& self) {
     GhostPlan plan;
     std::optional<SearchBuffers<GhostSearch>> buffers;

@@ -10,12 +10,12 @@ namespace rrcb {
 
 namespace {
 
-/// The groups as parts, of which each keeps the points of its present number.
+/// Returns the rule for groups as parts, of which each keeps the points of its present number.
 NumberRule rule_of_groups(const NumberRule& rule) {
     return {(rule.num_parts - 1) / rule.shape.group_size + 1, rule.num_ranks, false};
 }
 
-/// What the points of a rank say of the groups.
+/// The groups of a rank's points.
 struct GroupsHere {
     std::vector<Part> groups;   ///< of the parts of its points
     std::vector<Part> origins;  ///< groups whose numbers keep them; no_part: none

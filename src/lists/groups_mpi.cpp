@@ -15,7 +15,7 @@
 #include <utility>
 
 // The ranks of a group find each other in three exchanges:
-//   keys      from each rank that has some to one by their hash, which sees all ranks of a key
+//   keys      from each rank that has some to one by their hash, which learns all ranks of a key
 //   owners    back to the ranks that share a group but are not the lowest of them
 //   sums      from these to the lowest one, which adds them up and notes who has points
 
@@ -23,14 +23,14 @@ namespace rrcb {
 
 namespace {
 
-/// Weight and place of a group, as far as its points are known.
+/// Weight and position of a group, of the points known so far.
 struct GroupSum {
     double weight = 0;
     std::uint64_t count = 0;
     Vector place{};
 
-    /// Weighted, or of all points as long as none has weight. Between the places whatever the
-    /// rounding, and without overflow.
+    /// Weighted, or of all points as long as none has weight. Stays between the positions whatever
+    /// the rounding, and does not overflow.
     void add(const GroupSum& other, bool moves) {
         count += other.count;
         weight += other.weight;
@@ -42,7 +42,7 @@ struct GroupSum {
     }
 };
 
-/// A key on its way to the rank that sees all ranks of it.
+/// A key on its way to the rank that collects all ranks of it.
 struct KeyNotice {
     std::uint64_t key;
     std::uint64_t group;  ///< number on the rank that sends it
@@ -158,7 +158,7 @@ Outgoing<OwnerNotice> name_owners(std::vector<Arrived<KeyNotice>>& keys) {
     return owners;
 }
 
-/// Gives numbers to the groups of this rank and those of others; lists the sums for these.
+/// Numbers the groups of this rank and those of others; lists the sums for the others.
 Outgoing<SumNotice> number_groups(const LocalGroups& local,
                                   std::span<const Arrived<OwnerNotice>> owners, int num_ranks,
                                   Groups& result, std::vector<LocalIndex>& numbers) {
@@ -185,7 +185,7 @@ Outgoing<SumNotice> number_groups(const LocalGroups& local,
     return sums;
 }
 
-/// Adds what other ranks have of groups of this one, and lists them.
+/// Adds the sums of other ranks to the groups of this one, and lists these ranks.
 void complete(std::span<const Arrived<SumNotice>> sums, GroupPlace place, LocalGroups& local,
               std::span<const LocalIndex> numbers, Groups& result) {
     for (const auto& [source, notice] : sums) {

@@ -6,7 +6,7 @@
 
 namespace rrcb {
 
-/// As the functions of groups.hpp; what went wrong on a rank before is told to all. Collective.
+/// As the functions of groups.hpp; an earlier failure on one rank is thrown on all. Collective.
 Groups groups(const Points& points, std::span<const std::uint64_t> keys, GroupPlace place,
               Participant& self);
 void move(const Groups& groups, std::span<const detail::ByteColumn> columns,

@@ -23,7 +23,7 @@ struct Overlap {
     GlobalCount count = 0;
 };
 
-/// Where points are to be kept, and which ranks search for the numbers of the parts.
+/// Origins whose points are kept, and the ranks that search for the numbers of the parts.
 struct NumberRule {
     int num_parts = 1;
     int num_ranks = 1;
@@ -33,16 +33,17 @@ struct NumberRule {
     std::span<const RankRange> listed{};
     TreeShape shape{};  ///< of the tree; parts get the numbers of parts of their group
 
-    /// Origin whose points a part of this number keeps, and the numbers that keep those of it.
+    /// Returns the origin whose points a part of this number keeps; numbers_of() is the inverse.
     std::int32_t home_of(Part number) const;
     PartRange numbers_of(std::int32_t origin) const;
 
-    /// Whether the numbers that keep the points of an origin are of the group of a part.
+    /// Returns whether the numbers that keep the points of an origin are of the group of a part.
     bool is_in_group(Part part, std::int32_t origin) const {
         return shape.group_size == 1 || origin == no_origin ||
                group_of(origin) == group_of_part(part);
     }
-    /// The group of the numbers that keep the points of an origin; -1 if they are of several.
+    /// Returns the group of the numbers that keep the points of an origin; -1 if there are several
+    /// groups.
     int group_of(std::int32_t origin) const;
     int group_of_part(Part part) const { return shape.end_of(part, num_parts) / shape.group_size; }
 
@@ -51,15 +52,15 @@ struct NumberRule {
         return is_spread && by_rank ? origin : searcher_of(origin);
     }
 
-    /// Parts that a rank searches for, and the numbers of its origins.
+    /// Returns the parts that a rank searches for; numbers_at() returns the numbers of its origins.
     PartRange parts_of(int rank) const;
     PartRange numbers_at(int rank) const {
         return is_spread && by_rank ? numbers_of(rank) : parts_of(rank);
     }
 };
 
-/// Search for numbers of the parts so that many points are kept: one rank's part in it, without the
-/// messages.
+/// Search for numbers of the parts so that many points are kept: one rank's share of the search,
+/// without the messages.
 ///
 /// The numbers are those of the greedy method: the largest overlap of all gets its number first,
 /// which keeps at least half of the most that can be kept. Rounds of offers find them (D. Gale and
@@ -68,10 +69,10 @@ struct NumberRule {
 /// the largest offers, as many as it has numbers. A refused part goes on to its next origin, and
 /// asks the later ones which offers they would refuse. Overlaps have a total order, so any
 /// distribution of the parts over the searching ranks gives the same numbers. Parts without a
-/// number after the rounds, and unused numbers, are counted over the ranks and meet by their count.
+/// number after the rounds are paired with unused numbers, both counted over the ranks.
 ///
-/// Memory and messages grow with the overlaps that were handed in for the rank's parts. Not
-/// collective. Functions that add to a butterfly or read from it throw std::bad_alloc.
+/// Memory and messages grow with the overlaps of the rank's parts. Not collective. Functions that
+/// add to a butterfly or read from it throw std::bad_alloc.
 class NumberSearch {
   public:
     /// Throws std::bad_alloc.

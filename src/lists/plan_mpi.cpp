@@ -23,16 +23,16 @@ struct Notice {
     std::int32_t unused = 0;
 };
 
-/// Destination among the ranks of the part: this rank when the point can stay, else one by the
-/// sender's number, which spreads them.
+/// Returns the destination among the ranks of the part: this rank if the point can stay, else one
+/// by the sender's number, which spreads them.
 int destination_of(Part part, int num_parts, int rank, int num_ranks) {
     const RankRange ranks = ranks_of_part(part, num_parts, num_ranks);
     if (rank >= ranks.first_rank && rank < ranks.first_rank + ranks.count) return rank;
     return ranks.first_rank + rank % ranks.count;
 }
 
-/// First rank of a part where ranks outnumber parts. The ranks left over go one each to the parts
-/// before the last.
+/// Returns the first rank of a part if ranks outnumber parts. The ranks left over go one each to
+/// the parts before the last.
 int first_rank_of(Part part, int num_parts, int num_ranks) {
     if (part == num_parts) return num_ranks;
     const int left_over = num_ranks % num_parts;
@@ -58,7 +58,7 @@ void list_exports(std::span<const Part> parts, int num_parts, MPI_Comm comm, Pla
     }
 }
 
-/// Hands the exports to the exchange.
+/// Adds the exports to the exchange.
 void post(const Plan& plan, Exchange& exchange) {
     exchange.fill(plan.export_ranks, [&](std::size_t k, std::byte* place) {
         const Notice notice{plan.export_indices[k], plan.export_parts[k]};

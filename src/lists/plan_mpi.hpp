@@ -12,7 +12,7 @@ namespace rrcb {
 /// the call is thrown on all ranks as well.
 Plan plan(std::span<const Part> parts, int num_parts, Participant& self);
 
-/// The same of transfer(), for columns without their types.
+/// As transfer(), for columns without their types.
 void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
           const TransferLimits& limits, TransferReport* report, Participant& self);
 

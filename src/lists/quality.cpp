@@ -12,13 +12,13 @@ namespace rrcb {
 
 namespace {
 
-/// Throws Error unless the sizes are those of the parts.
+/// Throws Error unless there is a size for each part.
 void check_sizes(std::span<const double> part_weights, std::span<const double> part_sizes) {
     require(part_sizes.empty() || part_sizes.size() == part_weights.size(),
             "part_sizes must hold one entry per part, or none for equal parts");
 }
 
-/// Weight each part should have.
+/// Returns the weight each part should have.
 std::vector<double> ideal_weights(std::span<const double> part_weights,
                                   std::span<const double> part_sizes) {
     const double total = std::accumulate(part_weights.begin(), part_weights.end(), 0.0);

@@ -35,7 +35,7 @@ std::vector<double> weights_here(const Points& points, std::span<const Part> par
     return weights;
 }
 
-/// Tells all ranks that none has failed and all divide into as many parts. Collective.
+/// Throws on all ranks if one has failed or has another number of parts. Collective.
 void agree_on_parts(int num_parts, const Participant& self) {
     agree(self, {{"num_parts", static_cast<std::uint64_t>(num_parts)}});
 }

@@ -9,12 +9,12 @@
 
 namespace rrcb {
 
-/// What each part weighs over all ranks, as the public function, over a communicator that is a
-/// duplicate already. Collective.
+/// Returns the weight of each part over all ranks, as the public function, over a communicator that
+/// is a duplicate already. Collective.
 std::vector<double> part_weights(const Points& points, std::span<const Part> parts, int num_parts,
                                  Participant& self);
 
-/// The same of moved_fraction().
+/// As moved_fraction().
 double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
                       Participant& self);
 

@@ -25,7 +25,7 @@ constexpr int most_rounds = 16;
 void pass(Butterfly& butterfly, Butterfly::Direction direction, bool flag, RemapBuffers& buffers,
           Participant& self) {
     const Flags flags{0, flag ? 1.0 : 0.0};
-    // Rank 0 alone asks itself.
+    // A single rank needs no messages.
     if (butterfly.num_ranks() == 1) return butterfly.start(flags);
     buffers.messages.run(butterfly, direction, flags, self);
 }
@@ -37,7 +37,7 @@ std::vector<Overlap> count_overlaps(std::span<const Part> parts, const PreviousP
         return rule.is_in_group(part, origin) ? origin : no_origin;
     };
     std::vector<Overlap> overlaps;
-    // A table where it is no longer than the list of points: a map takes most of the call.
+    // A table if it is no longer than the list of points: a map would take most of the call.
     if (rule.by_rank && static_cast<std::size_t>(rule.num_parts) <= parts.size()) {
         std::vector<GlobalCount> of_parts(static_cast<std::size_t>(rule.num_parts));
         for (const Part part : parts) ++of_parts[part];
@@ -156,7 +156,7 @@ NewNumbers share_decision(RemapBuffers& buffers, Participant& self) {
     return result;
 }
 
-/// Returns the numbers that all ranks found to all ranks, or to those with points of the parts.
+/// Sends the numbers that all ranks found to all ranks, or to those with points of the parts.
 /// Collective: one reduction, and another or a pass if any number changes.
 NewNumbers return_numbers(RemapBuffers& buffers, Participant& self) {
     auto& [search, told, offers, left, messages, numbers, decision] = buffers;
@@ -174,7 +174,7 @@ NewNumbers return_numbers(RemapBuffers& buffers, Participant& self) {
     } else if (!result.remap.identity) {
         self.attempt([&] {
             told.owned().for_each([&, index = std::size_t{0}](const Record& record) mutable {
-                // Its searching rank asks for each part, so the records are those of all parts.
+                // The searching rank of a part asks for it, so the records are those of all parts.
                 told.answer(record.key, std::array{static_cast<double>(search.numbers()[index++])});
             });
         });

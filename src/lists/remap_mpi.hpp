@@ -28,7 +28,8 @@ class Origins {
         if (by_rank_ && first < end) own_ = rank;
     }
 
-    /// Origin of all points if origins are ranks; no_origin if no number keeps any, and otherwise.
+    /// Returns the origin of all points if origins are ranks; no_origin if no number keeps any, and
+    /// otherwise.
     std::int32_t own() const { return own_; }
 
     std::int32_t of(std::size_t point) const {
@@ -46,8 +47,8 @@ class Origins {
 
 /// Memory of one renumbering, allocated before the ranks agree.
 struct RemapBuffers {
-    /// Every rank gets the numbers of all parts if `wants_all`, as always if rank 0 searches. Not
-    /// collective. Throws std::bad_alloc.
+    /// Allocates memory; if `wants_all`, every rank gets the numbers of all parts, as always if
+    /// rank 0 searches. Not collective. Throws std::bad_alloc.
     RemapBuffers(const NumberRule& rule, int rank, bool wants_all = true);
 
     NumberSearch search;
@@ -81,7 +82,7 @@ Remap remap(std::span<const Part> parts, const PreviousParts& previous,
             std::span<const RankRange> ranks_of_parts, const TreeShape& shape, bool is_spread,
             Participant& self);
 
-/// The same, in the way that a balance with default options takes. Collective.
+/// As above, with the default options of balance(). Collective.
 Remap remap(std::span<const Part> parts, const PreviousParts& previous,
             std::span<const RankRange> ranks_of_parts, const TreeShape& shape, Participant& self);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t most_shared = 11;
 
-/// Throws the same on all ranks; without the text where a rank has no memory for it.
+/// Throws the same on all ranks, without the text on a rank that has no memory for it.
 template <class MakeText>
 [[noreturn]] void throw_alike(ErrorCode code, MakeText&& make_text) {
     try {
@@ -22,7 +22,7 @@ template <class MakeText>
     }
 }
 
-/// Failures are told in this order: those first that follow from no other.
+/// Returns the order in which failures are reported: first those that follow from no other.
 std::uint64_t order_of(const Participant& self, std::uint64_t num_ranks) {
     if (!self.failed()) return 2 * num_ranks;
     const auto rank = static_cast<std::uint64_t>(mpi::rank_of(self.comm));
@@ -42,7 +42,7 @@ void agree(const Participant& self, std::initializer_list<Shared> arguments) {
 
 std::size_t find_difference(const Participant& self, std::span<const Shared> arguments) {
     const auto num_ranks = static_cast<std::uint64_t>(mpi::size_of(self.comm));
-    // A maximum travels as the minimum of the complement.
+    // The minimum of the complement gives the maximum.
     std::array<std::uint64_t, 1 + 2 * most_shared> smallest;
     smallest[0] = order_of(self, num_ranks);
     std::size_t length = 1;

@@ -14,11 +14,10 @@ namespace rrcb {
 
 inline constexpr int root = 0;
 
-/// Throws the same Error on every rank when one of them failed on its own since they agreed last:
-/// that of the lowest rank, of those with a failure that may follow from another one's if no rank
-/// has another.
+/// Throws the same Error on every rank if any rank has failed since the last agreement.
 ///
-/// Collective: one reduction.
+/// The Error is that of the lowest rank with a failure that follows from no other one's, or else of
+/// the lowest failing rank. Collective: one reduction.
 void agree(const Participant& self);
 
 /// Argument that must be the same on every rank.
@@ -27,23 +26,22 @@ struct Shared {
     std::uint64_t value = 0;
 };
 
-/// Agrees, and throws also where one of `arguments` differs between the ranks.
+/// Agrees, and throws also if one of `arguments` differs between the ranks.
 ///
 /// Collective: one reduction. All ranks name the same arguments, eleven at most. The messages that
 /// follow may depend on them.
 void agree(const Participant& self, std::initializer_list<Shared> arguments);
 
-/// The same, but returns the number of the first of `arguments` that differs, or how many there
-/// are.
+/// As agree(), but returns the number of the first of `arguments` that differs, or their number.
 std::size_t find_difference(const Participant& self, std::span<const Shared> arguments);
 
 /// Throws on every rank the Error of an argument that differs between ranks. Collective.
 [[noreturn]] void refuse(const Shared& argument, const Participant& self);
 
-/// Throws on every rank what failed on `failing_rank`; nothing where it is no_rank.
+/// Throws on every rank the failure of `failing_rank`; does nothing for no_rank.
 ///
-/// Collective where it throws: one broadcast, and agree() before it for some_rank. All ranks were
-/// told the same number.
+/// Collective if it throws: one broadcast, and agree() before it for some_rank. All ranks pass the
+/// same number.
 void fail_together(int failing_rank, const Participant& self);
 
 }  // namespace rrcb

@@ -29,8 +29,8 @@ const Butterfly::Halves& Butterfly::halves_at(int step) {
         step_of_halves_ = 0;
         halves_ = halves_of(0, num_ranks_);
     }
-    // Before each turn this rank is one of `halves_`. Without branches, as there is no telling
-    // which half it is in.
+    // Before each turn this rank is one of `halves_`. Without branches, because the half is
+    // unpredictable.
     for (; step_of_halves_ < step; ++step_of_halves_) {
         const bool is_below = rank_ < halves_.middle;
         halves_ = halves_of(is_below ? halves_.begin : halves_.middle,
@@ -47,8 +47,8 @@ Butterfly::Links Butterfly::links(int step, Direction direction) {
         const bool sends = to == (rank_ >= halves.middle);
         return {{Link{mirror, sends, !sends}}, mirror == rank_ ? 0U : 1U};
     }
-    // Of an odd number of ranks the last of the lower half has none across from it: it hands its
-    // records to the first of the other half, and gets none.
+    // With an odd number of ranks the last of the lower half has no partner: it sends its records
+    // to the first of the other half, and gets none.
     if (mirror == rank_) return {{Link{halves.middle, to, !to}}, 1};
     const bool is_odd = (halves.end - halves.begin) % 2 != 0;
     return {{Link{mirror, true, true}, Link{rank_ - 1, !to, to}},
@@ -89,7 +89,7 @@ void Butterfly::hand_over(int step) {
     const bool is_below = rank_ < halves.middle;
     const int begin = is_below ? halves.begin : halves.middle;
     const int end = is_below ? halves.middle : halves.end;
-    // Mostly so where points lie near the ranks of their parts.
+    // Mostly true if points are near the ranks of their parts.
     if (held_.are_owned_between(begin, end)) return;
     const auto stays_here = [&](const Record& record) {
         return begin <= record.owner && record.owner < end;
@@ -125,7 +125,7 @@ void Butterfly::take(int step, Direction direction, const Link& link,
     merge(direction == to_owners ? held_ : answers_, incoming);
 }
 
-/// Notes to whom the answers to records will go.
+/// Notes the ranks that the answers to records go to.
 void Butterfly::note_asked(int step, int rank, RecordReader incoming) {
     const std::size_t begin = keys_asked_.size();
     while (!incoming.at_end()) keys_asked_.push_back(incoming.next().key);
@@ -134,7 +134,7 @@ void Butterfly::note_asked(int step, int rank, RecordReader incoming) {
 
 /// Both in the order of their keys.
 void Butterfly::merge(Records& records, const RecordReader& others) const {
-    // Where keys ascend with their owners, all answers of a half come before those of the other.
+    // If keys ascend with their owners, all answers of a half come before those of the other.
     if (records.empty() || records.last_key() < first_key(others))
         return records.append_all(others);
     if (last_key(others) < first_key(records.read())) return records.prepend_all(others);

@@ -13,51 +13,50 @@ namespace rrcb {
 
 /// Numbers that all ranks know after a pass: the largest of any rank.
 ///
-/// The first tells the rank whose failure agree() would tell, the largest that of the lowest rank,
-/// of no other failure where there is one that follows from none; 0 for none. What the others say
-/// is up to the caller.
+/// The first is for failures, 0 for none: its maximum names the rank whose failure agree() would
+/// report. The caller chooses the meaning of the others.
 using Flags = std::array<double, 4>;
 
 inline void mark_failed(Flags& flags, int rank, int num_ranks, bool may_follow = false) {
     flags[0] = (may_follow ? 1.0 : 2.0) * num_ranks - rank;
 }
 
-/// The rank whose failure is told, or no_rank.
+/// Returns the rank whose failure is reported, or no_rank.
 inline int failing_rank(const Flags& flags, int num_ranks) {
     return flags[0] > 0 ? static_cast<int>(2.0 * num_ranks - flags[0]) % num_ranks : no_rank;
 }
 
 /// Records of all ranks on their way to the owners of their keys, and answers on their way back:
-/// one rank's part in it, without the messages.
+/// one rank's part, without the messages.
 ///
-/// The ranks are halved again and again, the lower half the larger one, until each is alone. In
-/// the step of a halving a rank hands one of the other half all records whose owner is there:
-/// ceil(log2 R) steps for R ranks, as in the crystal router (G. C. Fox et al.: Solving Problems on
-/// Concurrent Processors, volume 1, 1988). Records of one key are joined where they meet. Answers
-/// go back the same ways, step by step in reverse order, to all that handed on a record of the key.
+/// The ranks are halved again and again, the lower half being the larger one, until each is alone.
+/// In the step of a halving a rank sends one rank of the other half all records whose owner is
+/// there: ceil(log2 R) steps for R ranks, as in the crystal router (G. C. Fox et al.: Solving
+/// Problems on Concurrent Processors, volume 1, 1988). Records of one key are joined when they
+/// meet. Answers go back the same ways, step by step in reverse order, to all ranks that sent a
+/// record of the key on.
 ///
-/// Flags are joined in every step. After a pass to the owners each rank knows the largest of all
-/// ranks, which follows by induction over the halves: what is known together in a half after the
-/// step is what both halves knew before it, as every rank hands its flags to one of the other half.
-/// On the way back the flags go the same ways in reverse order, and so from any rank to any other.
-/// This holds whatever fails on a rank on the way, if it goes on with pack_nothing(). So what fails
-/// during a pass is told by the flags of the next one, and to all alike.
+/// Flags are joined in every step, so each rank knows the largest of all ranks after a pass in
+/// either direction. Proof by induction over the halves: every rank sends its flags to one of the
+/// other half, so after a step a half knows what both halves knew before it. This also holds if
+/// ranks fail on the way, provided that they go on with pack_nothing(). The flags of the next pass
+/// then report the failure, alike on all ranks.
 ///
-/// The central way serves few ranks with fewer messages: rank 0 owns all keys, so the upper half of
-/// each halving sends to the lower one, and hears from it on the way back: R - 1 messages a pass.
-/// Rank 0 alone then knows the flags of all after a pass to the owners, and the others learn those
-/// of rank 0 on the way back.
+/// The central way has fewer messages for few ranks: rank 0 owns all keys, so the upper half of
+/// each halving sends to the lower one, and receives from it on the way back: R - 1 messages a
+/// pass. After a pass to the owners only rank 0 knows the flags of all; the others receive those of
+/// rank 0 on the way back.
 class Butterfly {
   public:
-    /// Appends what the payloads `a` and `b` of one key make together. Null where records of one
-    /// key stay apart; then nothing is answered.
+    /// Appends the payload that `a` and `b` of one key make together. Null if records of one key
+    /// stay apart; then nothing is answered.
     using Join = void (*)(std::span<const double> a, std::span<const double> b,
                           std::vector<double>& joined);
 
     enum Direction { to_owners, back };
     enum class Way { spread, central };
 
-    /// Whom a rank exchanges messages with in a step, in this order.
+    /// A partner in a step and the directions of its messages; links are used in this order.
     struct Link {
         int rank;
         bool sends;     ///< to that rank
@@ -78,8 +77,8 @@ class Butterfly {
     int num_ranks() const { return num_ranks_; }
     bool is_central() const { return way_ == Way::central; }
 
-    /// Steps that this rank takes part in: in those numbered from 0 on the way to the owners, in
-    /// reverse order on the way back.
+    /// Returns the number of steps of this rank. They are numbered from 0 on the way to the owners,
+    /// and run in reverse order on the way back.
     int num_steps() const { return num_steps_; }
 
     /// The same step means the same halving on all ranks in it.
@@ -93,7 +92,7 @@ class Butterfly {
         held_.append({key, owner, payload});
     }
 
-    /// The records of the keys that this rank owns, joined, after a pass to the owners.
+    /// Returns the joined records of the keys that this rank owns, after a pass to the owners.
     const Records& owned() const { return held_; }
 
     /// Adds the answer to a key that this rank owns before a pass back; keys ascend. Throws
@@ -102,11 +101,11 @@ class Butterfly {
         answers_.append({key, rank_, payload});
     }
 
-    /// After a pass back the answers to the records of this rank, and to those that went through
-    /// it; ascending by key.
+    /// Returns the answers to the records of this rank, and to those that went through it, after a
+    /// pass back; ascending by key.
     const Records& answers() const { return answers_; }
 
-    /// Begins a pass. From here on flags() are joined.
+    /// Begins a pass. From this call on flags() are joined.
     void start(const Flags& mine) { flags_ = mine; }
     const Flags& flags() const { return flags_; }
 
@@ -116,16 +115,16 @@ class Butterfly {
     /// Makes a message without records. Never throws.
     void pack_nothing();
 
-    /// The message that was made: how many doubles it has, the flags, and records.
+    /// Returns the message that was made: its number of doubles, the flags, and records.
     std::span<const double> message() const {
         return message_.empty() ? std::span<const double>(head_) : message_;
     }
     static constexpr std::size_t head_length = 1 + std::tuple_size_v<Flags>;
 
-    /// Takes in the flags of a message. Never throws.
+    /// Joins the flags of a message. Never throws.
     void hear(std::span<const double> message);
 
-    /// Takes in the records of a message that came by a link. Throws std::bad_alloc.
+    /// Adds the records of a message that came by a link. Throws std::bad_alloc.
     void take(int step, Direction direction, const Link& link, std::span<const double> message);
 
   private:
@@ -149,7 +148,7 @@ class Butterfly {
         std::size_t end;
     };
 
-    /// From those of the last call, if these are not of a later step.
+    /// Starts from the halves of the last call, if these are not of a later step.
     const Halves& halves_at(int step);
     void hand_over(int step);
     void reply(int step, int rank);
@@ -171,7 +170,7 @@ class Butterfly {
     std::vector<Asked> asked_;
     std::vector<Key> keys_asked_;
     std::array<double, head_length> head_{};
-    std::vector<double> message_;  ///< empty where it is the head alone
+    std::vector<double> message_;  ///< empty if the message is only its head
 };
 
 }  // namespace rrcb

@@ -58,19 +58,20 @@ void ButterflyMessages::run(Butterfly& butterfly, Butterfly::Direction direction
             exchange(butterfly, step, direction, link, self);
     }
     const int failing = failing_rank(butterfly.flags(), butterfly.num_ranks());
-    // The others hear of it on the way back.
+    // The other ranks learn of it on the way back.
     if (butterfly.is_central() && direction == Butterfly::to_owners) return self.hear_of(failing);
     fail_together(failing, self);
 }
 
-/// Sends and receives what a link carries, piece by piece at once in both directions, so that two
+/// Sends and receives the message of a link, piece by piece at once in both directions, so that two
 /// ranks never wait for each other.
 void ButterflyMessages::exchange(Butterfly& butterfly, int step, Butterfly::Direction direction,
                                  const Butterfly::Link& link, Participant& self) {
     butterfly.pack_nothing();
     if (link.sends) self.attempt([&] { butterfly.pack(step, direction, link); });
     if (self.failed()) {
-        // On the way to rank 0 a rank sends after all that it receives, so that rank 0 hears of it.
+        // On the way to rank 0 a rank sends after it has received everything, so that failures
+        // reach rank 0.
         if (butterfly.is_central() && direction == Butterfly::to_owners)
             butterfly.start(joined(failed_flags(butterfly, self), butterfly.flags()));
         butterfly.pack_nothing();
@@ -89,7 +90,7 @@ void ButterflyMessages::exchange(Butterfly& butterfly, int step, Butterfly::Dire
     self.attempt([&] { butterfly.take(step, direction, link, arrived_); });
 }
 
-/// Receives a piece of a message; returns how many it has. Without memory it still receives them.
+/// Receives a piece of a message; returns its length. Without memory it still receives it.
 std::size_t ButterflyMessages::receive(std::size_t number, int from, Participant& self) {
     std::fill_n(piece_.begin(), head_.size(), 0.0);
     self.check(MPI_Recv(piece_.data(), static_cast<int>(piece_.size()), MPI_DOUBLE, from,

@@ -17,8 +17,8 @@ class ButterflyMessages {
     /// Sends pieces of 64 kB at most. Not collective. Throws std::bad_alloc.
     ButterflyMessages();
 
-    /// Sends pieces of as many doubles as the buffer holds, on all ranks alike; at least a head's.
-    /// Not collective. Never throws. The buffer outlives it.
+    /// Sends pieces of as many doubles as the buffer holds, which is the same on all ranks and at
+    /// least a head's. Not collective. Never throws. The buffer outlives it.
     explicit ButterflyMessages(std::span<double> buffer) : piece_(buffer) {}
 
     ButterflyMessages(const ButterflyMessages&) = delete;
@@ -30,12 +30,14 @@ class ButterflyMessages {
     /// to those of all ranks in `butterfly`.
     ///
     /// Collective: ceil(log2 R) messages from each of R ranks, one more at most from some; a
-    /// message that is longer than a piece takes more. No rank leaves before all have entered, as
-    /// it then knows the flags of all. Throws on every rank what failed on one before the pass. A
-    /// rank that fails in it goes on without records, which then are missing elsewhere as well,
-    /// until the next pass or agreement tells all ranks. In the central way R - 1 messages in all;
-    /// rank 0 hears in a pass to the owners of failures before or in it, which the pass back
-    /// throws; `flags` count at all ranks to the owners, at rank 0 alone on the way back.
+    /// message longer than a piece takes several. No rank leaves before all have entered, because
+    /// it needs the flags of all. Throws on every rank the failure of one before the pass. A rank
+    /// that fails in the pass goes on without records. These are then missing elsewhere as well,
+    /// until the next pass or agreement reports the failure.
+    ///
+    /// The central way has R - 1 messages in all. In a pass to the owners rank 0 learns of failures
+    /// before or in it, which the pass back throws. `flags` of all ranks count on the way to the
+    /// owners, on the way back only those of rank 0.
     void run(Butterfly& butterfly, Butterfly::Direction direction, Flags flags, Participant& self);
 
   private:
@@ -45,9 +47,9 @@ class ButterflyMessages {
     std::size_t receive(std::size_t number, int from, Participant& self);
 
     std::unique_ptr<double[]> own_buffer_;
-    std::span<double> piece_;                            ///< what came last
-    std::vector<double> arrived_;                        ///< the message that it belongs to
-    std::array<double, Butterfly::head_length> head_{};  ///< of this
+    std::span<double> piece_;                            ///< the latest piece
+    std::vector<double> arrived_;                        ///< the message of the latest piece
+    std::array<double, Butterfly::head_length> head_{};  ///< of `arrived_`
 };
 
 }  // namespace rrcb

@@ -11,26 +11,27 @@ namespace rrcb::mpi {
 
 /// Kind of a message between two ranks, on the duplicate of a communicator.
 ///
-/// Ranks run ahead of each other into the next call, so a tag tells kinds apart. Within a kind two
-/// rules hold. A call receives every message that is sent to it, and names the sender:
-/// MPI keeps those in order. Only an Exchange receives from any rank: none sends in it before all
-/// have entered it, as it announces its records by a butterfly, from which no rank comes before the
-/// flags of all have gone in; and none enters it that has not received all of the one before.
+/// Ranks run ahead of each other into the next call, so a tag distinguishes kinds. Within a kind
+/// two rules hold. A call receives every message that is sent to it, and names the sender: MPI
+/// keeps those in order. Only an Exchange receives from any rank. A butterfly announces its
+/// records, and no rank leaves the butterfly before the flags of all have gone in. So no rank sends
+/// in an Exchange before all have entered it, and none enters it that has not received all messages
+/// of the one before.
 enum Tag : int { contribution_tag = 1, points_tag, exchange_tag, stream_tag, butterfly_tag };
 
 /// Throws Error with the text of an MPI error code that is not MPI_SUCCESS.
 void check(int code, const char* call);
 
-/// Narrows a count to MPI's int; throws Error when it does not fit.
+/// Narrows a count to MPI's int; throws Error if it does not fit.
 int to_int(std::int64_t count);
 
 /// Bytes in one message at most; tests lower it.
 inline std::size_t longest_message = std::numeric_limits<int>::max();
 
-/// MPI_Bcast of any number of bytes. Collective over `comm`; as many on each rank.
+/// Broadcasts any number of bytes, the same on each rank, as MPI_Bcast. Collective over `comm`.
 void broadcast(std::span<std::byte> bytes, int root, MPI_Comm comm);
 
-/// Sum over all ranks. Collective.
+/// Returns the sum over all ranks. Collective.
 int sum_of(int here, MPI_Comm comm);
 
 int rank_of(MPI_Comm comm);

@@ -48,7 +48,8 @@ void keep(MPI_Comm duplicate, MPI_Comm user) {
 const MPI_Comm* find_duplicate(MPI_Comm user) {
     void* attribute = nullptr;
     int found = 0;
-    // A rank without a key has kept none, so no rank has for a communicator that they share.
+    // A rank without a key has kept no duplicate, so no rank has one for a communicator that they
+    // share.
     const Failure failure = attempt([] { key(); });
     if (failure.failed) return nullptr;
     check(MPI_Comm_get_attr(user, key(), &attribute, &found), "MPI_Comm_get_attr");

@@ -50,7 +50,8 @@ void Exchange::send_all(Participant& self) {
 
 void Exchange::receive_all(Participant& self) {
     std::size_t first = 0;
-    // All before `first` has come. The inbox has the length announced, so nothing else is awaited.
+    // Ends when all records before `first` have come. The inbox has the announced length, so
+    // nothing else is awaited.
     while (first < buffers_.inbox.size()) {
         const std::size_t most =
             std::min(buffers_.inbox.size() - first, most_records() * record_bytes_);

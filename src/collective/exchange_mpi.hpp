@@ -48,7 +48,7 @@ class Exchange {
     /// Sends and receives, after the ranks agreed that all have memory.
     ///
     /// Collective: one message for each pair of ranks with records, more beyond
-    /// mpi::longest_message. Throws Error where one fails, of which no other rank hears.
+    /// mpi::longest_message. Throws Error if a message fails, on this rank only.
     void run(Participant& self);
 
     /// Calls read(source, place) for every record that came: by rank, in the order written there.
@@ -65,7 +65,7 @@ class Exchange {
     ExchangeBuffers take_memory() { return std::move(buffers_); }
 
   private:
-    /// Records of one rank, somewhere in the inbox.
+    /// Records of one rank in the inbox.
     struct Message {
         int source;
         std::size_t first;

@@ -9,17 +9,17 @@
 
 namespace rrcb {
 
-/// Number in place of a failing rank's where none has failed.
+/// Stands for the failing rank if no rank has failed.
 inline constexpr int no_rank = -1;
 
-/// Number in place of a failing rank's where the message could not say which has failed.
+/// Stands for the failing rank if the message could not name it.
 inline constexpr int some_rank = -2;
 
 /// Error held back until the ranks have agreed on it. Holding it takes no memory.
 struct Failure {
     bool failed = false;
     ErrorCode code = ErrorCode::internal;
-    std::array<char, 512> text{};  ///< cut short where it is longer; ends with a 0
+    std::array<char, 512> text{};  ///< cut short if it is longer; ends with a 0
     bool may_follow = false;       ///< from the failure of another rank, see compare()
 };
 
@@ -29,7 +29,7 @@ inline Failure failure_of(ErrorCode code, std::string_view text) {
     return failure;
 }
 
-/// Runs one local step; returns what it throws.
+/// Runs one local step; returns the exception that it throws.
 template <class Step>
 Failure attempt(Step&& step) {
     try {

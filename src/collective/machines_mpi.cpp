@@ -12,7 +12,8 @@ namespace rrcb::mpi {
 
 namespace {
 
-/// What is kept with `comm`, or null. A rank without a key has kept none, so no rank has.
+/// Returns the machines kept with `comm`, or null. A rank without a key has kept none, so no rank
+/// has.
 const Machines* find(MPI_Comm comm) {
     const Machines* kept = nullptr;
     attempt([&] { kept = Attribute<Machines>::find(comm); });
@@ -58,11 +59,11 @@ Machines machines_of(Participant& self) {
     const auto [num_ranks, distance] = first;
     const int rank = rank_of(self.comm);
     Machines made{num_ranks, distance > 1};
-    // The machines are alike if the lowest rank of each is where the first one puts it.
+    // The machines are alike if the lowest rank of each is as the first machine predicts.
     const int lowest = made.dealt ? rank % distance : rank / num_ranks * num_ranks;
-    // Of machines in turn only the last one may have fewer.
+    // If ranks are dealt in turn, only the last machine may have fewer.
     const bool ends_well = !made.dealt || (size_of(self.comm) + 1) % distance <= 1;
-    // A constant on rank 0, so that ranks differ if any is elsewhere.
+    // A constant on rank 0, so that the ranks differ if any machine does not fit.
     const bool fits = here.lowest[0] == lowest && (rank == root || ends_well);
     const std::array shared{Shared{"machines", fits ? 0u : 1u}};
     Machines* kept = nullptr;

@@ -8,7 +8,7 @@ namespace rrcb {
 
 namespace {
 
-/// Bits of a key below the rank that a count is for: those of the one that it comes from, if any.
+/// Bits of a key below the destination rank: those of the source rank, if any.
 constexpr int source_bits = 32;
 
 double word_of(LocalIndex count) {

@@ -13,7 +13,7 @@ namespace rrcb {
 /// without the messages.
 class RankCounts {
   public:
-    /// Whether a rank gets their sum, or those of each rank.
+    /// Determines whether a rank gets the sum of its counts, or the count from each rank.
     enum Kind { sum, each };
 
     /// Not collective. Never throws.
@@ -25,10 +25,10 @@ class RankCounts {
     /// Takes them to their ranks in one pass.
     Butterfly& butterfly() { return butterfly_; }
 
-    /// The sum of those that have come.
+    /// Returns the sum of the counts that have come.
     LocalIndex total() const;
 
-    /// Those of each rank that has some, ascending. Throws std::bad_alloc.
+    /// Returns the counts of each rank that has some, ascending. Throws std::bad_alloc.
     std::vector<RankCount> from() const;
 
   private:

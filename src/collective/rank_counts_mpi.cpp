@@ -14,7 +14,7 @@ namespace {
 RankCounts exchange(RankCounts::Kind kind, std::span<const RankCount> to, Participant& self) {
     RankCounts counts(kind, mpi::rank_of(self.comm), mpi::size_of(self.comm));
     self.attempt([&] { counts.add(to); });
-    // On the stack: there must be memory to receive also where memory is short.
+    // On the stack, to receive even if no memory is left.
     std::array<double, 1024> buffer;
     const auto piece =
         std::span(buffer).first(std::min(buffer.size(), mpi::longest_message / sizeof(double)));

@@ -9,15 +9,15 @@
 
 namespace rrcb {
 
-/// How many come to this rank, where each has `to`, of ascending ranks, for all of them.
+/// Returns how many come to this rank, if each rank has `to`, of ascending ranks, for the others.
 ///
-/// Collective: one pass of a butterfly. Throws on every rank what failed on one before. A rank that
-/// fails here may leave counts out that it has or hands on, until the next agreement.
+/// Collective: one pass of a butterfly. Throws on every rank the failure of one before the call. A
+/// rank that fails in it may leave out counts that it has or passes on, until the next agreement.
 LocalIndex count_arrivals(std::span<const RankCount> to, Participant& self);
 
-/// How many come to this rank from which ones, ascending; otherwise as count_arrivals().
+/// Returns how many come to this rank from each rank, ascending; otherwise as count_arrivals().
 ///
-/// What contradicts the counts may follow from such a failure, see Participant::compare().
+/// A contradiction to the counts may follow from such a failure, see Participant::compare().
 std::vector<RankCount> exchange_counts(std::span<const RankCount> to, Participant& self);
 
 }  // namespace rrcb

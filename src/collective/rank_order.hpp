@@ -8,16 +8,16 @@
 
 namespace rrcb {
 
-/// The order of entries by the rank that each names, entries of one rank as they were.
+/// The order of entries by the rank that each names; entries of one rank keep their order.
 ///
-/// By radix sort, in time as there are entries. Memory: 8 kB at most up to 1024 ranks, beyond 16
-/// bytes an entry while it is made and 8 later.
+/// By radix sort, in time proportional to the entries. Memory: at most 8 kB up to 1024 ranks;
+/// beyond that 16 bytes an entry while it is made and 8 later.
 class RankOrder {
   public:
     /// `ranks` are below `num_ranks`, not negative, and outlive it. Throws std::bad_alloc.
     RankOrder(std::span<const int> ranks, int num_ranks);
 
-    /// How often the ranks occur that do, ascending.
+    /// Returns how often each rank occurs, ascending, without the ranks that do not.
     const std::vector<RankCount>& counts() const { return counts_; }
 
     /// Calls visit(k, place) for the k-th entry and its place in the order, each once. To be called
@@ -26,7 +26,7 @@ class RankOrder {
     void for_each(Visit&& visit) {
         for (std::size_t place = 0; place < order_.size(); ++place) visit(order_[place], place);
         if (!order_.empty()) return;
-        // Copies, which what is visited can't change.
+        // A copy, so that the compiler knows that visits do not change it.
         const std::span<const int> ranks = ranks_;
         LocalIndex* const next = next_.data();
         for (std::size_t k = 0; k < ranks.size(); ++k) visit(k, next[ranks[k]]++);
@@ -38,12 +38,12 @@ class RankOrder {
 
     std::span<const int> ranks_;
     std::vector<LocalIndex> next_;   ///< place of each digit's next entry
-    std::vector<LocalIndex> order_;  ///< none where all ranks are digits
+    std::vector<LocalIndex> order_;  ///< empty if ranks have a single digit
     std::vector<RankCount> counts_;
 };
 
-/// How often each rank occurs in an ascending list. In time as there are ranks in it, times the
-/// logarithm of its length. Throws std::bad_alloc.
+/// Returns how often each rank occurs in an ascending list. The time is proportional to the ranks
+/// in it, times the logarithm of its length. Throws std::bad_alloc.
 std::vector<RankCount> count_ascending(std::span<const int> ranks);
 
 }  // namespace rrcb

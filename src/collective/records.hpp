@@ -10,7 +10,7 @@
 
 namespace rrcb {
 
-/// Number of what a record is about; those of one key have one owner.
+/// Number of a record's subject; records of one key have one owner.
 using Key = std::uint64_t;
 
 /// A key, the rank that owns it, and any number of doubles about it.
@@ -27,7 +27,7 @@ class RecordReader {
 
     bool at_end() const { return words_.empty(); }
 
-    /// The doubles of all records that were not read.
+    /// Returns the doubles of all records that were not read.
     std::span<const double> words() const { return words_; }
 
     Record next() {
@@ -42,7 +42,7 @@ class RecordReader {
     friend class Records;
     friend void append_record(std::vector<double>& words, const Record& record);
 
-    /// What follows the key.
+    /// Head of a record, after its key.
     struct Head {
         std::int32_t owner;
         std::uint32_t length;
@@ -52,7 +52,7 @@ class RecordReader {
     std::span<const double> words_;
 };
 
-/// Puts a record behind others. Throws std::bad_alloc; then the record is not there.
+/// Appends a record. Throws std::bad_alloc; then the record is not there.
 inline void append_record(std::vector<double>& words, const Record& record) {
     const auto length = static_cast<std::uint32_t>(record.payload.size());
     const std::size_t needed = words.size() + RecordReader::head_length + length;
@@ -62,7 +62,7 @@ inline void append_record(std::vector<double>& words, const Record& record) {
     words.insert(words.end(), record.payload.begin(), record.payload.end());
 }
 
-/// Records, one after the other, and between which ranks their owners are.
+/// Records, one after the other, and the range of ranks of their owners.
 class Records {
   public:
     void clear() {
@@ -71,10 +71,10 @@ class Records {
     }
     bool empty() const { return words_.empty(); }
 
-    /// Of the last record; 0 without any.
+    /// Returns the key of the last record; 0 without any.
     Key last_key() const { return last_key_; }
 
-    /// True when the owners of all records are ranks from `begin` to before `end`.
+    /// Returns true if the owners of all records are ranks from `begin` to before `end`.
     bool are_owned_between(int begin, int end) const {
         return begin <= lowest_owner_ && highest_owner_ < end;
     }
@@ -88,8 +88,8 @@ class Records {
         note(record);
     }
 
-    /// Appends a record that has the key of two others, and of payload what join(a, b, joined) puts
-    /// behind `joined`. Throws std::bad_alloc; then all records here are void.
+    /// Appends a record with the key of two others, and the payload that join(a, b, joined) appends
+    /// to `joined`. Throws std::bad_alloc; then all records here are void.
     template <class Join>
     void append_joined(const Record& a, const Record& b, Join&& join) {
         append({a.key, a.owner, {}});
@@ -99,8 +99,8 @@ class Records {
         words_[begin - 1] = std::bit_cast<double>(head);
     }
 
-    /// Puts other records behind these, or in front of them. Throws std::bad_alloc; then they are
-    /// not there.
+    /// Inserts other records behind these, or in front of them. Throws std::bad_alloc; then they
+    /// are not there.
     void append_all(RecordReader others) {
         words_.insert(words_.end(), others.words().begin(), others.words().end());
         while (!others.at_end()) note(others.next());
@@ -112,13 +112,13 @@ class Records {
         last_key_ = last;
     }
 
-    /// Forgets the records that are not to stay(record).
+    /// Removes the records for which stay(record) is false.
     template <class Stay>
     void keep(Stay&& stay) {
         RecordReader reader = read();
         forget_notes();
         auto end = words_.begin();
-        // Up to `end` are the records that stay of those that were read.
+        // Before `end` are the records that stay, of those that were read.
         while (!reader.at_end()) {
             const double* begin = reader.words().data();
             const Record record = reader.next();

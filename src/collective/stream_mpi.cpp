@@ -12,7 +12,7 @@ namespace rrcb {
 
 namespace {
 
-/// Pieces under way in one direction where memory is short: some are packed while others travel.
+/// Pieces under way in one direction if memory is short: some are packed while others travel.
 constexpr std::size_t pieces_under_way = 4;
 
 }  // namespace
@@ -45,7 +45,7 @@ void Stream::lay_out(std::span<const RankCount> counts, Step&& step, Lane& lane)
                       [&](const Piece& piece) { return std::pair(step(piece.rank), piece.first); });
 }
 
-/// A place for each piece, or for as many of the longest as there is memory for.
+/// Makes room for each piece, or for as many of the longest as fit in memory.
 void Stream::make_buffer(Lane& lane) const {
     if (lane.pieces.empty()) return;
     std::size_t bytes = 0;
@@ -94,7 +94,7 @@ void Stream::receive(const Piece& piece, Participant& self) {
         "MPI_Irecv");
 }
 
-/// The lane in which the oldest piece has ended; null when all have.
+/// Returns the lane whose oldest piece has ended; null if all have.
 Stream::Lane* Stream::wait(Participant& self) {
     MPI_Request oldest[] = {receives_.oldest(), sends_.oldest()};
     int ended = MPI_UNDEFINED;

@@ -11,11 +11,11 @@
 namespace rrcb {
 
 /// Records of one size on their way between ranks that know how many they send each other, in
-/// pieces that keep to a limit of memory.
+/// pieces within a limit of memory.
 class Stream {
   public:
-    /// The size and the limit are the same on every rank. Throws Error where the limit does not
-    /// hold a record to send and one to receive.
+    /// The size and the limit are the same on every rank. Throws Error if the limit does not hold a
+    /// record to send and one to receive.
     Stream(std::size_t record_bytes, std::size_t limit);
 
     /// Allocates memory for the records to and from each rank, in ascending order of them.
@@ -30,12 +30,12 @@ class Stream {
     /// Sends and receives, after the ranks agreed that all have memory.
     ///
     /// Collective. pack(first, count, place) writes so many of the records that leave, counted over
-    /// all ranks, and unpack(first, count, place) reads those that have come. Throws Error where
-    /// one fails, of which no other rank hears.
+    /// all ranks, and unpack(first, count, place) reads those that have come. Throws Error if a
+    /// message fails, on this rank only.
     ///
-    /// Each lane begins and ends its pieces in its order, which is that of the steps from rank to
-    /// rank, here as there. Of all that have not ended the one of the first step is first in its
-    /// lane on both sides, so that it begins: no rank waits for ever.
+    /// Each lane begins and ends its pieces in its order, by the steps from rank to rank, on both
+    /// ranks alike. Of all that have not ended the one of the first step is first in its lane on
+    /// both sides, so that it begins: no rank waits for ever.
     template <class Pack, class Unpack>
     void run(Participant& self, Pack&& pack, Unpack&& unpack) {
         const auto begin_all = [&] {

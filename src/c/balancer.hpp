@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-/// What a program in C holds by a pointer.
+/// The object behind a C program's pointer.
 struct rrcb_balancer {
     MPI_Comm comm = MPI_COMM_NULL;
     rrcb::Options options{};
@@ -24,7 +24,7 @@ struct rrcb_balancer {
 
 namespace rrcb::c {
 
-/// Keeps what the last function that failed on this thread has to say.
+/// Keeps the text of the failure for this thread; returns its code.
 int code_of(const Failure& failure) noexcept;
 
 /// Runs the body of a function; no exception leaves it.
@@ -36,13 +36,14 @@ int guarded(Body&& body) noexcept {
 /// Throws the Error of a null pointer.
 void require(const void* pointer, const char* name);
 
-/// The same for arrays, unless they are empty.
+/// As require(), for arrays, unless they are empty.
 void require_array(std::size_t count, const void* values, const char* name);
 
-/// View of the points of a call. Throws Error if there is none, or it has no coordinates.
+/// Returns a view of the points of a call. Throws Error if there are none, or they have no
+/// coordinates.
 Points points_of(const rrcb_points* points);
 
-/// View of an array, none if it is null.
+/// Returns a view of an array, empty if it is null.
 template <class T>
 std::span<const T> view(const T* values, std::size_t count) {
     return values == nullptr ? std::span<const T>() : std::span(values, count);
@@ -52,7 +53,7 @@ std::span<const T> view(const T* values, std::size_t count) {
 void require_cuts(const rrcb_balancer& own);
 void require_plan(const rrcb_balancer& own);
 
-/// The same for functions of a handle.
+/// Runs the body of a function of a handle; no exception leaves it.
 template <class Handle, class Body>
 int guarded(Handle* handle, Body&& body, const char* name = "balancer") noexcept {
     return guarded([&] {

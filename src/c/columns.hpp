@@ -9,15 +9,15 @@
 
 namespace rrcb::c {
 
-/// Columns as the library moves them. Throws Error for types that are none, and if a column of
+/// Returns columns as the library moves them. Throws Error for unknown types, and if a column of
 /// `num_points` points is null.
 std::vector<detail::ByteColumn> columns_of(std::span<const rrcb_column> columns,
                                            LocalIndex num_points);
 
-/// View of the columns of a call. Throws Error if they are null.
+/// Returns a view of the columns of a call. Throws Error if they are null.
 std::span<const rrcb_column> given_columns(const rrcb_column* columns, std::size_t count);
 
-/// Limits of a call, the default if they are null.
+/// Returns the limits of a call, the default if they are null.
 TransferLimits limits_of(const rrcb_transfer_limits* limits);
 
 /// Writes a report, unless it is null.

@@ -24,7 +24,7 @@ namespace rrcb::c {
 
 namespace {
 
-/// Options of a call, with what they borrow.
+/// Options of a call, with the memory that they borrow.
 struct KeptOptions {
     GhostOptions options{};
     std::vector<RankRange> ranks{};

@@ -8,8 +8,8 @@
 
 namespace rrcb::c {
 
-/// Makes what a program is to hold by the pointer `where`. Collective over `comm`: throws the same
-/// Error on every rank if `where` is null on one, or its memory runs out.
+/// Makes a handle and stores it in the caller's pointer `*where`. Collective over `comm`: throws
+/// the same Error on every rank if `where` is null on one, or memory runs out.
 template <class Handle>
 std::unique_ptr<Handle> make_handle(MPI_Comm comm, Handle** where, const char* name) {
     Participant self{mpi::duplicate_of(comm)};

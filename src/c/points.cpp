@@ -15,7 +15,7 @@ std::size_t bytes_of(rrcb_type type) {
     return type == RRCB_FLOAT ? sizeof(float) : sizeof(double);
 }
 
-/// Coordinates of a type from the first point on.
+/// Sets the coordinates of a type, from the first point on.
 template <class T, std::size_t N>
 void set_axes(const rrcb_points& from, Points& points, std::array<std::span<const T>, N>& axes) {
     for (int axis = 0; axis < points.dimension; ++axis) {

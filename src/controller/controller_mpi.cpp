@@ -12,7 +12,7 @@ namespace rrcb {
 
 namespace {
 
-/// Joins messages, each a record and what it carries.
+/// Joins messages, each a record and the sums that it carries.
 void join_messages(void* in, void* inout, int* count, MPI_Datatype* type) {
     int bytes = 0;
     MPI_Type_size(*type, &bytes);

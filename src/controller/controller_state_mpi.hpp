@@ -21,7 +21,7 @@ struct RankLoad {
     double smoothed = 0;
 };
 
-/// Record that a rank hands in with a step, what it carries, and the result of all ranks.
+/// Record of a rank's step, the sums that it carries, and the result of all ranks.
 struct StepMessage {
     static constexpr std::size_t num_doubles = sizeof(StepRecord) / sizeof(double);
 
@@ -35,10 +35,11 @@ struct StepMessage {
     std::vector<double> all;
 };
 
-/// Reduces the step of each rank, and follows the rule on the root, whose decision travels with the
-/// next reduction: the ranks agree even if a sum rounds differently on them.
+/// Reduces the step of each rank, and follows the rule on the root. Its decision travels with the
+/// next reduction, so the ranks agree even if they round a sum differently.
 ///
-/// start() and finish() reduce on a communicator of their own, and what a cost model adds.
+/// start() and finish() reduce on a communicator of their own, together with the sums of a cost
+/// model.
 struct Controller::State {
     State() = default;
     State(const State&) = delete;
@@ -47,16 +48,17 @@ struct Controller::State {
 
     /// Owns the communicator from now on, also if it throws.
     void open(MPI_Comm comm);
-    /// Throws Error if a reduction has started, or carries something.
+    /// Throws Error if a reduction has started, or carries sums.
     void check_free() const;
-    /// Makes each reduction carry what this message has room for, joined by join_carried().
+    /// Makes each reduction carry the sums that this message has room for, joined by
+    /// join_carried().
     void carry(std::unique_ptr<StepMessage> message) noexcept { message_ = std::move(message); }
     void start(const RankLoad& load, std::span<const double> carried = {},
                BadInput fault = BadInput::none);
     /// Takes the result of the reduction under way, if there is one.
     void finish();
 
-    /// Returns what the ranks' last steps carried, joined.
+    /// Returns the joined sums of the ranks' last steps.
     std::span<const double> carried() const {
         return std::span(message_->all).subspan(StepMessage::num_doubles);
     }
@@ -64,7 +66,7 @@ struct Controller::State {
     MPI_Comm comm() const { return comm_; }
     int rank() const { return rank_; }
     int num_ranks() const { return num_ranks_; }
-    /// Heeds that points have other weights from now on: rebalances may leave less imbalance.
+    /// Notes that points have other weights from now on: rebalances may leave less imbalance.
     void change_weights();
 
     /// Returns the step of this rank.
@@ -97,8 +99,8 @@ struct Controller::State {
     double least_imbalance_ = 1;
     double num_rebalances_ = 0;
 
-    double num_heeded_ = 0;    ///< rebalances that the latest decision knew of, on all ranks
-    RebalanceRule rule_;       ///< fed on the root alone, as are those below
+    double num_heeded_ = 0;    ///< rebalances known to the latest decision, on all ranks
+    RebalanceRule rule_;       ///< fed on the root only, as are those below
     double num_followed_ = 0;  ///< rebalances that it knows of
     bool root_asks_ = false;
     int num_to_skip_ = 0;  ///< steps that end before a decision made can be heeded

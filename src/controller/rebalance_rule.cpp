@@ -60,15 +60,15 @@ void RebalanceRule::expect_less() {
     knows_rebalances_ = false;
 }
 
-/// Work of the first steps of the cycle beyond that of any others as many, in units: a rebalance
-/// may slow them down, as by cold caches.
+/// Returns the work of the first steps of the cycle beyond that of any others as many, in units: a
+/// rebalance may slow them down, as by cold caches.
 double RebalanceRule::slow_start() const {
     if (!(busiest_ > 0)) return slow_start_;
     return std::max(0.0, cycle_.first(start_length).work - busiest_);
 }
 
-/// Of the next rebalance, in units: that of the latest, unless it is an outlier, and the steps that
-/// it slows down.
+/// Returns the cost of the next rebalance, in units: that of the latest, unless it is an outlier,
+/// and of the steps that it slows down.
 double RebalanceRule::cost() const {
     if (num_rebalances_ == 0) return cycle_.total().work / static_cast<double>(cycle_.count());
     const double middle = median(costs_, num_rebalances_);
@@ -76,7 +76,7 @@ double RebalanceRule::cost() const {
     return std::clamp(latest, middle / 2, 2 * middle) / unit_ + slow_start();
 }
 
-/// Whether a rebalance pays if the `excess` has lasted for so many steps.
+/// Returns whether a rebalance pays if the `excess` has lasted for so many steps.
 bool RebalanceRule::pays(double excess, double lasted) const {
     if (excess <= std::max(least_, rounding)) return false;
     const double horizon = foresight * lasted;

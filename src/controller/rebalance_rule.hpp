@@ -46,7 +46,7 @@ class RebalanceRule {
     LatestSteps latest_;
     Cycle cycle_;
     Cycle earlier_;                  ///< average of the cycles before this one
-    bool knows_rebalances_ = false;  ///< the steps since the latest show what one leaves
+    bool knows_rebalances_ = false;  ///< the steps since the latest show the excess that one leaves
     double busiest_ = 0;             ///< most work of 4 steps in this cycle, after the first
     double slow_start_ = 0;          ///< of the last cycle
     std::array<double, 3> costs_{};  ///< the latest, in turns

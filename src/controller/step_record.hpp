@@ -4,7 +4,7 @@
 
 namespace rrcb {
 
-/// Number that a rank must not give.
+/// Invalid number that a rank gave.
 enum class BadInput { none, load, cost, columns };
 
 /// Step of one rank, or of all: the shares add up, of the others the largest counts. A smallest

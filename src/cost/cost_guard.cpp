@@ -7,7 +7,7 @@ namespace rrcb {
 
 namespace {
 
-/// Short of 100 steps, noise of 7 % hides that costs predict seconds to 4 %.
+/// With fewer than 100 steps, noise of 7 % hides that costs predict seconds to 4 %.
 constexpr double forgetting = 1 - 1.0 / 200;
 constexpr double fewest = 10;  ///< steps before learned costs are used
 /// Gain that learned costs must have to be used, in standard deviations of noise.
@@ -24,7 +24,7 @@ void CostGuard::add_errors(double learned, double counted, double between) {
     counted_error_ = forgetting * counted_error_ + counted;
     between_ = forgetting * between_ + between;
     weight_ = forgetting * weight_ + 1;
-    // Of independent noise the gain varies by twice the noise times the difference.
+    // With independent noise the gain varies by twice the noise times the difference.
     const double gain = counted_error_ - learned_error_;
     const double noise = 2 * std::sqrt(between_ * learned_error_ / (weight_ * num_ranks_));
     const double needed = predicts_ ? 0 : std::max(certainty * noise, margin * counted_error_);

@@ -4,20 +4,22 @@
 
 namespace rrcb {
 
-/// Reason to weigh points by what was learned or by counting.
+/// Reason to weigh points by learned costs or to count them.
 enum class CostState { too_early, one_rank, no_better, harmful, learned };
 
-/// Decides whether learned costs may be used, from how they predict and from what they bring about.
-/// Errors are those of the ranks' shares of a step's seconds, as sums of squares over the ranks.
+/// Decides whether learned costs may be used, from their predictions and from the imbalance that
+/// they lead to. Errors are those of the ranks' shares of a step's seconds, as sums of squares over
+/// the ranks.
 class CostGuard {
   public:
     explicit CostGuard(int num_ranks) : num_ranks_(num_ranks) {}
 
-    /// Takes the errors of a step that had not been learned from.
-    /// `between` is the sum of squared differences of both predictions.
+    /// Adds the errors of a step that was not used for learning. `between` is the sum of squared
+    /// differences of both predictions.
     void add_errors(double learned, double counted, double between);
 
-    /// Takes slowest rank / mean - 1 of a step, whose points were divided by learned costs or not.
+    /// Adds slowest rank / mean - 1 of a step; `is_learned`: its points were divided by learned
+    /// costs.
     void add_excess(double excess, bool is_learned);
 
     CostState state() const;
@@ -37,7 +39,7 @@ class CostGuard {
 
     double excess_ = 0;         ///< mean excess while points were counted, with forgetting
     double excess_weight_ = 0;  ///< of the steps in it
-    double loss_ = 0;           ///< excess of learned costs beyond that, in steps
+    double loss_ = 0;           ///< excess due to learned costs, in steps
     double barred_until_ = 0;   ///< number of steps
 };
 

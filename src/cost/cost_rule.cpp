@@ -8,13 +8,13 @@ namespace rrcb {
 namespace {
 
 constexpr double forgetting = 1 - 1.0 / 100;
-/// Cuts off what lies so many times the usual error beside a prediction.
+/// Cuts off seconds that differ from a prediction by so many times the usual error.
 constexpr double usual = 3;
 /// ... but no less than this share of the mean seconds.
 constexpr double least_reach = 0.1;
 
-/// Place of each sum; after the head come the normal equations, then rank 0's costs, last the
-/// seconds of the slowest rank.
+/// Place of each sum. The head is followed by the normal equations, rank 0's costs and the seconds
+/// of the slowest rank.
 enum Head : std::size_t {
     seconds_sum,
     learned_sum,
@@ -42,7 +42,7 @@ CostRule::CostRule(int num_columns, int rank, int num_ranks)
       costs_(CostVector::Zero(num_columns)),
       state_(guard_.state()) {}
 
-/// Seconds, at most so far from the prediction that a single stall does not spoil the fit.
+/// Returns seconds, moved towards the prediction so that a single stall does not spoil the fit.
 double CostRule::without_outlier(double seconds) const {
     if (scatter_ < 0) return seconds;
     const double reach = std::max(usual * scatter_, least_reach) * mean_;

@@ -9,24 +9,24 @@
 
 namespace rrcb {
 
-/// What one rank knows of the costs. Nothing here communicates.
+/// One rank's costs, with the sums they come from. Does not communicate.
 ///
-/// After each step a rank hands in sums, and takes those of all ranks one step later. Rank 0 fits
-/// costs to them and judges by what they had predicted. Both travel with the sums of the next step,
-/// to which the others add 0: all ranks have the same bits.
+/// After each step a rank contributes sums, and receives those of all ranks one step later. Rank 0
+/// fits costs to them and judges by their predictions. Costs and judgement travel with the sums of
+/// the next step, to which the others add 0: all ranks have the same bits.
 class CostRule {
   public:
     CostRule(int num_columns, int rank, int num_ranks);
 
     std::size_t num_columns() const { return static_cast<std::size_t>(num_columns_); }
 
-    /// Doubles that a rank hands in, to be joined by join_carried().
+    /// Returns the number of doubles that a rank contributes, to be joined by join_carried().
     std::size_t num_sums() const { return sums_.size(); }
 
-    /// Returns what this rank hands in for a step.
+    /// Returns the sums that this rank contributes for a step.
     std::span<const double> hand_in(double seconds, std::span<const double> columns);
 
-    /// Takes what all ranks have handed in for the last step.
+    /// Takes the sums of all ranks for the last step.
     void take(std::span<const double> all);
 
     /// The same on all ranks, as are all that follow.
@@ -37,7 +37,7 @@ class CostRule {
     double learned_error() const { return learned_error_; }
     double counted_error() const { return counted_error_; }
 
-    /// Notes that the points are divided by the weights of now.
+    /// Notes that the points are divided by the present weights.
     void divide() { is_learned_ = uses_costs(); }
 
   private:
@@ -54,7 +54,7 @@ class CostRule {
     double seconds_ = 0;
     double learned_ = 0;  ///< predicted seconds
     double kept_seconds_ = 0;
-    double scatter_ = -1;        ///< rms error of a share, outliers cut off; negative: not known
+    double scatter_ = -1;        ///< rms error of a share, outliers cut off; negative: unknown
     double mean_ = 0;            ///< seconds of a rank in the step before
     double learned_square_ = 0;  ///< errors of the step before, to be handed in
     double counted_square_ = 0;

@@ -11,7 +11,7 @@ namespace {
 
 using Active = std::array<bool, most_cost_columns>;
 
-/// Minimum where the columns that are not free are held at 0.
+/// Returns the minimum with the columns that are not free held at 0.
 CostVector free_minimum(const CostMatrix& a, const CostVector& b, const Active& is_free) {
     CostMatrix equations = a;
     CostVector right = b;
@@ -50,7 +50,7 @@ CostVector nonnegative_minimum(const CostMatrix& a, const CostVector& b) {
     if (b.size() == 0) return x;
     Active is_free{};
     const double least = 1e-14 * b.cwiseAbs().maxCoeff();
-    // Each turn of the outer loop lowers the sum, so none repeats; round-off alone could.
+    // Each turn of the outer loop lowers the sum, so none repeats, except by round-off.
     for (Eigen::Index turn = 0; turn < 4 * b.size(); ++turn) {
         const Eigen::Index next = column_to_free(b - a * x, is_free, least);
         if (next < 0) break;
@@ -73,7 +73,7 @@ CostVector nonnegative_minimum(const CostMatrix& a, const CostVector& b) {
 }
 
 CostVector fitted_costs(const NormalEquations& sums) {
-    // Far below what columns must differ by to be told apart in noise.
+    // Far below the difference that columns need to be separable in noise.
     constexpr double draw = 1e-6;
     const CostVector lengths = sums.squares.diagonal().cwiseMax(0).cwiseSqrt();
     CostVector scales = lengths;

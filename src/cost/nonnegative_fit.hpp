@@ -28,7 +28,8 @@ struct NormalEquations {
 
 /// Returns the least-squares costs, none of them negative; 0 for a column of zeros.
 ///
-/// What the observations leave open is drawn to counting: seconds proportional to the first column.
+/// If the observations leave costs open, these are drawn towards counting: seconds proportional to
+/// the first column.
 CostVector fitted_costs(const NormalEquations& sums);
 
 }  // namespace rrcb

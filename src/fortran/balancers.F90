@@ -90,7 +90,7 @@ contains
     error = c_balance(self%handle, points, place_of(parts, points%count))
   end subroutine
 
-  !> The same from the cuts that the balancer has, for points that moved little since.
+  !> Divides points that moved little, from the cuts that the balancer has.
   subroutine rebalance(self, points, parts, error)
     class(rrcb_balancer), intent(inout) :: self
     type(rrcb_points), intent(in) :: points
@@ -113,7 +113,7 @@ contains
     error = c_get_report(self%handle, report)
   end subroutine
 
-  !> An error before the first balance, and if the balancer holds a part of the cuts only.
+  !> Fails before the first balance, and if the balancer holds only a part of the cuts.
   subroutine get_cuts(self, cuts, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_cuts), intent(inout) :: cuts
@@ -176,7 +176,7 @@ contains
     error = c_assign(self%handle, points, place_of(parts, points%count))
   end subroutine
 
-  !> The same wherever the cuts are held.
+  !> Does the same, whichever cuts the ranks hold. Collective.
   subroutine assign_all(self, points, parts, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_points), intent(in) :: points
@@ -193,7 +193,7 @@ contains
     error = c_box_of(self%handle, part, lower, upper)
   end subroutine
 
-  !> The parts that a box touches, whose ends have an entry for each axis of the points.
+  !> Returns the parts that a box touches, whose ends have an entry for each axis of the points.
   subroutine parts_touching(self, lower, upper, parts, error)
     class(rrcb_balancer), intent(in) :: self
     real(c_double), intent(in) :: lower(:), upper(:)

@@ -1,4 +1,4 @@
-!> Functions of a balancer in C, for the module rrcb_balancers alone.
+!> Functions of a balancer in C, only for the module rrcb_balancers.
 module rrcb_c_balancer
   use, intrinsic :: iso_c_binding
   use rrcb_types

@@ -1,4 +1,4 @@
-!> Functions of the library in C other than those of a balancer, for the other modules alone.
+!> Functions of the library in C other than those of a balancer, only for the other modules.
 module rrcb_c_functions
   use, intrinsic :: iso_c_binding
   use rrcb_types

@@ -1,4 +1,4 @@
-!> When to rebalance, and what points cost.
+!> The time to rebalance, and the costs of points.
 module rrcb_controllers
   use, intrinsic :: iso_c_binding
   use rrcb_types
@@ -26,7 +26,7 @@ module rrcb_controllers
     procedure :: rebalanced => controller_rebalanced        !< records a rebalance
   end type
 
-  !> Learns what points cost. A copy is the same model; one of them is destroyed.
+  !> Learns the costs of points. A copy is the same model; one of them is destroyed.
   type, public :: rrcb_cost_model
     type(c_ptr) :: handle = c_null_ptr                      !< for the library
   contains
@@ -92,7 +92,7 @@ contains
     end if
   end subroutine
 
-  !> Whether to rebalance before the next step; false for a controller that was not created.
+  !> Returns whether to rebalance before the next step; false for a controller that was not created.
   function controller_due(self) result(due)
     class(rrcb_controller), intent(in) :: self
     logical :: due
@@ -156,7 +156,7 @@ contains
     error = c_cost_model_costs(self%handle, costs)
   end subroutine
 
-  !> Whether weights are by the costs; false for a model that was not created.
+  !> Returns whether weights are by the costs; false for a model that was not created.
   function cost_model_uses_costs(self) result(uses_costs)
     class(rrcb_cost_model), intent(in) :: self
     logical :: uses_costs
@@ -165,7 +165,7 @@ contains
     uses_costs = c_cost_model_uses_costs(self%handle, answer) == rrcb_ok .and. answer == 1
   end function
 
-  !> Whether costs are used and why, in a sentence.
+  !> Returns a sentence: whether costs are used, and why.
   function cost_model_report(self) result(text)
     class(rrcb_cost_model), intent(in) :: self
     character(:), allocatable :: text

@@ -1,4 +1,4 @@
-!> Functions of no balancer: texts, measures, and ranks of parts.
+!> Functions that need no balancer: texts, measures, and ranks of parts.
 module rrcb_functions
   use, intrinsic :: iso_c_binding
   use rrcb_types
@@ -10,7 +10,7 @@ module rrcb_functions
 
 contains
 
-  !> Text of C at an address.
+  !> Returns the text of C at an address.
   function text_of(address) result(text)
     type(c_ptr), intent(in) :: address
     character(:), allocatable :: text
@@ -23,25 +23,25 @@ contains
     end do
   end function
 
-  !> Version of the library, as "major.minor.patch".
+  !> Returns the version of the library, as "major.minor.patch".
   function rrcb_version() result(text)
     character(:), allocatable :: text
     text = text_of(c_version())
   end function
 
-  !> What the library was built from and with.
+  !> Returns version, commit, compiler, MPI and options of the library.
   function rrcb_build_info() result(text)
     character(:), allocatable :: text
     text = text_of(c_build_info())
   end function
 
-  !> What the last procedure that failed on this thread reports.
+  !> Returns the text of the last error on this thread.
   function rrcb_last_error() result(text)
     character(:), allocatable :: text
     text = text_of(c_last_error())
   end function
 
-  !> The smallest box that holds all points, three entries of each end.
+  !> Returns the smallest box that holds all points, three entries for each end.
   subroutine rrcb_bounding_box(points, lower, upper, error)
     type(rrcb_points), intent(in) :: points
     real(c_double), intent(inout) :: lower(3), upper(3)
@@ -49,7 +49,7 @@ contains
     error = c_bounding_box(points, lower, upper)
   end subroutine
 
-  !> The ranks of a part.
+  !> Returns the ranks of a part.
   subroutine rrcb_ranks_of_part(part, num_parts, num_ranks, ranks, error)
     integer(c_int32_t), intent(in) :: part
     integer, intent(in) :: num_parts, num_ranks
@@ -58,7 +58,7 @@ contains
     error = c_ranks_of_part(part, num_parts, num_ranks, ranks)
   end subroutine
 
-  !> Heaviest part / mean part. `part_sizes` are relative, one for each part.
+  !> Returns heaviest part / mean part. `part_sizes` are relative, one for each part.
   subroutine rrcb_imbalance(part_weights, imbalance, error, part_sizes)
     real(c_double), intent(in), contiguous :: part_weights(:)
     real(c_double), intent(inout) :: imbalance
@@ -67,7 +67,7 @@ contains
     error = c_imbalance(size(part_weights, kind=c_size_t), part_weights, address_of(part_sizes), imbalance)
   end subroutine
 
-  !> Load unbalance of each part in percent.
+  !> Returns the load unbalance of each part in percent.
   subroutine rrcb_load_unbalance_percent(part_weights, percent, error, part_sizes)
     real(c_double), intent(in), contiguous :: part_weights(:)
     real(c_double), intent(inout), contiguous :: percent(:)
@@ -77,7 +77,7 @@ contains
       address_of(part_sizes), percent)
   end subroutine
 
-  !> The largest absolute value of rrcb_load_unbalance_percent.
+  !> Returns the largest absolute value of rrcb_load_unbalance_percent.
   subroutine rrcb_worst_load_unbalance_percent(part_weights, percent, error, part_sizes)
     real(c_double), intent(in), contiguous :: part_weights(:)
     real(c_double), intent(inout) :: percent

@@ -71,7 +71,7 @@ contains
       plan%shifts = reshape(numbers_at(from%shifts, 3*from%num_ghosts), [3_c_size_t, from%num_ghosts])
   end subroutine
 
-  !> Columns of the points give those of the ghosts.
+  !> Fetches columns of the ghosts from those of the points.
   subroutine fetch(self, columns, error, limit, report)
     class(rrcb_ghosts), intent(in) :: self
     type(rrcb_column), intent(in) :: columns(:)

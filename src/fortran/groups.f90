@@ -44,7 +44,7 @@ contains
     self%handle = c_null_ptr
   end subroutine
 
-  !> The groups of this rank as points, for balance().
+  !> Returns the groups of this rank as points, for balance().
   subroutine points_of_groups(self, points, error)
     class(rrcb_groups), intent(in) :: self
     type(rrcb_points), intent(inout) :: points
@@ -52,7 +52,7 @@ contains
     error = c_groups_points(self%handle, points)
   end subroutine
 
-  !> Columns of the groups give those of the points, such as parts.
+  !> Fetches columns of the points from those of their groups, such as parts.
   subroutine fetch(self, columns, error, limit, report)
     class(rrcb_groups), intent(in) :: self
     type(rrcb_column), intent(in) :: columns(:)
@@ -67,7 +67,7 @@ contains
     error = c_groups_fetch(self%handle, size(columns, kind=c_size_t), columns, limits, made)
   end subroutine
 
-  !> Sums of values(components, points) over the points of each group: sums(components, groups).
+  !> Adds up values(components, points) over the points of each group: sums(components, groups).
   subroutine sums(self, values, of_groups, error)
     class(rrcb_groups), intent(in) :: self
     real(c_double), intent(in), contiguous :: values(:, :)

@@ -1,4 +1,4 @@
-!> Types that the procedures take and give. Points and columns are views of contiguous arrays, which
+!> Types of the procedures' arguments. Points and columns are views of contiguous arrays, which
 !> have the attribute `target` and are not copied.
 module rrcb_types
   use, intrinsic :: iso_c_binding
@@ -11,7 +11,7 @@ module rrcb_types
     type_double = 4
 
   !> View of the points of this rank; coordinate a of point i is at axes(a) + (i - 1)*stride bytes.
-  !> Those who hold their points in derived types set axes(a) to c_loc(points(1)%x(a)).
+  !> If your points are derived types, set axes(a) to c_loc(points(1)%x(a)).
   type, public, bind(c) :: rrcb_points
     integer(c_int) :: dimension = 0, type = type_double
     integer(c_size_t) :: count = 0, stride = 0
@@ -38,7 +38,7 @@ module rrcb_types
     type(rrcb_cut), allocatable :: tree(:)
   end type
 
-  !> Of the last balance.
+  !> Report of the last balance.
   type, public, bind(c) :: rrcb_report
     real(c_double) :: imbalance = 1
     integer(c_int) :: within_tolerance = 0, kept = 0
@@ -74,23 +74,23 @@ module rrcb_types
     integer(c_size_t) :: peak_bytes = 0, bytes_sent = 0, num_messages = 0
   end type
 
-  !> What new numbers of parts save.
+  !> Points that stay under the new numbers of parts, and under the old ones.
   type, public, bind(c) :: rrcb_kept
     integer(c_int) :: identity = 1
     integer(c_int64_t) :: num_points = 0, kept_before = 0, kept_after = 0
   end type
 
-  !> View of points stored one after another: coordinates(dimension, points), weights(points).
+  !> Returns a view of interleaved points: coordinates(dimension, points), weights(points).
   interface rrcb_interleaved_points
     procedure :: interleaved_doubles, interleaved_reals
   end interface
 
-  !> View of an array for each axis, of one length.
+  !> Returns a view of an array for each axis, of one length.
   interface rrcb_column_points
     procedure :: columns_of_doubles, columns_of_reals
   end interface
 
-  !> Column of one value for each point, or of shape (components, points), or of a number of bytes.
+  !> Returns a column of one value for each point, of shape (components, points), or of bytes.
   interface rrcb_column
     procedure :: column_of_reals, column_of_doubles, column_of_integers, column_of_longs, &
       vectors_of_reals, vectors_of_doubles, vectors_of_integers, vectors_of_longs, column_of_bytes
@@ -101,7 +101,7 @@ module rrcb_types
 
 contains
 
-  !> Address of weights or other numbers, null where there are none.
+  !> Returns the address of weights or other numbers, null if there are none.
   function address_of(values) result(address)
     real(c_double), pointer, contiguous, intent(in), optional :: values(:)
     type(c_ptr) :: address
@@ -110,7 +110,8 @@ contains
     if (size(values) > 0) address = c_loc(values)
   end function
 
-  !> Whether an array has another length; then points have no coordinates, an error on all ranks.
+  !> Returns whether an array has another length. Its points then lack coordinates, which fails on
+  !> all ranks.
   function differs(values, count)
     real(c_double), pointer, contiguous, intent(in), optional :: values(:)
     integer(c_size_t), intent(in) :: count
@@ -119,7 +120,7 @@ contains
     if (present(values)) differs = size(values, kind=c_size_t) /= count
   end function
 
-  !> Address of an array that has `count` entries, otherwise null, which is an error on all ranks.
+  !> Returns the address of an array with `count` entries; otherwise null, which fails on all ranks.
   function place_of(parts, count) result(address)
     integer(c_int32_t), intent(in), target, contiguous :: parts(:)
     integer(c_size_t), intent(in) :: count
@@ -128,7 +129,7 @@ contains
     if (size(parts, kind=c_size_t) >= count .and. size(parts) > 0) address = c_loc(parts)
   end function
 
-  !> Indices of points from a list of C, which count from 1 here.
+  !> Copies indices of points from a list of C; here they count from 1.
   function indices_at(address, count) result(indices)
     type(c_ptr), intent(in) :: address
     integer(c_size_t), intent(in) :: count
@@ -138,7 +139,7 @@ contains
     indices = list + 1
   end function
 
-  !> Ranks, parts or shifts from a list of C.
+  !> Copies ranks, parts or shifts from a list of C.
   function numbers_at(address, count) result(numbers)
     type(c_ptr), intent(in) :: address
     integer(c_size_t), intent(in) :: count

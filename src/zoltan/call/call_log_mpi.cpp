@@ -40,7 +40,7 @@ void print_tally() {
     std::printf("\n");
 }
 
-/// Objects in a list that change their rank.
+/// Returns the number of objects in a list that change their rank.
 std::int64_t count_moved(const List& list, int rank) {
     std::int64_t moved = 0;
     for (int i = 0; i < list.count; ++i) moved += list.ranks[i] != rank ? 1 : 0;
@@ -90,7 +90,7 @@ void log_call(const State& state, const Partition& result, double seconds) noexc
     if (is_asked && state.communicator->rank() == root)
         print_first_call(state, *result.summary, seconds);
 } catch (const std::bad_alloc&) {
-    // A lack of memory loses no more than the line.
+    // If memory is short, only the line is lost.
 }
 
 bool any_call_answered() noexcept {

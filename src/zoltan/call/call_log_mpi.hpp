@@ -4,7 +4,7 @@
 
 namespace rrcb::zoltan {
 
-/// Notes a call that RRCB has answered, for what users see of it on stdout.
+/// Logs a call that RRCB has answered, for users on stdout.
 ///
 /// Rank 0 prints one line for the first call of the process, if RRCB_VERBOSE is in the environment
 /// or DEBUG_LEVEL is at least 1. With RRCB_VERBOSE it prints the sum of all calls at exit.
@@ -12,7 +12,7 @@ namespace rrcb::zoltan {
 /// Call it on all ranks, or on none. Collective with RRCB_VERBOSE: one reduction.
 void log_call(const State& state, const Partition& result, double seconds) noexcept;
 
-/// Whether RRCB has answered a call in this process.
+/// Returns whether RRCB has answered a call in this process.
 bool any_call_answered() noexcept;
 
 }  // namespace rrcb::zoltan

@@ -11,11 +11,11 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Setting that RRCB leaves to Zoltan's RCB; null if there is none.
+/// Returns a setting that RRCB leaves to Zoltan's RCB; null if there is none.
 const char* forwarded_setting(const Parameters& parameters) {
     if (parameters.weight_dimension > 1) return "OBJ_WEIGHT_DIM is above 1";
     if (parameters.reduce_dimensions != 0) return "REDUCE_DIMENSIONS is set";
-    // Limits of RRCB's own decide where cuts are placed.
+    // RRCB's own limits decide the places of cuts.
     if (parameters.average_cuts != 0 && !are_cuts_limited(parameters.options))
         return "AVERAGE_CUTS is set";
     return nullptr;

@@ -15,8 +15,8 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Joins an entry of an object to those before it. Its high bits, which are all that differ between
-/// simple numbers, come down as well.
+/// Joins an entry of an object to those before it. Its high bits, the only ones that differ between
+/// simple numbers, are mixed into the low ones.
 std::uint64_t join(std::uint64_t entries, double entry) {
     entries = (entries ^ std::bit_cast<std::uint64_t>(entry)) * 0x9e3779b97f4a7c15U;
     return entries ^ (entries >> 32);
@@ -53,7 +53,7 @@ Placed find_placed(const Objects& objects, const LastPartition& last, const Kept
     const int* named = objects.initial_parts;
     parts.assign(count, rank);
     if (named != nullptr) std::copy_n(named, count, parts.begin());
-    // Cuts that this rank does not know, or that divide objects in one place, put none elsewhere.
+    // Cuts that this rank does not know, or that divide coincident objects, put none elsewhere.
     const bool ask_cuts = is_whole(last.cuts()) && kept.report.details.coincident_cuts == 0 &&
                           last.cuts().dimension == objects.points.dimension;
     for (std::size_t i = 0; i < count; ++i) {

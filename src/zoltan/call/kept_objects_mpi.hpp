@@ -15,9 +15,9 @@ namespace rrcb::zoltan {
 /// add up, whatever the order of the objects and their distribution.
 std::uint64_t checksum_of(const Points& points, std::span<const Part> parts);
 
-/// Checksum of the objects in the parts that they are in now.
+/// Checksum of the objects in their present parts.
 struct Placed {
-    bool are_known = false;  ///< the parts of all objects, which are on ranks of theirs
+    bool are_known = false;  ///< the parts of all objects, whose ranks hold these parts
     std::uint64_t checksum = 0;
 };
 

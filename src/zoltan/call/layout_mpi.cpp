@@ -12,7 +12,7 @@ namespace {
 
 constexpr double not_set = -1;
 
-/// Number of parts. Fills `local_parts` where any rank sets NUM_LOCAL_PARTS.
+/// Returns the number of parts. Fills `local_parts` if any rank sets NUM_LOCAL_PARTS.
 int count_parts(const Outcome& outcome, const State& state, std::span<int> local_parts) {
     const Communicator& comm = *state.communicator;
     if (!outcome.any_local_parts)
@@ -23,7 +23,7 @@ int count_parts(const Outcome& outcome, const State& state, std::span<int> local
     return num_parts_of(local_parts, outcome.num_global_parts);
 }
 
-/// Sizes that this rank asks for, of the parts from `first_part` on.
+/// Collects the sizes that this rank asks for, of the parts from `first_part` on.
 void ask_for_sizes(const State& state, int first_here, int first_part, std::span<double> sizes) {
     std::ranges::fill(sizes, not_set);
     for (const PartSize& entry : state.part_sizes) {
@@ -34,7 +34,8 @@ void ask_for_sizes(const State& state, int first_here, int first_part, std::span
     }
 }
 
-/// Sizes of the parts, merged as in Zoltan: the largest that any rank asks for, 1 where none does.
+/// Returns the sizes of the parts, merged as in Zoltan: the largest that any rank asks for, 1 if no
+/// rank does.
 ///
 /// They are merged in pieces, for which every rank has the memory.
 void merge_part_sizes(int num_parts, const State& state, const Layout& layout,

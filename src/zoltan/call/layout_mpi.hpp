@@ -15,9 +15,9 @@ struct Layout {
     std::vector<double> part_sizes;  ///< relative; empty: equal
 };
 
-/// The layout that the ranks ask for together.
+/// Returns the layout that the ranks ask for together.
 ///
-/// Collective only where NUM_LOCAL_PARTS or part sizes are set somewhere. Throws ZoltanError on all
+/// Collective only if NUM_LOCAL_PARTS or part sizes are set on any rank. Throws ZoltanError on all
 /// ranks alike for numbers of parts that do not add up. `self` holds other errors back.
 Layout make_layout(const Outcome& outcome, const State& state, Participant& self);
 

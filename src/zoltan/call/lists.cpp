@@ -11,7 +11,7 @@ template <class IsMoving>
 int select(int count, const IsMoving& is_moving, int* indices) {
     int num_moving = 0;
     for (int i = 0; i < count; ++i) {
-        // Written in any case: a later index takes its place unless it counts.
+        // Written in any case: the next index overwrites it unless it moves.
         indices[num_moving] = i;
         num_moving += is_moving(static_cast<std::size_t>(i)) ? 1 : 0;
     }
@@ -31,7 +31,7 @@ Moves::Moves(Objects& objects, std::span<const Part> parts, const PartMap& map, 
     const auto is_moving = [=, this](std::size_t i) {
         return rank_of(i) != my_rank || parts[i] != (named == nullptr ? my_rank : named[i]);
     };
-    // Most programs have a part on each rank, and name none.
+    // Most programs have a part on each rank, and no callback for parts.
     const auto is_elsewhere = [=](std::size_t i) { return parts[i] != my_rank; };
     count_ = map.one_each && named == nullptr ? select(objects.count, is_elsewhere, objects.moving)
                                               : select(objects.count, is_moving, objects.moving);

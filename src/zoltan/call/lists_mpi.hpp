@@ -9,8 +9,8 @@ namespace rrcb::zoltan {
 /// its rank or part. Imports answer the export lists of all ranks, by rank, in the order of that
 /// rank's list. They travel in `memory`, which grows.
 ///
-/// Collective over `self.comm` where imports are asked for, as Exchange is, with a reduction.
-/// Throws Error on all ranks where one has no memory, on one alone where its message fails.
+/// Collective over `self.comm` if imports are asked for, as Exchange is, with a reduction. Throws
+/// Error on all ranks if one has no memory, on one alone if its message fails.
 Lists select_lists(const Parameters& parameters, const Moves& moves, bool changes,
                    ExchangeBuffers& memory, Participant& self);
 

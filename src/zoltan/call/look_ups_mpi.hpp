@@ -6,8 +6,9 @@
 
 namespace rrcb::zoltan {
 
-/// The numbers of all boxes, of which each rank knows those of its own at least. Collective: two
-/// reductions, one as long as there are parts; throws Error on all ranks alike.
+/// Returns the numbers of all boxes, of which each rank knows those of its own at least.
+/// Collective: two reductions, one of them with an entry for each part; throws Error on all ranks
+/// alike.
 Numbering whole_numbering(const Numbering& numbering, const PartMap& map, Participant& self);
 
 }  // namespace rrcb::zoltan

@@ -28,16 +28,16 @@ double imbalance_of(const Report& report) {
     return std::isnan(report.imbalance) ? report.details.estimated_imbalance : report.imbalance;
 }
 
-/// Whether RCB_OUTPUT_LEVEL or FINAL_OUTPUT is above 0, or DEBUG_LEVEL at least 10, as Zoltan then
-/// reports on REMAP.
+/// Returns whether RCB_OUTPUT_LEVEL or FINAL_OUTPUT is above 0, or DEBUG_LEVEL at least 10, as
+/// Zoltan then reports on REMAP.
 bool asks_for_report_line(const Parameters& parameters) {
     constexpr int debug_all = 10;
     return parameters.output_level > 0 || parameters.final_output > 0 ||
            parameters.debug_level >= debug_all;
 }
 
-/// Line of RCB_OUTPUT_LEVEL: size, imbalance, rounds, and objects that new part numbers keep in
-/// place.
+/// Returns the line of RCB_OUTPUT_LEVEL: size, imbalance, rounds, and objects that new part numbers
+/// keep in place.
 std::string report_line(const Report& report, int num_parts, const Remap& remap) {
     const Summary summary = summary_of(report, num_parts);
     std::string text =
@@ -50,7 +50,7 @@ std::string report_line(const Report& report, int num_parts, const Remap& remap)
                          percent(remap.kept_before, remap.num_points));
 }
 
-/// Causes that kept the parts from the balance asked for, a sentence each.
+/// Returns the causes of an imbalance above the tolerance, a sentence each.
 std::vector<std::string> balance_warnings(const Report& report, const Parameters& parameters) {
     std::vector<std::string> texts;
     if (report.details.least_imbalance > 1 && report.details.surplus_parts == 0) {

@@ -12,8 +12,8 @@ Summary summary_of(const Report& report, int num_parts);
 
 /// Prints warnings and a report line on rank 0. Not collective; lack of memory is no failure.
 ///
-/// Warnings tell where the result is legal but less than asked for; none with DEBUG_LEVEL 0. The
-/// line is that of RCB_OUTPUT_LEVEL, where it is asked for.
+/// Warnings are for legal results that do not reach the targets; none with DEBUG_LEVEL 0. The line
+/// is that of RCB_OUTPUT_LEVEL, if it is asked for.
 void print_notices(const Report& report, int num_parts, const Remap& remap, const State& state,
                    const char* function) noexcept;
 

@@ -9,7 +9,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// A registered callback with its data pointer; false where there is none.
+/// A registered callback with its data pointer; false if there is none.
 template <typename Function>
 struct Callback {
     Function* function = nullptr;

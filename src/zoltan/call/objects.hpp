@@ -14,8 +14,8 @@
 
 namespace rrcb::zoltan {
 
-/// A word of an id. An entry of NUM_GID_ENTRIES has one or two, as the Zoltan found at run time
-/// decides, whatever ZOLTAN_ID_TYPE was where the plug-in was compiled.
+/// A word of an id. An entry of NUM_GID_ENTRIES has one or two words. The Zoltan found at run time
+/// decides, not the ZOLTAN_ID_TYPE with which the plug-in was compiled.
 using IdWord = std::uint32_t;
 
 /// The same memory for Zoltan, whose own word may be wider.
@@ -56,25 +56,25 @@ struct List {
     ZoltanArray<int> parts;
 };
 
-/// A list with room for so many entries. Throws std::bad_alloc.
+/// Returns a list with room for so many entries. Throws std::bad_alloc.
 List make_list(int count, const IdWidths& widths);
 
 /// One rank's objects, as its callbacks describe them, in memory of the workspace.
 struct Objects {
     int count = 0;
     bool warned = false;       ///< a callback returned ZOLTAN_WARN
-    bool names_parts = false;  ///< a callback tells the part of each object
+    bool names_parts = false;  ///< a callback returns the part of each object
     IdWord* global_ids = nullptr;
     IdWord* local_ids = nullptr;   ///< null when ids have no local part
-    int* initial_parts = nullptr;  ///< null when no callback tells them
+    int* initial_parts = nullptr;  ///< null without such a callback
     int* moving = nullptr;         ///< room for the indices of those that move; null without lists
     Points points;
     List room;  ///< holds the ids if they are handed out without another agreement of the ranks
 };
 
-/// Objects by the registered callbacks, with at most one weight each. Not collective. Throws
-/// ZoltanError for a missing or failing callback, a negative count, and a dimension other than 1, 2
-/// or 3.
+/// Collects objects by the registered callbacks, with at most one weight each. Not collective.
+/// Throws ZoltanError for a missing or failing callback, a negative count, and a dimension other
+/// than 1, 2 or 3.
 Objects collect_objects(Zoltan_Struct* zz, const Parameters& parameters, Workspace& workspace);
 
 }  // namespace rrcb::zoltan

@@ -38,7 +38,8 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Result of all that one rank does alone. Errors and foreign exceptions become a status.
+/// Collects the objects and checks the parameters of this rank. Errors and foreign exceptions
+/// become a status.
 LocalStatus collect(Zoltan_Struct* zz, State& state, bool one_part_per_rank, Objects& objects,
                     Placed& placed) {
     try {
@@ -94,8 +95,8 @@ void take_previous(Call& call) {
     if (!call.outcome.all_kept_cuts) call.previous.reset();
 }
 
-/// Whether no object and no parameter has changed on any rank since the last partition. Collective
-/// where the objects may rest: one reduction.
+/// Returns whether no object and no parameter has changed on any rank since the last partition.
+/// Collective if the objects may be kept: one reduction.
 bool are_kept(const Call& call, const Placed& placed) {
     const State& state = call.state;
     const bool may_keep = call.outcome.may_keep && !call.outcome.failed() &&
@@ -112,7 +113,7 @@ struct Preparation {
     Options options;
     PaperOptions paper;              ///< in place of `options` if RRCB_DOMAIN asks for it
     bool is_spread = false;          ///< many ranks make the parts
-    const Cuts* previous = nullptr;  ///< to start from
+    const Cuts* previous = nullptr;  ///< to start from, or null
     std::optional<Renumbering> renumbering;
     std::optional<LastPartition> last;
 };
@@ -163,16 +164,16 @@ void keep(Preparation&& prepared, Balance&& balanced, PartMap&& map, Numbering&&
     state.axes_changed = false;
 }
 
-/// Puts the lists into the caller's variables where Zoltan's Fortran interface is used on any rank.
-/// Collective there.
+/// Copies the lists into the caller's variables if Zoltan's Fortran interface is used on any rank.
+/// Collective then.
 void serve_fortran(const Call& call, Partition& result, Participant& self) {
     if (!call.outcome.any_fortran) return;
     copy_for_fortran(call.zz, result.imports, result.exports, call.to, self);
     result.with_caller = true;
 }
 
-/// Whether each part has a rank of its own, and all objects of this rank are in its part. Objects
-/// whose parts no callback names are. Not collective.
+/// Returns whether each part has a rank of its own, and all objects of this rank are in its part.
+/// Objects whose parts no callback names are. Not collective.
 bool are_in_own_part(const Objects& objects, const PartMap& map, int rank) {
     if (!map.one_each) return false;
     const int* named = objects.initial_parts;
@@ -180,7 +181,7 @@ bool are_in_own_part(const Objects& objects, const PartMap& map, int rank) {
     return std::all_of(named, named + objects.count, [&](int part) { return part == rank; });
 }
 
-/// Answers a call where the objects stay where the last partition put them. Collective as
+/// Answers a call whose objects stay in the parts of the last partition. Collective as
 /// serve_fortran is.
 int keep_objects(const Call& call, Objects&& objects, Partition& result) {
     State& state = call.state;
@@ -236,7 +237,7 @@ void dump_inputs(DumpReason reason, const Call& call, const Objects& objects,
          {call.function, objects.points, objects.initial_parts, status.code, status.text.data()});
 }
 
-/// The end of a call that fails on all ranks alike.
+/// A failure of a call on all ranks alike.
 struct Failure {
     int code;
     std::string_view text;
@@ -261,7 +262,7 @@ int refuse_difference(const Call& call, const Objects& objects, Partition& resul
     return fail(call, objects, {ZOLTAN_FATAL, text.data()}, result);
 }
 
-/// Leaves a call to the real Zoltan. The cuts of an earlier one are of no use afterwards.
+/// Leaves a call to the real Zoltan. The cuts of an earlier call are of no use afterwards.
 int leave_to_zoltan(const Call& call, Partition& result) {
     print_forwarding(call.state, call.function);
     call.state.last.reset();
@@ -298,7 +299,7 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
         return fail(call, objects, {error.code(), error.what()}, result);
     } catch (const Error& error) {
         result = Partition{};
-        // An error of MPI's may be this rank's alone; nothing more can be done together.
+        // An MPI error may be on this rank only; the ranks can do nothing more together.
         if (error.code() == ErrorCode::mpi) throw;
         const bool memory = error.code() == ErrorCode::out_of_memory;
         return fail(call, objects, {memory ? ZOLTAN_MEMERR : ZOLTAN_FATAL, error.what()}, result);

@@ -23,12 +23,12 @@ struct Partition : Lists {
     std::optional<Summary> summary;  ///< empty if the call fails or is the real Zoltan's
 };
 
-/// Zoltan_LB_Partition under LB_METHOD=RRCB, or Zoltan_LB_Balance, which asks for one part per
-/// rank.
+/// Answers Zoltan_LB_Partition under LB_METHOD=RRCB, or Zoltan_LB_Balance, which asks for one part
+/// per rank.
 ///
-/// `function` names the one for messages. Collective over the handle's communicator; the same code
-/// on every rank. On an error one rank prints the message, and the lists are empty. `to` is written
-/// to only where Zoltan's Fortran interface is used.
+/// `function` is its name for messages. Collective over the handle's communicator; the same code on
+/// every rank. On an error one rank prints the message, and the lists are empty. `to` is written to
+/// only if Zoltan's Fortran interface is used.
 int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_part_per_rank,
               const CallerLists& to, Partition& result);
 

@@ -11,7 +11,7 @@ namespace rrcb::zoltan {
 
 namespace {
 
-/// Parameters that are set and have no effect with the method that RRCB_DOMAIN asks for.
+/// Returns parameters that are set and have no effect with the method of RRCB_DOMAIN.
 std::vector<const char*> ignored_parameters(const Parameters& parameters) {
     std::vector<const char*> names;
     const auto add_if = [&](bool is_set, const char* name) {
@@ -28,7 +28,8 @@ std::vector<const char*> ignored_parameters(const Parameters& parameters) {
     return names;
 }
 
-/// Axes in the order of RCB_SET_DIRECTIONS, 1 ... 6. Other values count as 1, as in Zoltan.
+/// Returns the axes in the order of RCB_SET_DIRECTIONS, 1 ... 6. Other values count as 1, as in
+/// Zoltan.
 std::vector<int> axis_order(int set_directions, int dimension) {
     constexpr std::array<std::array<int, 3>, 6> orders = {
         {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}}};

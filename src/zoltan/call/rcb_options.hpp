@@ -15,28 +15,29 @@ namespace rrcb::zoltan {
 /// rank.
 void check_parameters(const State& state, bool one_part_per_rank);
 
-/// Options of the balancer for one call. `previous`: the last partition, of which look-ups have all
-/// cuts, or null.
+/// Returns the options of the balancer for one call. `previous`: the last partition, of which
+/// look-ups have all cuts, or null.
 ///
 /// RCB_LOCK_DIRECTIONS takes their axes; otherwise RCB_SET_DIRECTIONS names the order of axes.
 Options make_options(const Parameters& parameters, const Layout& layout, int dimension,
                      const LastPartition* previous);
 
-/// Options of the paper's method that RRCB_DOMAIN asks for.
+/// Returns the options of the paper's method that RRCB_DOMAIN asks for.
 PaperOptions make_paper_options(const Parameters& parameters, const Layout& layout);
 
-/// Whether the search starts from the cuts of the last call (RCB_REUSE). Only a refinement does: it
-/// goes on from there to the balance asked for.
+/// Returns whether the search starts from the cuts of the last call (RCB_REUSE). This needs a
+/// refinement, to reach the balance asked for from them.
 bool starts_from_previous(const Parameters& parameters);
 
-/// Whether look-ups may use the cuts.
+/// Returns whether look-ups may use the cuts.
 bool keeps_cuts(const Parameters& parameters);
 
-/// Whether the parameter decides which axes are cut. After a change older cuts may cross other
-/// axes.
+/// Returns whether the parameter decides which axes are cut. After a change older cuts may cross
+/// other axes.
 bool chooses_axes(std::string_view name);
 
-/// Warnings of settings that are not kept, a sentence each, in Zoltan's words where it has some.
+/// Returns warnings of settings that are not kept, a sentence each, in Zoltan's words if it has
+/// some.
 std::vector<std::string> parameter_warnings(const Parameters& parameters);
 
 }  // namespace rrcb::zoltan

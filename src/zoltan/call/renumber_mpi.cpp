@@ -10,7 +10,7 @@ namespace {
 bool may_change_numbers(const Parameters& parameters, const Layout& layout) {
     const std::vector<double>& sizes = layout.part_sizes;
     const bool are_equal = std::ranges::adjacent_find(sizes, std::not_equal_to<>()) == sizes.end();
-    // Those that are listed by what ranks ask for have one each.
+    // Parts in a list, which NUM_LOCAL_PARTS makes, have one rank each.
     const PartMap& map = layout.map;
     const bool are_on_one_rank = !map.is_even || map.num_parts >= map.num_ranks;
     return parameters.remap != 0 && map.num_parts > 1 && are_on_one_rank && are_equal;
@@ -38,7 +38,7 @@ Renumbered Renumbering::run(const Objects& objects, std::span<Part> parts, Parti
     PreviousParts previous;
     if (objects.names_parts) previous.emplace(objects.initial_parts, parts.size());
     auto [summary, boxes] = find_numbers(parts, previous, *buffers_, self);
-    // A rank without memory has no numbers; the next agreement tells the others.
+    // A rank without memory has no numbers; the next agreement reports that to the others.
     if (summary.identity || self.failed()) return {};
     std::vector<Part> numbers = std::move(summary.numbers);
     Renumbered result{std::move(summary)};

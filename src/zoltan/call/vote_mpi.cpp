@@ -23,8 +23,8 @@ int severity(int code) {
     return severity(ZOLTAN_FATAL);
 }
 
-/// Options of the balancer that are parameters, but for the parts, which are agreed on as such, and
-/// those that the balancer compares by itself.
+/// Options of the balancer that are parameters, except the parts, which are agreed on separately,
+/// and those that the balancer compares itself.
 constexpr bool is_voted_on(const Option& option) {
     return option.parameter[0] != '\0' && is_compared(option) &&
            std::string_view(option.name) != "num_parts";

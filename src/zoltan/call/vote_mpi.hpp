@@ -9,7 +9,7 @@
 
 namespace rrcb::zoltan {
 
-/// Result of all that one rank does alone. It holds its text without asking for memory.
+/// Result of a rank's local steps. It holds its text without allocating memory.
 struct LocalStatus {
     LocalStatus() = default;
     /// Cuts a text short that is too long.
@@ -27,14 +27,15 @@ struct LocalStatus {
 struct Outcome {
     int code = ZOLTAN_OK;          ///< the worst of all ranks
     int failing_rank = 0;          ///< lowest rank that failed; it speaks for all
-    int num_global_parts = -1;     ///< largest of all ranks, -1: set nowhere
-    bool any_local_parts = false;  ///< NUM_LOCAL_PARTS is set somewhere
-    bool any_part_sizes = false;   ///< Zoltan_LB_Set_Part_Sizes was called somewhere
-    bool any_fortran = false;      ///< Zoltan's Fortran interface is used somewhere
+    int num_global_parts = -1;     ///< largest of all ranks, -1: set on no rank
+    bool any_local_parts = false;  ///< NUM_LOCAL_PARTS is set on some rank
+    bool any_part_sizes = false;   ///< Zoltan_LB_Set_Part_Sizes was called on some rank
+    bool any_fortran = false;      ///< Zoltan's Fortran interface is used on some rank
     bool any_keeps_cuts = false;   ///< for look-ups
     bool all_kept_cuts = false;    ///< of the last call, on every rank
-    bool axes_changed = false;  ///< a parameter that chooses axes was changed somewhere since then
-    bool may_keep = false;      ///< see LocalStatus, on every rank
+    bool axes_changed = false;     ///< a parameter that chooses axes was changed on some rank since
+                                   ///< then
+    bool may_keep = false;         ///< see LocalStatus, on every rank
     bool any_names_parts = false;  ///< see LocalStatus, on some rank
     DumpWish dump;
     const char* differing = nullptr;  ///< name of a parameter that differs between ranks

@@ -31,7 +31,7 @@ void finish(File file, const std::filesystem::path& path) {
     if (std::fputs("end\n", file.get()) < 0 || std::fclose(file.release()) != 0) fail(path);
 }
 
-/// Text without line breaks, which would end the entry it stands in.
+/// Returns text without line breaks, which would end its entry.
 std::string one_line(std::string text) {
     for (char& c : text)
         if (c == '\n' || c == '\r') c = ' ';

@@ -51,13 +51,12 @@ struct DumpedRank {
     const Points& points;      ///< without their weights
     int weight_dimension;      ///< weights per point
     const float* weights;      ///< as the callbacks gave them, object by object
-    const int* initial_parts;  ///< one per point, null when no callback tells them
+    const int* initial_parts;  ///< one per point, null without a callback for them
     std::span<const PartSize> part_sizes;
     const char* message;  ///< of an error; empty: none
 };
 
-/// Makes the first folder of DIR/call-1, DIR/call-2, ... that does not exist. Throws where it
-/// cannot.
+/// Makes the first folder of DIR/call-1, DIR/call-2, ... that does not exist. Throws if it cannot.
 std::filesystem::path make_dump_folder(const std::filesystem::path& parent);
 
 /// Writes call.txt. Throws when it cannot.

@@ -28,7 +28,7 @@ PathText choose_folder(const State& state, const DumpInput& input) {
 }
 
 void write_mine(const std::filesystem::path& folder, const State& state, const DumpInput& input) {
-    // Needed where ranks do not share their file systems.
+    // Needed if ranks do not share their file systems.
     std::filesystem::create_directories(folder);
     write_dump(folder, DumpedRank{state.communicator->rank(), input.points,
                                   state.parameters.weight_dimension,

@@ -17,13 +17,12 @@ struct DumpWish {
 struct DumpInput {
     const char* function;
     const Points& points;
-    const int* initial_parts;  ///< one per point, null when no callback tells them
+    const int* initial_parts;  ///< one per point, null without a callback for them
     int code;
     const char* message;  ///< of an error; empty: none
 };
 
-/// Writes the inputs of a call where RRCB_DUMP is set on any rank and RRCB_DUMP_WHEN asks for it
-/// now.
+/// Writes the inputs of a call if RRCB_DUMP is set on any rank and RRCB_DUMP_WHEN asks for it now.
 ///
 /// Collective then, nothing at all otherwise. The lowest rank with a folder chooses it for all. A
 /// failure to write is warned about once, and never fails the call.

@@ -3,7 +3,7 @@
 
 extern "C" {
 
-// Files without the renaming header reach this one: their calls go past the plug-in.
+// Files without the renaming header call this function: their calls bypass the plug-in.
 int RRCB_Zoltan_Active(void) {
     return 0;
 }

@@ -11,13 +11,14 @@
 #include <exception>
 #include <new>
 
-/// A symbol that the plug-in shows: a function of Zoltan's (real/functions.inc) or one of its own.
+/// A symbol that the plug-in exports: a function of Zoltan's (real/functions.inc) or one of its
+/// own.
 #define RRCB_EXPORT extern "C" __attribute__((visibility("default")))
 
 namespace rrcb::zoltan {
 
-/// Runs the body of an entry point; no exception leaves it. Forwarded calls do without: the program
-/// catches what its callbacks throw under Zoltan.
+/// Runs the body of an entry point; no exception leaves it. Not used for forwarded calls: the
+/// program catches the exceptions of its callbacks under Zoltan.
 template <typename Body>
 int guarded(const char* function, const State* state, Body body) noexcept {
     const int rank = state == nullptr ? -1 : state->communicator->rank();
@@ -38,13 +39,13 @@ int guarded(const char* function, const State* state, Body body) noexcept {
     return code;
 }
 
-/// State of a handle whose method is RRCB; null where the real Zoltan is to answer.
+/// Returns the state of a handle whose method is RRCB; null if the real Zoltan is to answer.
 inline State* rrcb_state(const Zoltan_Struct* zz) {
     State* state = find_state(zz);
     return state != nullptr && state->parameters.rrcb ? state : nullptr;
 }
 
-/// State of a handle whose look-ups RRCB answers; null where the real Zoltan is to answer.
+/// Returns the state of a handle whose look-ups RRCB answers; null if the real Zoltan is to answer.
 inline const State* look_up_state(const Zoltan_Struct* zz) {
     const State* state = rrcb_state(zz);
     return state != nullptr && !state->zoltan_has_cuts ? state : nullptr;

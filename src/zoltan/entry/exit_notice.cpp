@@ -21,7 +21,7 @@ bool has_used_mpi() {
     return MPI_Initialized(&initialized) == MPI_SUCCESS && initialized != 0;
 }
 
-/// Whether this is the first process, by the launcher's environment: MPI has ended.
+/// Returns whether this is the first process, by the launcher's environment: MPI has ended.
 bool is_first_process() {
     for (const char* name :
          {"PMIX_RANK", "OMPI_COMM_WORLD_RANK", "PMI_RANK", "MV2_COMM_WORLD_RANK", "SLURM_PROCID"}) {
@@ -31,8 +31,8 @@ bool is_first_process() {
     return true;
 }
 
-/// Tells that RRCB was asked for, but no handle came through it, as where a program has Zoltan as a
-/// static archive. Shells and launchers inherit the environment, but use no MPI.
+/// Prints a notice if RRCB was asked for, but no handle came through it, for instance if a program
+/// has Zoltan as a static archive. Shells and launchers inherit the environment, but use no MPI.
 __attribute__((destructor)) void tell_if_asked_for_nothing() {
     if (any_call_answered() || !has_used_mpi() || !is_first_process()) return;
     if (is_verbosity_asked()) std::printf("RRCB %s: no calls\n", version());

@@ -15,7 +15,7 @@ using namespace rrcb::zoltan;
 
 namespace {
 
-/// Switches to RRCB, and the real Zoltan to RCB, as which it answers what RRCB leaves to it.
+/// Switches to RRCB, and the real Zoltan to RCB, which answers the calls that RRCB leaves to it.
 template <typename SwitchZoltan>
 int switch_to_rrcb(State& state, SwitchZoltan switch_zoltan) {
     if (state.deserialized) {
@@ -55,14 +55,14 @@ int set_parameter(State& state, const std::string& name, const char* raw_value,
     return code;
 }
 
-/// Notes a changed parameter: the next partition may not be asked the same as the last one.
+/// Notes a changed parameter: the next partition may differ from the last one.
 void note_change(State& state, const std::string& name, int code, const char* raw_value) {
     if (code == ZOLTAN_OK) {
         const auto [entry, is_new] = state.parameters.given.try_emplace(name, raw_value);
         if (!is_new && entry->second == raw_value) return;
         entry->second = raw_value;
     }
-    // These two decide on what is handed out, not on the parts.
+    // These two decide which results are returned, not the parts.
     if (name != "RETURN_LISTS" && name != "KEEP_CUTS") state.kept.reset();
     if (chooses_axes(name)) state.axes_changed = true;
 }
@@ -101,14 +101,14 @@ void hand_out(Partition&& result, const CallerLists& to) {
     hand_out(std::move(result.exports), result.with_caller, to.exports);
 }
 
-/// A call of one of the functions that partition.
+/// A call of one of the partitioning functions.
 struct Request {
     Zoltan_Struct* zz;
     const char* function;
     bool one_part_per_rank;
 };
 
-/// The caller's variables beside the lists.
+/// The caller's variables besides the lists.
 struct CallerNumbers {
     int* changes;
     int* num_gid_entries;
@@ -128,7 +128,7 @@ int let_zoltan_answer(const Request& request, Forward forward_it) {
     return code;
 }
 
-/// Partitions with RRCB or, where that is left to the real Zoltan, by `forward_it`.
+/// Partitions with RRCB or, if the call is left to the real Zoltan, by `forward_it`.
 template <typename Forward>
 int answer(const Request& request, const CallerNumbers& numbers, const CallerLists& to,
            Forward forward_it) {
@@ -155,8 +155,8 @@ int answer(const Request& request, const CallerNumbers& numbers, const CallerLis
 RRCB_EXPORT Zoltan_Struct* Zoltan_Create(MPI_Comm user) {
     Zoltan_Struct* zz = forward<&RealZoltan::create>(user);
     if (zz == nullptr || user == MPI_COMM_NULL) return zz;
-    // A handle without a state is Zoltan's alone. It refuses LB_METHOD=RRCB, and so the program
-    // knows.
+    // A handle without a state is Zoltan's own. Zoltan refuses LB_METHOD=RRCB for it, which informs
+    // the program.
     bool is_everywhere = true;
     guarded("Zoltan_Create", nullptr, [&] {
         is_everywhere = create_state(zz, user);
@@ -251,7 +251,7 @@ RRCB_EXPORT int Zoltan_LB_Set_Part_Sizes(Zoltan_Struct* zz, int global_num, int 
     });
 }
 
-// Declared in no public header: what Zoltan's Fortran interface calls when it is initialised.
+// Declared in no public header: Zoltan's Fortran interface calls it when it is initialised.
 RRCB_EXPORT void Zoltan_Register_Fort_Malloc(void (*allocate)(), void (*free)(),
                                              void (*set_struct)()) {
     register_fortran(allocate, free, set_struct);

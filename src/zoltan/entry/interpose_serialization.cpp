@@ -62,7 +62,7 @@ int unpack(Zoltan_Struct* zz, State& state, Parcel&& parcel) {
     return ZOLTAN_OK;
 }
 
-/// Tells that a handle of the program is replaced no longer, although that was asked for.
+/// Prints that a handle of the program is no longer replaced, although that was asked for.
 void tell_if_left_to_zoltan(const State& state) {
     if (!state.parameters.replace_rcb || state.parameters.debug_level <= 0) return;
     if (state.communicator->rank() != 0) return;
@@ -70,7 +70,7 @@ void tell_if_left_to_zoltan(const State& state) {
                   "the buffer is Zoltan's own, so the handle stays with Zoltan's methods");
 }
 
-/// Bytes of a handle; with those of the real Zoltan, where it made the last partition.
+/// Returns the bytes of a handle, with those of the real Zoltan if it made the last partition.
 std::vector<char> pack(const Zoltan_Struct* zz, const State& state) {
     std::vector<char> of_zoltan;
     if (state.zoltan_has_cuts) {

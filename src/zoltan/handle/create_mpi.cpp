@@ -27,13 +27,13 @@ struct Ballot {
     int is_verbose = 0;
 };
 
-/// What the ranks exchange by nonblocking calls, which write to it for as long as they are pending.
+/// Buffers of nonblocking calls, which write to them for as long as they are pending.
 struct Exchange {
     MPI_Comm duplicate = MPI_COMM_NULL;
     Ballot ballot;
 };
 
-/// Memory of a thread for one exchange at a time; replaced where calls stay pending.
+/// Memory of a thread for one exchange at a time; replaced if calls stay pending.
 thread_local Exchange first_exchange;
 thread_local Exchange* exchange = &first_exchange;
 
@@ -53,7 +53,7 @@ bool vote_on_environment(bool asks, RollCall& roll_call, Participant& self) {
     MPI_Request request = MPI_REQUEST_NULL;
     const int code = MPI_Iallreduce(MPI_IN_PLACE, &exchange->ballot, 5, MPI_INT, MPI_MAX,
                                     has_duplicate ? exchange->duplicate : self.comm, &request);
-    // What failed may be pending nonetheless.
+    // A request of a failed call may be pending nonetheless.
     const bool are_all_here = roll_call.complete(request, self);
     if (are_all_here) mpi::check(code, "MPI_Iallreduce");
     return are_all_here;
@@ -79,8 +79,8 @@ struct Draft {
     bool asks_for_replacement = false;
 };
 
-/// Makes them. All ranks duplicate the communicator, whatever fails on one of them. Returns false
-/// if some ranks take no part.
+/// Makes them. All ranks duplicate the communicator, even if one of them fails. Returns false if
+/// some ranks take no part.
 bool make(Draft& draft, const Zoltan_Struct* zz, MPI_Comm user, RollCall& roll_call,
           Participant& self) {
     *exchange = {};
@@ -142,8 +142,8 @@ bool create_state(const Zoltan_Struct* zz, MPI_Comm user) {
 void copy_state(const Zoltan_Struct* to, const Zoltan_Struct* from) {
     const State* source = find_state(from);
     if (source == nullptr || to == from) return;
-    // Zoltan_Copy makes the new handle with Zoltan_Create, which has come through here where Zoltan
-    // is a shared library.
+    // Zoltan_Copy makes the new handle with Zoltan_Create, which has come through here if Zoltan is
+    // a shared library.
     State* copy = find_state(to);
     const bool fits = copy != nullptr && is_congruent(*copy->communicator, *source->communicator);
     if (!fits) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* tolerance_name = "RRCB_IMBALANCE_TOL";
 
-/// Whether no handle of this process has met this setting before.
+/// Returns whether this is the first handle of this process with the setting.
 bool is_first(const std::string& setting) {
     static std::mutex mutex;
     static auto& met = *new std::set<std::string>;
@@ -32,13 +32,13 @@ bool set(Parameters& parameters, const char* name, const char* value) {
     return set_own(parameters, name, value) == Setting::accepted;
 }
 
-/// Name under which a program gives the parameter.
+/// Returns the name under which a program sets the parameter.
 const char* program_name_of(const char* name) {
     return name == tolerance_name ? "IMBALANCE_TOL" : name;
 }
 
-/// Whether a parameter belongs to calls. Copies of a handle and replayed calls need all but the
-/// folder of dumps.
+/// Returns whether a parameter belongs to calls. Copies of a handle and replayed calls need all
+/// except the folder of dumps.
 bool belongs_to_calls(std::string_view name) {
     return !name.starts_with("RRCB_DUMP");
 }

@@ -5,11 +5,11 @@
 namespace rrcb::zoltan {
 
 /// Gives a new handle the parameters of RRCB that the environment has under their names, and
-/// IMBALANCE_TOL, as RRCB_IMBALANCE_TOL there. The program sets its own later, which win. An
-/// illegal value leaves the default; rank 0 warns of it once. Not collective.
+/// IMBALANCE_TOL, as RRCB_IMBALANCE_TOL there. The program sets its own later, which override them.
+/// An illegal value leaves the default; rank 0 warns of it once. Not collective.
 void read_environment(State& state);
 
-/// Whether RRCB_VERBOSE is in the environment of this process, and not 0.
+/// Returns whether RRCB_VERBOSE is in the environment of this process, and not 0.
 bool is_verbosity_asked();
 
 }  // namespace rrcb::zoltan

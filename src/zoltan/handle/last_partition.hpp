@@ -29,10 +29,10 @@ class LastPartition {
     /// Returns a copy, which look-ups do not slow down. Throws std::bad_alloc.
     LastPartition copy() const;
 
-    /// Keeps the cuts without asking for memory.
+    /// Keeps the cuts without allocating memory.
     void keep(Cuts&& cuts, PartMap&& map, Numbering&& numbering) noexcept;
 
-    /// True if all cuts and all numbers are here.
+    /// Returns true if all cuts and all numbers are on this rank.
     bool shows_all() const { return numbering_.is_whole() && is_whole(cuts_); }
 
     /// Sets whether look-ups may use the cuts. Without KEEP_CUTS, or a parameter that implies it,
@@ -48,7 +48,7 @@ class LastPartition {
 
     // Look-ups, if shows_all().
 
-    /// Part of a position, one coordinate per dimension.
+    /// Returns the part of a position, one coordinate per dimension.
     Part part_of(const double* coordinates) const {
         return tree_.entries()[tree_.end_of(coordinates)];
     }
@@ -57,13 +57,13 @@ class LastPartition {
     /// room for all.
     int parts_touching(const Box& box, Part* parts) const;
 
-    /// Region of a part, open sides +-infinity.
+    /// Returns the region of a part, open sides +-infinity.
     Box region_of(Part part) const {
         return rrcb::region_of(cuts_, end_of(cuts_, numbering_.box_of(part)));
     }
 
-    /// Node 1 ... parts - 1 of the tree; node 0 stands above the root. Its numbers are those before
-    /// REMAP, as in Zoltan.
+    /// Returns node 1 ... parts - 1 of the tree; node 0 is above the root. Its numbers are those
+    /// before REMAP, as in Zoltan.
     TreeNode tree_node(int node) const;
 
   private:

@@ -6,11 +6,12 @@
 
 namespace rrcb::zoltan {
 
-/// Last partition, for look-ups. Throws ZoltanError where no cuts were kept. Not collective.
+/// Returns the last partition, for look-ups. Throws ZoltanError if no cuts were kept. Not
+/// collective.
 const LastPartition& last_of(const State& state);
 
 /// Part and lowest rank of a position; `coordinates` has one entry per dimension. Not collective.
-/// All look-ups throw ZoltanError where no cuts were kept.
+/// All look-ups throw ZoltanError if no cuts were kept.
 struct Place {
     int rank = -1;
     int part = -1;
@@ -25,14 +26,14 @@ struct Touched {
     int* num_parts = nullptr;
 };
 
-/// Parts a closed box touches and the ranks that hold them, both ascending.
+/// Finds the parts a closed box touches and the ranks that hold them, both ascending.
 void find_touched(const State& state, const Box& box, const Touched& touched);
 
-/// Region of a part; open sides are +-DBL_MAX, as in Zoltan. Throws
-/// ZoltanError for an unknown part.
+/// Returns the region of a part; open sides are +-DBL_MAX, as in Zoltan. Throws ZoltanError for an
+/// unknown part.
 Box region_of(const State& state, int part);
 
-/// Node of the tree of cuts. Throws ZoltanError for an unknown one.
+/// Returns a node of the tree of cuts. Throws ZoltanError for an unknown one.
 TreeNode tree_node_of(const State& state, int node);
 
 /// Throws ZoltanError unless part p is on rank p: look-ups without parts need that.

@@ -7,7 +7,7 @@
 
 namespace rrcb::zoltan {
 
-/// Numbers of parts by REMAP, beside those of the boxes that the cuts make.
+/// Numbers of parts by REMAP, besides those of the boxes that the cuts make.
 class Numbering {
   public:
     /// A part has the number of its box.
@@ -21,16 +21,16 @@ class Numbering {
 
     bool is_unchanged() const { return numbers_.empty(); }
 
-    /// Whether the number of every box is known.
+    /// Returns whether the number of every box is known.
     bool is_whole() const { return !is_spread_; }
 
-    /// The number of a box; no_part where it is not known.
+    /// Returns the number of a box; no_part if it is unknown.
     Part number_of(Part box) const;
 
-    /// Writes the numbers of boxes in their place. A box keeps its own where it is not known.
+    /// Replaces boxes by their numbers. A box keeps its own if that is unknown.
     void apply(std::span<Part> boxes) const;
 
-    /// The box of a part, where all are known.
+    /// Returns the box of a part, if all are known.
     Part box_of(Part number) const { return is_unchanged() ? number : boxes_[number]; }
 
     /// Numbers of all boxes, or of the known ones.

@@ -21,18 +21,18 @@ namespace rrcb::zoltan {
 /// Which lists a partitioning call returns (RETURN_LISTS).
 enum class ReturnLists { none, imports, exports, all, parts, candidates };
 
-/// NUM_GLOBAL_PARTS where it is set to its default or to no legal number.
+/// NUM_GLOBAL_PARTS if it is set to its default or to no legal number.
 inline constexpr int one_per_rank = 0;
 
 /// Value of a parameter that is not set and whose default depends on others.
 inline constexpr int not_set = std::numeric_limits<int>::min();
 
-/// The options of a new handle: points in one place are divided, as by RCB.
+/// Returns the options of a new handle: coincident points are divided, as by RCB.
 Options default_options();
 
 /// Parameters of a handle that concern the plug-in. The defaults are Zoltan's.
 struct Parameters {
-    bool rrcb = false;         ///< LB_METHOD is RRCB, or RCB where that is replaced
+    bool rrcb = false;         ///< LB_METHOD is RRCB, or RCB and RCB is replaced
     bool replace_rcb = false;  ///< RRCB answers LB_METHOD=RCB
     int num_gid_entries = 1;
     int num_lid_entries = 1;
@@ -60,23 +60,23 @@ struct Parameters {
     double sample_fraction = PaperOptions{}.sample_fraction;
     std::uint64_t seed = PaperOptions{}.seed;
 
-    std::string dump_folder;   ///< where the inputs of calls go; empty: nowhere
+    std::string dump_folder;   ///< of the dumped inputs of calls; empty: no dumps
     bool dump_always = false;  ///< the inputs of all calls, not only of failing ones
     std::map<std::string, std::string> given;  ///< all that was set, as it was set
 };
 
-/// Whether RCB_REUSE holds. By default it does where RRCB replaces RCB: a balanced distribution
-/// then stays as it is.
+/// Returns whether RCB_REUSE holds. By default it does if RRCB replaces RCB: a balanced
+/// distribution is then kept.
 bool reuses_cuts(const Parameters& parameters);
 
-// Readers of a value, in upper case but that of RRCB_DUMP. False, and nothing is set, for what is
-// no legal value.
+// Readers of a value, in upper case except that of RRCB_DUMP. They return false, and set nothing,
+// for an illegal value.
 bool read_integer(int& value, std::string_view text, int least);
 bool read_return_lists(ReturnLists& lists, std::string_view text);
 bool read_folder(std::string& folder, std::string_view text);
 bool read_dump_when(bool& always, std::string_view text);
 
-/// An integer that Zoltan takes the default for when it is below `least`.
+/// An integer for which Zoltan takes the default if it is below `least`.
 template <int least = std::numeric_limits<int>::min()>
 bool read_integer(int& value, std::string_view text) {
     return read_integer(value, text, least);
@@ -101,7 +101,7 @@ constexpr int number_of(std::optional<PaperDomain> value) {
     return value ? 1 + static_cast<int>(*value) : 0;
 }
 
-/// Value for DEFAULT and for illegal texts: that of a new handle, but in two cases of Zoltan's.
+/// Value for DEFAULT and for illegal texts: that of a new handle, except in two cases of Zoltan's.
 template <class Value>
 Value fallback_of(Value Parameters::*field) {
     return Parameters{}.*field;
@@ -151,8 +151,8 @@ constexpr ParameterRow flag(const char* name) {
 /// Name of the one parameter whose value keeps its case.
 inline constexpr const char* dump_folder_name = "RRCB_DUMP";
 
-/// Every parameter but LB_METHOD and those of Options, the compared ones in the order in which a
-/// difference is told.
+/// Every parameter except LB_METHOD and those of Options, the compared ones in the order in which
+/// differences are reported.
 inline constexpr ParameterRow parameter_table[] = {
     must_agree<&Parameters::num_gid_entries, read_integer<1>>("NUM_GID_ENTRIES"),
     must_agree<&Parameters::num_lid_entries, read_integer<0>>("NUM_LID_ENTRIES"),
@@ -198,7 +198,7 @@ bool set_tolerance(Parameters& parameters, std::string_view value);
 /// The names that set_own knows.
 std::vector<const char*> own_parameter_names();
 
-/// Notes a parameter that Zoltan itself has accepted, if it matters here. Both are in upper case.
+/// Notes a parameter that Zoltan itself has accepted, if RRCB needs it. Both are in upper case.
 void note_common(Parameters& parameters, std::string_view name, std::string_view value);
 
 /// Name or value in the form in which Zoltan compares it: in upper case, without leading blanks.

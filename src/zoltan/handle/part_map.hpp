@@ -15,18 +15,19 @@ struct PartMap {
     int num_parts = 0;
     int num_ranks = 0;
     bool one_each = true;             ///< part p is on rank p and on no other
-    bool is_even = true;              ///< as ranks_of_part() tells
-    std::vector<RankRange> listed{};  ///< of each part; empty where it is even, of many parts
+    bool is_even = true;              ///< as in ranks_of_part()
+    std::vector<RankRange> listed{};  ///< of each part; empty if it is even, of many parts
 
     RankRange ranks_of(Part part) const {
         if (one_each) return {part, 1};
         return listed.empty() ? ranks_of_part(part, num_parts, num_ranks) : listed[part];
     }
 
-    /// Parts on a rank.
+    /// Returns the parts on a rank.
     PartRange parts_on(int rank) const;
 
-    /// Where object number `index` of rank `rank` goes: it stays when its part is there already.
+    /// Returns the destination of object number `index` of rank `rank`: it stays if its part is
+    /// there already.
     int destination(Part part, LocalIndex index, int rank) const {
         const RankRange range = ranks_of(part);
         if (range.count == 1) return range.first_rank;
@@ -35,19 +36,19 @@ struct PartMap {
     }
 };
 
-/// Map with equal numbers of parts on all ranks, or of ranks for all parts.
+/// Returns a map with equal numbers of parts on all ranks, or of ranks for all parts.
 PartMap even_part_map(int num_parts, int num_ranks);
 
-/// Number of parts that NUM_LOCAL_PARTS and NUM_GLOBAL_PARTS ask for. `local_parts` has one number
-/// per rank. It and `num_global_parts` are -1 where they are not set. Throws ZoltanError where they
-/// do not add up.
+/// Returns the number of parts that NUM_LOCAL_PARTS and NUM_GLOBAL_PARTS ask for. `local_parts` has
+/// one number per rank. It and `num_global_parts` are -1 if they are not set. Throws ZoltanError if
+/// they do not add up.
 int num_parts_of(std::span<const int> local_parts, int num_global_parts);
 
-/// Map with as many parts on a rank as its NUM_LOCAL_PARTS. Ranks that do not set it share the
-/// rest.
+/// Returns a map with as many parts on a rank as its NUM_LOCAL_PARTS. Ranks that do not set it
+/// share the rest.
 PartMap local_part_map(std::span<const int> local_parts, int num_parts);
 
-/// Lowest part on a rank, -1 where there is none.
+/// Returns the lowest part on a rank, -1 if there is none.
 int first_part_of(const PartMap& map, int rank);
 
 }  // namespace rrcb::zoltan

@@ -23,7 +23,7 @@ bool read_environment() {
     return false;
 }
 
-/// Method whose replacement a user may expect, and the reason that Zoltan keeps it.
+/// Method that a user may expect to be replaced, and the reason that Zoltan keeps it.
 struct Left {
     const char* method;
     bool in_hier_only;
@@ -93,7 +93,7 @@ void tell_if_not_replaced(const State* state, const char* function) noexcept try
         if (!told[i].exchange(true)) print_warning(0, function, left.reason);
     }
 } catch (const std::bad_alloc&) {
-    // A lack of memory loses no more than the notice.
+    // If memory is short, only the notice is lost.
 }
 
 }  // namespace rrcb::zoltan

@@ -18,7 +18,7 @@
 
 namespace rrcb::zoltan {
 
-/// A duplicate of the communicator a handle was created with, for this handle alone.
+/// A duplicate of the communicator with which a handle was created, only for this handle.
 class Communicator {
   public:
     /// Takes over `duplicate`. Throws Error or std::bad_alloc; then the caller keeps it.
@@ -50,8 +50,8 @@ struct PartSize {
     int weight = 0;  ///< number of the weight that it is a share of
 };
 
-/// Result of the last partition. It stands while the objects are in the parts they were sent to and
-/// are the same: a program that balances until nothing changes comes to an end.
+/// Result of the last partition. It is valid while the objects are unchanged and in the parts they
+/// were sent to: a program that balances until nothing changes comes to an end.
 struct KeptObjects {
     Report report;
     std::uint64_t checksum = 0;  ///< of the objects of all ranks and their parts
@@ -73,7 +73,7 @@ struct State {
     Workspace workspace;
 };
 
-/// NUM_GLOBAL_PARTS as Zoltan takes it, -1 where it is not set.
+/// Returns NUM_GLOBAL_PARTS as Zoltan takes it, -1 if it is not set.
 inline int asked_global_parts(const State& state) {
     const int asked = state.parameters.num_global_parts;
     return asked == one_per_rank ? state.communicator->size() : asked;
@@ -85,8 +85,8 @@ State& add_state(const Zoltan_Struct* zz, State&& state);
 void remove_state(const Zoltan_Struct* zz);  ///< collective, as it frees the communicator
 bool any_handle_made();                      ///< since the process began
 
-/// Copies all but the communicator and what is shared by it. Throws std::bad_alloc; then `to` is
-/// unchanged.
+/// Copies everything except the communicator and what is shared by it. Throws std::bad_alloc; then
+/// `to` is unchanged.
 void copy_contents(State& to, const State& from);
 
 }  // namespace rrcb::zoltan

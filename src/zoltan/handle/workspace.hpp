@@ -15,7 +15,7 @@ namespace rrcb::zoltan {
 template <typename T>
 class Scratch {
   public:
-    /// Room for `size` entries. Old entries are lost where it grows. Throws std::bad_alloc.
+    /// Returns room for `size` entries. Old entries are lost if it grows. Throws std::bad_alloc.
     T* get(std::size_t size) {
         if (size > capacity_) {
             data_ = std::make_unique_for_overwrite<T[]>(size);

@@ -25,8 +25,8 @@ class Finder {
     /// Requires a function that the plug-in calls by name.
     void find(const char* name) { require(Found(name)); }
 
-    /// Function in the library of those found so far; null if it has none. One in another library
-    /// would not know the handles.
+    /// Finds a function in the library of those found so far; null if it has none. One in another
+    /// library would not know the handles.
     template <typename Function>
     void find_beside(Function& function, const char* name) const {
         const Found found(name);
@@ -87,7 +87,7 @@ Finder find_all(RealZoltan& real) {
     return finder;
 }
 
-/// Bytes of an id. Libraries that cannot be asked are older than ids of another width.
+/// Returns the bytes of an id. Libraries that cannot be asked are older than ids of another width.
 std::size_t ask_id_bytes(const Finder& finder) {
     decltype(&Zoltan_get_global_id_type) ask = nullptr;
     finder.find_beside(ask, "Zoltan_get_global_id_type");

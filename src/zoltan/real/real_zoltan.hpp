@@ -24,7 +24,7 @@ struct RealZoltan {
 #define RRCB_OPTIONAL(function, member) decltype(&function) member = nullptr;
 #include "zoltan/real/functions.inc"
 
-    /// Functions under Zoltan's Fortran interface; null where there is none.
+    /// Functions under Zoltan's Fortran interface; null if there is none.
     int (*special_malloc)(Zoltan_Struct* zz, void** array, int size, int type) = nullptr;
     int (*special_free)(Zoltan_Struct* zz, void** array, int type) = nullptr;
 
@@ -32,18 +32,18 @@ struct RealZoltan {
     bool serves_rrcb = true;             ///< otherwise every call goes to Zoltan
 };
 
-/// Real Zoltan, looked up once. Null, with one message on stderr, where there is none behind the
-/// plug-in.
+/// Returns the real Zoltan, looked up once. Null, with one message on stderr, if there is none
+/// behind the plug-in.
 const RealZoltan* real_zoltan() noexcept;
 
-/// Words in an entry of an id: 2 where Zoltan was built with ids of 64 bits. For handles that RRCB
-/// serves.
+/// Returns the words in an entry of an id: 2 if Zoltan was built with ids of 64 bits. For handles
+/// that RRCB serves.
 inline std::size_t words_per_id_entry() {
     return real_zoltan()->words_per_id_entry;
 }
 
-/// Calls the real function as if the plug-in were not there: callbacks and what they throw
-/// included.
+/// Calls the real function as if the plug-in were not there, also for callbacks and their
+/// exceptions.
 template <auto member, typename... Arguments>
 auto forward(Arguments... arguments) {
     using Result = decltype((real_zoltan()->*member)(arguments...));

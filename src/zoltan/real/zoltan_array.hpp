@@ -9,7 +9,7 @@
 
 namespace rrcb::zoltan {
 
-/// Array from Zoltan's allocator, so that Zoltan_LB_Free_Part can free what is handed out.
+/// Array from Zoltan's allocator, so that Zoltan_LB_Free_Part can free the lists.
 template <typename T>
 class ZoltanArray {
   public:

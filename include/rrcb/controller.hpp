@@ -31,33 +31,36 @@ class Controller {
 
     /// Frees the communicator. Collective, except after MPI_Finalize, which frees it as well.
     RRCB_API ~Controller();
-    /// Takes over; the other may only be destroyed or assigned to. Not collective.
+    /// Takes over another controller, which may then only be destroyed or assigned to. Not
+    /// collective.
     RRCB_API Controller(Controller&&) noexcept;
-    /// Takes over; collective if this one still has a communicator.
+    /// Takes over another controller; collective if this one still has a communicator.
     RRCB_API Controller& operator=(Controller&&) noexcept;
 
-    /// Records a step that took this rank `load` of its own work, without waiting for others, and
+    /// Records a step that took this rank `load` of its own work, without waiting for others;
     /// returns due().
     ///
-    /// Collective, yet it waits only for ranks that have not called it for the previous step. Loads
-    /// have the unit of the costs and are finite and not negative. One call later, throws Error on
-    /// every rank alike if a rank gave an illegal number or reported another number of rebalances.
-    /// From then on each call throws it, and a new controller is needed. An error of MPI is thrown
-    /// on the rank on which it occurs.
+    /// Collective, yet it waits only for ranks that have not called it for the previous step.
+    /// `load` is finite and not negative, in the unit of the costs of rebalanced(). Throws Error on
+    /// every rank alike, one call later, if a rank gave an illegal number or reported another
+    /// number of rebalances. Every later call then throws it, too: make a new controller. An MPI
+    /// error is thrown on the rank on which it occurs.
     RRCB_API bool step(double load);
 
-    /// Does the same, and smooths the load: `points` is the number of points of this rank, or the
-    /// sum of their weights, as the balancer counts them.
+    /// Records a step and smooths the load; returns due(). Prefer it for measured loads.
     ///
-    /// The load is taken as `points` times the average cost of a point on this rank, so the noise
-    /// of a clock is not mistaken for imbalance. Prefer it for measured loads. Throws as step().
+    ///     if (controller.step(seconds_of_work, points.count)) rebalance();  // your function
+    ///
+    /// Collective, and throws, as step(load). `points` is the number of points of this rank, or the
+    /// sum of their weights, as the balancer counts them. The load is taken as `points` times the
+    /// average cost of a point on this rank, so the noise of a clock is not mistaken for imbalance.
     RRCB_API bool step(double load, double points);
 
     /// Returns whether to rebalance before the next step, by the latest step(); false after
     /// rebalanced(). The same on every rank. Not collective.
     RRCB_API bool due() const;
 
-    /// Records that the ranks have rebalanced since the last step, asked to or not.
+    /// Records that the ranks have rebalanced since the last step, whether due or not.
     ///
     /// Called on all ranks, without communication. `cost` is the time of the rebalance on this rank
     /// including the migration of the points; the largest of all ranks counts. No rebalance is due

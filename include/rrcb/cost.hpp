@@ -21,8 +21,7 @@ namespace rrcb {
 ///             ...                                               // balance() and transfer()
 ///             controller.rebalanced(balance.report, seconds);
 ///         }
-///         ...                                                   // a step of the simulation
-///         model.step(seconds_of_work, {{points, cells}});       // in place of controller.step()
+///         model.step(seconds_of_work, {{points, cells}});       // after a step of the simulation
 ///     }
 ///
 /// A column is a number that a rank counts and that its time may depend on. The first is the number
@@ -32,7 +31,7 @@ class CostModel {
     /// Makes a model without a controller, on a communicator of its own.
     ///
     /// Collective over `comm`, which may be freed before the model. Throws Error on every rank for
-    /// a communicator as Controller refuses it, and for less than 1 or more than 16 columns.
+    /// a communicator that Controller refuses, and for less than 1 or more than 16 columns.
     RRCB_API CostModel(MPI_Comm comm, int num_columns);
 
     /// Makes a model whose sums travel with the controller's reduction, before its first step.
@@ -42,25 +41,25 @@ class CostModel {
     /// for a number of columns as above, and if the controller has recorded a step or has a model.
     RRCB_API CostModel(Controller& controller, int num_columns);
 
-    /// Frees the communicator, if the model has one. Collective then, as that of Controller.
+    /// Frees the communicator, if the model has one. Collective then, as ~Controller().
     RRCB_API ~CostModel();
-    /// Takes over; the other may only be destroyed or assigned to. Not collective.
+    /// Takes over another model, which may then only be destroyed or assigned to. Not collective.
     RRCB_API CostModel(CostModel&&) noexcept;
-    /// Takes over; collective if this one still has a communicator.
+    /// Takes over another model; collective if this one still has a communicator.
     RRCB_API CostModel& operator=(CostModel&&) noexcept;
 
     /// Records a step: the seconds of this rank's own work, and its number of each column.
     ///
     /// Collective, yet it waits only for ranks that have not called it for the previous step.
-    /// Seconds are processor time if ranks share cores. Numbers are from 0 to 1e100. One call
-    /// later, throws Error on every rank alike if a rank gave another one, or too many or few. From
-    /// then on each call throws it. With a controller, its due() answers whether to rebalance.
-    /// Cost: a reduction of n^2 + 2 n + 20 doubles for n columns, which overlaps with the next
+    /// Seconds are processor time if ranks share cores. Numbers are from 0 to 1e100. With a
+    /// controller, its due() returns whether to rebalance. Throws Error on every rank alike, one
+    /// call later, if a rank gave another number, or too many or few. Every later call then throws
+    /// it. Cost: a reduction of n^2 + 2 n + 20 doubles for n columns, which overlaps with the next
     /// step, and a fit on rank 0; no allocation.
     RRCB_API void step(double seconds, std::span<const double> columns);
 
-    /// Returns the seconds of a unit of each column, by the steps so far, late ones counting more.
-    /// The same bits on every rank. Not collective. 0 for a column that costs nothing.
+    /// Returns the seconds of a unit of each column, by the steps so far, in which late ones count
+    /// more; 0 for a column that costs nothing. Not collective; the same bits on every rank.
     RRCB_API std::vector<double> costs() const;
 
     /// Returns whether weights() uses the costs. The same on every rank. Not collective.
@@ -68,11 +67,11 @@ class CostModel {
 
     /// Returns the weight in seconds of each point, to divide the points by at once.
     ///
-    /// `columns` has a row for each point of this rank: its part of each column, so that the rows
-    /// add up to the columns of step(). In a cell with 4 points each has a quarter. A column that
-    /// belongs to no point, such as ghosts, is 0 in each row. While counting is better, each point
-    /// weighs 1. Called on all ranks, without communication. Throws Error on this rank if the last
-    /// row is not complete.
+    /// `columns` has a row for each point of this rank: its share of each column, so that the rows
+    /// add up to the columns of step(). For instance, each of 4 points in a cell has a quarter of
+    /// the cell. A column that belongs to no point, such as ghosts, is 0 in each row. While
+    /// counting is better, each point weighs 1. Called on all ranks, without communication. Throws
+    /// Error on this rank if the last row is not complete.
     RRCB_API std::vector<double> weights(std::span<const double> columns);
 
     /// Returns a sentence: whether costs are used, and why. The same on every rank. Not collective.

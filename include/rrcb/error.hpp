@@ -7,7 +7,7 @@
 
 namespace rrcb {
 
-/// Whose fault it is.
+/// Kind of an error.
 enum class ErrorCode {
     invalid_argument,  ///< the caller's mistake: points, weights or options
     out_of_memory,     ///< an allocation failed on some rank
@@ -15,7 +15,7 @@ enum class ErrorCode {
     internal           ///< a callback threw, or an invariant does not hold
 };
 
-/// What every function of the library throws; the text names the place and the fix.
+/// The only exception of the library; its text names the place and the fix.
 ///
 /// From a collective function the same code and text reach every rank of the communicator.
 class RRCB_API Error : public std::runtime_error {

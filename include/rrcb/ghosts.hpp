@@ -19,51 +19,49 @@ using Shift = std::array<std::int32_t, 3>;
 /// Points that this rank sends and receives as ghosts; a list of ranks names each rank once.
 struct GhostPlan {
     LocalIndex num_points = 0;    ///< that this rank holds
-    std::vector<RankCount> send;  ///< how many of them which ranks need; ranks ascending
+    std::vector<RankCount> send;  ///< number of points that each rank needs; ranks ascending
     std::vector<LocalIndex>
         send_indices;                ///< for one rank after the other, in ascending order for each
-    std::vector<RankCount> receive;  ///< how many come from which ranks; ranks ascending
-    Box periodic{};                  ///< box that repeats, if there is one
-    std::vector<Shift> shifts{};     ///< of each ghost, in the order of fetch(), if so
+    std::vector<RankCount> receive;  ///< number of ghosts from each rank; ranks ascending
+    Box periodic{};                  ///< box that repeats; empty: none
+    std::vector<Shift> shifts{};     ///< of each ghost, in the order of fetch(), if a box repeats
 };
 
-/// Distances at which points are needed, and where points and parts are. The same on every rank,
-/// except `radii`, which every rank gives or none does.
+/// Distances at which points are needed, and the ranks of the parts. The same on every rank, except
+/// `radii`, which every rank gives or none does.
 struct GhostOptions {
     double radius = 0;  ///< cut-off of all points, in the unit of the coordinates
     /// One radius for each point instead. Of two points on different ranks, nearer than the greater
     /// of their radii, at least one is then a ghost on the other's rank. If both ranks compute such
     /// pairs, give each point the greatest radius of the points near it.
     std::optional<std::span<const double>> radii{};
-    /// Box that holds the points, its faces included. It repeats along each axis on which its two
-    /// ends are finite; on the others they are infinite. A rank may need several images of one
-    /// point, also of its own, each a ghost with its entry in GhostPlan::shifts: the image of x is
-    /// at x + shift * (upper - lower), each operation rounded to a double. Wrap positions first.
+    /// Box that contains the points, including its faces. It repeats along each axis on which its
+    /// two ends are finite; on the others they are infinite. A rank may need several images of one
+    /// point, also of its own. Each is a ghost with its entry in GhostPlan::shifts: the image of x
+    /// is at x + shift * (upper - lower), each operation rounded to a double. Wrap positions first.
     std::optional<Box> periodic{};
     /// Ranks of each part, as after a remap(), if not ranks_of_part().
     std::optional<std::span<const RankRange>> ranks_of_parts{};
 };
 
-/// Finds the points that other ranks need, from the cuts alone.
+/// Finds the points that other ranks need, from the cuts.
 ///
-/// Collective over `comm`. A rank needs the points of others whose distance to the region of one of
-/// its parts, the closed box_of(cuts, part), is at most the radius. Distances up to 8 units in the
-/// last place beyond count too. Points may lie outside the regions of their rank, and are sent to
-/// each rank once. A part without a region needs none. Ranks that share a part need all points in
-/// it of each other. For repeated use of a plan, see fetch().
+///     const rrcb::GhostPlan near = rrcb::ghosts(balance.cuts, points, {.radius = 0.1}, comm);
+///
+/// Collective over `comm`. A rank needs the points of others whose distance to the closed region of
+/// one of its parts, box_of(cuts, part), is at most the radius plus round-off. Points may be
+/// outside the regions of their rank, and are sent to each rank once. Ranks that share a part need
+/// all points in it of each other. fetch() explains how long a plan may be used.
 ///
 /// Throws Error on every rank alike: for unusable points or options, a radius that is not finite,
 /// below 0 or above 100 periods, a position outside the periodic box, options or cuts that differ
-/// between ranks, cuts that gather_cuts() would refuse, or no memory.
-///
-/// Cost: ceil(log2 R) messages from each of R ranks, one more from some, and one reduction; for
-/// HeldCuts::own see docs/design/many_ranks.md. A periodic box adds another pass of counts and one
-/// message for each pair of ranks between which points move. Memory: in proportion to the points to
-/// send.
+/// between ranks or that gather_cuts() would refuse, or no memory. Cost: ceil(log2 R) messages from
+/// each of R ranks, one more from some, and a reduction; memory for the points to send. A periodic
+/// box adds a pass of counts and a message for each pair of ranks with ghosts.
 RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
                           MPI_Comm comm);
 
-/// Moves positions of ghosts, as fetched, to those of the images; nothing without a periodic box.
+/// Moves fetched positions of ghosts to those of the images; does nothing without a periodic box.
 ///
 /// Not collective. `positions` hold the axes of one ghost after the other. Throws Error if they do
 /// not fit the plan.
@@ -121,13 +119,15 @@ auto accumulated(const GhostPlan& plan, const GhostColumn& of_ghosts, const Poin
 
 }  // namespace detail
 
-/// Returns columns of the ghosts of this rank: by rank, as in plan.receive, and in their order
+/// Returns columns of the ghosts of this rank, in the order of plan.receive and of send_indices
 /// there.
+///
+///     const std::vector<double> ghost_xyz = rrcb::fetch(near, rrcb::column(xyz, 3), comm);
 ///
 /// Collective over `comm`, otherwise as transfer(): columns hold one entry, or `components`, for
 /// each of plan.num_points points. The plan can be used again as long as no point changes its index
-/// in the columns. Made with radii greater by a skin s, it holds all pairs within the true radii
-/// until a point has moved by s / 2. Until then do not wrap positions in a periodic box.
+/// in the columns. If its radii include a skin s, it holds all pairs within the true radii until a
+/// point has moved by s / 2. Until then do not wrap positions in a periodic box.
 template <class Columns>
 auto fetch(const GhostPlan& plan, const Columns& columns, MPI_Comm comm,
            const TransferLimits& limits = {}, TransferReport* report = nullptr) {
@@ -139,9 +139,9 @@ auto fetch(const GhostPlan& plan, const Columns& columns, MPI_Comm comm,
 ///
 /// Collective over `comm`, otherwise as transfer(): `ghost_columns` hold one entry, or
 /// `components`, for each ghost, in the order of fetch(), and `columns` as many for each of
-/// plan.num_points points. Values are numbers of the same types in both. Each point's value comes
-/// first, then those of its ghosts by ascending rank: the same arguments give the same bits.
-/// Integers must hold their sums.
+/// plan.num_points points. Values are numbers of the same types in both; integers must hold their
+/// sums. Each point's value comes first, then those of its ghosts by ascending rank: the same
+/// arguments give the same bits.
 ///
 /// Throws Error as transfer() does. Cost: the messages and bytes of fetch(), in the other
 /// direction; memory for the values that arrive and 8 bytes for each ghost, besides the result.

@@ -16,20 +16,21 @@ namespace rrcb {
 /// Key of a point that is a group of its own.
 inline constexpr std::uint64_t no_group = std::numeric_limits<std::uint64_t>::max();
 
-/// Position that stands for a group.
+/// Position of a group in the balance.
 enum class GroupPlace {
-    centre,  ///< of weight; of the points if all of them weigh 0. Depends on the ranks that have
-             ///< them by rounding only. Positions must not be wrapped in a periodic box
+    centre,  ///< of weight; of the points if all of them weigh 0. Depends on the distribution over
+             ///< the ranks by rounding only. Positions must not be wrapped in a periodic box
     first_point  ///< of the lowest rank that has one. Its exact position; may change with the ranks
 };
 
-/// Points that go to one part together, such as bonded particles or bodies, as one point each.
+/// Points that go to one part together, such as bonded particles or bodies, each group as one
+/// point.
 struct Groups {
     int dimension = 0;                  ///< of the points
     std::vector<double> coordinates{};  ///< of the groups of this rank, by their first point here
     std::vector<double> weights{};      ///< sums over all points of each
-    /// Group of each point of this rank: those of this rank first, then those that other ranks
-    /// have, in the order of fetch() by `plan`.
+    /// Group of each point of this rank: first the groups of this rank, then those of other ranks,
+    /// in the order of fetch() by `plan`.
     std::vector<LocalIndex> of_points{};
     GhostPlan plan{};  ///< between the ranks that share groups
 
@@ -39,17 +40,17 @@ struct Groups {
 
 /// Finds the groups of all points with equal keys, over all ranks.
 ///
-/// Collective over `comm`. `keys` has one entry for each point, no_group for those that need none;
-/// `place` is the same on every rank. The lowest rank with points of a group has it. Balance
-/// groups.points() as any points: weights, imbalance and look-ups are those of the groups, and one
-/// heavier than a part stays whole. Then fetch(groups, balance.parts, comm) returns the parts of
-/// the points, for plan(). Between rebalances take assign_all() for the balance. The same input on
-/// the same ranks gives the same bits.
+/// Collective over `comm`. `keys` has one entry for each point, no_group for a point that needs
+/// none; `place` is the same on every rank. The lowest rank with points of a group has the group.
+/// Balance groups.points() as any points; a group heavier than a part stays in one part. Then
+/// fetch(groups, balance.parts, comm) returns the parts of the points, for plan(). Between
+/// rebalances call assign_all() instead of balance(). The same input on the same ranks gives the
+/// same bits.
 ///
 /// Throws Error on every rank alike: for unusable points, keys of another length, another `place`
 /// or dimension than the others, or no memory. Cost: three exchanges, of ceil(log2 R) messages from
 /// each of R ranks and a reduction. In the first each key travels once from each rank that has it,
-/// in 16 bytes, to a rank by its hash; the others are for groups on several ranks.
+/// in 16 bytes.
 RRCB_API Groups groups(const Points& points, std::span<const std::uint64_t> keys, MPI_Comm comm,
                        GroupPlace place = GroupPlace::centre);
 

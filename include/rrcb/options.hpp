@@ -12,12 +12,12 @@ namespace rrcb {
 /// Accuracy to which the estimated cuts are corrected by counting points.
 enum class Refine {
     none,       ///< not at all: the estimate from the statistics stands
-    tolerance,  ///< until the measured imbalance is within `imbalance_tolerance`
-    exact       ///< to the weighted median: each cut within the weight of one object, which goes
-                ///< to the side that it takes the least beyond its size
+    tolerance,  ///< until the counted imbalance is within `imbalance_tolerance`
+    exact       ///< to the weighted median: each cut to within the weight of one object, which goes
+                ///< to the side that it makes less too heavy
 };
 
-/// What becomes of coincident points that a balanced cut would divide.
+/// Treatment of coincident points that a balanced cut would divide.
 enum class Coincident {
     together,  ///< they share a part, so that the part of a position is the part of its points
     divide     ///< some go to each side, those of lower ranks below; look-ups find one part
@@ -25,7 +25,8 @@ enum class Coincident {
 
 /// Cuts that each rank gets if many ranks make the parts, see Tuning::central_parts.
 enum class HeldCuts {
-    whole,  ///< all, so that look-ups work on every rank: two reductions, 40 bytes a part together
+    whole,  ///< all, so that look-ups work on every rank: two more reductions, of 40 bytes a part
+            ///< together
     own     ///< those above its points and its parts, see Cuts::nodes: no memory for each part
 };
 
@@ -65,20 +66,19 @@ class AxisOrder {
     std::vector<int> axes_;
 };
 
-/// Axes that are cut, and the positions of cuts along them. Each limit holds together with the
-/// others.
+/// Axes that are cut, and the positions of cuts along them. All limits hold at once.
 struct Axes {
     AxisOrder order{};   ///< such as AxisOrder::grouped({0, 1}); default: the longest of each box
     bool plain = false;  ///< planes only: points on a plane stay together
 
     /// Least extent of every part along each axis, > 0 and finite, one per axis of the points;
     /// empty: any. Between two cuts `upper - lower >= min_width` holds as doubles compute it. On a
-    /// side without a cut the extent counts to the bounding box of all points of the call. Along an
+    /// side without a cut the extent ends at the bounding box of all points of the call. Along an
     /// axis that is not cut there is no limit. Parts of size 0 have no extent.
     std::vector<double> min_width{};
 
     /// Cuts on these lines only, one entry per axis of the points; empty: anywhere. Such cuts are
-    /// plain, whether `plain` is set or not; each part holds one cell of the grid at least.
+    /// plain, whether `plain` is set or not; each part holds at least one cell of the grid.
     std::vector<GridLines> grid{};
 };
 
@@ -87,10 +87,10 @@ struct Tuning {
     int support_mesh = 0;  ///< cells per axis of each rank's support mesh, up to 4096, in
                            ///< 3-D 256; 0: by its points
 
-    /// Parts that rank 0 makes alone, at least 2. If there are more, and more ranks, it makes
-    /// regions, up to 64 and a power of two. Each cut below them is found by a rank of its parts.
-    /// So is every cut with Refine::exact, and once more if the tolerance is missed. No effect with
-    /// Refine::none, Axes::min_width, Axes::grid or AxisOrder::grouped().
+    /// Most parts that rank 0 makes without the others, at least 2. If there are more, and more
+    /// ranks, it makes regions, and each cut below them is found by a rank of its parts. So is
+    /// every cut with Refine::exact, or if the tolerance is missed. No effect with Refine::none,
+    /// Axes::min_width, Axes::grid or AxisOrder::grouped().
     int central_parts = 4096;
 };
 
@@ -104,20 +104,20 @@ struct Options {
 
     /// No effect with Refine::none and with plain cuts.
     Coincident coincident = Coincident::together;
-    HeldCuts cuts = HeldCuts::whole;  ///< that each rank gets if many ranks make the parts
+    HeldCuts cuts = HeldCuts::whole;  ///< cuts that each rank gets if many ranks make the parts
 
-    Axes axes{};  ///< that are cut, and where
+    Axes axes{};  ///< axes and positions of the cuts
 
-    /// Shape of the tree of cuts. With a group_size of 0 whole machines are cut off first, so that
-    /// less is sent between machines. That needs as many ranks on each machine, or fewer on the
-    /// last, and as many parts on each rank. Ranks are consecutive on a machine, or dealt to the
-    /// machines in turn; the latter only if rank 0 makes all parts. Otherwise, and on 1, 2, 4, ...
-    /// full machines with consecutive ranks, the parts are halved. A call from earlier cuts keeps
-    /// their shape.
+    /// Shape of the tree of cuts. With a group_size of 0 machines are separated first, so that less
+    /// is sent between machines. That needs as many ranks on each machine, or fewer on the last,
+    /// and as many parts on each rank. Ranks are consecutive on a machine, or dealt to the machines
+    /// in turn; the latter only if rank 0 makes all parts. Otherwise, and on 1, 2, 4, ... full
+    /// machines with consecutive ranks, the parts are halved. A call from earlier cuts keeps their
+    /// shape.
     TreeShape tree{0};
     Tuning tuning{};  ///< for experts
 
-    StageObserver* observer = nullptr;  ///< of this rank alone, not compared; borrowed for the call
+    StageObserver* observer = nullptr;  ///< of this rank only, not compared; borrowed for the call
 };
 
 }  // namespace rrcb

@@ -18,7 +18,7 @@
 
 namespace rrcb {
 
-/// What rank 0 bisects.
+/// Points that rank 0 bisects.
 enum class PaperDomain {
     sampled,  ///< pseudo-random points in mean +- multiplier * sigma of each cell: the paper's RRCB
     points    ///< the points themselves, all gathered on rank 0: the paper's RCB
@@ -34,8 +34,8 @@ enum class CutRule {
 struct PaperOptions {
     int num_parts = 0;                              ///< parts to make; 0: one per rank
     std::vector<double> part_sizes{};               ///< as Options::part_sizes
-    PaperDomain domain = PaperDomain::sampled;      ///< what rank 0 bisects
-    CutRule cut_rule = CutRule::weighted_fraction;  ///< where boxes are cut
+    PaperDomain domain = PaperDomain::sampled;      ///< points that rank 0 bisects
+    CutRule cut_rule = CutRule::weighted_fraction;  ///< position of cuts
     bool plain_cuts = false;                        ///< as Axes::plain
     int support_mesh = 8;           ///< cells per axis of each rank's mesh, 1 to 4096, in 3-D 256
     double sigma_multiplier = 1.5;  ///< half-width of a cell's sampling box in sigmas, > 0
@@ -74,11 +74,11 @@ RRCB_API std::vector<MassPoint> sample_points(std::span<const CellMoments> cells
 /// Throws Error for arrays that do not fit the number of points.
 RRCB_API std::vector<MassPoint> mass_points(const Points& points);
 
-/// Bisects points recursively across the longest extent of what each box holds.
+/// Bisects points recursively across the longest extent of the points in each box.
 ///
 /// `part_sizes` are relative, one per part, or empty for equal parts; a part of size 0 gets an
-/// empty region. Points on a cut are divided by their other coordinates unless `plain_cuts`.
-/// Not collective. Throws Error as bisect() does.
+/// empty region. Points on a cut are divided by their other coordinates unless `plain_cuts`. Not
+/// collective. Throws Error as bisect() does.
 RRCB_API Bisection bisect_points(std::vector<MassPoint> points, int dimension, int num_parts,
                                  std::span<const double> part_sizes = {},
                                  CutRule rule = CutRule::weighted_fraction,

@@ -17,32 +17,35 @@ struct RankRange {
     int count = 1;       ///< of ranks
 };
 
-/// Returns the ranks of a part, as Zoltan 13.2 lays them out. Not collective.
+/// Returns the ranks of a part, as Zoltan 13.2 assigns them. Not collective.
 ///
-/// num_parts / num_ranks parts each, the remainder one more each on the last ranks; with fewer
-/// parts than ranks a part spreads over consecutive ranks, the ranks left over one more each for
-/// the parts before the last. Throws Error unless 0 <= part < num_parts and num_ranks >= 1.
+/// Each rank has num_parts / num_ranks parts, and the last ranks one more each for the remainder.
+/// With fewer parts than ranks a part has num_ranks / num_parts consecutive ranks; the ranks left
+/// over go one each to the parts before the last. Throws Error unless 0 <= part < num_parts and
+/// num_ranks >= 1.
 RRCB_API RankRange ranks_of_part(Part part, int num_parts, int num_ranks);
 
-/// So many points, to or from one rank.
+/// Number of points to or from one rank.
 struct RankCount {
     int rank = 0;          ///< of the communicator
     LocalIndex count = 0;  ///< of points
 };
 
-/// Who sends what to whom, which transfer() does; entry k of each list on this side describes one
+/// Points to send and to receive, for transfer(); entry k of each export or import list is one
 /// point.
 struct Plan {
     LocalIndex num_points = 0;               ///< that this rank holds before
     std::vector<LocalIndex> export_indices;  ///< of my points that leave, ascending
-    std::vector<int> export_ranks;           ///< where they go
+    std::vector<int> export_ranks;           ///< their destinations
     std::vector<Part> export_parts;          ///< their new parts
-    std::vector<int> import_ranks;           ///< where my new points come from, ascending
+    std::vector<int> import_ranks;           ///< sources of my new points, ascending
     std::vector<LocalIndex> import_indices;  ///< their index there, ascending per rank
     std::vector<Part> import_parts;          ///< their new parts
 };
 
 /// Makes the export and import lists of the points whose rank changes.
+///
+///     const rrcb::Plan moves = rrcb::plan(balance.parts, num_parts, comm);
 ///
 /// Collective over `comm`. `parts` has one entry in 0 ... num_parts - 1 per local point. Throws
 /// Error on every rank alike if some rank names a part outside that range, another num_parts, or

@@ -38,11 +38,11 @@ struct Box {
 /// Borrowed view of one rank's points, 1-D to 3-D, interleaved (xyzxyz...), one array per axis, or
 /// at any other stride, as members of structs are.
 ///
-/// Coordinate a of point i is `axes[a][i * stride]`; the axes may lie in one array or in several.
-/// Coordinates of type float lie in `float_axes` instead, and are the doubles of the same values.
-/// `weights` is empty (every point weighs 1) or holds one finite, non-negative weight per point.
-/// The arrays must outlive the view. Nothing is checked here: `balance` checks on all ranks
-/// together, so that no rank fails alone.
+/// Coordinate a of point i is `axes[a][i * stride]`; the axes may be in one array or in several.
+/// Floats are in `float_axes` instead, and count as the doubles of the same values. `weights` is
+/// empty (every point weighs 1) or holds one finite, non-negative weight per point. The arrays must
+/// outlive the view. Nothing is checked here: `balance` checks on all ranks together, so that no
+/// rank fails alone.
 struct Points {
     int dimension = 0;       ///< 1 to 3, on every rank the same
     LocalIndex count = 0;    ///< points of this rank
@@ -103,7 +103,7 @@ RRCB_API Points column_points(std::span<const std::span<const float>> columns,
 
 /// Returns the smallest box that holds all points; the empty box if there are none. Not collective.
 ///
-/// NaN on the axes on which a coordinate is NaN or infinite.
+/// The box is NaN on axes with a coordinate that is NaN or infinite.
 RRCB_API Box bounding_box(const Points& points);
 
 }  // namespace rrcb

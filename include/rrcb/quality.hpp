@@ -13,18 +13,18 @@ struct Balance;
 
 /// Returns heaviest part / mean part: max_p (weight_p / size_p) * sum(size) / sum(weight).
 ///
-/// Not collective. `part_sizes` are relative, one per part, or empty for equal parts; parts of size
-/// 0 are left out unless they hold weight, then the imbalance is infinite. 1 if there is no weight
-/// at all; NaN if the sum of the weights is not finite. Throws Error if there are sizes for another
-/// number of parts.
+/// Not collective. `part_sizes` are relative, one per part, or empty for equal parts. Parts of size
+/// 0 are left out unless they hold weight; then the imbalance is infinite. It is 1 if there is no
+/// weight at all, NaN if the sum of the weights is not finite. Throws Error if there are sizes for
+/// another number of parts.
 RRCB_API double imbalance(std::span<const double> part_weights,
                           std::span<const double> part_sizes = {});
 
 /// Returns the load unbalance of each part in percent: (ideal - actual) / ideal * 100. Not
 /// collective.
 ///
-/// One entry per part; sizes as above. The Lu of the CILAMCE 2020 paper: negative when a part holds
-/// too much; 0 for a part of size 0.
+/// One entry per part; sizes as for imbalance(). The Lu of the CILAMCE 2020 paper: negative if a
+/// part holds too much; 0 for a part of size 0.
 RRCB_API std::vector<double> load_unbalance_percent(std::span<const double> part_weights,
                                                     std::span<const double> part_sizes = {});
 
@@ -40,7 +40,7 @@ RRCB_API double worst_load_unbalance_percent(std::span<const double> part_weight
 RRCB_API std::vector<double> part_weights(const Points& points, std::span<const Part> parts,
                                           int num_parts, MPI_Comm comm);
 
-/// Returns the same for the parts of a balance of these points. Collective over `comm`.
+/// Returns the weight of every part of a balance of these points. Collective over `comm`.
 RRCB_API std::vector<double> part_weights(const Points& points, const Balance& balance,
                                           MPI_Comm comm);
 
@@ -51,7 +51,7 @@ RRCB_API std::vector<double> part_weights(const Points& points, const Balance& b
 RRCB_API double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
                                MPI_Comm comm);
 
-/// Returns the same for the parts of a balance of these points. Collective over `comm`.
+/// Returns the share that moves by a balance of these points. Collective over `comm`.
 RRCB_API double moved_fraction(const Points& points, const Balance& balance, MPI_Comm comm);
 
 }  // namespace rrcb

@@ -10,10 +10,10 @@
 
 namespace rrcb {
 
-/// A permutation of the part numbers, and what it saves; the same on every rank.
+/// A permutation of the part numbers, and the points that it keeps; the same on every rank.
 struct Remap {
     std::vector<Part> numbers;    ///< new number of each part
-    bool identity = true;         ///< numbers[p] is p: nothing to gain
+    bool identity = true;         ///< numbers[p] is p: no gain
     GlobalCount num_points = 0;   ///< over all ranks
     GlobalCount kept_before = 0;  ///< of the points, those that stay when no number changes
     GlobalCount kept_after = 0;   ///< those that stay under the new numbers, never fewer
@@ -21,23 +21,23 @@ struct Remap {
 
 /// Numbers the parts of a new partition so that many points stay on their rank.
 ///
-/// Collective over `comm`: one pass to rank 0, which decides, and one broadcast; with more parts
-/// and ranks than Tuning::central_parts, passes through all ranks, which find the same numbers.
-/// `parts` is the new part of each local point. `ranks_of_parts` has one entry per part, ascending,
-/// the same on every rank. Of several ranks of a part the first one counts.
+/// Collective over `comm`. `parts` is the new part of each local point. `ranks_of_parts` has one
+/// entry per part, ascending, the same on every rank; of several ranks of a part the first one
+/// counts. Parts of a group of `shape`, that of the cuts, stay in one group, so that the parts of a
+/// machine do. Sizes of parts are ignored. The largest overlap of a rank and a part gets its number
+/// first, which keeps at least half of the points that any numbers can keep; each rank sends its
+/// largest overlaps. Numbers that gain nothing are left unchanged.
 ///
-/// The largest overlap of a rank and a part gets its number first, which keeps at least half of the
-/// points that any numbers can keep. Each rank sends its largest overlaps. Numbers that gain
-/// nothing are left as they are. Sizes of parts are ignored. Parts of a group of `shape`, that of
-/// the cuts, stay in one group, so that the parts of a machine do. Throws Error on every rank if
-/// one names a part that does not exist, ranks that differ or do not exist, or has no memory.
+/// Throws Error on every rank if one names a part that does not exist, ranks that differ or do not
+/// exist, or has no memory. Cost: one pass to rank 0, which decides, and one broadcast; with more
+/// parts and ranks than Tuning::central_parts, passes through all ranks.
 RRCB_API Remap remap(std::span<const Part> parts, std::span<const RankRange> ranks_of_parts,
                      MPI_Comm comm, const TreeShape& shape = {});
 
 /// Numbers the parts so that many points keep the number of their part.
 ///
-/// As above. `previous` is the part that each local point was in, as long as `parts`; numbers of
-/// parts that no longer exist count nothing.
+/// Collective; otherwise as remap() above. `previous` is the part that each local point was in, as
+/// long as `parts`; earlier parts that no longer exist are ignored.
 RRCB_API Remap remap(std::span<const Part> parts, std::span<const Part> previous,
                      std::span<const RankRange> ranks_of_parts, MPI_Comm comm,
                      const TreeShape& shape = {});

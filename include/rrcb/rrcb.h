@@ -2,12 +2,12 @@
 #define RRCB_H
 
 /** @file
- * The library in C. Headers of rrcb/c/ have the functions; those of the same names in C++ are the
- * manual of what is only named there.
+ * The library in C. The functions are in the headers of rrcb/c/. Their comments are short: the C++
+ * functions of the same names are documented in full.
  *
  * Every function that can fail returns RRCB_OK or another rrcb_code. From a collective function all
- * ranks of the communicator get the same code and text; a null handle alone is an error of its
- * rank. No exception leaves a function. A handle is used by one thread at a time. */
+ * ranks of the communicator get the same code and text, except that a null handle is an error only
+ * on its rank. No exception leaves a function. A handle is used by one thread at a time. */
 
 #include <rrcb/c/balancer.h>
 #include <rrcb/c/controller.h>
@@ -20,9 +20,9 @@
 extern "C" {
 #endif
 
-/** What a function returns. */
+/** Result of a function. */
 typedef enum rrcb_code {
-    RRCB_OK = 0,               /**< it did what was asked for */
+    RRCB_OK = 0,               /**< success */
     RRCB_INVALID_ARGUMENT = 1, /**< the caller's mistake: points, weights or options */
     RRCB_OUT_OF_MEMORY = 2,    /**< an allocation failed on some rank */
     RRCB_MPI_ERROR = 3,        /**< an MPI call returned an error */
@@ -33,7 +33,7 @@ typedef enum rrcb_code {
  * static. */
 RRCB_API const char* rrcb_version(void);
 
-/** Returns what the library was built from and with, as rrcb::build_info. Not collective; static.
+/** Returns version, commit, compiler, MPI and options, as rrcb::build_info. Not collective; static.
  */
 RRCB_API const char* rrcb_build_info(void);
 

@@ -6,14 +6,14 @@
 
 namespace rrcb {
 
-/// Stages of a call of `balance`, in this order; see StageObserver for those that come again.
+/// Stages of a call of `balance`, in this order; see StageObserver for repeated ones.
 enum class Stage {
-    moments,     ///< local: what this rank contributes, in place of its points
+    moments,     ///< local: the points are reduced to the contribution of this rank
     gather,      ///< the contributions travel to the root
-    bisection,   ///< local to the root, and seen there alone
+    bisection,   ///< on the root, and observed only there
     broadcast,   ///< the cuts travel to every rank, which includes the wait for the root
-    refinement,  ///< the cuts are moved by what the ranks hold, and the points assigned by them
-    assignment   ///< local: the points assigned by the estimated cuts, where none are refined; by
+    refinement,  ///< the cuts are moved by counts of the points, and the points assigned by them
+    assignment   ///< local: the points assigned by the estimated cuts, if none are refined; by
                  ///< earlier cuts before the gather
 };
 

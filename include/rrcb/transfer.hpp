@@ -17,9 +17,9 @@ namespace rrcb {
 
 /// Borrowed view of a column of the points: `components` consecutive values for each of them.
 ///
-/// Values are trivially copyable, such as numbers or structs of numbers, and not bool, of which a
-/// std::vector is no array. Ranks compare whether values are whole numbers, floating-point numbers
-/// or of another type, their size, and `components`.
+/// Values are trivially copyable, such as numbers or structs of numbers, but not bool, because a
+/// std::vector of bool is no array. Ranks compare the kind of the values (integer, floating-point
+/// or other), their size, and `components`.
 template <class T>
 struct Column {
     static_assert(std::is_trivially_copyable_v<T> && !std::is_same_v<T, bool>);
@@ -34,7 +34,7 @@ auto column(const Values& values, std::size_t components = 1) {
     return Column<std::ranges::range_value_t<Values>>{values, components};
 }
 
-/// Returns the same view. Not collective.
+/// Returns a view unchanged. Not collective.
 template <class T>
 Column<T> column(const Column<T>& same) {
     return same;
@@ -49,8 +49,8 @@ auto columns(const Columns&... each) {
 
 /// Bounds of one call, the same on every rank.
 struct TransferLimits {
-    /// Most memory for messages on each rank, beside the columns themselves: half for those that
-    /// leave, half for those that come. Each must hold one point with all its columns.
+    /// Most memory for messages on each rank, besides the columns themselves: half for those that
+    /// leave, half for those that come. Each half must hold one point with all its columns.
     std::size_t bytes = std::size_t{64} << 20;
 };
 
@@ -63,7 +63,7 @@ struct TransferReport {
 
 namespace detail {
 
-/// Kind of a value: the same on every rank of a program, as no address or name of its type is.
+/// Kind of a value: the same on every rank of a program, unlike an address or a name of its type.
 enum class ValueKind { integer, floating_point, other };
 
 template <class T>
@@ -129,20 +129,21 @@ auto moved(const AnyPlan& plan, const Values& values, MPI_Comm comm, const Trans
 
 }  // namespace detail
 
-/// Moves columns of the points along a plan; returns a tuple of vectors for several columns(), and
-/// a vector for one column(), or for a vector or an array with one value for each point.
+/// Moves columns of the points along a plan.
+///
+///     const auto columns = rrcb::columns(rrcb::column(xyz, 3), mass);
+///     auto [new_xyz, new_mass] = rrcb::transfer(moves, columns, comm);
 ///
 /// Collective over `comm`, that of the plan: every rank gives the same columns in the same order,
-/// empty on a rank without points. The result holds the points that stay, in their order, then
-/// those that come, in the order of the plan's import lists. So columns moved in separate calls fit
-/// each other, and plan.import_parts is the tail of the parts. Nothing is lost if a call fails.
+/// empty on a rank without points. Returns a tuple of vectors for columns(), one vector for a
+/// column(), a vector or an array: first the points that stay, in their order, then those that
+/// come, in the order of the plan's import lists. Columns moved in separate calls therefore fit
+/// each other. `report` may be null. If a call fails, the given columns are unchanged.
 ///
 /// Throws Error on every rank alike if one has columns or lists that do not fit the plan or the
-/// other ranks, other limits, or no memory; on one rank alone if a message fails. `report` may be
-/// null. Cost: ceil(log2 R) messages from each of R ranks, one more from some, one reduction, then
-/// one message for each pair between which points move, more if it is longer than an eighth of
-/// `limits.bytes`; 8 bytes for each point that leaves, and 100 for each rank to send to or receive
-/// from.
+/// other ranks, other limits, or no memory; on one rank only if a message fails. Cost: ceil(log2 R)
+/// messages from each of R ranks, one more from some, one reduction, and one message for each pair
+/// between which points move, or several within `limits.bytes`.
 template <class Columns>
 auto transfer(const Plan& plan, const Columns& columns, MPI_Comm comm,
               const TransferLimits& limits = {}, TransferReport* report = nullptr) {

@@ -2,7 +2,7 @@
 
 namespace rrcb {
 
-/// Shape of a tree of cuts: the parts that lie below each of them.
+/// Shape of a tree of cuts: the number of parts below each of them.
 ///
 /// The ends of the tree, from the lowest, are the parts of one group after the other. The parts of
 /// a group have consecutive numbers, so that end k is part k, or are dealt to the groups in turn.
@@ -14,8 +14,8 @@ struct TreeShape {
     int group_size = 1;  ///< parts in a group, such as those of one machine, >= 1; the last group
                          ///< may have fewer
     bool larger_below = false;  ///< side of the larger half if the number is odd
-    int dealt = 0;  ///< so many consecutive parts go to the first group, the next to the second
-                    ///< ...; 0: all of a group are consecutive
+    int dealt = 0;  ///< so many consecutive parts go to the first group, the next to the second,
+                    ///< ...; 0: all parts of a group are consecutive
 
     /// Returns the number of a node's parts below its cut; `num_parts` >= 2. Not collective.
     constexpr int lower_parts(int num_parts) const {
@@ -23,14 +23,15 @@ struct TreeShape {
         return lower_half(num_groups(num_parts)) * group_size;
     }
 
-    /// Returns the part at an end of a tree of `num_parts`, which number_fits(). Not collective.
+    /// Returns the part at an end of a tree of `num_parts`, for which number_fits(). Not
+    /// collective.
     constexpr int part_at(int end, int num_parts) const {
         if (dealt == 0) return end;
         const int turn = end % group_size / dealt * num_groups(num_parts) + end / group_size;
         return turn * dealt + end % dealt;
     }
 
-    /// Returns the end of the tree at which a part is; the reverse of part_at(). Not collective.
+    /// Returns the end of the tree of a part; the reverse of part_at(). Not collective.
     constexpr int end_of(int part, int num_parts) const {
         if (dealt == 0) return part;
         const int turn = part / dealt;

@@ -9,8 +9,8 @@ namespace rrcb {
 /// RRCB_VERSION_STRING. Not collective; the string is static.
 RRCB_API const char* version();
 
-/// Returns what the library was built from and with: a line each for version, commit, compiler, MPI
-/// and options, as "name: value". Not collective; the string is static.
+/// Returns a line each for the version, commit, compiler, MPI and options of the library, as "name:
+/// value". Not collective; the string is static.
 RRCB_API const char* build_info();
 
 }  // namespace rrcb

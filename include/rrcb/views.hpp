@@ -26,7 +26,7 @@ concept StridedView = requires(const View& view) {
     view.stride(0);
 };
 
-/// Sets one axis. Nothing is thrown here: balance() refuses a stride of 0 on all ranks together.
+/// Sets one axis. Throws nothing: balance() refuses a stride of 0 on all ranks together.
 template <Scalar T>
 void set_axis(Points& points, int axis, const T* first, LocalIndex count, std::ptrdiff_t stride) {
     if (axis == 0) points.count = count;

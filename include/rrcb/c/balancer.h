@@ -15,7 +15,7 @@ typedef struct rrcb_balancer rrcb_balancer;
 /** One cut, as rrcb::Cut. */
 typedef struct rrcb_cut {
     int32_t axis;    /**< that the cut is across */
-    int32_t divides; /**< 1: of the points exactly at it some lie below */
+    int32_t divides; /**< 1: some of the points exactly at it are below */
     double at[3];    /**< a plane at at[axis]; ties are broken by the others */
 } rrcb_cut;
 
@@ -29,7 +29,7 @@ typedef struct rrcb_cuts {
     int dealt;            /**< of rrcb::TreeShape, 0 or more */
 } rrcb_cuts;
 
-/** Of the last balance, as rrcb::Report; the same on every rank. */
+/** Report of the last balance, as rrcb::Report; the same on every rank. */
 typedef struct rrcb_report {
     double imbalance;           /**< heaviest part / mean part, counted; NaN if not counted */
     int within_tolerance;       /**< 1: `imbalance` is within the tolerance */
@@ -53,7 +53,7 @@ RRCB_API int rrcb_create(MPI_Comm comm, rrcb_balancer** balancer);
 /** Makes a balancer from a communicator of Fortran. Collective. */
 RRCB_API int rrcb_create_fortran(MPI_Fint comm, rrcb_balancer** balancer);
 
-/** Frees a balancer, which may be null, and what it has given. Not collective. */
+/** Frees a balancer, which may be null, and the cuts and the plan it has shown. Not collective. */
 RRCB_API void rrcb_destroy(rrcb_balancer* balancer);
 
 /** Sets an option by its name in rrcb::Options, to a text as docs/parameters.md lists them:
@@ -79,14 +79,14 @@ RRCB_API int rrcb_rebalance(rrcb_balancer* balancer, const rrcb_points* points, 
  *  rrcb::release_buffers. Not collective. */
 RRCB_API int rrcb_release_buffers(rrcb_balancer* balancer);
 
-/** Writes the report of the last balance. Not collective. An error before the first. */
+/** Writes the report of the last balance. Not collective. Fails before the first. */
 RRCB_API int rrcb_get_report(const rrcb_balancer* balancer, rrcb_report* report);
 
 /** Shows the cuts, which belong to the balancer until it gets others. Not collective.
  *
- *  An error before the first balance or rrcb_set_cuts, as of all functions that need cuts. After
- *  rrcb_set("cuts", "OWN") also an error of this rank alone if it has some cuts only, see
- *  rrcb::Cuts; call rrcb_gather_cuts before. */
+ *  Fails before the first balance or rrcb_set_cuts, as all functions that need cuts. After
+ *  rrcb_set("cuts", "OWN") also fails on this rank only if it has only some cuts, see rrcb::Cuts;
+ *  call rrcb_gather_cuts before. */
 RRCB_API int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts);
 
 /** Gives each rank's balancer all cuts, if each has some of them, as rrcb::gather_cuts.
@@ -103,8 +103,8 @@ RRCB_API int rrcb_part_of(const rrcb_balancer* balancer, const double* position,
 
 /** Writes the parts of any positions by the cuts, as rrcb::assign. Not collective.
  *
- *  After rrcb_set("cuts", "OWN") an error of this rank alone if it lacks a cut above a position;
- *  call rrcb_assign_all instead. */
+ *  After rrcb_set("cuts", "OWN") fails on this rank only if it lacks a cut above a position; call
+ *  rrcb_assign_all instead. */
 RRCB_API int rrcb_assign(const rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts);
 
 /** Writes the parts of any positions, whichever cuts the ranks have; as rrcb::assign_all.
@@ -114,7 +114,7 @@ RRCB_API int rrcb_assign_all(const rrcb_balancer* balancer, const rrcb_points* p
 
 /** Writes the region of a part by the cuts: `lower` and `upper` of length 3. Not collective.
  *
- *  After rrcb_set("cuts", "OWN") an error of this rank alone if it lacks a cut above the part;
+ *  After rrcb_set("cuts", "OWN") fails on this rank only if it lacks a cut above the part;
  *  call rrcb_gather_cuts before. */
 RRCB_API int rrcb_box_of(const rrcb_balancer* balancer, int32_t part, double* lower, double* upper);
 
@@ -130,8 +130,8 @@ RRCB_API int rrcb_parts_touching(const rrcb_balancer* balancer, const double* lo
  *  the parts are those of the cuts. Collective. */
 RRCB_API int rrcb_make_plan(rrcb_balancer* balancer, size_t count, const int32_t* parts);
 
-/** Shows the plan, which belongs to the balancer until it makes another. Not collective. An error
- *  before the first, as of rrcb_transfer. */
+/** Shows the plan, which belongs to the balancer until it makes another. Not collective. Fails
+ *  before the first, as rrcb_transfer. */
 RRCB_API int rrcb_get_plan(const rrcb_balancer* balancer, rrcb_plan* plan);
 
 /** Moves columns along the plan, as rrcb::transfer: first the points that stay, then those that

@@ -10,7 +10,7 @@ extern "C" {
 /** Decides when to rebalance. */
 typedef struct rrcb_controller rrcb_controller;
 
-/** Learns what points cost. */
+/** Learns the costs of points. */
 typedef struct rrcb_cost_model rrcb_cost_model;
 
 /** Makes a controller, which belongs to the caller; as rrcb::Controller. Collective. */
@@ -54,7 +54,7 @@ RRCB_API int rrcb_cost_model_create_fortran(MPI_Fint comm, rrcb_controller* cont
 RRCB_API void rrcb_cost_model_destroy(rrcb_cost_model* model);
 
 /** Records a step: the seconds of this rank's own work, and its number of each column. With a
- *  controller also its step, whose answer rrcb_controller_due has. Collective. */
+ *  controller also its step; rrcb_controller_due then returns the decision. Collective. */
 RRCB_API int rrcb_cost_model_step(rrcb_cost_model* model, double seconds, size_t num_columns,
                                   const double* columns);
 
@@ -69,7 +69,8 @@ RRCB_API int rrcb_cost_model_costs(const rrcb_cost_model* model, double* costs);
 /** Writes 1 if weights are by the costs, 0 if points are counted. Not collective. */
 RRCB_API int rrcb_cost_model_uses_costs(const rrcb_cost_model* model, int* uses_costs);
 
-/** Returns why in a sentence, valid until the next call; empty for a null model. Not collective. */
+/** Returns a sentence: whether costs are used, and why; valid until the next call; empty for a null
+ * model. Not collective. */
 RRCB_API const char* rrcb_cost_model_report(rrcb_cost_model* model);
 
 #ifdef __cplusplus

@@ -10,7 +10,7 @@ extern "C" {
 /** Points that ranks send and receive as ghosts, and their communicator. */
 typedef struct rrcb_ghosts rrcb_ghosts;
 
-/** Distances at which points are needed, and where points and parts are; as rrcb::GhostOptions. */
+/** Distances at which points are needed, and the ranks of the parts; as rrcb::GhostOptions. */
 typedef struct rrcb_ghost_options {
     double radius;       /**< cut-off of all points, in the unit of the coordinates */
     const double* radii; /**< one for each point instead; null: none */
@@ -26,11 +26,11 @@ typedef struct rrcb_ghost_plan {
     size_t num_points;              /**< that this rank holds */
     size_t num_ghosts;              /**< that it gets */
     size_t num_send_ranks;          /**< length of `send` */
-    const rrcb_rank_count* send;    /**< how many points which ranks need; ranks ascending */
+    const rrcb_rank_count* send;    /**< points that each rank needs; ranks ascending */
     size_t num_sent;                /**< length of `send_indices` */
     const size_t* send_indices;     /**< for one rank after the other, ascending for each */
     size_t num_receive_ranks;       /**< length of `receive` */
-    const rrcb_rank_count* receive; /**< how many come from which ranks; ranks ascending */
+    const rrcb_rank_count* receive; /**< ghosts from each rank; ranks ascending */
     const int32_t* shifts;          /**< three for each ghost: periods along each axis; null without
                                          a periodic box */
 } rrcb_ghost_plan;
@@ -42,13 +42,13 @@ typedef struct rrcb_ghost_plan {
 RRCB_API int rrcb_ghosts_create(const rrcb_balancer* balancer, const rrcb_points* points,
                                 const rrcb_ghost_options* options, rrcb_ghosts** ghosts);
 
-/** Frees ghosts, which may be null, and what they have given. Not collective. */
+/** Frees ghosts, which may be null, and their lists. Not collective. */
 RRCB_API void rrcb_ghosts_destroy(rrcb_ghosts* ghosts);
 
 /** Shows the lists, which belong to the ghosts. Not collective. */
 RRCB_API int rrcb_ghosts_get_plan(const rrcb_ghosts* ghosts, rrcb_ghost_plan* plan);
 
-/** Fetches columns of the ghosts, as rrcb::fetch, which also says how long `ghosts` may be used.
+/** Fetches columns of the ghosts, as rrcb::fetch; see there how long `ghosts` may be used.
  *
  *  Collective. A column has an entry for each of plan.num_points points, its result for each of
  *  plan.num_ghosts. `limits` may be null, for the default, and so may `report`. */

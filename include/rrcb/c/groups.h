@@ -13,7 +13,7 @@ extern "C" {
 /** Points that go to one part together, as one point each; as rrcb::Groups. */
 typedef struct rrcb_groups rrcb_groups;
 
-/** Position that stands for a group, as rrcb::GroupPlace. */
+/** Position of a group, as rrcb::GroupPlace. */
 typedef enum rrcb_group_place {
     RRCB_CENTRE = 0,     /**< of weight */
     RRCB_FIRST_POINT = 1 /**< of the lowest rank that has one */
@@ -21,12 +21,12 @@ typedef enum rrcb_group_place {
 
 /** Finds the groups of all points with equal keys, as rrcb::groups. They belong to the caller.
  *
- *  Collective over the communicator of the balancer, whose cuts do not matter. `keys` has an entry
+ *  Collective over the communicator of the balancer, whose cuts are not used. `keys` has an entry
  *  for each point. If it fails, `*groups` is left unchanged. */
 RRCB_API int rrcb_groups_create(const rrcb_balancer* balancer, const rrcb_points* points,
                                 const uint64_t* keys, rrcb_group_place place, rrcb_groups** groups);
 
-/** Frees groups, which may be null, and what they have given. Not collective. */
+/** Frees groups, which may be null, and their points. Not collective. */
 RRCB_API void rrcb_groups_destroy(rrcb_groups* groups);
 
 /** Shows the groups of this rank as points, for rrcb_balance; they belong to the groups. Not

@@ -13,7 +13,7 @@ typedef struct rrcb_rank_range {
     int count;      /**< of ranks */
 } rrcb_rank_range;
 
-/** So many points, to or from one rank; as rrcb::RankCount. */
+/** Number of points to or from one rank, as rrcb::RankCount. */
 typedef struct rrcb_rank_count {
     int rank;     /**< of the communicator */
     size_t count; /**< of points */
@@ -25,15 +25,15 @@ typedef struct rrcb_plan {
     size_t num_points_after;      /**< that it holds then */
     size_t num_exports;           /**< length of the lists of exports */
     const size_t* export_indices; /**< of my points that leave, ascending */
-    const int* export_ranks;      /**< where they go */
+    const int* export_ranks;      /**< their destinations */
     const int32_t* export_parts;  /**< their new parts */
     size_t num_imports;           /**< length of the lists of imports */
-    const int* import_ranks;      /**< where my new points come from, ascending */
+    const int* import_ranks;      /**< sources of my new points, ascending */
     const size_t* import_indices; /**< their index there, ascending per rank */
     const int32_t* import_parts;  /**< their new parts */
 } rrcb_plan;
 
-/** A column of the points, and room for its result elsewhere. The type and the components are the
+/** A column of the points, and room for its result. The type and the components are the
  *  same on every rank. */
 typedef struct rrcb_column {
     rrcb_type type;    /**< of the values */
@@ -54,7 +54,7 @@ typedef struct rrcb_transfer_report {
     size_t num_messages; /**< sent */
 } rrcb_transfer_report;
 
-/** What new numbers of parts save over all ranks, as rrcb::Remap. */
+/** Points that stay under the old and new numbers of parts, over all ranks; as rrcb::Remap. */
 typedef struct rrcb_kept {
     int identity;        /**< 1: no number changes */
     int64_t num_points;  /**< over all ranks */

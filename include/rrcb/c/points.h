@@ -22,7 +22,7 @@ typedef enum rrcb_type {
 /** Borrowed view of one rank's points, as rrcb::Points. Zero is a view of no points of no
  * dimension.
  *
- *  Coordinate a of point i lies at axes[a] + i * stride bytes. */
+ *  Coordinate a of point i is at axes[a] + i * stride bytes. */
 typedef struct rrcb_points {
     int dimension;         /**< 1 to 3, on every rank the same */
     rrcb_type type;        /**< of the coordinates, RRCB_DOUBLE or RRCB_FLOAT */

@@ -17,18 +17,18 @@ struct Bracket {
 /// Cuts of a domain and the weight they leave in each part of it.
 struct Bisection {
     Cuts cuts;                         ///< of the domain
-    std::vector<Bracket> brackets;     ///< of each cut; empty where they were not asked for
-    std::vector<double> part_weights;  ///< length num_parts, as the domain sees it
+    std::vector<Bracket> brackets;     ///< of each cut; empty if they were not asked for
+    std::vector<double> part_weights;  ///< length num_parts, of the domain
 };
 
-/// Bisects a domain recursively, across the first axis that is within a tenth of the longest extent
-/// of what each box holds.
+/// Bisects a domain recursively.
 ///
-/// `part_sizes` are relative, one per part, or empty for equal parts. The weights below and above a
-/// cut are in the ratio of the sizes, exactly for the piecewise-linear cumulative weight of the
-/// patches. Patches without extent on the plane are divided along the other axes. Parts of size 0
-/// get an empty region. Not collective. Throws Error for a number of parts below 1, sizes that
-/// Options::part_sizes could not be, or a dimension that is none.
+/// Each box is cut across the first axis whose extent of the weight is within a tenth of the
+/// longest. `part_sizes` are relative, one per part, or empty for equal parts. The weights below
+/// and above a cut are in the ratio of the sizes, exactly for the piecewise-linear cumulative
+/// weight of the patches. Patches without extent on the plane are divided along the other axes.
+/// Parts of size 0 get an empty region. Not collective. Throws Error for a number of parts below 1,
+/// illegal sizes (see Options::part_sizes), or an illegal dimension.
 RRCB_API Bisection bisect(StatisticalDomain domain, int num_parts,
                           std::span<const double> part_sizes);
 

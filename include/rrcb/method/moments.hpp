@@ -33,14 +33,14 @@ RRCB_API Moments merge(const Moments& a, const Moments& b);
 
 /// Returns the moments of every cell that holds weight, in the order of the cells. Not collective.
 ///
-/// The points must be finite and lie in the box of `mesh`, in any order, which is not checked.
-/// Throws Error for another dimension than that of the mesh, arrays that do not fit together, or
-/// weights that are negative, NaN or infinite.
+/// The points must be finite and in the box of `mesh`, in any order, which is not checked. Throws
+/// Error for another dimension than that of the mesh, arrays that do not fit together, or weights
+/// that are negative, NaN or infinite.
 ///
 /// Shifted sums (Chan, Golub, LeVeque: Algorithms for computing the sample variance, 1983, section
-/// 3), about the first point of each cell, and in a second pass about the mean if that point lies
-/// more than four standard deviations off: neither the offset of the cloud nor the spread of
-/// the weights costs more than a digit. When all points weigh 0 their moments are those of the same
+/// 3), about the first point of each cell, and in a second pass about the mean if that point is
+/// more than four standard deviations off. Neither the offset of the points nor the spread of the
+/// weights costs more than a digit. If all points weigh 0, their moments are those of the same
 /// points with weight 1, under weight 0.
 RRCB_API std::vector<CellMoments> cell_moments(const Points& points, const SupportMesh& mesh);
 

@@ -7,7 +7,8 @@
 
 namespace rrcb {
 
-/// Weight spread over a box, along each axis for itself; in one place where `lower` equals `upper`.
+/// Weight spread over a box, along each axis independently; at one position if `lower` equals
+/// `upper`.
 ///
 /// Along an axis the density, relative to its mean, is 1 + slope u + bow (3 u^2 - 1) / 2 >= 0 with
 /// u from -1 at `lower` to 1 at `upper`: the first Legendre polynomials. So slope / 3 is the mean
@@ -20,7 +21,7 @@ struct Patch {
     Vector bow{};       ///< of the density, per axis
 };
 
-/// What the root bisects: an approximation of all points, made of patches.
+/// The approximation of all points that the root bisects, made of patches.
 struct StatisticalDomain {
     int dimension = 0;             ///< of the points
     std::vector<Patch> patches{};  ///< in any order; they may overlap
@@ -29,11 +30,11 @@ struct StatisticalDomain {
 /// Returns a patch per cell, or a few, with the cell's mean and standard deviation. Not collective.
 ///
 /// Along an axis the density is quadratic on the longest interval inside the cell on which it is
-/// nowhere negative: to second order the one of greatest entropy. If there is none, it is two
-/// uniform densities: between the mean and both faces or, if sigma is greater still, at both faces.
-/// The cell counts as far as it lies in `box`, which holds all points; a mean outside comes to its
-/// face, and sigma is at most that of points at both faces. If all weights are 0 the counts take
-/// their place.
+/// nowhere negative: to second order the density of greatest entropy. If there is none, two uniform
+/// densities replace it: between the mean and both faces or, if sigma is greater still, at both
+/// faces. The cell counts as far as it is in `box`, which holds all points. A mean outside is moved
+/// to the face, and sigma is at most that of points at both faces. If all weights are 0 the counts
+/// take their place.
 RRCB_API StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension,
                                            const Box& box);
 

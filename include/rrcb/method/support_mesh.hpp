@@ -16,7 +16,7 @@ struct SupportMesh {
 };
 
 /// Lays `cells_per_axis` cells over each axis of `box`. Not collective. Throws Error for less than
-/// one cell, or a dimension that is none.
+/// one cell, or an illegal dimension.
 RRCB_API SupportMesh make_support_mesh(const Box& box, int dimension, int cells_per_axis);
 
 /// Returns the number of cells, the product over the axes. Not collective.
@@ -26,7 +26,7 @@ RRCB_API LocalIndex num_cells(const SupportMesh& mesh);
 /// collective.
 RRCB_API LocalIndex cell_of(const SupportMesh& mesh, const Vector& position);
 
-/// Returns the box of a cell; adjacent cells share their faces to the bit. Not collective.
+/// Returns the box of a cell; the shared faces of adjacent cells are bit-identical. Not collective.
 RRCB_API Box cell_box(const SupportMesh& mesh, LocalIndex cell);
 
 }  // namespace rrcb

@@ -21,14 +21,15 @@ RRCB_API Teuchos::RCP<const Teuchos::ParameterList> valid_parameters();
 /// it is used.
 RRCB_API Teuchos::ParameterList read_parameters(const std::string& file);
 
-/// Returns the options that a list asks for; what it does not name keeps its default.
+/// Returns the options of a list; an option that it does not name keeps its default.
 ///
-/// RRCB_DUMP and RRCB_DUMP_WHEN concern the plug-in alone and are checked only. A
-/// whole number may stand for a real one. Not collective; `balance` checks that ranks
-/// agree. Throws Error for an unknown name, a wrong type or a value out of range.
+/// RRCB_DUMP and RRCB_DUMP_WHEN are for the plug-in only, and are only checked. A whole number may
+/// stand for a real one. Not collective; `balance` checks that ranks agree. Throws Error for an
+/// unknown name, a wrong type or a value out of range.
 RRCB_API Options options_from(const Teuchos::ParameterList& list);
 
-/// Returns names and values of what a list sets, for Zoltan_Set_Param; see zoltan_parameters.hpp.
+/// Returns names and values of the settings of a list, for Zoltan_Set_Param; see
+/// zoltan_parameters.hpp.
 ///
 /// Not collective. Throws Error as options_from().
 RRCB_API std::vector<std::pair<std::string, std::string>> zoltan_strings(

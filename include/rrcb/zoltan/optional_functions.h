@@ -15,7 +15,7 @@ extern "C" {
 
 struct Zoltan_Struct;
 
-/** Returns the node `node` of the tree of cuts, as Zoltan's zoltan_partition_tree.h has it. */
+/** Returns the node `node` of the tree of cuts, as in Zoltan's zoltan_partition_tree.h. */
 int Zoltan_RCB_Partition_Tree(struct Zoltan_Struct* zz, int node, int* parent, int* left_leaf,
                               int* right_leaf);
 /** Returns the bytes that Zoltan_Serialize needs; 0 if Zoltan lacks it. */

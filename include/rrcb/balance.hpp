@@ -68,7 +68,7 @@ RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm 
 ///     balance = rrcb::rebalance(points, options, balance.cuts, comm);
 ///
 /// Collective over `comm`. `previous` is the same on every rank, or the cuts that each rank got
-/// from a balance on this communicator, and has the dimension and number of parts asked for.
+/// from a balance on `comm`. It has the dimension and the number of parts of this call.
 /// Returns as balance(). The cuts are kept while the parts are within the tolerance, if there are
 /// no points, and always with Refine::none. Otherwise as few points change parts as the tolerance
 /// allows; with Refine::exact all cuts are searched. Limits may move cuts to other axes than

@@ -71,7 +71,7 @@ inline constexpr ValueKind kind_of = std::is_integral_v<T>         ? ValueKind::
                                      : std::is_floating_point_v<T> ? ValueKind::floating_point
                                                                    : ValueKind::other;
 
-/// A column without its type, and where its result goes.
+/// A column without its type, and the place of its result.
 struct ByteColumn {
     const std::byte* from;
     std::size_t num_values;

@@ -11,7 +11,8 @@ namespace rrcb {
 /// Cells of several ranks, of their support meshes or of a lattice.
 ///
 /// The lattice of an exponent e divides all of space into cubes with edges of 2^e and corners at
-/// multiples of 2^e, so that the cubes of a greater exponent are unions of those of a smaller one.
+/// multiples of 2^e. The cubes of a greater exponent are therefore unions of those of a smaller
+/// one.
 struct CellSet {
     std::vector<CellMoments> cells;
     int exponent = no_lattice;  ///< the greatest of those that cells were merged on

@@ -120,7 +120,7 @@ Box box_of_axes(const Points& points,
     return box;
 }
 
-/// Throws Error when points lie beyond their arrays.
+/// Throws Error if points are beyond their arrays.
 void check_reach(const Points& points) {
     check_dimension(points.dimension, "points");
     require(points.stride >= 1, "the stride of the points must be at least 1");
@@ -132,7 +132,7 @@ void check_reach(const Points& points) {
     }
 }
 
-/// Sets the axes of points that lie one after another.
+/// Sets the axes of interleaved points.
 template <class Scalar>
 void interleave(std::span<const Scalar> coordinates, Points& points,
                 std::array<std::span<const Scalar>, max_dimension>& axes) {

@@ -1,7 +1,7 @@
 #pragma once
 
-// Compile a function for processors with longer vectors as well; the loader takes what fits. The
-// results are the same: RRCB_VECTOR_CLONES is for functions that compare and select only.
+// Compile a function for processors with longer vectors as well; the loader takes those that fit.
+// The results are the same: RRCB_VECTOR_CLONES is for functions that compare and select only.
 // RRCB_ARITHMETIC_CLONES leaves out instruction sets with fused multiply-adds, which round once.
 #if defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

@@ -100,7 +100,7 @@ void Butterfly::hand_over(int step) {
     held_.keep(stays_here);
 }
 
-/// Puts the answers to what came from a rank in a step into the message.
+/// Puts the answers to records of a rank in a step into the message.
 void Butterfly::reply(int step, int rank) {
     const auto asked = std::ranges::find_if(
         asked_, [&](const Asked& one) { return one.step == step && one.rank == rank; });

@@ -57,7 +57,7 @@ class Stream {
     }
 
   private:
-    /// Consecutive records to or from one rank, and where they are in the buffer.
+    /// Consecutive records to or from one rank, and their place in the buffer.
     struct Piece {
         int rank;
         std::size_t first;

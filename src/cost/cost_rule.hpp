@@ -56,14 +56,14 @@ class CostRule {
     double kept_seconds_ = 0;
     double scatter_ = -1;        ///< rms error of a share, outliers cut off; negative: unknown
     double mean_ = 0;            ///< seconds of a rank in the step before
-    double learned_square_ = 0;  ///< errors of the step before, to be handed in
+    double learned_square_ = 0;  ///< errors of the step before, to be contributed
     double counted_square_ = 0;
     double between_square_ = 0;  ///< of learned and counted prediction
 
-    NormalEquations all_;  ///< of all ranks; fed on rank 0 alone, as is the next
+    NormalEquations all_;  ///< of all ranks; fed only on rank 0, as is the next
     CostGuard guard_;
     bool is_learned_ = false;   ///< the points are divided by learned costs
-    bool was_learned_ = false;  ///< in the step that was handed in
+    bool was_learned_ = false;  ///< in the step that was contributed
 
     CostVector costs_;
     CostState state_;

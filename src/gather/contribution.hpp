@@ -62,7 +62,7 @@ void add_records(const Points& points, const BinnedPoints& binned, Contribution&
 void add_totals(const PartTotals& totals, Contribution& mine);
 
 /// Returns the most cells that merging leaves: a fixed number, whatever the number of ranks, unless
-/// the options choose the mesh. Twice as many lean cells may be handed on as they are.
+/// the options choose the mesh. Twice as many lean cells may be passed on unmerged.
 std::size_t most_cells(const Options& options);
 
 /// Adds the totals of the ranks that follow, and their failures and differences.

@@ -62,8 +62,8 @@ std::pair<std::vector<Fragment>, std::vector<Fragment>> split_by_parts(
     const std::vector<Fragment>& fragments, Part first_above, std::span<const Part> parts,
     SortedPoints& points);
 
-/// Sets the part of every point of the fragments by the cuts at `at` and below, and writes the
-/// weights of these parts into `weights`, which has one entry per part of the whole tree.
+/// Sets the part of every point of the fragments by the cuts at `at` and below. Writes the weights
+/// of these parts into `weights`, which has one entry per part of the whole tree.
 void write_parts(const std::vector<Fragment>& fragments, const Cuts& cuts, const Descent& at,
                  const SortedPoints& points, std::span<Part> parts, std::span<double> weights);
 

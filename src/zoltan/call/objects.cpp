@@ -194,7 +194,7 @@ class Collector {
         }
     }
 
-    /// Allocates memory for later steps: they run between messages, where no rank may fail alone.
+    /// Allocates memory for later steps: they run between messages, when no rank may fail alone.
     void allocate(std::size_t count) {
         const ReturnLists asked = parameters_.return_lists;
         if (asked != ReturnLists::none) objects_.moving = workspace_.moving.get(count);

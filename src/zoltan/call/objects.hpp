@@ -69,7 +69,7 @@ struct Objects {
     int* initial_parts = nullptr;  ///< null without such a callback
     int* moving = nullptr;         ///< room for the indices of those that move; null without lists
     Points points;
-    List room;  ///< holds the ids if they are handed out without another agreement of the ranks
+    List room;  ///< holds the ids if they are returned without another agreement of the ranks
 };
 
 /// Collects objects by the registered callbacks, with at most one weight each. Not collective.

@@ -15,7 +15,7 @@ struct Summary {
     bool is_measured = false;  ///< otherwise estimated
 };
 
-/// Result of Zoltan_LB_Partition beside its code.
+/// Result of Zoltan_LB_Partition besides its code.
 struct Partition : Lists {
     bool changes = false;
     bool with_caller = false;        ///< the arrays are in the caller's variables already

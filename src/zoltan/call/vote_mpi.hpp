@@ -18,7 +18,7 @@ struct LocalStatus {
     }
 
     int code = ZOLTAN_OK;
-    bool may_keep = false;         ///< the last partition has put all objects where they are
+    bool may_keep = false;         ///< all objects are in the parts of the last partition
     bool names_parts = false;      ///< a callback returns the part of each object
     std::array<char, 512> text{};  ///< ends with a 0
 };

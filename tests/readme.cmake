@@ -3,7 +3,7 @@ cmake_minimum_required(VERSION 3.22)
 # cmake -D ROOT=... -P readme.cmake
 #
 # Fails unless each block of C++ shown in the README and in the document of the loop is part of an
-# example, which is compiled and run; the indentation does not count. So must each line of CMake in the
+# example or a test, which are compiled and run; the indentation does not count. So must each line of CMake in the
 # documents of how to install and to begin.
 function(read_flat file result)
   file(READ ${file} text)
@@ -14,8 +14,9 @@ function(read_flat file result)
 endfunction()
 
 set(compiled "")
-foreach(example IN ITEMS quick_start loop)
-  read_flat(${ROOT}/examples/${example}/main.cpp source)
+foreach(program IN ITEMS examples/quick_start/main.cpp examples/loop/main.cpp
+                        tests/mpi/groups_test.cpp)
+  read_flat(${ROOT}/${program} source)
   string(APPEND compiled "${source}")
 endforeach()
 foreach(document IN ITEMS README.md docs/loop.md)
@@ -29,7 +30,7 @@ foreach(document IN ITEMS README.md docs/loop.md)
     string(REGEX REPLACE "^```cpp\n|```$" "" block "${block}")
     string(FIND "${compiled}" "${block}" position)
     if(position EQUAL -1)
-      message(FATAL_ERROR "this C++ in ${document} is in no example:\n${block}")
+      message(FATAL_ERROR "this C++ in ${document} is in no program:\n${block}")
     endif()
   endforeach()
 endforeach()

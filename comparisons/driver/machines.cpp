@@ -200,7 +200,7 @@ std::int64_t bytes_of_fetch(const Case& of, const rrcb::Balance& made, const Wor
         rrcb::ghosts(made.cuts, rrcb::interleaved_points(mine, of.dimension),
                      {.radius = of.radius()}, MPI_COMM_WORLD);
     comparisons::start_counting_traffic();
-    rrcb::fetch(near, rrcb::column(mine, of.dimension), MPI_COMM_WORLD);
+    static_cast<void>(rrcb::fetch(near, rrcb::column(mine, of.dimension), MPI_COMM_WORLD));
     std::int64_t bytes = comparisons::stop_counting_traffic().bytes_between_machines;
     MPI_Allreduce(MPI_IN_PLACE, &bytes, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
     return bytes;

@@ -97,7 +97,8 @@ RRCB_API std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
 /// infinite, points of another dimension than the cuts, cuts that gather_cuts() would refuse, or no
 /// memory. Cost: with complete cuts a local look-up and one reduction; otherwise the ranks ask the
 /// owners of the cuts that they lack, see docs/design/many_ranks.md.
-RRCB_API std::vector<Part> assign_all(const Cuts& cuts, const Points& points, MPI_Comm comm);
+[[nodiscard]] RRCB_API std::vector<Part> assign_all(const Cuts& cuts, const Points& points,
+                                                    MPI_Comm comm);
 
 /// Returns the complete tree of cuts of which each rank holds some; complete cuts are returned
 /// unchanged.

@@ -32,8 +32,9 @@ struct GhostPlan {
 struct GhostOptions {
     double radius = 0;  ///< cut-off of all points, in the unit of the coordinates
     /// One radius for each point instead. Of two points on different ranks, nearer than the greater
-    /// of their radii, at least one is then a ghost on the other's rank. If both ranks compute such
-    /// pairs, give each point the greatest radius of the points near it.
+    /// of their radii, at least one is then a ghost on the other's rank, not always both. If both
+    /// ranks compute such pairs, give each point the greatest radius of the points near it. For
+    /// contacts of spheres give the diameters.
     std::optional<std::span<const double>> radii{};
     /// Box that contains the points, including its faces. It repeats along each axis on which its
     /// two ends are finite; on the others they are infinite. A rank may need several images of one
@@ -49,9 +50,10 @@ struct GhostOptions {
 ///     const rrcb::GhostPlan near = rrcb::ghosts(balance.cuts, points, {.radius = 0.1}, comm);
 ///
 /// Collective over `comm`. A rank needs the points of others whose distance to the closed region of
-/// one of its parts, box_of(cuts, part), is at most the radius plus round-off. Points may be
-/// outside the regions of their rank, and are sent to each rank once. Ranks that share a part need
-/// all points in it of each other. fetch() explains how long a plan may be used.
+/// one of its parts, box_of(cuts, part), is at most the radius plus round-off, once each. If some
+/// points are outside the regions of their rank, such as members of groups, add the greatest of
+/// their distances from these, over all ranks, to the radius; otherwise pairs can be missing. Ranks
+/// that share a part need all points in it of each other. fetch() limits the use of a plan.
 ///
 /// Throws Error on every rank alike: for unusable points or options, a radius that is not finite,
 /// below 0 or above 100 periods, a position outside the periodic box, options or cuts that differ
@@ -66,6 +68,8 @@ RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOpt
 /// Not collective. `positions` hold the axes of one ghost after the other. Throws Error if they do
 /// not fit the plan.
 RRCB_API void apply_shifts(const GhostPlan& plan, std::span<double> positions);
+/// Moves floats in the same way: rounds the position in doubles. Not collective.
+RRCB_API void apply_shifts(const GhostPlan& plan, std::span<float> positions);
 
 namespace detail {
 
@@ -129,8 +133,8 @@ auto accumulated(const GhostPlan& plan, const GhostColumn& of_ghosts, const Poin
 /// in the columns. If its radii include a skin s, it holds all pairs within the true radii until a
 /// point has moved by s / 2. Until then do not wrap positions in a periodic box.
 template <class Columns>
-auto fetch(const GhostPlan& plan, const Columns& columns, MPI_Comm comm,
-           const TransferLimits& limits = {}, TransferReport* report = nullptr) {
+[[nodiscard]] auto fetch(const GhostPlan& plan, const Columns& columns, MPI_Comm comm,
+                         const TransferLimits& limits = {}, TransferReport* report = nullptr) {
     return detail::moved(plan, columns, comm, limits, report);
 }
 
@@ -146,9 +150,9 @@ auto fetch(const GhostPlan& plan, const Columns& columns, MPI_Comm comm,
 /// Throws Error as transfer() does. Cost: the messages and bytes of fetch(), in the other
 /// direction; memory for the values that arrive and 8 bytes for each ghost, besides the result.
 template <class GhostColumns, class Columns>
-auto accumulate(const GhostPlan& plan, const GhostColumns& ghost_columns, const Columns& columns,
-                MPI_Comm comm, const TransferLimits& limits = {},
-                TransferReport* report = nullptr) {
+[[nodiscard]] auto accumulate(const GhostPlan& plan, const GhostColumns& ghost_columns,
+                              const Columns& columns, MPI_Comm comm,
+                              const TransferLimits& limits = {}, TransferReport* report = nullptr) {
     return detail::accumulated(plan, ghost_columns, columns, comm, limits, report);
 }
 

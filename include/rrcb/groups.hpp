@@ -19,7 +19,8 @@ inline constexpr std::uint64_t no_group = std::numeric_limits<std::uint64_t>::ma
 /// Position of a group in the balance.
 enum class GroupPlace {
     centre,  ///< of weight; of the points if all of them weigh 0. Depends on the distribution over
-             ///< the ranks by rounding only. Positions must not be wrapped in a periodic box
+             ///< the ranks by rounding only. In a periodic box unwrap each group for groups(), and
+             ///< wrap its points for ghosts(), or use first_point
     first_point  ///< of the lowest rank that has one. Its exact position; may change with the ranks
 };
 
@@ -34,8 +35,10 @@ struct Groups {
     std::vector<LocalIndex> of_points{};
     GhostPlan plan{};  ///< between the ranks that share groups
 
-    /// Returns the groups of this rank as points, for balance() and rebalance(). Not collective.
-    Points points() const { return interleaved_points(coordinates, dimension, weights); }
+    /// Returns a view of the groups of this rank as points, for balance() and rebalance(). The
+    /// groups must outlive it. Not collective.
+    Points points() const& { return interleaved_points(coordinates, dimension, weights); }
+    Points points() const&& = delete;
 };
 
 /// Finds the groups of all points with equal keys, over all ranks.
@@ -75,8 +78,8 @@ RRCB_API void move(const Groups& groups, std::span<const ByteColumn> columns,
 /// Collective over `comm`, otherwise as transfer(): `columns` hold one entry, or `components`, for
 /// each of the groups of this rank, and the result as many for each of its points.
 template <class Columns>
-auto fetch(const Groups& groups, const Columns& columns, MPI_Comm comm,
-           const TransferLimits& limits = {}, TransferReport* report = nullptr) {
+[[nodiscard]] auto fetch(const Groups& groups, const Columns& columns, MPI_Comm comm,
+                         const TransferLimits& limits = {}, TransferReport* report = nullptr) {
     return detail::moved(groups, columns, comm, limits, report);
 }
 

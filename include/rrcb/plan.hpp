@@ -53,9 +53,9 @@ struct Plan {
 /// reduction, and one message for each pair between which points move; memory for the points that
 /// leave and come, and 100 bytes for each rank that they go to or come from. None grows with the
 /// number of ranks or parts.
-RRCB_API Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm comm);
+[[nodiscard]] RRCB_API Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm comm);
 
 /// Makes the same lists from the parts of a balance. Collective over `comm`.
-RRCB_API Plan plan(const Balance& balance, MPI_Comm comm);
+[[nodiscard]] RRCB_API Plan plan(const Balance& balance, MPI_Comm comm);
 
 }  // namespace rrcb

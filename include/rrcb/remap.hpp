@@ -31,15 +31,16 @@ struct Remap {
 /// Throws Error on every rank if one names a part that does not exist, ranks that differ or do not
 /// exist, or has no memory. Cost: one pass to rank 0, which decides, and one broadcast; with more
 /// parts and ranks than Tuning::central_parts, passes through all ranks.
-RRCB_API Remap remap(std::span<const Part> parts, std::span<const RankRange> ranks_of_parts,
-                     MPI_Comm comm, const TreeShape& shape = {});
+[[nodiscard]] RRCB_API Remap remap(std::span<const Part> parts,
+                                   std::span<const RankRange> ranks_of_parts, MPI_Comm comm,
+                                   const TreeShape& shape = {});
 
 /// Numbers the parts so that many points keep the number of their part.
 ///
 /// Collective; otherwise as remap() above. `previous` is the part that each local point was in, as
 /// long as `parts`; earlier parts that no longer exist are ignored.
-RRCB_API Remap remap(std::span<const Part> parts, std::span<const Part> previous,
-                     std::span<const RankRange> ranks_of_parts, MPI_Comm comm,
-                     const TreeShape& shape = {});
+[[nodiscard]] RRCB_API Remap remap(std::span<const Part> parts, std::span<const Part> previous,
+                                   std::span<const RankRange> ranks_of_parts, MPI_Comm comm,
+                                   const TreeShape& shape = {});
 
 }  // namespace rrcb

@@ -145,8 +145,8 @@ auto moved(const AnyPlan& plan, const Values& values, MPI_Comm comm, const Trans
 /// messages from each of R ranks, one more from some, one reduction, and one message for each pair
 /// between which points move, or several within `limits.bytes`.
 template <class Columns>
-auto transfer(const Plan& plan, const Columns& columns, MPI_Comm comm,
-              const TransferLimits& limits = {}, TransferReport* report = nullptr) {
+[[nodiscard]] auto transfer(const Plan& plan, const Columns& columns, MPI_Comm comm,
+                            const TransferLimits& limits = {}, TransferReport* report = nullptr) {
     return detail::moved(plan, columns, comm, limits, report);
 }
 

@@ -79,13 +79,15 @@ Points member_points(const Structs& structs, T Struct::*first, Others... others)
 }
 
 /// Returns a view of positions that are one member, an array: member_points(particles,
-/// &Particle::position). Not collective. Set a lower dimension in the result to use fewer axes.
+/// &Particle::position). Not collective. Set a lower dimension in the result to use fewer axes. For
+/// a member that is a struct fill Points: its dimension, count, stride and axes or float_axes.
 template <std::ranges::contiguous_range Structs, detail::Array Position, class Struct>
 Points member_points(const Structs& structs, Position Struct::*position) {
     using Element = std::ranges::range_value_t<Structs>;
     using T = std::remove_cvref_t<decltype(std::declval<const Position&>()[0])>;
     static_assert(sizeof(Element) % sizeof(T) == 0, "structs must hold whole coordinates");
-    static_assert(sizeof(Position) <= max_dimension * sizeof(T));
+    static_assert(detail::Scalar<T> && sizeof(Position) <= max_dimension * sizeof(T),
+                  "the member must be an array of 1 to 3 doubles or floats");
     Points points{.dimension = static_cast<int>(sizeof(Position) / sizeof(T))};
     const Element* elements = std::ranges::data(structs);
     const LocalIndex count = std::ranges::size(structs);
@@ -93,6 +95,16 @@ Points member_points(const Structs& structs, Position Struct::*position) {
         detail::set_axis(points, axis, count == 0 ? nullptr : &(elements->*position)[axis], count,
                          sizeof(Element) / sizeof(T));
     return points;
+}
+
+/// Explains how to give positions that are no array.
+template <std::ranges::contiguous_range Structs, class Position, class Struct>
+requires(!detail::Scalar<Position> && !detail::Array<Position>) Points
+    member_points(const Structs&, Position Struct::*) {
+    static_assert(detail::Array<Position>,
+                  "the member must be an array; fill Points for a struct of coordinates: "
+                  "dimension, count, stride, and axes or float_axes");
+    return {};
 }
 
 /// Returns a view of a Kokkos::View in memory of the host, or a std::mdspan, of any layout with

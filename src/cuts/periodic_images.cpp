@@ -5,9 +5,21 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cmath>
+#include <iterator>
+#include <string>
 
 namespace rrcb {
+
+namespace {
+
+std::string text_of(double number) {
+    char text[32];
+    return {text, std::to_chars(std::begin(text), std::end(text), number).ptr};
+}
+
+}  // namespace
 
 double image_of(double x, const Box& box, int axis, std::int32_t shift) {
     return shift == 0 ? x : x + shift * (box.upper[axis] - box.lower[axis]);
@@ -30,6 +42,17 @@ void PeriodicImages::check(double radius) const {
                 "two infinite ones");
         require(radius / most_periods <= period, "a radius must be at most 100 periods");
     }
+}
+
+void PeriodicImages::check(const Points& points) const {
+    for (LocalIndex i = 0; i < points.count; ++i)
+        for (int a = 0; a < dimension_; ++a) {
+            const double x = points.coordinate(i, a);
+            if (x >= box_.lower[a] && x <= box_.upper[a]) continue;
+            reject("coordinate " + text_of(x) + " of object " + std::to_string(i) + " on axis " +
+                   std::to_string(a) + " is outside the periodic box, " + text_of(box_.lower[a]) +
+                   " to " + text_of(box_.upper[a]));
+        }
 }
 
 Vector PeriodicImages::apart(const Vector& x) const {

@@ -16,6 +16,8 @@ class PeriodicImages {
 
     /// Throws Error unless the box is usable, for such a radius.
     void check(double radius) const;
+    /// Throws Error that names the first point outside the box.
+    void check(const Points& points) const;
 
     /// Calls visit(shift, image) for the images of a ball in the box that reach it along each axis.
     template <class Visit>

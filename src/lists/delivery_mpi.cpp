@@ -192,6 +192,7 @@ void check_column(const ByteColumn& column, LocalIndex count, const std::string&
     const bool fits = column.components == 0 ? column.num_values == 0
                                              : column.num_values % column.components == 0 &&
                                                    column.num_values / column.components == count;
+    if (!fits && column.components == 0) reject("components of a column must be 1 or more");
     if (!fits)
         reject("a column has " + std::to_string(column.num_values) + " values for " +
                std::to_string(count) + " " + entries + "; give " +

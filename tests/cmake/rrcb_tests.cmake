@@ -1,13 +1,14 @@
 # rrcb_set_test_options(target)
 #
-# Warnings; and compiled quickly, with headers read once for all tests: most of a test is set-up.
+# Warnings, except of unused results, of calls that must fail. Compiled quickly, with headers read once for
+# all tests: most of a test is set-up.
 # At -O1 GCC 12 takes sums of short strings to write past their ends. Pointers of tests are checked by the
 # address sanitizer only: UBSan's checks of them double the time to compile.
 function(rrcb_set_test_options target)
   rrcb_set_warnings(${target})
   target_compile_options(
     ${target}
-    PRIVATE $<$<CONFIG:Release>:-O1>
+    PRIVATE -Wno-unused-result $<$<CONFIG:Release>:-O1>
             $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-Wno-array-bounds -Wno-restrict
             -Wno-stringop-overflow>)
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=address,undefined")

@@ -1,4 +1,5 @@
 #include "../support/clouds.hpp"
+#include "../support/distance.hpp"
 #include "../support/ranks.hpp"
 
 #include <rrcb/balance.hpp>
@@ -14,6 +15,7 @@
 #include <map>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rrcb {
@@ -228,6 +230,68 @@ TEST(Groups, without_weight_are_at_the_mean_of_their_points) {
     const Groups found = groups(interleaved_points(x, 1, weights), keys, MPI_COMM_SELF);
     EXPECT_EQ(found.coordinates, (std::vector{0.0, 2.0}));
     EXPECT_EQ(found.weights, (std::vector{2.0, 0.0}));
+}
+
+template <class AnyGroups>
+concept GivesPoints = requires(AnyGroups&& groups) {
+    std::forward<AnyGroups>(groups).points();
+};
+static_assert(GivesPoints<const Groups&> && !GivesPoints<Groups>);
+
+/// Counts the pairs of points nearer than `radius` that are on neither rank of the two.
+std::size_t missing_pairs(const Scene& scene, const std::vector<int>& owners, const GhostPlan& plan,
+                          const std::vector<std::size_t>& here, double radius) {
+    const std::vector<std::size_t> near = fetch(plan, here, MPI_COMM_WORLD);
+    const std::size_t count = scene.count();
+    std::vector<int> meets(count * count);
+    for (const std::size_t i : here)
+        for (const std::size_t j : near) meets[std::min(i, j) * count + std::max(i, j)] = 1;
+    MPI_Allreduce(MPI_IN_PLACE, meets.data(), static_cast<int>(meets.size()), MPI_INT, MPI_MAX,
+                  MPI_COMM_WORLD);
+    std::size_t missing = 0;
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = i + 1; j < count; ++j) {
+            const Vector x = scene.position(i), y = scene.position(j);
+            if (owners[i] == owners[j] || std::hypot(x[0] - y[0], x[1] - y[1]) > radius) continue;
+            missing += meets[i * count + j] == 0 ? 1 : 0;
+        }
+    return missing;
+}
+
+TEST(Groups, need_a_radius_greater_by_their_points_distance_from_the_region) {
+    Scene scene{2};
+    scene.positions = test::uniform_cloud(600, 2, 21);
+    for (std::size_t i = 0; i < 600; ++i) scene.keys.push_back(i / 6);  // each all over the box
+    scene.weights.assign(600, 1);
+    scene.ranks.assign(600, 0);
+    const Share first(scene);
+    const Points points = first.points();
+    const std::vector<std::uint64_t>& keys = first.keys;
+    const MPI_Comm comm = MPI_COMM_WORLD;
+    rrcb::Balance balance;
+    const rrcb::Groups bonds = rrcb::groups(points, keys, comm);
+    balance = rrcb::balance(bonds.points(), rrcb::Options{}, comm);
+    const std::vector<rrcb::Part> parts = rrcb::fetch(bonds, balance.parts, comm);
+    const rrcb::Plan plan = rrcb::plan(parts, balance.cuts.num_parts, comm);
+    const std::vector<std::size_t> numbers = transfer(plan, first.numbers, comm);
+    std::vector<int> owners(600);
+    for (const std::size_t i : numbers) owners[i] = rank();
+    MPI_Allreduce(MPI_IN_PLACE, owners.data(), 600, MPI_INT, MPI_SUM, comm);
+    scene.ranks = owners;
+    const Share mine(scene);
+    const Box region = box_of(balance.cuts, rank());
+    double farthest = 0;
+    for (const std::size_t i : mine.numbers)
+        farthest =
+            std::max(farthest, static_cast<double>(test::distance(scene.position(i), region, 2)));
+    MPI_Allreduce(MPI_IN_PLACE, &farthest, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    const auto missing = [&](double greater) {
+        const GhostPlan near = ghosts(balance.cuts, mine.points(), {.radius = greater}, comm);
+        return missing_pairs(scene, owners, near, mine.numbers, 0.03);
+    };
+    EXPECT_EQ(missing(0.03 + farthest), 0u);
+    const std::size_t with_less = missing(0.03);
+    EXPECT_EQ(with_less > 0, num_ranks() > 2);  // two regions leave no gap
 }
 
 void expect_refusal(const std::string& text, const std::function<void()>& call) {

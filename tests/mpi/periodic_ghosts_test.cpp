@@ -167,6 +167,21 @@ TEST(PeriodicGhosts, go_to_ranks_with_several_parts_and_to_those_that_share_one)
         expect_ghosts(make_scene(2, 3, num_parts), 0.8);
 }
 
+TEST(PeriodicGhosts, of_floats_are_moved_to_images) {
+    const std::vector<float> x(1, 0.25f * static_cast<float>(rank() + 1));
+    const float end = 0.25f * static_cast<float>(num_ranks() + 1);
+    const Box box{{0}, {end}};
+    const Balance all = balance(interleaved_points(x, 1), {}, MPI_COMM_WORLD);
+    const GhostPlan plan = ghosts(all.cuts, interleaved_points(x, 1),
+                                  {.radius = end, .periodic = box}, MPI_COMM_WORLD);
+    const std::vector<float> fetched = fetch(plan, x, MPI_COMM_WORLD);
+    std::vector<float> positions = fetched;
+    apply_shifts(plan, positions);
+    ASSERT_FALSE(positions.empty());
+    for (std::size_t k = 0; k < positions.size(); ++k)
+        EXPECT_EQ(positions[k], fetched[k] + static_cast<float>(plan.shifts[k][0]) * end);
+}
+
 TEST(PeriodicGhosts, in_no_usable_box_are_refused_on_all_ranks) {
     const std::vector<double> x{0.25, 0};
     const Scene scene = make_scene(2, 1, 1);
@@ -189,7 +204,8 @@ TEST(PeriodicGhosts, in_no_usable_box_are_refused_on_all_ranks) {
     refused("two finite ends", 0.1, -infinity, 0.5);
     refused("two finite ends", 0.1, 0.5, -1);
     refused("two finite ends", 0.1, -1e308, 1e308);
-    refused("positions must lie in the periodic box", 0.1, -1, 0);
+    refused("coordinate 0.25 of object 0 on axis 0 is outside the periodic box, -1 to 0", 0.1, -1,
+            0);
     refused("a radius must be at most 100 periods", 151, -1, 0.5);
     if (num_ranks() > 1) refused("the periodic box differs between rank 0", 0.1, -1, 0.75);
 }

@@ -297,6 +297,14 @@ TEST(Transfer, refuses_more_components_than_a_size_can_count) {
             "a point has more bytes in these columns than a message holds");
 }
 
+TEST(Transfer, refuses_columns_without_components) {
+    Plan one;
+    one.num_points = 1;
+    const std::vector<double> x(1);
+    expect_on_all_ranks(text_of([&] { transfer(one, column(x, 0), MPI_COMM_WORLD); }),
+                        "components of a column must be 1 or more");
+}
+
 TEST(Transfer, refuses_a_plan_of_another_communicator) {
     if (num_ranks() < 3) GTEST_SKIP() << "needs three ranks";
     MPI_Comm reversed = MPI_COMM_NULL;

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -30,7 +31,8 @@ struct GhostPlan {
 /// Distances at which points are needed, and the ranks of the parts. The same on every rank, except
 /// `radii`, which every rank gives or none does.
 struct GhostOptions {
-    double radius = 0;  ///< cut-off of all points, in the unit of the coordinates
+    /// Cut-off of all points, in the unit of the coordinates; NaN: not given.
+    double radius = std::numeric_limits<double>::quiet_NaN();
     /// One radius for each point instead. Of two points on different ranks, nearer than the greater
     /// of their radii, at least one is then a ghost on the other's rank, not always both. If both
     /// ranks compute such pairs, give each point the greatest radius of the points near it. For

@@ -65,7 +65,9 @@ void require(const void* pointer, const char* name) {
 }
 
 void require_array(std::size_t count, const void* values, const char* name) {
-    if (count > 0) require(values, name);
+    if (count > 0 && values == nullptr)
+        throw Error(ErrorCode::invalid_argument,
+                    std::string(name) + " is null (in Fortran: or an array has the wrong length)");
 }
 
 void require_cuts(const rrcb_balancer& own) {

@@ -32,7 +32,9 @@ struct KeptOptions {
     void read(const rrcb_ghost_options* from, LocalIndex num_points, int num_parts) {
         require(from, "options");
         options.radius = from->radius;
-        if (from->each_radius != 0) {
+        if (from->each_radius == 0) {
+            if (from->radii != nullptr) reject("set each_radius to 1 on all ranks to use radii");
+        } else {
             require_array(num_points, from->radii, "radii");
             options.radii = view(from->radii, num_points);
         }

@@ -19,7 +19,7 @@ std::size_t bytes_of(rrcb_type type) {
 template <class T, std::size_t N>
 void set_axes(const rrcb_points& from, Points& points, std::array<std::span<const T>, N>& axes) {
     for (int axis = 0; axis < points.dimension; ++axis) {
-        require(from.axes[axis], "coordinates");
+        require_array(points.count, from.axes[axis], "coordinates");
         axes[axis] = {static_cast<const T*>(from.axes[axis]),
                       (points.count - 1) * points.stride + 1};
     }
@@ -35,11 +35,10 @@ Points points_of(const rrcb_points* from) {
     if (points.count == 0 || points.dimension < 1 || points.dimension > max_dimension)
         return points;
     const std::size_t bytes = bytes_of(from->type);
-    if ((from->type != RRCB_DOUBLE && from->type != RRCB_FLOAT) || from->stride < bytes ||
-        from->stride % bytes != 0)
-        reject(
-            "coordinates have the type RRCB_DOUBLE or RRCB_FLOAT, and a stride of a whole number "
-            "of them");
+    if (from->type != RRCB_DOUBLE && from->type != RRCB_FLOAT)
+        reject("coordinates must have the type RRCB_DOUBLE or RRCB_FLOAT");
+    if (from->stride < bytes || from->stride % bytes != 0)
+        reject("the stride must be in bytes, a multiple of the size of a coordinate");
     points.stride = from->stride / bytes;
     if (from->type == RRCB_FLOAT)
         set_axes(*from, points, points.float_axes);

@@ -71,7 +71,7 @@ contains
     class(rrcb_balancer), intent(inout) :: self
     character(*), intent(in) :: option, value
     integer, intent(out) :: error
-    error = c_set(self%handle, option//c_null_char, value//c_null_char)
+    error = c_set(self%handle, trim(option)//c_null_char, trim(value)//c_null_char)
   end subroutine
 
   subroutine set_part_sizes(self, sizes, error)
@@ -242,12 +242,15 @@ contains
     integer, intent(out) :: error
     integer(c_size_t), intent(in), target, optional :: limit
     type(rrcb_transfer_report), intent(inout), target, optional :: report
+    type(c_plan) :: plan
     type(c_ptr) :: limits, made
     limits = c_null_ptr
     made = c_null_ptr
     if (present(limit)) limits = c_loc(limit)
     if (present(report)) made = c_loc(report)
-    error = c_transfer(self%handle, size(columns, kind=c_size_t), columns, limits, made)
+    error = c_get_plan(self%handle, plan)
+    error = c_transfer(self%handle, size(columns, kind=c_size_t), &
+                       columns_in_c(columns, plan%num_points, plan%num_points_after), limits, made)
   end subroutine
 
   !> Writes the new number of part p to numbers(p + 1). `previous` has the part that each point was

@@ -124,7 +124,7 @@ module rrcb_c_balancer
       import
       type(c_ptr), value :: handle
       integer(c_size_t), value :: num_columns
-      type(rrcb_column), intent(in) :: columns(*)
+      type(c_column), intent(in) :: columns(*)
       type(c_ptr), value :: limits, report
     end function
     integer(c_int) function c_remap(handle, count, parts, previous, ranks_of_parts, numbers, kept) &

@@ -5,7 +5,7 @@ module rrcb_c_functions
   implicit none
 
   type, bind(c) :: c_ghost_options
-    real(c_double) :: radius = 0
+    real(c_double) :: radius = -1                           !< not given
     type(c_ptr) :: radii = c_null_ptr
     integer(c_int) :: each_radius = 0
     type(c_ptr) :: lower = c_null_ptr, upper = c_null_ptr, ranks_of_parts = c_null_ptr
@@ -98,7 +98,7 @@ module rrcb_c_functions
       import
       type(c_ptr), value :: handle
       integer(c_size_t), value :: num_columns
-      type(rrcb_column), intent(in) :: columns(*)
+      type(c_column), intent(in) :: columns(*)
       type(c_ptr), value :: limits, report
     end function
     integer(c_int) function c_ghosts_accumulate(handle, num_columns, columns, limits, report) &
@@ -106,7 +106,7 @@ module rrcb_c_functions
       import
       type(c_ptr), value :: handle
       integer(c_size_t), value :: num_columns
-      type(rrcb_column), intent(in) :: columns(*)
+      type(c_column), intent(in) :: columns(*)
       type(c_ptr), value :: limits, report
     end function
     integer(c_int) function c_ghosts_apply_shifts(handle, length, positions) &
@@ -138,7 +138,7 @@ module rrcb_c_functions
       import
       type(c_ptr), value :: handle
       integer(c_size_t), value :: num_columns
-      type(rrcb_column), intent(in) :: columns(*)
+      type(c_column), intent(in) :: columns(*)
       type(c_ptr), value :: limits, report
     end function
     integer(c_int) function c_groups_sums(handle, components, values, sums) &

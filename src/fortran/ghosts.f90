@@ -33,11 +33,12 @@ contains
     real(c_double), intent(in), target, optional :: lower(3), upper(3)
     type(rrcb_rank_range), intent(in), target, contiguous, optional :: ranks_of_parts(:)
     type(c_ghost_options) :: options
-    if (present(radius)) options%radius = radius
     if (present(radii)) then
+      options%radius = 0
       options%each_radius = 1
       if (size(radii) > 0 .and. size(radii, kind=c_size_t) == points%count) options%radii = c_loc(radii)
     end if
+    if (present(radius)) options%radius = radius
     if (present(lower)) options%lower = c_loc(lower)
     if (present(upper)) options%upper = c_loc(upper)
     if (present(ranks_of_parts)) options%ranks_of_parts = c_loc(ranks_of_parts)
@@ -78,12 +79,15 @@ contains
     integer, intent(out) :: error
     integer(c_size_t), intent(in), target, optional :: limit
     type(rrcb_transfer_report), intent(inout), target, optional :: report
+    type(c_ghost_plan) :: plan
     type(c_ptr) :: limits, made
     limits = c_null_ptr
     made = c_null_ptr
     if (present(limit)) limits = c_loc(limit)
     if (present(report)) made = c_loc(report)
-    error = c_ghosts_fetch(self%handle, size(columns, kind=c_size_t), columns, limits, made)
+    error = c_ghosts_get_plan(self%handle, plan)
+    error = c_ghosts_fetch(self%handle, size(columns, kind=c_size_t), &
+                            columns_in_c(columns, plan%num_points, plan%num_ghosts), limits, made)
   end subroutine
 
   !> Adds columns of the ghosts, `from`, to those of their points, `to`.
@@ -93,12 +97,15 @@ contains
     integer, intent(out) :: error
     integer(c_size_t), intent(in), target, optional :: limit
     type(rrcb_transfer_report), intent(inout), target, optional :: report
+    type(c_ghost_plan) :: plan
     type(c_ptr) :: limits, made
     limits = c_null_ptr
     made = c_null_ptr
     if (present(limit)) limits = c_loc(limit)
     if (present(report)) made = c_loc(report)
-    error = c_ghosts_accumulate(self%handle, size(columns, kind=c_size_t), columns, limits, made)
+    error = c_ghosts_get_plan(self%handle, plan)
+    error = c_ghosts_accumulate(self%handle, size(columns, kind=c_size_t), &
+                            columns_in_c(columns, plan%num_ghosts, plan%num_points), limits, made)
   end subroutine
 
   !> Moves fetched positions to those of the images: positions(dimension, ghosts).

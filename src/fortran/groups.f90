@@ -10,6 +10,7 @@ module rrcb_group_lists
   !> A copy is the same groups; one of them is destroyed.
   type, public :: rrcb_groups
     type(c_ptr) :: handle = c_null_ptr                      !< for the library
+    integer(c_size_t), private :: num_points = 0
   contains
     procedure :: create                                     !< collective
     procedure :: destroy                                    !< frees the handle
@@ -35,6 +36,7 @@ contains
     if (size(keys) > 0 .and. size(keys, kind=c_size_t) == points%count) address = c_loc(keys)
     place = 0
     if (present(at_first_point)) place = merge(1, 0, at_first_point)
+    self%num_points = points%count
     error = c_groups_create(balancer%handle, points, address, place, self%handle)
   end subroutine
 
@@ -59,12 +61,15 @@ contains
     integer, intent(out) :: error
     integer(c_size_t), intent(in), target, optional :: limit
     type(rrcb_transfer_report), intent(inout), target, optional :: report
+    type(rrcb_points) :: groups
     type(c_ptr) :: limits, made
     limits = c_null_ptr
     made = c_null_ptr
     if (present(limit)) limits = c_loc(limit)
     if (present(report)) made = c_loc(report)
-    error = c_groups_fetch(self%handle, size(columns, kind=c_size_t), columns, limits, made)
+    error = c_groups_points(self%handle, groups)
+    error = c_groups_fetch(self%handle, size(columns, kind=c_size_t), &
+                           columns_in_c(columns, groups%count, self%num_points), limits, made)
   end subroutine
 
   !> Adds up values(components, points) over the points of each group: sums(components, groups).

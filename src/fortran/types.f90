@@ -7,19 +7,30 @@ module rrcb_types
 
   integer, parameter, public :: rrcb_ok = 0, rrcb_invalid_argument = 1, rrcb_out_of_memory = 2, &
     rrcb_mpi_error = 3, rrcb_internal_error = 4
-  integer(c_int), parameter :: type_byte = 0, type_int32 = 1, type_int64 = 2, type_float = 3, &
-    type_double = 4
+  integer(c_int), parameter, public :: rrcb_float = 3, rrcb_double = 4
+  integer(c_int), parameter :: type_byte = 0, type_int32 = 1, type_int64 = 2
 
   !> View of the points of this rank; coordinate a of point i is at axes(a) + (i - 1)*stride bytes.
-  !> If your points are derived types, set axes(a) to c_loc(points(1)%x(a)).
+  !> If your points are derived types, set axes(a) to c_loc(points(1)%x(a)), and `type` to
+  !> rrcb_float if x is real(4).
   type, public, bind(c) :: rrcb_points
-    integer(c_int) :: dimension = 0, type = type_double
+    integer(c_int) :: dimension = 0, type = rrcb_double
     integer(c_size_t) :: count = 0, stride = 0
     type(c_ptr) :: axes(3) = c_null_ptr, weights = c_null_ptr
   end type
 
-  !> A column of the points, and room for its result; made by rrcb_column(from, to).
-  type, public, bind(c) :: rrcb_column
+  !> A column of the points, and room for its result; made by rrcb_column(from, to). For another type
+  !> give the bytes of a point first: rrcb_column(c_sizeof(x(1)), c_loc(x), c_loc(to)); the lengths of
+  !> these are not checked.
+  type, public :: rrcb_column
+    integer(c_int) :: type = type_byte
+    integer(c_size_t) :: components = 1
+    type(c_ptr) :: from = c_null_ptr, to = c_null_ptr
+    integer(c_size_t) :: num_from = huge(0_c_size_t), num_to = huge(0_c_size_t) !< points they hold
+  end type
+
+  !> A column as C has it.
+  type, public, bind(c) :: c_column
     integer(c_int) :: type = type_byte
     integer(c_size_t) :: components = 1
     type(c_ptr) :: from = c_null_ptr, to = c_null_ptr
@@ -90,13 +101,14 @@ module rrcb_types
     procedure :: columns_of_doubles, columns_of_reals
   end interface
 
-  !> Returns a column of one value for each point, of shape (components, points), or of bytes.
+  !> Returns a column of one value for each point, of shape (components, points), or of bytes. The
+  !> arrays may be longer than needed.
   interface rrcb_column
     procedure :: column_of_reals, column_of_doubles, column_of_integers, column_of_longs, &
       vectors_of_reals, vectors_of_doubles, vectors_of_integers, vectors_of_longs, column_of_bytes
   end interface
 
-  public :: rrcb_interleaved_points, rrcb_column_points, address_of, place_of, &
+  public :: rrcb_interleaved_points, rrcb_column_points, address_of, place_of, columns_in_c, &
     indices_at, numbers_at
 
 contains
@@ -127,6 +139,21 @@ contains
     type(c_ptr) :: address
     address = c_null_ptr
     if (size(parts, kind=c_size_t) >= count .and. size(parts) > 0) address = c_loc(parts)
+  end function
+
+  !> Returns columns for calls that read and write so many points. An array that is too short gets
+  !> no address, which fails on all ranks.
+  function columns_in_c(columns, num_read, num_written) result(in_c)
+    type(rrcb_column), intent(in) :: columns(:)
+    integer(c_size_t), intent(in) :: num_read, num_written
+    type(c_column) :: in_c(size(columns))
+    integer :: i
+    do i = 1, size(columns)
+      in_c(i)%type = columns(i)%type
+      in_c(i)%components = columns(i)%components
+      if (columns(i)%num_from >= num_read) in_c(i)%from = columns(i)%from
+      if (columns(i)%num_to >= num_written) in_c(i)%to = columns(i)%to
+    end do
   end function
 
   !> Copies indices of points from a list of C; here they count from 1.
@@ -183,7 +210,7 @@ contains
     real(c_double), pointer, contiguous, intent(in), optional :: weights(:)
     type(rrcb_points) :: points
     integer :: axis
-    points%type = type_float
+    points%type = rrcb_float
     points%dimension = size(coordinates, 1, c_int)
     points%count = size(coordinates, 2, c_size_t)
     points%stride = size(coordinates, 1)*c_sizeof(0.0_c_float)
@@ -199,7 +226,7 @@ contains
     real(c_float), pointer, contiguous, intent(in), optional :: y(:), z(:)
     real(c_double), pointer, contiguous, intent(in), optional :: weights(:)
     type(rrcb_points) :: points
-    points%type = type_float
+    points%type = rrcb_float
     points%dimension = 1
     if (present(y)) points%dimension = merge(3, 2, present(z))
     points%count = size(x, kind=c_size_t)
@@ -218,7 +245,9 @@ contains
   function column_of_reals(from, to) result(column)
     real(c_float), pointer, contiguous, intent(in) :: from(:), to(:)
     type(rrcb_column) :: column
-    column%type = type_float
+    column%type = rrcb_float
+    column%num_from = size(from, kind=c_size_t)
+    column%num_to = size(to, kind=c_size_t)
     if (size(from) > 0) column%from = c_loc(from)
     if (size(to) > 0) column%to = c_loc(to)
   end function
@@ -226,7 +255,9 @@ contains
   function column_of_doubles(from, to) result(column)
     real(c_double), pointer, contiguous, intent(in) :: from(:), to(:)
     type(rrcb_column) :: column
-    column%type = type_double
+    column%type = rrcb_double
+    column%num_from = size(from, kind=c_size_t)
+    column%num_to = size(to, kind=c_size_t)
     if (size(from) > 0) column%from = c_loc(from)
     if (size(to) > 0) column%to = c_loc(to)
   end function
@@ -235,6 +266,8 @@ contains
     integer(c_int32_t), pointer, contiguous, intent(in) :: from(:), to(:)
     type(rrcb_column) :: column
     column%type = type_int32
+    column%num_from = size(from, kind=c_size_t)
+    column%num_to = size(to, kind=c_size_t)
     if (size(from) > 0) column%from = c_loc(from)
     if (size(to) > 0) column%to = c_loc(to)
   end function
@@ -243,6 +276,8 @@ contains
     integer(c_int64_t), pointer, contiguous, intent(in) :: from(:), to(:)
     type(rrcb_column) :: column
     column%type = type_int64
+    column%num_from = size(from, kind=c_size_t)
+    column%num_to = size(to, kind=c_size_t)
     if (size(from) > 0) column%from = c_loc(from)
     if (size(to) > 0) column%to = c_loc(to)
   end function
@@ -250,8 +285,10 @@ contains
   function vectors_of_reals(from, to) result(column)
     real(c_float), pointer, contiguous, intent(in) :: from(:, :), to(:, :)
     type(rrcb_column) :: column
-    column%type = type_float
+    column%type = rrcb_float
     column%components = size(from, 1, c_size_t)
+    column%num_from = size(from, 2, c_size_t)
+    column%num_to = merge(size(to, 2, c_size_t), 0_c_size_t, size(to, 1) == size(from, 1))
     if (size(from) > 0) column%from = c_loc(from)
     if (size(to) > 0) column%to = c_loc(to)
   end function
@@ -259,8 +296,10 @@ contains
   function vectors_of_doubles(from, to) result(column)
     real(c_double), pointer, contiguous, intent(in) :: from(:, :), to(:, :)
     type(rrcb_column) :: column
-    column%type = type_double
+    column%type = rrcb_double
     column%components = size(from, 1, c_size_t)
+    column%num_from = size(from, 2, c_size_t)
+    column%num_to = merge(size(to, 2, c_size_t), 0_c_size_t, size(to, 1) == size(from, 1))
     if (size(from) > 0) column%from = c_loc(from)
     if (size(to) > 0) column%to = c_loc(to)
   end function
@@ -270,6 +309,8 @@ contains
     type(rrcb_column) :: column
     column%type = type_int32
     column%components = size(from, 1, c_size_t)
+    column%num_from = size(from, 2, c_size_t)
+    column%num_to = merge(size(to, 2, c_size_t), 0_c_size_t, size(to, 1) == size(from, 1))
     if (size(from) > 0) column%from = c_loc(from)
     if (size(to) > 0) column%to = c_loc(to)
   end function
@@ -279,6 +320,8 @@ contains
     type(rrcb_column) :: column
     column%type = type_int64
     column%components = size(from, 1, c_size_t)
+    column%num_from = size(from, 2, c_size_t)
+    column%num_to = merge(size(to, 2, c_size_t), 0_c_size_t, size(to, 1) == size(from, 1))
     if (size(from) > 0) column%from = c_loc(from)
     if (size(to) > 0) column%to = c_loc(to)
   end function

@@ -29,10 +29,11 @@ program module_test
   real(c_double), target :: sizes(3) = [1, 3, 2]
   real(c_double) :: lower(3), upper(3), columns(2), of_parts(3), value
   integer(c_int32_t) :: part, new_numbers(3)
-  type :: particle
+  type, bind(c) :: particle
     real(c_double) :: mass, x
+    real(c_float) :: short
   end type
-  type(particle), allocatable, target :: particles(:)
+  type(particle), allocatable, target :: particles(:), moved_particles(:)
   real(c_double), allocatable, target :: positions(:)
   type(rrcb_points) :: points
   integer, parameter :: counts(3) = [50, 150, 100]
@@ -49,10 +50,11 @@ program module_test
   short = real(numbers, c_float)/2
   allocate (particles(num_points))
   particles%x = x(1, :)
+  particles%short = real(x(1, :), c_float)
 
   call balancer%create(MPI_COMM_WORLD, error)
   call expect(error == rrcb_ok, "create")
-  call balancer%set("refine", "EXACT", error)
+  call balancer%set("refine ", "EXACT ", error)
   call expect(error == rrcb_ok, "set")
   call balancer%set_part_sizes(sizes, error)
   call expect(error == rrcb_ok, "set_part_sizes")
@@ -93,6 +95,10 @@ program module_test
   call other%assign(points, again, error)
   call expect(error == rrcb_ok .and. all(again == parts), "assign by components")
   again = -1
+  points%type = rrcb_float
+  if (num_points > 0) points%axes(1) = c_loc(particles(1)%short)
+  call other%assign(points, again, error)
+  call expect(error == rrcb_ok .and. all(again == parts), "assign by components of real(4)")
   again = -1
   short_x = real(x, c_float)
   call other%assign(rrcb_interleaved_points(short_x), again, error)
@@ -112,6 +118,7 @@ program module_test
   call expect(error == rrcb_invalid_argument, "too few parts")
   call other%rebalance(rrcb_interleaved_points(x, sizes), again, error)
   call expect(error == rrcb_invalid_argument, "weights of other points")
+  call expect(index(rrcb_last_error(), "an array has the wrong length") > 0, "text of a wrong length")
   call other%destroy()
 
   call balancer%part_weights(rrcb_interleaved_points(x, weights), parts, of_parts, error)
@@ -154,6 +161,12 @@ program module_test
   call expect(all(moved(1, :) == numbers) .and. all(moved_numbers == numbers), "moved numbers")
   call expect(all(moved_long_numbers == numbers*10000000000_c_int64_t), "moved long numbers")
   call expect(all(moved_weights == 2) .and. all(moved_short == numbers*0.5), "moved reals")
+  call balancer%transfer([rrcb_column(x, moved(:, 2:))], error)
+  call expect(error == rrcb_invalid_argument, "transfer to a short array")
+  allocate (moved_particles(num_points))
+  call balancer%transfer([rrcb_column(c_sizeof(moved_particles(1)), c_loc(particles), &
+    c_loc(moved_particles))], error)
+  call expect(error == rrcb_ok .and. all(moved_particles%x == numbers), "transfer of bytes")
 
   ! Points within 2 of the next part, and of the box that repeats after 300.
   do kind_of_box = 1, 2
@@ -172,12 +185,20 @@ program module_test
     allocate (images(1, i))
     call ghosts%fetch([rrcb_column(moved, images)], error)
     call expect(error == rrcb_ok, "fetch")
+    call ghosts%fetch([rrcb_column(moved, images(:, 2:))], error)
+    call expect(error == rrcb_invalid_argument, "fetch to a short array")
+    call ghosts%fetch([rrcb_column(moved(:, 2:), images)], error)
+    call expect(error == rrcb_invalid_argument, "fetch from a short array")
     call ghosts%apply_shifts(images, error)
     call expect(error == rrcb_ok .and. all([(is_near(images(1, k)), k=1, i)]), "images")
     short = [(1.0_c_float, error=1, i)]
     moved_short = 0
     call ghosts%accumulate([rrcb_column(short, moved_short)], error)
     call expect(error == rrcb_ok .and. nint(sum(moved_short)) == sum(ghost_plan%send_counts), "accumulate")
+    call ghosts%accumulate([rrcb_column(short(2:), moved_short)], error)
+    call expect(error == rrcb_invalid_argument, "accumulate from a short array")
+    call ghosts%accumulate([rrcb_column(short, moved_short(2:))], error)
+    call expect(error == rrcb_invalid_argument, "accumulate to a short array")
     if (kind_of_box == 2) call expect(allocated(ghost_plan%shifts), "shifts")
     deallocate (images)
     call ghosts%destroy()
@@ -185,6 +206,8 @@ program module_test
   call ghosts%create(balancer, rrcb_interleaved_points(moved), error, radii=0*moved_weights)
   call expect(error == rrcb_ok, "ghosts by radii")
   call ghosts%destroy()
+  call ghosts%create(balancer, rrcb_interleaved_points(moved), error)
+  call expect(error == rrcb_invalid_argument, "ghosts without a radius")
   ! Pairs of points, which cuts do not part, though ranks do.
   call groups%create(balancer, rrcb_interleaved_points(moved), int((numbers + 1)/2, c_int64_t), error)
   call expect(error == rrcb_ok, "create groups")
@@ -199,6 +222,8 @@ program module_test
   parts_of_points = numbers
   call groups%fetch([rrcb_column(parts_of_groups, parts_of_points)], error)
   call expect(error == rrcb_ok .and. all(parts_of_points(1::2) == parts_of_points(2::2)), "fetch of groups")
+  call groups%fetch([rrcb_column(parts_of_groups, parts_of_points(2:))], error)
+  call expect(error == rrcb_invalid_argument, "fetch of groups to a short array")
   allocate (sums(1, points%count))
   call groups%sums(moved, sums, error)
   call expect(error == rrcb_ok .and. all(sums(1, :) == moved(1, 1::2) + moved(1, 2::2)), "sums")

@@ -162,6 +162,12 @@ TEST_F(CGhosts, what_is_wrong_on_one_rank_fails_on_all) {
     if (is_last_rank()) options.lower = unit.lower.data();
     expect_error(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), "upper is null");
     options.lower = nullptr;
+    if (rank() == 0) options.radii = weights.data();
+    expect_error(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), "set each_radius to 1");
+    options.radii = nullptr;
+    rrcb_points shifted = in_c;
+    if (rank() == 0) shifted.stride = 3;
+    expect_error(rrcb_ghosts_create(balancer, &shifted, &options, &ghosts), "must be in bytes");
     find(options);
     double value = 0;
     const rrcb_column column{is_last_rank() ? RRCB_BYTE : RRCB_DOUBLE, 0, &value, &value};

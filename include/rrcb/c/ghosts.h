@@ -13,8 +13,8 @@ typedef struct rrcb_ghosts rrcb_ghosts;
 /** Distances at which points are needed, and the ranks of the parts; as rrcb::GhostOptions. */
 typedef struct rrcb_ghost_options {
     double radius;       /**< cut-off of all points, in the unit of the coordinates */
-    const double* radii; /**< one for each point instead; null: none */
-    int each_radius;     /**< 1: by `radii`, also on ranks without points */
+    const double* radii; /**< one for each point instead, with `radius` 0 */
+    int each_radius;     /**< 1 on all ranks: by `radii`; 0: those are null */
     const double* lower; /**< of the periodic box, of length 3; null: none */
     const double* upper; /**< of the same box */
     const rrcb_rank_range* ranks_of_parts; /**< an entry for each part, as after rrcb_remap; null:

@@ -80,7 +80,8 @@ int rrcb_controller_rebalanced(rrcb_controller* controller, const rrcb_report* r
 int rrcb_cost_model_create(MPI_Comm comm, rrcb_controller* controller, int num_columns,
                            rrcb_cost_model** model) {
     return rrcb::c::guarded([&] {
-        auto made = rrcb::c::make_handle(comm, model, "model");
+        auto made = rrcb::c::make_handle(
+            comm, model, "model", {{"whether a controller is given", controller != nullptr}});
         if (controller == nullptr)
             made->model.emplace(comm, num_columns);
         else

@@ -4,21 +4,24 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/duplicate.hpp"
 
+#include <initializer_list>
 #include <memory>
 
 namespace rrcb::c {
 
 /// Makes a handle and stores it in the caller's pointer `*where`. Collective over `comm`: throws
-/// the same Error on every rank if `where` is null on one, or memory runs out.
+/// the same Error on every rank if `where` is null on one, memory runs out, or one of `arguments`
+/// differs between ranks.
 template <class Handle>
-std::unique_ptr<Handle> make_handle(MPI_Comm comm, Handle** where, const char* name) {
+std::unique_ptr<Handle> make_handle(MPI_Comm comm, Handle** where, const char* name,
+                                    std::initializer_list<Shared> arguments = {}) {
     Participant self{mpi::duplicate_of(comm)};
     std::unique_ptr<Handle> made;
     self.attempt([&] {
         require(static_cast<const void*>(where), name);
         made = std::make_unique<Handle>();
     });
-    agree(self);
+    agree(self, arguments);
     return made;
 }
 

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <tuple>
 #include <utility>
 
 // The ranks of a group find each other in three exchanges:
@@ -199,6 +198,8 @@ void complete(std::span<const Arrived<SumNotice>> sums, GroupPlace place, LocalG
     for (LocalIndex group = 0; group < local.sums.size(); ++group) {
         if (numbers[group] >= result.plan.num_points) continue;
         const GroupSum& sum = local.sums[group];
+        require(std::isfinite(sum.weight),
+                "the sum of the weights of a group overflows; scale them down");
         result.weights.push_back(sum.weight);
         for (int a = 0; a < result.dimension; ++a) result.coordinates.push_back(sum.place[a]);
     }

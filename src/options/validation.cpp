@@ -138,6 +138,7 @@ TreeShape shape_by_machines(int num_parts, const Ranks& ranks) {
 Options complete(Options options, const Ranks& ranks, const Cuts* previous) {
     if (options.num_parts == 0) options.num_parts = ranks.number;
     if (options.tree.group_size == 0) {
+        require(options.tree.dealt == 0, "tree.dealt needs tree.group_size; set both, or neither");
         const TreeShape shape =
             previous ? previous->shape : shape_by_machines(options.num_parts, ranks);
         // Ranks hold the cuts above consecutive parts if many make them.

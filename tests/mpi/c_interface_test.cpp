@@ -409,6 +409,17 @@ TEST(CCostModel, tells_all_ranks_of_a_null_pointer_on_one) {
     EXPECT_EQ(model, nullptr);
 }
 
+TEST(CCostModel, with_a_controller_on_some_ranks_alone_is_refused) {
+    if (num_ranks() == 1) return;
+    rrcb_controller* controller = nullptr;
+    ASSERT_EQ(rrcb_controller_create(MPI_COMM_WORLD, &controller), RRCB_OK);
+    rrcb_cost_model* model = nullptr;
+    EXPECT_EQ(rrcb_cost_model_create(MPI_COMM_WORLD, rank() == 0 ? nullptr : controller, 1, &model),
+              RRCB_INVALID_ARGUMENT);
+    EXPECT_EQ(model, nullptr);
+    rrcb_controller_destroy(controller);
+}
+
 TEST(CCostModel, returns_errors) {
     rrcb_cost_model* model = nullptr;
     const MPI_Fint comm = MPI_Comm_c2f(MPI_COMM_WORLD);

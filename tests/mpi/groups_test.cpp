@@ -336,5 +336,13 @@ TEST(Groups, that_do_not_fit_on_one_rank_are_refused_on_all) {
     });
 }
 
+TEST(Groups, of_weights_that_overflow_are_refused_on_all) {
+    if (num_ranks() == 1) GTEST_SKIP() << "the sum overflows on several ranks";
+    const std::vector<double> x(2), weights{std::numeric_limits<double>::max()};
+    const std::vector<std::uint64_t> keys{7};
+    expect_refusal("the sum of the weights of a group overflows",
+                   [&] { groups(interleaved_points(x, 2, weights), keys, MPI_COMM_WORLD); });
+}
+
 }  // namespace
 }  // namespace rrcb

@@ -214,7 +214,8 @@ TEST(TreeShape, of_no_parts_in_a_group_is_refused) {
     options.tree.group_size = -1;
     EXPECT_THROW(balance(interleaved_points({}, 2), options, MPI_COMM_WORLD), Error);
     options.num_parts = 10;
-    for (const TreeShape& shape : {TreeShape{4, false, 1}, {5, false, 2}, {3, false, -1}}) {
+    for (const TreeShape& shape :
+         {TreeShape{4, false, 1}, {5, false, 2}, {3, false, -1}, {0, false, 2}}) {
         options.tree = shape;
         EXPECT_THROW(balance(interleaved_points({}, 2), options, MPI_COMM_WORLD), Error);
     }

@@ -203,12 +203,14 @@ TEST(Cuts, the_box_of_a_part_that_has_some_of_the_points_in_one_place_holds_that
 TEST(Cuts, look_ups_that_would_leave_an_array_are_refused) {
     const Cuts cuts = four_quarters();
     for (const Part part : {-1, 4, 1000}) EXPECT_THROW(box_of(cuts, part), Error);
-    std::vector<Cuts> broken(5, cuts);
+    std::vector<Cuts> broken(7, cuts);
     broken[0].tree.pop_back();
     broken[1].dimension = 9;
     broken[2].dimension = 0;
     broken[3].num_parts = 0;
     broken[4].tree[0].axis = 2;
+    broken[5].shape = {0, false, 1};
+    broken[6].shape = {3, false, 2};
     const std::vector<double> x(12, 0.5);
     std::vector<Part> parts(6);
     for (const Cuts& wrong : broken) {

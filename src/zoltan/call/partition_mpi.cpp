@@ -183,7 +183,7 @@ bool are_in_own_part(const Objects& objects, const PartMap& map, int rank) {
 
 /// Answers a call whose objects stay in the parts of the last partition. Collective as
 /// serve_fortran is.
-int keep_objects(const Call& call, Objects&& objects, Partition& result) {
+void keep_objects(const Call& call, Objects&& objects, Partition& result) {
     State& state = call.state;
     if (state.parameters.return_lists == ReturnLists::parts)
         result.exports = list_in_place(std::move(objects), state.communicator->rank());
@@ -192,7 +192,6 @@ int keep_objects(const Call& call, Objects&& objects, Partition& result) {
     state.last->answer_look_ups(keeps_cuts(state.parameters));
     print_notices(state.kept->report, state.last->map().num_parts, Remap{}, state, call.function);
     result.summary = summary_of(state.kept->report, state.last->map().num_parts);
-    return ZOLTAN_OK;
 }
 
 /// Divides the objects by RRCB's own method, or by one of the paper's. Collective.
@@ -206,7 +205,8 @@ Balance divide(const Call& call, const Layout& layout, const Preparation& prepar
                    std::move(state.workspace.parts));
 }
 
-int balance_objects(const Call& call, Objects&& objects, Partition& result) {
+/// Divides the objects, and keeps the cuts for the next call. Collective.
+void balance_objects(const Call& call, Objects&& objects, Partition& result) {
     const Parameters& parameters = call.state.parameters;
     Participant self{call.state.communicator->get()};
     Layout layout = make_layout(call.outcome, call.state, self);
@@ -227,7 +227,6 @@ int balance_objects(const Call& call, Objects&& objects, Partition& result) {
     result.summary = summary_of(balanced.report, layout.map.num_parts);
     keep(std::move(prepared), std::move(balanced), std::move(layout.map), std::move(numbering),
          call.state);
-    return parameters.auto_migrate != 0 && result.changes ? migrate(call.zz, result) : ZOLTAN_OK;
 }
 
 /// Dumps the inputs of a call, with its code and message so far. Collective as dump() is.
@@ -292,8 +291,13 @@ int partition(Zoltan_Struct* zz, State& state, const char* function, bool one_pa
     }
     if (outcome.differing != nullptr) return refuse_difference(call, objects, result);
     try {
-        const int code = is_kept ? keep_objects(call, std::move(objects), result)
-                                 : balance_objects(call, std::move(objects), result);
+        if (is_kept) {
+            keep_objects(call, std::move(objects), result);
+            return outcome.code;
+        }
+        balance_objects(call, std::move(objects), result);
+        if (state.parameters.auto_migrate == 0 || !result.changes) return outcome.code;
+        const int code = migrate(zz, result);
         return code == ZOLTAN_OK ? outcome.code : code;
     } catch (const ZoltanError& error) {
         return fail(call, objects, {error.code(), error.what()}, result);

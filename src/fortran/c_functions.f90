@@ -146,8 +146,7 @@ module rrcb_c_functions
       import
       type(c_ptr), value :: handle
       integer(c_size_t), value :: components
-      real(c_double), intent(in) :: values(*)
-      real(c_double), intent(inout) :: sums(*)
+      type(c_ptr), value :: values, sums
     end function
     integer(c_int) function c_controller_create(comm, handle) bind(c, name="rrcb_controller_create_fortran")
       import

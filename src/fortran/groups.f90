@@ -75,10 +75,18 @@ contains
   !> Adds up values(components, points) over the points of each group: sums(components, groups).
   subroutine sums(self, values, of_groups, error)
     class(rrcb_groups), intent(in) :: self
-    real(c_double), intent(in), contiguous :: values(:, :)
-    real(c_double), intent(inout), contiguous :: of_groups(:, :)
+    real(c_double), intent(in), target, contiguous :: values(:, :)
+    real(c_double), intent(inout), target, contiguous :: of_groups(:, :)
     integer, intent(out) :: error
-    error = c_groups_sums(self%handle, size(values, 1, c_size_t), values, of_groups)
+    type(rrcb_points) :: groups
+    type(c_ptr) :: from, to
+    error = c_groups_points(self%handle, groups)
+    from = c_null_ptr
+    to = c_null_ptr
+    if (size(values) > 0 .and. size(values, 2, c_size_t) >= self%num_points) from = c_loc(values)
+    if (size(of_groups) > 0 .and. size(of_groups, kind=c_size_t) >= size(values, 1)*groups%count) &
+      to = c_loc(of_groups)
+    error = c_groups_sums(self%handle, size(values, 1, c_size_t), from, to)
   end subroutine
 
 end module rrcb_group_lists

@@ -86,7 +86,9 @@ Points member_points(const Structs& structs, Position Struct::*position) {
     using Element = std::ranges::range_value_t<Structs>;
     using T = std::remove_cvref_t<decltype(std::declval<const Position&>()[0])>;
     static_assert(sizeof(Element) % sizeof(T) == 0, "structs must hold whole coordinates");
-    static_assert(detail::Scalar<T> && sizeof(Position) <= max_dimension * sizeof(T),
+    // A vector or a pointer has its numbers elsewhere.
+    static_assert(detail::Scalar<T> && sizeof(Position) <= max_dimension * sizeof(T) &&
+                      std::is_trivially_destructible_v<Position> && !std::is_pointer_v<Position>,
                   "the member must be an array of 1 to 3 doubles or floats");
     Points points{.dimension = static_cast<int>(sizeof(Position) / sizeof(T))};
     const Element* elements = std::ranges::data(structs);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace rrcb::c {
 
@@ -37,6 +38,8 @@ Points points_of(const rrcb_points* from) {
     const std::size_t bytes = bytes_of(from->type);
     if (from->type != RRCB_DOUBLE && from->type != RRCB_FLOAT)
         reject("coordinates must have the type RRCB_DOUBLE or RRCB_FLOAT");
+    if (points.count > PTRDIFF_MAX / std::max(from->stride, bytes))
+        reject("count and stride exceed the memory; count is the number of points of this rank");
     if (from->stride < bytes || from->stride % bytes != 0)
         reject("the stride must be in bytes, a multiple of the size of a coordinate");
     points.stride = from->stride / bytes;

@@ -409,6 +409,14 @@ TEST(CCostModel, tells_all_ranks_of_a_null_pointer_on_one) {
     EXPECT_EQ(model, nullptr);
 }
 
+TEST(CPoints, of_a_negative_count_are_refused) {
+    const double x[2] = {0, 0};
+    const rrcb_points points =
+        rrcb_interleaved_points(RRCB_DOUBLE, 2, static_cast<std::size_t>(-1), x, nullptr);
+    double lower[3], upper[3];
+    EXPECT_EQ(rrcb_bounding_box(&points, lower, upper), RRCB_INVALID_ARGUMENT);
+}
+
 TEST(CCostModel, with_a_controller_on_some_ranks_alone_is_refused) {
     if (num_ranks() == 1) return;
     rrcb_controller* controller = nullptr;

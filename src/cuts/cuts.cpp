@@ -33,7 +33,8 @@ void check_shape(const Cuts& cuts) {
                                                    : cuts.tree.size() == cuts.nodes.size()),
             "the tree must hold one cut less than there are parts, or the number of each one that "
             "it holds");
-    require(cuts.shape.group_size >= 1 && cuts.shape.number_fits(cuts.num_parts),
+    const TreeShape& shape = cuts.shape;
+    require(shape.dealt == 0 || (shape.group_size >= 1 && shape.number_fits(cuts.num_parts)),
             "the shape of the cuts must be one for so many parts; keep it with the cuts");
 }
 

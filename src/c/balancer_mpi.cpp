@@ -7,7 +7,6 @@
 #include "cuts/gather_cuts_mpi.hpp"
 
 #include <algorithm>
-#include <memory>
 
 namespace rrcb::c {
 

@@ -5,17 +5,15 @@
 #include "options/rejection.hpp"
 
 #include <algorithm>
-#include <optional>
+#include <cstddef>
 
 struct rrcb_ghosts {
     MPI_Comm comm = MPI_COMM_NULL;
     rrcb::GhostPlan plan{};
-    std::vector<rrcb_rank_count> send{};
-    std::vector<rrcb_rank_count> receive{};
 
     std::size_t num_ghosts() const {
         std::size_t sum = 0;
-        for (const rrcb_rank_count& share : receive) sum += share.count;
+        for (const rrcb::RankCount& share : plan.receive) sum += share.count;
         return sum;
     }
 };
@@ -53,10 +51,11 @@ struct KeptOptions {
     }
 };
 
-std::vector<rrcb_rank_count> counts_of(std::span<const RankCount> counts) {
-    std::vector<rrcb_rank_count> result;
-    for (const RankCount& share : counts) result.push_back({share.rank, share.count});
-    return result;
+const rrcb_rank_count* counts_at(const std::vector<RankCount>& counts) {
+    // Both are a rank and a number.
+    static_assert(sizeof(rrcb_rank_count) == sizeof(RankCount) &&
+                  offsetof(rrcb_rank_count, count) == offsetof(RankCount, count));
+    return reinterpret_cast<const rrcb_rank_count*>(counts.data());
 }
 
 void make_ghosts(const rrcb_balancer& own, const rrcb_points* given,
@@ -72,11 +71,6 @@ void make_ghosts(const rrcb_balancer& own, const rrcb_points* given,
     });
     made->comm = own.comm;
     made->plan = rrcb::ghosts(own.cuts, points, kept.options, self);
-    self.attempt([&] {
-        made->send = counts_of(made->plan.send);
-        made->receive = counts_of(made->plan.receive);
-    });
-    agree(self);
     *ghosts = made.release();
 }
 
@@ -162,12 +156,12 @@ int rrcb_ghosts_get_plan(const rrcb_ghosts* ghosts, rrcb_ghost_plan* plan) {
             const rrcb::GhostPlan& from = own.plan;
             *plan = {from.num_points,
                      own.num_ghosts(),
-                     own.send.size(),
-                     own.send.data(),
+                     from.send.size(),
+                     rrcb::c::counts_at(from.send),
                      from.send_indices.size(),
                      from.send_indices.data(),
-                     own.receive.size(),
-                     own.receive.data(),
+                     from.receive.size(),
+                     rrcb::c::counts_at(from.receive),
                      from.shifts.empty() ? nullptr : from.shifts.front().data()};
         },
         "ghosts");

@@ -5,7 +5,6 @@
 #include "lists/remap_mpi.hpp"
 
 #include <algorithm>
-#include <optional>
 
 namespace rrcb::c {
 

@@ -240,17 +240,12 @@ contains
     class(rrcb_balancer), intent(inout) :: self
     type(rrcb_column), intent(in) :: columns(:)
     integer, intent(out) :: error
-    integer(c_size_t), intent(in), target, optional :: limit
-    type(rrcb_transfer_report), intent(inout), target, optional :: report
+    integer(c_size_t), intent(in), optional :: limit
+    type(rrcb_transfer_report), intent(inout), optional :: report
     type(c_plan) :: plan
-    type(c_ptr) :: limits, made
-    limits = c_null_ptr
-    made = c_null_ptr
-    if (present(limit)) limits = c_loc(limit)
-    if (present(report)) made = c_loc(report)
     error = c_get_plan(self%handle, plan)
     error = c_transfer(self%handle, size(columns, kind=c_size_t), &
-                       columns_in_c(columns, plan%num_points, plan%num_points_after), limits, made)
+                       columns_in_c(columns, plan%num_points, plan%num_points_after), limit, report)
   end subroutine
 
   !> Writes the new number of part p to numbers(p + 1). `previous` has the part that each point was

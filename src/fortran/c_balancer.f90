@@ -125,7 +125,8 @@ module rrcb_c_balancer
       type(c_ptr), value :: handle
       integer(c_size_t), value :: num_columns
       type(c_column), intent(in) :: columns(*)
-      type(c_ptr), value :: limits, report
+      integer(c_size_t), intent(in), optional :: limits
+      type(rrcb_transfer_report), intent(inout), optional :: report
     end function
     integer(c_int) function c_remap(handle, count, parts, previous, ranks_of_parts, numbers, kept) &
       bind(c, name="rrcb_remap")

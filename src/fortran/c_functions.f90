@@ -99,7 +99,8 @@ module rrcb_c_functions
       type(c_ptr), value :: handle
       integer(c_size_t), value :: num_columns
       type(c_column), intent(in) :: columns(*)
-      type(c_ptr), value :: limits, report
+      integer(c_size_t), intent(in), optional :: limits
+      type(rrcb_transfer_report), intent(inout), optional :: report
     end function
     integer(c_int) function c_ghosts_accumulate(handle, num_columns, columns, limits, report) &
       bind(c, name="rrcb_ghosts_accumulate")
@@ -107,7 +108,8 @@ module rrcb_c_functions
       type(c_ptr), value :: handle
       integer(c_size_t), value :: num_columns
       type(c_column), intent(in) :: columns(*)
-      type(c_ptr), value :: limits, report
+      integer(c_size_t), intent(in), optional :: limits
+      type(rrcb_transfer_report), intent(inout), optional :: report
     end function
     integer(c_int) function c_ghosts_apply_shifts(handle, length, positions) &
       bind(c, name="rrcb_ghosts_apply_shifts")
@@ -139,7 +141,8 @@ module rrcb_c_functions
       type(c_ptr), value :: handle
       integer(c_size_t), value :: num_columns
       type(c_column), intent(in) :: columns(*)
-      type(c_ptr), value :: limits, report
+      integer(c_size_t), intent(in), optional :: limits
+      type(rrcb_transfer_report), intent(inout), optional :: report
     end function
     integer(c_int) function c_groups_sums(handle, components, values, sums) &
       bind(c, name="rrcb_groups_sums")

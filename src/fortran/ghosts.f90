@@ -77,17 +77,12 @@ contains
     class(rrcb_ghosts), intent(in) :: self
     type(rrcb_column), intent(in) :: columns(:)
     integer, intent(out) :: error
-    integer(c_size_t), intent(in), target, optional :: limit
-    type(rrcb_transfer_report), intent(inout), target, optional :: report
+    integer(c_size_t), intent(in), optional :: limit
+    type(rrcb_transfer_report), intent(inout), optional :: report
     type(c_ghost_plan) :: plan
-    type(c_ptr) :: limits, made
-    limits = c_null_ptr
-    made = c_null_ptr
-    if (present(limit)) limits = c_loc(limit)
-    if (present(report)) made = c_loc(report)
     error = c_ghosts_get_plan(self%handle, plan)
     error = c_ghosts_fetch(self%handle, size(columns, kind=c_size_t), &
-                            columns_in_c(columns, plan%num_points, plan%num_ghosts), limits, made)
+                            columns_in_c(columns, plan%num_points, plan%num_ghosts), limit, report)
   end subroutine
 
   !> Adds columns of the ghosts, `from`, to those of their points, `to`.
@@ -95,17 +90,12 @@ contains
     class(rrcb_ghosts), intent(in) :: self
     type(rrcb_column), intent(in) :: columns(:)
     integer, intent(out) :: error
-    integer(c_size_t), intent(in), target, optional :: limit
-    type(rrcb_transfer_report), intent(inout), target, optional :: report
+    integer(c_size_t), intent(in), optional :: limit
+    type(rrcb_transfer_report), intent(inout), optional :: report
     type(c_ghost_plan) :: plan
-    type(c_ptr) :: limits, made
-    limits = c_null_ptr
-    made = c_null_ptr
-    if (present(limit)) limits = c_loc(limit)
-    if (present(report)) made = c_loc(report)
     error = c_ghosts_get_plan(self%handle, plan)
     error = c_ghosts_accumulate(self%handle, size(columns, kind=c_size_t), &
-                            columns_in_c(columns, plan%num_ghosts, plan%num_points), limits, made)
+                            columns_in_c(columns, plan%num_ghosts, plan%num_points), limit, report)
   end subroutine
 
   !> Moves fetched positions to those of the images: positions(dimension, ghosts).

@@ -59,17 +59,12 @@ contains
     class(rrcb_groups), intent(in) :: self
     type(rrcb_column), intent(in) :: columns(:)
     integer, intent(out) :: error
-    integer(c_size_t), intent(in), target, optional :: limit
-    type(rrcb_transfer_report), intent(inout), target, optional :: report
+    integer(c_size_t), intent(in), optional :: limit
+    type(rrcb_transfer_report), intent(inout), optional :: report
     type(rrcb_points) :: groups
-    type(c_ptr) :: limits, made
-    limits = c_null_ptr
-    made = c_null_ptr
-    if (present(limit)) limits = c_loc(limit)
-    if (present(report)) made = c_loc(report)
     error = c_groups_points(self%handle, groups)
     error = c_groups_fetch(self%handle, size(columns, kind=c_size_t), &
-                           columns_in_c(columns, groups%count, self%num_points), limits, made)
+                           columns_in_c(columns, groups%count, self%num_points), limit, report)
   end subroutine
 
   !> Adds up values(components, points) over the points of each group: sums(components, groups).

@@ -18,33 +18,33 @@ module rrcb_balancers
     procedure, private :: create_by_type
     generic :: create => create_by_type
 #endif
-    generic :: create => create_by_number                   !< collective over the communicator
-    procedure :: destroy                                    !< frees the handle
-    procedure :: set                                        !< an option by its name
-    procedure :: set_part_sizes                             !< relative weights of the parts
-    procedure :: balance                                    !< collective
-    procedure :: rebalance                                  !< collective
-    procedure :: release_buffers                            !< of the communicator
-    procedure :: get_report                                 !< of the last balance
-    procedure :: get_cuts                                   !< a copy of them
-    procedure :: gather_cuts                                !< collective
-    procedure :: set_cuts                                   !< those of an earlier run
-    procedure :: part_of                                    !< a position
-    procedure :: assign                                     !< parts of positions by local cuts
-    procedure :: assign_all                                 !< collective
-    procedure :: box_of                                     !< region of a part
-    procedure :: parts_touching                             !< a box
-    procedure :: make_plan                                  !< collective
-    procedure :: get_plan                                   !< a copy of it
-    procedure :: transfer => transfer_columns               !< collective
-    procedure :: remap                                      !< collective
-    procedure :: part_weights                               !< collective
-    procedure :: moved_fraction                             !< collective
+    generic :: create => create_by_number
+    procedure :: destroy
+    procedure :: set
+    procedure :: set_part_sizes
+    procedure :: balance
+    procedure :: rebalance
+    procedure :: release_buffers
+    procedure :: get_report
+    procedure :: get_cuts
+    procedure :: gather_cuts
+    procedure :: set_cuts
+    procedure :: part_of
+    procedure :: assign
+    procedure :: assign_all
+    procedure :: box_of
+    procedure :: parts_touching
+    procedure :: make_plan
+    procedure :: get_plan
+    procedure :: transfer => transfer_columns
+    procedure :: remap
+    procedure :: part_weights
+    procedure :: moved_fraction
   end type
 
 contains
 
-  !> Collective over the communicator.
+  !> Makes a balancer. Collective over the communicator, which must outlive it.
   subroutine create_by_number(self, comm, error)
     class(rrcb_balancer), intent(inout) :: self
     integer, intent(in) :: comm
@@ -53,6 +53,7 @@ contains
   end subroutine
 
 #ifdef RRCB_MPI_F08
+  !> Does the same with the type of `use mpi_f08`.
   subroutine create_by_type(self, comm, error)
     class(rrcb_balancer), intent(inout) :: self
     type(MPI_Comm), intent(in) :: comm
@@ -61,12 +62,14 @@ contains
   end subroutine
 #endif
 
+  !> Frees the balancer. Not collective.
   subroutine destroy(self)
     class(rrcb_balancer), intent(inout) :: self
     call c_destroy(self%handle)
     self%handle = c_null_ptr
   end subroutine
 
+  !> Sets an option by its name in rrcb::Options to a text. Not collective, but the same on all ranks.
   subroutine set(self, option, value, error)
     class(rrcb_balancer), intent(inout) :: self
     character(*), intent(in) :: option, value
@@ -74,6 +77,7 @@ contains
     error = c_set(self%handle, trim(option)//c_null_char, trim(value)//c_null_char)
   end subroutine
 
+  !> Sets the relative weights of the parts. Not collective, but the same on all ranks.
   subroutine set_part_sizes(self, sizes, error)
     class(rrcb_balancer), intent(inout) :: self
     real(c_double), intent(in), contiguous :: sizes(:)
@@ -81,7 +85,7 @@ contains
     error = c_set_part_sizes(self%handle, size(sizes, kind=c_size_t), sizes)
   end subroutine
 
-  !> `parts` has an entry for each point.
+  !> Writes the new part of each point of this rank into `parts` and keeps the cuts. Collective.
   subroutine balance(self, points, parts, error)
     class(rrcb_balancer), intent(inout) :: self
     type(rrcb_points), intent(in) :: points
@@ -90,7 +94,7 @@ contains
     error = c_balance(self%handle, points, place_of(parts, points%count))
   end subroutine
 
-  !> Divides points that moved little, from the cuts that the balancer has.
+  !> Does the same from the cuts of the balancer, for points that moved little. Collective.
   subroutine rebalance(self, points, parts, error)
     class(rrcb_balancer), intent(inout) :: self
     type(rrcb_points), intent(in) :: points
@@ -99,13 +103,14 @@ contains
     error = c_rebalance(self%handle, points, place_of(parts, points%count))
   end subroutine
 
-  !> Frees the buffers that calls on the communicator keep for the next ones.
+  !> Frees the buffers that calls on the communicator keep. Not collective.
   subroutine release_buffers(self, error)
     class(rrcb_balancer), intent(inout) :: self
     integer, intent(out) :: error
     error = c_release_buffers(self%handle)
   end subroutine
 
+  !> Copies the report of the last balance. Not collective.
   subroutine get_report(self, report, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_report), intent(inout) :: report
@@ -113,7 +118,8 @@ contains
     error = c_get_report(self%handle, report)
   end subroutine
 
-  !> Fails before the first balance, and if the balancer holds only a part of the cuts.
+  !> Copies the cuts. Not collective. Fails before the first balance, and if the balancer holds only a
+  !> part of the cuts.
   subroutine get_cuts(self, cuts, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_cuts), intent(inout) :: cuts
@@ -130,14 +136,14 @@ contains
     cuts%tree%axis = cuts%tree%axis + 1
   end subroutine
 
-  !> Gives each rank's balancer all cuts, if each holds a part of them.
+  !> Gives each rank's balancer all cuts, if each holds a part of them. Collective.
   subroutine gather_cuts(self, error)
     class(rrcb_balancer), intent(inout) :: self
     integer, intent(out) :: error
     error = c_gather_cuts(self%handle)
   end subroutine
 
-  !> Copies cuts of an earlier run.
+  !> Copies cuts of an earlier run into the balancer. Not collective.
   subroutine set_cuts(self, cuts, error)
     class(rrcb_balancer), intent(inout) :: self
     type(rrcb_cuts), intent(in) :: cuts
@@ -152,7 +158,7 @@ contains
     error = c_set_cuts(self%handle, given)
   end subroutine
 
-  !> `position` has an entry for each axis of the points.
+  !> Finds the part of a position, which has an entry for each axis. Not collective.
   subroutine part_of(self, position, part, error)
     class(rrcb_balancer), intent(in) :: self
     real(c_double), intent(in) :: position(:)
@@ -168,6 +174,7 @@ contains
     three(:min(size(values), 3)) = values(:min(size(values), 3))
   end function
 
+  !> Finds the parts of points by the cuts of this rank. Not collective.
   subroutine assign(self, points, parts, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_points), intent(in) :: points
@@ -176,7 +183,7 @@ contains
     error = c_assign(self%handle, points, place_of(parts, points%count))
   end subroutine
 
-  !> Does the same, whichever cuts the ranks hold. Collective.
+  !> Finds the parts of points, whichever cuts the ranks hold. Collective.
   subroutine assign_all(self, points, parts, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_points), intent(in) :: points
@@ -185,6 +192,7 @@ contains
     error = c_assign_all(self%handle, points, place_of(parts, points%count))
   end subroutine
 
+  !> Finds the region of a part; sides without a cut are infinite. Not collective.
   subroutine box_of(self, part, lower, upper, error)
     class(rrcb_balancer), intent(in) :: self
     integer(c_int32_t), intent(in) :: part
@@ -193,7 +201,7 @@ contains
     error = c_box_of(self%handle, part, lower, upper)
   end subroutine
 
-  !> Returns the parts that a box touches, whose ends have an entry for each axis of the points.
+  !> Finds the parts that a box touches, whose ends have an entry for each axis. Not collective.
   subroutine parts_touching(self, lower, upper, parts, error)
     class(rrcb_balancer), intent(in) :: self
     real(c_double), intent(in) :: lower(:), upper(:)
@@ -212,6 +220,7 @@ contains
     parts = parts(:count)
   end subroutine
 
+  !> Makes the plan of a move into the parts given, one for each point. Collective.
   subroutine make_plan(self, parts, error)
     class(rrcb_balancer), intent(inout) :: self
     integer(c_int32_t), intent(in), contiguous :: parts(:)
@@ -219,6 +228,7 @@ contains
     error = c_make_plan(self%handle, size(parts, kind=c_size_t), parts)
   end subroutine
 
+  !> Copies the lists of the plan. Not collective.
   subroutine get_plan(self, plan, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_plan), intent(inout) :: plan
@@ -235,7 +245,7 @@ contains
     plan%import_parts = numbers_at(from%import_parts, from%num_imports)
   end subroutine
 
-  !> Moves columns: first the points that stay, then those that come.
+  !> Moves columns by the plan: first the points that stay, then those that come. Collective.
   subroutine transfer_columns(self, columns, error, limit, report)
     class(rrcb_balancer), intent(inout) :: self
     type(rrcb_column), intent(in) :: columns(:)
@@ -249,7 +259,7 @@ contains
   end subroutine
 
   !> Writes the new number of part p to numbers(p + 1). `previous` has the part that each point was
-  !> in; without it points stay on their ranks.
+  !> in; without it points stay on their ranks. Collective.
   subroutine remap(self, parts, numbers, error, previous, ranks_of_parts, kept)
     class(rrcb_balancer), intent(inout) :: self
     integer(c_int32_t), intent(in), target, contiguous :: parts(:)
@@ -274,7 +284,7 @@ contains
     error = c_remap(self%handle, size(parts, kind=c_size_t), now, earlier, ranks, numbers, made)
   end subroutine
 
-  !> Writes the weight of part p over all ranks to weights(p + 1).
+  !> Writes the weight of part p over all ranks to weights(p + 1). Collective.
   subroutine part_weights(self, points, parts, weights, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_points), intent(in) :: points
@@ -284,7 +294,7 @@ contains
     error = c_part_weights(self%handle, points, place_of(parts, points%count), weights)
   end subroutine
 
-  !> Writes the share of the weight whose rank changes.
+  !> Writes the share of the weight whose rank changes. Collective.
   subroutine moved_fraction(self, points, parts, fraction, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_points), intent(in) :: points

@@ -19,11 +19,11 @@ module rrcb_controllers
     procedure, private :: controller_create_by_type
     generic :: create => controller_create_by_type
 #endif
-    generic :: create => controller_create                  !< collective over the communicator
-    procedure :: destroy => controller_destroy              !< collective
-    procedure :: step => controller_step                    !< collective
-    procedure :: due => controller_due                      !< whether to rebalance before the next step
-    procedure :: rebalanced => controller_rebalanced        !< records a rebalance
+    generic :: create => controller_create
+    procedure :: destroy => controller_destroy
+    procedure :: step => controller_step
+    procedure :: due => controller_due
+    procedure :: rebalanced => controller_rebalanced
   end type
 
   !> Learns the costs of points. A copy is the same model; one of them is destroyed.
@@ -35,18 +35,19 @@ module rrcb_controllers
     procedure, private :: cost_model_create_by_type
     generic :: create => cost_model_create_by_type
 #endif
-    generic :: create => cost_model_create                  !< collective over the communicator
-    procedure :: destroy => cost_model_destroy              !< collective
-    procedure :: step => cost_model_step                    !< collective
-    procedure :: weights => cost_model_weights              !< of points, in seconds
-    procedure :: costs => cost_model_costs                  !< of a unit of each column
-    procedure :: uses_costs => cost_model_uses_costs        !< whether weights are by the costs
-    procedure :: report => cost_model_report                !< a sentence that says why
+    generic :: create => cost_model_create
+    procedure :: destroy => cost_model_destroy
+    procedure :: step => cost_model_step
+    procedure :: weights => cost_model_weights
+    procedure :: costs => cost_model_costs
+    procedure :: uses_costs => cost_model_uses_costs
+    procedure :: report => cost_model_report
   end type
 
 contains
 
 #ifdef RRCB_MPI_F08
+  !> Does the same with the type of `use mpi_f08`.
   subroutine controller_create_by_type(self, comm, error)
     class(rrcb_controller), intent(inout) :: self
     type(MPI_Comm), intent(in) :: comm
@@ -54,6 +55,7 @@ contains
     call self%create(comm%mpi_val, error)
   end subroutine
 
+  !> Does the same with the type of `use mpi_f08`.
   subroutine cost_model_create_by_type(self, comm, num_columns, error, controller)
     class(rrcb_cost_model), intent(inout) :: self
     type(MPI_Comm), intent(in) :: comm
@@ -64,7 +66,7 @@ contains
   end subroutine
 #endif
 
-  !> Collective over the communicator.
+  !> Makes a controller. Collective over the communicator.
   subroutine controller_create(self, comm, error)
     class(rrcb_controller), intent(inout) :: self
     integer, intent(in) :: comm
@@ -72,13 +74,15 @@ contains
     error = c_controller_create(int(comm, c_int), self%handle)
   end subroutine
 
+  !> Frees the controller. Collective.
   subroutine controller_destroy(self)
     class(rrcb_controller), intent(inout) :: self
     call c_controller_destroy(self%handle)
     self%handle = c_null_ptr
   end subroutine
 
-  !> With the points of this rank, or the sum of their weights, the load is smoothed.
+  !> Records a step that took `load`, without waiting. With `points`, those of this rank or the sum of
+  !> their weights, the load is smoothed. Collective.
   subroutine controller_step(self, load, error, points)
     class(rrcb_controller), intent(inout) :: self
     real(c_double), intent(in) :: load
@@ -101,6 +105,8 @@ contains
     due = c_controller_due(self%handle, answer) == rrcb_ok .and. answer == 1
   end function
 
+  !> Records a rebalance that took `cost`, in the unit of the loads. Called on all ranks, without
+  !> communication.
   subroutine controller_rebalanced(self, cost, error, report)
     class(rrcb_controller), intent(inout) :: self
     real(c_double), intent(in) :: cost
@@ -112,7 +118,8 @@ contains
     error = c_controller_rebalanced(self%handle, address, cost)
   end subroutine
 
-  !> Its sums travel with the steps of `controller`, which has recorded none and is destroyed later.
+  !> Makes a model. Its sums travel with the steps of `controller`, which has recorded none and is
+  !> destroyed later. Collective over the communicator.
   subroutine cost_model_create(self, comm, num_columns, error, controller)
     class(rrcb_cost_model), intent(inout) :: self
     integer, intent(in) :: comm, num_columns
@@ -124,12 +131,14 @@ contains
     error = c_cost_model_create(int(comm, c_int), steps, int(num_columns, c_int), self%handle)
   end subroutine
 
+  !> Frees the model. Collective unless it was made with a controller.
   subroutine cost_model_destroy(self)
     class(rrcb_cost_model), intent(inout) :: self
     call c_cost_model_destroy(self%handle)
     self%handle = c_null_ptr
   end subroutine
 
+  !> Records a step: the seconds of this rank, and its columns. Collective.
   subroutine cost_model_step(self, seconds, columns, error)
     class(rrcb_cost_model), intent(inout) :: self
     real(c_double), intent(in) :: seconds
@@ -138,7 +147,8 @@ contains
     error = c_cost_model_step(self%handle, seconds, size(columns, kind=c_size_t), columns)
   end subroutine
 
-  !> `columns` has the shape (columns, points), `weights` an entry for each point.
+  !> Writes the weights of points: `columns` has the shape (columns, points).
+  !> Called on all ranks, without communication.
   subroutine cost_model_weights(self, columns, weights, error)
     class(rrcb_cost_model), intent(inout) :: self
     real(c_double), intent(in), contiguous :: columns(:, :)
@@ -148,7 +158,7 @@ contains
       size(columns, 1, kind=c_size_t), columns, weights)
   end subroutine
 
-  !> `costs` has an entry for each column.
+  !> Writes the cost of a unit of each column. Not collective.
   subroutine cost_model_costs(self, costs, error)
     class(rrcb_cost_model), intent(in) :: self
     real(c_double), intent(inout), contiguous :: costs(:)
@@ -156,7 +166,7 @@ contains
     error = c_cost_model_costs(self%handle, costs)
   end subroutine
 
-  !> Returns whether weights are by the costs; false for a model that was not created.
+  !> Returns whether weights are by the costs; false for a model that was not created. Not collective.
   function cost_model_uses_costs(self) result(uses_costs)
     class(rrcb_cost_model), intent(in) :: self
     logical :: uses_costs
@@ -165,7 +175,7 @@ contains
     uses_costs = c_cost_model_uses_costs(self%handle, answer) == rrcb_ok .and. answer == 1
   end function
 
-  !> Returns a sentence: whether costs are used, and why.
+  !> Returns a sentence: whether costs are used, and why. Not collective.
   function cost_model_report(self) result(text)
     class(rrcb_cost_model), intent(in) :: self
     character(:), allocatable :: text

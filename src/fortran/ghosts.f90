@@ -11,18 +11,18 @@ module rrcb_ghost_lists
   type, public :: rrcb_ghosts
     type(c_ptr) :: handle = c_null_ptr                      !< for the library
   contains
-    procedure :: create                                     !< collective
-    procedure :: destroy                                    !< frees the handle
-    procedure :: get_plan                                   !< a copy of the lists
-    procedure :: fetch                                      !< collective
-    procedure :: accumulate                                 !< collective
-    procedure :: apply_shifts                               !< to positions of images
+    procedure :: create
+    procedure :: destroy
+    procedure :: get_plan
+    procedure :: fetch
+    procedure :: accumulate
+    procedure :: apply_shifts
   end type
 
 contains
 
   !> Finds points within `radius`, or one radius of each point, from the cuts of the balancer;
-  !> `lower` and `upper` are the ends of a periodic box, three entries each.
+  !> `lower` and `upper` are the ends of a periodic box, three entries each. Collective.
   subroutine create(self, balancer, points, error, radius, radii, lower, upper, ranks_of_parts)
     class(rrcb_ghosts), intent(inout) :: self
     class(rrcb_balancer), intent(in) :: balancer
@@ -45,12 +45,14 @@ contains
     error = c_ghosts_create(balancer%handle, points, options, self%handle)
   end subroutine
 
+  !> Frees the ghosts. Not collective.
   subroutine destroy(self)
     class(rrcb_ghosts), intent(inout) :: self
     call c_ghosts_destroy(self%handle)
     self%handle = c_null_ptr
   end subroutine
 
+  !> Copies the lists. Not collective.
   subroutine get_plan(self, plan, error)
     class(rrcb_ghosts), intent(in) :: self
     type(rrcb_ghost_plan), intent(inout) :: plan
@@ -72,7 +74,7 @@ contains
       plan%shifts = reshape(numbers_at(from%shifts, 3*from%num_ghosts), [3_c_size_t, from%num_ghosts])
   end subroutine
 
-  !> Fetches columns of the ghosts from those of the points.
+  !> Fetches columns of the ghosts from those of the points. Collective.
   subroutine fetch(self, columns, error, limit, report)
     class(rrcb_ghosts), intent(in) :: self
     type(rrcb_column), intent(in) :: columns(:)
@@ -85,7 +87,7 @@ contains
                             columns_in_c(columns, plan%num_points, plan%num_ghosts), limit, report)
   end subroutine
 
-  !> Adds columns of the ghosts, `from`, to those of their points, `to`.
+  !> Adds columns of the ghosts, `from`, to those of their points, `to`. Collective.
   subroutine accumulate(self, columns, error, limit, report)
     class(rrcb_ghosts), intent(in) :: self
     type(rrcb_column), intent(in) :: columns(:)
@@ -98,7 +100,7 @@ contains
                             columns_in_c(columns, plan%num_ghosts, plan%num_points), limit, report)
   end subroutine
 
-  !> Moves fetched positions to those of the images: positions(dimension, ghosts).
+  !> Moves fetched positions to those of the images: positions(dimension, ghosts). Not collective.
   subroutine apply_shifts(self, positions, error)
     class(rrcb_ghosts), intent(in) :: self
     real(c_double), intent(inout), contiguous :: positions(:, :)

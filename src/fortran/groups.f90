@@ -12,17 +12,17 @@ module rrcb_group_lists
     type(c_ptr) :: handle = c_null_ptr                      !< for the library
     integer(c_size_t), private :: num_points = 0
   contains
-    procedure :: create                                     !< collective
-    procedure :: destroy                                    !< frees the handle
-    procedure :: points => points_of_groups                 !< the groups as points
-    procedure :: fetch                                      !< collective
-    procedure :: sums                                       !< collective
+    procedure :: create
+    procedure :: destroy
+    procedure :: points => points_of_groups
+    procedure :: fetch
+    procedure :: sums
   end type
 
 contains
 
   !> Finds the groups of points with equal keys, -1 for a point without others; each at its centre of
-  !> weight, or its first point.
+  !> weight, or its first point. Collective.
   subroutine create(self, balancer, points, keys, error, at_first_point)
     class(rrcb_groups), intent(inout) :: self
     class(rrcb_balancer), intent(in) :: balancer
@@ -40,13 +40,14 @@ contains
     error = c_groups_create(balancer%handle, points, address, place, self%handle)
   end subroutine
 
+  !> Frees the groups. Not collective.
   subroutine destroy(self)
     class(rrcb_groups), intent(inout) :: self
     call c_groups_destroy(self%handle)
     self%handle = c_null_ptr
   end subroutine
 
-  !> Returns the groups of this rank as points, for balance().
+  !> Returns the groups of this rank as points, for balance(). Not collective.
   subroutine points_of_groups(self, points, error)
     class(rrcb_groups), intent(in) :: self
     type(rrcb_points), intent(inout) :: points
@@ -54,7 +55,7 @@ contains
     error = c_groups_points(self%handle, points)
   end subroutine
 
-  !> Fetches columns of the points from those of their groups, such as parts.
+  !> Fetches columns of the points from those of their groups, such as parts. Collective.
   subroutine fetch(self, columns, error, limit, report)
     class(rrcb_groups), intent(in) :: self
     type(rrcb_column), intent(in) :: columns(:)
@@ -68,6 +69,7 @@ contains
   end subroutine
 
   !> Adds up values(components, points) over the points of each group: sums(components, groups).
+  !> Collective.
   subroutine sums(self, values, of_groups, error)
     class(rrcb_groups), intent(in) :: self
     real(c_double), intent(in), target, contiguous :: values(:, :)

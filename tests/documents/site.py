@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""site.py FOLDER: checks the links of a site in HTML.
+"""site.py FOLDER: checks a site in HTML that docs/build has made.
 
 Fails unless each link, picture and script of each page leads to a file of the site, and its mark to a
-mark there, and no link is left as text. Links to other sites are only counted.
+mark there; headings follow each other in order; every function, enumeration and type of the interface
+has a heading; and the index of the search has words of the text. Links to other sites are only
+counted.
 """
 import re
 import sys
@@ -10,36 +12,81 @@ from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote
 
+ROOT = Path(__file__).resolve().parents[2]
+# Stems of words in the documents and the comments.
+WORDS = ("preload", "nan", "fetch", "rcb_reus", "fortran")
+
 
 class Page(HTMLParser):
-    """What a page refers to, and the marks it has."""
+    """What a page refers to, the marks it has, and its headings."""
 
     def __init__(self, path):
         super().__init__()
-        self.links, self.marks, self.texts = [], set(), []
+        self.links, self.marks, self.texts, self.headings = [], set(), [], []
         self.feed(path.read_text())
 
     def handle_starttag(self, tag, attrs):
+        if re.fullmatch("h[1-6]", tag):
+            self.headings.append([int(tag[1]), ""])
+            self.in_heading = True
         for name, value in attrs:
             if name in ("href", "src") and value:
                 self.links.append(value)
             elif name == "id" or (name == "name" and tag == "a"):
                 self.marks.add(value)
 
+    in_heading = False
+
+    def handle_endtag(self, tag):
+        if re.fullmatch("h[1-6]", tag):
+            self.in_heading = False
+
     def handle_data(self, data):
-        self.texts += re.findall(r"@ref \S+.*", data)
+        self.texts += re.findall(r"\]\(\S+\.md.*", data)
+        if self.in_heading:
+            self.headings[-1][1] += data
 
 
-def links_of_menu(folder):
-    """The menus and the tree of pages are written by scripts."""
-    for script in ("menudata.js", "navtreedata.js"):
-        path = folder / script
-        if path.exists():
-            yield from re.findall(r'"([^"\s]+\.html(?:#\w+)?)"', path.read_text())
+def misplaced_headings(page):
+    levels = [level for level, _ in page.headings]
+    return levels[:1] != [1] or any(b > a + 1 for a, b in zip(levels, levels[1:]))
+
+
+def interface():
+    """Names that the headers export, and those of the Fortran module, without classes' members."""
+    for path in (ROOT / "include" / "rrcb").rglob("*.h*"):
+        text = re.sub(r"namespace detail \{.*?\}  // namespace detail", "", path.read_text(),
+                      flags=re.S)
+        text = re.sub(r"^(class.*?^\};)", "", re.sub(r"//.*|/\*.*?\*/", "", text, flags=re.S)
+                      if path.suffix == ".h" else re.sub(r"//.*", "", text), flags=re.S | re.M)
+        text = re.sub(r"^#define.*", "", text, flags=re.M)
+        yield from re.findall(r"^RRCB_API[^;(]*?(\w+)\(", text, re.M)
+        yield from re.findall(r"^(?:typedef )?(?:enum|enum class|struct|class) (\w+)[ :{]*\{", text, re.M)
+        yield from re.findall(r"^using (\w+) =", text, re.M)
+    module = re.sub(r"&\s*\n", "", (ROOT / "src/fortran/rrcb.f90").read_text())
+    for listed in re.findall(r"only:(.*)", module):
+        yield from (name for name in re.findall(r"rrcb_\w+", listed)
+                    if not re.fullmatch(r"rrcb_(ok|\w+_(argument|memory|error)|float|double)", name))
+
+
+def missing_names(pages, folder):
+    titles = {title.strip("¶#") for path, page in pages.items()
+              if "reference" in path.relative_to(folder).parts for _, title in page.headings}
+    names = set(interface())
+    if len(names) < 100:
+        yield f"only {len(names)} names in the interface"
+    yield from (f"{name} has no heading in the reference" for name in sorted(names - titles))
+
+
+def missing_words(folder):
+    index = (folder / "searchindex.js").read_text()
+    yield from (f"the search does not find {word}" for word in WORDS
+                if not re.search(rf'[,{{"]{word}"?:', index))
 
 
 def broken(folder, page, link, pages):
     target, _, mark = unquote(link).partition("#")
+    target = target.partition("?")[0]
     file = (page.parent / target).resolve() if target else page
     if not file.is_file() or folder not in file.parents:
         return True
@@ -50,11 +97,14 @@ def main():
     folder = Path(sys.argv[1]).resolve()
     pages = {path: Page(path) for path in folder.rglob("*.html")}
     found = [(page, link) for page in pages for link in pages[page].links]
-    found += [(folder / "index.html", link) for link in links_of_menu(folder)]
     inside = [(page, link) for page, link in found if not re.match(r"\w+:|//", link)]
     problems = sorted({f"{page.name}: {link} leads nowhere" for page, link in inside
                        if broken(folder, page, link, pages)})
-    problems += [f"{page.name}: {text} is no link" for page in pages for text in pages[page].texts]
+    problems += [f"{path.name}: {text} is no link" for path in pages for text in pages[path].texts]
+    problems += [f"{path.name}: headings are out of order" for path in pages
+                 if path.name not in ("genindex.html", "search.html")
+                 and misplaced_headings(pages[path])]
+    problems += [*missing_names(pages, folder), *missing_words(folder)]
     print("\n".join(problems) or f"{len(pages)} pages, {len(inside)} links within the site, "
           f"{len(found) - len(inside)} to others")
     return 1 if problems or not inside else 0

@@ -43,7 +43,8 @@ const std::map<std::string, std::string>& documentation() {
         {"methods", "methods, by commas, parameters in brackets, or all: " + method_names()},
         {"lists", "lists Zoltan returns: PARTS (default), EXPORT or ALL"},
         {"steps", "steps of the simulation; to the end of the scene"},
-        {"every", "steps between rebalances, or auto (default): when they pay"},
+        {"every",
+         "steps between rebalances, or auto (default): when they pay; or several by commas"},
         {"cost", "learned: simulations compare learned costs of points with counting; count"},
         {"repeats", "timed calls of each method; 7"},
         {"seed", "seed of the cloud; 1"},
@@ -134,6 +135,21 @@ void check_combination(const Texts& texts) {
     needs("cost", is_scene, "--scene only; remove it");
 }
 
+/// 0 for auto.
+std::vector<int> read_intervals(const std::string& text) {
+    std::vector<int> intervals;
+    for (const std::string_view piece : split(text, ',')) {
+        const std::optional<int> steps = piece == "auto" ? 0 : read_number<int>(piece);
+        if (!steps || (*steps < 1 && piece != "auto"))
+            throw Failure(
+                "--every must be auto or an integer from 1 on, or several by commas, "
+                "not '" +
+                text + "'");
+        intervals.push_back(*steps);
+    }
+    return intervals;
+}
+
 void use_default_sizes(Arguments& arguments) {
     if (arguments.quick) arguments.points = 20'000;
     if (arguments.quick) arguments.repeats = 2;
@@ -181,7 +197,7 @@ Arguments read_arguments(int argc, char** argv) {
     read_choice<Lists>(texts, "lists", arguments.lists,
                        {{"PARTS", Lists::parts}, {"EXPORT", Lists::exports}, {"ALL", Lists::all}});
     read_integer(texts, "steps", arguments.steps, 1, many);
-    if (texts["every"] != "auto") read_integer(texts, "every", arguments.every, 1, many);
+    if (texts.given("every")) arguments.every = read_intervals(texts["every"]);
     read_choice<Cost>(texts, "cost", arguments.cost,
                       {{"count", Cost::count}, {"learned", Cost::learned}});
     read_integer(texts, "repeats", arguments.repeats, 1, 1000);

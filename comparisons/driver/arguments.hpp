@@ -38,8 +38,8 @@ struct Arguments : MeasurementPlan {
     int dimension = 2;
     Layout layout = Layout::sorted;
     std::vector<Method> methods;
-    int steps = 0;            ///< of the simulation; 0: to the end of the scene
-    int every = 0;            ///< steps between rebalances; 0: a controller says when
+    int steps = 0;                 ///< of the simulation; 0: to the end of the scene
+    std::vector<int> every = {0};  ///< steps between rebalances; 0: a controller says when
     Cost cost = Cost::count;  ///< learned: the simulations also compare learned costs with counting
     std::string out = "comparisons/out";
     Only only = Only::all;

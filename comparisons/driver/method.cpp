@@ -114,7 +114,10 @@ const std::vector<Entry>& entries() {
          {"mesh", "cut", "k", "fraction", "seed"}},
         {"rrcb", "RRCB", Options{}, {"mesh", "refine", "tol", "reuse", "central", "machines"}},
         {"rrcb-exact", "RRCB", refined(Refine::exact), {"mesh"}},
-        {"rrcb-arrays", on_arrays, Options{}, {"mesh", "refine", "tol", "central", "machines"}},
+        {"rrcb-arrays",
+         on_arrays,
+         Options{},
+         {"mesh", "refine", "tol", "reuse", "central", "machines"}},
     };
     return table;
 }

@@ -59,15 +59,20 @@ void coordinates(void* data, int, int, int count, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR l
 /// rrcb::balance as a program calls it that has its points in arrays.
 class ArraysPartitioner : public Partitioner {
   public:
-    ArraysPartitioner(const rrcb::Options& options, const Workload& workload, MPI_Comm comm)
-        : options_(options), workload_(workload), comm_(comm) {
+    ArraysPartitioner(const Method& method, const Workload& workload, MPI_Comm comm)
+        : options_(std::get<rrcb::Options>(*method.options)),
+          reuses_(method.reuses),
+          workload_(workload),
+          comm_(comm) {
         // The plug-in, beside which this stands, gathers no cuts either.
         options_.cuts = rrcb::HeldCuts::own;
     }
 
     int partition() override {
         try {
-            balance_ = rrcb::balance(workload_.points(), options_, comm_);
+            balance_ = cuts_ ? rrcb::rebalance(workload_.points(), options_, *cuts_, comm_)
+                             : rrcb::balance(workload_.points(), options_, comm_);
+            if (reuses_) cuts_ = balance_->cuts;
         } catch (const rrcb::Error&) {
             return ZOLTAN_FATAL;
         }
@@ -81,10 +86,47 @@ class ArraysPartitioner : public Partitioner {
 
   private:
     rrcb::Options options_;
+    bool reuses_;
     const Workload& workload_;
     MPI_Comm comm_;
     std::optional<rrcb::Balance> balance_;
+    std::optional<rrcb::Cuts> cuts_;  ///< of the last call, if they are to be reused
 };
+
+#ifdef RRCB_HAS_ZOLTAN2
+bool holds(const mpm::Box& box, const mpm::Vector& at) {
+    for (std::size_t axis = 0; axis < at.size(); ++axis)
+        if (at[axis] < box.lower[axis] || at[axis] > box.upper[axis]) return false;
+    return true;
+}
+
+int first_that_holds(const std::vector<mpm::Box>& boxes, const mpm::Vector& at) {
+    const auto found = std::ranges::find_if(boxes, [&](const auto& box) { return holds(box, at); });
+    return static_cast<int>(found - boxes.begin());
+}
+
+/// Its parts, except of points that round-off has put beside their box.
+mpm::Decomposition multijagged_decomposition(mpm::Positions positions, MPI_Comm comm) {
+    std::vector<const double*> axes = {positions.x.data(), positions.y.data()};
+    if (!positions.z.empty()) axes.push_back(positions.z.data());
+    MultijaggedBoxes found =
+        divide_multijagged({positions.size(), axes}, multijagged_tolerance, comm);
+    mpm::Decomposition decomposition;
+    for (std::size_t part = 0; part < found.lower.size(); ++part)
+        decomposition.boxes.push_back({found.lower[part], found.upper[part]});
+    decomposition.local_owners = std::move(found.parts);
+    const std::vector<mpm::Box>& boxes = decomposition.boxes;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        int& owner = decomposition.local_owners[i];
+        if (!holds(boxes[static_cast<std::size_t>(owner)], positions[i]))
+            owner = first_that_holds(boxes, positions[i]);
+    }
+    decomposition.owners = [boxes](mpm::Positions at, std::span<int> owners) {
+        for (std::size_t i = 0; i < owners.size(); ++i) owners[i] = first_that_holds(boxes, at[i]);
+    };
+    return decomposition;
+}
+#endif
 
 }  // namespace
 
@@ -160,23 +202,30 @@ rrcb::Box ZoltanPartitioner::box_of(rrcb::Part part) const {
 std::unique_ptr<Partitioner> make_partitioner(const Method& method, const Workload& workload,
                                               Lists lists, MPI_Comm comm) {
     if (method.lb_method == on_arrays) {
-        return std::make_unique<ArraysPartitioner>(std::get<rrcb::Options>(*method.options),
-                                                   workload, comm);
+        return std::make_unique<ArraysPartitioner>(method, workload, comm);
     }
 #ifdef RRCB_HAS_ZOLTAN2
     if (method.lb_method == multijagged) {
-        return make_multijagged(
-            {workload.points().count, workload.dimension, workload.coordinates.data(),
-             workload.weighted ? workload.weights.data() : nullptr},
-            multijagged_tolerance, comm);
+        std::vector<const double*> axes;
+        for (int axis = 0; axis < workload.dimension; ++axis)
+            axes.push_back(workload.coordinates.data() + axis);
+        return make_multijagged({workload.points().count, axes, workload.dimension,
+                                 workload.weighted ? workload.weights.data() : nullptr},
+                                multijagged_tolerance, comm);
     }
 #endif
     return std::make_unique<ZoltanPartitioner>(zoltan_parameters(method, lists), workload, comm);
 }
 
 std::optional<mpm::Balancer> make_balancer(const Method& method, const PointWeights& weights) {
-    if (method.lb_method == on_arrays)
-        return rrcb_balancer(std::get<rrcb::Options>(*method.options), weights);
+    if (method.lb_method == on_arrays) {
+        const auto make = method.reuses ? rrcb_rebalancer
+                                        : static_cast<decltype(&rrcb_rebalancer)>(rrcb_balancer);
+        return make(std::get<rrcb::Options>(*method.options), weights);
+    }
+#ifdef RRCB_HAS_ZOLTAN2
+    if (method.lb_method == multijagged) return multijagged_decomposition;
+#endif
     if (method.lb_method != "RCB" && method.lb_method != "RRCB") return std::nullopt;
     return zoltan_balancer(zoltan_parameters(method, Lists::parts));
 }

@@ -21,17 +21,33 @@ namespace {
 /// Rounds of simulations at most: the fewest whose smallest and largest value make an interval.
 constexpr int max_rounds = 6;
 
-/// One for each method that is simulated, between two without rebalancing.
-std::vector<SimulationRounds> contenders(const Arguments& arguments) {
-    std::vector<SimulationRounds> all(1, {"none", {}, {}});
+std::string interval_text(int every) {
+    return every > 0 ? std::to_string(every) : "auto";
+}
+
+/// Those that rebalance at an interval.
+std::vector<SimulationRounds> contenders(const Arguments& arguments, int every) {
+    std::vector<SimulationRounds> all;
     for (const Method& method : arguments.methods)
-        if (make_balancer(method)) all.push_back({method.label, {}, method});
+        if (make_balancer(method)) all.push_back({method.label, {}, method, Cost::count, every});
     if (arguments.cost == Cost::learned) {
         const Method method = read_method("rrcb-arrays");
-        all.push_back({"count", {}, method});
-        all.push_back({"learned", {}, method, Cost::learned});
+        all.push_back({"count", {}, method, Cost::count, every});
+        all.push_back({"learned", {}, method, Cost::learned, every});
     }
-    all.push_back({"none again", {}, {}});
+    if (arguments.every.size() > 1)
+        for (SimulationRounds& rounds : all) rounds.method += " every " + interval_text(every);
+    return all;
+}
+
+/// One for each method that is simulated and interval, between two without rebalancing.
+std::vector<SimulationRounds> contenders(const Arguments& arguments) {
+    const SimulationRounds none{"none", {}, {}, Cost::count, arguments.every.front()};
+    std::vector<SimulationRounds> all(1, none);
+    for (const int every : arguments.every)
+        std::ranges::move(contenders(arguments, every), std::back_inserter(all));
+    all.push_back(none);
+    all.back().method = "none again";
     return all;
 }
 
@@ -61,6 +77,7 @@ void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPl
                std::vector<Workload>& snapshots, Progress& progress, MPI_Comm comm) {
     progress.start("simulations, round " + std::to_string(round + 1),
                    static_cast<int>(all.size()) * plan.num_steps);
+    std::vector<SimulationPlan> plans(all.size(), plan);
     std::vector<std::unique_ptr<TimedSimulation>> simulations;
     for (const SimulationRounds& rounds : all) {
         const bool shows_the_scene = round == 0 && simulations.empty();
@@ -69,11 +86,13 @@ void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPl
             return make_balancer(with_next_seed(*rounds.balanced_by, static_cast<unsigned>(round)),
                                  weights);
         };
+        SimulationPlan& its_plan = plans[simulations.size()];
+        its_plan.every = rounds.every;
         auto& simulation = simulations.emplace_back();
         if (!rounds.has_failed())
             simulation = std::make_unique<TimedSimulation>(
-                plan, make, observer(plan, progress, shows_the_scene ? &snapshots : nullptr), comm,
-                rounds.cost);
+                its_plan, make, observer(plan, progress, shows_the_scene ? &snapshots : nullptr),
+                comm, rounds.cost);
     }
     // Turns are long enough that each simulation finds its points in the cache again.
     constexpr int turn = 50;
@@ -106,20 +125,21 @@ void add_cost(Row& row, const std::string& phase, const PathCost& cost) {
 }
 
 /// `number` counts the rounds from 1 on.
-Row round_row(const SimulationPlan& plan, int num_ranks, const std::string& method, int number,
+Row round_row(const SimulationPlan& plan, int num_ranks, const SimulationRounds& rounds, int number,
               const SimulationRun& run) {
     Row row;
-    row.add("method", method)
+    row.add("method", rounds.method)
         .add("round", number)
         .add("seed", run.seed)
         .add("ranks", num_ranks)
         .add("points", run.num_points)
         .add("steps", plan.num_steps)
-        .add("every", plan.every > 0 ? std::to_string(plan.every) : "auto")
+        .add("every", interval_text(rounds.every))
         .add("scene", plan.scene.name)
         .end_key(run.error)
         .add("wall_s", run.wall_s)
         .add("balance_s", run.balance_s)
+        .add("decide_s", run.decide_s)
         .add("step_s", run.step_s)
         .add("mean_imbalance", run.mean_imbalance)
         .add("worst_imbalance", run.worst_imbalance)
@@ -129,6 +149,7 @@ Row round_row(const SimulationPlan& plan, int num_ranks, const std::string& meth
         .add("path_points", run.path_points);
     add_cost(row, "step", run.step_cost);
     add_cost(row, "balance", run.balance_cost);
+    add_cost(row, "decide", run.decide_cost);
     return row.add("critical_path_s", critical_path_s(run))
         .add("rebalances", run.rebalances)
         .add("moved_fraction", run.moved_fraction)
@@ -156,7 +177,6 @@ SimulationPlan plan_scene(const Arguments& arguments, std::size_t num_runs, MPI_
     plan.num_steps = arguments.steps > 0 ? arguments.steps
                      : arguments.quick   ? quick_steps
                                          : steps_to_end(plan.scene, comm);
-    plan.every = arguments.every;
     plan.record_every = record_interval(plan.num_steps, num_runs, comm);
     return plan;
 }
@@ -216,7 +236,7 @@ std::string rounds_csv(const SimulationPlan& plan, int num_ranks,
     for (const SimulationRounds& rounds : methods) {
         int number = 0;
         for (const SimulationRun& run : rounds.runs)
-            rows.push_back(round_row(plan, num_ranks, rounds.method, ++number, run));
+            rows.push_back(round_row(plan, num_ranks, rounds, ++number, run));
     }
     return csv(round_row(plan, num_ranks, {}, 0, {}), rows);
 }

@@ -23,6 +23,7 @@ struct SimulationRounds {
     std::vector<SimulationRun> runs;      ///< none after one that failed
     std::optional<Method> balanced_by{};  ///< none: nothing is rebalanced
     Cost cost = Cost::count;
+    int every = 0;  ///< as in SimulationPlan
 
     bool has_failed() const { return !runs.empty() && !runs.back().error.empty(); }
 };

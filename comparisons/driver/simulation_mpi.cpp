@@ -52,21 +52,24 @@ void note_state(SimulationRun& run, const mpm::Simulation& simulation, MPI_Comm 
         run.moved_m = std::max(run.moved_m, moved);
         if (moved > 1) front = std::max(front, x[i]);
     }
-    double most[] = {front, run.moved_m, run.balance_s, run.step_s};
-    MPI_Allreduce(MPI_IN_PLACE, most, 4, MPI_DOUBLE, MPI_MAX, comm);
+    double most[] = {front, run.moved_m, run.balance_s, run.step_s, run.decide_s};
+    MPI_Allreduce(MPI_IN_PLACE, most, 5, MPI_DOUBLE, MPI_MAX, comm);
     MPI_Allreduce(MPI_IN_PLACE, &run.mass_kg, 1, MPI_DOUBLE, MPI_SUM, comm);
     if (most[0] > nowhere) run.front_m = most[0];
     run.moved_m = most[1];
     run.balance_s = most[2];
     run.step_s = most[3];
-    run.wall_s = run.balance_s + run.step_s;
+    run.decide_s = most[4];
+    run.wall_s = run.balance_s + run.decide_s + run.step_s;
 }
 
 }  // namespace
 
 double critical_path_s(const SimulationRun& run) {
-    return run.step_cost.path_s + run.step_cost.network_s + run.balance_cost.path_s +
-           run.balance_cost.network_s;
+    double sum = 0;
+    for (const PathCost* cost : {&run.step_cost, &run.balance_cost, &run.decide_cost})
+        sum += cost->path_s + cost->network_s;
+    return sum;
 }
 
 TimedSimulation::TimedSimulation(const SimulationPlan& plan, const BalancerMaker& make_balancer,
@@ -128,10 +131,14 @@ void TimedSimulation::record_step() {
     const double seconds = steps_.last_s(num_ranks_);
     seconds_since_record_ += seconds;
     ++steps_since_record_;
-    if (model_)
-        model_->step(seconds, simulation_->work_columns());
-    else if (controller_)
-        controller_->step(seconds, loads_.back());
+    if (!model_ && !controller_) return;
+    const auto decide = [&] {
+        if (model_)
+            model_->step(seconds, simulation_->work_columns());
+        else
+            controller_->step(seconds, loads_.back());
+    };
+    run_.decide_s += timed(decide, decisions_, comm_);
 }
 
 bool TimedSimulation::is_due() const {
@@ -168,6 +175,7 @@ SimulationRun TimedSimulation::result() const {
         note_loads(run);
         run.step_cost = steps_.cost(comm_);
         run.balance_cost = balances_.cost(comm_);
+        run.decide_cost = decisions_.cost(comm_);
     });
     return run;
 }

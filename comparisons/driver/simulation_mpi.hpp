@@ -41,8 +41,9 @@ struct SimulationRun {
     std::string error;                  ///< empty unless the simulation failed
     std::optional<std::uint64_t> seed;  ///< of the method's points, where it varies with it
     std::int64_t num_points = 0;
-    double wall_s = 0;           ///< balance_s + step_s; records are not timed
+    double wall_s = 0;           ///< balance_s + decide_s + step_s; records are not timed
     double balance_s = 0;        ///< rebalances with the migration of the points, slowest rank
+    double decide_s = 0;         ///< the controller and learning costs, slowest rank
     double step_s = 0;           ///< steps, slowest rank
     double mean_imbalance = 1;   ///< over all steps, each after the rebalance it begins with
     double worst_imbalance = 1;  ///< of the same
@@ -54,6 +55,7 @@ struct SimulationRun {
     double path_points = 0;         ///< most points on a rank, summed over the steps
     PathCost step_cost;
     PathCost balance_cost;
+    PathCost decide_cost;
     std::vector<LoadRecord> history;
 };
 
@@ -115,6 +117,7 @@ class TimedSimulation {
     SimulationRun run_;
     PhaseLog steps_;
     PhaseLog balances_;
+    PhaseLog decisions_;
     std::vector<double> loads_;  ///< points on this rank in each step
     double moved_lately_ = 0;    ///< share of the points that the latest rebalance moved
     double seconds_since_record_ = 0;

@@ -36,7 +36,7 @@ comparisons/run [option ...]
   --seed=1              of the points of a cloud and of --layout=scattered
   --steps=N             of the simulation; to its end, of the slope until it lies still
   --every=auto          rebalance the simulation when it pays; or N: steps between two
-                        rebalances
+                        rebalances; or several by commas, all in the same rounds
   --cost=learned        the simulations also compare weights from learned costs with
                         counting; of the default methods, else --cost=count
 """

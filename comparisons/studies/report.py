@@ -56,6 +56,7 @@ def _add_simulations(report: Report, results: Results) -> None:
         return
     first = runs.iloc[-1]
     every = f"every {first['every']} steps" if first["every"] else "when it pays"
+    every = every if runs["every"].nunique() == 1 else "as named"
     size = f"{first['points']:,} points, {first['steps']:,} steps, {first['ranks']} ranks"
     caption = f"Simulations: {size}, rebalanced {every}"
     report.table(caption, simulation_table(runs, results.rounds))

@@ -246,11 +246,11 @@ TEST(Simulation, methods_go_through_zoltan_unless_they_are_on_arrays) {
 }
 
 std::vector<SimulationRounds> quick_scene(const std::string& methods, int repeats,
-                                          Cost cost = Cost::count) {
+                                          Cost cost = Cost::count, std::vector<int> every = {2}) {
     Arguments arguments;
     arguments.quick = true;
     arguments.steps = 4;
-    arguments.every = 2;
+    arguments.every = std::move(every);
     arguments.repeats = repeats;
     arguments.methods = read_methods(methods);
     arguments.cost = cost;
@@ -291,6 +291,18 @@ TEST(Simulation, rounds_take_another_seed_each_and_keep_the_first_history) {
         plan, without_weights(seed_three), [](int, const mpm::Simulation&) {}, MPI_COMM_WORLD);
     alone.advance(4);
     EXPECT_EQ(methods[2].runs[2].mean_imbalance, alone.result().mean_imbalance);
+}
+
+TEST(Simulation, several_intervals_take_part_in_the_same_rounds) {
+    const std::vector<SimulationRounds> methods =
+        quick_scene("zoltan-rcb[reuse,lock],rrcb-arrays[reuse]", 1, Cost::count, {1, 3, 0});
+    ASSERT_EQ(methods.size(), 8U);
+    EXPECT_EQ(methods[2].method, "rrcb-arrays[reuse] every 1");
+    EXPECT_EQ(methods[6].method, "rrcb-arrays[reuse] every auto");
+    for (const int i : {1, 2}) EXPECT_EQ(methods[i].runs.front().rebalances, 4);
+    for (const int i : {3, 4}) EXPECT_EQ(methods[i].runs.front().rebalances, 2);
+    EXPECT_EQ(methods[3].runs.front().decide_s, 0);
+    EXPECT_GT(methods[6].runs.front().decide_s, 0);
 }
 
 TEST(Simulation, learned_costs_are_compared_with_counting) {
@@ -334,6 +346,7 @@ std::vector<SimulationRounds> two_methods() {
     std::vector<SimulationRounds> methods = {{"fast", {run_of(8), run_of(16)}},
                                              {"broken", {run_of(1), failed}}};
     methods[0].runs[0].seed = 7;
+    methods[0].every = 3;
     return methods;
 }
 
@@ -341,14 +354,16 @@ TEST(SimulationRounds, have_a_row_for_each_run) {
     const SimulationPlan plan{.scene = mpm::slope_scene(22), .num_steps = 6};
     EXPECT_EQ(
         rounds_csv(plan, 4, two_methods()),
-        "method,round,seed,ranks,points,steps,every,scene,wall_s,balance_s,step_s,mean_imbalance,"
-        "worst_imbalance,front_x_m,moved_m,mass_kg,path_points,step_work_s,step_path_s,"
-        "step_network_s,balance_work_s,balance_path_s,balance_network_s,critical_path_s,rebalances,"
-        "moved_fraction,error\n"
-        "fast,1,7,4,1000,6,1,slope,50,0,0,1.5,1,,0,0,0,32,6,2,2.5,0.5,0.125,8.625,8,0.25,\n"
-        "fast,2,,4,1000,6,1,slope,50,0,0,1.5,1,,0,0,0,64,12,4,2.5,0.5,0.125,16.625,8,0.25,\n"
-        "broken,1,,4,1000,6,1,slope,50,0,0,1.5,1,,0,0,0,4,0.75,0.25,2.5,0.5,0.125,1.625,8,0.25,\n"
-        "broken,2,,4,0,6,1,slope,,,,,,,,,,,,,,,,,,,no balance today\n");
+        "method,round,seed,ranks,points,steps,every,scene,wall_s,balance_s,decide_s,step_s,"
+        "mean_imbalance,worst_imbalance,front_x_m,moved_m,mass_kg,path_points,step_work_s,"
+        "step_path_s,step_network_s,balance_work_s,balance_path_s,balance_network_s,decide_work_s,"
+        "decide_path_s,decide_network_s,critical_path_s,rebalances,moved_fraction,error\n"
+        "fast,1,7,4,1000,6,3,slope,50,0,0,0,1.5,1,,0,0,0,32,6,2,2.5,0.5,0.125,0,0,0,8.625,8,0.25,\n"
+        "fast,2,,4,1000,6,3,slope,50,0,0,0,1.5,1,,0,0,0,64,12,4,2.5,0.5,0.125,0,0,0,16.625,8,"
+        "0.25,\n"
+        "broken,1,,4,1000,6,auto,slope,50,0,0,0,1.5,1,,0,0,0,4,0.75,0.25,2.5,0.5,0.125,0,0,0,1.625,"
+        "8,0.25,\n"
+        "broken,2,,4,0,6,auto,slope,,,,,,,,,,,,,,,,,,,,,,,no balance today\n");
 }
 
 TEST(SimulationRounds, print_their_paths_and_why_one_failed) {

@@ -2,8 +2,8 @@
 """check.py FOLDER: checks what the documents of a source tree refer to.
 
 Fails unless every relative link leads to a file, and its mark to a heading; every path in the type of
-code is there; and each message in the table of docs/errors.md is in the source, but for the words in
-capitals, which stand for numbers and names.
+code is there; each message in the table of docs/errors.md is in the source, except words in capitals,
+which stand for numbers and names; and every figure is shown, with a caption and a command.
 """
 import re
 import shutil
@@ -76,12 +76,28 @@ def unknown_messages(root):
                 yield f'docs/errors.md: no message has "{piece}"'
 
 
+def problems_of_figures(root, found):
+    """Figures of docs need a caption, and a command in CONTRIBUTING.md that draws them."""
+    commands = (root / "CONTRIBUTING.md").read_text()
+    texts = {document: document.read_text() for document in found}
+    for figure in sorted((root / "docs" / "figures").iterdir()):
+        shown = rf"!\[[^\]]*\]\([\w./]*{re.escape(figure.name)}\)"
+        shows = [text for text in texts.values() if re.search(shown, text)]
+        stem = re.escape(figure.stem.split("_figure_")[0].split("_cycle_")[0])
+        if not shows:
+            yield f"{figure}: no document shows it"
+        elif not all(re.search(shown + r"\n\n\*\w", text) for text in shows):
+            yield f"{figure}: no caption follows it"
+        if not re.search(rf"{stem}(_\*)?\.\w+", commands):
+            yield f"{figure}: CONTRIBUTING.md has no command that draws it"
+
+
 def main():
     root = Path(sys.argv[1])
     found = documents(root)
     problems = [problem for document in found
                 for problem in (*broken_links(document), *missing_paths(document, root))]
-    problems += unknown_messages(root)
+    problems += [*unknown_messages(root), *problems_of_figures(root, found)]
     print("\n".join(problems) or f"{len(found)} documents")
     return 1 if problems or not found else 0
 

@@ -39,8 +39,9 @@ def linked(text, links):
 def as_markdown(comment):
     """A comment as Markdown: parameters are a list."""
     text = re.sub(r"^@param (\w+)", r"- `\1`:", comment, flags=re.M)
-    text = re.sub(r"^@return ", "Returns ", text, flags=re.M)
+    text = re.sub(r"^@return ", "\nReturns ", text, flags=re.M)
     text = re.sub(r"([^\n])\n(- `\w+`:)", r"\1\n\n\2", text, count=1)
+    text = re.sub(r"^Throws ", "\nThrows ", text, flags=re.M)
     return re.sub(r"<(?=\w)", r"\\<", text).strip()
 
 
@@ -99,6 +100,36 @@ def name_of(code):
         if found:
             return found[1]
     raise ValueError(f"no name in {code}")
+
+
+def parameters_of(code):
+    """The names of a function's parameters."""
+    code = re.sub(r"//.*", "", without_template(code)).strip()
+    found = re.search(r"\((.*)\)[^()]*$", code, re.S)
+    if not found or re.match(r"struct|enum|typedef|using|class|inline constexpr", code):
+        return []
+    depth, parts = 0, [""]
+    for letter in found[1]:
+        depth += {"(": 1, "<": 1, "{": 1, ")": -1, ">": -1, "}": -1}.get(letter, 0)
+        if letter == "," and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += letter
+    named = (re.search(r"\w+$", re.sub(r"\s*=.*", "", part, flags=re.S)) for part in parts)
+    return [name[0] for name in named if name]
+
+
+def faulty_comments(root):
+    """Comments of the C++ headers above 15 lines, and those that lack some of the parameters."""
+    for name in CPP:
+        file = Path(root) / "include" / "rrcb" / f"{name}.hpp"
+        for function, comment, code in items_of(file.read_text().splitlines(), name):
+            if len(comment.splitlines()) > 15:
+                yield f"{file}: the comment of {function} has more than 15 lines"
+            names = parameters_of(code) if code else []
+            for each in names if len(names) > 1 else []:
+                if not re.search(rf"^@param {each}\b", comment, re.M):
+                    yield f"{file}: {function} has no @param {each}"
 
 
 def trailing_comment(code):

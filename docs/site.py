@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """site.py FOLDER: gathers the documents and the reference in FOLDER, for Sphinx.
 
-Fails if a document of the source tree, or a header or module of the interface, has no place in the
-menu.
+Fails if a document of the source tree, or a header of the interface, has no place in the menu, or if the
+comment of a function in C++ is longer than 15 lines or lacks a parameter.
 """
 import re
 import shutil
@@ -77,7 +77,7 @@ def without_place():
 
 def main():
     folder = Path(sys.argv[1])
-    problems = list(without_place())
+    problems = [*without_place(), *reference.faulty_comments(ROOT)]
     if problems:
         sys.exit("\n".join(problems))
     gather(folder)

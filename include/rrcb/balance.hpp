@@ -52,43 +52,54 @@ struct Balance {
 ///     const rrcb::Points points = rrcb::interleaved_points(xyz, 3);
 ///     rrcb::Balance balance = rrcb::balance(points, {}, comm);  // one part per rank
 ///
-/// Collective over `comm`, which the first call duplicates. A rank may hold no points; all ranks
-/// pass the same dimension and `options`. Returns the cuts, the part of each local point and a
-/// report. The same input on the same ranks gives the same bits. Points are kept on their ranks if
-/// new cuts would gain too little (Report::kept). The duplicate is freed with `comm`.
-///
+/// Collective. Points are kept on their ranks if new cuts would gain too little (Report::kept).
+/// @param points  of this rank, also none; the same dimension on every rank
+/// @param options the same on every rank
+/// @param comm    duplicated by the first call; the duplicate is freed with it
+/// @return the cuts, the part of each point of this rank and a report; the same bits for the same
+/// input on the same ranks
 /// Throws Error on every rank alike: for unusable coordinates, weights or arrays, options out of
 /// range or different between ranks, limits without room for so many parts, or ranks that round
 /// differently. Cost: a pass over the points, a gathering of cells, a broadcast, and a reduction
-/// for each round of counting; see docs/design/how_it_works.md and many_ranks.md.
+/// for each round of counting; see docs/design/how_it_works.md.
 RRCB_API Balance balance(const Points& points, const Options& options, MPI_Comm comm);
 
 /// Divides points that moved little since an earlier call, starting from its cuts.
 ///
 ///     balance = rrcb::rebalance(points, options, balance.cuts, comm);
 ///
-/// Collective over `comm`. `previous` is the same on every rank, or the cuts that each rank got
-/// from a balance on `comm`. It has the dimension and the number of parts of this call.
-/// Returns as balance(). The cuts are kept while the parts are within the tolerance, if there are
-/// no points, and always with Refine::none. Otherwise as few points change parts as the tolerance
-/// allows; with Refine::exact all cuts are searched. Limits may move cuts to other axes than
-/// Axes::order. Report::kept and the estimate are set only if the cuts are made anew.
-///
+/// Collective. The cuts are kept while the parts are within the tolerance, and always with
+/// Refine::none. Otherwise few points change parts; with Refine::exact all cuts are searched.
+/// Limits may move cuts to other axes than Axes::order.
+/// @param points   as for balance()
+/// @param options  as for balance()
+/// @param previous the same on every rank, or those that each rank got from a balance on `comm`; of
+/// the dimension and number of parts of this call
+/// @param comm     as for balance()
+/// @return as balance(); Report::kept and the estimate are set only if the cuts are made anew
 /// Throws Error as balance(), and for a `previous` that does not fit. Cost while the cuts are kept:
-/// one pass over the points, one reduction, one broadcast, and no memory for each point except the
-/// result.
+/// one pass over the points, one reduction, one broadcast.
 RRCB_API Balance rebalance(const Points& points, const Options& options, const Cuts& previous,
                            MPI_Comm comm);
 
-/// Replaces `result` by that of balance(), and reuses the memory of its parts.
+/// Replaces a result by that of balance(), and reuses the memory of its parts. Collective.
 ///
-/// Collective over `comm`. From the second call on with as many points no memory is allocated for
-/// each point. Throws Error as balance(); `result` then has no parts.
+/// @param result  has no parts if the call throws
+/// @param points  as for balance(); with as many as last time no memory is allocated for each
+/// @param options as for balance()
+/// @param comm    as for balance()
+/// Throws Error as balance().
 RRCB_API void balance_into(Balance& result, const Points& points, const Options& options,
                            MPI_Comm comm);
 
-/// Replaces `result` by that of rebalance(), and reuses the memory of its parts. `previous` may be
-/// `result.cuts`. Collective over `comm`; throws Error as rebalance().
+/// Replaces a result by that of rebalance(), and reuses the memory of its parts. Collective.
+///
+/// @param result   has no parts if the call throws
+/// @param points   as for balance_into()
+/// @param options  as for rebalance()
+/// @param previous as for rebalance(); may be `result.cuts`
+/// @param comm     as for rebalance()
+/// Throws Error as rebalance().
 RRCB_API void rebalance_into(Balance& result, const Points& points, const Options& options,
                              const Cuts& previous, MPI_Comm comm);
 

@@ -21,7 +21,7 @@ namespace rrcb {
 ///     }
 ///
 /// docs/design/rebalancing.md explains the rule, which has no settings. The decision is the same on
-/// every rank and rests on the loads up to two steps before. Cost: one reduction of 72 bytes a step
+/// every rank and rests on the loads up to two steps before. Cost: one small reduction a step
 /// on a communicator of its own, which overlaps with the next step; only the constructor allocates.
 class Controller {
   public:
@@ -51,20 +51,23 @@ class Controller {
     ///
     ///     if (controller.step(seconds_of_work, points.count)) rebalance();  // your function
     ///
-    /// Collective, and throws, as step(load). `points` is the number of points of this rank, or the
-    /// sum of their weights, as the balancer counts them. The load is taken as `points` times the
-    /// average cost of a point on this rank, so the noise of a clock is not mistaken for imbalance.
+    /// Collective, and throws, as step(load). The load is taken as `points` times the average cost
+    /// of a point on this rank, so the noise of a clock is not mistaken for imbalance.
+    /// @param load   of this rank's own work, finite and not negative, in the unit of the costs
+    /// @param points number of points of this rank, or the sum of their weights, as balanced
     RRCB_API bool step(double load, double points);
 
     /// Returns whether to rebalance before the next step, by the latest step(); false after
     /// rebalanced(). The same on every rank. Not collective.
     RRCB_API bool due() const;
 
-    /// Records that the ranks have rebalanced since the last step, whether due or not.
+    /// Records that the ranks have rebalanced since the last step, whether due or not. Called on
+    /// all ranks, without communication.
     ///
-    /// Called on all ranks, without communication. `cost` is the time of the rebalance on this rank
-    /// including the migration of the points; the largest of all ranks counts. No rebalance is due
-    /// while heaviest load / mean load is at most ReportDetails::least_imbalance of `report`.
+    /// @param report of the balance: no rebalance is due while heaviest load / mean load is at most
+    /// its ReportDetails::least_imbalance
+    /// @param cost   time of the rebalance on this rank, in the unit of the loads, with the
+    /// migration of the points; the largest of all ranks counts
     RRCB_API void rebalanced(const Report& report, double cost);
 
     /// Records a rebalance by a balancer that reports no least imbalance. On all ranks, without

@@ -28,17 +28,21 @@ namespace rrcb {
 /// of points. docs/weights.md has examples.
 class CostModel {
   public:
-    /// Makes a model without a controller, on a communicator of its own.
+    /// Makes a model without a controller, on a communicator of its own. Collective.
     ///
-    /// Collective over `comm`, which may be freed before the model. Throws Error on every rank for
-    /// a communicator that Controller refuses, and for less than 1 or more than 16 columns.
+    /// @param comm        may be freed before the model
+    /// @param num_columns 1 to 16
+    /// Throws Error on every rank for other numbers and for a communicator that Controller refuses.
     RRCB_API CostModel(MPI_Comm comm, int num_columns);
 
-    /// Makes a model whose sums travel with the controller's reduction, before its first step.
+    /// Makes a model whose sums travel with a controller's reduction, before its first step.
+    /// Collective. When other weights come into use, the controller expects a gain from a
+    /// rebalance.
     ///
-    /// Collective. `controller` must outlive the model, which calls its step(). When other weights
-    /// come into use, the controller expects a gain from a rebalance. Throws Error on every rank
-    /// for a number of columns as above, and if the controller has recorded a step or has a model.
+    /// @param controller must outlive the model, which calls its step()
+    /// @param num_columns 1 to 16
+    /// Throws Error on every rank for other numbers, and if the controller has recorded a step or
+    /// has a model.
     RRCB_API CostModel(Controller& controller, int num_columns);
 
     /// Frees the communicator, if the model has one. Collective then, as ~Controller().
@@ -48,14 +52,14 @@ class CostModel {
     /// Takes over another model; collective if this one still has a communicator.
     RRCB_API CostModel& operator=(CostModel&&) noexcept;
 
-    /// Records a step: the seconds of this rank's own work, and its number of each column.
+    /// Records a step. Collective, yet it waits only for ranks that have not called it for the
+    /// previous step. With a controller, its due() returns whether to rebalance.
     ///
-    /// Collective, yet it waits only for ranks that have not called it for the previous step.
-    /// Seconds are processor time if ranks share cores. Numbers are from 0 to 1e100. With a
-    /// controller, its due() returns whether to rebalance. Throws Error on every rank alike, one
-    /// call later, if a rank gave another number, or too many or few. Every later call then throws
-    /// it. Cost: a reduction of n^2 + 2 n + 20 doubles for n columns, which overlaps with the next
-    /// step, and a fit on rank 0; no allocation.
+    /// @param seconds of this rank's own work; processor time if ranks share cores
+    /// @param columns this rank's number of each column, from 0 to 1e100
+    /// Throws Error on every rank alike, one call later, if a rank gave another number, or too many
+    /// or few. Every later call then throws it. Cost: a reduction of n^2 + 2 n + 20 doubles for n
+    /// columns, which overlaps with the next step, and a fit on rank 0; no allocation.
     RRCB_API void step(double seconds, std::span<const double> columns);
 
     /// Returns the seconds of a unit of each column, by the steps so far, in which late ones count

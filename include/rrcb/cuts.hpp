@@ -23,7 +23,11 @@ struct Cut {
     Vector at{};               ///< position of the plane, and of ties
 };
 
-/// Returns true if `position` is not below the cut: the only test of every look-up. Not collective.
+/// Returns true if a position is not below a cut: the only test of every look-up. Not collective.
+///
+/// @param cut       of a balance
+/// @param position  of a point
+/// @param dimension of the points, 1 to 3
 RRCB_API bool is_above(const Cut& cut, const Vector& position, int dimension);
 
 /// The tree of a recursive bisection into `num_parts` parts; bit-identical on every rank.
@@ -55,57 +59,66 @@ inline bool is_whole(const Cuts& cuts) {
 /// Stands for a part that the cuts do not determine.
 inline constexpr Part no_part = -1;
 
-/// Returns the part of a position; no_part if a coordinate is NaN, or if the cuts that decide are
-/// not known.
+/// Returns the part of a position.
 ///
 ///     const rrcb::Part part = rrcb::part_of(balance.cuts, {0.5, 0.2, 0.1});
 ///
-/// Not collective; O(depth), times a logarithm if the tree is not complete. Nothing is checked: the
-/// cuts must be those of a balance, or fulfil the conditions at Cut and Cuts.
+/// Not collective. Nothing is checked.
+/// @param cuts     of a balance, or others that fulfil the conditions at Cut and Cuts
+/// @param position in the unit of the points
+/// @return no_part if a coordinate is NaN, or if the cuts that decide are not known Cost: O(depth),
+/// times a logarithm if the tree is not complete.
 RRCB_API Part part_of(const Cuts& cuts, const Vector& position);
 
-/// Writes the part of every point into `parts` (length points.count). Not collective.
+/// Writes the part of every point. Not collective.
 ///
-/// Ignores weights. Throws Error if a coordinate is NaN or infinite, arrays have another length,
-/// the points another dimension than the cuts, or the cuts are no tree; `parts` is void then. With
-/// HeldCuts::own it also throws, on this rank only, if the rank lacks a cut above a point: call
-/// assign_all(cuts, points, comm) instead.
+/// @param cuts   of a balance
+/// @param points of the dimension of the cuts; weights are ignored
+/// @param parts  length points.count; void if the call throws
+/// Throws Error if a coordinate is NaN or infinite, arrays have another length, or the cuts are no
+/// tree. With HeldCuts::own it also throws, on this rank only, if the rank lacks a cut above a
+/// point: call assign_all(cuts, points, comm) instead.
 RRCB_API void assign(const Cuts& cuts, const Points& points, std::span<Part> parts);
 
 /// Returns the region of a part; sides without a cut are +-infinity. Not collective.
 ///
-/// Lower faces belong to the region, upper faces do not, except for ties (see Cut). The region is
-/// the empty box if the cuts leave no position to the part, as for parts of size 0, unless one of
-/// them divides points there. Throws Error for a number that is no part and cuts that are no tree.
-/// With HeldCuts::own it also throws, on this rank only, if the rank lacks a cut above the part:
-/// call gather_cuts() before.
+/// @param cuts of a balance
+/// @param part 0 ... num_parts - 1
+/// @return a box whose lower faces belong to the region and whose upper faces do not, except for
+/// ties (see Cut); the empty box if the cuts leave no position to the part, as for parts of size 0
+/// Throws Error for a number that is no part and cuts that are no tree. With HeldCuts::own it also
+/// throws, on this rank only, if the rank lacks a cut above the part: call gather_cuts() before.
 RRCB_API Box box_of(const Cuts& cuts, Part part);
 
-/// Returns the parts whose region a closed box touches, ascending; none for an empty box. Not
-/// collective.
+/// Returns the parts whose region a closed box touches. Not collective.
 ///
-/// If the box contains coincident points that a cut divides, both sides of the cut are touched. A
-/// part whose region is empty is never touched. Throws Error for bounds that are NaN and cuts that
-/// are no tree. With HeldCuts::own it also throws, on this rank only, if the rank lacks a cut that
-/// may cross the box: call gather_cuts() before.
+/// @param cuts of a balance
+/// @param box  in the unit of the points; bounds are not NaN
+/// @return parts in ascending order, none for an empty box. If the box contains coincident points
+/// that a cut divides, both sides of the cut are touched
+/// Throws Error for bounds that are NaN and cuts that are no tree. With HeldCuts::own it also
+/// throws, on this rank only, if the rank lacks a cut that may cross the box: call gather_cuts().
 RRCB_API std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
 
-/// Returns the part of each of any points, by complete cuts or by cuts of which each rank has some.
+/// Returns the part of each of any points, also by cuts of which each rank has some. Collective.
 ///
-/// Collective over `comm`, that of the balance; each rank gives points of its own, or none, and
-/// states their dimension. Throws Error on every rank alike: for coordinates that are NaN or
-/// infinite, points of another dimension than the cuts, cuts that gather_cuts() would refuse, or no
-/// memory. Cost: with complete cuts a local look-up and one reduction; otherwise the ranks ask the
-/// owners of the cuts that they lack, see docs/design/many_ranks.md.
+/// @param cuts   of a balance
+/// @param points of this rank, or none; each rank states the dimension
+/// @param comm   that of the balance
+/// Throws Error on every rank alike: for coordinates that are NaN or infinite, points of another
+/// dimension than the cuts, cuts that gather_cuts() would refuse, or no memory. Cost: with complete
+/// cuts a local look-up and one reduction; otherwise the ranks ask the owners of the cuts that they
+/// lack, see docs/design/many_ranks.md.
 [[nodiscard]] RRCB_API std::vector<Part> assign_all(const Cuts& cuts, const Points& points,
                                                     MPI_Comm comm);
 
-/// Returns the complete tree of cuts of which each rank holds some; complete cuts are returned
-/// unchanged.
+/// Returns the complete tree of cuts of which each rank holds some. Collective.
 ///
-/// Collective over `comm`, that of the balance. Throws Error on every rank alike: if cuts are no
-/// tree, if the ranks' trees differ, if a rank lacks the cut of a node whose lowest part begins on
-/// it, or has no memory. Cost: one reduction of 32 bytes a part, which every rank has to hold.
+/// @param cuts of a balance; complete cuts are returned unchanged
+/// @param comm that of the balance
+/// Throws Error on every rank alike: if cuts are no tree, if the ranks' trees differ, if a rank
+/// lacks the cut of a node whose lowest part begins on it, or has no memory. Cost: one reduction of
+/// 32 bytes a part, which every rank has to hold.
 RRCB_API Cuts gather_cuts(const Cuts& cuts, MPI_Comm comm);
 
 }  // namespace rrcb

@@ -8,10 +8,11 @@ namespace rrcb {
 
 // Needs Eigen, which rrcb::rrcb does not bring along: link Eigen3::Eigen as well.
 
-/// Returns a view of a column-major matrix with one point per column as points. Not collective.
+/// Returns a view of a column-major matrix with one point per column. Not collective. Link
+/// Eigen3::Eigen as well, which rrcb::rrcb does not bring along.
 ///
-/// `coordinates` has `dimension` (1 to 3) rows of doubles or floats and must outlive the view;
-/// `weights` is empty or holds one entry per column.
+/// @param coordinates 1 to 3 rows of doubles or floats; must outlive the view
+/// @param weights     empty, or one entry per column
 template <class Scalar, int Rows>
 Points eigen_points(const Eigen::Matrix<Scalar, Rows, Eigen::Dynamic>& coordinates,
                     std::span<const double> weights = {}) {

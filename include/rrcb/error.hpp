@@ -20,7 +20,10 @@ enum class ErrorCode {
 /// From a collective function the same code and text reach every rank of the communicator.
 class RRCB_API Error : public std::runtime_error {
   public:
-    /// Makes an error with a text.
+    /// Makes an error.
+    ///
+    /// @param code kind of the error
+    /// @param what its text
     Error(ErrorCode code, const std::string& what) : std::runtime_error(what), code_(code) {}
     /// Makes an error without a text, if there is no memory for one.
     explicit Error(ErrorCode code) noexcept : std::runtime_error(""), code_(code) {}

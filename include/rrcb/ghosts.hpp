@@ -47,30 +47,34 @@ struct GhostOptions {
     std::optional<std::span<const RankRange>> ranks_of_parts{};
 };
 
-/// Finds the points that other ranks need, from the cuts.
+/// Finds the points that other ranks need, from the cuts. Collective.
 ///
 ///     const rrcb::GhostPlan near = rrcb::ghosts(balance.cuts, points, {.radius = 0.1}, comm);
 ///
-/// Collective over `comm`. A rank needs the points of others whose distance to the closed region of
-/// one of its parts, box_of(cuts, part), is at most the radius plus round-off, once each. If some
-/// points are outside the regions of their rank, such as members of groups, add the greatest of
-/// their distances from these, over all ranks, to the radius; otherwise pairs can be missing. Ranks
-/// that share a part need all points in it of each other. fetch() limits the use of a plan.
-///
-/// Throws Error on every rank alike: for unusable points or options, a radius that is not finite,
-/// below 0 or above 100 periods, a position outside the periodic box, options or cuts that differ
-/// between ranks or that gather_cuts() would refuse, or no memory. Cost: ceil(log2 R) messages from
-/// each of R ranks, one more from some, and a reduction; memory for the points to send. A periodic
-/// box adds a pass of counts and a message for each pair of ranks with ghosts.
+/// A rank needs the points of others at most the radius, plus round-off, away from the closed
+/// region of one of its parts. If points are outside the regions of their rank, such as members of
+/// groups, add the greatest of their distances from these, over all ranks, to the radius.
+/// @param cuts    of a balance, whose ranks have the points
+/// @param points  of this rank
+/// @param options radius, periodic box, ranks of the parts
+/// @param comm    that of the balance
+/// Throws Error on every rank alike: for unusable points, a radius that is not finite, below 0 or
+/// above 100 periods, a position outside the periodic box, options or cuts that differ between
+/// ranks, or no memory. Cost: as plan(); a periodic box adds a pass of counts.
 RRCB_API GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
                           MPI_Comm comm);
 
 /// Moves fetched positions of ghosts to those of the images; does nothing without a periodic box.
+/// Not collective.
 ///
-/// Not collective. `positions` hold the axes of one ghost after the other. Throws Error if they do
-/// not fit the plan.
+/// @param plan      of the ghosts
+/// @param positions the axes of one ghost after the other
+/// Throws Error if they do not fit the plan.
 RRCB_API void apply_shifts(const GhostPlan& plan, std::span<double> positions);
 /// Moves floats in the same way: rounds the position in doubles. Not collective.
+///
+/// @param plan      of the ghosts
+/// @param positions the axes of one ghost after the other
 RRCB_API void apply_shifts(const GhostPlan& plan, std::span<float> positions);
 
 namespace detail {
@@ -125,15 +129,20 @@ auto accumulated(const GhostPlan& plan, const GhostColumn& of_ghosts, const Poin
 
 }  // namespace detail
 
-/// Returns columns of the ghosts of this rank, in the order of plan.receive and of send_indices
-/// there.
+/// Returns columns of the ghosts of this rank. Collective.
 ///
 ///     const std::vector<double> ghost_xyz = rrcb::fetch(near, rrcb::column(xyz, 3), comm);
 ///
-/// Collective over `comm`, otherwise as transfer(): columns hold one entry, or `components`, for
-/// each of plan.num_points points. The plan can be used again as long as no point changes its index
-/// in the columns. If its radii include a skin s, it holds all pairs within the true radii until a
-/// point has moved by s / 2. Until then do not wrap positions in a periodic box.
+/// The plan can be used again as long as no point changes its index in the columns. If its radii
+/// include a skin s, it holds all pairs within the true radii until a point has moved by s / 2.
+/// Until then do not wrap positions in a periodic box.
+/// @param plan    of ghosts()
+/// @param columns one entry, or `components`, for each of plan.num_points points
+/// @param comm    that of the plan
+/// @param limits  as for transfer()
+/// @param report  as for transfer()
+/// @return ghosts by ascending rank, in the order of send_indices there
+/// Throws Error as transfer().
 template <class Columns>
 [[nodiscard]] auto fetch(const GhostPlan& plan, const Columns& columns, MPI_Comm comm,
                          const TransferLimits& limits = {}, TransferReport* report = nullptr) {
@@ -141,16 +150,18 @@ template <class Columns>
 }
 
 /// Returns columns of the points with the values of their ghosts on other ranks added, such as
-/// forces: the reverse of fetch().
+/// forces: the reverse of fetch(). Collective.
 ///
-/// Collective over `comm`, otherwise as transfer(): `ghost_columns` hold one entry, or
-/// `components`, for each ghost, in the order of fetch(), and `columns` as many for each of
-/// plan.num_points points. Values are numbers of the same types in both; integers must hold their
-/// sums. Each point's value comes first, then those of its ghosts by ascending rank: the same
-/// arguments give the same bits.
-///
-/// Throws Error as transfer() does. Cost: the messages and bytes of fetch(), in the other
-/// direction; memory for the values that arrive and 8 bytes for each ghost, besides the result.
+/// @param plan          of ghosts()
+/// @param ghost_columns numbers, as many for each ghost as `columns` have for each point, in the
+/// order of fetch()
+/// @param columns       numbers of the same types for each of plan.num_points points
+/// @param comm          that of the plan
+/// @param limits        as for transfer()
+/// @param report        as for transfer()
+/// @return each point's value plus those of its ghosts by ascending rank: the same arguments give
+/// the same bits; integers must hold their sums
+/// Throws Error as transfer(). Cost: that of fetch(); memory for the values that arrive.
 template <class GhostColumns, class Columns>
 [[nodiscard]] auto accumulate(const GhostPlan& plan, const GhostColumns& ghost_columns,
                               const Columns& columns, MPI_Comm comm,

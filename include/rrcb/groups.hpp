@@ -41,28 +41,32 @@ struct Groups {
     Points points() const&& = delete;
 };
 
-/// Finds the groups of all points with equal keys, over all ranks.
+/// Finds the groups of all points with equal keys, over all ranks. Collective.
 ///
-/// Collective over `comm`. `keys` has one entry for each point, no_group for a point that needs
-/// none; `place` is the same on every rank. The lowest rank with points of a group has the group.
 /// Balance groups.points() as any points; a group heavier than a part stays in one part. Then
 /// fetch(groups, balance.parts, comm) returns the parts of the points, for plan(). Between
-/// rebalances call assign_all() instead of balance(). The same input on the same ranks gives the
-/// same bits.
-///
+/// rebalances call assign_all() instead of balance().
+/// @param points of this rank
+/// @param keys   one for each point, no_group for a point that needs none
+/// @param comm   the ranks that have the points
+/// @param place  the same on every rank
+/// @return the groups whose lowest rank with points this is; the same bits for the same input
 /// Throws Error on every rank alike: for unusable points, keys of another length, another `place`
 /// or dimension than the others, or no memory. Cost: three exchanges, of ceil(log2 R) messages from
-/// each of R ranks and a reduction. In the first each key travels once from each rank that has it,
-/// in 16 bytes.
+/// each of R ranks and a reduction.
 RRCB_API Groups groups(const Points& points, std::span<const std::uint64_t> keys, MPI_Comm comm,
                        GroupPlace place = GroupPlace::centre);
 
 /// Returns the sums of values over the points of each group of this rank, in the order of
-/// groups.points(): `components` sums for each.
+/// groups.points(). Collective.
 ///
-/// Collective over `comm`, otherwise as accumulate(): `values` has `components` for each point of
-/// this rank. Each rank adds in the order of its points, then partial sums are added by ascending
-/// rank.
+/// @param groups     of groups()
+/// @param values     `components` for each point of this rank
+/// @param comm       that of the groups
+/// @param components sums for each group
+///
+/// Each rank adds in the order of its points, then partial sums are added by ascending rank. Throws
+/// Error as accumulate().
 RRCB_API std::vector<double> sums(const Groups& groups, std::span<const double> values,
                                   MPI_Comm comm, std::size_t components = 1);
 
@@ -73,10 +77,15 @@ RRCB_API void move(const Groups& groups, std::span<const ByteColumn> columns,
 
 }  // namespace detail
 
-/// Returns columns of the points with the values of their groups, such as parts.
+/// Returns columns of the points with the values of their groups, such as parts. Collective.
 ///
-/// Collective over `comm`, otherwise as transfer(): `columns` hold one entry, or `components`, for
-/// each of the groups of this rank, and the result as many for each of its points.
+/// @param groups  of groups()
+/// @param columns one entry, or `components`, for each of the groups of this rank
+/// @param comm    that of the groups
+/// @param limits  as for transfer()
+/// @param report  as for transfer()
+/// @return as many values for each point of this rank
+/// Throws Error as transfer().
 template <class Columns>
 [[nodiscard]] auto fetch(const Groups& groups, const Columns& columns, MPI_Comm comm,
                          const TransferLimits& limits = {}, TransferReport* report = nullptr) {

@@ -44,15 +44,17 @@ struct PaperOptions {
     StageObserver* observer = nullptr;  ///< as Options::observer
 };
 
-/// Divides the points of all ranks into parts by the paper's RRCB, or by its RCB.
+/// Divides the points of all ranks into parts by the paper's RRCB, or by its RCB. Collective.
 ///
-/// Collective over `comm`. Every rank reduces its points to the moments of the cells of its support
-/// mesh; rank 0 gathers them, draws random points from them, bisects these and broadcasts the cuts.
-/// Report::imbalance is NaN, as nothing is counted. Throws Error on every rank alike, as
-/// balance() does.
-///
-/// Cost: two reductions, one gathering of 2 + 2 * dimension doubles a cell (`dimension` or one more
-/// a point, for PaperDomain::points), two broadcasts; rank 0 holds all points drawn or gathered.
+/// Every rank reduces its points to the moments of the cells of its support mesh; rank 0 gathers
+/// them, draws random points from them, bisects these and broadcasts the cuts.
+/// @param points  of this rank
+/// @param options the same on every rank
+/// @param comm    as for balance()
+/// @return as balance(); Report::imbalance is NaN, as nothing is counted
+/// Throws Error on every rank alike, as balance(). Cost: two reductions, one gathering of 2 + 2 *
+/// dimension doubles a cell (`dimension` or one more a point, for PaperDomain::points), two
+/// broadcasts; rank 0 holds all points drawn or gathered.
 RRCB_API Balance balance_as_in_paper(const Points& points, const PaperOptions& options,
                                      MPI_Comm comm);
 
@@ -62,11 +64,15 @@ struct MassPoint {
     double weight = 0;  ///< of the point
 };
 
-/// Draws pseudo-random points of weight 1, uniform in mean +- multiplier * sigma of each cell.
+/// Draws pseudo-random points of weight 1, uniform in mean +- multiplier * sigma of each cell. Not
+/// collective.
 ///
-/// Returns `sample_fraction` times the number of real points, at least one, shared among the cells
-/// in proportion to their weight by largest remainder. The same cells, options and seed give the
-/// same points on every machine. Not collective. Throws Error for options out of range.
+/// @param cells     of all ranks
+/// @param dimension of the points
+/// @param options   multiplier, share and seed; the same give the same points on every machine
+/// @return `sample_fraction` times the number of real points, at least one, shared among the cells
+/// in proportion to their weight by largest remainder
+/// Throws Error for options out of range.
 RRCB_API std::vector<MassPoint> sample_points(std::span<const CellMoments> cells, int dimension,
                                               const PaperOptions& options);
 
@@ -74,11 +80,15 @@ RRCB_API std::vector<MassPoint> sample_points(std::span<const CellMoments> cells
 /// Throws Error for arrays that do not fit the number of points.
 RRCB_API std::vector<MassPoint> mass_points(const Points& points);
 
-/// Bisects points recursively across the longest extent of the points in each box.
+/// Bisects points recursively across the longest extent of the points in each box. Not collective.
 ///
-/// `part_sizes` are relative, one per part, or empty for equal parts; a part of size 0 gets an
-/// empty region. Points on a cut are divided by their other coordinates unless `plain_cuts`. Not
-/// collective. Throws Error as bisect() does.
+/// @param points     a copy, which is sorted
+/// @param dimension  of the points
+/// @param num_parts  1 or more
+/// @param part_sizes relative, one per part, or empty; a part of size 0 gets an empty region
+/// @param rule       position of cuts
+/// @param plain_cuts points on a cut are not divided by their other coordinates
+/// Throws Error as bisect().
 RRCB_API Bisection bisect_points(std::vector<MassPoint> points, int dimension, int num_parts,
                                  std::span<const double> part_sizes = {},
                                  CutRule rule = CutRule::weighted_fraction,

@@ -21,8 +21,11 @@ struct RankRange {
 ///
 /// Each rank has num_parts / num_ranks parts, and the last ranks one more each for the remainder.
 /// With fewer parts than ranks a part has num_ranks / num_parts consecutive ranks; the ranks left
-/// over go one each to the parts before the last. Throws Error unless 0 <= part < num_parts and
-/// num_ranks >= 1.
+/// over go one each to the parts before the last. 5 parts on 3 ranks: {0}, {1, 2}, {3, 4}.
+/// @param part      0 ... num_parts - 1
+/// @param num_parts 1 or more
+/// @param num_ranks 1 or more
+/// Throws Error for other numbers.
 RRCB_API RankRange ranks_of_part(Part part, int num_parts, int num_ranks);
 
 /// Number of points to or from one rank.
@@ -43,19 +46,23 @@ struct Plan {
     std::vector<Part> import_parts;          ///< their new parts
 };
 
-/// Makes the export and import lists of the points whose rank changes.
+/// Makes the export and import lists of the points whose rank changes. Collective.
 ///
 ///     const rrcb::Plan moves = rrcb::plan(balance.parts, num_parts, comm);
 ///
-/// Collective over `comm`. `parts` has one entry in 0 ... num_parts - 1 per local point. Throws
-/// Error on every rank alike if some rank names a part outside that range, another num_parts, or
-/// one below 1. Cost: ceil(log2 R) messages from each of R ranks, one more from some, one
-/// reduction, and one message for each pair between which points move; memory for the points that
-/// leave and come, and 100 bytes for each rank that they go to or come from. None grows with the
-/// number of ranks or parts.
+/// @param parts     the new part, 0 ... num_parts - 1, of each point of this rank
+/// @param num_parts 1 or more, the same on every rank
+/// @param comm      the ranks that have the points
+/// Throws Error on every rank alike if some rank gives other numbers. Cost: ceil(log2 R) messages
+/// from each of R ranks, one more from some, one reduction, and one message for each pair between
+/// which points move; memory for these points and for each rank that they go to or come from. None
+/// grows with the number of ranks or parts.
 [[nodiscard]] RRCB_API Plan plan(std::span<const Part> parts, int num_parts, MPI_Comm comm);
 
-/// Makes the same lists from the parts of a balance. Collective over `comm`.
+/// Makes the same lists from a balance. Collective.
+///
+/// @param balance of the points of this rank
+/// @param comm    that of the balance
 [[nodiscard]] RRCB_API Plan plan(const Balance& balance, MPI_Comm comm);
 
 }  // namespace rrcb

@@ -67,9 +67,11 @@ struct Points {
     }
 };
 
-/// Returns a view of `coordinates` as points stored one after another. Not collective.
+/// Returns a view of points stored one after another. Not collective; nothing is copied.
 ///
-/// Their length is a multiple of `dimension` (1 to 3); `weights` is empty or holds one per point.
+/// @param coordinates doubles, a multiple of `dimension` of them; must outlive the view
+/// @param dimension   1 to 3
+/// @param weights     empty, or one for each point
 RRCB_API Points interleaved_points(std::span<const double> coordinates, int dimension,
                                    std::span<const double> weights = {});
 
@@ -85,19 +87,27 @@ RRCB_API Points interleaved_floats(std::span<const float> coordinates, int dimen
 
 }  // namespace detail
 
-/// Returns the same view of an array of floats of any kind. Not collective.
+/// Returns the same view of floats, in an array of any kind. Not collective.
+///
+/// @param coordinates floats; otherwise as above
+/// @param dimension   1 to 3
+/// @param weights     empty, or one double for each point
 template <detail::FloatRange Floats>
 Points interleaved_points(const Floats& coordinates, int dimension,
                           std::span<const double> weights = {}) {
     return detail::interleaved_floats(coordinates, dimension, weights);
 }
 
-/// Returns a view of one array per axis. Not collective.
+/// Returns a view of one array per axis. Not collective; nothing is copied.
 ///
-/// 1 to 3 `columns` of the same length; `weights` is empty or as long as they are.
+/// @param columns 1 to 3 arrays of the same length, which must outlive the view
+/// @param weights empty, or as long as a column
 RRCB_API Points column_points(std::span<const std::span<const double>> columns,
                               std::span<const double> weights = {});
 /// Returns the same view of floats. Not collective.
+///
+/// @param columns 1 to 3 arrays of floats of the same length
+/// @param weights empty, or as long as a column
 RRCB_API Points column_points(std::span<const std::span<const float>> columns,
                               std::span<const double> weights = {});
 

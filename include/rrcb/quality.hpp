@@ -11,47 +11,68 @@ namespace rrcb {
 
 struct Balance;
 
-/// Returns heaviest part / mean part: max_p (weight_p / size_p) * sum(size) / sum(weight).
+/// Returns heaviest part / mean part: max_p (weight_p / size_p) * sum(size) / sum(weight). Not
+/// collective.
 ///
-/// Not collective. `part_sizes` are relative, one per part, or empty for equal parts. Parts of size
-/// 0 are left out unless they hold weight; then the imbalance is infinite. It is 1 if there is no
-/// weight at all, NaN if the sum of the weights is not finite. Throws Error if there are sizes for
-/// another number of parts.
+/// @param part_weights weight of each part
+/// @param part_sizes   relative, one per part, or empty for equal parts
+/// @return 1 if there is no weight, NaN if the sum of the weights is not finite, infinite if a part
+/// of size 0 holds weight; other parts of size 0 are left out
+/// Throws Error if there are sizes for another number of parts.
 RRCB_API double imbalance(std::span<const double> part_weights,
                           std::span<const double> part_sizes = {});
 
-/// Returns the load unbalance of each part in percent: (ideal - actual) / ideal * 100. Not
-/// collective.
+/// Returns the load unbalance of each part in percent: (ideal - actual) / ideal * 100, the Lu of
+/// the CILAMCE 2020 paper. Not collective.
 ///
-/// One entry per part; sizes as for imbalance(). The Lu of the CILAMCE 2020 paper: negative if a
-/// part holds too much; 0 for a part of size 0.
+/// @param part_weights weight of each part
+/// @param part_sizes   as for imbalance()
+/// @return one entry per part: negative if a part holds too much; 0 for a part of size 0
 RRCB_API std::vector<double> load_unbalance_percent(std::span<const double> part_weights,
                                                     std::span<const double> part_sizes = {});
 
 /// Returns the largest absolute value of load_unbalance_percent(). Not collective.
+///
+/// @param part_weights weight of each part
+/// @param part_sizes   as for imbalance()
 RRCB_API double worst_load_unbalance_percent(std::span<const double> part_weights,
                                              std::span<const double> part_sizes = {});
 
-/// Returns the weight of every part over all ranks, length num_parts, on every rank.
+/// Returns the weight of every part over all ranks, on every rank. Collective: two reductions.
 ///
-/// Collective over `comm`: two reductions. `parts` holds one entry in 0 ... num_parts - 1 per local
-/// point. Throws Error on all ranks if one holds other parts, has weights of another length, or
-/// names another num_parts or one below 1.
+/// @param points    of this rank
+/// @param parts     one entry in 0 ... num_parts - 1 for each point
+/// @param num_parts the same on every rank; length of the result
+/// @param comm      the ranks that have the points
+/// Throws Error on all ranks if one gives other parts or numbers, or weights of another length.
 RRCB_API std::vector<double> part_weights(const Points& points, std::span<const Part> parts,
                                           int num_parts, MPI_Comm comm);
 
-/// Returns the weight of every part of a balance of these points. Collective over `comm`.
+/// Returns the weight of every part of a balance of these points. Collective.
+///
+/// @param points  of this rank
+/// @param balance of these points
+/// @param comm    that of the balance
 RRCB_API std::vector<double> part_weights(const Points& points, const Balance& balance,
                                           MPI_Comm comm);
 
 /// Returns the share of the weight, 0 ... 1, whose rank is not among the ranks of its new part.
+/// Collective: two reductions.
 ///
-/// Collective over `comm`: two reductions. `parts` and errors are as for part_weights(). NaN if the
-/// weights are.
+/// @param points    of this rank
+/// @param parts     as for part_weights()
+/// @param num_parts as for part_weights()
+/// @param comm      as for part_weights()
+/// @return NaN if weights are
+/// Throws Error as part_weights().
 RRCB_API double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
                                MPI_Comm comm);
 
-/// Returns the share that moves by a balance of these points. Collective over `comm`.
+/// Returns the share of the weight that a balance of these points moves. Collective.
+///
+/// @param points  of this rank
+/// @param balance of these points
+/// @param comm    that of the balance
 RRCB_API double moved_fraction(const Points& points, const Balance& balance, MPI_Comm comm);
 
 }  // namespace rrcb

@@ -19,15 +19,15 @@ struct Remap {
     GlobalCount kept_after = 0;   ///< those that stay under the new numbers, never fewer
 };
 
-/// Numbers the parts of a new partition so that many points stay on their rank.
+/// Numbers the parts of a new partition so that many points stay on their rank. Collective.
 ///
-/// Collective over `comm`. `parts` is the new part of each local point. `ranks_of_parts` has one
-/// entry per part, ascending, the same on every rank; of several ranks of a part the first one
-/// counts. Parts of a group of `shape`, that of the cuts, stay in one group, so that the parts of a
-/// machine do. Sizes of parts are ignored. The largest overlap of a rank and a part gets its number
-/// first, which keeps at least half of the points that any numbers can keep; each rank sends its
-/// largest overlaps. Numbers that gain nothing are left unchanged.
-///
+/// The largest overlap of a rank and a part gets its number first, which keeps at least half of the
+/// points that any numbers can keep. Numbers that gain nothing are left unchanged.
+/// @param parts          the new part of each point of this rank
+/// @param ranks_of_parts one entry per part, ascending, the same on every rank; of several ranks of
+/// a part the first one counts
+/// @param comm           the ranks that have the points
+/// @param shape          that of the cuts: parts of one of its groups stay in one group
 /// Throws Error on every rank if one names a part that does not exist, ranks that differ or do not
 /// exist, or has no memory. Cost: one pass to rank 0, which decides, and one broadcast; with more
 /// parts and ranks than Tuning::central_parts, passes through all ranks.
@@ -35,10 +35,14 @@ struct Remap {
                                    std::span<const RankRange> ranks_of_parts, MPI_Comm comm,
                                    const TreeShape& shape = {});
 
-/// Numbers the parts so that many points keep the number of their part.
+/// Numbers the parts so that many points keep the number of their part. Collective.
 ///
-/// Collective; otherwise as remap() above. `previous` is the part that each local point was in, as
-/// long as `parts`; earlier parts that no longer exist are ignored.
+/// @param parts          as above
+/// @param previous       the part that each point was in; parts that no longer exist are ignored
+/// @param ranks_of_parts as above
+/// @param comm           as above
+/// @param shape          as above
+/// Throws Error as above.
 [[nodiscard]] RRCB_API Remap remap(std::span<const Part> parts, std::span<const Part> previous,
                                    std::span<const RankRange> ranks_of_parts, MPI_Comm comm,
                                    const TreeShape& shape = {});

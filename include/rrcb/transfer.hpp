@@ -29,6 +29,9 @@ struct Column {
 };
 
 /// Returns a view of a vector or an array of any kind. Not collective.
+///
+/// @param values     must outlive the view
+/// @param components consecutive values of one point, 1 or more
 template <std::ranges::contiguous_range Values>
 auto column(const Values& values, std::size_t components = 1) {
     return Column<std::ranges::range_value_t<Values>>{values, components};
@@ -129,21 +132,21 @@ auto moved(const AnyPlan& plan, const Values& values, MPI_Comm comm, const Trans
 
 }  // namespace detail
 
-/// Moves columns of the points along a plan.
+/// Moves columns of the points along a plan. Collective.
 ///
-///     const auto columns = rrcb::columns(rrcb::column(xyz, 3), mass);
-///     auto [new_xyz, new_mass] = rrcb::transfer(moves, columns, comm);
+///     auto [new_xyz, new_mass] =
+///         rrcb::transfer(moves, rrcb::columns(rrcb::column(xyz, 3), mass), comm);
 ///
-/// Collective over `comm`, that of the plan: every rank gives the same columns in the same order,
-/// empty on a rank without points. Returns a tuple of vectors for columns(), one vector for a
-/// column(), a vector or an array: first the points that stay, in their order, then those that
-/// come, in the order of the plan's import lists. Columns moved in separate calls therefore fit
-/// each other. `report` may be null. If a call fails, the given columns are unchanged.
-///
-/// Throws Error on every rank alike if one has columns or lists that do not fit the plan or the
-/// other ranks, other limits, or no memory; on one rank only if a message fails. Cost: ceil(log2 R)
-/// messages from each of R ranks, one more from some, one reduction, and one message for each pair
-/// between which points move, or several within `limits.bytes`.
+/// @param plan    of the points of this rank
+/// @param columns the same in the same order on every rank, empty on a rank without points
+/// @param comm    that of the plan
+/// @param limits  memory for messages, the same on every rank
+/// @param report  may be null
+/// @return a tuple of vectors for columns(), otherwise a vector: the points that stay, in their
+/// order, then those that come, in the order of the import lists; the same in separate calls
+/// Throws Error on every rank alike if one has columns or limits that do not fit the plan or the
+/// other ranks, or no memory; on one rank only if a message fails. Cost: as plan(); several
+/// messages for a pair beyond `limits.bytes`.
 template <class Columns>
 [[nodiscard]] auto transfer(const Plan& plan, const Columns& columns, MPI_Comm comm,
                             const TransferLimits& limits = {}, TransferReport* report = nullptr) {

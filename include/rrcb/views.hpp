@@ -57,11 +57,12 @@ auto data_of(const View& view) {
 
 }  // namespace detail
 
-/// Returns a view of coordinates that are members of structs, one for each axis, such as
-/// member_points(particles, &Particle::x, &Particle::y). Not collective.
+/// Returns a view of coordinates that are members of structs: member_points(particles,
+/// &Particle::x, &Particle::y). Not collective. Set weights in the result.
 ///
-/// `structs` is a vector or an array of any kind. Members are doubles or floats. Set weights in the
-/// result.
+/// @param structs a vector or an array of any kind
+/// @param first   member for the first axis, a double or a float
+/// @param others  members of the same type for the other axes
 template <std::ranges::contiguous_range Structs, detail::Scalar T, class Struct,
           std::same_as<T Struct::*>... Others>
 Points member_points(const Structs& structs, T Struct::*first, Others... others) {
@@ -79,8 +80,10 @@ Points member_points(const Structs& structs, T Struct::*first, Others... others)
 }
 
 /// Returns a view of positions that are one member, an array: member_points(particles,
-/// &Particle::position). Not collective. Set a lower dimension in the result to use fewer axes. For
-/// a member that is a struct fill Points: its dimension, count, stride and axes or float_axes.
+/// &Particle::position). Not collective. Set a lower dimension in the result to use fewer axes.
+///
+/// @param structs  a vector or an array of any kind
+/// @param position member, an array of 1 to 3 doubles or floats; if it is a struct, fill Points
 template <std::ranges::contiguous_range Structs, detail::Array Position, class Struct>
 Points member_points(const Structs& structs, Position Struct::*position) {
     using Element = std::ranges::range_value_t<Structs>;
@@ -110,9 +113,10 @@ requires(!detail::Scalar<Position> && !detail::Array<Position>) Points
 }
 
 /// Returns a view of a Kokkos::View in memory of the host, or a std::mdspan, of any layout with
-/// strides: points by axes, or one view with a single extent for each axis. Not collective.
+/// strides. Not collective. Elements are doubles or floats.
 ///
-/// Elements are doubles or floats. Views of the axes have the same extent and stride.
+/// @param first  points by axes, or the first axis
+/// @param others one view for each other axis, of the same extent and stride
 template <detail::StridedView First, detail::StridedView... Others>
 Points view_points(const First& first, const Others&... others) {
     static_assert(sizeof...(others) < max_dimension);

@@ -21,14 +21,15 @@ struct Bisection {
     std::vector<double> part_weights;  ///< length num_parts, of the domain
 };
 
-/// Bisects a domain recursively.
+/// Bisects a domain recursively, each box across one of its longest axes. Not collective.
 ///
-/// Each box is cut across the first axis whose extent of the weight is within a tenth of the
-/// longest. `part_sizes` are relative, one per part, or empty for equal parts. The weights below
-/// and above a cut are in the ratio of the sizes, exactly for the piecewise-linear cumulative
-/// weight of the patches. Patches without extent on the plane are divided along the other axes.
-/// Parts of size 0 get an empty region. Not collective. Throws Error for a number of parts below 1,
-/// illegal sizes (see Options::part_sizes), or an illegal dimension.
+/// @param domain     a copy, which is cut up
+/// @param num_parts  1 or more
+/// @param part_sizes relative, one per part, or empty; a part of size 0 gets an empty region
+/// @return cuts with weights below and above in the ratio of the sizes, exactly for the
+/// piecewise-linear cumulative weight of the patches
+/// Throws Error for a number of parts below 1, illegal sizes (see Options::part_sizes), or an
+/// illegal dimension.
 RRCB_API Bisection bisect(StatisticalDomain domain, int num_parts,
                           std::span<const double> part_sizes);
 

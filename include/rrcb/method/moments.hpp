@@ -26,22 +26,26 @@ struct CellMoments {
 
 /// Returns the moments of the union of two disjoint sets of points. Not collective.
 ///
-/// Chan, Golub, LeVeque: Updating formulae and a pairwise algorithm for computing sample
-/// variances (1979), equations 2.1, with weights in place of counts; with counts, under weight 0,
-/// if neither set has weight.
+/// @param a moments of one set
+/// @param b moments of the other
+///
+/// Chan, Golub, LeVeque: Updating formulae and a pairwise algorithm for computing sample variances
+/// (1979), equations 2.1, with weights in place of counts; with counts, under weight 0, if neither
+/// set has weight.
 RRCB_API Moments merge(const Moments& a, const Moments& b);
 
 /// Returns the moments of every cell that holds weight, in the order of the cells. Not collective.
 ///
-/// The points must be finite and in the box of `mesh`, in any order, which is not checked. Throws
-/// Error for another dimension than that of the mesh, arrays that do not fit together, or weights
-/// that are negative, NaN or infinite.
+/// @param points finite and in the box of the mesh, in any order, which is not checked
+/// @param mesh   of the dimension of the points
+///
+/// If all points weigh 0, their moments are those of the same points with weight 1, under weight 0.
+/// Throws Error for another dimension, arrays that do not fit together, or weights that are
+/// negative, NaN or infinite.
 ///
 /// Shifted sums (Chan, Golub, LeVeque: Algorithms for computing the sample variance, 1983, section
-/// 3), about the first point of each cell, and in a second pass about the mean if that point is
-/// more than four standard deviations off. Neither the offset of the points nor the spread of the
-/// weights costs more than a digit. If all points weigh 0, their moments are those of the same
-/// points with weight 1, under weight 0.
+/// 3), about the first point of each cell, and again about the mean if that point is far off.
+/// Neither the offset of the points nor the spread of the weights costs more than a digit.
 RRCB_API std::vector<CellMoments> cell_moments(const Points& points, const SupportMesh& mesh);
 
 }  // namespace rrcb

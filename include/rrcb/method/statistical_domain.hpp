@@ -29,12 +29,15 @@ struct StatisticalDomain {
 
 /// Returns a patch per cell, or a few, with the cell's mean and standard deviation. Not collective.
 ///
+/// @param cells     moments; if all weights are 0 the counts take their place
+/// @param dimension of the points
+/// @param box       of all points: a cell counts as far as it is in the box; a mean outside is
+/// moved to the face, and sigma is at most that of points at both faces
+///
 /// Along an axis the density is quadratic on the longest interval inside the cell on which it is
 /// nowhere negative: to second order the density of greatest entropy. If there is none, two uniform
 /// densities replace it: between the mean and both faces or, if sigma is greater still, at both
-/// faces. The cell counts as far as it is in `box`, which holds all points. A mean outside is moved
-/// to the face, and sigma is at most that of points at both faces. If all weights are 0 the counts
-/// take their place.
+/// faces.
 RRCB_API StatisticalDomain analytic_domain(std::span<const CellMoments> cells, int dimension,
                                            const Box& box);
 

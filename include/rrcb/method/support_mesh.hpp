@@ -15,18 +15,27 @@ struct SupportMesh {
     Vector cells_per_length{};  ///< of scaled length; 0 on an axis of zero extent
 };
 
-/// Lays `cells_per_axis` cells over each axis of `box`. Not collective. Throws Error for less than
-/// one cell, or an illegal dimension.
+/// Lays a mesh over a box. Not collective.
+///
+/// @param box            of the points
+/// @param dimension      of the points
+/// @param cells_per_axis 1 or more
+/// Throws Error for less than one cell, or an illegal dimension.
 RRCB_API SupportMesh make_support_mesh(const Box& box, int dimension, int cells_per_axis);
 
 /// Returns the number of cells, the product over the axes. Not collective.
 RRCB_API LocalIndex num_cells(const SupportMesh& mesh);
 
-/// Returns the cell of a position; positions outside the mesh go to the nearest cell. Not
-/// collective.
+/// Returns the cell of a position. Not collective.
+///
+/// @param mesh     of the points
+/// @param position positions outside the mesh go to the nearest cell
 RRCB_API LocalIndex cell_of(const SupportMesh& mesh, const Vector& position);
 
 /// Returns the box of a cell; the shared faces of adjacent cells are bit-identical. Not collective.
+///
+/// @param mesh of the points
+/// @param cell number in the mesh
 RRCB_API Box cell_box(const SupportMesh& mesh, LocalIndex cell);
 
 }  // namespace rrcb

@@ -18,11 +18,11 @@ LONG_SHARE = 0.03
 # Words as `wc -w` counts them. Others may have 250; all but examples/mpm together TOTAL.
 TOTAL = 16000
 BUDGETS = {
-    "README.md": 850, "CHANGELOG.md": 300, "CONTRIBUTING.md": 480, "comparisons/README.md": 800,
-    "comparisons/columns.md": 910, "docs/choosing.md": 950, "docs/edge_cases.md": 350,
-    "docs/errors.md": 800, "docs/first_program.md": 350, "docs/hosts.md": 500,
-    "docs/install.md": 600, "docs/loop.md": 550, "docs/machines.md": 450,
-    "docs/parameters.md": 860, "docs/performance.md": 850, "docs/rebalancing.md": 400,
+    "README.md": 900, "CHANGELOG.md": 300, "CONTRIBUTING.md": 480, "comparisons/README.md": 800,
+    "comparisons/columns.md": 950, "docs/choosing.md": 950, "docs/edge_cases.md": 350,
+    "docs/errors.md": 830, "docs/first_program.md": 350, "docs/hosts.md": 500,
+    "docs/install.md": 600, "docs/loop.md": 550, "docs/machines.md": 480,
+    "docs/parameters.md": 880, "docs/performance.md": 850, "docs/rebalancing.md": 400,
     "docs/weights.md": 730, "docs/zoltan.md": 1070, "docs/design/how_it_works.md": 870,
     "docs/design/many_ranks.md": 650, "docs/design/paper.md": 870,
     "docs/design/rebalancing.md": 410, "docs/design/statistical_domain.md": 840,

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #ifdef RRCB_WITH_KOKKOS
@@ -18,7 +19,7 @@ struct Particle {
     std::array<double, 3> position;
     double x;
     double y;
-    int kind;
+    std::int64_t kind;  // so that the size is a multiple of that of doubles on every machine
 };
 
 struct FloatParticle {

@@ -51,7 +51,7 @@ class ZoltanArray {
     }
 
   private:
-    static char* file() { return const_cast<char*>(__FILE_NAME__); }
+    static char* file() { return const_cast<char*>("zoltan_array.hpp"); }
 
     T* data_ = nullptr;
     std::size_t size_ = 0;

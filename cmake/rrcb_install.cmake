@@ -1,6 +1,6 @@
 # Installs the libraries, so that find_package(rrcb) gives rrcb::rrcb and, where Zoltan and Teuchos
 # are found, rrcb::zoltan and rrcb::teuchos. These have export files of their own: users without
-# Trilinos never read them. The components are the packages of rrcb_packages.cmake.
+# Trilinos never read them.
 set(RRCB_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/rrcb)
 
 # Installs targets with what belongs to them, all of it as one component, but for libraries that

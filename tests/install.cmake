@@ -3,6 +3,8 @@
 set(prefix ${CMAKE_CURRENT_BINARY_DIR}/prefix)
 set(consumer ${CMAKE_CURRENT_BINARY_DIR}/consumer)
 
+get_target_property(eigen Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+
 add_test(NAME install.clean COMMAND ${CMAKE_COMMAND} -E rm -rf ${prefix} ${consumer})
 add_test(NAME install.install COMMAND ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --prefix
                                       ${prefix})
@@ -22,7 +24,8 @@ add_test(
     ${CMAKE_CURRENT_BINARY_DIR}/without_trilinos --build-generator ${CMAKE_GENERATOR}
     --build-options -DRRCB_SOURCE=${PROJECT_SOURCE_DIR} -DCMAKE_BUILD_TYPE=Debug
     -DCMAKE_CXX_FLAGS_DEBUG= -DCMAKE_DISABLE_FIND_PACKAGE_Zoltan=ON
-    -DCMAKE_DISABLE_FIND_PACKAGE_Teuchos=ON -DRRCB_MPM=OFF -DRRCB_EXAMPLES=ON
+    -DCMAKE_DISABLE_FIND_PACKAGE_Teuchos=ON -DRRCB_MPM=OFF -DRRCB_EXAMPLES=ON -DRRCB_EIGEN_DIR=${eigen}
+    -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON
     -DRRCB_BENCHMARKS=AUTO -DRRCB_FORTRAN=AUTO -DRRCB_WERROR=${RRCB_WERROR})
 add_test(
   NAME install.left_out
@@ -31,6 +34,19 @@ add_test(
     "OUTPUT=RRCB_ZOLTAN: Zoltan of Trilinos was not found.*What packages add, this installs:.*tools/set_up [a-z0-9 .+-]*libtrilinos-kokkos-dev libtrilinos-teuchos-dev libtrilinos-zoltan-dev" -P
     ${CMAKE_CURRENT_SOURCE_DIR}/cmake/expect.cmake -- ${CMAKE_COMMAND} -E cat
     ${CMAKE_CURRENT_BINARY_DIR}/without_trilinos/_deps/rrcb-build/left_out.txt)
+
+add_test(
+  NAME install.subdirectory
+  COMMAND
+    ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_SOURCE_DIR}/install/embedded -B
+    ${CMAKE_CURRENT_BINARY_DIR}/subdirectory -G ${CMAKE_GENERATOR} -DRRCB_SUBDIRECTORY=ON
+    -DRRCB_SOURCE=${PROJECT_SOURCE_DIR})
+if(EXISTS ${PROJECT_SOURCE_DIR}/.git)
+  add_test(NAME install.release
+           COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/install/release
+                   ${CMAKE_CURRENT_SOURCE_DIR}/install/embedded ${CMAKE_CURRENT_BINARY_DIR}/release)
+  set_tests_properties(install.release PROPERTIES LABELS install TIMEOUT 120)
+endif()
 
 # rrcb_add_missing_test(<name> <text of the error> <argument of cmake...>)
 function(rrcb_add_missing_test name text)
@@ -88,11 +104,10 @@ if(Python3_FOUND)
   add_test(NAME install.names
            COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/names.py
                    ${PROJECT_SOURCE_DIR})
-  add_test(NAME install.spack
-           COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/spack.py
-                   ${PROJECT_SOURCE_DIR}/packaging/spack/package.py
+  add_test(NAME install.recipes
+           COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/install/recipes.py
                    ${PROJECT_BINARY_DIR}/CMakeCache.txt ${PROJECT_SOURCE_DIR})
-  set_tests_properties(install.symbols install.names install.spack PROPERTIES LABELS install TIMEOUT 60)
+  set_tests_properties(install.symbols install.names install.recipes PROPERTIES LABELS install TIMEOUT 60)
   if(RRCB_ZOLTAN AND RRCB_PKG_CONFIG AND RRCB_FORTRAN AND MPI_Fortran_HAVE_F08_MODULE)
     add_test(NAME first_steps COMMAND ${CMAKE_COMMAND} -E env CMAKE_GENERATOR=${CMAKE_GENERATOR}
                                       ${CMAKE_CURRENT_SOURCE_DIR}/first_steps/run ${prefix})
@@ -112,5 +127,5 @@ set_tests_properties(install.builds_without_trilinos PROPERTIES FIXTURES_SETUP w
 set_tests_properties(install.left_out PROPERTIES FIXTURES_REQUIRED without_trilinos LABELS install
                                                  TIMEOUT 60)
 set_tests_properties(
-  install.clean install.install install.consumer install.builds_without_trilinos
+  install.clean install.install install.consumer install.builds_without_trilinos install.subdirectory
   install.asked_for_but_missing install.names_missing_packages PROPERTIES LABELS install TIMEOUT 300 PROCESSORS 2)

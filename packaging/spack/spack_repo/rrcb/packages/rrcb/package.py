@@ -1,3 +1,5 @@
+from spack_repo.builtin.build_systems.cmake import CMakePackage
+
 from spack.package import *
 
 
@@ -5,9 +7,15 @@ class Rrcb(CMakePackage):
     """Reduced recursive coordinate bisection: divides the particles of a parallel code among its
     processes so that each gets the same load, also in place of a method of Zoltan."""
 
-    license("BSD-3-Clause")
+    # rrcb.invalid stands for the address of the releases, the checksum for that of tools/release.
+    homepage = "https://rrcb.invalid"
+    url = "https://rrcb.invalid/releases/rrcb-0.2.0.tar.gz"
+    git = "https://rrcb.invalid/rrcb.git"
 
-    version("0.1.0")
+    license("BSD-3-Clause", checked_by="The RRCB authors")
+
+    version("main", branch="main")
+    version("0.2.0", sha256="0" * 64)
 
     variant("shared", default=True, description="rrcb::rrcb is the shared library")
     variant("zoltan", default=False, description="Build the plug-in for Zoltan")
@@ -21,11 +29,11 @@ class Rrcb(CMakePackage):
     depends_on("cmake@3.22:", type="build")
     depends_on("mpi")
     depends_on("trilinos+zoltan", when="+zoltan")
-    depends_on("trilinos+teuchos", when="+teuchos")
+    depends_on("trilinos+tpetra", when="+teuchos")
     depends_on("eigen@3.3:", type=("build", "test"))
     depends_on("googletest", type="build", when="+tests")
 
-    conflicts("%gcc@:11", msg="C++20 is needed")
+    conflicts("%gcc@:10", msg="C++20 is needed")
     conflicts("%clang@:13", msg="C++20 is needed")
 
     def cmake_args(self):

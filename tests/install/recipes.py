@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""recipes.py CACHE SOURCE: checks what packaging/ and others repeat of the build, without their tools.
+
+Fails unless every file has the version of the build whose CMakeCache.txt is CACHE, and the recipe for
+Spack, run with stubs of Spack's modules, sets options of that build, names variants that exist and tests
+a folder of SOURCE.
+"""
+import re
+import sys
+import types
+from pathlib import Path
+
+# Each file, and its line with the version, {0}, or with that of the interface, {1}.
+VERSIONS = [
+    ("CHANGELOG.md", "## {0}"),
+    ("CITATION.cff", "version: {0}"),
+    ("packaging/conda/recipe.yaml", '  version: "{0}"'),
+    ("packaging/debian/changelog", "rrcb ({0}-"),
+    ("packaging/debian/control", "Package: librrcb{1}"),
+    ("packaging/debian/librrcb{1}.install", "usr/lib/*/librrcb.so.*"),
+    ("packaging/debian/librrcb{1}.symbols", "librrcb.so.{1} librrcb{1} "),
+    ("packaging/spack/spack_repo/rrcb/packages/rrcb/package.py", '    version("{0}"'),
+    ("tests/consumer/CMakeLists.txt", "find_package(rrcb {1} REQUIRED)"),
+]
+
+
+def wrong_versions(source, version):
+    names = version, version.rsplit(".", 1)[0]
+    for file, line in VERSIONS:
+        path = source / file.format(*names)
+        lines = path.read_text().splitlines() if path.exists() else []
+        if not any(text.startswith(line.format(*names)) for text in lines):
+            yield f"{path} does not have '{line.format(*names)}'"
+
+
+class Recorder(types.ModuleType):
+    """In place of spack.package: notes what the recipe declares."""
+
+    def __init__(self):
+        super().__init__("spack.package")
+        self.variants, self.conditions, self.cached = {}, [], []
+        self.__all__ = ["license", "version", "variant", "depends_on", "conflicts",
+                        "run_after", "cache_extra_test_sources", "join_path", "Executable"]
+        self.license = self.conflicts = self.version = lambda *args, **named: None
+        self.variant = lambda name, **named: self.variants.update({name: named["default"]})
+        self.depends_on = lambda spec, when="", **named: self.conditions.append(when)
+        self.run_after = lambda phase: lambda method: method
+        self.cache_extra_test_sources = lambda package, folder: self.cached.append(folder)
+        self.join_path = self.Executable = None
+
+
+class Package:
+    def define(self, name, value):
+        return name, None
+
+    def define_from_variant(self, name, variant):
+        return name, variant
+
+
+def run_spack_recipe(source):
+    recorder = Recorder()
+    build_system = types.ModuleType("cmake")
+    build_system.CMakePackage = Package
+    for module in ("spack", "spack_repo", "spack_repo.builtin", "spack_repo.builtin.build_systems"):
+        sys.modules[module] = types.ModuleType(module)
+    sys.modules["spack_repo.builtin.build_systems.cmake"] = build_system
+    sys.modules["spack.package"] = recorder
+    recipe = source / "packaging/spack/spack_repo/rrcb/packages/rrcb/package.py"
+    scope = {}
+    exec(compile(recipe.read_text(), recipe, "exec"), scope)
+    package = scope["Rrcb"]()
+    package.keep_the_consumer()
+    return recorder, package.cmake_args()
+
+
+def spack_problems(source, cache):
+    recorder, options = run_spack_recipe(source)
+    known = set(re.findall(r"^(RRCB_\w+):", cache, re.M)) | {"BUILD_SHARED_LIBS"}
+    set_by = [variant for _, variant in options]
+    yield from (f"no option of the build: {name}" for name, _ in options if name not in known)
+    yield from (f"variant without an option: {name}" for name in recorder.variants if name not in set_by)
+    yield from (f"option of no variant: {name}" for name in set_by
+                if name is not None and name not in recorder.variants)
+    yield from (f"condition on no variant: {when}" for when in recorder.conditions
+                if when and when.strip("+~") not in recorder.variants)
+    if not recorder.variants or not recorder.cached:
+        yield "no variants or no tests"
+    yield from (f"no folder to test: {name}" for name in recorder.cached
+                if not (source / name / "CMakeLists.txt").exists())
+
+
+def main():
+    cache, source = Path(sys.argv[1]).read_text(), Path(sys.argv[2])
+    version = re.search(r"^CMAKE_PROJECT_VERSION:\w+=(.*)$", cache, re.M)[1]
+    problems = [*wrong_versions(source, version), *spack_problems(source, cache)]
+    print("\n".join(problems) or f"version {version} everywhere; the recipe for Spack is in order")
+    return len(problems) > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

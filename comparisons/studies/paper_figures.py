@@ -140,7 +140,7 @@ def draw_map(_: Path) -> Figure:
 def _draw_steps(axes: Axes, mesh: int, multiplier: float, start: float) -> None:
     reach = 0.02
     ends = [-100 * reach, 100 * reach]
-    axes.plot(ends, ends, color="#999999", linewidth=0.8, label="a cut that stays")
+    axes.plot(ends, ends, color="#999999", linewidth=0.8, label="fixed points")
     for side in (-1, 1):
         offsets = side * np.linspace(1e-9, reach, 50)
         mapped = [100 * next_offset(e, mesh, multiplier) for e in offsets]

@@ -173,10 +173,10 @@ def all_paths(counts: dict[str, pd.DataFrame], machine: Machine, virtual: pd.Dat
 
 
 def draw(paths: pd.DataFrame) -> plot.Figure:
-    panels = {"model_s": "modelled time of a call [s]", "messages": "messages one after the other",
-              "bytes_into_root": "bytes into rank 0"}  # fmt: skip
+    panels = {"model_s": "modelled time of a call [s]", "messages": "sequential messages",
+              "bytes_into_root": "bytes received by rank 0"}  # fmt: skip
     figure, grid = plot.panels(1, len(panels), 12.3, 4)
-    look = {"color": "#BBBBBB", "linewidth": 0.8, "label": "RRCB: by many ranks beyond"}
+    look = {"color": "#BBBBBB", "linewidth": 0.8, "label": "RRCB: rank 0 to the left, many ranks to the right"}
     for axes, (column, label) in zip(grid[0], panels.items()):
         for name, rows in paths.groupby("method", sort=False):
             style = plot.method_style(name)

@@ -1,0 +1,49 @@
+"""Draws the points that one rank gets as ghosts: those within the radius of its box."""
+
+from pathlib import Path
+
+import numpy as np
+
+import plot
+from matplotlib.patches import FancyBboxPatch, Rectangle
+
+FIGURE = Path(__file__).resolve().parents[2] / "docs" / "figures" / "ghost_layer.png"
+RADIUS = 0.09
+
+
+def halves(points: np.ndarray, box: np.ndarray, parts: int) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Boxes of as many points each, cut across their longest side, with their points."""
+    if parts == 1:
+        return [(box, points)]
+    axis = int(np.argmax(box[1] - box[0]))
+    cut = np.median(points[:, axis])
+    lower, upper = box.copy(), box.copy()
+    lower[1, axis] = upper[0, axis] = cut
+    above = points[:, axis] >= cut
+    return halves(points[~above], lower, parts // 2) + halves(points[above], upper, parts // 2)
+
+
+def main() -> None:
+    points = np.random.default_rng(5).beta(1.3, 1.9, (700, 2)) * [1.6, 1]
+    ranks = halves(points, np.array([[0, 0], [1.6, 1]]), 8)
+    figure, grid = plot.panels(1, 1, 7.2, 4.6)
+    axes = grid[0, 0]
+    mine = 3
+    box = ranks[mine][0]
+    for rank, (each, inside) in enumerate(ranks):
+        beyond = np.maximum(np.maximum(box[0] - inside, inside - box[1]), 0)
+        near = (np.hypot(*beyond.T) <= RADIUS) & (rank != mine)
+        colour = plot.PART_COLOURS[rank]
+        axes.plot(*inside[~near].T, ".", color=colour, markersize=5 if rank == mine else 4)
+        axes.plot(*inside[near].T, "o", color=colour, markersize=5, markeredgecolor="black")
+        axes.add_patch(Rectangle(each[0], *(each[1] - each[0]), fill=False, edgecolor="black"))
+        axes.text(*(each.mean(axis=0)), f"rank {rank}", ha="center", va="center",
+                  bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.5})
+    axes.add_patch(FancyBboxPatch(box[0], *(box[1] - box[0]), fill=False, linestyle="--",
+                                  boxstyle=f"round,pad={RADIUS},rounding_size={RADIUS}"))
+    axes.set(xlim=(0, 1.6), ylim=(0, 1), aspect="equal", xticks=[], yticks=[])
+    plot.save(figure, FIGURE)
+
+
+if __name__ == "__main__":
+    main()

@@ -9,14 +9,14 @@
 
 namespace rrcb {
 
-/// Returns where the parts of a call lie. Collective as mpi::machines_of().
+/// Returns the machines of the parts of a call. Collective as mpi::machines_of().
 Ranks ranks_of(Participant& self);
 
 /// Balances as the public functions do, over a communicator that is a duplicate already.
 ///
 /// `previous` may be null. A failure from before the call is thrown on all ranks as well. Points
-/// that lie well enough stay (Report::kept) only if all ranks allow it: `may_keep` may differ
-/// between them. The parts are in the `memory` of other ones.
+/// that are balanced well enough are kept (Report::kept) only if all ranks allow it: `may_keep` may
+/// differ between them. The parts are in the `memory` of other ones.
 Balance balance(const Points& points, const Options& options, const Cuts* previous, bool may_keep,
                 Participant& self, std::vector<Part> memory = {});
 

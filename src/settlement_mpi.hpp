@@ -43,8 +43,8 @@ class Settlement {
 /// Gives each rank the cuts that Options::cuts asks for after many ranks made the parts; with all
 /// cuts also the weights of all parts.
 ///
-/// Collective: two reductions for all cuts. For own ones nothing, unless points in one place are
-/// divided: then as assign(), as look-ups of them go to the upper side of a cut.
+/// Collective: two reductions for all cuts. For own ones nothing, unless coincident points are
+/// divided: then as assign(), because look-ups find the upper side of a cut.
 void hold_cuts(const Points& points, const Options& options, Balance& result, Participant& self);
 
 }  // namespace rrcb

@@ -42,7 +42,7 @@ RRCB_VECTOR_CLONES std::uint64_t copy_block(const Layout& x, LocalIndex first, L
     return carries;
 }
 
-/// Calls look_up(i, position) for the points of a block that lie on such a plane.
+/// Calls look_up(i, position) for the points of a block on such a plane.
 template <class LookUp>
 void for_each_tied(const TiedPoints& tied, const Columns& columns, LocalIndex length, int dimension,
                    LookUp&& look_up) {

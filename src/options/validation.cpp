@@ -40,7 +40,7 @@ void check_weights(const Points& points) {
     reject("the sum of the weights overflows; scale them down");
 }
 
-/// True when `axes` lie in one array, point after point.
+/// True when `axes` are in one array, point after point.
 template <class Axes>
 bool are_interleaved(const Points& points, const Axes& axes) {
     const auto dimension = static_cast<std::size_t>(points.dimension);

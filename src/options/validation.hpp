@@ -8,7 +8,7 @@
 
 namespace rrcb {
 
-/// Where the parts of a call lie.
+/// Machines and ranks of the parts of a call.
 struct Ranks {
     int number = 1;
     int per_machine = 1;  ///< see mpi::Machines
@@ -32,7 +32,7 @@ void check_arrays(const Points& points);
 /// unusable.
 Box check_points(const Points& points);
 
-/// True when all coordinates lie in one array, point after point, without anything else.
+/// True when all coordinates are in one array, point after point, without anything else.
 bool is_interleaved(const Points& points);
 
 /// Throws Error that names what has another number of axes than 1, 2 or 3.
@@ -52,7 +52,7 @@ void check_cuts(const Cuts& cuts);
 void check_previous(const Cuts& previous, const Options& options, int dimension);
 
 /// Scales checked sizes to a sum in [1, 2), so that weights over sizes stay in range; makes equal
-/// ones where there are none. A power of two keeps the bits of their ratios, but for sizes hundreds
+/// ones if there are none. A power of two keeps the bits of their ratios, except for sizes hundreds
 /// of decades below their sum.
 void normalize(std::vector<double>& sizes, int num_parts);
 

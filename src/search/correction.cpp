@@ -39,7 +39,7 @@ class Corrector {
     }
 
   private:
-    /// Moves a cut until the weight below it is as its target says; returns the new place.
+    /// Moves a cut until the weight below it meets its target; returns the new position.
     double move(const Descent& at, const Slab& slab, double cut) {
         const double below = weight_of(at.lower(), part_weights_);
         const double weight = below + weight_of(at.upper(), part_weights_);

@@ -54,14 +54,15 @@ struct Call {
 };
 
 /// Completes the options, and summarizes them and the points for the other ranks.
-void introduce(const Options& given, const Box& box, const Cuts* previous, Call& call) {
+void introduce(const Options& given, const Box& box, const Cuts* previous, Call& call,
+               const Participant& self) {
     const Points& points = call.points;
     Options options = complete(given, call.ranks, previous);
     check_options(options, points.dimension);
     require(options.tree.dealt == 0 || !is_spread(options, call.ranks.number),
             "tree.dealt must be 0 if many ranks make the parts; raise tuning.central_parts");
     if (previous) check_previous(*previous, options, points.dimension);
-    call.mine.summary = summarize(points, box);
+    call.mine.summary = summarize(points, box, mpi::rank_of(self.comm));
     call.mine.summary.request = request_of(options, points.dimension, previous);
     if (!options.part_sizes.empty() && options.tree.dealt != 0)
         for (Part end = 0; end < options.num_parts; ++end)
@@ -86,7 +87,7 @@ void number_parts(Call& call) {
 /// Gives every rank the decision of rank 0, or throws the error of one rank on all. Collective.
 void estimate(Call& call, Participant& self) {
     {
-        const StageScope stage(call.options.parts.observer, Stage::gather);
+        const StageScope stage(call.options.parts.observer, Stage::gather, self.arithmetic);
         merge_up(call.mine, call.points.dimension, MergeTree{mpi::size_of(self.comm)},
                  most_merged_cells(call.options), self);
     }
@@ -101,10 +102,10 @@ void estimate(Call& call, Participant& self) {
 /// Prepares a call from scratch. Not collective.
 void prepare(const Options& given, bool may_keep, Call& call, KeptParts& kept,
              const Participant& self) {
-    const StageScope stage(given.observer, Stage::moments);
+    const StageScope stage(given.observer, Stage::moments, self.arithmetic);
     const Points& points = call.points;
     const Box box = check_points(points);
-    introduce(given, box, nullptr, call);
+    introduce(given, box, nullptr, call, self);
     const Options& central = call.options.central();
     kept.prepare(call.options, points, may_keep, mpi::rank_of(self.comm), mpi::size_of(self.comm),
                  call.mine);
@@ -163,10 +164,10 @@ bool may_reuse(const Cuts& previous, const CallOptions& options) {
 /// may be good enough. Not collective.
 void prepare_to_reuse(const Options& given, const Cuts& previous, Call& call, EarlierParts& earlier,
                       const Participant& self) {
-    const StageScope stage(given.observer, Stage::assignment);
+    const StageScope stage(given.observer, Stage::assignment, self.arithmetic);
     const Points& points = call.points;
     check_arrays(points);
-    introduce(given, Box{}, &previous, call);
+    introduce(given, Box{}, &previous, call, self);
     if (!may_reuse(previous, call.options)) return;
     const Options& central = call.options.central();
     std::vector<Part>& parts = call.result.parts;

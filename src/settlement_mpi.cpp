@@ -68,7 +68,7 @@ void Settlement::prepare(const CallOptions& options, bool counts, const Particip
 }
 
 void Settlement::assign(const Points& points, bool counts, Balance& result, Participant& self) {
-    const StageScope stage(options_->parts.observer, Stage::assignment);
+    const StageScope stage(options_->parts.observer, Stage::assignment, self.arithmetic);
     self.attempt([&] {
         if (!counts) {
             assign_known(result.cuts, points, result.parts);
@@ -91,7 +91,7 @@ void Settlement::take_counts(std::span<const double> here, std::span<const doubl
 void Settlement::refine(const Points& points, const Bin& bin, Decision& decision, Balance& result,
                         Participant& self) {
     const Options& central = options_->central();
-    const StageScope stage(central.observer, Stage::refinement);
+    const StageScope stage(central.observer, Stage::refinement, self.arithmetic);
     Report& report = result.report;
     const Verdict& verdict = decision.verdict;
     Estimate estimate{std::move(result.cuts),
@@ -114,7 +114,7 @@ void Settlement::refine(const Points& points, const Bin& bin, Decision& decision
 void Settlement::divide_regions(const BinnedPoints& binned, const Verdict& verdict, Balance& result,
                                 Participant& self) {
     const Options& options = options_->parts;
-    const StageScope stage(options.observer, Stage::refinement);
+    const StageScope stage(options.observer, Stage::refinement, self.arithmetic);
     refinement_.reset();
     Report& report = result.report;
     const double weight = weight_of(report);
@@ -141,7 +141,7 @@ void hold_cuts(const Points& points, const Options& options, Balance& result, Pa
     const bool divides =
         options.coincident == Coincident::divide && report.details.coincident_cuts > 0;
     if (!gets_all && !divides) return;
-    const StageScope stage(options.observer, Stage::broadcast);
+    const StageScope stage(options.observer, Stage::broadcast, self.arithmetic);
     if (!gets_all) {
         result.cuts = with_cuts_above(points, result.cuts, self);
         return;

@@ -29,7 +29,7 @@ struct GhostPlan {
 };
 
 /// Distances at which points are needed, and the ranks of the parts. The same on every rank, except
-/// `radii`, which every rank gives or none does.
+/// `radii`, which every rank that has points gives or none does.
 struct GhostOptions {
     /// Cut-off of all points, in the unit of the coordinates; NaN: not given.
     double radius = std::numeric_limits<double>::quiet_NaN();

@@ -1,6 +1,7 @@
 #include "c/balancer.hpp"
 
 #include "options/option_table.hpp"
+#include "options/rejection.hpp"
 #include "options/validation.hpp"
 
 #include <rrcb/version.hpp>
@@ -21,12 +22,9 @@ void set_option(const char* name, const char* value, Options& options) {
     require(value, "value");
     const Option* option = find_option(name);
     if (option == nullptr)
-        throw Error(ErrorCode::invalid_argument,
-                    "there is no option \"" + std::string(name) + "\"; rrcb/options.hpp has them");
+        reject("there is no option \"" + std::string(name) + "\"; rrcb/options.hpp has them");
     if (!read_option(*option, value, options))
-        throw Error(
-            ErrorCode::invalid_argument,
-            std::string(name) + " takes " + legal_values(*option) + ", not \"" + value + '"');
+        reject(std::string(name) + " takes " + legal_values(*option) + ", not \"" + value + '"');
 }
 
 Cuts copy_of(const rrcb_cuts& given) {
@@ -60,26 +58,28 @@ int code_of(const Failure& failure) noexcept {
 }
 
 void require(const void* pointer, const char* name) {
-    if (pointer == nullptr)
-        throw Error(ErrorCode::invalid_argument, std::string(name) + " is null");
+    if (pointer == nullptr) reject(std::string(name) + " is null");
 }
 
 void require_array(std::size_t count, const void* values, const char* name) {
     if (count > 0 && values == nullptr)
-        throw Error(ErrorCode::invalid_argument,
-                    std::string(name) + " is null (in Fortran: or an array has the wrong length)");
+        reject(std::string(name) + " is null (in Fortran: or an array has the wrong length)");
 }
 
 void require_cuts(const rrcb_balancer& own) {
     if (own.cuts.dimension == 0)
-        throw Error(ErrorCode::invalid_argument,
-                    "the balancer has no cuts yet; call rrcb_balance or rrcb_set_cuts");
+        reject("the balancer has no cuts yet; call rrcb_balance or rrcb_set_cuts");
+}
+
+void require_parts(const rrcb_balancer& own, std::size_t num_parts) {
+    require_cuts(own);
+    if (num_parts != static_cast<std::size_t>(own.cuts.num_parts))
+        reject("the cuts have " + std::to_string(own.cuts.num_parts) + " parts, not " +
+               std::to_string(num_parts) + "; give an array with an entry for each");
 }
 
 void require_plan(const rrcb_balancer& own) {
-    if (!own.plan)
-        throw Error(ErrorCode::invalid_argument,
-                    "the balancer has no plan yet; call rrcb_make_plan");
+    if (!own.plan) reject("the balancer has no plan yet; call rrcb_make_plan");
 }
 
 }  // namespace rrcb::c
@@ -119,9 +119,7 @@ int rrcb_set_part_sizes(rrcb_balancer* balancer, size_t count, const double* siz
 int rrcb_get_report(const rrcb_balancer* balancer, rrcb_report* report) {
     return guarded(balancer, [&](const auto& own) {
         require(report, "report");
-        if (!own.report)
-            throw rrcb::Error(rrcb::ErrorCode::invalid_argument,
-                              "the balancer has no report yet; call rrcb_balance");
+        if (!own.report) rrcb::reject("the balancer has no report yet; call rrcb_balance");
         const rrcb::Report& from = *own.report;
         const rrcb::ReportDetails& details = from.details;
         *report = {from.imbalance,
@@ -147,9 +145,8 @@ int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts) {
         require(cuts, "cuts");
         require_cuts(own);
         if (!is_whole(own.cuts))
-            throw rrcb::Error(rrcb::ErrorCode::invalid_argument,
-                              "the balancer holds a part of the cuts; call rrcb_gather_cuts on all "
-                              "ranks");
+            rrcb::reject(
+                "the balancer holds a part of the cuts; call rrcb_gather_cuts on all ranks");
         *cuts = {own.cuts.dimension,
                  own.cuts.num_parts,
                  reinterpret_cast<const rrcb_cut*>(own.cuts.tree.data()),

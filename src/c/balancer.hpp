@@ -39,6 +39,9 @@ void require(const void* pointer, const char* name);
 /// As require(), for arrays, unless they are empty.
 void require_array(std::size_t count, const void* values, const char* name);
 
+/// Throws Error if coordinates cannot have the type.
+void check_coordinate(rrcb_type type);
+
 /// Returns a view of the points of a call. Throws Error if there are none, or they have no
 /// coordinates.
 Points points_of(const rrcb_points* points);
@@ -49,8 +52,9 @@ std::span<const T> view(const T* values, std::size_t count) {
     return values == nullptr ? std::span<const T>() : std::span(values, count);
 }
 
-/// Throws Error unless the balancer has cuts, or a plan.
+/// Throws Error unless the balancer has cuts, of so many parts, or a plan.
 void require_cuts(const rrcb_balancer& own);
+void require_parts(const rrcb_balancer& own, std::size_t num_parts);
 void require_plan(const rrcb_balancer& own);
 
 /// Runs the body of a function of a handle; no exception leaves it.

@@ -1,5 +1,6 @@
 #include "c/balancer.hpp"
 #include "c/handle_mpi.hpp"
+#include "options/rejection.hpp"
 
 #include <rrcb/controller.hpp>
 #include <rrcb/cost.hpp>
@@ -36,6 +37,29 @@ int with_model(Model* model, Body&& body) noexcept {
 
 void store(bool is_due, int* due) {
     if (due != nullptr) *due = is_due ? 1 : 0;
+}
+
+/// Makes a model, of a controller if the address of one is given. Collective.
+int make_model(MPI_Comm comm, rrcb_controller* const* controller, int num_columns,
+               rrcb_cost_model** model) {
+    return rrcb::c::guarded([&] {
+        auto made = rrcb::c::make_handle(
+            comm, model, "model", {{"whether a controller is given", controller != nullptr}}, [&] {
+                if (controller != nullptr) rrcb::c::require(*controller, "controller");
+            });
+        if (controller == nullptr)
+            made->model.emplace(comm, num_columns);
+        else
+            made->model.emplace(*(*controller)->controller, num_columns);
+        made->num_columns = static_cast<std::size_t>(num_columns);
+        *model = made.release();
+    });
+}
+
+void check_columns(const rrcb_cost_model& own, std::size_t num_columns) {
+    if (num_columns != own.num_columns)
+        rrcb::reject("the cost model has " + std::to_string(own.num_columns) + " columns, not " +
+                     std::to_string(num_columns));
 }
 
 }  // namespace
@@ -79,21 +103,12 @@ int rrcb_controller_rebalanced(rrcb_controller* controller, const rrcb_report* r
 
 int rrcb_cost_model_create(MPI_Comm comm, rrcb_controller* controller, int num_columns,
                            rrcb_cost_model** model) {
-    return rrcb::c::guarded([&] {
-        auto made = rrcb::c::make_handle(
-            comm, model, "model", {{"whether a controller is given", controller != nullptr}});
-        if (controller == nullptr)
-            made->model.emplace(comm, num_columns);
-        else
-            made->model.emplace(*controller->controller, num_columns);
-        made->num_columns = static_cast<std::size_t>(num_columns);
-        *model = made.release();
-    });
+    return make_model(comm, controller == nullptr ? nullptr : &controller, num_columns, model);
 }
 
-int rrcb_cost_model_create_fortran(MPI_Fint comm, rrcb_controller* controller, int num_columns,
-                                   rrcb_cost_model** model) {
-    return rrcb_cost_model_create(MPI_Comm_f2c(comm), controller, num_columns, model);
+int rrcb_cost_model_create_fortran(MPI_Fint comm, rrcb_controller* const* controller,
+                                   int num_columns, rrcb_cost_model** model) {
+    return make_model(MPI_Comm_f2c(comm), controller, num_columns, model);
 }
 
 void rrcb_cost_model_destroy(rrcb_cost_model* model) {
@@ -109,18 +124,16 @@ int rrcb_cost_model_step(rrcb_cost_model* model, double seconds, size_t num_colu
 int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, size_t num_columns,
                             const double* columns, double* weights) {
     return with_model(model, [&](rrcb_cost_model& own) {
-        if (num_columns != own.num_columns)
-            throw rrcb::Error(rrcb::ErrorCode::invalid_argument,
-                              "the cost model has " + std::to_string(own.num_columns) +
-                                  " columns, not " + std::to_string(num_columns));
+        check_columns(own, num_columns);
         rrcb::c::require_array(count, columns, "columns");
         rrcb::c::require_array(count, weights, "weights");
         std::ranges::copy(own.model->weights(view(columns, count * own.num_columns)), weights);
     });
 }
 
-int rrcb_cost_model_costs(const rrcb_cost_model* model, double* costs) {
+int rrcb_cost_model_costs(const rrcb_cost_model* model, size_t num_columns, double* costs) {
     return with_model(model, [&](const rrcb_cost_model& own) {
+        check_columns(own, num_columns);
         rrcb::c::require(costs, "costs");
         std::ranges::copy(own.model->costs(), costs);
     });

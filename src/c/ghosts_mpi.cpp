@@ -30,12 +30,11 @@ struct KeptOptions {
     void read(const rrcb_ghost_options* from, LocalIndex num_points, int num_parts) {
         require(from, "options");
         options.radius = from->radius;
-        if (from->each_radius == 0) {
-            if (from->radii != nullptr) reject("set each_radius to 1 on all ranks to use radii");
-        } else {
-            require_array(num_points, from->radii, "radii");
-            options.radii = view(from->radii, num_points);
-        }
+        if (from->radii != nullptr) options.radii = view(from->radii, num_points);
+        if (!options.radii && num_points > 0 && options.radius == 0)
+            reject(
+                "radius is 0 and radii is null (in Fortran: or has the wrong length); give one"
+                " of them");
         if (from->lower != nullptr || from->upper != nullptr) {
             require(from->lower, "lower");
             require(from->upper, "upper");
@@ -201,12 +200,17 @@ int rrcb_ghosts_accumulate(const rrcb_ghosts* ghosts, size_t num_columns,
         "ghosts");
 }
 
-int rrcb_ghosts_apply_shifts(const rrcb_ghosts* ghosts, size_t length, double* positions) {
+int rrcb_ghosts_apply_shifts(const rrcb_ghosts* ghosts, rrcb_type type, size_t length,
+                             void* positions) {
     return guarded(
         ghosts,
         [&](const auto& own) {
             rrcb::c::require_array(length, positions, "positions");
-            rrcb::apply_shifts(own.plan, {positions, length});
+            rrcb::c::check_coordinate(type);
+            if (type == RRCB_FLOAT)
+                rrcb::apply_shifts(own.plan, std::span(static_cast<float*>(positions), length));
+            else
+                rrcb::apply_shifts(own.plan, std::span(static_cast<double*>(positions), length));
         },
         "ghosts");
 }

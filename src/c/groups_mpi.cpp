@@ -33,10 +33,10 @@ void make_groups(const rrcb_balancer& own, const rrcb_points* given, const uint6
         points = rrcb::c::points_of(given);
         rrcb::c::require_array(points.count, keys, "keys");
     });
+    static_assert(RRCB_CENTRE == static_cast<int>(rrcb::GroupPlace::centre));
     made->comm = own.comm;
-    made->groups = rrcb::groups(
-        points, rrcb::c::view(keys, points.count),
-        place == RRCB_CENTRE ? rrcb::GroupPlace::centre : rrcb::GroupPlace::first_point, self);
+    made->groups = rrcb::groups(points, rrcb::c::view(keys, points.count),
+                                static_cast<rrcb::GroupPlace>(place), self);
     *groups = made.release();
 }
 

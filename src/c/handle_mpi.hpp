@@ -10,15 +10,17 @@
 namespace rrcb::c {
 
 /// Makes a handle and stores it in the caller's pointer `*where`. Collective over `comm`: throws
-/// the same Error on every rank if `where` is null on one, memory runs out, or one of `arguments`
-/// differs between ranks.
-template <class Handle>
-std::unique_ptr<Handle> make_handle(MPI_Comm comm, Handle** where, const char* name,
-                                    std::initializer_list<Shared> arguments = {}) {
+/// the same Error on every rank if `where` is null on one, memory runs out, `check` throws, or one
+/// of `arguments` differs between ranks.
+template <class Handle, class Check = void (*)()>
+std::unique_ptr<Handle> make_handle(
+    MPI_Comm comm, Handle** where, const char* name, std::initializer_list<Shared> arguments = {},
+    Check&& check = [] {}) {
     Participant self{mpi::duplicate_of(comm)};
     std::unique_ptr<Handle> made;
     self.attempt([&] {
         require(static_cast<const void*>(where), name);
+        check();
         made = std::make_unique<Handle>();
     });
     agree(self, arguments);

@@ -65,12 +65,13 @@ int rrcb_transfer(rrcb_balancer* balancer, size_t num_columns, const rrcb_column
 }
 
 int rrcb_remap(rrcb_balancer* balancer, size_t count, const int32_t* parts, const int32_t* previous,
-               const rrcb_rank_range* ranks_of_parts, int32_t* numbers, rrcb_kept* kept) {
+               const rrcb_rank_range* ranks_of_parts, size_t num_parts, int32_t* numbers,
+               rrcb_kept* kept) {
     return guarded(balancer, [&](auto& own) {
         Participant self{duplicate_of(own.comm)};
         std::vector<rrcb::RankRange> ranks;
         self.attempt([&] {
-            rrcb::c::require_cuts(own);
+            rrcb::c::require_parts(own, num_parts);
             require_array(count, parts, "parts");
             rrcb::c::require(numbers, "numbers");
             ranks = rrcb::c::ranks_of_parts(ranks_of_parts, own.cuts.num_parts,

@@ -4,6 +4,7 @@
 #include "collective/duplicate.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace {
 
@@ -25,15 +26,17 @@ int measured(Measure measure, size_t num_parts, const double* part_weights,
     });
 }
 
-/// Writes a measure of the parts of points over all ranks. Collective.
+/// Writes a measure of the parts of points over all ranks, with as many results as are given or 1.
+/// Collective.
 template <class Measure>
 int measured_together(Measure measure, const rrcb_balancer* balancer, const rrcb_points* points,
-                      const int32_t* parts, double* result) {
+                      const int32_t* parts, std::optional<size_t> num_parts, double* result) {
     return guarded(balancer, [&](const auto& own) {
         Participant self{rrcb::mpi::duplicate_of(own.comm)};
         Points measured;
         self.attempt([&] {
             rrcb::c::require_cuts(own);
+            if (num_parts) rrcb::c::require_parts(own, *num_parts);
             measured = rrcb::c::points_of(points);
             rrcb::c::require_array(measured.count, parts, "parts");
             require(result, "the result");
@@ -68,12 +71,12 @@ int rrcb_worst_load_unbalance_percent(size_t num_parts, const double* part_weigh
 }
 
 int rrcb_part_weights(const rrcb_balancer* balancer, const rrcb_points* points,
-                      const int32_t* parts, double* part_weights) {
+                      const int32_t* parts, size_t num_parts, double* part_weights) {
     return measured_together(
-        [](const Points& of, auto each, int num_parts, Participant& self, double* to) {
-            std::ranges::copy(rrcb::part_weights(of, each, num_parts, self), to);
+        [](const Points& of, auto each, int of_cuts, Participant& self, double* to) {
+            std::ranges::copy(rrcb::part_weights(of, each, of_cuts, self), to);
         },
-        balancer, points, parts, part_weights);
+        balancer, points, parts, num_parts, part_weights);
 }
 
 int rrcb_moved_fraction(const rrcb_balancer* balancer, const rrcb_points* points,
@@ -82,5 +85,5 @@ int rrcb_moved_fraction(const rrcb_balancer* balancer, const rrcb_points* points
         [](const Points& of, auto each, int num_parts, Participant& self, double* to) {
             *to = rrcb::moved_fraction(of, each, num_parts, self);
         },
-        balancer, points, parts, fraction);
+        balancer, points, parts, std::nullopt, fraction);
 }

@@ -2,7 +2,9 @@
 
 #include "collective/communicator.hpp"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <new>
 #include <string>
 
@@ -10,7 +12,7 @@ namespace rrcb {
 
 namespace {
 
-constexpr std::size_t most_shared = 11;
+constexpr std::size_t most_shared = 12;
 
 /// Throws the same on all ranks, without the text on a rank that has no memory for it.
 template <class MakeText>
@@ -29,47 +31,78 @@ std::uint64_t order_of(const Participant& self, std::uint64_t num_ranks) {
     return self.failure.may_follow ? num_ranks + rank : rank;
 }
 
+/// The least value of an argument, and the complement of the greatest.
+using Ends = std::array<std::uint64_t, 2>;
+constexpr Ends not_needed{std::numeric_limits<std::uint64_t>::max(),
+                          std::numeric_limits<std::uint64_t>::max()};
+
+Ends ends_of(const Shared& argument) {
+    return argument.is_needed ? Ends{argument.value, ~argument.value} : not_needed;
+}
+
+/// Collective.
+void find_smallest(std::span<std::uint64_t> values, MPI_Comm comm) {
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()),
+                             MPI_UINT64_T, MPI_MIN, comm),
+               "MPI_Allreduce");
+}
+
 }  // namespace
+
+Shared weights_given(const Points& points) {
+    return {"whether points have weights", points.weights.empty() ? 0u : 1u, points.count > 0,
+            "give one for each point on every rank that has points, or none"};
+}
+
+std::string difference(std::string_view name, std::string_view fix, int rank, int other) {
+    return std::string(name) + " differs between rank " + std::to_string(std::min(rank, other)) +
+           " and rank " + std::to_string(std::max(rank, other)) + "; " + std::string(fix);
+}
 
 void agree(const Participant& self) {
     agree(self, {});
 }
 
 void agree(const Participant& self, std::initializer_list<Shared> arguments) {
-    const std::size_t differing = find_difference(self, {arguments.begin(), arguments.size()});
-    if (differing < arguments.size()) refuse(arguments.begin()[differing], self);
+    std::array<Shared, most_shared> compared;
+    std::ranges::copy(arguments, compared.begin());
+    agree(self, std::span(compared).first(arguments.size()));
 }
 
-std::size_t find_difference(const Participant& self, std::span<const Shared> arguments) {
+void agree(const Participant& self, std::span<Shared> arguments) {
+    const std::size_t differing = find_difference(self, arguments);
+    if (differing < arguments.size()) refuse(arguments[differing], self);
+}
+
+std::size_t find_difference(const Participant& self, std::span<Shared> arguments) {
     const auto num_ranks = static_cast<std::uint64_t>(mpi::size_of(self.comm));
-    // The minimum of the complement gives the maximum.
     std::array<std::uint64_t, 1 + 2 * most_shared> smallest;
     smallest[0] = order_of(self, num_ranks);
     std::size_t length = 1;
-    for (const Shared& argument : arguments) {
-        smallest[length++] = argument.value;
-        smallest[length++] = ~argument.value;
-    }
-    mpi::check(MPI_Allreduce(MPI_IN_PLACE, smallest.data(), static_cast<int>(length), MPI_UINT64_T,
-                             MPI_MIN, self.comm),
-               "MPI_Allreduce");
+    for (const Shared& argument : arguments)
+        for (const std::uint64_t end : ends_of(argument)) smallest[length++] = end;
+    find_smallest(std::span(smallest).first(length), self.comm);
     if (smallest[0] < 2 * num_ranks) fail_together(static_cast<int>(smallest[0] % num_ranks), self);
-    std::size_t first = 0;
-    while (first < arguments.size() && smallest[1 + 2 * first] == ~smallest[2 + 2 * first]) ++first;
-    return first;
+    for (std::size_t k = 0; k < arguments.size(); ++k) {
+        const Ends ends{smallest[1 + 2 * k], smallest[2 + 2 * k]};
+        if (ends != not_needed && ends[0] != ~ends[1]) return k;
+        if (!arguments[k].is_needed) arguments[k].value = ends == not_needed ? 0 : ends[0];
+    }
+    return arguments.size();
 }
 
 void refuse(const Shared& argument, const Participant& self) {
-    // Names the lowest rank with another value than the root.
-    const int num_ranks = mpi::size_of(self.comm);
-    std::uint64_t of_root = argument.value;
-    mpi::check(MPI_Bcast(&of_root, 1, MPI_UINT64_T, root, self.comm), "MPI_Bcast");
-    int differing = argument.value != of_root ? mpi::rank_of(self.comm) : num_ranks;
-    mpi::check(MPI_Allreduce(MPI_IN_PLACE, &differing, 1, MPI_INT, MPI_MIN, self.comm),
-               "MPI_Allreduce");
+    // Names the lowest ranks with the least and the greatest value.
+    const Ends here = ends_of(argument);
+    Ends ends = here;
+    find_smallest(ends, self.comm);
+    const auto rank = static_cast<std::uint64_t>(mpi::rank_of(self.comm));
+    Ends ranks{here[0] == ends[0] ? rank : not_needed[0],
+               here[1] == ends[1] ? rank : not_needed[1]};
+    find_smallest(ranks, self.comm);
     throw_alike(ErrorCode::invalid_argument, [&] {
-        return std::string(argument.name) + " differs between rank " + std::to_string(root) +
-               " and rank " + std::to_string(differing) + "; give the same value on every rank";
+        return difference(argument.name, argument.fix, static_cast<int>(ranks[0]),
+                          static_cast<int>(ranks[1]));
     });
 }
 

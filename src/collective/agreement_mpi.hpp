@@ -2,12 +2,15 @@
 
 #include "collective/participant.hpp"
 
+#include <rrcb/points.hpp>
+
 #include <mpi.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace rrcb {
@@ -20,20 +23,31 @@ inline constexpr int root = 0;
 /// the lowest failing rank. Collective: one reduction.
 void agree(const Participant& self);
 
-/// Argument that must be the same on every rank.
+/// Argument that must be the same on every rank, except on those that need none.
 struct Shared {
     std::string_view name;
     std::uint64_t value = 0;
+    bool is_needed = true;  ///< on this rank; any other value then fits it
+    std::string_view fix = "give the same value on every rank";
 };
+
+/// Returns whether the points have weights, as an argument to compare.
+Shared weights_given(const Points& points);
+
+/// Returns the text of the Error for an argument that differs between two ranks.
+std::string difference(std::string_view name, std::string_view fix, int rank, int other);
 
 /// Agrees, and throws also if one of `arguments` differs between the ranks.
 ///
-/// Collective: one reduction. All ranks name the same arguments, eleven at most. The messages that
+/// Collective: one reduction. All ranks name the same arguments, twelve at most. The messages that
 /// follow may depend on them.
 void agree(const Participant& self, std::initializer_list<Shared> arguments);
 
+/// As above. Gives ranks that need no argument the value of the others, or 0.
+void agree(const Participant& self, std::span<Shared> arguments);
+
 /// As agree(), but returns the number of the first of `arguments` that differs, or their number.
-std::size_t find_difference(const Participant& self, std::span<const Shared> arguments);
+std::size_t find_difference(const Participant& self, std::span<Shared> arguments);
 
 /// Throws on every rank the Error of an argument that differs between ranks. Collective.
 [[noreturn]] void refuse(const Shared& argument, const Participant& self);

@@ -65,7 +65,7 @@ Machines machines_of(Participant& self) {
     const bool ends_well = !made.dealt || (size_of(self.comm) + 1) % distance <= 1;
     // A constant on rank 0, so that the ranks differ if any machine does not fit.
     const bool fits = here.lowest[0] == lowest && (rank == root || ends_well);
-    const std::array shared{Shared{"machines", fits ? 0u : 1u}};
+    std::array shared{Shared{"machines", fits ? 0u : 1u}};
     Machines* kept = nullptr;
     self.attempt(
         [&] { kept = Attribute<Machines>::keep(std::make_unique<Machines>(made), self.comm); });

@@ -14,8 +14,19 @@ class NonStop {
     NonStop& operator=(const NonStop&) = delete;
     ~NonStop() { std::fesetenv(&before_); }
 
+    /// Calls a function of the caller's, which must not throw, in the caller's environment.
+    template <class Call>
+    void outside(Call&& call) const {
+        std::fenv_t inside;
+        std::fegetenv(&inside);
+        std::fesetenv(&before_);
+        call();
+        std::fegetenv(&before_);
+        std::fesetenv(&inside);
+    }
+
   private:
-    std::fenv_t before_;
+    mutable std::fenv_t before_;
 };
 
 }  // namespace rrcb

@@ -265,23 +265,19 @@ contains
     integer(c_int32_t), intent(in), target, contiguous :: parts(:)
     integer(c_int32_t), intent(inout), contiguous :: numbers(:)
     integer, intent(out) :: error
-    integer(c_int32_t), intent(in), target, contiguous, optional :: previous(:)
-    type(rrcb_rank_range), intent(in), target, contiguous, optional :: ranks_of_parts(:)
-    type(rrcb_kept), intent(inout), target, optional :: kept
-    integer(c_int32_t), target :: nothing(1)
-    type(c_ptr) :: now, earlier, ranks, made
+    integer(c_int32_t), intent(in), contiguous, optional :: previous(:)
+    type(rrcb_rank_range), intent(in), contiguous, optional :: ranks_of_parts(:)
+    type(rrcb_kept), intent(inout), optional :: kept
+    type(c_ptr) :: now
+    integer(c_size_t) :: num_parts
     now = place_of(parts, size(parts, kind=c_size_t))
-    earlier = c_null_ptr
-    ranks = c_null_ptr
-    made = c_null_ptr
     if (present(previous)) then
-      earlier = c_loc(nothing)
-      if (size(previous) > 0) earlier = c_loc(previous)
       if (size(previous) /= size(parts)) now = c_null_ptr
     end if
-    if (present(ranks_of_parts)) ranks = c_loc(ranks_of_parts)
-    if (present(kept)) made = c_loc(kept)
-    error = c_remap(self%handle, size(parts, kind=c_size_t), now, earlier, ranks, numbers, made)
+    num_parts = size(numbers, kind=c_size_t)
+    if (present(ranks_of_parts)) num_parts = min(num_parts, size(ranks_of_parts, kind=c_size_t))
+    error = c_remap(self%handle, size(parts, kind=c_size_t), now, previous, ranks_of_parts, &
+                    num_parts, numbers, kept)
   end subroutine
 
   !> Writes the weight of part p over all ranks to weights(p + 1). Collective.
@@ -291,7 +287,8 @@ contains
     integer(c_int32_t), intent(in), target, contiguous :: parts(:)
     real(c_double), intent(inout), contiguous :: weights(:)
     integer, intent(out) :: error
-    error = c_part_weights(self%handle, points, place_of(parts, points%count), weights)
+    error = c_part_weights(self%handle, points, place_of(parts, points%count), &
+                           size(weights, kind=c_size_t), weights)
   end subroutine
 
   !> Writes the share of the weight whose rank changes. Collective.

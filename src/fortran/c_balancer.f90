@@ -128,21 +128,22 @@ module rrcb_c_balancer
       integer(c_size_t), intent(in), optional :: limits
       type(rrcb_transfer_report), intent(inout), optional :: report
     end function
-    integer(c_int) function c_remap(handle, count, parts, previous, ranks_of_parts, numbers, kept) &
-      bind(c, name="rrcb_remap")
+    integer(c_int) function c_remap(handle, count, parts, previous, ranks_of_parts, num_parts, &
+                                    numbers, kept) bind(c, name="rrcb_remap")
       import
-      type(c_ptr), value :: handle
-      integer(c_size_t), value :: count
-      type(c_ptr), value :: parts, previous, ranks_of_parts
+      type(c_ptr), value :: handle, parts
+      integer(c_size_t), value :: count, num_parts
+      integer(c_int32_t), intent(in), optional :: previous(*)
+      type(rrcb_rank_range), intent(in), optional :: ranks_of_parts(*)
       integer(c_int32_t), intent(inout) :: numbers(*)
-      type(c_ptr), value :: kept
+      type(rrcb_kept), intent(inout), optional :: kept
     end function
-    integer(c_int) function c_part_weights(handle, points, parts, part_weights) &
+    integer(c_int) function c_part_weights(handle, points, parts, num_parts, part_weights) &
       bind(c, name="rrcb_part_weights")
       import
-      type(c_ptr), value :: handle
+      type(c_ptr), value :: handle, parts
       type(rrcb_points), intent(in) :: points
-      type(c_ptr), value :: parts
+      integer(c_size_t), value :: num_parts
       real(c_double), intent(inout) :: part_weights(*)
     end function
     integer(c_int) function c_moved_fraction(handle, points, parts, fraction) &

@@ -7,7 +7,6 @@ module rrcb_c_functions
   type, bind(c) :: c_ghost_options
     real(c_double) :: radius = -1                           !< not given
     type(c_ptr) :: radii = c_null_ptr
-    integer(c_int) :: each_radius = 0
     type(c_ptr) :: lower = c_null_ptr, upper = c_null_ptr, ranks_of_parts = c_null_ptr
   end type
 
@@ -111,12 +110,13 @@ module rrcb_c_functions
       integer(c_size_t), intent(in), optional :: limits
       type(rrcb_transfer_report), intent(inout), optional :: report
     end function
-    integer(c_int) function c_ghosts_apply_shifts(handle, length, positions) &
+    integer(c_int) function c_ghosts_apply_shifts(handle, type, length, positions) &
       bind(c, name="rrcb_ghosts_apply_shifts")
       import
       type(c_ptr), value :: handle
+      integer(c_int), value :: type
       integer(c_size_t), value :: length
-      real(c_double), intent(inout) :: positions(*)
+      type(*), intent(inout) :: positions(*)
     end function
     integer(c_int) function c_groups_create(balancer, points, keys, place, handle) &
       bind(c, name="rrcb_groups_create")
@@ -181,14 +181,15 @@ module rrcb_c_functions
     integer(c_int) function c_controller_rebalanced(handle, report, cost) &
       bind(c, name="rrcb_controller_rebalanced")
       import
-      type(c_ptr), value :: handle, report
+      type(c_ptr), value :: handle
+      type(rrcb_report), intent(in), optional :: report
       real(c_double), value :: cost
     end function
     integer(c_int) function c_cost_model_create(comm, controller, num_columns, handle) &
       bind(c, name="rrcb_cost_model_create_fortran")
       import
       integer(c_int), value :: comm, num_columns
-      type(c_ptr), value :: controller
+      type(c_ptr), intent(in), optional :: controller
       type(c_ptr), intent(inout) :: handle
     end function
     subroutine c_cost_model_destroy(handle) bind(c, name="rrcb_cost_model_destroy")
@@ -209,11 +210,13 @@ module rrcb_c_functions
       type(c_ptr), value :: handle
       integer(c_size_t), value :: count, num_columns
       real(c_double), intent(in) :: columns(*)
-      real(c_double), intent(inout) :: weights(*)
+      type(c_ptr), value :: weights
     end function
-    integer(c_int) function c_cost_model_costs(handle, costs) bind(c, name="rrcb_cost_model_costs")
+    integer(c_int) function c_cost_model_costs(handle, num_columns, costs) &
+      bind(c, name="rrcb_cost_model_costs")
       import
       type(c_ptr), value :: handle
+      integer(c_size_t), value :: num_columns
       real(c_double), intent(inout) :: costs(*)
     end function
     integer(c_int) function c_cost_model_uses_costs(handle, uses_costs) &

@@ -111,11 +111,8 @@ contains
     class(rrcb_controller), intent(inout) :: self
     real(c_double), intent(in) :: cost
     integer, intent(out) :: error
-    type(rrcb_report), intent(in), target, optional :: report
-    type(c_ptr) :: address
-    address = c_null_ptr
-    if (present(report)) address = c_loc(report)
-    error = c_controller_rebalanced(self%handle, address, cost)
+    type(rrcb_report), intent(in), optional :: report
+    error = c_controller_rebalanced(self%handle, report, cost)
   end subroutine
 
   !> Makes a model. Its sums travel with the steps of `controller`, which has recorded none and is
@@ -124,10 +121,10 @@ contains
     class(rrcb_cost_model), intent(inout) :: self
     integer, intent(in) :: comm, num_columns
     integer, intent(out) :: error
-    class(rrcb_controller), intent(in), optional :: controller
-    type(c_ptr) :: steps
-    steps = c_null_ptr
-    if (present(controller)) steps = controller%handle
+    class(rrcb_controller), intent(in), target, optional :: controller
+    type(c_ptr), pointer :: steps
+    steps => null()
+    if (present(controller)) steps => controller%handle
     error = c_cost_model_create(int(comm, c_int), steps, int(num_columns, c_int), self%handle)
   end subroutine
 
@@ -152,10 +149,13 @@ contains
   subroutine cost_model_weights(self, columns, weights, error)
     class(rrcb_cost_model), intent(inout) :: self
     real(c_double), intent(in), contiguous :: columns(:, :)
-    real(c_double), intent(out), contiguous :: weights(:)
+    real(c_double), intent(inout), target, contiguous :: weights(:)
     integer, intent(out) :: error
-    error = c_cost_model_weights(self%handle, size(weights, kind=c_size_t), &
-      size(columns, 1, kind=c_size_t), columns, weights)
+    type(c_ptr) :: to
+    to = c_null_ptr
+    if (size(weights) > 0 .and. size(weights) == size(columns, 2)) to = c_loc(weights)
+    error = c_cost_model_weights(self%handle, size(columns, 2, kind=c_size_t), &
+      size(columns, 1, kind=c_size_t), columns, to)
   end subroutine
 
   !> Writes the cost of a unit of each column. Not collective.
@@ -163,7 +163,7 @@ contains
     class(rrcb_cost_model), intent(in) :: self
     real(c_double), intent(inout), contiguous :: costs(:)
     integer, intent(out) :: error
-    error = c_cost_model_costs(self%handle, costs)
+    error = c_cost_model_costs(self%handle, size(costs, kind=c_size_t), costs)
   end subroutine
 
   !> Returns whether weights are by the costs; false for a model that was not created. Not collective.

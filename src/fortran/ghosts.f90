@@ -16,7 +16,8 @@ module rrcb_ghost_lists
     procedure :: get_plan
     procedure :: fetch
     procedure :: accumulate
-    procedure :: apply_shifts
+    generic :: apply_shifts => shift_doubles, shift_reals
+    procedure, private :: shift_doubles, shift_reals
   end type
 
 contains
@@ -35,7 +36,6 @@ contains
     type(c_ghost_options) :: options
     if (present(radii)) then
       options%radius = 0
-      options%each_radius = 1
       if (size(radii) > 0 .and. size(radii, kind=c_size_t) == points%count) options%radii = c_loc(radii)
     end if
     if (present(radius)) options%radius = radius
@@ -101,11 +101,19 @@ contains
   end subroutine
 
   !> Moves fetched positions to those of the images: positions(dimension, ghosts). Not collective.
-  subroutine apply_shifts(self, positions, error)
+  subroutine shift_doubles(self, positions, error)
     class(rrcb_ghosts), intent(in) :: self
     real(c_double), intent(inout), contiguous :: positions(:, :)
     integer, intent(out) :: error
-    error = c_ghosts_apply_shifts(self%handle, size(positions, kind=c_size_t), positions)
+    error = c_ghosts_apply_shifts(self%handle, rrcb_double, size(positions, kind=c_size_t), positions)
+  end subroutine
+
+  !> Moves positions of real(4) in the same way.
+  subroutine shift_reals(self, positions, error)
+    class(rrcb_ghosts), intent(in) :: self
+    real(c_float), intent(inout), contiguous :: positions(:, :)
+    integer, intent(out) :: error
+    error = c_ghosts_apply_shifts(self%handle, rrcb_float, size(positions, kind=c_size_t), positions)
   end subroutine
 
 end module rrcb_ghost_lists

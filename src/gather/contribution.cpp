@@ -107,7 +107,7 @@ BinnedPoints bin_by_options(const Points& points, const Box& box, const Options&
     return bin_by_cell(points, make_support_mesh(box, dimension, cells));
 }
 
-Summary summarize(const Points& points, const Box& box) {
+Summary summarize(const Points& points, const Box& box, int rank) {
     Summary summary;
     summary.box = box;
     summary.num_points = static_cast<std::int64_t>(points.count);
@@ -115,6 +115,7 @@ Summary summarize(const Points& points, const Box& box) {
                          ? static_cast<double>(points.count)
                          : std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
     if (points.count > 0) {
+        (points.weights.empty() ? summary.unweighted_rank : summary.weighted_rank) = rank;
         const auto [lightest, heaviest] = points.weights.empty()
                                               ? std::ranges::min_max_result<double>{1.0, 1.0}
                                               : std::ranges::minmax(points.weights);
@@ -144,6 +145,8 @@ std::size_t most_cells(const Options& options) {
 void join(Summary& mine, const Summary& next) {
     if (mine.failing_rank == no_rank) mine.failing_rank = next.failing_rank;
     join_differences(mine, next);
+    if (mine.weighted_rank == no_rank) mine.weighted_rank = next.weighted_rank;
+    if (mine.unweighted_rank == no_rank) mine.unweighted_rank = next.unweighted_rank;
     join(mine.box, next.box);
     mine.num_points += next.num_points;
     mine.num_cells += next.num_cells;

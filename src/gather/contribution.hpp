@@ -16,12 +16,14 @@ namespace rrcb {
 
 /// Summary of one rank, or of all ranks of a subtree: failures, requests and totals.
 struct Summary {
-    std::int32_t first_rank = 0;            ///< lowest rank of the summary
-    std::int32_t failing_rank = no_rank;    ///< lowest of the ranks that can't go on
-    std::int32_t differing_rank = no_rank;  ///< one whose request differs from that of ...
-    std::int32_t reference_rank = no_rank;  ///< ... this one
-    std::uint64_t difference = 0;           ///< see name_of_request
-    Request request{};                      ///< of the first rank
+    std::int32_t first_rank = 0;             ///< lowest rank of the summary
+    std::int32_t failing_rank = no_rank;     ///< lowest of the ranks that can't go on
+    std::int32_t differing_rank = no_rank;   ///< one whose request differs from that of ...
+    std::int32_t reference_rank = no_rank;   ///< ... this one
+    std::int32_t weighted_rank = no_rank;    ///< one whose points have weights, and ...
+    std::int32_t unweighted_rank = no_rank;  ///< ... one whose points have none
+    std::uint64_t difference = 0;            ///< see name_of_request
+    Request request{};                       ///< of the first rank
     std::int64_t num_points = 0;
     std::int64_t num_cells = 0;
     std::int64_t num_doubles = 0;
@@ -52,8 +54,8 @@ int automatic_cells_per_axis(int dimension, LocalIndex num_points, const Options
 /// Finds the cells of checked points in the support mesh of the options.
 BinnedPoints bin_by_options(const Points& points, const Box& box, const Options& options);
 
-/// Returns the totals of checked points.
-Summary summarize(const Points& points, const Box& box);
+/// Returns the totals of checked points of a rank.
+Summary summarize(const Points& points, const Box& box, int rank);
 
 /// Reduces checked points to the moments of their cells.
 void add_records(const Points& points, const BinnedPoints& binned, Contribution& mine);

@@ -6,9 +6,9 @@
 #include "cuts/part_share.hpp"
 #include "gather/earlier_cuts.hpp"
 #include "gather/keeping.hpp"
+#include "options/rejection.hpp"
 #include "options/stage_scope.hpp"
 
-#include <rrcb/error.hpp>
 #include <rrcb/quality.hpp>
 
 #include <algorithm>
@@ -16,7 +16,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <string>
 #include <utility>
 
 namespace rrcb {
@@ -55,14 +54,15 @@ double least_imbalance(double heaviest, double weight, int num_parts,
 /// Throws Error if the ranks differ or one has failed.
 void check_together(const Summary& summary) {
     if (summary.differing_rank != no_rank)
-        throw Error(ErrorCode::invalid_argument,
-                    std::string(name_of_request(summary.difference)) + " differs between rank " +
-                        std::to_string(summary.reference_rank) + " and rank " +
-                        std::to_string(summary.differing_rank) +
-                        "; give the same value on every rank");
+        reject(difference(name_of_request(summary.difference), Shared{}.fix, summary.reference_rank,
+                          summary.differing_rank));
+    if (summary.weighted_rank != no_rank && summary.unweighted_rank != no_rank) {
+        const Shared weights = weights_given({});
+        reject(
+            difference(weights.name, weights.fix, summary.weighted_rank, summary.unweighted_rank));
+    }
     if (!std::isfinite(summary.weight))
-        throw Error(ErrorCode::invalid_argument,
-                    "the sum of the weights of all ranks overflows; scale them down");
+        reject("the sum of the weights of all ranks overflows; scale them down");
 }
 
 /// Calls `visit` with each array of the message: the kept parts if points are kept, the weights of
@@ -236,12 +236,12 @@ void decide_together(const Contribution& all, const Options& options, Decision& 
     if (mpi::rank_of(self.comm) == root) {
         self.hear_of(all.summary.failing_rank);
         self.attempt([&] {
-            const StageScope stage(options.observer, Stage::bisection);
+            const StageScope stage(options.observer, Stage::bisection, self.arithmetic);
             decide(all, options, decision);
         });
         decision.verdict.failing_rank = self.failing_rank();
     }
-    const StageScope stage(options.observer, Stage::broadcast);
+    const StageScope stage(options.observer, Stage::broadcast, self.arithmetic);
     broadcast(decision, self);
 }
 

@@ -58,7 +58,8 @@ void KeptParts::keep(const CallOptions& options, Decision& decision, Balance& re
 void KeptParts::keep_central(const CallOptions& options, Decision& decision, Balance& result,
                              Participant& self) const {
     const bool was_told = decision.verdict.keeps != 0;
-    const StageScope stage(options.parts.observer, was_told ? Stage::assignment : Stage::broadcast);
+    const StageScope stage(options.parts.observer, was_told ? Stage::assignment : Stage::broadcast,
+                           self.arithmetic);
     if (was_told) {
         agree(self);
     } else {

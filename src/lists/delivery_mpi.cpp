@@ -228,8 +228,8 @@ void deliver(const Delivery& delivery, std::span<const ByteColumn> columns,
                          mpi::size_of(self.comm));
         lanes = make_results(columns, delivery.num_kept + total(delivery.from));
     });
-    const std::array shared{Shared{"the type of a column", hash_of(columns)},
-                            Shared{"TransferLimits::bytes", limits.bytes}};
+    std::array shared{Shared{"the type of a column", hash_of(columns)},
+                      Shared{"TransferLimits::bytes", limits.bytes}};
     const std::size_t differing = find_difference(self, shared);
     if (differing == 0) refuse_types(columns, self);
     if (differing < shared.size()) refuse(shared[differing], self);

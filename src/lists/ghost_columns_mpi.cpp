@@ -116,6 +116,7 @@ void move(const Groups& groups, std::span<const ByteColumn> columns, const Trans
         check(groups, mpi::size_of(self.comm));
         values.reserve(columns.size());
         for (const ByteColumn& column : columns) {
+            check_column(column, num_groups, "groups of this rank");
             results.push_back(
                 column.resize(column.result, groups.of_points.size() * column.components));
             of_groups.push_back(values.emplace_back(column.value_bytes).result_of(column));

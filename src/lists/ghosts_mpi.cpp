@@ -89,10 +89,13 @@ struct Radii {
         require(std::ranges::all_of(*each, is_usable), "each radius must be finite, 0 or more");
     }
 
-    /// Returns bits to compare between ranks, which have radii of their own or the same one.
-    std::uint64_t bits() const {
-        return std::bit_cast<std::uint64_t>(each ? std::numeric_limits<double>::infinity()
-                                                 : same + 0.0);
+    /// Returns the one radius, as an argument to compare.
+    Shared shared() const {
+        return {"the radius", std::bit_cast<std::uint64_t>(same + 0.0), !each};
+    }
+    Shared each_given(LocalIndex num_points) const {
+        return {"whether radii are given", each ? 1u : 0u, num_points > 0,
+                "give one for each point on every rank that has points, or on none"};
     }
 };
 
@@ -254,7 +257,8 @@ GhostPlan ghosts(const Cuts& cuts, const GhostRequest& request, Participant& sel
     });
     plan.receive = exchange_counts(plan.send, self);
     agree(self, {{"the tree of cuts", bits_of_cuts},
-                 {"the radius", request.radii.bits()},
+                 request.radii.each_given(request.points.count),
+                 request.radii.shared(),
                  {"ranks_of_parts", bits_of_holders},
                  {"the periodic box", request.images ? request.images->hash() : 0}});
     if (buffers && search_together(*buffers, self)) {
@@ -274,6 +278,7 @@ GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& opt
                          {options.ranks_of_parts, cuts.shape, cuts.num_parts,
                           mpi::rank_of(self.comm), mpi::size_of(self.comm)},
                          {}};
+    if (points.count == 0 && std::isnan(options.radius)) request.radii.each.emplace();
     if (options.periodic) request.images.emplace(*options.periodic, points.dimension);
     GhostPlan plan = ghosts(cuts, request, self);
     if (options.periodic) plan.periodic = *options.periodic;

@@ -217,6 +217,8 @@ Groups groups(const Points& points, std::span<const std::uint64_t> keys, GroupPl
     self.attempt([&] {
         require(keys.size() == points.count,
                 "keys must have one entry for each point; no_group for those without");
+        require(place == GroupPlace::centre || place == GroupPlace::first_point,
+                "the place of groups must be their centre or their first point");
         check_points(points);
         local = groups_here(points, keys, place);
         for (const LocalIndex group : local.by_key) {
@@ -227,7 +229,8 @@ Groups groups(const Points& points, std::span<const std::uint64_t> keys, GroupPl
     });
     std::vector<Arrived<KeyNotice>> at_home =
         to_homes.send(self, {{"the dimension", static_cast<std::uint64_t>(points.dimension)},
-                             {"the place of groups", static_cast<std::uint64_t>(place)}});
+                             {"the place of groups", static_cast<std::uint64_t>(place)},
+                             weights_given(points)});
     Outgoing<OwnerNotice> owners;
     self.attempt([&] { owners = name_owners(at_home); });
     const std::vector<Arrived<OwnerNotice>> owned_elsewhere = owners.send(self);

@@ -35,9 +35,9 @@ std::vector<double> weights_here(const Points& points, std::span<const Part> par
     return weights;
 }
 
-/// Throws on all ranks if one has failed or has another number of parts. Collective.
-void agree_on_parts(int num_parts, const Participant& self) {
-    agree(self, {{"num_parts", static_cast<std::uint64_t>(num_parts)}});
+/// Throws on all ranks if one has failed, or their arguments differ. Collective.
+void agree_on(const Points& points, int num_parts, const Participant& self) {
+    agree(self, {{"num_parts", static_cast<std::uint64_t>(num_parts)}, weights_given(points)});
 }
 
 /// Collective over `comm`: one reduction.
@@ -53,7 +53,7 @@ std::vector<double> part_weights(const Points& points, std::span<const Part> par
                                  Participant& self) {
     std::vector<double> weights;
     self.attempt([&] { weights = weights_here(points, parts, num_parts); });
-    agree_on_parts(num_parts, self);
+    agree_on(points, num_parts, self);
     sum_over_ranks(weights, self.comm);
     return weights;
 }
@@ -82,7 +82,7 @@ double moved_fraction(const Points& points, std::span<const Part> parts, int num
             sums[1] += points.weight(i);
         }
     });
-    agree_on_parts(num_parts, self);
+    agree_on(points, num_parts, self);
     sum_over_ranks(sums, self.comm);
     return sums[1] == 0 ? 0 : sums[0] / sums[1];
 }

@@ -258,10 +258,21 @@ Remap remap(std::span<const Part> parts, const PreviousParts& previous,
             NumberRule{num_parts, num_ranks, !previous, is_spread, ranks_of_parts, shape},
             mpi::rank_of(self.comm));
     });
-    agree(self, {{"ranks_of_parts", hash_of(ranks_of_parts)},
-                 {"previous", previous ? 1u : 0u},
-                 {"shape.group_size", static_cast<std::uint64_t>(shape.group_size)},
-                 {"shape.dealt", static_cast<std::uint64_t>(shape.dealt)}});
+    std::array shared{
+        Shared{"whether previous is given", previous ? 1u : 0u, !parts.empty(),
+               "give the earlier part of each point on every rank that has points, or on none"},
+        Shared{"ranks_of_parts", hash_of(ranks_of_parts)},
+        Shared{"shape.group_size", static_cast<std::uint64_t>(shape.group_size)},
+        Shared{"shape.dealt", static_cast<std::uint64_t>(shape.dealt)}};
+    agree(self, shared);
+    // A rank without points may not have known.
+    self.attempt([&] {
+        NumberSearch& search = buffers->parts.search;
+        NumberRule rule = search.rule();
+        rule.by_rank = shared[0].value == 0;
+        if (rule.by_rank == !previous) return;
+        search = NumberSearch(rule, mpi::rank_of(self.comm));
+    });
     Remap result = find_numbers(parts, previous, *buffers, self).remap;
     if (is_spread) agree(self);
     return result;

@@ -1,17 +1,21 @@
 #pragma once
 
+#include "collective/non_stop.hpp"
+
 #include <rrcb/stages.hpp>
 
 namespace rrcb {
 
-/// One stage, from here to the end of the scope; nothing at all without an observer.
+/// One stage, from here to the end of the scope; nothing at all without an observer, which runs
+/// outside of `arithmetic`.
 class StageScope {
   public:
-    StageScope(StageObserver* observer, Stage stage) : observer_(observer), stage_(stage) {
-        if (observer_ != nullptr) observer_->begin(stage_);
+    StageScope(StageObserver* observer, Stage stage, const NonStop& arithmetic)
+        : observer_(observer), stage_(stage), arithmetic_(arithmetic) {
+        if (observer_ != nullptr) arithmetic_.outside([&] { observer_->begin(stage_); });
     }
     ~StageScope() {
-        if (observer_ != nullptr) observer_->end(stage_);
+        if (observer_ != nullptr) arithmetic_.outside([&] { observer_->end(stage_); });
     }
     StageScope(const StageScope&) = delete;
     StageScope& operator=(const StageScope&) = delete;
@@ -19,6 +23,7 @@ class StageScope {
   private:
     StageObserver* observer_;
     Stage stage_;
+    const NonStop& arithmetic_;
 };
 
 }  // namespace rrcb

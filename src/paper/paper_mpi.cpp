@@ -44,8 +44,9 @@ void check(const PaperOptions& options, int dimension) {
 }
 
 /// Throws on every rank alike if one has failed, or if their options differ. Collective.
-void agree_on(const PaperOptions& options, int dimension, const Participant& self) {
-    agree(self, {{"dimension", static_cast<std::uint64_t>(dimension)},
+void agree_on(const PaperOptions& options, const Points& points, const Participant& self) {
+    agree(self, {{"dimension", static_cast<std::uint64_t>(points.dimension)},
+                 weights_given(points),
                  {"num_parts", static_cast<std::uint64_t>(options.num_parts)},
                  {"part_sizes", hash_of(options.part_sizes)},
                  {"domain", static_cast<std::uint64_t>(options.domain)},
@@ -71,7 +72,7 @@ std::vector<double> reduce_points(const Points& points, const Box& box,
 
 /// Step 2: gathers the cells or points of all ranks on rank 0. Collective.
 void gather(std::vector<double>& packed, StageObserver* observer, Participant& self) {
-    const StageScope stage(observer, Stage::gather);
+    const StageScope stage(observer, Stage::gather, self.arithmetic);
     gather_records(packed, self);
 }
 
@@ -91,7 +92,6 @@ Verdict verdict_of(const PaperRecords& all, std::span<const double> part_weights
 /// Steps 3 and 4, on rank 0: makes the statistical domain, of random points or the real ones, and
 /// bisects it.
 Verdict bisect_domain(std::span<const double> packed, PaperOptions options, Cuts& cuts) {
-    const StageScope stage(options.observer, Stage::bisection);
     normalize(options.part_sizes, options.num_parts);
     const int dimension = cuts.dimension;
     const bool draws = options.domain == PaperDomain::sampled;
@@ -109,7 +109,7 @@ Verdict bisect_domain(std::span<const double> packed, PaperOptions options, Cuts
 /// Step 5: sends the cuts to every rank, or throws the error of one rank on all. Collective.
 void broadcast(Verdict& verdict, std::vector<Cut>& tree, StageObserver* observer,
                Participant& self) {
-    const StageScope stage(observer, Stage::broadcast);
+    const StageScope stage(observer, Stage::broadcast, self.arithmetic);
     if (mpi::rank_of(self.comm) == root) verdict.failing_rank = self.failing_rank();
     mpi::broadcast(std::as_writable_bytes(std::span(&verdict, 1)), root, self.comm);
     fail_together(verdict.failing_rank, self);
@@ -128,7 +128,7 @@ Balance balance_as_in_paper(const Points& points, const PaperOptions& given, Par
     Balance result;
     std::vector<double> packed;
     self.attempt([&] {
-        const StageScope stage(given.observer, Stage::moments);
+        const StageScope stage(given.observer, Stage::moments, self.arithmetic);
         options = given;
         if (options.num_parts == 0) options.num_parts = mpi::size_of(self.comm);
         const Box box = check_points(points);
@@ -138,15 +138,18 @@ Balance balance_as_in_paper(const Points& points, const PaperOptions& given, Par
         result.cuts.tree.resize(static_cast<std::size_t>(options.num_parts) - 1);
         result.parts.resize(points.count);
     });
-    agree_on(options, points.dimension, self);
+    agree_on(options, points, self);
     if (!options.part_sizes.empty()) normalize(options.part_sizes, options.num_parts);
     gather(packed, options.observer, self);
     Verdict verdict;
     if (mpi::rank_of(self.comm) == root)
-        self.attempt([&] { verdict = bisect_domain(packed, options, result.cuts); });
+        self.attempt([&] {
+            const StageScope stage(options.observer, Stage::bisection, self.arithmetic);
+            verdict = bisect_domain(packed, options, result.cuts);
+        });
     broadcast(verdict, result.cuts.tree, options.observer, self);
     result.report = report_of(verdict, options.num_parts, options.part_sizes);
-    const StageScope stage(options.observer, Stage::assignment);
+    const StageScope stage(options.observer, Stage::assignment, self.arithmetic);
     self.attempt([&] { assign(result.cuts, points, result.parts); });
     agree(self);
     return result;

@@ -119,10 +119,26 @@ program module_test
   call other%rebalance(rrcb_interleaved_points(x, sizes), again, error)
   call expect(error == rrcb_invalid_argument, "weights of other points")
   call expect(index(rrcb_last_error(), "an array has the wrong length") > 0, "text of a wrong length")
+  ! Of two machines of two ranks, which are dealt in turns.
+  cuts%tree = [rrcb_cut(1, 0, [2.0_c_double, 0.0_c_double, 0.0_c_double]), &
+               rrcb_cut(1, 0, [1.0_c_double, 0.0_c_double, 0.0_c_double]), &
+               rrcb_cut(1, 0, [3.0_c_double, 0.0_c_double, 0.0_c_double])]
+  cuts%group_size = 2
+  cuts%dealt = 1
+  call other%set_cuts(cuts, error)
+  call expect(error == rrcb_ok, "set_cuts of dealt parts")
+  call other%get_cuts(cuts, error)
+  call expect(cuts%group_size == 2 .and. cuts%dealt == 1, "shape of cuts")
+  do i = 0, 3
+    call other%part_of([i + 0.5_c_double], part, error)
+    call expect(part == 2*modulo(i, 2) + i/2, "part_of dealt parts")
+  end do
   call other%destroy()
 
   call balancer%part_weights(rrcb_interleaved_points(x, weights), parts, of_parts, error)
   call expect(error == rrcb_ok .and. all(of_parts == [100, 300, 200]), "part_weights")
+  call balancer%part_weights(rrcb_interleaved_points(x, weights), parts, of_parts(:2), error)
+  call expect(error == rrcb_invalid_argument, "part_weights of too few parts")
   call rrcb_imbalance(of_parts, value, error, sizes)
   call expect(error == rrcb_ok .and. value == 1, "rrcb_imbalance")
   call rrcb_load_unbalance_percent(of_parts, lower, error)
@@ -142,6 +158,8 @@ program module_test
   call expect(error == rrcb_ok .and. all(new_numbers == [0, 1, 2]), "remap of previous")
   call balancer%remap(parts, new_numbers, error, previous=[parts, 0])
   call expect(error == rrcb_invalid_argument, "remap of too many")
+  call balancer%remap(parts, new_numbers(:2), error)
+  call expect(error == rrcb_invalid_argument, "remap to too few numbers")
 
   call balancer%make_plan(parts, error)
   call expect(error == rrcb_ok, "make_plan")
@@ -191,6 +209,9 @@ program module_test
     call expect(error == rrcb_invalid_argument, "fetch from a short array")
     call ghosts%apply_shifts(images, error)
     call expect(error == rrcb_ok .and. all([(is_near(images(1, k)), k=1, i)]), "images")
+    short_x = real(images, c_float)
+    call ghosts%apply_shifts(short_x, error)
+    call expect(error == rrcb_ok, "images of real(4)")
     short = [(1.0_c_float, error=1, i)]
     moved_short = 0
     call ghosts%accumulate([rrcb_column(short, moved_short)], error)
@@ -208,6 +229,8 @@ program module_test
   call ghosts%destroy()
   call ghosts%create(balancer, rrcb_interleaved_points(moved), error)
   call expect(error == rrcb_invalid_argument, "ghosts without a radius")
+  call ghosts%create(balancer, rrcb_interleaved_points(moved), error, radii=moved_weights(2:))
+  call expect(error == rrcb_invalid_argument, "ghosts by too few radii")
   ! Pairs of points, which cuts do not part, though ranks do.
   call groups%create(balancer, rrcb_interleaved_points(moved), int((numbers + 1)/2, c_int64_t), error)
   call expect(error == rrcb_ok, "create groups")
@@ -244,6 +267,8 @@ program module_test
   call balancer%balance(rrcb_interleaved_points(x), parts, error)
   call expect(error == rrcb_invalid_argument, "balance after free")
   call expect(.not. controller%due(), "due before create")
+  call model%create(MPI_COMM_WORLD, 2, error, controller)
+  call expect(error == rrcb_invalid_argument, "a cost model of a controller that was not made")
   call controller%create(MPI_COMM_WORLD, error)
   call expect(error == rrcb_ok, "create a controller")
   call model%create(MPI_COMM_WORLD, 2, error, controller)
@@ -262,6 +287,8 @@ program module_test
   call model%weights(reshape([1.0_c_double, 0.5_c_double, 1.0_c_double, 0.0_c_double], [2, 2]), &
                      columns, error)
   call expect(all(abs(columns - [4.5_c_double, 2.0_c_double]) < 0.01), "weights")
+  call model%weights(reshape([1.0_c_double, 0.5_c_double], [2, 1]), columns, error)
+  call expect(error == rrcb_invalid_argument, "weights of too few points")
   call expect(index(model%report(), "learned costs are used") == 1, "report of the model")
   call model%step(1.0_c_double, [1.0_c_double], error)
   call model%step(1.0_c_double, columns, error)

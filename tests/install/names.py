@@ -101,7 +101,7 @@ def functions_of_cpp(headers):
     names = set()
     for header in headers:
         for scope, access, head in declarations(bare(header.read_text())):
-            head = re.sub(r"template\s*<[^()]*>\s*(?=\w)", "", head)
+            head = re.sub(r"template\s*<[^()]*>\s*(requires\s*\([^()]*\))?\s*(?=\w)", "", head)
             name = re.match(r"[^=(]*?(~?\w+)\s*\(", head)
             if not name or access != "public" or re.search(r"\b(operator|friend)\b", head):
                 continue

@@ -2,6 +2,9 @@
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
+#include <rrcb/groups.hpp>
+#include <rrcb/paper.hpp>
+#include <rrcb/quality.hpp>
 
 #include <gtest/gtest.h>
 
@@ -159,6 +162,29 @@ TEST_F(Agreement, on_options_that_differ_between_ranks) {
          "part_sizes");
     const std::vector<double> empty;
     expect_error(interleaved_points(empty, last() ? 2 : 3), {}, "dimension differs");
+}
+
+TEST_F(Agreement, on_weights_given_on_some_ranks) {
+    if (num_ranks_ == 1) GTEST_SKIP() << "needs two ranks";
+    const std::vector<double> x{0, 1};
+    const std::vector<double> weights{2};
+    const std::vector<Part> parts(1);
+    const std::vector<std::uint64_t> keys(1);
+    const Points points = last() ? interleaved_points(x, 2) : interleaved_points(x, 2, weights);
+    const std::string expected = "whether points have weights differs between rank 0 and rank " +
+                                 std::to_string(num_ranks_ - 1) + "; give one for each point";
+    const MPI_Comm comm = MPI_COMM_WORLD;
+    expect_error(points, {}, expected);
+    const Cuts cuts = balance(interleaved_points(x, 2), {}, comm).cuts;
+    test::expect_same_error([&] { rebalance(points, {}, cuts, comm); }, expected);
+    test::expect_same_error([&] { balance_as_in_paper(points, {}, comm); }, expected);
+    test::expect_same_error([&] { part_weights(points, parts, 1, comm); }, expected);
+    test::expect_same_error([&] { moved_fraction(points, parts, 1, comm); }, expected);
+    test::expect_same_error([&] { (void)groups(points, keys, comm); }, expected);
+
+    const Points none{.dimension = 2};
+    EXPECT_EQ(balance(last() ? none : points, {}, comm).report.details.total_weight,
+              2 * (num_ranks_ - 1));
 }
 
 TEST_F(Agreement, on_earlier_cuts_that_do_not_fit) {

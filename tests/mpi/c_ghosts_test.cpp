@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -81,9 +82,15 @@ class CGhosts : public testing::Test {
         auto [near_in_cpp, masses_in_cpp] =
             fetch(expected, columns(column(coordinates, 3), weights), MPI_COMM_WORLD);
         EXPECT_EQ(masses, masses_in_cpp);
-        ASSERT_EQ(rrcb_ghosts_apply_shifts(ghosts, near.size(), near.data()), RRCB_OK);
+        ASSERT_EQ(rrcb_ghosts_apply_shifts(ghosts, RRCB_DOUBLE, near.size(), near.data()), RRCB_OK);
         apply_shifts(expected, near_in_cpp);
         EXPECT_EQ(near, near_in_cpp);
+        std::vector<float> floats(near.begin(), near.end());
+        std::vector<float> floats_in_cpp = floats;
+        ASSERT_EQ(rrcb_ghosts_apply_shifts(ghosts, RRCB_FLOAT, floats.size(), floats.data()),
+                  RRCB_OK);
+        apply_shifts(expected, floats_in_cpp);
+        EXPECT_EQ(floats, floats_in_cpp);
         expect_same_sums(expected, near, masses);
     }
 
@@ -133,7 +140,6 @@ TEST_F(CGhosts, take_a_radius_of_each_point_and_ranks_of_parts) {
         ranks_in_c.push_back({num_ranks() - 1 - part, 1});
     }
     rrcb_ghost_options options{};
-    options.each_radius = 1;
     options.radii = radii.data();
     options.ranks_of_parts = ranks_in_c.data();
     find(options);
@@ -162,9 +168,9 @@ TEST_F(CGhosts, what_is_wrong_on_one_rank_fails_on_all) {
     if (is_last_rank()) options.lower = unit.lower.data();
     expect_error(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), "upper is null");
     options.lower = nullptr;
-    if (rank() == 0) options.radii = weights.data();
-    expect_error(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), "set each_radius to 1");
-    options.radii = nullptr;
+    options.radius = 0;
+    expect_error(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), "radii is null");
+    options.radius = 0.1;
     rrcb_points shifted = in_c;
     if (rank() == 0) shifted.stride = 3;
     expect_error(rrcb_ghosts_create(balancer, &shifted, &options, &ghosts), "must be in bytes");
@@ -187,7 +193,8 @@ TEST_F(CGhosts, measures_are_those_of_cpp) {
     const std::vector<double> expected =
         part_weights(points(), parts, cuts.num_parts, MPI_COMM_WORLD);
     std::vector<double> of_parts(expected.size());
-    ASSERT_EQ(rrcb_part_weights(balancer, &in_c, parts.data(), of_parts.data()), RRCB_OK);
+    ASSERT_EQ(rrcb_part_weights(balancer, &in_c, parts.data(), of_parts.size(), of_parts.data()),
+              RRCB_OK);
     EXPECT_EQ(of_parts, expected);
     double number = -1;
     ASSERT_EQ(rrcb_moved_fraction(balancer, &in_c, parts.data(), &number), RRCB_OK);
@@ -309,6 +316,9 @@ TEST_F(CGhosts, groups_are_those_of_cpp) {
         rrcb_groups_destroy(groups);
     }
     rrcb_groups* groups = nullptr;
+    const auto no_place = std::bit_cast<rrcb_group_place>(7);
+    expect_error(rrcb_groups_create(balancer, &in_c, keys.data(), no_place, &groups),
+                 "the place of groups must be");
     expect_error(rrcb_groups_create(balancer, is_last_rank() ? nullptr : &in_c, keys.data(),
                                     RRCB_CENTRE, &groups),
                  "points is null");
@@ -325,12 +335,10 @@ TEST_F(CGhosts, part_numbers_are_those_of_cpp) {
                                    ? remap(parts, previous, ranks, MPI_COMM_WORLD, cuts.shape)
                                    : remap(parts, ranks, MPI_COMM_WORLD, cuts.shape);
         std::vector<std::int32_t> numbers(ranks.size());
-        // Not null, also on ranks without points.
-        const std::int32_t nothing = 0;
-        const std::int32_t* earlier = previous.empty() ? &nothing : previous.data();
+        const std::int32_t* earlier = previous.empty() ? nullptr : previous.data();
         rrcb_kept kept;
         ASSERT_EQ(rrcb_remap(balancer, parts.size(), parts.data(), by_previous ? earlier : nullptr,
-                             nullptr, numbers.data(), &kept),
+                             nullptr, numbers.size(), numbers.data(), &kept),
                   RRCB_OK)
             << rrcb_last_error();
         EXPECT_EQ(numbers, expected.numbers);

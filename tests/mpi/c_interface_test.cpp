@@ -143,6 +143,25 @@ TEST_F(CInterface, starts_from_cuts_that_it_is_given) {
     rrcb_destroy(other);
 }
 
+/// Parts 0 and 2 on the left, for two machines of two ranks, which are dealt in turns.
+TEST_F(CInterface, deals_parts_to_the_groups_of_its_cuts) {
+    const std::array<rrcb_cut, 3> tree{{{0, 0, {2}}, {0, 0, {1}}, {0, 0, {3}}}};
+    const rrcb_cuts given{1, 4, tree.data(), 2, 0, 1};
+    ASSERT_EQ(rrcb_set_cuts(balancer, &given), RRCB_OK) << rrcb_last_error();
+    rrcb_cuts cuts;
+    ASSERT_EQ(rrcb_get_cuts(balancer, &cuts), RRCB_OK);
+    EXPECT_EQ(cuts.group_size, 2);
+    EXPECT_EQ(cuts.dealt, 1);
+    for (const auto& [position, expected] : {std::pair{0.5, 0}, {1.5, 2}, {2.5, 1}, {3.5, 3}}) {
+        std::int32_t part = -1;
+        ASSERT_EQ(rrcb_part_of(balancer, &position, &part), RRCB_OK);
+        EXPECT_EQ(part, expected);
+        Vector lower, upper;
+        ASSERT_EQ(rrcb_box_of(balancer, part, lower.data(), upper.data()), RRCB_OK);
+        EXPECT_TRUE(lower[0] <= position && position < upper[0]) << part;
+    }
+}
+
 TEST_F(CInterface, moves_points_along_the_plan_of_a_call_in_cpp) {
     const Cloud cloud(3);
     ASSERT_EQ(balance(cloud), RRCB_OK);
@@ -187,6 +206,7 @@ TEST_F(CInterface, what_is_wrong_on_one_rank_fails_on_all) {
     };
     const double* coordinates = cloud.coordinates.data();
     const int invalid = RRCB_INVALID_ARGUMENT;
+    const auto num_parts = static_cast<std::size_t>(num_ranks());
     expect_error_everywhere(call(2, is_last_rank() ? nullptr : coordinates, parts.data()), invalid,
                             "coordinates is null");
     expect_error_everywhere(call(2, coordinates, is_last_rank() ? nullptr : parts.data()), invalid,
@@ -209,12 +229,16 @@ TEST_F(CInterface, what_is_wrong_on_one_rank_fails_on_all) {
                            rrcb_make_plan(balancer, cloud.count(), none_there),
                            rrcb_moved_fraction(balancer, &points, none_there, &fraction)})
         expect_error_everywhere(code, invalid, "parts is null");
+    expect_error_everywhere(rrcb_remap(balancer, cloud.count(), parts.data(), nullptr, nullptr,
+                                       num_parts, none_there, nullptr),
+                            invalid, "numbers is null");
     expect_error_everywhere(
-        rrcb_remap(balancer, cloud.count(), parts.data(), nullptr, nullptr, none_there, nullptr),
-        invalid, "numbers is null");
-    expect_error_everywhere(
-        rrcb_part_weights(balancer, &points, parts.data(), is_last_rank() ? nullptr : &fraction),
-        invalid, "result is null");
+        rrcb_remap(balancer, cloud.count(), parts.data(), nullptr, nullptr,
+                   is_last_rank() ? num_parts - 1 : num_parts, parts.data(), nullptr),
+        invalid, "give an array with an entry for each");
+    expect_error_everywhere(rrcb_part_weights(balancer, &points, parts.data(), num_parts,
+                                              is_last_rank() ? nullptr : &fraction),
+                            invalid, "result is null");
 }
 
 TEST_F(CInterface, columns_that_are_wrong_on_one_rank_fail_on_all) {
@@ -309,8 +333,8 @@ TEST_F(CInterface, refuses_to_show_what_it_does_not_have_yet) {
     expect_missing(rrcb_transfer(balancer, 1, &column, nullptr, nullptr), "plan yet");
     expect_missing(rrcb_part_of(balancer, x, &part), "cuts yet");
     expect_missing(rrcb_parts_touching(balancer, x, x, 1, &part, &count), "cuts yet");
-    expect_missing(rrcb_part_weights(balancer, &points, &part, y), "cuts yet");
-    expect_missing(rrcb_remap(balancer, 1, &part, nullptr, nullptr, &part, nullptr), "cuts yet");
+    expect_missing(rrcb_part_weights(balancer, &points, &part, 1, y), "cuts yet");
+    expect_missing(rrcb_remap(balancer, 1, &part, nullptr, nullptr, 1, &part, nullptr), "cuts yet");
     expect_missing(rrcb_ghosts_create(balancer, &points, &options, &ghosts), "cuts yet");
 
     const rrcb_cuts given{2, 1, nullptr, 1, 0, 0};
@@ -386,7 +410,7 @@ TEST(CCostModel, weighs_points_as_the_model_in_cpp) {
     EXPECT_EQ(rrcb_cost_model_uses_costs(model, &uses_costs), RRCB_OK);
     EXPECT_EQ(uses_costs, num_ranks() > 1 ? 1 : 0);
     std::array<double, 2> values{};
-    EXPECT_EQ(rrcb_cost_model_costs(model, values.data()), RRCB_OK);
+    EXPECT_EQ(rrcb_cost_model_costs(model, values.size(), values.data()), RRCB_OK);
     EXPECT_NEAR(values[0], 2, 0.01);
     EXPECT_NEAR(values[1], 5, 0.01);
     const std::array columns{1.0, 0.5, 1.0, 0.0};
@@ -432,6 +456,8 @@ TEST(CCostModel, returns_errors) {
     rrcb_cost_model* model = nullptr;
     const MPI_Fint comm = MPI_Comm_c2f(MPI_COMM_WORLD);
     EXPECT_EQ(rrcb_cost_model_create_fortran(comm, nullptr, 0, &model), RRCB_INVALID_ARGUMENT);
+    rrcb_controller* never_made = nullptr;
+    EXPECT_EQ(rrcb_cost_model_create_fortran(comm, &never_made, 1, &model), RRCB_INVALID_ARGUMENT);
     ASSERT_EQ(rrcb_cost_model_create_fortran(comm, nullptr, 1, &model), RRCB_OK);
     EXPECT_EQ(rrcb_cost_model_step(model, 1, 1, nullptr), RRCB_OK);
     const double one = 1;

@@ -1,6 +1,7 @@
 #include "../support/clouds.hpp"
 #include "../support/distance.hpp"
 #include "../support/ranks.hpp"
+#include "../support/same_error.hpp"
 #include "slabs.hpp"
 
 #include <rrcb/balance.hpp>
@@ -117,13 +118,27 @@ TEST(GhostsOfRadii, that_do_not_fit_on_one_rank_are_refused_on_all) {
     EXPECT_THROW(ghosts(test::slabs(), interleaved_points(x, 2), {.radius = 1, .radii = right},
                         MPI_COMM_WORLD),
                  Error);
-    if (num_ranks() == 1) return;
-    const Points none = interleaved_points(std::span(x).first(0), 2);
-    const std::vector<double> no_radii;
-    EXPECT_THROW(test::is_last_rank()
-                     ? ghosts(test::slabs(), none, {}, MPI_COMM_WORLD)
-                     : ghosts(test::slabs(), none, {.radii = no_radii}, MPI_COMM_WORLD),
-                 Error);
+}
+
+TEST(GhostsOfRadii, on_some_ranks_alone_are_refused_unless_the_others_have_no_points) {
+    if (num_ranks() == 1) GTEST_SKIP() << "needs two ranks";
+    const std::vector<double> x(2);
+    const std::vector<double> radii(1);
+    const auto find = [&](const Points& of_last) {
+        return test::is_last_rank() ? ghosts(test::slabs(), of_last, {}, MPI_COMM_WORLD)
+                                    : ghosts(test::slabs(), interleaved_points(x, 2),
+                                             {.radii = radii}, MPI_COMM_WORLD);
+    };
+    EXPECT_NO_THROW(find({.dimension = 2}));
+    EXPECT_THROW(find(interleaved_points(x, 2)), Error);
+    test::expect_same_error(
+        [&] {
+            const Points points = interleaved_points(x, 2);
+            test::is_last_rank() ? ghosts(test::slabs(), points, {.radius = 1}, MPI_COMM_WORLD)
+                                 : ghosts(test::slabs(), points, {.radii = radii}, MPI_COMM_WORLD);
+        },
+        "whether radii are given differs between rank 0 and rank " +
+            std::to_string(num_ranks() - 1) + "; give one for each point");
 }
 
 }  // namespace

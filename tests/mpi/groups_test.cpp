@@ -314,7 +314,7 @@ TEST(Groups, that_do_not_fit_on_one_rank_are_refused_on_all) {
     expect_refusal("is NaN or infinite",
                    [&] { groups(interleaved_points(last ? wrong : x, 2), keys, MPI_COMM_WORLD); });
     const Groups right = groups(interleaved_points(x, 2), keys, MPI_COMM_WORLD);
-    expect_refusal("a column has", [&] {
+    expect_refusal("groups of this rank", [&] {
         fetch(right, last ? std::vector<int>(7) : std::vector<int>(right.points().count),
               MPI_COMM_WORLD);
     });

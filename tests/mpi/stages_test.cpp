@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <limits>
 #include <string>
 #include <vector>
@@ -65,6 +66,36 @@ TEST(Stages, come_again_where_many_ranks_make_the_parts) {
     EXPECT_EQ(stages_seen(options, cloud, &cuts), reuse + anew);
     options.cuts = HeldCuts::whole;
     EXPECT_EQ(stages_seen(options, cloud), anew + " +broadcast -broadcast");
+}
+
+/// Notes whether it runs in the environment of the program, and leaves a flag behind.
+struct EnvironmentRecorder : StageObserver {
+    void begin(Stage) noexcept override { look(); }
+    void end(Stage) noexcept override { look(); }
+    void look() {
+        is_of_program = is_of_program && std::fetestexcept(FE_ALL_EXCEPT) == flags &&
+                        fegetexcept() == FE_DIVBYZERO;
+        flags = FE_INEXACT | FE_UNDERFLOW;
+        std::feraiseexcept(FE_UNDERFLOW);
+    }
+    bool is_of_program = true;
+    int flags = FE_INEXACT;
+};
+
+TEST(Stages, are_observed_in_the_floating_point_environment_of_the_program) {
+    EnvironmentRecorder recorder;
+    Options options;
+    options.observer = &recorder;
+    const auto cloud = test::uniform_cloud(500, 2, static_cast<unsigned>(test::rank()));
+    std::fenv_t before;
+    std::feholdexcept(&before);
+    std::feraiseexcept(FE_INEXACT);
+    feenableexcept(FE_DIVBYZERO);
+    balance(interleaved_points(cloud, 2), options, MPI_COMM_WORLD);
+    const int left = std::fetestexcept(FE_ALL_EXCEPT);
+    std::fesetenv(&before);
+    EXPECT_TRUE(recorder.is_of_program);
+    EXPECT_EQ(left, FE_INEXACT | FE_UNDERFLOW);
 }
 
 TEST(Stages, end_when_a_call_fails) {

@@ -57,7 +57,7 @@ struct VirtualRanks {
     Contribution contribution_of(int rank) {
         const Points mine = points_of(rank);
         const Box box = check_points(mine);
-        Contribution all{summarize(mine, box), {}};
+        Contribution all{summarize(mine, box, 0), {}};
         add_records(mine, bin_by_options(mine, box, options), all);
         all.summary.first_rank = rank;
         MergeTree{num_ranks()}.for_each_child(rank, [&](int child) {

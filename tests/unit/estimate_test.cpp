@@ -100,7 +100,7 @@ struct Ranks {
     Contribution contribution_of(int rank) const {
         const Points mine = points_of(rank);
         const Box box = check_points(mine);
-        Contribution all{summarize(mine, box), {}};
+        Contribution all{summarize(mine, box, 0), {}};
         add_records(mine, bin_by_options(mine, box, options), all);
         MergeTree{num_ranks}.for_each_child(rank, [&](int child) {
             const Contribution theirs = contribution_of(child);

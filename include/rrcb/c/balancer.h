@@ -145,12 +145,12 @@ RRCB_API int rrcb_transfer(rrcb_balancer* balancer, size_t num_columns, const rr
 /** Numbers the parts of the cuts so that many points stay, as rrcb::remap. Collective.
  *
  *  `parts` is the new part of each of `count` points. `previous` is the part that each was in, or
- *  null on all ranks: then points stay on their ranks. Part p is on ranks_of_parts[p], if not null,
- *  otherwise as by rrcb_ranks_of_part. Writes the new number of part p to numbers[p]; `kept` may be
- *  null. */
+ *  null on all ranks that have points: then points stay on their ranks. Part p is on
+ *  ranks_of_parts[p], if not null, otherwise as by rrcb_ranks_of_part. Writes the new number of
+ *  part p to numbers[p], of which there are num_parts; `kept` may be null. */
 RRCB_API int rrcb_remap(rrcb_balancer* balancer, size_t count, const int32_t* parts,
                         const int32_t* previous, const rrcb_rank_range* ranks_of_parts,
-                        int32_t* numbers, rrcb_kept* kept);
+                        size_t num_parts, int32_t* numbers, rrcb_kept* kept);
 
 #ifdef __cplusplus
 }

@@ -46,8 +46,9 @@ RRCB_API int rrcb_controller_rebalanced(rrcb_controller* controller, const rrcb_
 RRCB_API int rrcb_cost_model_create(MPI_Comm comm, rrcb_controller* controller, int num_columns,
                                     rrcb_cost_model** model);
 
-/** Makes a cost model from a communicator of Fortran. Collective. */
-RRCB_API int rrcb_cost_model_create_fortran(MPI_Fint comm, rrcb_controller* controller,
+/** Makes a cost model from a communicator of Fortran, and the address of a controller or null.
+ *  Collective. */
+RRCB_API int rrcb_cost_model_create_fortran(MPI_Fint comm, rrcb_controller* const* controller,
                                             int num_columns, rrcb_cost_model** model);
 
 /** Frees a cost model, which may be null. Collective unless it was made with a controller. */
@@ -64,7 +65,7 @@ RRCB_API int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, size_
                                      const double* columns, double* weights);
 
 /** Writes the seconds of a unit of each column. Not collective. */
-RRCB_API int rrcb_cost_model_costs(const rrcb_cost_model* model, double* costs);
+RRCB_API int rrcb_cost_model_costs(const rrcb_cost_model* model, size_t num_columns, double* costs);
 
 /** Writes 1 if weights are by the costs, 0 if points are counted. Not collective. */
 RRCB_API int rrcb_cost_model_uses_costs(const rrcb_cost_model* model, int* uses_costs);

@@ -13,8 +13,8 @@ typedef struct rrcb_ghosts rrcb_ghosts;
 /** Distances at which points are needed, and the ranks of the parts; as rrcb::GhostOptions. */
 typedef struct rrcb_ghost_options {
     double radius;       /**< cut-off of all points, in the unit of the coordinates */
-    const double* radii; /**< one for each point instead, with `radius` 0 */
-    int each_radius;     /**< 1 on all ranks: by `radii`; 0: those are null */
+    const double* radii; /**< one for each point instead, with `radius` 0; null on every rank that
+                              has points: none */
     const double* lower; /**< of the periodic box, of length 3; null: none */
     const double* upper; /**< of the same box */
     const rrcb_rank_range* ranks_of_parts; /**< an entry for each part, as after rrcb_remap; null:
@@ -66,8 +66,9 @@ RRCB_API int rrcb_ghosts_accumulate(const rrcb_ghosts* ghosts, size_t num_column
                                     rrcb_transfer_report* report);
 
 /** Moves fetched positions, interleaved, to those of the images, as rrcb::apply_shifts. Not
- *  collective. `length` is that of `positions`. */
-RRCB_API int rrcb_ghosts_apply_shifts(const rrcb_ghosts* ghosts, size_t length, double* positions);
+ *  collective. `length` is that of `positions`, of type RRCB_DOUBLE or RRCB_FLOAT. */
+RRCB_API int rrcb_ghosts_apply_shifts(const rrcb_ghosts* ghosts, rrcb_type type, size_t length,
+                                      void* positions);
 
 #ifdef __cplusplus
 }

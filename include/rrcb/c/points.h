@@ -29,7 +29,7 @@ typedef struct rrcb_points {
     size_t count;          /**< points of this rank */
     size_t stride;         /**< from a point to the next, in bytes */
     const void* axes[3];   /**< first coordinate on each axis */
-    const double* weights; /**< one per point, or null: every point weighs 1 */
+    const double* weights; /**< one per point; null on every rank that has points: all weigh 1 */
 } rrcb_points;
 
 /** Returns a view of `count` points stored one after another. Not collective. */

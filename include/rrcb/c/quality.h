@@ -23,9 +23,9 @@ RRCB_API int rrcb_worst_load_unbalance_percent(size_t num_parts, const double* p
 
 /** Writes the weight of each part of the cuts over all ranks, as rrcb::part_weights. Collective.
  *
- *  `parts` has an entry for each point. */
+ *  `parts` has an entry for each point, `part_weights` num_parts, one for each part. */
 RRCB_API int rrcb_part_weights(const rrcb_balancer* balancer, const rrcb_points* points,
-                               const int32_t* parts, double* part_weights);
+                               const int32_t* parts, size_t num_parts, double* part_weights);
 
 /** Writes the share of the weight whose rank is not among those of its new part, as
  *  rrcb::moved_fraction. Collective. */

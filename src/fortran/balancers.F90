@@ -2,7 +2,7 @@
 module rrcb_balancers
   use, intrinsic :: iso_c_binding
   use rrcb_types
-  use rrcb_c_balancer
+  use rrcb_c_functions
 #ifdef RRCB_MPI_F08
   use mpi_f08, only: MPI_Comm
 #endif

@@ -1,8 +1,23 @@
-!> Functions of the library in C other than those of a balancer, only for the other modules.
+!> Functions of the library in C, only for the other modules.
 module rrcb_c_functions
   use, intrinsic :: iso_c_binding
   use rrcb_types
   implicit none
+
+  type, bind(c) :: c_cuts
+    integer(c_int) :: dimension = 0, num_parts = 1
+    type(c_ptr) :: tree = c_null_ptr
+    integer(c_int) :: group_size = 1, larger_below = 0, dealt = 0
+  end type
+
+  type, bind(c) :: c_plan
+    integer(c_size_t) :: num_points = 0, num_points_after = 0, num_exports = 0
+    type(c_ptr) :: export_indices = c_null_ptr, export_ranks = c_null_ptr, &
+      export_parts = c_null_ptr
+    integer(c_size_t) :: num_imports = 0
+    type(c_ptr) :: import_ranks = c_null_ptr, import_indices = c_null_ptr, &
+      import_parts = c_null_ptr
+  end type
 
   type, bind(c) :: c_ghost_options
     real(c_double) :: radius = -1                           !< not given
@@ -24,15 +39,168 @@ module rrcb_c_functions
     integer(c_size_t) :: count = 0
   end type
 
+  abstract interface
+    type(c_ptr) function text() bind(c)
+      import
+    end function
+    integer(c_int) function make_of_comm(comm, handle) bind(c)
+      import
+      integer(c_int), value :: comm
+      type(c_ptr), intent(inout) :: handle
+    end function
+    subroutine free(handle) bind(c)
+      import
+      type(c_ptr), value :: handle
+    end subroutine
+    integer(c_int) function divide(handle, points, parts) bind(c)
+      import
+      type(c_ptr), value :: handle
+      type(rrcb_points), intent(in) :: points
+      type(c_ptr), value :: parts
+    end function
+    integer(c_int) function call_of(handle) bind(c)
+      import
+      type(c_ptr), value :: handle
+    end function
+    integer(c_int) function move(handle, num_columns, columns, limits, report) bind(c)
+      import
+      type(c_ptr), value :: handle
+      integer(c_size_t), value :: num_columns
+      type(c_column), intent(in) :: columns(*)
+      integer(c_size_t), intent(in), optional :: limits
+      type(rrcb_transfer_report), intent(inout), optional :: report
+    end function
+    integer(c_int) function measure(num_parts, part_weights, part_sizes, result) bind(c)
+      import
+      integer(c_size_t), value :: num_parts
+      real(c_double), intent(in) :: part_weights(*)
+      type(c_ptr), value :: part_sizes
+      real(c_double), intent(inout) :: result
+    end function
+    integer(c_int) function ask(handle, due) bind(c)
+      import
+      type(c_ptr), value :: handle
+      integer(c_int), intent(inout) :: due
+    end function
+  end interface
+
+  procedure(text), bind(c, name="rrcb_version") :: c_version
+  procedure(text), bind(c, name="rrcb_build_info") :: c_build_info
+  procedure(text), bind(c, name="rrcb_last_error") :: c_last_error
+  procedure(make_of_comm), bind(c, name="rrcb_create_fortran") :: c_create
+  procedure(make_of_comm), bind(c, name="rrcb_controller_create_fortran") :: c_controller_create
+  procedure(free), bind(c, name="rrcb_destroy") :: c_destroy
+  procedure(free), bind(c, name="rrcb_ghosts_destroy") :: c_ghosts_destroy
+  procedure(free), bind(c, name="rrcb_groups_destroy") :: c_groups_destroy
+  procedure(free), bind(c, name="rrcb_controller_destroy") :: c_controller_destroy
+  procedure(free), bind(c, name="rrcb_cost_model_destroy") :: c_cost_model_destroy
+  procedure(divide), bind(c, name="rrcb_balance") :: c_balance
+  procedure(divide), bind(c, name="rrcb_rebalance") :: c_rebalance
+  procedure(divide), bind(c, name="rrcb_assign") :: c_assign
+  procedure(divide), bind(c, name="rrcb_assign_all") :: c_assign_all
+  procedure(call_of), bind(c, name="rrcb_release_buffers") :: c_release_buffers
+  procedure(call_of), bind(c, name="rrcb_gather_cuts") :: c_gather_cuts
+  procedure(move), bind(c, name="rrcb_transfer") :: c_transfer
+  procedure(move), bind(c, name="rrcb_ghosts_fetch") :: c_ghosts_fetch
+  procedure(move), bind(c, name="rrcb_ghosts_accumulate") :: c_ghosts_accumulate
+  procedure(move), bind(c, name="rrcb_groups_fetch") :: c_groups_fetch
+  procedure(measure), bind(c, name="rrcb_imbalance") :: c_imbalance
+  procedure(measure), bind(c, name="rrcb_worst_load_unbalance_percent") :: c_worst_load_unbalance_percent
+  procedure(ask), bind(c, name="rrcb_controller_due") :: c_controller_due
+  procedure(ask), bind(c, name="rrcb_cost_model_uses_costs") :: c_cost_model_uses_costs
+
   interface
-    type(c_ptr) function c_version() bind(c, name="rrcb_version")
+    integer(c_int) function c_load_unbalance_percent(num_parts, part_weights, part_sizes, percent) &
+      bind(c, name="rrcb_load_unbalance_percent")
       import
+      integer(c_size_t), value :: num_parts
+      real(c_double), intent(in) :: part_weights(*)
+      type(c_ptr), value :: part_sizes
+      real(c_double), intent(inout) :: percent(*)
     end function
-    type(c_ptr) function c_build_info() bind(c, name="rrcb_build_info")
+    integer(c_int) function c_set(handle, option, value) bind(c, name="rrcb_set")
       import
+      type(c_ptr), value :: handle
+      character(kind=c_char), intent(in) :: option(*), value(*)
     end function
-    type(c_ptr) function c_last_error() bind(c, name="rrcb_last_error")
+    integer(c_int) function c_set_part_sizes(handle, count, sizes) bind(c, name="rrcb_set_part_sizes")
       import
+      type(c_ptr), value :: handle
+      integer(c_size_t), value :: count
+      real(c_double), intent(in) :: sizes(*)
+    end function
+    integer(c_int) function c_get_report(handle, report) bind(c, name="rrcb_get_report")
+      import
+      type(c_ptr), value :: handle
+      type(rrcb_report), intent(inout) :: report
+    end function
+    integer(c_int) function c_get_cuts(handle, cuts) bind(c, name="rrcb_get_cuts")
+      import
+      type(c_ptr), value :: handle
+      type(c_cuts), intent(inout) :: cuts
+    end function
+    integer(c_int) function c_set_cuts(handle, cuts) bind(c, name="rrcb_set_cuts")
+      import
+      type(c_ptr), value :: handle
+      type(c_cuts), intent(in) :: cuts
+    end function
+    integer(c_int) function c_part_of(handle, position, part) bind(c, name="rrcb_part_of")
+      import
+      type(c_ptr), value :: handle
+      real(c_double), intent(in) :: position(3)
+      integer(c_int32_t), intent(inout) :: part
+    end function
+    integer(c_int) function c_box_of(handle, part, lower, upper) bind(c, name="rrcb_box_of")
+      import
+      type(c_ptr), value :: handle
+      integer(c_int32_t), value :: part
+      real(c_double), intent(inout) :: lower(3), upper(3)
+    end function
+    integer(c_int) function c_parts_touching(handle, lower, upper, capacity, parts, count) &
+      bind(c, name="rrcb_parts_touching")
+      import
+      type(c_ptr), value :: handle
+      real(c_double), intent(in) :: lower(3), upper(3)
+      integer(c_size_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: parts(*)
+      integer(c_size_t), intent(inout) :: count
+    end function
+    integer(c_int) function c_make_plan(handle, count, parts) bind(c, name="rrcb_make_plan")
+      import
+      type(c_ptr), value :: handle
+      integer(c_size_t), value :: count
+      integer(c_int32_t), intent(in) :: parts(*)
+    end function
+    integer(c_int) function c_get_plan(handle, plan) bind(c, name="rrcb_get_plan")
+      import
+      type(c_ptr), value :: handle
+      type(c_plan), intent(inout) :: plan
+    end function
+    integer(c_int) function c_remap(handle, count, parts, previous, ranks_of_parts, num_parts, &
+                                    numbers, kept) bind(c, name="rrcb_remap")
+      import
+      type(c_ptr), value :: handle, parts
+      integer(c_size_t), value :: count, num_parts
+      integer(c_int32_t), intent(in), optional :: previous(*)
+      type(rrcb_rank_range), intent(in), optional :: ranks_of_parts(*)
+      integer(c_int32_t), intent(inout) :: numbers(*)
+      type(rrcb_kept), intent(inout), optional :: kept
+    end function
+    integer(c_int) function c_part_weights(handle, points, parts, num_parts, part_weights) &
+      bind(c, name="rrcb_part_weights")
+      import
+      type(c_ptr), value :: handle, parts
+      type(rrcb_points), intent(in) :: points
+      integer(c_size_t), value :: num_parts
+      real(c_double), intent(inout) :: part_weights(*)
+    end function
+    integer(c_int) function c_moved_fraction(handle, points, parts, fraction) &
+      bind(c, name="rrcb_moved_fraction")
+      import
+      type(c_ptr), value :: handle
+      type(rrcb_points), intent(in) :: points
+      type(c_ptr), value :: parts
+      real(c_double), intent(inout) :: fraction
     end function
     function c_strlen(text) bind(c, name="strlen")
       import
@@ -51,30 +219,6 @@ module rrcb_c_functions
       integer(c_int), value :: num_parts, num_ranks
       type(rrcb_rank_range), intent(inout) :: ranks
     end function
-    integer(c_int) function c_imbalance(num_parts, part_weights, part_sizes, imbalance) &
-      bind(c, name="rrcb_imbalance")
-      import
-      integer(c_size_t), value :: num_parts
-      real(c_double), intent(in) :: part_weights(*)
-      type(c_ptr), value :: part_sizes
-      real(c_double), intent(inout) :: imbalance
-    end function
-    integer(c_int) function c_load_unbalance_percent(num_parts, part_weights, part_sizes, percent) &
-      bind(c, name="rrcb_load_unbalance_percent")
-      import
-      integer(c_size_t), value :: num_parts
-      real(c_double), intent(in) :: part_weights(*)
-      type(c_ptr), value :: part_sizes
-      real(c_double), intent(inout) :: percent(*)
-    end function
-    integer(c_int) function c_worst_load_unbalance_percent(num_parts, part_weights, part_sizes, percent) &
-      bind(c, name="rrcb_worst_load_unbalance_percent")
-      import
-      integer(c_size_t), value :: num_parts
-      real(c_double), intent(in) :: part_weights(*)
-      type(c_ptr), value :: part_sizes
-      real(c_double), intent(inout) :: percent
-    end function
     integer(c_int) function c_ghosts_create(balancer, points, options, handle) &
       bind(c, name="rrcb_ghosts_create")
       import
@@ -83,32 +227,10 @@ module rrcb_c_functions
       type(c_ghost_options), intent(in) :: options
       type(c_ptr), intent(inout) :: handle
     end function
-    subroutine c_ghosts_destroy(handle) bind(c, name="rrcb_ghosts_destroy")
-      import
-      type(c_ptr), value :: handle
-    end subroutine
     integer(c_int) function c_ghosts_get_plan(handle, plan) bind(c, name="rrcb_ghosts_get_plan")
       import
       type(c_ptr), value :: handle
       type(c_ghost_plan), intent(inout) :: plan
-    end function
-    integer(c_int) function c_ghosts_fetch(handle, num_columns, columns, limits, report) &
-      bind(c, name="rrcb_ghosts_fetch")
-      import
-      type(c_ptr), value :: handle
-      integer(c_size_t), value :: num_columns
-      type(c_column), intent(in) :: columns(*)
-      integer(c_size_t), intent(in), optional :: limits
-      type(rrcb_transfer_report), intent(inout), optional :: report
-    end function
-    integer(c_int) function c_ghosts_accumulate(handle, num_columns, columns, limits, report) &
-      bind(c, name="rrcb_ghosts_accumulate")
-      import
-      type(c_ptr), value :: handle
-      integer(c_size_t), value :: num_columns
-      type(c_column), intent(in) :: columns(*)
-      integer(c_size_t), intent(in), optional :: limits
-      type(rrcb_transfer_report), intent(inout), optional :: report
     end function
     integer(c_int) function c_ghosts_apply_shifts(handle, type, length, positions) &
       bind(c, name="rrcb_ghosts_apply_shifts")
@@ -126,23 +248,10 @@ module rrcb_c_functions
       integer(c_int), value :: place
       type(c_ptr), intent(inout) :: handle
     end function
-    subroutine c_groups_destroy(handle) bind(c, name="rrcb_groups_destroy")
-      import
-      type(c_ptr), value :: handle
-    end subroutine
     integer(c_int) function c_groups_points(handle, points) bind(c, name="rrcb_groups_points")
       import
       type(c_ptr), value :: handle
       type(rrcb_points), intent(inout) :: points
-    end function
-    integer(c_int) function c_groups_fetch(handle, num_columns, columns, limits, report) &
-      bind(c, name="rrcb_groups_fetch")
-      import
-      type(c_ptr), value :: handle
-      integer(c_size_t), value :: num_columns
-      type(c_column), intent(in) :: columns(*)
-      integer(c_size_t), intent(in), optional :: limits
-      type(rrcb_transfer_report), intent(inout), optional :: report
     end function
     integer(c_int) function c_groups_sums(handle, components, values, sums) &
       bind(c, name="rrcb_groups_sums")
@@ -151,15 +260,6 @@ module rrcb_c_functions
       integer(c_size_t), value :: components
       type(c_ptr), value :: values, sums
     end function
-    integer(c_int) function c_controller_create(comm, handle) bind(c, name="rrcb_controller_create_fortran")
-      import
-      integer(c_int), value :: comm
-      type(c_ptr), intent(inout) :: handle
-    end function
-    subroutine c_controller_destroy(handle) bind(c, name="rrcb_controller_destroy")
-      import
-      type(c_ptr), value :: handle
-    end subroutine
     integer(c_int) function c_controller_step(handle, load, due) bind(c, name="rrcb_controller_step")
       import
       type(c_ptr), value :: handle
@@ -171,11 +271,6 @@ module rrcb_c_functions
       import
       type(c_ptr), value :: handle
       real(c_double), value :: load, points
-      integer(c_int), intent(inout) :: due
-    end function
-    integer(c_int) function c_controller_due(handle, due) bind(c, name="rrcb_controller_due")
-      import
-      type(c_ptr), value :: handle
       integer(c_int), intent(inout) :: due
     end function
     integer(c_int) function c_controller_rebalanced(handle, report, cost) &
@@ -192,10 +287,6 @@ module rrcb_c_functions
       type(c_ptr), intent(in), optional :: controller
       type(c_ptr), intent(inout) :: handle
     end function
-    subroutine c_cost_model_destroy(handle) bind(c, name="rrcb_cost_model_destroy")
-      import
-      type(c_ptr), value :: handle
-    end subroutine
     integer(c_int) function c_cost_model_step(handle, seconds, num_columns, columns) &
       bind(c, name="rrcb_cost_model_step")
       import
@@ -218,12 +309,6 @@ module rrcb_c_functions
       type(c_ptr), value :: handle
       integer(c_size_t), value :: num_columns
       real(c_double), intent(inout) :: costs(*)
-    end function
-    integer(c_int) function c_cost_model_uses_costs(handle, uses_costs) &
-      bind(c, name="rrcb_cost_model_uses_costs")
-      import
-      type(c_ptr), value :: handle
-      integer(c_int), intent(inout) :: uses_costs
     end function
     type(c_ptr) function c_cost_model_report(handle) bind(c, name="rrcb_cost_model_report")
       import

@@ -180,45 +180,24 @@ contains
     real(c_double), pointer, contiguous, intent(in) :: coordinates(:, :)
     real(c_double), pointer, contiguous, intent(in), optional :: weights(:)
     type(rrcb_points) :: points
-    integer :: axis
-    points%dimension = size(coordinates, 1, c_int)
-    points%count = size(coordinates, 2, c_size_t)
-    points%stride = size(coordinates, 1)*c_sizeof(0.0_c_double)
-    points%weights = address_of(weights)
-    if (size(coordinates) == 0 .or. differs(weights, points%count)) return
-    do axis = 1, min(size(coordinates, 1), 3)
-      points%axes(axis) = c_loc(coordinates(axis, 1))
-    end do
+    points = interleaved(rrcb_double, shape(coordinates, c_size_t), coordinates, weights)
   end function
 
   function columns_of_doubles(x, y, z, weights) result(points)
     real(c_double), pointer, contiguous, intent(in) :: x(:)
-    real(c_double), pointer, contiguous, intent(in), optional :: y(:), z(:), weights(:)
+    real(c_double), pointer, contiguous, intent(in), optional :: y(:), z(:)
+    real(c_double), pointer, contiguous, intent(in), optional :: weights(:)
     type(rrcb_points) :: points
-    points%dimension = 1
-    if (present(y)) points%dimension = merge(3, 2, present(z))
-    points%count = size(x, kind=c_size_t)
-    points%stride = c_sizeof(0.0_c_double)
-    points%weights = address_of(weights)
-    if (differs(y, points%count) .or. differs(z, points%count)) return
-    if (differs(weights, points%count)) return
-    points%axes = [address_of(x), address_of(y), address_of(z)]
+    points = interleaved(rrcb_double, [1_c_size_t, size(x, kind=c_size_t)], x, weights)
+    if (present(y)) call add_axis(size(y, kind=c_size_t), y, points)
+    if (present(z)) call add_axis(size(z, kind=c_size_t), z, points)
   end function
 
   function interleaved_reals(coordinates, weights) result(points)
     real(c_float), pointer, contiguous, intent(in) :: coordinates(:, :)
     real(c_double), pointer, contiguous, intent(in), optional :: weights(:)
     type(rrcb_points) :: points
-    integer :: axis
-    points%type = rrcb_float
-    points%dimension = size(coordinates, 1, c_int)
-    points%count = size(coordinates, 2, c_size_t)
-    points%stride = size(coordinates, 1)*c_sizeof(0.0_c_float)
-    points%weights = address_of(weights)
-    if (size(coordinates) == 0 .or. differs(weights, points%count)) return
-    do axis = 1, min(size(coordinates, 1), 3)
-      points%axes(axis) = c_loc(coordinates(axis, 1))
-    end do
+    points = interleaved(rrcb_float, shape(coordinates, c_size_t), coordinates, weights)
   end function
 
   function columns_of_reals(x, y, z, weights) result(points)
@@ -226,104 +205,106 @@ contains
     real(c_float), pointer, contiguous, intent(in), optional :: y(:), z(:)
     real(c_double), pointer, contiguous, intent(in), optional :: weights(:)
     type(rrcb_points) :: points
-    points%type = rrcb_float
-    points%dimension = 1
-    if (present(y)) points%dimension = merge(3, 2, present(z))
-    points%count = size(x, kind=c_size_t)
-    points%stride = c_sizeof(0.0_c_float)
+    points = interleaved(rrcb_float, [1_c_size_t, size(x, kind=c_size_t)], x, weights)
+    if (present(y)) call add_axis(size(y, kind=c_size_t), y, points)
+    if (present(z)) call add_axis(size(z, kind=c_size_t), z, points)
+  end function
+
+  !> Returns a view of interleaved points of `extents`, (dimension, count).
+  function interleaved(type, extents, first, weights) result(points)
+    integer(c_int), intent(in) :: type
+    integer(c_size_t), intent(in) :: extents(2)
+    type(*), target, intent(in) :: first(*)
+    real(c_double), pointer, contiguous, intent(in), optional :: weights(:)
+    type(rrcb_points) :: points
+    integer :: axis
+    points%type = type
+    points%dimension = int(extents(1), c_int)
+    points%count = extents(2)
+    points%stride = extents(1)*bytes_of(type)
     points%weights = address_of(weights)
-    if (differs(weights, points%count) .or. size(x) == 0) return
-    points%axes(1) = c_loc(x)
-    if (present(y)) then
-      if (size(y) == size(x)) points%axes(2) = c_loc(y)
-    end if
-    if (present(z)) then
-      if (size(z) == size(x)) points%axes(3) = c_loc(z)
-    end if
+    if (product(extents) == 0 .or. differs(weights, points%count)) return
+    do axis = 0, min(points%dimension, 3) - 1
+      points%axes(axis + 1) = transfer(transfer(c_loc(first), 0_c_intptr_t) + axis*bytes_of(type), c_null_ptr)
+    end do
+  end function
+
+  !> Adds an axis, without its coordinates if their number is another one.
+  subroutine add_axis(count, first, points)
+    integer(c_size_t), intent(in) :: count
+    type(*), target, intent(in) :: first(*)
+    type(rrcb_points), intent(inout) :: points
+    points%dimension = points%dimension + 1
+    if (count /= points%count) points%axes = c_null_ptr
+    if (c_associated(points%axes(1))) points%axes(points%dimension) = c_loc(first)
+  end subroutine
+
+  pure function bytes_of(type) result(bytes)
+    integer(c_int), intent(in) :: type
+    integer(c_size_t) :: bytes
+    bytes = merge(4, 8, type == rrcb_float)
+  end function
+
+  !> Returns a column of arrays of extents (components, points), with components of `from`.
+  function column_of(type, of_from, from, of_to, to) result(column)
+    integer(c_int), intent(in) :: type
+    integer(c_size_t), intent(in) :: of_from(2), of_to(2)
+    type(*), target, intent(in) :: from(*), to(*)
+    type(rrcb_column) :: column
+    column%type = type
+    column%components = of_from(1)
+    column%num_from = of_from(2)
+    column%num_to = merge(of_to(2), 0_c_size_t, of_to(1) == of_from(1))
+    if (product(of_from) > 0) column%from = c_loc(from)
+    if (product(of_to) > 0) column%to = c_loc(to)
   end function
 
   function column_of_reals(from, to) result(column)
     real(c_float), pointer, contiguous, intent(in) :: from(:), to(:)
     type(rrcb_column) :: column
-    column%type = rrcb_float
-    column%num_from = size(from, kind=c_size_t)
-    column%num_to = size(to, kind=c_size_t)
-    if (size(from) > 0) column%from = c_loc(from)
-    if (size(to) > 0) column%to = c_loc(to)
-  end function
-
-  function column_of_doubles(from, to) result(column)
-    real(c_double), pointer, contiguous, intent(in) :: from(:), to(:)
-    type(rrcb_column) :: column
-    column%type = rrcb_double
-    column%num_from = size(from, kind=c_size_t)
-    column%num_to = size(to, kind=c_size_t)
-    if (size(from) > 0) column%from = c_loc(from)
-    if (size(to) > 0) column%to = c_loc(to)
-  end function
-
-  function column_of_integers(from, to) result(column)
-    integer(c_int32_t), pointer, contiguous, intent(in) :: from(:), to(:)
-    type(rrcb_column) :: column
-    column%type = type_int32
-    column%num_from = size(from, kind=c_size_t)
-    column%num_to = size(to, kind=c_size_t)
-    if (size(from) > 0) column%from = c_loc(from)
-    if (size(to) > 0) column%to = c_loc(to)
-  end function
-
-  function column_of_longs(from, to) result(column)
-    integer(c_int64_t), pointer, contiguous, intent(in) :: from(:), to(:)
-    type(rrcb_column) :: column
-    column%type = type_int64
-    column%num_from = size(from, kind=c_size_t)
-    column%num_to = size(to, kind=c_size_t)
-    if (size(from) > 0) column%from = c_loc(from)
-    if (size(to) > 0) column%to = c_loc(to)
+    column = column_of(rrcb_float, [1_c_size_t, size(from, kind=c_size_t)], from, [1_c_size_t, size(to, kind=c_size_t)], to)
   end function
 
   function vectors_of_reals(from, to) result(column)
     real(c_float), pointer, contiguous, intent(in) :: from(:, :), to(:, :)
     type(rrcb_column) :: column
-    column%type = rrcb_float
-    column%components = size(from, 1, c_size_t)
-    column%num_from = size(from, 2, c_size_t)
-    column%num_to = merge(size(to, 2, c_size_t), 0_c_size_t, size(to, 1) == size(from, 1))
-    if (size(from) > 0) column%from = c_loc(from)
-    if (size(to) > 0) column%to = c_loc(to)
+    column = column_of(rrcb_float, shape(from, c_size_t), from, shape(to, c_size_t), to)
+  end function
+
+  function column_of_doubles(from, to) result(column)
+    real(c_double), pointer, contiguous, intent(in) :: from(:), to(:)
+    type(rrcb_column) :: column
+    column = column_of(rrcb_double, [1_c_size_t, size(from, kind=c_size_t)], from, [1_c_size_t, size(to, kind=c_size_t)], to)
   end function
 
   function vectors_of_doubles(from, to) result(column)
     real(c_double), pointer, contiguous, intent(in) :: from(:, :), to(:, :)
     type(rrcb_column) :: column
-    column%type = rrcb_double
-    column%components = size(from, 1, c_size_t)
-    column%num_from = size(from, 2, c_size_t)
-    column%num_to = merge(size(to, 2, c_size_t), 0_c_size_t, size(to, 1) == size(from, 1))
-    if (size(from) > 0) column%from = c_loc(from)
-    if (size(to) > 0) column%to = c_loc(to)
+    column = column_of(rrcb_double, shape(from, c_size_t), from, shape(to, c_size_t), to)
+  end function
+
+  function column_of_integers(from, to) result(column)
+    integer(c_int32_t), pointer, contiguous, intent(in) :: from(:), to(:)
+    type(rrcb_column) :: column
+    column = column_of(type_int32, [1_c_size_t, size(from, kind=c_size_t)], from, [1_c_size_t, size(to, kind=c_size_t)], to)
   end function
 
   function vectors_of_integers(from, to) result(column)
     integer(c_int32_t), pointer, contiguous, intent(in) :: from(:, :), to(:, :)
     type(rrcb_column) :: column
-    column%type = type_int32
-    column%components = size(from, 1, c_size_t)
-    column%num_from = size(from, 2, c_size_t)
-    column%num_to = merge(size(to, 2, c_size_t), 0_c_size_t, size(to, 1) == size(from, 1))
-    if (size(from) > 0) column%from = c_loc(from)
-    if (size(to) > 0) column%to = c_loc(to)
+    column = column_of(type_int32, shape(from, c_size_t), from, shape(to, c_size_t), to)
+  end function
+
+  function column_of_longs(from, to) result(column)
+    integer(c_int64_t), pointer, contiguous, intent(in) :: from(:), to(:)
+    type(rrcb_column) :: column
+    column = column_of(type_int64, [1_c_size_t, size(from, kind=c_size_t)], from, [1_c_size_t, size(to, kind=c_size_t)], to)
   end function
 
   function vectors_of_longs(from, to) result(column)
     integer(c_int64_t), pointer, contiguous, intent(in) :: from(:, :), to(:, :)
     type(rrcb_column) :: column
-    column%type = type_int64
-    column%components = size(from, 1, c_size_t)
-    column%num_from = size(from, 2, c_size_t)
-    column%num_to = merge(size(to, 2, c_size_t), 0_c_size_t, size(to, 1) == size(from, 1))
-    if (size(from) > 0) column%from = c_loc(from)
-    if (size(to) > 0) column%to = c_loc(to)
+    column = column_of(type_int64, shape(from, c_size_t), from, shape(to, c_size_t), to)
   end function
 
   function column_of_bytes(bytes, from, to) result(column)

@@ -33,9 +33,11 @@ def main():
     num_particles = sum(array.get_number_of_particles(True) for array in arrays)
     total, most = comm.allreduce(num_particles), comm.allreduce(num_particles, mpi.MAX)
     answer = comm.allreduce(sum(moments_of(array) for array in arrays))
+    ghosts = comm.allreduce(sum(array.get_number_of_particles() for array in arrays)) - total
     if comm.rank == 0:
         print(f"result objects {total} imbalance {most * comm.size / total:.4f} answer", end=" ")
         print(*(f"{value:.12g}" for value in answer))
+        print(f"ghosts {ghosts / comm.size}")
 
 
 main()

@@ -1,7 +1,7 @@
 /* Stands in front of Zoltan, or of the plug-in, and forwards: writes what a program asks of
  * Zoltan's balancer to the file that RRCB_TEST_CALLS names, as lines "name value": calls, seconds
- * (in them, of the rank that spent most), method (the last LB_METHOD), plug_in (1 when it is
- * behind). */
+ * (in them, of the rank that spent most), exported (objects, where they are listed), method (the
+ * last LB_METHOD), plug_in (1 when it is behind). */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <mpi.h>
@@ -12,6 +12,7 @@
 
 static int calls = 0;
 static double seconds = 0;
+static double exported = 0;
 static char method[32] = "RCB"; /* Zoltan's default */
 
 static void* next(const char* name) {
@@ -22,9 +23,10 @@ static void* next(const char* name) {
     return NULL;
 }
 
-static int note(double start, int code) {
+static int note(double start, int code, const int* num_export) {
     seconds += MPI_Wtime() - start;
     ++calls;
+    if (*num_export > 0) exported += *num_export;
     return code;
 }
 
@@ -43,9 +45,10 @@ int Zoltan_LB_Partition(struct Zoltan_Struct* zz, int* changes, int* num_gid, in
                      int**, int**, int*, ZOLTAN_ID_PTR*, ZOLTAN_ID_PTR*, int**, int**) =
         next("Zoltan_LB_Partition");
     const double start = MPI_Wtime();
-    return note(start, partition(zz, changes, num_gid, num_lid, num_import, import_gids,
-                                 import_lids, import_ranks, import_parts, num_export, export_gids,
-                                 export_lids, export_ranks, export_parts));
+    const int code =
+        partition(zz, changes, num_gid, num_lid, num_import, import_gids, import_lids, import_ranks,
+                  import_parts, num_export, export_gids, export_lids, export_ranks, export_parts);
+    return note(start, code, num_export);
 }
 
 int Zoltan_LB_Balance(struct Zoltan_Struct* zz, int* changes, int* num_gid, int* num_lid,
@@ -55,21 +58,23 @@ int Zoltan_LB_Balance(struct Zoltan_Struct* zz, int* changes, int* num_gid, int*
     int (*balance)(struct Zoltan_Struct*, int*, int*, int*, int*, ZOLTAN_ID_PTR*, ZOLTAN_ID_PTR*,
                    int**, int*, ZOLTAN_ID_PTR*, ZOLTAN_ID_PTR*, int**) = next("Zoltan_LB_Balance");
     const double start = MPI_Wtime();
-    return note(start, balance(zz, changes, num_gid, num_lid, num_import, import_gids, import_lids,
-                               import_ranks, num_export, export_gids, export_lids, export_ranks));
+    const int code = balance(zz, changes, num_gid, num_lid, num_import, import_gids, import_lids,
+                             import_ranks, num_export, export_gids, export_lids, export_ranks);
+    return note(start, code, num_export);
 }
 
 int MPI_Finalize(void) {
     const char* path = getenv("RRCB_TEST_CALLS");
     int rank = 0;
-    double longest = 0;
+    double longest = 0, all_exported = 0;
     PMPI_Comm_rank(MPI_COMM_WORLD, &rank);
     PMPI_Reduce(&seconds, &longest, 1, MPI_DOUBLE, MPI_MAX, 0, MPI_COMM_WORLD);
+    PMPI_Reduce(&exported, &all_exported, 1, MPI_DOUBLE, MPI_SUM, 0, MPI_COMM_WORLD);
     if (rank == 0 && path != NULL) {
         FILE* file = fopen(path, "w");
         if (file == NULL) MPI_Abort(MPI_COMM_WORLD, 1);
-        fprintf(file, "calls %d\nseconds %.6f\nmethod %s\nplug_in %d\n", calls, longest, method,
-                dlsym(RTLD_NEXT, "RRCB_Zoltan_Active") != NULL);
+        fprintf(file, "calls %d\nseconds %.6f\nexported %.0f\nmethod %s\nplug_in %d\n", calls,
+                longest, all_exported, method, dlsym(RTLD_NEXT, "RRCB_Zoltan_Active") != NULL);
         fclose(file);
     }
     return PMPI_Finalize();

@@ -1,0 +1,81 @@
+"""LAMMPS with examples/lammps preloaded: its own inputs of RCB, a droplet and a granular pour."""
+
+from __future__ import annotations
+
+import re
+from functools import partial
+from pathlib import Path
+
+from programs import BUILD, run
+from result import Case, Failed, Result
+
+INPUTS = Path("/usr/share/lammps/examples/balance")
+# Inputs that call RCB; the others of the folder shift planes of a grid.
+NAMES = ["balance", "balance.bond.slow", "balance.bond.fast", "balance.neigh.rcb"]
+SHIM = BUILD / "examples" / "lammps" / "librrcb_lammps.so"
+# Its atoms break through the walls, or not, by chance: on one rank with 3 of 8 seeds.
+FRAGILE = "balance.bond.fast"
+# Imbalances differ, and so do sums in other orders.
+BALANCE_COLUMN = re.compile(r"f_")
+AGREEMENT = 1e-6
+
+
+def launch(source: Path, ranks: int, with_rrcb: bool, folder: Path) -> Result:
+    """The input as it is, except that it prints the total energy as well."""
+    text = source.read_text().replace("custom step temp epair ", "custom step temp epair etotal ")
+    (folder / source.name).write_text(text)
+    variables = {"LD_PRELOAD": SHIM, "RRCB_VERBOSE": 1, "RRCB_OFF": int(not with_rrcb)}
+    command = ["lmp", "-log", "none", "-in", source.name]
+    seconds, output, code = run(ranks, command, variables, folder)
+    error = re.search(r"^.*(?:ERROR|Lost atoms|sub-domain|RRCB leaves).*$", output, re.MULTILINE)
+    if error or code != 0:
+        if source.name != f"in.{FRAGILE}":
+            raise Failed(error[0] if error else f"ends with {code}")
+        return Result(float("nan"))
+    calls = re.search(r"RRCB answered (\d+) of (\d+) calls: (\S+) s, (\S+) %", output)
+    if calls is None or int(calls[1]) != int(with_rrcb) * int(calls[2]) or calls[2] == "0":
+        raise Failed(f"answered by the wrong one: {calls and calls[0]}")
+    ghosts = float(re.findall(r"^Nghost: +(\S+) ave", output, re.MULTILINE)[-1])
+    return Result(seconds, float(calls[3]), float(calls[4]), ghosts, energies(output))
+
+
+def energies(output: str) -> dict[str, float]:
+    """The first row that LAMMPS prints, and the energy of the last."""
+    titles: list[str] = []
+    rows = []
+    for line in output.split("\n"):
+        words = line.split()
+        if words and words[0] == "Step":
+            titles = words
+        elif titles and len(words) == len(titles) and re.fullmatch(r"\d+", words[0]):
+            rows.append([float(word) for word in words])
+    first = {title: value for title, value in zip(titles, rows[0]) if not BALANCE_COLUMN.match(title)}
+    energy = "TotEng" if "TotEng" in titles else "KinEng"
+    return {**first, "last " + energy: rows[-1][titles.index(energy)]}
+
+
+def compare(plain: Result, rrcb: Result) -> str:
+    if not plain.answer or not rrcb.answer:
+        return "atoms broke through a wall: " + " and ".join(
+            name for name, run in (("plain", plain), ("RRCB", rrcb)) if not run.answer)
+    *first, last = plain.answer
+    for name in first:
+        if abs(rrcb.answer[name] - plain.answer[name]) > AGREEMENT * abs(plain.answer[name]):
+            raise Failed(f"{name} is {rrcb.answer[name]} instead of {plain.answer[name]}")
+    drifts = [run.answer[last] - run.answer[last[len("last "):]] for run in (plain, rrcb)]
+    scale = abs(plain.answer[last])
+    if abs(drifts[1]) > 2 * abs(drifts[0]) + 0.01 * scale:
+        raise Failed(f"{last} drifts by {drifts[1]:.4g} instead of {drifts[0]:.4g}")
+    return f"same step 0, {last[len('last '):]} drifts by {drifts[0]:.4g}, {drifts[1]:.4g}"
+
+
+def case_of(name: str, title: str, source: Path) -> Case:
+    return Case(f"lammps.{name}", f"LAMMPS, {title}", ["lammps", "lammps-examples"],
+                ["rrcb_lammps"], partial(launch, source), compare)
+
+
+LAMMPS_CASES = [
+    *(case_of(name, f"in.{name}", INPUTS / f"in.{name}") for name in NAMES),
+    *(case_of(name, title, Path(__file__).parent / "lammps" / f"in.{name}")
+      for name, title in [("droplet", "a droplet, 28,897 atoms"), ("pour", "a granular pour")]),
+]

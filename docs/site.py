@@ -15,15 +15,16 @@ ROOT = Path(__file__).resolve().parents[1]
 MENU = {
     "Start": ["docs/install", "docs/first_program", "docs/zoltan"],
     "Guide": ["docs/loop", "docs/rebalancing", "docs/weights", "docs/choosing", "docs/machines",
-              "docs/performance", "docs/errors", "docs/edge_cases", "docs/teuchos", "SUPPORT"],
+              "docs/performance", "docs/hosts", "docs/errors", "docs/edge_cases", "docs/teuchos",
+              "SUPPORT"],
     "Reference": ["docs/parameters", "reference/cpp", "reference/c", "reference/fortran",
                   "CHANGELOG"],
     "Comparisons": ["comparisons/README", "comparisons/columns", "docs/design/paper"],
     "Design": ["docs/design/how_it_works", "docs/design/statistical_domain",
                "docs/design/many_ranks", "docs/design/rebalancing", "docs/design/testing",
                "docs/design/xsdk", "tests/hard/README", "CONTRIBUTING", "SECURITY"],
-    "Examples": ["examples/zoltan_drop_in/README", "examples/mpm/README",
-                 "examples/mpm/docs/method", "examples/mpm/docs/scene_files",
+    "Examples": ["examples/zoltan_drop_in/README", "examples/lammps/README",
+                 "examples/mpm/README", "examples/mpm/docs/method", "examples/mpm/docs/scene_files",
                  "examples/mpm/docs/parallel"],
 }
 

@@ -34,7 +34,7 @@ def bare(text):
     """Text of a header without comments, directives and empty defaults."""
     text = re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.S)
     text = re.sub(r"^#.*?[^\\]$", "", text, flags=re.M)
-    return re.sub(r"=\s*\{\}", "", text).replace('extern "C" {', "")
+    return re.sub(r"=\s*\{\}|\[\[nodiscard\]\]", "", text).replace('extern "C" {', "")
 
 
 def statements(text):

@@ -18,7 +18,7 @@ std::vector<char> with_head(std::span<const char> body) {
     for (const char byte : body) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
     const std::uint64_t size = body.size();
     std::vector<char> bytes(24 + body.size());
-    std::memcpy(bytes.data(), "RRCBhnd1", 8);
+    std::memcpy(bytes.data(), "RRCBhnd6", 8);
     std::memcpy(bytes.data() + 8, &size, 8);
     std::memcpy(bytes.data() + 16, &hash, 8);
     std::copy(body.begin(), body.end(), bytes.begin() + 24);

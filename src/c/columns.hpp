@@ -1,6 +1,7 @@
 #pragma once
 
 #include "c/balancer.hpp"
+#include "collective/participant.hpp"
 
 #include <rrcb/transfer.hpp>
 
@@ -22,5 +23,23 @@ TransferLimits limits_of(const rrcb_transfer_limits* limits);
 
 /// Writes a report, unless it is null.
 void store(const TransferReport& from, rrcb_transfer_report* report);
+
+/// Arguments of a function that moves columns.
+struct ColumnCall {
+    std::size_t num_columns;
+    const rrcb_column* columns;
+    const rrcb_transfer_limits* limits;
+    rrcb_transfer_report* report;
+
+    /// Moves columns of `num_points` points along a plan, or from groups. Collective.
+    template <class AnyPlan>
+    void move_by(const AnyPlan& plan, LocalIndex num_points, Participant& self) const {
+        std::vector<detail::ByteColumn> moved;
+        self.attempt([&] { moved = columns_of(given_columns(columns, num_columns), num_points); });
+        TransferReport made;
+        move(plan, moved, limits_of(limits), &made, self);
+        store(made, report);
+    }
+};
 
 }  // namespace rrcb::c

@@ -2,6 +2,7 @@
 
 #include "c/columns.hpp"
 #include "c/handle_mpi.hpp"
+#include "lists/delivery_mpi.hpp"
 #include "options/rejection.hpp"
 
 #include <algorithm>
@@ -10,12 +11,6 @@
 struct rrcb_ghosts {
     MPI_Comm comm = MPI_COMM_NULL;
     rrcb::GhostPlan plan{};
-
-    std::size_t num_ghosts() const {
-        std::size_t sum = 0;
-        for (const rrcb::RankCount& share : plan.receive) sum += share.count;
-        return sum;
-    }
 };
 
 namespace rrcb::c {
@@ -73,26 +68,14 @@ void make_ghosts(const rrcb_balancer& own, const rrcb_points* given,
     *ghosts = made.release();
 }
 
-/// Values of ghosts as they arrive at their points.
-struct Arrived {
-    std::vector<std::byte> values{};
-    std::size_t value_bytes = 1;
-
-    static std::byte* resize(void* arrived, std::size_t num_values) {
-        auto& own = *static_cast<Arrived*>(arrived);
-        own.values.resize(num_values * own.value_bytes);
-        return own.values.data();
-    }
-};
-
 template <class T>
-void add(std::span<const LocalIndex> points, const rrcb_column& column, const Arrived& arrived) {
-    detail::add_each(points, column.components, reinterpret_cast<const T*>(arrived.values.data()),
+void add(std::span<const LocalIndex> points, const rrcb_column& column, const ByteResult& arrived) {
+    detail::add_each(points, column.components, reinterpret_cast<const T*>(arrived.bytes.data()),
                      static_cast<T*>(column.to));
 }
 
 void add_values(std::span<const LocalIndex> points, const rrcb_column& column,
-                const Arrived& arrived) {
+                const ByteResult& arrived) {
     switch (column.type) {
         case RRCB_INT32:
             return add<int32_t>(points, column, arrived);
@@ -111,18 +94,16 @@ void accumulate(const rrcb_ghosts& own, std::span<const rrcb_column> columns,
                 const TransferLimits& limits, TransferReport& report, Participant& self) {
     std::vector<detail::ByteColumn> of_ghosts;
     std::vector<detail::ByteColumn> of_points;
-    std::vector<Arrived> arrived;
+    std::vector<ByteResult> arrived;
     self.attempt([&] {
-        of_ghosts = columns_of(columns, own.num_ghosts());
-        arrived.resize(columns.size());
+        of_ghosts = columns_of(columns, total(own.plan.receive));
+        arrived.reserve(columns.size());
         for (std::size_t k = 0; k < columns.size(); ++k) {
             if (columns[k].type == RRCB_BYTE) reject("only numbers can be added");
-            arrived[k].value_bytes = of_ghosts[k].value_bytes;
             of_points.push_back(of_ghosts[k]);
             of_points[k].from = static_cast<const std::byte*>(columns[k].to);
             of_points[k].num_values = own.plan.num_points * columns[k].components;
-            of_ghosts[k].result = &arrived[k];
-            of_ghosts[k].resize = Arrived::resize;
+            of_ghosts[k] = arrived.emplace_back(of_ghosts[k].value_bytes).result_of(of_ghosts[k]);
         }
     });
     move_back(own.plan, of_ghosts, of_points, limits, &report, self);
@@ -154,7 +135,7 @@ int rrcb_ghosts_get_plan(const rrcb_ghosts* ghosts, rrcb_ghost_plan* plan) {
             rrcb::c::require(plan, "plan");
             const rrcb::GhostPlan& from = own.plan;
             *plan = {from.num_points,
-                     own.num_ghosts(),
+                     rrcb::total(own.plan.receive),
                      from.send.size(),
                      rrcb::c::counts_at(from.send),
                      from.send_indices.size(),
@@ -172,14 +153,8 @@ int rrcb_ghosts_fetch(const rrcb_ghosts* ghosts, size_t num_columns, const rrcb_
         ghosts,
         [&](const auto& own) {
             Participant self{rrcb::mpi::duplicate_of(own.comm)};
-            std::vector<rrcb::detail::ByteColumn> moved;
-            self.attempt([&] {
-                moved = rrcb::c::columns_of(rrcb::c::given_columns(columns, num_columns),
-                                            own.plan.num_points);
-            });
-            rrcb::TransferReport made;
-            rrcb::move(own.plan, moved, rrcb::c::limits_of(limits), &made, self);
-            rrcb::c::store(made, report);
+            const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
+            call.move_by(own.plan, own.plan.num_points, self);
         },
         "ghosts");
 }

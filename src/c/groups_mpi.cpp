@@ -64,14 +64,8 @@ int rrcb_groups_fetch(const rrcb_groups* groups, size_t num_columns, const rrcb_
                       const rrcb_transfer_limits* limits, rrcb_transfer_report* report) {
     return with(groups, [&](const rrcb::Groups& own, MPI_Comm comm) {
         Participant self{duplicate_of(comm)};
-        std::vector<rrcb::detail::ByteColumn> moved;
-        self.attempt([&] {
-            moved = rrcb::c::columns_of(rrcb::c::given_columns(columns, num_columns),
-                                        own.weights.size());
-        });
-        rrcb::TransferReport made;
-        rrcb::move(own, moved, rrcb::c::limits_of(limits), &made, self);
-        rrcb::c::store(made, report);
+        const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
+        call.move_by(own, own.weights.size(), self);
     });
 }
 

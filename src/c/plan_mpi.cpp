@@ -51,16 +51,11 @@ int rrcb_transfer(rrcb_balancer* balancer, size_t num_columns, const rrcb_column
                   const rrcb_transfer_limits* limits, rrcb_transfer_report* report) {
     return guarded(balancer, [&](auto& own) {
         Participant self{duplicate_of(own.comm)};
-        std::vector<rrcb::detail::ByteColumn> moved;
-        self.attempt([&] {
-            rrcb::c::require_plan(own);
-            moved = rrcb::c::columns_of(rrcb::c::given_columns(columns, num_columns),
-                                        own.plan->num_points);
-        });
+        self.attempt([&] { rrcb::c::require_plan(own); });
         const rrcb::Plan none;
-        rrcb::TransferReport made;
-        rrcb::move(own.plan ? *own.plan : none, moved, rrcb::c::limits_of(limits), &made, self);
-        rrcb::c::store(made, report);
+        const rrcb::Plan& plan = own.plan ? *own.plan : none;
+        const rrcb::c::ColumnCall call{num_columns, columns, limits, report};
+        call.move_by(plan, plan.num_points, self);
     });
 }
 

@@ -96,12 +96,6 @@ void refuse_types(std::span<const ByteColumn> columns, Participant& self) {
     agree(self);
 }
 
-LocalIndex total(std::span<const RankCount> counts) {
-    LocalIndex sum = 0;
-    for (const RankCount& share : counts) sum += share.count;
-    return sum;
-}
-
 /// Compares the counts that the ranks send, `sent`, with those that this one expects of them.
 void check_agreement(std::span<const RankCount> expected, std::span<const RankCount> sent) {
     const auto differ = std::ranges::mismatch(expected, sent, [](const auto& a, const auto& b) {
@@ -187,6 +181,12 @@ void run(Stream& stream, const Delivery& delivery, std::span<const Lane> lanes, 
 }
 
 }  // namespace
+
+LocalIndex total(std::span<const RankCount> counts) {
+    LocalIndex sum = 0;
+    for (const RankCount& share : counts) sum += share.count;
+    return sum;
+}
 
 void check_column(const ByteColumn& column, LocalIndex count, const std::string& entries) {
     const bool fits = column.components == 0 ? column.num_values == 0

@@ -20,6 +20,26 @@ struct Delivery {
     std::vector<RankCount> from{};
 };
 
+/// Memory for the result of a column whose type is not known.
+struct ByteResult {
+    std::size_t value_bytes;
+    std::vector<std::byte> bytes{};
+
+    /// Returns the column with this as its result.
+    detail::ByteColumn result_of(detail::ByteColumn column) {
+        column.result = this;
+        column.resize = [](void* result, std::size_t num_values) {
+            auto& values = *static_cast<ByteResult*>(result);
+            values.bytes.resize(num_values * values.value_bytes);
+            return values.bytes.data();
+        };
+        return column;
+    }
+};
+
+/// Returns the number of points to or from all ranks.
+LocalIndex total(std::span<const RankCount> counts);
+
 /// Throws Error unless ranks ascend and are below `num_ranks`, and counts add up to `total`.
 void check_counts(std::span<const RankCount> counts, LocalIndex total, int num_ranks);
 

@@ -17,8 +17,7 @@ using detail::ByteColumn;
 /// Throws Error unless the plan is consistent; returns the number of ghosts.
 LocalIndex check(const GhostPlan& plan, int num_ranks) {
     check_counts(plan.send, plan.send_indices.size(), num_ranks);
-    LocalIndex num_ghosts = 0;
-    for (const RankCount& share : plan.receive) num_ghosts += share.count;
+    const LocalIndex num_ghosts = total(plan.receive);
     check_counts(plan.receive, num_ghosts, num_ranks);
     require(
         std::ranges::all_of(plan.send_indices, [&](LocalIndex i) { return i < plan.num_points; }),
@@ -35,25 +34,8 @@ LocalIndex check(const Groups& groups, int num_ranks) {
     return num_elsewhere;
 }
 
-/// Values of a column of all groups that this rank knows.
-struct GroupValues {
-    std::size_t value_bytes;
-    std::vector<std::byte> bytes{};
-
-    /// Returns the column with this as its result.
-    ByteColumn result_of(ByteColumn column) {
-        column.result = this;
-        column.resize = [](void* result, std::size_t num_values) {
-            auto& values = *static_cast<GroupValues*>(result);
-            values.bytes.resize(num_values * values.value_bytes);
-            return values.bytes.data();
-        };
-        return column;
-    }
-};
-
 /// Copies the value of the group of each point.
-void spread(const Groups& groups, const GroupValues& values, std::size_t point_bytes,
+void spread(const Groups& groups, const ByteResult& values, std::size_t point_bytes,
             std::byte* to) {
     for (const LocalIndex group : groups.of_points) {
         std::copy_n(&values.bytes[group * point_bytes], point_bytes, to);
@@ -109,7 +91,7 @@ void move(const Groups& groups, std::span<const ByteColumn> columns, const Trans
     const LocalIndex num_groups = groups.plan.num_points;
     Delivery delivery{
         .num_points = num_groups, .num_kept = num_groups, .sent = groups.plan.send_indices};
-    std::vector<GroupValues> values;
+    std::vector<ByteResult> values;
     std::vector<ByteColumn> of_groups;
     std::vector<std::byte*> results;
     self.attempt([&] {

@@ -3,6 +3,7 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "collective/mix.hpp"
 #include "lists/group_numbers_mpi.hpp"
 #include "options/rejection.hpp"
 
@@ -216,11 +217,9 @@ void check_parts(std::span<const Part> parts, const PreviousParts& previous,
 
 std::uint64_t hash_of(std::span<const RankRange> ranks_of_parts) {
     std::uint64_t hash = ranks_of_parts.size();
-    for (const RankRange& ranks : ranks_of_parts) {
+    for (const RankRange& ranks : ranks_of_parts)
         for (const int number : {ranks.first_rank, ranks.count})
-            hash = (hash ^ static_cast<std::uint64_t>(number)) * 0x9e3779b97f4a7c15u;
-        hash ^= hash >> 32;
-    }
+            hash = mix(hash ^ static_cast<std::uint64_t>(number));
     return hash;
 }
 

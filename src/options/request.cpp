@@ -1,5 +1,7 @@
 #include "options/request.hpp"
 
+#include "collective/mix.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -19,21 +21,10 @@ std::uint64_t bits_of(int value) {
     return static_cast<std::uint64_t>(value);
 }
 
-/// Hash of numbers that are added one by one.
-class Hash {
-  public:
-    explicit Hash(std::size_t count) : hash_(count) {}
-
-    void add(double value) {
-        hash_ = (hash_ ^ bits_of(value)) * 0x9e3779b97f4a7c15u;
-        hash_ ^= hash_ >> 32;
-    }
-
-    std::uint64_t value() const { return hash_; }
-
-  private:
-    std::uint64_t hash_;
-};
+/// Adds a number to a hash.
+void add(double value, std::uint64_t& hash) {
+    hash = mix(hash ^ bits_of(value));
+}
 
 }  // namespace
 
@@ -52,9 +43,9 @@ std::uint64_t arithmetic_in_use() {
 }
 
 std::uint64_t hash_of(std::span<const double> values) {
-    Hash hash(values.size());
-    for (const double value : values) hash.add(value);
-    return hash.value();
+    std::uint64_t hash = values.size();
+    for (const double value : values) add(value, hash);
+    return hash;
 }
 
 std::uint64_t bits_of(const Option& option, const Options& options) {
@@ -75,15 +66,15 @@ std::uint64_t bits_of(const Cuts& cuts) {
         return hash_of(std::array{-1.0, 1.0 * cuts.num_parts, 1.0 * cuts.dimension,
                                   1.0 * cuts.shape.group_size, 1.0 * cuts.shape.larger_below,
                                   1.0 * cuts.shape.dealt});
-    Hash hash((1 + max_dimension) * cuts.tree.size());
-    hash.add(cuts.shape.group_size);
-    hash.add(cuts.shape.larger_below);
-    hash.add(cuts.shape.dealt);
+    std::uint64_t hash = (1 + max_dimension) * cuts.tree.size();
+    add(cuts.shape.group_size, hash);
+    add(cuts.shape.larger_below, hash);
+    add(cuts.shape.dealt, hash);
     for (const Cut& cut : cuts.tree) {
-        hash.add(cut.axis);
-        for (const double x : cut.at) hash.add(x);
+        add(cut.axis, hash);
+        for (const double x : cut.at) add(x, hash);
     }
-    return hash.value();
+    return hash;
 }
 
 std::vector<double> values_of_part_sizes(const Options& options) {

@@ -48,6 +48,11 @@ def pictures_of(text):
     return re.findall(r"!\[[^\]]*\]\(([^)]+)\)", text)
 
 
+def without_sources(text):
+    """Links to files of the source that are no pages become text."""
+    return re.sub(r"(?<!!)\[([^\]]+)\]\((?!\w+:|#|[^)]*\.md[#)])[^)]+\)", r"\1", text)
+
+
 def gather(folder):
     for name in ["README", *(page for pages in MENU.values() for page in pages)]:
         source = ROOT / f"{name}.md"
@@ -55,7 +60,7 @@ def gather(folder):
             continue
         target = folder / f"{name}.md"
         target.parent.mkdir(parents=True, exist_ok=True)
-        text = source.read_text()
+        text = without_sources(source.read_text())
         target.write_text(text + menu() if name == "README" else text)
         for picture in pictures_of(text):
             place = target.parent / picture

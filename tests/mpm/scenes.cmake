@@ -17,13 +17,17 @@ rrcb_add_test(NAME mpm_reference_test SOURCES analytic/reference_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 2 LABELS mpm)
 rrcb_add_test(NAME mpm_time_step_test SOURCES analytic/time_step_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
+rrcb_add_test(NAME mpm_variations_test SOURCES analytic/variations_test.cpp
+              LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
+rrcb_add_test(NAME mpm_infinite_slope_test SOURCES analytic/infinite_slope_test.cpp
+              LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
 rrcb_add_test(NAME mpm_two_disks_test SOURCES analytic/two_disks_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
 rrcb_add_test(NAME mpm_dam_break_test SOURCES analytic/dam_break_test.cpp
               LIBRARIES mpm_test_support mpm_scene RANKS 1 LABELS mpm)
 rrcb_add_test(NAME mpm_work_columns_test SOURCES step/work_columns_test.cpp
               LIBRARIES mpm_test_support mpm_rrcb mpm_scene RANKS 1 2 4 LABELS mpm)
-foreach(test mpm_balancers_test mpm_work_columns_test mpm_scene_file_test mpm_reference_test mpm_soil_test
+foreach(test mpm_variations_test mpm_infinite_slope_test mpm_balancers_test mpm_work_columns_test mpm_scene_file_test mpm_reference_test mpm_soil_test
              mpm_two_disks_test mpm_dam_break_test mpm_anchor_test mpm_energy_test
              mpm_time_step_test mpm_state_test mpm_scene_reports_test)
   target_compile_definitions(${test}
@@ -155,7 +159,7 @@ mpm_add_scene(anchor_plate RANKS 4 BALANCER rrcb-exact CELL_SIZE 0.5 END_TIME 0.
               POINTS 3888)
 mpm_add_scene(axial_bar RANKS 2 BALANCER none CELL_SIZE 1 END_TIME 0.5 VTK_EVERY 40 POINTS 100)
 mpm_add_scene(granular_column RANKS 2 BALANCER zoltan-rcb CELL_SIZE 0.2 END_TIME 0.3 VTK_EVERY 40
-              POINTS 450)
+              POINTS 800)
 mpm_add_scene(vertical_cut RANKS 3 BALANCER rrcb CELL_SIZE 0.5 END_TIME 0.2 VTK_EVERY 40 POINTS 864)
 mpm_add_scene(two_disks RANKS 4 BALANCER rrcb CELL_SIZE 0.05 END_TIME 0.2 VTK_EVERY 40 POINTS 1624)
 mpm_add_scene(hydrostatic_column RANKS 2 BALANCER root-rcb CELL_SIZE 0.0125 END_TIME 0.02 VTK_EVERY 40

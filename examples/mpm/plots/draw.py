@@ -107,7 +107,7 @@ class Painter:
         axes.set_xlim(self.low[0], self.high[0])
         axes.set_ylim(self.low[1], self.high[1])
         key = self.view.backdrop(axes, Moment(self.scene, self.folder, frame.time))
-        side = 1.3 * POINTS_PER_INCH * inches_per_metre * frame.spacing
+        side = self.view.marker * POINTS_PER_INCH * inches_per_metre * frame.spacing
         self.shown = axes.scatter(
             *frame.position.T,
             c=frame.value,

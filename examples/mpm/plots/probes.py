@@ -1,13 +1,13 @@
-"""Draws displacement, stress and strain of a run's probes over time: probes.py FOLDER PICTURE
+"""Draws way and stress of a run's probes over time, a line for each: probes.py FOLDER PICTURE
 
-FOLDER has the probes.csv of rrcb_mpm. Components that stay 0, but for
-round-off, are left out."""
+FOLDER has the probes.csv of rrcb_mpm."""
 
 from __future__ import annotations
 
 import csv
 import sys
 from collections import defaultdict
+from collections.abc import Callable
 from pathlib import Path
 
 import matplotlib
@@ -17,13 +17,14 @@ matplotlib.use("Agg")
 import numpy as np  # noqa: E402
 from matplotlib import pyplot as plt  # noqa: E402
 
-PANELS = [
-    ("displacement", "displacement, m", ["x", "y", "z"]),
-    ("stress", "stress, Pa (tension positive)", ["xx", "yy", "zz", "xy", "yz", "zx"]),
-    ("strain", "strain", ["xx", "yy", "zz", "xy", "yz", "zx"]),
+PANELS: list[tuple[str, Callable]] = [
+    ("way, m", lambda probe: np.hypot(probe["displacement_x"], probe["displacement_y"])),
+    ("vertical stress, kPa\n(tension positive)", lambda probe: probe["stress_yy"] / 1e3),
+    (
+        "mean stress, kPa\n(tension positive)",
+        lambda probe: sum(probe[f"stress_{axis}"] for axis in ("xx", "yy", "zz")) / 3e3,
+    ),
 ]
-ROUND_OFF = 1e-9
-STYLES = ["-", "--", ":", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 3))]
 
 
 def read_probes(path: Path) -> dict[str, dict[str, np.ndarray]]:
@@ -42,29 +43,13 @@ def read_probes(path: Path) -> dict[str, dict[str, np.ndarray]]:
 
 def draw(folder: Path, picture: Path) -> None:
     probes = read_probes(folder / "probes.csv")
-    figure, panels = plt.subplots(3, 1, figsize=(7, 8), sharex=True, layout="constrained")
-    for axes, (prefix, label, components) in zip(panels, PANELS):
-        largest = max(
-            np.abs(columns[f"{prefix}_{component}"]).max()
-            for columns in probes.values()
-            for component in components
-        )
-        for number, (name, columns) in enumerate(probes.items()):
-            for style, component in zip(STYLES, components):
-                values = columns[f"{prefix}_{component}"]
-                if np.abs(values).max() > ROUND_OFF * largest:
-                    axes.plot(
-                        columns["time"],
-                        values,
-                        color=f"C{number}",
-                        ls=style,
-                        lw=1,
-                        label=f"{name}, {component}",
-                    )
+    figure, panels = plt.subplots(3, 1, figsize=(7, 6.5), sharex=True, layout="constrained")
+    for axes, (label, value) in zip(panels, PANELS):
+        for name, columns in probes.items():
+            axes.plot(columns["time"], value(columns), lw=1, label=name.replace("_", " "))
         axes.set_ylabel(label)
         axes.grid(lw=0.3)
-        if axes.get_legend_handles_labels()[0]:
-            axes.legend(fontsize=7, ncols=2)
+    panels[0].legend(fontsize=8, ncols=len(probes))
     panels[-1].set_xlabel("time, s")
     panels[-1].set_xlim(left=0)
     figure.savefig(picture, dpi=150, metadata={"Software": None})

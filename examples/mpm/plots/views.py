@@ -35,6 +35,7 @@ class View:
     is_mirrored: bool = False  # a quarter or a half, shown with its image
     shows_start: bool = False  # the surface at the start, as a line
     space: float = 0  # above the points, m
+    marker: float = 1.3  # side of a point's square, by the spacing at the start
     backdrop: Callable[[Axes, Moment], list[Patch | Line2D]] = lambda axes, moment: []
 
 
@@ -107,5 +108,6 @@ VIEWS = {
     ),
     "elastic_structure": View(backdrop=clamped_feet),
     "anchor_plate": View(space=4.2, backdrop=anchor),
-    "incline_block": View(backdrop=ground),
+    # Shear draws the rows of points apart: squares of 2.2 spacings fill a layer as dense as at first.
+    "granular_column": View(marker=2.2),
 }

@@ -37,7 +37,8 @@ Scene slope_scene(int cells_across) {
                         {"tension_cut_off", 27.48e3}}}},
         .bodies = {soil},
         .walls = {.left = Wall::roller, .right = Wall::roller, .bottom = Wall::fixed},
-        .effects = {{"gravity", {{"acceleration", std::vector<double>{0, -9.81}}, {"ramp", 1.0}}}},
+        .effects = {{"gravity", {{"acceleration", std::vector<double>{0, -9.81}}, {"ramp", 1.0}}},
+                    {"locking_cure", {}}},
         .end_time = 8};
 }
 

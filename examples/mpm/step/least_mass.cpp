@@ -13,16 +13,24 @@ double layers_of(const Body& body, int dimension) {
     return *std::min_element(per_cell.begin(), per_cell.begin() + dimension);
 }
 
+/// Whether slopes vanish at the rim as values do: those of quadratic functions, except under a cure
+/// of locking, which replaces them by those of a centre.
+bool vanish_at_the_rim(const Scene& scene) {
+    return scene.shape_function == ShapeFunction::quadratic &&
+           std::ranges::none_of(scene.effects, [](const Effect& effect) {
+               return effect.name == "locking_cure" || effect.kind == "locking_cure";
+           });
+}
+
 /// Scene::least_node_mass, or the least share that keeps layers of points stable.
 ///
-/// On linear functions a node that only the rim of a layer touches is as stiff as a full one, but
-/// light. In units of cell and wave speed, its frequency squared is 1 / (layers * share of mass).
-/// The frequency must stay near 1 per time step beside heavier neighbours and at a corner. The
-/// slopes of quadratic functions vanish at the rim as their values do, so that they need no share.
+/// A node that only the rim of a layer touches is as stiff as a full one, but light, unless slopes
+/// vanish there. In units of cell and wave speed, its frequency squared is 1 / (layers * share of
+/// mass). The frequency must stay near 1 per time step beside heavier neighbours and at a corner.
 double least_share(const Scene& scene, const Body& body) {
     constexpr double least = 0.01;
     if (scene.least_node_mass > 0) return scene.least_node_mass;
-    if (scene.shape_function == ShapeFunction::quadratic) return 0;
+    if (vanish_at_the_rim(scene)) return 0;
     const double courant_number = scene.courant_number;
     return std::max(least, courant_number * courant_number / layers_of(body, scene.dimension));
 }

@@ -34,6 +34,8 @@ TEST(TwoDisks, meet_when_they_touch_and_keep_momentum_and_energy) {
     const Totals end = simulation.totals();
     // Update stress last loses some energy (Bardenhagen 2002), of which there is an account above.
     EXPECT_NEAR(end.kinetic_energy + end.strain_energy, initial, 0.02 * initial);
+    // What the disks keep in vibrations is less in finer cells: after the impact 0.86, 0.89 and
+    // 0.92 of the kinetic energy are left in cells of 0.1, 0.05 and 0.025.
     EXPECT_GT(end.kinetic_energy, 0.8 * initial);
 }
 

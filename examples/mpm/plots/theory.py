@@ -1,0 +1,118 @@
+"""Draws a run beside its theory: theory.py FOLDER PICTURE SCENE
+
+FOLDER has history.csv and the VTK files of rrcb_mpm; SCENE is the scene file, whose name is a key of
+DRAWINGS."""
+
+from __future__ import annotations
+
+import csv
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import numpy as np  # noqa: E402
+from matplotlib import pyplot as plt  # noqa: E402
+from matplotlib.axes import Axes  # noqa: E402
+
+from scene_text import list_in, number_in  # noqa: E402
+from vtk_files import frames_of, points_of  # noqa: E402
+
+G = 9.81
+
+
+def history_of(folder: Path) -> dict[str, np.ndarray]:
+    with (folder / "history.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {
+        name: np.array([float(row[name]) for row in rows])
+        for name in ("time", "center_x", "center_y")
+    }
+
+
+def compare(axes: Axes, at: np.ndarray, got: np.ndarray, theory: np.ndarray, name: str) -> None:
+    """Points of a run on a line of theory, with their largest difference by the line's range in the key."""
+    order = np.argsort(at)
+    line = axes.plot(at[order], theory[order], lw=1, label=f"{name}, theory")[0]
+    difference = np.abs(got - theory).max() / np.ptp(theory)
+    shown = order[:: max(1, order.size // 400)]
+    axes.plot(
+        at[shown], got[shown], ".", ms=3, color=line.get_color(),
+        label=f"{name}, within {100 * difference:.2g} % of the range",
+    )  # fmt: skip
+
+
+def hydrostatic_column(axes: Axes, folder: Path, scene: str) -> None:
+    points = points_of(frames_of(folder, "points")[-1][1])
+    y = points["position"][:, 1]
+    depth = list_in(scene, "upper")[1] - y
+    weight = number_in(scene, "density") * G / 1e3
+    compare(axes, depth, points["stress_yy"] / 1e3, -weight * depth, "vertical")
+    axes.plot(depth, points["stress_xx"] / 1e3, ".", ms=3, color="C1", label="horizontal")
+    axes.axhline(0, lw=1, color="C1", label="horizontal, theory")
+    axes.set(xlabel="depth, m", ylabel="stress, kPa (tension positive)")
+
+
+def axial_bar(axes: Axes, folder: Path, scene: str) -> None:
+    modulus, density = number_in(scene, "youngs_modulus"), number_in(scene, "density")
+    speed, wave_number = list_in(scene, "sine_amplitude")[0], list_in(scene, "sine_wave_number")[0]
+    wave_speed = np.sqrt(modulus / density)
+    frames = frames_of(folder, "points")
+    for share in (0.25, 0.75):
+        wanted = share * 2 * np.pi / (wave_number * wave_speed)
+        time, file = min(frames, key=lambda frame: abs(frame[0] - wanted))
+        points = points_of(file)
+        start = points["position"][:, 0] - points["displacement"][:, 0]
+        phase = np.sin(wave_number * wave_speed * time)
+        theory = modulus * speed / wave_speed * np.cos(wave_number * start) * phase
+        compare(axes, start, points["stress_xx"], theory, f"{time:.3g} s")
+    axes.set(xlabel="x at the start, m", ylabel="stress, Pa (tension positive)")
+
+
+def falling_body(axes: Axes, folder: Path, scene: str) -> None:
+    density, water = number_in(scene, "density"), number_in(scene, "water_density")
+    terminal = np.sqrt(2 * (density - water) * G / (water * number_in(scene, "drag_coefficient")))
+    tau = density * terminal / ((density - water) * G)
+    history = history_of(folder)
+    time, y = history["time"], history["center_y"]
+    compare(axes, time, y, y[0] - terminal * tau * np.log(np.cosh(time / tau)), "centre")
+    axes.set(xlabel="time, s", ylabel="height, m")
+
+
+def incline_block(axes: Axes, folder: Path, scene: str) -> None:
+    sine, cosine = list_in(scene, "normal")
+    pull = G * (sine - number_in(scene, "friction") * cosine)
+    ramp = number_in(scene, "ramp")
+    history = history_of(folder)
+    time = history["time"]
+    way = (history["center_x"] - history["center_x"][0]) * cosine
+    way -= (history["center_y"] - history["center_y"][0]) * sine
+    late = np.maximum(time, ramp)
+    theory = pull * np.where(
+        time < ramp, time**3 / (6 * ramp), late**2 / 2 - ramp * late / 2 + ramp**2 / 6
+    )
+    compare(axes, time, way, theory, "way along the plane")
+    axes.set(xlabel="time, s", ylabel="way, m")
+
+
+DRAWINGS = {
+    drawing.__name__: drawing
+    for drawing in (hydrostatic_column, axial_bar, falling_body, incline_block)
+}
+
+
+def draw(folder: Path, picture: Path, scene_file: Path) -> None:
+    figure, axes = plt.subplots(figsize=(6, 3.6), layout="constrained")
+    DRAWINGS[scene_file.stem](axes, folder, scene_file.read_text())
+    axes.grid(lw=0.3)
+    axes.legend(fontsize=8)
+    figure.savefig(picture, dpi=150, metadata={"Software": None})
+    plt.close(figure)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 4:
+        sys.exit("theory.py FOLDER PICTURE SCENE")
+    draw(*(Path(word) for word in sys.argv[1:]))

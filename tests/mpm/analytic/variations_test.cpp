@@ -1,0 +1,146 @@
+// Reference problems at two stiffnesses, time steps and cell sizes.
+#include "variations.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <tuple>
+
+namespace mpm::test {
+namespace {
+
+constexpr double g = 9.81, pi = std::numbers::pi;
+
+double number_of(const Scene& scene, const std::string& name) {
+    return std::get<double>(scene.materials.front().parameters.at(name));
+}
+
+/// A result and its theory differ by no more than `bound`.
+struct Outcome {
+    double difference, bound;
+};
+
+// Points cross cells where these are finer: with linear functions the error is then 8 %.
+Outcome axial_bar_outcome(const Variation& varied) {
+    Scene scene = shipped("axial_bar", varied);
+    scene.shape_function = ShapeFunction::quadratic;
+    const double amplitude = 0.1 * 2 / pi, speed = std::sqrt(number_of(scene, "youngs_modulus"));
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    double square = 0;
+    while (simulation.time() < 10) {
+        simulation.step();
+        const Totals now = simulation.totals();
+        const double expected = amplitude * std::cos(pi / 50 * speed * simulation.time());
+        square += std::pow(now.momentum[0] / now.mass - expected, 2);
+    }
+    return {std::sqrt(square / static_cast<double>(simulation.step_count())) / amplitude, 0.01};
+}
+
+// The points of a cell of linear functions share the stress of its middle, a quarter of a cell off;
+// the strain rho g H / E changes the depths.
+Outcome hydrostatic_column_outcome(const Variation& varied) {
+    Scene scene = shipped("hydrostatic_column", varied);
+    std::get<double>((*find_effect(scene, "damping"))["rate"]) *= std::sqrt(varied.modulus);
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    while (simulation.time() < 0.1) simulation.step();
+    constexpr double height = 0.1;
+    const double weight = number_of(scene, "density") * g;
+    const auto y = simulation.particles()["y"], stress = simulation.particles()["stress_yy"];
+    const double surface = *std::ranges::max_element(y) + scene.grid.spacing / 4;
+    double worst = 0;
+    for (std::size_t p = 0; p < y.size(); ++p)
+        worst = std::max(worst, std::abs(stress[p] + weight * (surface - y[p])));
+    return {worst / (weight * height),
+            scene.grid.spacing / (4 * height) +
+                1.5 * weight * height / number_of(scene, "youngs_modulus")};
+}
+
+// With gravity growing until T the way is a (t^2 / 2 - T t / 2 + T^2 / 6).
+Outcome incline_block_outcome(const Variation& varied) {
+    constexpr double angle = 24 * pi / 180, ramp = 1, t = 5;
+    const double pull = g * (std::sin(angle) - std::tan(pi / 12) * std::cos(angle));
+    const double expected = pull * (t * t - ramp * t + ramp * ramp / 3) / 2;
+    Simulation simulation(shipped("incline_block", varied), MPI_COMM_WORLD);
+    const Totals start = simulation.totals();
+    while (simulation.time() < t) simulation.step();
+    const Totals end = simulation.totals();
+    const double way = (end.center[0] - start.center[0]) * std::cos(angle) -
+                       (end.center[1] - start.center[1]) * std::sin(angle);
+    return {std::abs(way / expected - 1), 0.01};
+}
+
+// m v' = W' - rho_w Cd A v^2 / 2: v_t tanh(t / tau), v_t = sqrt(2 W' / (rho_w Cd A)).
+Outcome falling_body_outcome(const Variation& varied) {
+    Simulation simulation(shipped("falling_body", varied), MPI_COMM_WORLD);
+    const double weight = 1000 * g, terminal = std::sqrt(2 * weight / 1000);
+    const double tau = 2000 * terminal / weight;
+    double worst = 0;
+    while (simulation.time() < 2) {
+        simulation.step();
+        const Totals now = simulation.totals();
+        worst = std::max(worst, std::abs(now.momentum[1] / now.mass +
+                                         terminal * std::tanh(simulation.time() / tau)));
+    }
+    return {worst / terminal, 0.02};
+}
+
+/// Largest displacement of a cut of 2 m whose weight * height is that many times its strength, by
+/// what it settles elastically.
+double slip_of_cut(const Variation& varied, double number) {
+    constexpr double density = 1800, height = 2;
+    Scene scene = shipped("vertical_cut", varied);
+    scene.materials.front().parameters["strength"] = density * g * height / number;
+    Simulation simulation(scene, MPI_COMM_WORLD);
+    while (simulation.time() < 2.5) simulation.step();
+    const std::vector<double> ways = displacements_along(simulation, 0);
+    return *std::ranges::max_element(ways) * number_of(scene, "youngs_modulus") /
+           (density * g * height * height);
+}
+
+// It stands while weight * height / strength is below 3.77 and fails above 3.83.
+Outcome standing_cut_outcome(const Variation& varied) {
+    return {slip_of_cut(varied, 3.7), 1.5};
+}
+
+Outcome failing_cut_outcome(const Variation& varied) {
+    return {varied.modulus / slip_of_cut(varied, 4.5), 1.0 / 6};
+}
+
+struct Problem {
+    std::string name;
+    Outcome (*outcome)(const Variation& varied);
+};
+
+void PrintTo(const Problem& problem, std::ostream* out) {
+    *out << problem.name;
+}
+
+std::string name_of(const testing::TestParamInfo<std::tuple<Problem, Variation>>& info) {
+    const auto& [problem, varied] = info.param;
+    if (varied.modulus != 1) return problem.name + "_stiff";
+    if (varied.courant_number != 1) return problem.name + "_short_steps";
+    return problem.name + (varied.cell_size != 1 ? "_fine" : "");
+}
+
+class Varied : public testing::TestWithParam<std::tuple<Problem, Variation>> {};
+
+TEST_P(Varied, agrees_with_theory) {
+    const auto& [problem, variation] = GetParam();
+    const Outcome outcome = problem.outcome(variation);
+    RecordProperty("difference", std::to_string(outcome.difference));
+    EXPECT_LT(outcome.difference, outcome.bound);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Problems, Varied,
+    testing::Combine(testing::Values(Problem{"axial_bar", axial_bar_outcome},
+                                     Problem{"hydrostatic_column", hydrostatic_column_outcome},
+                                     Problem{"incline_block", incline_block_outcome},
+                                     Problem{"falling_body", falling_body_outcome},
+                                     Problem{"standing_cut", standing_cut_outcome},
+                                     Problem{"failing_cut", failing_cut_outcome}),
+                     testing::ValuesIn(variations)),
+    name_of);
+
+}  // namespace
+}  // namespace mpm::test

@@ -49,8 +49,14 @@ void check_parts(std::span<const Part> parts, int num_parts) {
 void list_exports(std::span<const Part> parts, int num_parts, MPI_Comm comm, Plan& plan) {
     const int rank = mpi::rank_of(comm);
     const int num_ranks = mpi::size_of(comm);
+    // Neighbours in the list mostly have one part, whose ranks take divisions to find.
+    Part part = -1;
+    int destination = rank;
     for (LocalIndex i = 0; i < parts.size(); ++i) {
-        const int destination = destination_of(parts[i], num_parts, rank, num_ranks);
+        if (parts[i] != part) {
+            part = parts[i];
+            destination = destination_of(part, num_parts, rank, num_ranks);
+        }
         if (destination == rank) continue;
         plan.export_indices.push_back(i);
         plan.export_ranks.push_back(destination);

@@ -1,15 +1,15 @@
 # cmake -D SOURCE=main.cpp -P check_output.cmake -- command ...
 #
 # Fails unless the command ends with 0 and prints what the comment at the end of SOURCE says: the
-# lines after the one that reads "// Output ...:", or "! Output ...:" in Fortran.
-file(STRINGS ${SOURCE} lines REGEX "^(//|!)")
+# lines after the one that reads "// Output ...:", "! Output ...:" in Fortran or "# Output ...:" in Python.
+file(STRINGS ${SOURCE} lines REGEX "^(//|!|#)")
 set(expected "")
 set(inside FALSE)
 foreach(line IN LISTS lines)
   if(inside)
-    string(REGEX REPLACE "^(//|!) *" "" line "${line}")
+    string(REGEX REPLACE "^(//|!|#) *" "" line "${line}")
     string(APPEND expected "${line}\n")
-  elseif(line MATCHES "^(//|!) Output .*:$")
+  elseif(line MATCHES "^(//|!|#) Output .*:$")
     set(inside TRUE)
   endif()
 endforeach()

@@ -13,7 +13,7 @@ from pathlib import Path
 
 # What stands for names in messages.
 PLACE = re.compile(r"\b(?:[A-Z]|[A-Z]{4,})\b")
-FOLDERS = ("benchmarks", "cmake", "comparisons", "docs", "examples", "include", "packaging", "src",
+FOLDERS = ("benchmarks", "cmake", "comparisons", "docs", "examples", "include", "packaging", "python", "src",
            "tests", "tools")
 # Made by a run.
 MADE = ("comparisons/out", "examples/mpm/out")

@@ -1,0 +1,42 @@
+"""A cloud of points, divided and drawn.
+
+    mpirun -n 4 python3 examples/python/quick_start.py [parts.png]
+"""
+import sys
+
+import numpy as np
+from mpi4py import MPI
+
+import rrcb
+
+comm = MPI.COMM_WORLD
+
+# Points crowd at the origin. Each rank has 10,000 at random positions.
+rng = np.random.default_rng(comm.rank)
+x = rng.random((10_000, 2)) ** 2
+mass = rng.random(len(x))
+
+balance = rrcb.balance(x, weights=mass, comm=comm, tolerance=1.01)
+here = balance.distribute({"x": x, "mass": mass})
+
+# Copies of the points of other ranks within 0.02.
+ghosts = balance.ghosts(here["x"], radius=0.02)
+near = ghosts.fetch(here)
+
+loads = comm.allgather(here["mass"].sum())
+copies = comm.allgather(len(near["x"]))
+if comm.rank == 0:
+    print(f"imbalance {max(loads) * comm.size / sum(loads):.4f}")
+    print(f"the report has {balance.report.imbalance:.4f}")
+    print(f"ghosts on each rank: {copies}")
+
+# A picture of the parts, with a tenth of the points.
+drawn = comm.gather(here["x"][::10])
+if drawn is not None and len(sys.argv) > 1:
+    import matplotlib
+
+    matplotlib.use("Agg")
+    ax = balance.cuts.plot(within=([0, 0], [1, 1]))
+    for points in drawn:
+        ax.plot(*points.T, ".", markersize=1)
+    ax.figure.savefig(sys.argv[1], dpi=150)

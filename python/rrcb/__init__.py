@@ -1,0 +1,36 @@
+"""Parallel load balancing of particles by reduced recursive coordinate bisection.
+
+    balance = rrcb.balance(x, comm=comm)
+    data = balance.distribute({"x": x, "mass": mass})
+    ghosts = balance.ghosts(data["x"], radius=0.1)
+    x_of_ghosts = ghosts.fetch_positions(data["x"])
+
+The calls are collective over the communicator, and raise rrcb.Error on every rank alike.
+"""
+
+from . import _library
+from ._balance import Balance, Distribution, Report, assign, balance
+from ._controller import Controller, CostModel
+from ._cuts import Cuts
+from ._ghosts import Ghosts
+from ._library import Error
+
+__all__ = [
+    "Balance",
+    "Controller",
+    "CostModel",
+    "Cuts",
+    "Distribution",
+    "Error",
+    "Ghosts",
+    "Report",
+    "assign",
+    "balance",
+    "build_info",
+]
+__version__: str = _library.text(_library.library.rrcb_version())
+
+
+def build_info() -> str:
+    """Returns version, commit, compiler and MPI of the library."""
+    return _library.text(_library.library.rrcb_build_info())

@@ -1,0 +1,71 @@
+"""Errors of one rank, raised on all."""
+
+from __future__ import annotations
+
+import zlib
+from typing import Callable, TypeVar
+
+import numpy as np
+from mpi4py import MPI
+
+from ._library import Error
+
+T = TypeVar("T")
+
+
+def communicator(comm: MPI.Comm | None) -> MPI.Intracomm:
+    """Returns the communicator of a call. Raises Error for one that cannot be used."""
+    chosen = MPI.COMM_WORLD if comm is None else comm
+    if not isinstance(chosen, MPI.Comm):
+        raise Error(f"comm must be a communicator of mpi4py, not {type(chosen).__name__}")
+    if chosen == MPI.COMM_NULL:
+        raise Error("comm is MPI.COMM_NULL: call this only on the ranks of a communicator")
+    if not isinstance(chosen, MPI.Intracomm) or chosen.Is_inter():
+        raise Error("comm is an intercommunicator: call Merge() and pass its result")
+    return chosen
+
+
+def prepare(
+    comm: MPI.Intracomm, local: Callable[[], T], signature: Callable[[T], str] | None = None
+) -> T:
+    """Returns local(). Raises Error on every rank if it fails on one, or signatures differ.
+
+    Collective: one reduction of three integers.
+    """
+    failure: Exception | None = None
+    number = 0
+    try:
+        made = local()
+        if signature is not None:
+            number = zlib.crc32(signature(made).encode())
+    except Exception as error:  # Whatever fails here must not leave the other ranks alone.
+        failure = error
+    size = comm.Get_size()
+    failed = 0 if failure is None else size - comm.Get_rank()
+    here = np.array([failed, number, -number], dtype=np.int64)
+    found = np.empty_like(here)
+    comm.Allreduce(here, found, op=MPI.MAX)
+    if found[0] > 0:
+        raise_together(comm, size - int(found[0]), failure)
+    if signature is not None and found[1] != -found[2]:
+        mine = signature(made)
+        root = comm.bcast(mine, root=0)
+        differs = comm.allgather(mine != root).index(True)
+        theirs = comm.bcast(mine, root=differs)
+        raise Error(f"give the same on every rank: rank 0 has {root}, rank {differs} has {theirs}")
+    return made
+
+
+def raise_together(comm: MPI.Intracomm, rank: int, failure: Exception | None) -> None:
+    """Raises the Error of a rank on every rank. Collective."""
+    text, kind = comm.bcast(describe(failure) if comm.Get_rank() == rank else None, root=rank)
+    where = f"rank {rank}: " if comm.Get_size() > 1 else ""
+    raise Error(where + text, kind) from failure
+
+
+def describe(failure: Exception | None) -> tuple[str, str]:
+    """Returns the text and the kind of a failure."""
+    if isinstance(failure, Error):
+        return str(failure), failure.kind
+    kind = "out of memory" if isinstance(failure, MemoryError) else "invalid argument"
+    return f"{type(failure).__name__}: {failure}", kind

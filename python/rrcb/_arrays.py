@@ -1,0 +1,186 @@
+"""Points and columns of numpy as the library takes them."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Mapping
+from typing import Any, Callable, Sequence
+
+import numpy as np
+
+from . import _library as c
+
+Array = np.ndarray[Any, np.dtype[Any]]
+FLOATS = {np.dtype(np.float64): 4, np.dtype(np.float32): 3}
+NUMBERS = {np.dtype(np.int32): 1, np.dtype(np.int64): 2, **FLOATS}
+
+
+def pointer(values: Array) -> int | None:
+    """Returns the address of an array, None if it is empty."""
+    return values.ctypes.data if values.size else None
+
+
+def float_type(values: Array, name: str) -> int:
+    """Returns the rrcb_type of coordinates."""
+    if values.dtype not in FLOATS:
+        raise c.Error(f"{name} must be float64 or float32, not {values.dtype}: call .astype(float)")
+    return FLOATS[values.dtype]
+
+
+def axes_of(x: Any) -> list[Array]:
+    """Returns an array for each axis of points: (n, d), (n,) or a tuple of columns."""
+    if isinstance(x, tuple):
+        axes = [np.asarray(axis) for axis in x]
+        if not axes or any(axis.ndim != 1 or len(axis) != len(axes[0]) for axis in axes):
+            raise c.Error("a tuple of positions must contain 1-D arrays of one length")
+    else:
+        whole = np.asarray(x)
+        if whole.ndim == 1:
+            whole = whole[:, np.newaxis]
+        if whole.ndim != 2:
+            raise c.Error(f"positions must have the shape (n, d), not {whole.shape}")
+        axes = [whole[:, axis] for axis in range(whole.shape[1])]
+    if not 1 <= len(axes) <= 3:
+        raise c.Error(f"positions must have 1 to 3 axes, not {len(axes)}")
+    return axes
+
+
+def can_borrow(axes: list[Array], item: int) -> bool:
+    """Returns whether the library can read the axes in place."""
+    stride = axes[0].strides[0]
+    return stride >= item and all(
+        axis.strides[0] == stride and stride % item == 0 and axis.flags.aligned for axis in axes
+    )
+
+
+class Points:
+    """View of positions and weights, which it keeps alive."""
+
+    def __init__(self, x: Any, weights: Any = None) -> None:
+        axes = axes_of(x)
+        kind = float_type(axes[0], "positions")
+        if any(axis.dtype != axes[0].dtype for axis in axes):
+            raise c.Error("a tuple of positions must have one dtype")
+        item = axes[0].itemsize
+        self.count = len(axes[0])
+        if self.count and not can_borrow(axes, item):
+            axes = list(np.ascontiguousarray(np.stack(axes)))
+        weighed = None if weights is None else weights_of(weights, self.count)
+        self._kept = (axes, weighed)
+        addresses = [pointer(axis) for axis in axes] + [None] * (3 - len(axes))
+        self._as_parameter_ = ctypes.byref(
+            c.Points(
+                len(axes),
+                kind,
+                self.count,
+                axes[0].strides[0] if self.count else item,
+                (ctypes.c_void_p * 3)(*addresses),
+                None if weighed is None else pointer(weighed),
+            )
+        )
+        self.dimension = len(axes)
+
+
+def weights_of(weights: Any, count: int) -> Array:
+    """Returns weights as the library takes them."""
+    values = np.asarray(weights)
+    if values.dtype.kind not in "fiub":
+        raise c.Error(f"weights must be numbers, not {values.dtype}")
+    if values.shape != (count,):
+        raise c.Error(f"weights must have the shape ({count},), not {values.shape}")
+    return np.ascontiguousarray(values, dtype=np.float64)
+
+
+Build = Callable[[list[Array]], Any]
+
+
+def split(data: Any) -> tuple[list[tuple[str, Array]], Build]:
+    """Returns the named arrays of data, and a function that makes such data of other arrays."""
+    if isinstance(data, Mapping):
+        names = sorted(data, key=str)
+        order = list(data)
+
+        def to_dict(arrays: list[Array]) -> Any:
+            found = dict(zip(names, arrays))
+            return {name: found[name] for name in order}
+
+        return [(str(name), np.asarray(data[name])) for name in names], to_dict
+    if isinstance(data, tuple):
+        return [(str(k), np.asarray(values)) for k, values in enumerate(data)], tuple
+    if hasattr(data, "iloc") and hasattr(data, "columns"):
+        return split_frame(data)
+    return [("data", np.asarray(data))], lambda arrays: arrays[0]
+
+
+def split_frame(frame: Any) -> tuple[list[tuple[str, Array]], Build]:
+    """As split(), for a DataFrame; the index moves with the rows."""
+    columns = [(str(name), frame.iloc[:, k].to_numpy()) for k, name in enumerate(frame.columns)]
+    index = frame.index
+    values = index.to_numpy()
+    # An empty frame of pandas 1 has an index of objects.
+    no_type = len(index) == 0 and values.dtype.hasobject
+    columns.append(("index", values.astype(np.int64) if no_type else values))
+
+    def to_frame(arrays: list[Array]) -> Any:
+        from pandas import Index
+
+        rows = Index(arrays[-1], name=index.name)
+        made = type(frame)(dict(enumerate(arrays[:-1])), index=rows)
+        made.columns = frame.columns
+        return made
+
+    return columns, to_frame
+
+
+class Columns:
+    """Columns to send, and arrays for what arrives."""
+
+    def __init__(self, data: Any, rows: int, of: str) -> None:
+        named, self.build = split(data)
+        for name, values in named:
+            check_column(name, values, rows, of)
+        self.names = [name for name, _ in named]
+        self.arrays = [np.ascontiguousarray(values) for _, values in named]
+        self.rows = rows
+
+    def signature(self) -> str:
+        """Returns names, dtypes and trailing shapes, which must be the same on every rank."""
+        return str(
+            [
+                (name, values.dtype.descr, values.shape[1:])
+                for name, values in zip(self.names, self.arrays)
+            ]
+        )
+
+    def sent(self, rows_after: int) -> tuple[int, Any, list[Array]]:
+        """Returns the columns as bytes, and the arrays that receive them."""
+        results = [np.empty((rows_after, *a.shape[1:]), a.dtype) for a in self.arrays]
+        pairs = [
+            (a, r, a.itemsize * int(np.prod(a.shape[1:]))) for a, r in zip(self.arrays, results)
+        ]
+        return (*as_columns([(0, size, a, r) for a, r, size in pairs if size > 0]), results)
+
+    def added(self, rows_after: int) -> tuple[int, Any, list[Array]]:
+        """Returns the columns as numbers, and zeros to which they are added."""
+        results = [np.zeros((rows_after, *a.shape[1:]), a.dtype) for a in self.arrays]
+        pairs = [
+            (NUMBERS[a.dtype], int(np.prod(a.shape[1:])), a, r)
+            for a, r in zip(self.arrays, results)
+        ]
+        return (*as_columns([pair for pair in pairs if pair[1] > 0]), results)
+
+
+def check_column(name: str, values: Array, rows: int, of: str) -> None:
+    """Raises Error if a column cannot be sent."""
+    if values.dtype.hasobject or values.dtype.itemsize == 0:
+        raise c.Error(
+            f"column {name} has the dtype {values.dtype}; convert it to one of a fixed size"
+        )
+    if values.ndim == 0 or len(values) != rows:
+        raise c.Error(f"column {name} has the shape {values.shape}, but there are {rows} {of}")
+
+
+def as_columns(columns: Sequence[tuple[int, int, Array, Array]]) -> tuple[int, Any]:
+    """Returns the number of columns, and them as an array of rrcb_column."""
+    made = [c.Column(kind, size, pointer(a), pointer(r)) for kind, size, a, r in columns]
+    return len(made), (c.Column * len(made))(*made)

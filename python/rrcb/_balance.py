@@ -1,0 +1,184 @@
+"""Balancing, and moving data to the ranks of their parts."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any, Sequence
+
+import numpy as np
+from mpi4py import MPI
+
+from . import _library as c
+from ._agreement import communicator, prepare
+from ._arrays import Array, Columns, Points, pointer
+from ._cuts import Cuts, cuts_of
+from ._ghosts import Ghosts
+
+
+@dataclasses.dataclass(frozen=True, repr=False)
+class Report:
+    """Report of a balance, the same on every rank; printed as a table."""
+
+    imbalance: float  #: heaviest part / mean part
+    within_tolerance: bool
+    kept: bool  #: the points stay on their ranks
+    num_points: int  #: over all ranks
+    total_weight: float
+    least_imbalance: float  #: lower bound of the imbalance of any partition
+    estimated_imbalance: float  #: before the cuts were corrected
+    num_records: int  #: cells bisected
+    rounds: int  #: of counting, to correct the cuts
+    coincident_cuts: int  #: that would divide points which no allowed cut separates
+    all_weights_zero: bool  #: balanced by count instead
+    surplus_parts: int  #: parts that must stay empty: more parts than points
+
+    def __repr__(self) -> str:
+        values = dataclasses.asdict(self)
+        width = max(map(len, values))
+        return "\n".join(
+            f"{name.replace('_', ' '):<{width}}  {value:.6g}"
+            if isinstance(value, float)
+            else f"{name.replace('_', ' '):<{width}}  {value}"
+            for name, value in values.items()
+        )
+
+
+def report_of(balancer: c.Handle) -> tuple[Report, c.Report]:
+    """Returns the report of the last balance, and the library's form of it."""
+    shown = c.Report()
+    c.call("get_report", balancer, shown)
+    values = {
+        field.name: bool(value) if field.type == "bool" else value
+        for field in dataclasses.fields(Report)
+        for value in [getattr(shown, field.name)]
+    }
+    return Report(**values), shown
+
+
+class Distribution:
+    """Parts of the points of this rank, by cuts; made by assign() and balance()."""
+
+    parts: Array  #: of each point of this rank, int32
+    cuts: Cuts  #: the tree of cuts
+
+    def __init__(self, comm: MPI.Intracomm, own: c.OwnedHandle, parts: Array, cuts: Cuts) -> None:
+        self.comm = comm
+        self.parts = parts
+        self.cuts = cuts
+        self._own = own
+        self._num_points_after: int | None = None
+
+    def __repr__(self) -> str:
+        return f"<rrcb.Distribution of {len(self.parts)} points to {self.cuts.num_parts} parts>"
+
+    def distribute(self, data: Any) -> Any:
+        """Returns data with a row for each point that belongs on this rank. Collective.
+
+        `data` has a row for each assigned point: an array, a dict or a tuple of arrays, or a
+        pandas DataFrame, of any dtypes of a fixed size. The result is of the same kind: first the
+        points that stay, then those that arrive, by rank.
+        """
+        columns = prepare(
+            self.comm, lambda: Columns(data, len(self.parts), "points"), Columns.signature
+        )
+        rows = self._plan()
+        count, sent, results = columns.sent(rows)
+        c.call("transfer", self._own, count, sent, None, None)
+        return columns.build(results)
+
+    def ghosts(self, x: Any, radius: Any, period: Any = None) -> Ghosts:
+        """Finds the points that other ranks need within a radius. Collective.
+
+        `x` are the positions on this rank, after distribute(); `radius` is a number, or an array
+        with a radius for each point. `period` is the length of a periodic box from 0, one number
+        or one for each axis (infinity: not periodic), or its corners (lower, upper).
+        """
+        return Ghosts(self.comm, self._own, x, radius, period)
+
+    def _plan(self) -> int:
+        if self._num_points_after is None:
+            c.call("make_plan", self._own, len(self.parts), pointer(self.parts))
+            shown = c.Plan()
+            c.call("get_plan", self._own, shown)
+            self._num_points_after = int(shown.num_points_after)
+        return self._num_points_after
+
+
+class Balance(Distribution):
+    """Parts of the points of this rank, cuts and report; made by balance()."""
+
+    report: Report  #: measured imbalance, and more
+
+    def __init__(self, comm: MPI.Intracomm, own: c.OwnedHandle, parts: Array) -> None:
+        super().__init__(comm, own, parts, cuts_of(own))
+        self.report, self._report = report_of(own)
+
+    def __repr__(self) -> str:
+        return f"<rrcb.Balance of {self.cuts.num_parts} parts, imbalance {self.report.imbalance:.6g}>"
+
+
+def balance(
+    x: Any,
+    weights: Any = None,
+    comm: MPI.Comm | None = None,
+    tolerance: float | None = None,
+    previous: Balance | Cuts | None = None,
+    part_sizes: Sequence[float] | None = None,
+    **options: Any,
+) -> Balance:
+    """Divides points so that every part has the same weight. Collective over `comm`.
+
+    `x` are the positions of this rank's points: (n, d) float64 or float32, or a tuple of d
+    columns, d from 1 to 3; n may be 0. `weights` has a number for each point; None: 1 each.
+    `tolerance` is the largest heaviest part / mean part to accept, 1.01 by default. With
+    `previous`, starts from earlier cuts, for points that moved little. `part_sizes` are relative
+    weights of the parts. `options` are those of docs/parameters.md, with a double underscore for
+    a dot: refine="EXACT", num_parts=8, tuning__support_mesh=64.
+
+    Raises Error on every rank alike.
+    """
+    chosen = communicator(comm)
+    own = c.OwnedHandle("create_fortran", "destroy", chosen.py2f())
+    sizes = None if part_sizes is None else np.asarray(part_sizes, dtype=np.float64)
+
+    def local() -> tuple[Points, Array]:
+        points = Points(x, weights)
+        if tolerance is not None:
+            set_option(own, "imbalance_tolerance", tolerance)
+        for name, value in options.items():
+            set_option(own, name.replace("__", "."), value)
+        if sizes is not None:
+            c.call("set_part_sizes", own, sizes.size, sizes.ctypes.data)
+        if previous is not None:
+            (previous.cuts if isinstance(previous, Balance) else previous).give(own)
+        return points, np.empty(points.count, dtype=np.int32)
+
+    points, parts = prepare(chosen, local, lambda _: f"previous={previous is not None}")
+    call = "balance" if previous is None else "rebalance"
+    c.call(call, own, points, pointer(parts))
+    return Balance(chosen, own, parts)
+
+
+def assign(x: Any, cuts: Cuts, comm: MPI.Comm | None = None) -> Distribution:
+    """Assigns points to parts by earlier cuts, without balancing. Collective over `comm`."""
+    chosen = communicator(comm)
+    own = c.OwnedHandle("create_fortran", "destroy", chosen.py2f())
+
+    def local() -> tuple[Points, Array]:
+        points = Points(x)
+        cuts.give(own)
+        return points, np.empty(points.count, dtype=np.int32)
+
+    points, parts = prepare(chosen, local)
+    c.call("assign_all", own, points, pointer(parts))
+    return Distribution(chosen, own, parts, cuts)
+
+
+def set_option(own: c.Handle, name: str, value: Any) -> None:
+    """Sets an option by its text."""
+    if name == "cuts":
+        raise c.Error("the option cuts cannot be set from Python: every rank gets all cuts")
+    given = f"{value:.17g}" if isinstance(value, float) else str(value)
+    c.call("set", own, name.encode(), given.encode())
+
+

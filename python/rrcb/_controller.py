@@ -1,0 +1,129 @@
+"""When to rebalance, and what points cost."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import numpy as np
+from mpi4py import MPI
+
+from . import _library as c
+from ._agreement import communicator
+from ._arrays import Array
+from ._balance import Balance
+
+
+class Owner:
+    """Object with a collective free(), which `with` calls; never freed, it lasts until MPI ends."""
+
+    _own: c.Handle
+
+    def free(self) -> None:
+        """Frees the object. Collective."""
+        self._own.destroy()
+
+    def __enter__(self) -> Any:
+        return self
+
+    def __exit__(self, kind: object, error: object, trace: object) -> None:
+        # An error on one rank would wait here for the others.
+        if kind is None:
+            self.free()
+
+
+def number(value: Any) -> float:
+    """Returns a float; NaN, which the library reports on every rank, for what is none."""
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        return float("nan")
+
+
+class Controller(Owner):
+    """Decides when a rebalance pays. Making and freeing one are collective over `comm`."""
+
+    def __init__(self, comm: MPI.Comm | None = None) -> None:
+        chosen = communicator(comm)
+        self._own = c.Handle("controller_create_fortran", "controller_destroy", chosen.py2f())
+
+    @property
+    def due(self) -> bool:
+        """Whether to rebalance before the next step; the same on every rank."""
+        due = ctypes.c_int()
+        c.call("controller_due", self._own, due)
+        return bool(due.value)
+
+    def step(self, load: float, points: float | None = None) -> bool:
+        """Records a step that took this rank `load` of its own work; returns `due`. Collective.
+
+        `points` is the number of points of this rank or the sum of their weights; give it with
+        measured loads. An illegal number raises Error on every rank, one call later.
+        """
+        due = ctypes.c_int()
+        if points is None:
+            c.call("controller_step", self._own, number(load), due)
+        else:
+            c.call("controller_step_points", self._own, number(load), number(points), due)
+        return bool(due.value)
+
+    def rebalanced(self, balance: Balance | None, cost: float) -> None:
+        """Records a rebalance and its cost on this rank, in the unit of the loads. On all ranks."""
+        report = None if balance is None else balance._report
+        c.call("controller_rebalanced", self._own, report, number(cost))
+
+
+class CostModel(Owner):
+    """Learns the seconds that points cost. Making one is collective.
+
+    Its sums travel with the steps of `controller`, or on a communicator of their own. The first
+    column is the number of points.
+    """
+
+    def __init__(
+        self, num_columns: int, controller: Controller | None = None, comm: MPI.Comm | None = None
+    ) -> None:
+        chosen = communicator(comm)
+        given = None if controller is None else controller._own._as_parameter_
+        self.num_columns = num_columns
+        self._controller = controller
+        self._own = c.Handle(
+            "cost_model_create_fortran", "cost_model_destroy", chosen.py2f(), given, num_columns
+        )
+
+    def step(self, seconds: float, columns: Any) -> None:
+        """Records a step: seconds of this rank's own work, its number of each column. Collective."""
+        counts = np.array([number(value) for value in np.ravel(columns)])
+        c.call("cost_model_step", self._own, number(seconds), counts.size, counts.ctypes.data)
+
+    def weights(self, columns: Any) -> Array:
+        """Returns the weight of each point by its share of the columns, (n, num_columns)."""
+        rows = np.ascontiguousarray(columns, dtype=np.float64).reshape(-1, self.num_columns)
+        weights = np.empty(len(rows))
+        c.call(
+            "cost_model_weights",
+            self._own,
+            len(rows),
+            self.num_columns,
+            rows.ctypes.data if rows.size else None,
+            weights.ctypes.data if rows.size else None,
+        )
+        return weights
+
+    @property
+    def costs(self) -> Array:
+        """Seconds of a unit of each column."""
+        costs = np.empty(self.num_columns)
+        c.call("cost_model_costs", self._own, costs.size, costs.ctypes.data)
+        return costs
+
+    @property
+    def uses_costs(self) -> bool:
+        """Whether weights() uses the costs; otherwise each point weighs 1."""
+        uses = ctypes.c_int()
+        c.call("cost_model_uses_costs", self._own, uses)
+        return bool(uses.value)
+
+    def report(self) -> str:
+        """Returns a sentence: whether costs are used, and why."""
+        return c.text(c.library.rrcb_cost_model_report(self._own))

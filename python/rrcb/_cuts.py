@@ -1,0 +1,115 @@
+"""The tree of cuts."""
+
+from __future__ import annotations
+
+import ctypes
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from mpi4py import MPI
+
+from . import _library as c
+from ._arrays import Array, Points
+
+CUT = np.dtype([("axis", np.int32), ("divides", np.int32), ("at", np.float64, 3)])
+
+
+class Cuts:
+    """The cuts of a balance, the same on every rank. Can be pickled.
+
+    `tree` holds num_parts - 1 cuts in preorder: axis, divides, at. Nothing here is collective.
+    """
+
+    def __init__(
+        self, dimension: int, num_parts: int, tree: Array, shape: tuple[int, int, int] = (1, 0, 0)
+    ) -> None:
+        self.dimension = dimension
+        self.num_parts = num_parts
+        self.tree = np.ascontiguousarray(tree, dtype=CUT)
+        self._shape = shape
+        self._own: c.OwnedHandle | None = None
+
+    def __getstate__(self) -> tuple[int, int, Array, tuple[int, int, int]]:
+        return self.dimension, self.num_parts, self.tree, self._shape
+
+    def __setstate__(self, state: tuple[int, int, Array, tuple[int, int, int]]) -> None:
+        self.__init__(*state)  # type: ignore[misc]
+
+    def __repr__(self) -> str:
+        return f"<rrcb.Cuts of {self.num_parts} parts in {self.dimension} dimensions>"
+
+    def part_of(self, points: Any) -> Any:
+        """Returns the part of each of (n, d) positions, or of one position."""
+        position = np.ndim(points) == (0 if self.dimension == 1 else 1)
+        if position and not isinstance(points, tuple):
+            points = np.asarray(points, dtype=np.float64).reshape(1, -1)
+        elif isinstance(points, tuple) and position:
+            points = np.array([points], dtype=np.float64)
+        view = Points(points)
+        parts = np.empty(view.count, dtype=np.int32)
+        c.call("assign", self._handle(), view, parts.ctypes.data)
+        return int(parts[0]) if position else parts
+
+    def boxes(self) -> Array:
+        """Returns the regions of the parts, (num_parts, 2, d): lower and upper corners.
+
+        Sides without a cut are +-infinity; the upper corner of an empty region is below its lower.
+        """
+        corners = np.empty((self.num_parts, 2, 3))
+        for part, (lower, upper) in enumerate(corners):
+            c.call("box_of", self._handle(), part, lower.ctypes.data, upper.ctypes.data)
+        return corners[:, :, : self.dimension].copy()
+
+    def finite_boxes(self, within: Any = None) -> Array:
+        """Returns boxes() clipped to a box: (lower, upper), or one a little around all cuts."""
+        boxes = self.boxes()
+        lower, upper = self._around(boxes) if within is None else np.asarray(within, dtype=float)
+        return np.clip(boxes, lower, upper)
+
+    def plot(self, ax: Any = None, within: Any = None, **style: Any) -> Any:
+        """Draws the parts by matplotlib into `ax`, or new axes, which it returns."""
+        from . import _plot
+
+        return _plot.plot(self, ax, within, style)
+
+    def to_vtk(self, path: str | Path, within: Any = None) -> None:
+        """Writes the parts as a legacy VTK file, which ParaView reads. Call it on one rank."""
+        from . import _plot
+
+        _plot.to_vtk(self, path, within)
+
+    def _around(self, boxes: Array) -> tuple[Array, Array]:
+        faces = np.where(np.isfinite(boxes), boxes, np.nan).reshape(-1, self.dimension)
+        lower = np.zeros(self.dimension)
+        upper = np.ones(self.dimension)
+        for axis in range(self.dimension):
+            known = faces[~np.isnan(faces[:, axis]), axis]
+            if known.size:
+                lower[axis], upper[axis] = known.min(), known.max()
+        width = (upper - lower).max()
+        margin = 0.25 * (width if width > 0 else 1.0)
+        return lower - margin, upper + margin
+
+    def _handle(self) -> c.OwnedHandle:
+        if self._own is None:
+            own = c.OwnedHandle("create_fortran", "destroy", MPI.COMM_SELF.py2f())
+            self.give(own)
+            self._own = own
+        return self._own
+
+    def give(self, balancer: c.Handle) -> None:
+        """Copies the cuts to a balancer."""
+        tree = self.tree.ctypes.data if len(self.tree) else None
+        c.call("set_cuts", balancer, c.Cuts(self.dimension, self.num_parts, tree, *self._shape))
+
+
+def cuts_of(balancer: c.Handle) -> Cuts:
+    """Returns a copy of the cuts of a balancer."""
+    shown = c.Cuts()
+    c.call("get_cuts", balancer, shown)
+    tree = np.empty(shown.num_parts - 1, dtype=CUT)
+    if len(tree):
+        ctypes.memmove(tree.ctypes.data, shown.tree, tree.nbytes)
+    shape = (shown.group_size, shown.larger_below, shown.dealt)
+    return Cuts(shown.dimension, shown.num_parts, tree, shape)

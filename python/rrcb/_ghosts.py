@@ -1,0 +1,140 @@
+"""Ghosts: copies of points of other ranks."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import numpy as np
+from mpi4py import MPI
+
+from . import _library as c
+from ._agreement import prepare
+from ._arrays import FLOATS, NUMBERS, Array, Columns, Points, axes_of, pointer
+
+
+class Ghosts:
+    """Points of other ranks that this rank needs; made by Balance.ghosts().
+
+    Can be used again as long as no point changes its row.
+    """
+
+    count: int  #: ghosts of this rank
+    num_points: int  #: points of this rank
+    ranks: Array  #: rank of each ghost
+    shifts: Array  #: periods along each axis that a ghost is moved by, (count, d)
+    sent: dict[int, Array]  #: rows of the points that each rank needs
+
+    def __init__(
+        self, comm: MPI.Intracomm, balancer: c.Handle, x: Any, radius: Any, period: Any
+    ) -> None:
+        def local() -> tuple[Points, Array, Array | None]:
+            points = Points(x)
+            return points, radius_of(radius, points.count), box_of(period, points.dimension)
+
+        points, radii, box = prepare(comm, local)
+        options = c.GhostOptions()
+        if radii.ndim == 0:
+            options.radius = float(radii)
+        else:
+            options.radii = pointer(radii)
+        if box is not None:
+            options.lower, options.upper = box[0].ctypes.data, box[1].ctypes.data
+        self.comm = comm
+        self._own = c.OwnedHandle("ghosts_create", "ghosts_destroy", balancer, points, options)
+        self._box = box
+        self._read(points.dimension)
+
+    def __repr__(self) -> str:
+        return f"<rrcb.Ghosts: {self.count} of {self.num_points} points>"
+
+    def fetch(self, data: Any) -> Any:
+        """Returns data of the ghosts, a row each, of the kind of `data`. Collective.
+
+        `data` has a row for each point of this rank, as for Balance.distribute().
+        """
+        columns = prepare(
+            self.comm, lambda: Columns(data, self.num_points, "points"), Columns.signature
+        )
+        count, sent, results = columns.sent(self.count)
+        c.call("ghosts_fetch", self._own, count, sent, None, None)
+        return columns.build(results)
+
+    def fetch_positions(self, x: Any) -> Any:
+        """Returns positions of the ghosts, moved to those of the periodic images. Collective."""
+        fetched = self.fetch(x)
+        if self._box is None or self.count == 0:
+            return fetched
+        images = np.ascontiguousarray(np.stack(axes_of(fetched), axis=1))
+        kind = FLOATS[images.dtype]
+        c.call("ghosts_apply_shifts", self._own, kind, images.size, images.ctypes.data)
+        return tuple(images.T) if isinstance(x, tuple) else images.reshape(fetched.shape)
+
+    def accumulate(self, data: Any) -> Any:
+        """Returns the sum of the ghosts' values for each point of this rank. Collective.
+
+        `data` has a row for each ghost, of int32, int64, float32 or float64: forces += returned.
+        """
+        columns = prepare(self.comm, lambda: numbers_of(data, self.count), Columns.signature)
+        count, sent, results = columns.added(self.num_points)
+        c.call("ghosts_accumulate", self._own, count, sent, None, None)
+        return columns.build(results)
+
+    def _read(self, dimension: int) -> None:
+        shown = c.GhostPlan()
+        c.call("ghosts_get_plan", self._own, shown)
+        self.num_points, self.count = int(shown.num_points), int(shown.num_ghosts)
+        shares = [shown.receive[k] for k in range(shown.num_receive_ranks)]
+        counts = [share.count for share in shares]
+        self.ranks = np.repeat(np.array([share.rank for share in shares], dtype=np.int32), counts)
+        rows = np.empty(shown.num_sent, dtype=np.uintp)
+        if len(rows):
+            ctypes.memmove(rows.ctypes.data, shown.send_indices, rows.nbytes)
+        needs = [shown.send[k] for k in range(shown.num_send_ranks)]
+        ends = np.cumsum([need.count for need in needs], dtype=int)
+        self.sent = {n.rank: rows[end - n.count : end] for n, end in zip(needs, ends)}
+        shifts = np.zeros((self.count, 3), dtype=np.int32)
+        if shown.shifts and self.count:
+            ctypes.memmove(shifts.ctypes.data, shown.shifts, shifts.nbytes)
+        self.shifts = shifts[:, :dimension].copy()
+
+
+def numbers_of(data: Any, rows: int) -> Columns:
+    """Returns columns of numbers that can be added."""
+    columns = Columns(data, rows, "ghosts")
+    for name, values in zip(columns.names, columns.arrays):
+        if values.dtype not in NUMBERS:
+            raise c.Error(
+                f"column {name} has the dtype {values.dtype}, "
+                "but only int32, int64, float32 and float64 are added"
+            )
+    return columns
+
+
+def radius_of(radius: Any, count: int) -> Array:
+    """Returns one radius, or one for each point."""
+    radii = np.ascontiguousarray(radius, dtype=np.float64).reshape(np.shape(radius))
+    if radii.ndim > 1 or (radii.ndim == 1 and len(radii) != count):
+        raise c.Error(f"radius must be a number or have the shape ({count},), not {radii.shape}")
+    # To the library a radius of 0 is none.
+    return np.zeros(count) if radii.ndim == 0 and radii == 0 else radii
+
+
+def box_of(period: Any, dimension: int) -> Array | None:
+    """Returns the corners of a periodic box, (2, 3), infinite on axes that are not periodic."""
+    if period is None:
+        return None
+    given = np.asarray(period, dtype=np.float64)
+    if given.ndim == 0:
+        given = np.full(dimension, given)
+    if given.ndim == 1:
+        given = np.stack([np.where(np.isinf(given), -np.inf, 0.0), given])
+    if given.shape != (2, dimension):
+        raise c.Error(
+            f"period must be a number, {dimension} lengths or the corners (lower, upper) "
+            f"of {dimension} axes, not of the shape {np.shape(period)}"
+        )
+    box = np.empty((2, 3))
+    box[0], box[1] = -np.inf, np.inf
+    box[:, :dimension] = given
+    return box

@@ -62,32 +62,22 @@ ScatterKernel<D> force_kernel(const MotionColumns& motion, const StressColumns<D
     return [=, slopes = Centre<D, Shape>::slopes()](
                const Particles& particles, std::span<const CellRun<D>> runs, GridPatch<D>& patch) {
         const auto offsets = node_offsets<D, Shape::num_nodes>(patch);
-        const double inverse = 1 / patch.shape.spacing;
-        const double* const volumes = particles[motion.volume].data();
-        std::array<const double*, D> normal, position;  // The first stresses are along the axes.
-        for (std::size_t a = 0; a < D; ++a) {
-            normal[a] = particles[stress[a]].data();
-            position[a] = particles[motion.position[a]].data();
-        }
-        for (const CellRun<D>& run : runs) {
-            typename Centre<D, Shape>::Slopes force{};
+        for (const CellRun<D>& run : runs)
             for (std::size_t p = run.begin; p < run.end; ++p) {
                 double pull = 0;
                 Components<D> u;
                 for (std::size_t a = 0; a < D; ++a) {
-                    pull += normal[a][p];
-                    u[a] = (position[a][p] - run.corner[a]) * inverse;
+                    // The first columns of stress are those along the axes.
+                    pull += particles[stress[a]][p] / D;
+                    u[a] = (particles[motion.position[a]][p] - run.corner[a]) / patch.shape.spacing;
                 }
-                pull *= volumes[p] * inverse / D;
+                pull *= particles[motion.volume][p] / patch.shape.spacing;
                 const auto own = Centre<D, Shape>::slopes_at(u);
                 for (std::size_t n = 0; n < own.size(); ++n)
                     for (std::size_t a = 0; a < D; ++a)
-                        force[n][a] += pull * (own[n][a] - slopes[n][a]);
+                        patch.sums[run.node + offsets[n]].force[a] -=
+                            pull * (slopes[n][a] - own[n][a]);
             }
-            for (std::size_t n = 0; n < force.size(); ++n)
-                for (std::size_t a = 0; a < D; ++a)
-                    patch.sums[run.node + offsets[n]].force[a] += force[n][a];
-        }
     };
 }
 

@@ -1,0 +1,61 @@
+#include "scene_mpi.hpp"
+
+#include <gtest/gtest.h>
+#include <mpm/slope.hpp>
+
+#include <sstream>
+#include <vector>
+
+namespace comparisons {
+namespace {
+
+/// Of `step_s` on the critical path of the steps, a quarter of it network; the same in every other
+/// column.
+SimulationRun run_of(double step_s) {
+    SimulationRun run;
+    run.num_points = 1000;
+    run.wall_s = 50;
+    run.step_cost = {4 * step_s, 0.75 * step_s, 0.25 * step_s};
+    run.balance_cost = {2.5, 0.5, 0.125};
+    run.mean_imbalance = 1.5;
+    run.moved_fraction = 0.25;
+    run.rebalances = 8;
+    return run;
+}
+
+std::vector<SimulationRounds> two_methods() {
+    SimulationRun failed;
+    failed.error = "no balance today";
+    std::vector<SimulationRounds> methods = {{"fast", {run_of(8), run_of(16)}},
+                                             {"broken", {run_of(1), failed}}};
+    methods[0].runs[0].seed = 7;
+    methods[0].every = 3;
+    return methods;
+}
+
+TEST(SimulationRounds, have_a_row_for_each_run) {
+    const SimulationPlan plan{.scene = mpm::slope_scene(22), .num_steps = 6};
+    EXPECT_EQ(
+        rounds_csv(plan, 4, two_methods()),
+        "method,round,seed,ranks,points,steps,every,scene,wall_s,balance_s,decide_s,step_s,"
+        "mean_imbalance,worst_imbalance,front_x_m,moved_m,mass_kg,path_points,step_work_s,"
+        "step_path_s,step_network_s,balance_work_s,balance_path_s,balance_network_s,decide_work_s,"
+        "decide_path_s,decide_network_s,critical_path_s,rebalances,moved_fraction,error\n"
+        "fast,1,7,4,1000,6,3,slope,50,0,0,0,1.5,1,,0,0,0,32,6,2,2.5,0.5,0.125,0,0,0,8.625,8,0.25,\n"
+        "fast,2,,4,1000,6,3,slope,50,0,0,0,1.5,1,,0,0,0,64,12,4,2.5,0.5,0.125,0,0,0,16.625,8,"
+        "0.25,\n"
+        "broken,1,,4,1000,6,auto,slope,50,0,0,0,1.5,1,,0,0,0,4,0.75,0.25,2.5,0.5,0.125,0,0,0,1.625,"
+        "8,0.25,\n"
+        "broken,2,,4,0,6,auto,slope,,,,,,,,,,,,,,,,,,,,,,,no balance today\n");
+}
+
+TEST(SimulationRounds, print_their_paths_and_why_one_failed) {
+    std::ostringstream out;
+    print_round(out, 2, two_methods());
+    EXPECT_EQ(out.str(),
+              "broken failed: no balance today\n"
+              "Simulations, round 2: critical paths of 16.625 to 16.625 s\n");
+}
+
+}  // namespace
+}  // namespace comparisons

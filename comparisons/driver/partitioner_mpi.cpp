@@ -218,11 +218,8 @@ std::unique_ptr<Partitioner> make_partitioner(const Method& method, const Worklo
 }
 
 std::optional<mpm::Balancer> make_balancer(const Method& method, const PointWeights& weights) {
-    if (method.lb_method == on_arrays) {
-        const auto make = method.reuses ? rrcb_rebalancer
-                                        : static_cast<decltype(&rrcb_rebalancer)>(rrcb_balancer);
-        return make(std::get<rrcb::Options>(*method.options), weights);
-    }
+    if (method.lb_method == on_arrays)
+        return rrcb_balancer(std::get<rrcb::Options>(*method.options), weights, method.reuses);
 #ifdef RRCB_HAS_ZOLTAN2
     if (method.lb_method == multijagged) return multijagged_decomposition;
 #endif

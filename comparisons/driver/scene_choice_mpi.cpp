@@ -4,8 +4,6 @@
 #include "scene_file/scene_file_mpi.hpp"
 #include "text.hpp"
 
-#include <mpm/slope.hpp>
-
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -67,11 +65,7 @@ void check_scene(const std::string& name_or_file) {
 }
 
 mpm::Scene choose_scene(const std::string& name_or_file, bool quick, MPI_Comm comm) {
-    constexpr int quick_slope_cells = 29;
-    constexpr double quick_coarsening = 2;
-    if (name_or_file == "slope") {
-        return quick ? mpm::slope_scene(quick_slope_cells) : mpm::slope_scene();
-    }
+    const double quick_coarsening = name_or_file == "slope" ? 4 : 2;
     const SceneRow* row = find_row(name_or_file);
     mpm::Scene scene = row != nullptr ? read_shipped(*row, comm) : read(name_or_file, comm);
     if (quick) mpm::resize_cells(scene, quick_coarsening * scene.grid.spacing);

@@ -16,8 +16,8 @@ void check_scene(const std::string& name_or_file);
 
 /// A scene as it is compared, or a coarse one if `quick`. Collective over `comm`.
 ///
-/// The slope is mpm::slope_scene, the others are read from their files. Throws Failure on every
-/// rank with the message of mpm::read_scene.
+/// Shipped scenes are read from their files. Throws Failure on every rank with
+/// the message of mpm::read_scene.
 mpm::Scene choose_scene(const std::string& name_or_file, bool quick, MPI_Comm comm);
 
 }  // namespace comparisons

@@ -7,8 +7,6 @@
 
 #include <rrcb/quality.hpp>
 
-#include <mpm/slope.hpp>
-
 #include <algorithm>
 #include <array>
 #include <iostream>
@@ -113,7 +111,7 @@ void run_round(std::vector<SimulationRounds>& all, int round, const SimulationPl
 /// Steps until the front of the slope lies still, within 0.2 m of where it ends.
 int steps_of_failure(MPI_Comm comm) {
     constexpr double end_of_failure_s = 6.5;
-    mpm::Scene scene = mpm::slope_scene();
+    mpm::Scene scene = choose_scene("slope", false, comm);
     scene.end_time = end_of_failure_s;
     return steps_to_end(scene, comm);
 }

@@ -1,7 +1,6 @@
 #include "scene_mpi.hpp"
 
 #include <gtest/gtest.h>
-#include <mpm/slope.hpp>
 
 #include <sstream>
 #include <vector>
@@ -34,7 +33,8 @@ std::vector<SimulationRounds> two_methods() {
 }
 
 TEST(SimulationRounds, have_a_row_for_each_run) {
-    const SimulationPlan plan{.scene = mpm::slope_scene(22), .num_steps = 6};
+    SimulationPlan plan{.scene = {}, .num_steps = 6};
+    plan.scene.name = "slope";
     EXPECT_EQ(
         rounds_csv(plan, 4, two_methods()),
         "method,round,seed,ranks,points,steps,every,scene,wall_s,balance_s,decide_s,step_s,"

@@ -1,6 +1,7 @@
 #include "failure.hpp"
 #include "partitioner_mpi.hpp"
 #include "scene_choice_mpi.hpp"
+#include "scene_file/scene_file_mpi.hpp"
 #include "scene_mpi.hpp"
 #include "simulation_mpi.hpp"
 
@@ -8,7 +9,6 @@
 #include <rrcb/quality.hpp>
 
 #include <gtest/gtest.h>
-#include <mpm/slope.hpp>
 #include <zoltan.h>
 
 #include <algorithm>
@@ -18,8 +18,15 @@
 namespace comparisons {
 namespace {
 
+/// The slope in 22 cells across.
+mpm::Scene coarse_slope() {
+    mpm::Scene scene = choose_scene("slope", false, MPI_COMM_WORLD);
+    mpm::resize_cells(scene, 5);
+    return scene;
+}
+
 SimulationRun run(const std::optional<mpm::Balancer>& balancer,
-                  const mpm::Scene& scene = mpm::slope_scene(22), int every = 2) {
+                  const mpm::Scene& scene = coarse_slope(), int every = 2) {
     float version = 0;
     Zoltan_Initialize(0, nullptr, &version);
     const SimulationPlan plan{.scene = scene, .num_steps = 6, .every = every, .record_every = 2};
@@ -55,7 +62,7 @@ void expect_points_kept(const mpm::Scene& scene) {
 }
 
 TEST(Simulation, every_balancer_keeps_the_points_and_their_mass) {
-    expect_points_kept(mpm::slope_scene(22));
+    expect_points_kept(coarse_slope());
     mpm::Scene anchor = choose_scene("torpedo_anchor", true, MPI_COMM_WORLD);
     // So that the soil settles at once.
     std::erase_if(anchor.effects,
@@ -71,6 +78,7 @@ TEST(Simulation, tells_how_far_points_have_come) {
     scene.grid.spacing = 0.6;
     scene.grid.num_cells = {12, 8, 8};
     scene.bodies.front().velocity = [](const mpm::Vector&) { return mpm::Vector{3000, 0, 4000}; };
+    scene.bodies.front().bounds = mpm::everywhere;
     scene.bodies.front().contains = [](const mpm::Vector& at) {
         return at[0] > 0 && at[0] < 3 && at[1] > -1 && at[1] < 0 && at[2] > 0 && at[2] < 1;
     };
@@ -101,7 +109,7 @@ TEST(Simulation, exact_methods_share_the_points_out_to_one_a_level) {
     constexpr double levels = 2;  // of the bisection, up to 4 parts
     for (const char* name : {"zoltan-rcb", "root-rcb", "rrcb-exact"}) {
         // At every step: from one to the next points cross cuts.
-        const SimulationRun result = run(make_balancer(read_method(name)), mpm::slope_scene(22), 1);
+        const SimulationRun result = run(make_balancer(read_method(name)), coarse_slope(), 1);
         ASSERT_EQ(result.error, "") << name;
         const double mean = static_cast<double>(result.num_points) / num_ranks();
         for (const LoadRecord& record : result.history) {
@@ -135,7 +143,7 @@ mpm::Balancer widening_slabs(std::vector<double>& moved) {
 
 SimulationRun run_widening(int record_every, std::vector<double>& moved) {
     const SimulationPlan plan{
-        .scene = mpm::slope_scene(22), .num_steps = 15, .every = 5, .record_every = record_every};
+        .scene = coarse_slope(), .num_steps = 15, .every = 5, .record_every = record_every};
     TimedSimulation simulation(
         plan, without_weights(widening_slabs(moved)), [](int, const mpm::Simulation&) {},
         MPI_COMM_WORLD);
@@ -190,7 +198,7 @@ TEST(Simulation, tells_what_the_rebalances_moved) {
 }
 
 TEST(Simulation, a_controller_rebalances_where_no_interval_is_given) {
-    const SimulationPlan plan{.scene = mpm::slope_scene(22), .num_steps = 15, .every = 0};
+    const SimulationPlan plan{.scene = coarse_slope(), .num_steps = 15, .every = 0};
     int num_calls = 0;
     const mpm::Balancer slabs = [&](mpm::Positions positions, MPI_Comm) {
         ++num_calls;
@@ -214,7 +222,7 @@ mpm::Decomposition decomposed(const char* method, mpm::Positions positions) {
 }
 
 TEST(Simulation, a_method_divides_the_same_through_zoltan_and_on_arrays) {
-    const mpm::Simulation scene(mpm::slope_scene(22), MPI_COMM_WORLD);
+    const mpm::Simulation scene(coarse_slope(), MPI_COMM_WORLD);
     const mpm::Decomposition through_zoltan = decomposed("rrcb", scene.positions());
     const mpm::Decomposition on_arrays = decomposed("rrcb-arrays", scene.positions());
     EXPECT_EQ(through_zoltan.local_owners, on_arrays.local_owners);

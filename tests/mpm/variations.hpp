@@ -13,8 +13,9 @@ struct Variation {
     double modulus = 1, courant_number = 1, cell_size = 1;
 };
 
-constexpr std::array variations{Variation{}, Variation{.modulus = 4},
-                                Variation{.courant_number = 0.5}, Variation{.cell_size = 0.5}};
+inline constexpr std::array variations{Variation{}, Variation{.modulus = 4},
+                                       Variation{.courant_number = 0.5},
+                                       Variation{.cell_size = 0.5}};
 
 inline std::ostream& operator<<(std::ostream& out, const Variation& varied) {
     return out << "modulus * " << varied.modulus << ", courant_number * " << varied.courant_number

@@ -1,6 +1,5 @@
 #include "balancers/balancers_mpi.hpp"
 
-#include "balancers/rrcb_balancer_mpi.hpp"
 #ifdef RRCB_MPM_ZOLTAN
 #include "balancers/zoltan_balancer_mpi.hpp"
 #endif
@@ -44,13 +43,6 @@ rrcb::Options options_of(const std::string& name, const mpm::Scene& scene) {
     return options;
 }
 
-/// The paper's RRCB or RCB.
-rrcb::PaperOptions paper_options_of(const std::string& name) {
-    rrcb::PaperOptions options;
-    if (name == "root-rcb") options.domain = rrcb::PaperDomain::points;
-    return options;
-}
-
 }  // namespace
 
 std::string balancer_names() {
@@ -70,8 +62,10 @@ std::optional<mpm::Balancer> make_balancer(const std::string& name, const mpm::S
     const bool takes_weights = name == "rrcb" || name == "rrcb-exact" || name == "rrcb-cells";
     if (weights && !takes_weights) refuse(name, "takes no weights, as --cost=learned gives them");
     if (name == "none") return std::nullopt;
-    if (name == "rrcb-sampled" || name == "root-rcb") return rrcb_balancer(paper_options_of(name));
-    if (name != "zoltan-rcb") return rrcb_rebalancer(options_of(name, scene), weights);
+    rrcb::PaperOptions paper;
+    if (name == "root-rcb") paper.domain = rrcb::PaperDomain::points;
+    if (name == "rrcb-sampled" || name == "root-rcb") return rrcb_balancer(paper);
+    if (name != "zoltan-rcb") return rrcb_balancer(options_of(name, scene), weights, true);
 #ifdef RRCB_MPM_ZOLTAN
     return zoltan_balancer({{"DEBUG_LEVEL", "0"}, {"LB_METHOD", "RCB"}, {"CHECK_GEOM", "0"}});
 #else

@@ -38,37 +38,24 @@ mpm::Decomposition decomposition_of(rrcb::Balance& balance, bool on_faces) {
     return decomposition;
 }
 
-/// Every rank has the boxes of all, and looks up owners by itself.
-rrcb::Options with_whole_cuts(rrcb::Options options) {
-    options.cuts = rrcb::HeldCuts::whole;
-    return options;
-}
-
 }  // namespace
 
-mpm::Balancer rrcb_balancer(const rrcb::Options& asked, const PointWeights& weights) {
-    return [options = with_whole_cuts(asked), weights](mpm::Positions positions, MPI_Comm comm) {
+mpm::Balancer rrcb_balancer(const rrcb::Options& asked, const PointWeights& weights,
+                            bool reuses_cuts) {
+    rrcb::Options options = asked;
+    // Every rank has the boxes of all, and looks up owners by itself.
+    options.cuts = rrcb::HeldCuts::whole;
+    const auto last = std::make_shared<std::optional<rrcb::Balance>>();
+    return [options, weights, reuses_cuts, last](mpm::Positions positions, MPI_Comm comm) {
         const std::vector<double> weight = weights ? weights() : std::vector<double>();
         rrcb::Points points = points_of(positions);
         points.weights = weight;
-        rrcb::Balance balance = rrcb::balance(points, options, comm);
-        return decomposition_of(balance, !options.axes.grid.empty());
+        if (reuses_cuts && last->has_value())
+            rrcb::rebalance_into(**last, points, options, (*last)->cuts, comm);
+        else
+            *last = rrcb::balance(points, options, comm);
+        return decomposition_of(**last, !options.axes.grid.empty());
     };
-}
-
-mpm::Balancer rrcb_rebalancer(const rrcb::Options& asked, const PointWeights& weights) {
-    const auto last = std::make_shared<std::optional<rrcb::Balance>>();
-    return
-        [options = with_whole_cuts(asked), weights, last](mpm::Positions positions, MPI_Comm comm) {
-            const std::vector<double> weight = weights ? weights() : std::vector<double>();
-            rrcb::Points points = points_of(positions);
-            points.weights = weight;
-            if (last->has_value())
-                rrcb::rebalance_into(**last, points, options, (*last)->cuts, comm);
-            else
-                *last = rrcb::balance(points, options, comm);
-            return decomposition_of(**last, !options.axes.grid.empty());
-        };
 }
 
 mpm::Balancer rrcb_balancer(const rrcb::PaperOptions& options) {

@@ -72,16 +72,9 @@ class RubbingPlane {
 
     /// Finds the forces of the next step on a block of points.
     void push(Particles& particles, const PointBlock<D>& block) const {
-        std::array<const double*, D> position;
-        std::array<double*, D> force;
-        for (std::size_t a = 0; a < D; ++a) {
-            position[a] = particles.data(columns_.motion.position[a]);
-            force[a] = particles.data(columns_.force[a]);
-        }
         const double* const reach = particles.data(columns_.reach);
         for (std::size_t p = block.begin; p < block.end; ++p) {
-            Components<D> at;
-            for (std::size_t a = 0; a < D; ++a) at[a] = position[a][p];
+            const Components<D> at = position_of(particles, p);
             const double depth = reach[p] - ground_.height(at);
             double& damping = particles.data(columns_.damping)[p];
             damping = depth > 0 ? damping_of(particles, p, block.time_step) : 0;
@@ -90,7 +83,8 @@ class RubbingPlane {
             const double push = spring + damping;
             const Components<D> held =
                 push > 0 ? friction_on(particles, p, at, push, block.time_step) : Components<D>{};
-            for (std::size_t a = 0; a < D; ++a) force[a][p] = push * ground_.normal[a] + held[a];
+            for (std::size_t a = 0; a < D; ++a)
+                particles.data(columns_.force[a])[p] = push * ground_.normal[a] + held[a];
         }
     }
 

@@ -1,13 +1,9 @@
 #include "effects/effect.hpp"
-#include "effects/penetrator/fluid_loads.hpp"
-#include "effects/penetrator/rigid_contact.hpp"
-#include "effects/penetrator/skin_friction.hpp"
-#include "parallel/communicator_mpi.hpp"
+#include "effects/penetrator/contact.hpp"
 #include "scene/lattice.hpp"
 
 #include <algorithm>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -15,56 +11,36 @@ namespace mpm {
 
 namespace {
 
-constexpr std::size_t vertical = 1;
-
-/// Motion of the body: its inertia and loads, and its energy.
+/// Loads on the body beside the soil.
 template <int D>
-struct Motion {
-    Gravity<D> gravity;                   ///< times `weight_share`
-    double inertia = 0;                   ///< mass and added mass, kg
-    std::vector<BodyLoad<D>> loads = {};  ///< beside weight and soil
-    double force = 0;                     ///< of the soil on it in the last step, N
-    double kinetic_at_start = 0;          ///< J
-    double potential = 0;                 ///< of weight and buoyancy, 0 at the start, J
-    bool is_counting_rank = false;        ///< whether this rank tells the body's loss, as one does
+struct Loads {
+    Gravity<D> gravity;
+    double heavy_mass = 0;   ///< mass that has weight, less the fluid displaced, kg
+    double drag_factor = 0;  ///< drag by the square of the speed, kg/m
 };
 
+/// Adds up over the ranks, moves the body by its equation of motion and begins the next step.
+/// Collective: one reduction.
 template <int D>
-double kinetic_energy(const Motion<D>& motion, const Penetrator<D>& body) {
-    return 0.5 * motion.inertia * body.velocity * body.velocity;
-}
-
-/// Force on the soil in this step. Settles the sums of the contact. Collective: one reduction.
-template <int D>
-double sum_of_ranks(RigidContact<D>& contact, double time_step, MPI_Comm comm) {
-    std::vector<double> sums{contact.force};
+void move_body(RigidContact<D>& contact, const Loads<D>& loads, const StepTime& step,
+               double weight_of_step, MPI_Comm comm) {
+    std::vector<double> sums{std::exchange(contact.next_force, 0)};
     if (contact.bands)
         sums.insert(sums.end(), contact.bands->sums().begin(), contact.bands->sums().end());
-    std::vector<double> total(sums.size());
     const auto count = static_cast<int>(sums.size());
-    MPI_Reduce(sums.data(), total.data(), count, MPI_DOUBLE, MPI_SUM, 0, comm);
-    MPI_Bcast(total.data(), count, MPI_DOUBLE, 0, comm);
-    if (contact.bands)
-        contact.bands->settle(std::span(total).subspan(1), contact.times.weight(time_step));
-    contact.force = std::exchange(contact.next_force, 0);
-    return total.front();
-}
-
-/// Moves the body by its equation of motion. Collective.
-template <int D>
-void move_body(RigidContact<D>& contact, Motion<D>& motion, const StepTime& step, MPI_Comm comm) {
-    const double push = sum_of_ranks(contact, step.time_step, comm);
-    motion.is_counting_rank = rank_of(comm) == 0;
+    std::vector<double> totals(sums.size());
+    MPI_Reduce(sums.data(), totals.data(), count, MPI_DOUBLE, MPI_SUM, 0, comm);
+    MPI_Bcast(totals.data(), count, MPI_DOUBLE, 0, comm);
+    if (contact.bands) contact.bands->settle(std::span(totals).subspan(1), weight_of_step);
     Penetrator<D>& body = contact.body;
-    const Gravity<D>& gravity = motion.gravity;
-    double weight = body.mass * gravity.acceleration[vertical] * gravity.share_at(step.time);
-    double drag = 0;
-    for (const BodyLoad<D>& load : motion.loads)
-        (load.does_return_work ? weight : drag) += load.force(body, step);
-    motion.force = -push;
-    body.velocity += step.time_step * (weight + drag - push) / motion.inertia;
-    body.tip[vertical] += step.time_step * body.velocity;
-    motion.potential -= step.time_step * weight * body.velocity;
+    const double weight =
+        loads.heavy_mass * loads.gravity.acceleration[1] * loads.gravity.share_at(step.time);
+    // Implicit in the speed, drag never turns the body back.
+    const double rate = loads.drag_factor * std::abs(body.velocity);
+    const double drag = -rate * body.velocity / (1 + step.time_step * rate / body.mass);
+    body.velocity += step.time_step * (weight + drag - contact.force) / body.mass;
+    body.tip[1] += step.time_step * body.velocity;
+    contact.last_force = std::exchange(contact.force, totals.front());
 }
 
 template <int D>
@@ -85,124 +61,82 @@ Penetrator<D> read_body(const Values& values) {
 /// contact would hurl it out. All ranks look at all points.
 template <int D>
 void check_apart(const Penetrator<D>& body, const Scene& scene) {
-    visit_points(scene, [&](const Body& soil, const Vector& at) {
+    visit_points(scene, [&](const Body& soil, const Vector& at, std::int64_t) {
         const Vector size = lattice_spacing(scene, soil);
         const auto touch = body.touch(at, 0);
-        if (!touch || touch->depth <= 0.5 * *std::max_element(size.begin(), size.begin() + D))
-            return;
-        std::ostringstream text;
-        text << "effects / penetrator: the body '" << soil.name << "' begins in it at x = " << at[0]
-             << ", y = " << at[1] << ", z = " << at[2]
-             << " m; subtract its shape from the body, or place its 'tip' elsewhere";
-        throw std::invalid_argument(text.str());
+        if (touch && touch->depth > 0.5 * *std::max_element(size.begin(), size.begin() + D))
+            refuse_point("effects / penetrator: the body '" + soil.name + "' begins in it", at,
+                         "; subtract its shape from the body, or place its 'tip' elsewhere");
     });
 }
 
 template <int D>
-Motion<D> read_motion(const EffectBuilder<D>& builder, const Penetrator<D>& body) {
+Loads<D> read_loads(const EffectBuilder<D>& builder, const Penetrator<D>& body) {
     const Values& values = builder.values;
-    if (values.has("weight_share") && values.has("fluid_density"))
-        throw std::invalid_argument(
-            "effects / penetrator: give 'weight_share' or 'fluid_density', not both");
-    Motion<D> motion{.gravity = builder.stages.gravity.value_or(Gravity<D>{}),
-                     .inertia = body.mass + values.number("added_mass"),
-                     .loads = fluid_loads<D>(builder, body)};
-    if (values.has("weight_share"))
-        motion.gravity.acceleration[vertical] *= values.number("weight_share");
-    motion.kinetic_at_start = kinetic_energy(motion, body);
-    return motion;
+    const double fluid = values.number("fluid_density") * body.share_in(builder.scene.grid);
+    return {.gravity = builder.stages.gravity.value_or(Gravity<D>{}),
+            .heavy_mass = values.number("weight_share") * body.mass - fluid * body.volume(),
+            .drag_factor = 0.5 * fluid * values.number("drag_coefficient") * body.section()};
 }
 
-/// Reports the body's energy to the scene, with its loss apart from the soil's.
+/// Lets a written state contain the body, its force and the means of its friction.
 template <int D>
-void report(const std::shared_ptr<RigidContact<D>>& contact,
-            const std::shared_ptr<Motion<D>>& motion, Stages<D>& stages) {
-    stages.reports.push_back({"penetrator_tip_y", [=] { return contact->body.tip[vertical]; }});
-    stages.reports.push_back({"penetrator_velocity", [=] { return contact->body.velocity; }});
-    stages.reports.push_back({"penetrator_force", [=] { return motion->force; }});
-    stages.rigid_energies.push_back([=]() -> RigidEnergy {
-        return {kinetic_energy(*motion, contact->body), motion->potential};
-    });
-    stages.dissipated.push_back([=](const Particles&) {
-        if (!motion->is_counting_rank) return 0.0;
-        return motion->kinetic_at_start - kinetic_energy(*motion, contact->body) -
-               motion->potential;
-    });
-}
-
-/// Lets a written state hold the body and the means of its friction.
-template <int D>
-void keep_state(const std::shared_ptr<RigidContact<D>>& contact,
-                const std::shared_ptr<Motion<D>>& motion, Stages<D>& stages) {
+EffectState state_of(const std::shared_ptr<RigidContact<D>>& contact) {
     const auto save = [=] {
-        std::vector<double> state{contact->body.tip[vertical], contact->body.velocity,
-                                  motion->potential, motion->force};
+        std::vector<double> state{contact->body.tip[1], contact->body.velocity, contact->force,
+                                  contact->last_force};
         if (!contact->bands) return state;
         const auto means = contact->bands->means();
         state.insert(state.end(), means.begin(), means.end());
         return state;
     };
     const auto load = [=](std::span<const double> state) {
-        contact->body.tip[vertical] = state[0];
+        contact->body.tip[1] = state[0];
         contact->body.velocity = state[1];
-        motion->potential = state[2];
-        motion->force = state[3];
+        contact->force = state[2];
+        contact->last_force = state[3];
         if (contact->bands) contact->bands->resume(state.subspan(4));
     };
-    stages.states.push_back({save, load, false});
-    const auto save_own = [=] {
-        return std::vector<double>{contact->force, motion->is_counting_rank ? 1.0 : 0.0};
-    };
-    const auto load_own = [=](std::span<const double> state) {
-        contact->force = state[0];
-        motion->is_counting_rank = state[1] > 0;
-    };
-    stages.states.push_back({save_own, load_own, true});
+    return {save, load};
 }
 
 template <int D>
 void build(const EffectBuilder<D>& builder) {
     Stages<D>& stages = builder.stages;
-    const auto contact =
-        std::make_shared<RigidContact<D>>(RigidContact<D>{.body = read_body<D>(builder.values),
-                                                          .skin = skin_friction<D>(builder),
-                                                          .times = ContactTimes(builder)});
+    const auto contact = std::make_shared<RigidContact<D>>(RigidContact<D>{
+        .body = read_body<D>(builder.values), .friction = builder.values.number("friction")});
     check_apart(contact->body, builder.scene);
-    const auto motion = std::make_shared<Motion<D>>(read_motion<D>(builder, contact->body));
-    if (contact->skin.limit)
-        contact->bands.emplace(contact->body, builder.scene.grid.spacing,
-                               contact->body.share_in(builder.scene.grid));
     add_contact<D>(builder, contact);
-    stages.ends.push_back({"penetrator", [=](const StepTime& step, MPI_Comm comm) {
-                               move_body(*contact, *motion, step, comm);
-                           }});
-    report(contact, motion, stages);
-    keep_state(contact, motion, stages);
-}
-
-std::vector<Rule> rules() {
-    std::vector<Rule> rules{vector("tip", "m"),
-                            positive("radius", "m"),
-                            not_negative("cone_height", "m", 0.0),
-                            positive("length", "m"),
-                            positive("mass", "kg"),
-                            number("velocity", "m/s", 0.0),
-                            optional(number("weight_share", "")),
-                            not_negative("added_mass", "kg", 0.0)};
-    for (Rule& rule : skin_friction_rules()) rules.push_back(std::move(rule));
-    for (Rule& rule : fluid_rules()) rules.push_back(std::move(rule));
-    return rules;
+    const auto move = [contact, loads = read_loads<D>(builder, contact->body),
+                       // The means of friction are over the time of a wave through six cells.
+                       rate = builder.wave_speed / (6 * builder.scene.grid.spacing)](
+                          const StepTime& step, MPI_Comm comm) {
+        move_body(*contact, loads, step, -std::expm1(-step.time_step * rate), comm);
+    };
+    stages.ends.push_back({"penetrator", move});
+    stages.reports.push_back({"penetrator_tip_y", [=] { return contact->body.tip[1]; }});
+    stages.reports.push_back({"penetrator_velocity", [=] { return contact->body.velocity; }});
+    stages.reports.push_back({"penetrator_force", [=] { return -contact->last_force; }});
+    stages.states.push_back(state_of(contact));
 }
 
 }  // namespace
 
 /// A rigid upright cylinder with a conical tip, in two dimensions a wall with a wedge, that moves
-/// along y by its weight and the forces of the soil, of fluid and of added mass on request.
+/// along y by its weight and the forces of the soil and of still fluid around all of it. Symmetry
+/// cuts a body on a side of the domain.
 ///
-/// Friction is at most friction * normal force and adhesion * area, where adhesion is a number or a
-/// share of the soil's undrained strength.
+/// Friction is at most friction * normal force and, if it is given, adhesion_factor * undrained
+/// strength * area.
 EffectKind penetrator_effect() {
-    return {"penetrator", rules(), build<2>, build<3>};
+    return {"penetrator",
+            {vector("tip", "m"), positive("radius", "m"), not_negative("cone_height", "m", 0.0),
+             positive("length", "m"), positive("mass", "kg"), number("velocity", "m/s", 0.0),
+             number("weight_share", "", 1.0), not_negative("fluid_density", "kg/m^3", 0.0),
+             not_negative("drag_coefficient", "", 0.0), not_negative("friction", "", 0.0),
+             optional(not_negative("adhesion_factor", ""))},
+            build<2>,
+            build<3>};
 }
 
 }  // namespace mpm

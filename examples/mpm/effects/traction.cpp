@@ -1,5 +1,4 @@
 #include "effects/effect.hpp"
-#include "effects/time_function.hpp"
 #include "scene/lattice.hpp"
 
 #include <algorithm>
@@ -53,7 +52,7 @@ double area_at(const Scene& scene, const Face& face, const Vector& at) {
 template <int D>
 void check_face(const Scene& scene, const Face& face, const std::string& place) {
     bool has_point = false;
-    visit_points(scene, [&](const Body&, const Vector& at) {
+    visit_points(scene, [&](const Body&, const Vector& at, std::int64_t) {
         has_point = has_point || area_at<D>(scene, face, at) > 0;
     });
     if (!has_point)
@@ -80,10 +79,11 @@ void build(const EffectBuilder<D>& builder) {
     stages.fields.push_back({builder.name, area});
     Components<D> traction;
     std::copy_n(values.list("traction").begin(), D, traction.begin());
-    const TimeFunction share(values.list("times"), values.list("shares"), place);
+    const double ramp = values.number("ramp");
     stages.forces.push_back({builder.name, [=](GridPatch<D>& patch, const StepTime& step) {
                                  Components<D> now = traction;
-                                 for (double& component : now) component *= share.at(step.time);
+                                 for (double& component : now)
+                                     component *= share_at(ramp, step.time);
                                  for (std::size_t n = 0; n < patch.sums.size(); ++n)
                                      for (std::size_t a = 0; a < D; ++a)
                                          patch.sums[n].force[a] += patch.fields[field][n] * now[a];
@@ -92,15 +92,15 @@ void build(const EffectBuilder<D>& builder) {
 
 }  // namespace
 
-/// A force by area on the points of a face, the outermost of their bodies on one side at the start.
+/// A force by area on the points of a face, the outermost of their bodies on one side at the start,
+/// at once or after a ramp.
 ///
 /// It keeps its direction, and the area that it acts on is that of the start.
 EffectKind traction_effect() {
     Rule side{.name = "side", .kind = Rule::Kind::word, .choices = sides};
     return {"traction",
             {std::move(side), vector("traction", "Pa"), optional(vector("lower", "m")),
-             optional(vector("upper", "m")), numbers("times", "s", std::vector<double>{0}),
-             numbers("shares", "", std::vector<double>{1})},
+             optional(vector("upper", "m")), not_negative("ramp", "s", 0.0)},
             build<2>,
             build<3>,
             true};

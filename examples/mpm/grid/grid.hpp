@@ -78,8 +78,6 @@ struct GridPatch {
     std::vector<NodeSums<D>> sums;
     std::vector<NodeMotion<D>> motion;
     std::vector<std::vector<double>> fields;  ///< more sums of the points, for effects
-    /// Whether this rank counts a node in sums over the ranks. Empty unless an effect asks.
-    std::vector<char> is_counted;
 
     /// Number within the patch of a node of the whole grid.
     std::size_t index(const std::array<int, D>& node) const {
@@ -89,37 +87,23 @@ struct GridPatch {
                     static_cast<std::size_t>(node[a] - nodes.begin[a]);
         return index;
     }
-
-    Vector position(const std::array<int, D>& node) const {
-        Vector at{};
-        for (std::size_t a = 0; a < D; ++a) at[a] = shape.lower[a] + node[a] * shape.spacing;
-        return at;
-    }
 };
 
-/// Calls visit(first node, length) for each row along x of a range of nodes.
+/// Calls visit(node) for each node of a range, along x first.
 template <int D, typename Visit>
-void visit_rows(const NodeRange<D>& range, Visit visit) {
+void visit_nodes(const NodeRange<D>& range, Visit visit) {
     if (range.empty()) return;
     std::array<int, D> node = range.begin;
     for (;;) {
-        visit(node, static_cast<std::size_t>(range.count[0]));
-        // Counts up along the axes beyond x, as an odometer.
-        std::size_t axis = 1;
+        visit(node);
+        // Counts up as an odometer.
+        std::size_t axis = 0;
         while (axis < D && ++node[axis] == range.begin[axis] + range.count[axis]) {
             node[axis] = range.begin[axis];
             ++axis;
         }
         if (axis == D) return;
     }
-}
-
-/// Calls visit(node) for each node of a range.
-template <int D, typename Visit>
-void visit_nodes(const NodeRange<D>& range, Visit visit) {
-    visit_rows<D>(range, [&](std::array<int, D> node, std::size_t length) {
-        for (std::size_t k = 0; k < length; ++k, ++node[0]) visit(node);
-    });
 }
 
 /// Makes the patch hold other nodes. Their values are undefined.

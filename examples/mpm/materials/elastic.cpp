@@ -1,6 +1,6 @@
 #include "materials/elastic.hpp"
 
-#include "particles/vector_clones.hpp"
+#include "particles/vectors.hpp"
 
 #include <cmath>
 
@@ -10,24 +10,13 @@ double Elastic::wave_speed(double density) const {
     return std::sqrt((bulk_modulus() + 4 * shear_modulus() / 3) / density);
 }
 
-std::vector<Rule> elastic_rules() {
+std::vector<Rule> elastic_rules(const std::vector<Rule>& more) {
     Rule poisson = within("poissons_ratio", "", -1, 0.5);
     poisson.without_ends = true;
-    return {positive("density", "kg/m^3"), positive("youngs_modulus", "Pa"), poisson};
-}
-
-std::vector<Rule> elastic_rules(std::vector<Rule> more) {
-    std::vector<Rule> rules = elastic_rules();
+    std::vector<Rule> rules{positive("density", "kg/m^3"), positive("youngs_modulus", "Pa"),
+                            poisson};
     rules.insert(rules.end(), more.begin(), more.end());
     return rules;
-}
-
-Rule plastic_strain_rule() {
-    return choice("plastic_strain", {"none", "kept"});
-}
-
-bool keeps_plastic_strain(const Values& values) {
-    return values.word("plastic_strain") == "kept";
 }
 
 Elastic elastic_of(const Values& values) {
@@ -54,19 +43,6 @@ MPM_VECTOR_CLONES void strain(const StepGradients<D>& gradients, double bulk, do
     }
 }
 
-}  // namespace
-
-template <int D>
-PointKernel<D> elastic_kernel(const Elastic& elastic, const StressColumns<D>& columns) {
-    return [bulk = elastic.bulk_modulus(), shear = elastic.shear_modulus(), columns](
-               Particles& particles, const PointBlock<D>& block) {
-        strain<D>(StepGradients<D>(block), bulk, shear, stress_pointers<D>(particles, columns),
-                  block);
-    };
-}
-
-namespace {
-
 /// Energy per volume, p^2 / 2 K + s : s / 4 G.
 template <int D>
 double stored(const Elastic& elastic, const Stress<D>& stress) {
@@ -83,22 +59,19 @@ MaterialModel<D> elastic_model(const Values& values, Particles& particles) {
     const StressColumns<D> columns = add_stress_columns<D>(particles);
     const Column volume = particles.add_column("volume");
     const auto energy = [=](const Particles& points, std::size_t p) {
-        Stress<D> stress;
-        stress.xx = points[columns[0]][p];
-        stress.yy = points[columns[1]][p];
-        stress.zz = points[columns[2]][p];
-        stress.xy = points[columns[3]][p];
-        if constexpr (D == 3) {
-            stress.yz = points[columns[4]][p];
-            stress.zx = points[columns[5]][p];
-        }
-        return points[volume][p] * stored(elastic, stress);
+        std::array<double, num_stresses<D>> stress;
+        for (std::size_t c = 0; c < stress.size(); ++c) stress[c] = points[columns[c]][p];
+        StressPointers<D> pointers;
+        for (std::size_t c = 0; c < stress.size(); ++c) pointers[c] = &stress[c];
+        return points[volume][p] * stored(elastic, load<D>(pointers, 0));
     };
-    return {{{"elastic", elastic_kernel<D>(elastic, columns)}}, energy};
+    const auto kernel = [bulk = elastic.bulk_modulus(), shear = elastic.shear_modulus(), columns](
+                            Particles& points, const PointBlock<D>& block) {
+        strain<D>(StepGradients<D>(block), bulk, shear, stress_pointers<D>(points, columns), block);
+    };
+    return {{{"elastic", kernel}}, energy};
 }
 
-template PointKernel<2> elastic_kernel<2>(const Elastic&, const StressColumns<2>&);
-template PointKernel<3> elastic_kernel<3>(const Elastic&, const StressColumns<3>&);
 template MaterialModel<2> elastic_model<2>(const Values&, Particles&);
 template MaterialModel<3> elastic_model<3>(const Values&, Particles&);
 

@@ -19,23 +19,13 @@ struct Elastic {
     double wave_speed(double density) const;
 };
 
-/// Rules of density, youngs_modulus and poissons_ratio.
-std::vector<Rule> elastic_rules();
-/// Rules of elasticity, and more that a model adds.
-std::vector<Rule> elastic_rules(std::vector<Rule> more);
-/// Rule of whether a model that yields keeps the plastic shear strain of its points:
-/// `plastic_strain`, `none` or `kept`.
-Rule plastic_strain_rule();
-/// Whether it does.
-bool keeps_plastic_strain(const Values& values);
+/// Rules of density, youngs_modulus and poissons_ratio, and more that a model adds.
+std::vector<Rule> elastic_rules(const std::vector<Rule>& more = {});
 Elastic elastic_of(const Values& values);
 double elastic_wave_speed(const Values& values);
 
-/// Kernel that rotates and strains the stress of its points: hypoelastic, Jaumann rate.
-template <int D>
-PointKernel<D> elastic_kernel(const Elastic& elastic, const StressColumns<D>& columns);
-
-/// An elastic model without further kernels.
+/// An elastic model without further kernels. Its kernel rotates and strains the stress of its
+/// points: hypoelastic, Jaumann rate.
 template <int D>
 MaterialModel<D> elastic_model(const Values& values, Particles& particles);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "transfer/kernels.hpp"
+#include "transfer/transfers.hpp"
 
 #include <functional>
 #include <span>

@@ -56,7 +56,7 @@ MaterialModel<D> build(const Values& values, Particles& particles) {
     MaterialModel<D> model = elastic_model<D>(values, particles);
     Columns<D> columns{
         add_stress_columns<D>(particles), particles.add_column(start_level_column), {}};
-    if (values.has("residual_ratio") || keeps_plastic_strain(values))
+    if (values.has("residual_ratio") || values.word("plastic_strain") == "kept")
         columns.plastic_strain = particles.add_column("plastic_strain");
     model.kernels.push_back({"von_mises", make_kernel<D>(values, columns)});
     return model;
@@ -65,13 +65,14 @@ MaterialModel<D> build(const Values& values, Particles& particles) {
 }  // namespace
 
 MaterialKind von_mises_material() {
-    return {"von_mises",
-            elastic_rules(
-                {not_negative("strength", "Pa"), not_negative("strength_gradient", "Pa/m", 0.0),
-                 number("surface", "m", 0.0), optional(within("residual_ratio", "", 0, 1)),
-                 positive("softening_strain", "", 1.0), optional(not_negative("rate_factor", "")),
-                 positive("reference_rate", "1/s", 1.0), plastic_strain_rule()}),
-            elastic_wave_speed, build<2>, build<3>};
+    return {
+        "von_mises",
+        elastic_rules(
+            {not_negative("strength", "Pa"), not_negative("strength_gradient", "Pa/m", 0.0),
+             number("surface", "m", 0.0), optional(within("residual_ratio", "", 0, 1)),
+             positive("softening_strain", "", 1.0), optional(not_negative("rate_factor", "")),
+             positive("reference_rate", "1/s", 1.0), choice("plastic_strain", {"none", "kept"})}),
+        elastic_wave_speed, build<2>, build<3>};
 }
 
 }  // namespace mpm

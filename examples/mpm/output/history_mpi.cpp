@@ -37,9 +37,8 @@ History::History(const std::string& path, const Scene& scene, MPI_Comm comm)
 
 void History::write_head(const std::vector<std::pair<std::string, double>>& reports) {
     file_ << "step,time,dt,points,mass,center_x,center_y,center_z,momentum_x,momentum_y,momentum_z,"
-             "kinetic_energy,strain_energy,potential_energy,dissipated_energy,transfer_loss,front_"
-             "x,top_y,"
-             "imbalance,migrated,ghost_nodes";
+             "kinetic_energy,strain_energy,potential_energy,front_x,top_y,imbalance,migrated,ghost_"
+             "nodes";
     for (const auto& [name, value] : reports) file_ << ',' << name;
     file_ << '\n';
     has_head_ = true;
@@ -56,11 +55,7 @@ void History::write(const Simulation& simulation) {
     for (const double component : totals.center) file_ << ',' << component;
     for (const double component : totals.momentum) file_ << ',' << component;
     file_ << ',' << totals.kinetic_energy << ',' << totals.strain_energy << ','
-          << totals.potential_energy << ',';
-    if (totals.dissipated_energy) file_ << *totals.dissipated_energy;
-    file_ << ',';
-    if (totals.transfer_loss) file_ << *totals.transfer_loss;
-    file_ << ',' << extremes.front_x << ',' << extremes.top_y << ','
+          << totals.potential_energy << ',' << extremes.front_x << ',' << extremes.top_y << ','
           << extremes.num_points * size_of(comm_) / static_cast<double>(totals.num_points) << ','
           << totals.num_migrated - num_migrated_ << ',' << totals.num_ghost_nodes;
     for (const auto& [name, value] : reports) file_ << ',' << value;

@@ -21,8 +21,7 @@ class History {
     /// `front_x` is the largest x of a point that has moved by more than a cell (the lower side of
     /// the domain while there is none), `top_y` the largest y of all, `imbalance` the points of the
     /// heaviest rank by the mean, `migrated` the changes of rank since the last row, `ghost_nodes`
-    /// the nodes that ranks share, counted on each. The dissipated energy and the loss of the
-    /// transfers are empty where no effect keeps account of them. Reports of effects follow.
+    /// the nodes that ranks share, counted on each. Reports of effects follow.
     void write(const Simulation& simulation);
 
   private:

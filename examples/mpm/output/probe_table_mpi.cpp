@@ -1,9 +1,7 @@
 #include "output/probe_table_mpi.hpp"
 
-#include "effects/probes.hpp"
 #include "parallel/communicator_mpi.hpp"
 
-#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -12,28 +10,18 @@ namespace mpm {
 namespace {
 
 /// Columns of the points in the table, in its order.
-constexpr std::array<const char*, 15> columns{"x",         "y",         "z",         "stress_xx",
-                                              "stress_yy", "stress_zz", "stress_xy", "stress_yz",
-                                              "stress_zx", "strain_xx", "strain_yy", "strain_zz",
-                                              "strain_xy", "strain_yz", "strain_zx"};
+constexpr std::array<const char*, 9> columns{
+    "x", "y", "z", "stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
 
 using Row = std::array<double, columns.size()>;
 
-/// Adds this rank's points to the rows of the probes that mark them.
-void add_rows(const Particles& particles, std::vector<Row>& rows) {
-    const auto marks = particles[probe_column];
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-        if (!particles.has_column(columns[c])) continue;
-        const auto values = particles[columns[c]];
-        for (std::size_t p = 0; p < marks.size(); ++p)
-            if (marks[p] > 0) rows[static_cast<std::size_t>(marks[p]) - 1][c] = values[p];
-    }
-}
-
 }  // namespace
 
-ProbeTable::ProbeTable(const std::string& path, const Scene& scene, MPI_Comm comm)
-    : probes_(scene.probes), starts_(probed_points(scene)), comm_(comm) {
+ProbeTable::ProbeTable(const std::string& path, const Scene& scene, MPI_Comm comm) : comm_(comm) {
+    for (const Probe& probe : scene.probes) {
+        names_.push_back(probe.name);
+        points_.push_back(nearest_point(scene, probe.position));
+    }
     const bool is_writer = rank_of(comm) == 0;
     if (is_writer) file_.open(path);
     fail_together(is_writer && !file_ ? path + ": cannot be written" : "", comm);
@@ -44,19 +32,23 @@ ProbeTable::ProbeTable(const std::string& path, const Scene& scene, MPI_Comm com
 }
 
 void ProbeTable::write(const Simulation& simulation) {
-    std::vector<Row> local(probes_.size(), Row{}), rows = local;
-    add_rows(simulation.particles(), local);
+    const Particles& particles = simulation.particles();
+    std::vector<Row> local(points_.size(), Row{}), rows = local;
+    const auto ids = particles["id"];
+    for (std::size_t p = 0; p < ids.size(); ++p)
+        for (std::size_t k = 0; k < points_.size(); ++k)
+            for (std::size_t c = 0;
+                 ids[p] == static_cast<double>(points_[k].number) && c < columns.size(); ++c)
+                if (particles.has_column(columns[c])) local[k][c] = particles[columns[c]][p];
     // A point has one owner, so a sum is exact.
     MPI_Reduce(local.data(), rows.data(), static_cast<int>(local.size() * columns.size()),
                MPI_DOUBLE, MPI_SUM, 0, comm_);
     if (!file_.is_open()) return;
-    for (std::size_t k = 0; k < probes_.size(); ++k) {
-        const auto first = std::ranges::find(starts_, starts_[k]) - starts_.begin();
-        const Row& row = rows[static_cast<std::size_t>(first)];
-        file_ << simulation.step_count() << ',' << simulation.time() << ',' << probes_[k].name;
-        for (std::size_t a = 0; a < 3; ++a) file_ << ',' << row[a];
-        for (std::size_t a = 0; a < 3; ++a) file_ << ',' << row[a] - starts_[k][a];
-        for (std::size_t c = 3; c < columns.size(); ++c) file_ << ',' << row[c];
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+        file_ << simulation.step_count() << ',' << simulation.time() << ',' << names_[k];
+        for (std::size_t a = 0; a < 3; ++a) file_ << ',' << rows[k][a];
+        for (std::size_t a = 0; a < 3; ++a) file_ << ',' << rows[k][a] - points_[k].place[a];
+        for (std::size_t c = 3; c < columns.size(); ++c) file_ << ',' << rows[k][c];
         file_ << '\n';
     }
     file_.flush();

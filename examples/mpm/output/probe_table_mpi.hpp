@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/lattice.hpp"
+
 #include <mpi.h>
 #include <mpm/simulation.hpp>
 
@@ -9,20 +11,20 @@
 
 namespace mpm {
 
-/// Position, displacement, stress and strain of a scene's probes as a table, a row for each probe
-/// and call.
+/// Position, displacement and stress of a scene's probes as a table, a row for each probe and call.
+/// A probe follows a point by its number, which costs the points nothing.
 class ProbeTable {
   public:
     /// Rank 0 opens the file. Collective; throws std::runtime_error on all ranks when it cannot.
     ProbeTable(const std::string& path, const Scene& scene, MPI_Comm comm);
 
     /// Appends the present state. Collective. Positions and displacements are in m, stresses in Pa
-    /// (tension positive), strains are those of add_probes; what two dimensions have not is 0.
+    /// (tension positive).
     void write(const Simulation& simulation);
 
   private:
-    std::vector<Probe> probes_;
-    std::vector<Vector> starts_;  ///< of the points that they follow
+    std::vector<std::string> names_;
+    std::vector<NearestPoint> points_;  ///< that the probes follow
     MPI_Comm comm_;
     std::ofstream file_;  ///< on rank 0
 };

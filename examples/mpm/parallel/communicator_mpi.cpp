@@ -4,17 +4,18 @@
 
 namespace mpm {
 
-std::string broadcast(std::string text, MPI_Comm comm) {
+std::string broadcast(std::string text, MPI_Comm comm, int from) {
     auto length = static_cast<int>(text.size());
-    MPI_Bcast(&length, 1, MPI_INT, 0, comm);
+    MPI_Bcast(&length, 1, MPI_INT, from, comm);
     text.resize(static_cast<std::size_t>(length));
-    MPI_Bcast(text.data(), length, MPI_CHAR, 0, comm);
+    MPI_Bcast(text.data(), length, MPI_CHAR, from, comm);
     return text;
 }
 
 void fail_together(const std::string& text, MPI_Comm comm) {
-    const std::string of_all = broadcast(text, comm);
-    if (!of_all.empty()) throw std::runtime_error(of_all);
+    int first = text.empty() ? size_of(comm) : rank_of(comm);
+    MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, comm);
+    if (first < size_of(comm)) throw std::runtime_error(broadcast(text, comm, first));
 }
 
 }  // namespace mpm

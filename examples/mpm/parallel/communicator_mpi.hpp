@@ -20,10 +20,10 @@ inline int size_of(MPI_Comm comm) {
     return size;
 }
 
-/// The text of rank 0 on every rank. Collective.
-std::string broadcast(std::string text, MPI_Comm comm);
+/// Returns the text of one rank on every rank. Collective.
+std::string broadcast(std::string text, MPI_Comm comm, int from = 0);
 
-/// Throws std::runtime_error with the text of rank 0 on all ranks, unless it is empty. Collective.
+/// Throws std::runtime_error on all ranks if any has a text, with that of the lowest. Collective.
 void fail_together(const std::string& text, MPI_Comm comm);
 
 }  // namespace mpm

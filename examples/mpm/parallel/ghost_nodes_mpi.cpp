@@ -88,13 +88,6 @@ void GhostNodes<D>::sum(GridPatch<D>& patch) {
 }
 
 template <int D>
-void GhostNodes<D>::mark_counted(GridPatch<D>& patch) const {
-    patch.is_counted.assign(patch.sums.size(), 1);
-    for (std::size_t k = 0; k < ranks_.size() && ranks_[k] < rank_; ++k)
-        for (const std::size_t n : nodes_[k]) patch.is_counted[n] = 0;
-}
-
-template <int D>
 void GhostNodes<D>::exchange(const GridPatch<D>& patch) {
     const std::size_t num_neighbours = ranks_.size();
     for (std::size_t k = 0; k < num_neighbours; ++k) {

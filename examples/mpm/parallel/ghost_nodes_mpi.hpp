@@ -23,10 +23,6 @@ class GhostNodes {
     /// order of the ranks, so that all hold the same bits.
     void sum(GridPatch<D>& patch);
 
-    /// Marks the nodes that this rank counts in sums over the ranks. The lowest rank of a node
-    /// does.
-    void mark_counted(GridPatch<D>& patch) const;
-
     /// Nodes that this rank shares with any other.
     std::size_t num_shared() const { return shared_.size(); }
 

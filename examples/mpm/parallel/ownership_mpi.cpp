@@ -1,7 +1,7 @@
 #include "parallel/ownership_mpi.hpp"
 
 #include "parallel/communicator_mpi.hpp"
-#include "particles/pair.hpp"
+#include "particles/vectors.hpp"
 
 #include <algorithm>
 #include <array>
@@ -24,6 +24,17 @@ void join(void* from, void* into, int* length, MPI_Datatype*) {
     for (int i = 0; i < *length; ++i)
         b[i] = {std::max(a[i].fault, b[i].fault), std::max(a[i].reach, b[i].reach),
                 std::max(a[i].speed, b[i].speed), a[i].num_leavers + b[i].num_leavers};
+}
+
+/// Text about a point that has left the grid.
+std::string text_of(double id, Positions positions, std::size_t p, double now) {
+    std::ostringstream text;
+    text << "point " << std::setprecision(15) << id << std::setprecision(6)
+         << " has left the grid at x = " << positions.x[p] << " m, y = " << positions.y[p] << " m";
+    if (!positions.z.empty()) text << ", z = " << positions.z[p] << " m";
+    text << ", time = " << now
+         << " s: make the grid larger, give it walls, or lower the Courant number";
+    return text.str();
 }
 
 }  // namespace
@@ -71,7 +82,8 @@ bool are_inside(const Box& box, const std::array<const double*, 3>& at, std::siz
 }
 
 template <int D>
-void Ownership::find_outside(const Box& box, Positions positions, std::span<const double> ids) {
+void Ownership::find_outside(const Box& box, Positions positions, std::span<const double> ids,
+                             double now) {
     constexpr std::size_t block = 256;
     const std::array<const double*, 3> at{positions.x.data(), positions.y.data(),
                                           positions.z.data()};
@@ -85,8 +97,7 @@ void Ownership::find_outside(const Box& box, Positions positions, std::span<cons
         if (are_inside<D>(inner, at, begin, end)) continue;
         for (std::size_t p = begin; p < end; ++p) {
             if (!is_inside<D>(grid_, at, p)) {
-                lost_.id = ids[p];
-                lost_.at = positions[p];
+                lost_ = text_of(ids[p], positions, p, now);
                 return report(Fault::left_grid);
             }
             if (is_inside<D>(box, at, p)) continue;
@@ -99,15 +110,13 @@ void Ownership::find_outside(const Box& box, Positions positions, std::span<cons
 void Ownership::find_leavers(const Decomposition& decomposition, Positions positions,
                              std::span<const double> ids, double now,
                              std::span<const int> neighbours) {
-    lost_.time = now;
     leavers_.points.clear();
     for (std::vector<double>& column : at_) column.clear();
     const Box& box = decomposition.boxes[static_cast<std::size_t>(rank_)];
-    is_solid_ = !positions.z.empty();
-    if (!is_solid_)
-        find_outside<2>(box, positions, ids);
+    if (positions.z.empty())
+        find_outside<2>(box, positions, ids, now);
     else
-        find_outside<3>(box, positions, ids);
+        find_outside<3>(box, positions, ids, now);
     leavers_.owners.clear();
     if (leavers_.points.empty() || !ask_owners(decomposition, {at_[0], at_[1], at_[2]})) return;
     for (std::size_t k = 0; k < owners_.size(); ++k)
@@ -202,25 +211,10 @@ void Ownership::throw_fault(Fault fault, bool is_mine) {
     if (fault == Fault::misplaced)
         throw std::runtime_error(
             "the decomposition gave a point to a rank whose box does not hold it");
-    if (fault == Fault::no_owner)
-        throw std::runtime_error(
-            "the decomposition named no owner of some point: it must give one box per rank and a "
-            "rank for every position in the grid");
-    throw_lost_point(is_mine);
-}
-
-/// Of several ranks that have lost a point, the lowest tells about it.
-void Ownership::throw_lost_point(bool is_mine) {
-    int teller = is_mine ? rank_ : static_cast<int>(num_ranks_);
-    MPI_Allreduce(MPI_IN_PLACE, &teller, 1, MPI_INT, MPI_MIN, comm_);
-    MPI_Bcast(&lost_, sizeof lost_ / sizeof(double), MPI_DOUBLE, teller, comm_);
-    std::ostringstream text;
-    text << "point " << std::setprecision(15) << lost_.id << std::setprecision(6)
-         << " has left the grid at x = " << lost_.at[0] << " m, y = " << lost_.at[1] << " m";
-    if (is_solid_) text << ", z = " << lost_.at[2] << " m";
-    text << ", time = " << lost_.time
-         << " s: make the grid larger, give it walls, or lower the Courant number";
-    throw std::runtime_error(text.str());
+    if (fault == Fault::left_grid) fail_together(is_mine ? lost_ : "", comm_);
+    throw std::runtime_error(
+        "the decomposition named no owner of some point: it must give one box per rank and a "
+        "rank for every position in the grid");
 }
 
 }  // namespace mpm

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace mpm {
@@ -50,17 +51,10 @@ class Ownership {
     /// Faults of a rank, in ascending order of gravity.
     enum class Fault { none, misplaced, no_owner, left_grid };
 
-    /// A point that has left the grid.
-    struct LostPoint {
-        double id = 0, time = 0;
-        Vector at{};
-    };
-
     [[noreturn]] void throw_fault(Fault fault, bool is_mine);
-    [[noreturn]] void throw_lost_point(bool is_mine);
     void report(Fault fault);
     template <int D>
-    void find_outside(const Box& box, Positions positions, std::span<const double> ids);
+    void find_outside(const Box& box, Positions positions, std::span<const double> ids, double now);
     bool ask_owners(const Decomposition& decomposition, Positions positions);
     void check_owner(const Decomposition& decomposition, int owner, Positions positions,
                      std::size_t point);
@@ -80,8 +74,7 @@ class Ownership {
     std::vector<int> owners_;
     Reach reach_ = Reach::nowhere;
     Fault fault_ = Fault::none;
-    LostPoint lost_;
-    bool is_solid_ = false;  ///< in three dimensions
+    std::string lost_;  ///< text about a point that has left the grid
 };
 
 }  // namespace mpm

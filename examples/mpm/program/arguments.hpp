@@ -14,7 +14,7 @@ struct Arguments {
     int vtk_every = -1;        ///< -1: as the scene says
     double end_time = 0;       ///< s; 0: as the scene says
     double cell_size = 0;      ///< m; 0: as the scene says
-    double every_time = -1;    ///< s between outputs; -1: as the scene says
+    double every_time = 0;     ///< s between outputs; 0: as the scene says
     int state_every = 0;       ///< steps between written states; 0: none
     std::string restart;       ///< file of a state to go on from; empty: from the scene's start
     bool list_kernels = false;

@@ -46,20 +46,10 @@ void list_kernels(const mpm::Simulation& simulation) {
                 simulation.doubles_per_ghost_node());
 }
 
-void warn(const std::string& path, const std::string& warning) {
-    if (warning.empty()) return;
-    std::fprintf(stderr, "rrcb_mpm: warning: %s: %s\n", path.c_str(), warning.c_str());
-}
-
-/// Tells the mass of each body, and what a user may not have meant.
+/// Prints values that may not be meant.
 void report_scene(const std::string& path, const mpm::Scene& scene) {
-    for (const mpm::BodyReport& body : mpm::report_on_bodies(scene)) {
-        std::printf("body %s: %lld points, mass got / asked: %.6g / %.6g kg\n", body.name.c_str(),
-                    static_cast<long long>(body.num_points), body.mass, body.asked_mass);
-        warn(path, body.warning);
-    }
-    for (const std::string& warning : mpm::scene_warnings(scene)) warn(path, warning);
-    for (const std::string& note : mpm::damping_notes(scene)) std::printf("%s\n", note.c_str());
+    for (const std::string& warning : mpm::scene_warnings(scene))
+        std::fprintf(stderr, "rrcb_mpm: warning: %s: %s\n", path.c_str(), warning.c_str());
 }
 
 /// Files that the output plan asks for, in a folder that rank 0 makes.
@@ -67,23 +57,22 @@ class Recorder {
   public:
     /// Collective over `comm`. `state_every` is as in Arguments.
     Recorder(const std::string& folder, const mpm::SceneFile& file, int state_every, MPI_Comm comm)
-        : plan_(file.output), state_every_(state_every), folder_(folder) {
-        std::error_code error;
-        if (mpm::rank_of(comm) == 0) std::filesystem::create_directories(folder, error);
-        mpm::fail_together(error ? folder + ": " + error.message() : "", comm);
-        history_.emplace(folder + "/history.csv", file.scene, comm);
+        : plan_(file.output),
+          state_every_(state_every),
+          folder_(made(folder, comm)),
+          history_(folder + "/history.csv", file.scene, comm),
+          vtk_(folder, file.scene, comm) {
         if (!file.scene.probes.empty()) probes_.emplace(folder + "/probes.csv", file.scene, comm);
-        vtk_.emplace(folder, file.scene, comm);
     }
 
     /// Returns whether a state was written.
     bool record(const mpm::Simulation& simulation, bool is_last) {
         const bool is_time = passes(simulation.time());
         if (is_due(plan_.history_every, is_time, simulation, is_last)) {
-            history_->write(simulation);
+            history_.write(simulation);
             if (probes_) probes_->write(simulation);
         }
-        if (is_due(plan_.vtk_every, is_time, simulation, is_last)) vtk_->write(simulation);
+        if (is_due(plan_.vtk_every, is_time, simulation, is_last)) vtk_.write(simulation);
         if (!is_due_by_steps(state_every_, simulation, is_last)) return false;
         simulation.write_state(folder_ + "/state_" + std::to_string(simulation.step_count()) +
                                ".mpm");
@@ -91,6 +80,13 @@ class Recorder {
     }
 
   private:
+    static std::string made(const std::string& folder, MPI_Comm comm) {
+        std::error_code error;
+        if (mpm::rank_of(comm) == 0) std::filesystem::create_directories(folder, error);
+        mpm::fail_together(error ? folder + ": " + error.message() : "", comm);
+        return folder;
+    }
+
     static bool is_due_by_steps(int every, const mpm::Simulation& simulation, bool is_last) {
         return every > 0 && (is_last || simulation.step_count() % every == 0);
     }
@@ -113,9 +109,9 @@ class Recorder {
     int state_every_;
     std::string folder_;
     double next_time_ = 0;
-    std::optional<mpm::History> history_;
+    mpm::History history_;
+    mpm::VtkSeries vtk_;
     std::optional<mpm::ProbeTable> probes_;
-    std::optional<mpm::VtkSeries> vtk_;
 };
 
 /// Mean processor time of each rank's own work, every so many steps.
@@ -222,19 +218,6 @@ class Progress {
     double begin_ = MPI_Wtime(), shown_ = begin_ - 1;
 };
 
-/// Warns where the transfers have gained energy by a hundredth of what there is.
-void warn_of_gain(const mpm::Simulation& simulation, MPI_Comm comm) {
-    const mpm::Totals totals = simulation.totals();
-    const double energy = totals.kinetic_energy + totals.strain_energy +
-                          std::abs(totals.dissipated_energy.value_or(0));
-    if (mpm::rank_of(comm) == 0 && totals.transfer_loss.value_or(0) < -0.01 * energy)
-        std::fprintf(
-            stderr,
-            "warning: the transfers have gained %.3g J (transfer_loss in history.csv): the "
-            "run may be unstable; lower the courant_number\n",
-            -*totals.transfer_loss);
-}
-
 void simulate(mpm::Simulation& simulation, const mpm::Scene& scene, const Arguments& arguments,
               Recorder& recorder, MPI_Comm comm) {
     Schedule schedule(arguments.every, arguments.learns_cost, simulation.step_count(), comm);
@@ -258,7 +241,6 @@ void simulate(mpm::Simulation& simulation, const mpm::Scene& scene, const Argume
     }
     if (mpm::rank_of(comm) == 0 && arguments.learns_cost)
         std::printf("%s\n", schedule.report().c_str());
-    warn_of_gain(simulation, comm);
 }
 
 void print_end(const mpm::Simulation& simulation, const Arguments& arguments, double seconds) {

@@ -7,73 +7,68 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace mpm {
 
-/// Where the points of a scene were at the start, by their numbers: rows of the lattice along x.
+/// The lattices of a scene's bodies. A point's number is its place on them, so that it tells where
+/// the point was at the start.
 class StartPlaces {
   public:
-    explicit StartPlaces(double lower_x) : lower_x_(lower_x) {}
+    explicit StartPlaces(const Scene& scene);
 
-    /// Adds the next point: its place, and its number and the distance of neighbours in its row.
-    void append(const Vector& at, int i, double spacing);
+    /// Calls visit(place, number) for the points of a body in ascending order of the numbers.
+    template <typename Visit>
+    void visit(const Body& body, std::size_t body_number, Visit visit) const;
 
     /// How far the points with these numbers, now at these positions, have moved, m.
     std::vector<Vector> displacements(Positions at, std::span<const double> numbers) const;
 
-    /// Largest x of those that have moved by more than `way` m; -infinity where there is none.
+    /// Largest x of those that have moved by more than `way` m; -infinity if there is none.
     double front_x(Positions at, std::span<const double> numbers, double way) const;
 
-    /// A number that others rarely have, the same on all ranks.
-    double fingerprint() const;
-
   private:
-    class Reader;
-    struct Row {
-        std::int64_t first_number, first_i;
-        double y, z, spacing;
+    struct Lattice {
+        std::int64_t first_number;
+        std::array<std::int64_t, 3> count;
+        Vector spacing;
     };
 
-    double lower_x_;
-    std::vector<Row> rows_;
-    std::int64_t size_ = 0;
+    Vector place(const Lattice& lattice, const std::array<std::int64_t, 3>& node) const;
+    Vector displacement(Positions at, std::span<const double> numbers, std::size_t point) const;
+
+    int dimension_;
+    Vector lower_;
+    std::vector<Lattice> lattices_;
 };
 
-/// Number and place of the points of a scene.
+/// Number and extent of the points of a scene.
 struct ScenePoints {
     std::int64_t num_points = 0;
-    Box box;  ///< empty without points
-    StartPlaces start_places;
+    Box box;                 ///< empty without points
+    double fingerprint = 0;  ///< of all numbers; other points rarely have the same
 };
 
 /// Points of a scene. Throws std::invalid_argument that names a body without points, or a
 /// point whose velocity is not finite or that lies in two bodies or behind a plane.
 ScenePoints scene_points(const Scene& scene);
 
-/// Calls visit(body, place) for each point of a scene in the order of their numbers.
-void visit_points(const Scene& scene, const std::function<void(const Body&, const Vector&)>& visit);
-
-/// Throws std::invalid_argument that names a point of a scene that lies behind a plane by more than
-/// half its size. `place` is for the error.
-void check_in_front(const Scene& scene, const Plane& plane, const std::string& place);
-
-/// The points of one body on the lattice.
-struct BodyPoints {
-    std::int64_t num_points = 0;
-    double volume = 1;  ///< of all, m^3; in two dimensions per metre of depth
-    Vector spacing{};   ///< distance of neighbours along the axes, m
-};
-
-/// The points of each body of a scene, in their order.
-std::vector<BodyPoints> points_of_bodies(const Scene& scene);
+/// Calls visit(body, place, number) for each point of a scene in ascending order of the numbers.
+void visit_points(const Scene& scene,
+                  const std::function<void(const Body&, const Vector&, std::int64_t)>& visit);
 
 /// Distance of a body's neighbouring points along the axes, m; in two dimensions 1 along z.
 Vector lattice_spacing(const Scene& scene, const Body& body);
 
-/// The place of the point of a scene that is nearest to a position, the first of equals.
-Vector nearest_point(const Scene& scene, const Vector& position);
+/// The point of a scene that is nearest to a position at the start, the first of equals.
+struct NearestPoint {
+    Vector place{};
+    std::int64_t number = 0;
+};
+NearestPoint nearest_point(const Scene& scene, const Vector& position);
+
+/// Throws std::invalid_argument: the place, a point of a body and the text of its fault.
+[[noreturn]] void refuse_point(const std::string& place, const Vector& at, const std::string& text);
 
 /// Appends the scene's points that `rank` owns. Columns other than those of motion, `material`
 /// and the level at the start begin with their initial values.

@@ -58,9 +58,7 @@ bool keeps(const Rule& rule, const Value& value, int dimension) {
         return rule.choices.empty() ||
                std::ranges::find(rule.choices, std::get<std::string>(value)) != rule.choices.end();
     const auto& list = std::get<std::vector<double>>(value);
-    const std::size_t wanted = rule.has_any_length ? std::max<std::size_t>(list.size(), 1)
-                                                   : static_cast<std::size_t>(dimension);
-    return list.size() == wanted &&
+    return (rule.has_any_length || list.size() == static_cast<std::size_t>(dimension)) &&
            std::ranges::all_of(list, [&](double entry) { return keeps(rule, entry); });
 }
 
@@ -72,34 +70,29 @@ void check_names(const Parameters& given, std::span<const Rule> rules, const std
             refuse(place, name, "is not known here; possible: " + joined(known));
 }
 
-Rule number_rule(std::string name, std::string unit, std::optional<double> fallback) {
-    Rule rule{.name = std::move(name), .unit = std::move(unit)};
-    if (fallback) rule.fallback = *fallback;
-    return rule;
-}
-
 }  // namespace
 
 Rule positive(std::string name, std::string unit, std::optional<double> fallback) {
-    Rule rule = number_rule(std::move(name), std::move(unit), fallback);
-    rule.least = 0;
+    Rule rule = not_negative(std::move(name), std::move(unit), fallback);
     rule.without_ends = true;
     return rule;
 }
 
 Rule not_negative(std::string name, std::string unit, std::optional<double> fallback) {
-    Rule rule = number_rule(std::move(name), std::move(unit), fallback);
+    Rule rule = number(std::move(name), std::move(unit), fallback);
     rule.least = 0;
     return rule;
 }
 
 Rule number(std::string name, std::string unit, std::optional<double> fallback) {
-    return number_rule(std::move(name), std::move(unit), fallback);
+    Rule rule{.name = std::move(name), .unit = std::move(unit)};
+    if (fallback) rule.fallback = *fallback;
+    return rule;
 }
 
 Rule within(std::string name, std::string unit, double least, double most,
             std::optional<double> fallback) {
-    Rule rule = number_rule(std::move(name), std::move(unit), fallback);
+    Rule rule = number(std::move(name), std::move(unit), fallback);
     rule.least = least;
     rule.most = most;
     return rule;
@@ -118,8 +111,8 @@ Rule vector(std::string name, std::string unit, std::optional<std::vector<double
     return rule;
 }
 
-Rule numbers(std::string name, std::string unit, std::optional<std::vector<double>> fallback) {
-    Rule rule = vector(std::move(name), std::move(unit), std::move(fallback));
+Rule rows(std::string name, std::string unit) {
+    Rule rule = vector(std::move(name), std::move(unit));
     rule.has_any_length = true;
     return rule;
 }

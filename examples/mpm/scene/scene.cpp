@@ -36,48 +36,20 @@ void check_body(const Scene& scene, const Body& body) {
     material_of(scene, body);
 }
 
-void check_walls(const Scene& scene) {
-    const Walls& walls = scene.walls;
-    const std::array all{&walls.left, &walls.right, &walls.bottom,
-                         &walls.top,  &walls.back,  &walls.front};
-    const std::array names{"left", "right", "bottom", "top", "back", "front"};
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        const Wall& wall = *all[k];
-        const std::string place = std::string("the wall '") + names[k] + "'";
-        require(wall.friction >= 0 && std::isfinite(wall.friction),
-                "the friction of " + place + " must not be negative");
+void check_friction(double friction, const std::string& place) {
+    require(friction >= 0 && std::isfinite(friction),
+            "the friction of " + place + " must not be negative");
+}
+
+void check_plane(const Scene& scene, const Plane& plane) {
+    const std::string place = "plane '" + plane.name + "'";
+    double square = 0;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a) {
+        square += plane.normal[a] * plane.normal[a];
+        require(std::isfinite(plane.point[a]), place + " must have a finite point");
     }
-}
-
-void check_planes(const Scene& scene) {
-    for (const Plane& plane : scene.planes) {
-        double square = 0;
-        for (std::size_t a = 0; a < static_cast<std::size_t>(scene.dimension); ++a) {
-            square += plane.normal[a] * plane.normal[a];
-            require(std::isfinite(plane.point[a]),
-                    "plane '" + plane.name + "' must have a finite point");
-        }
-        require(square > 0 && std::isfinite(square),
-                "plane '" + plane.name + "' must have a normal that is not zero");
-        require(plane.friction >= 0 && std::isfinite(plane.friction),
-                "the friction of plane '" + plane.name + "' must not be negative");
-    }
-}
-
-void check_probes(const Scene& scene) {
-    for (const Probe& probe : scene.probes)
-        for (const double coordinate : probe.position)
-            require(std::isfinite(coordinate),
-                    "probe '" + probe.name + "' must have a finite position");
-}
-
-void check_transfer(const Scene& scene) {
-    require(scene.flip_fraction >= 0 && scene.flip_fraction <= 1,
-            "the FLIP fraction must lie in 0 ... 1");
-    require(scene.courant_number > 0 && scene.courant_number <= 1,
-            "the Courant number must lie in 0 ... 1");
-    require(scene.least_node_mass >= 0 && scene.least_node_mass < 1,
-            "the least mass of a node must lie in 0 ... 1");
+    require(square > 0 && std::isfinite(square), place + " must have a normal that is not zero");
+    check_friction(plane.friction, place);
 }
 
 }  // namespace
@@ -87,10 +59,19 @@ void validate(const Scene& scene) {
     require(!scene.bodies.empty(), "there is no body");
     for (const Material& material : scene.materials) values_of(material, scene.dimension);
     for (const Body& body : scene.bodies) check_body(scene, body);
-    check_walls(scene);
-    check_planes(scene);
-    check_probes(scene);
-    check_transfer(scene);
+    const Walls& walls = scene.walls;
+    for (const Wall* wall :
+         {&walls.left, &walls.right, &walls.bottom, &walls.top, &walls.back, &walls.front})
+        check_friction(wall->friction, "a wall");
+    for (const Plane& plane : scene.planes) check_plane(scene, plane);
+    for (const Probe& probe : scene.probes)
+        for (const double coordinate : probe.position)
+            require(std::isfinite(coordinate),
+                    "probe '" + probe.name + "' must have a finite position");
+    require(scene.courant_number > 0 && scene.courant_number <= 1,
+            "the Courant number must lie in 0 ... 1");
+    require(scene.least_node_mass >= 0 && scene.least_node_mass < 1,
+            "the least mass of a node must lie in 0 ... 1");
     effects_of(scene);
 }
 

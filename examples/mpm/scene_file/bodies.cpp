@@ -23,24 +23,8 @@ std::vector<Rule> shape_rules(const std::string& shape) {
     if (shape == "box") add({vector("lower", "m"), vector("upper", "m")});
     if (shape == "ball") add({vector("centre", "m"), positive("radius", "m")});
     if (shape == "half_space") add({vector("point", "m"), vector("normal", "")});
+    if (shape == "polygon") add({rows("corners", "m")});
     return rules;
-}
-
-/// The word that tells the shape. It is checked first: the other keys depend on it.
-std::string read_kind(const List& list, int dimension) {
-    const Parameters parameters = list.parameters();
-    Parameters given;
-    if (const auto found = parameters.find(shape_rule.name); found != parameters.end())
-        given.insert(*found);
-    return Values(given, {&shape_rule, 1}, list.place(), dimension).word(shape_rule.name);
-}
-
-/// Refuses a box that would hold nothing.
-void check_corners(const List& list, const Values& values) {
-    const std::vector<double>&lower = values.list("lower"), &upper = values.list("upper");
-    for (std::size_t a = 0; a < lower.size(); ++a)
-        if (!(lower[a] < upper[a]))
-            list.refuse("upper", std::string("must lie above 'lower' along ") + "xyz"[a]);
 }
 
 /// A shape and a box around it.
@@ -49,9 +33,12 @@ struct Shape {
     Box bounds = everywhere;
 };
 
-Shape box_shape(const Values& values, int dimension) {
-    Box box{vector_of(values.list("lower")), vector_of(values.list("upper"))};
-    for (auto a = static_cast<std::size_t>(dimension); a < 3; ++a) box.upper[a] = box.lower[a];
+Shape box_shape(const List& list, const Values& values) {
+    const std::vector<double>&lower = values.list("lower"), &upper = values.list("upper");
+    for (std::size_t a = 0; a < lower.size(); ++a)
+        if (!(lower[a] < upper[a]))
+            list.refuse("upper", std::string("must lie above 'lower' along ") + "xyz"[a]);
+    const Box box{vector_of(lower), vector_of(upper)};
     return {box_region(box), box};
 }
 
@@ -66,7 +53,12 @@ Shape ball_shape(const Values& values) {
     return ball;
 }
 
-Shape polygon_shape(const std::vector<Vector>& corners) {
+/// Corners are rows of x and y, in three dimensions too.
+Shape polygon_shape(const List& list, const std::vector<double>& rows) {
+    if (rows.size() < 6 || rows.size() % 2 != 0)
+        list.refuse("corners", "must be 3 or more rows (x, y)");
+    std::vector<Vector> corners;
+    for (std::size_t k = 0; k < rows.size(); k += 2) corners.push_back({rows[k], rows[k + 1]});
     Shape polygon{polygon_region(corners)};
     for (std::size_t a = 0; a < 2; ++a) {
         const auto along = [a](const Vector& corner) { return corner[a]; };
@@ -74,14 +66,6 @@ Shape polygon_shape(const std::vector<Vector>& corners) {
         polygon.bounds.upper[a] = std::ranges::max(corners, {}, along)[a];
     }
     return polygon;
-}
-
-Shape make_shape(const Values& values, const std::vector<Vector>& corners, int dimension) {
-    const std::string& shape = values.word(shape_rule.name);
-    if (shape == "polygon") return polygon_shape(corners);
-    if (shape == "ball") return ball_shape(values);
-    if (shape == "box") return box_shape(values, dimension);
-    return {half_space_region(vector_of(values.list("point")), vector_of(values.list("normal")))};
 }
 
 Shape combined(Shape whole, const std::string& operation, Shape part) {
@@ -99,33 +83,21 @@ Shape combined(Shape whole, const std::string& operation, Shape part) {
     return whole;
 }
 
-/// One shape of a list, and the operation that it is combined by.
-std::pair<Shape, std::string> read_shape(List list, int dimension) {
-    std::vector<Vector> corners;
-    // Corners are rows of x and y, in three dimensions too. All else is plain parameters.
-    if (list.has("corners")) corners = list.take_rows("corners", 2);
-    const std::string shape = read_kind(list, dimension);
+/// Combines a shape of a list with those before it.
+Shape with_shape(Shape whole, const List& list, int dimension) {
+    // The word for the shape is checked first: the other keys depend on it.
+    List kind = list;
+    std::erase_if(kind.parameters, [](const auto& entry) { return entry.first != "shape"; });
+    const std::string shape = kind.values({shape_rule}, dimension).word("shape");
     const Values values = list.values(shape_rules(shape), dimension);
-    if (shape == "polygon" ? corners.size() < 3 : !corners.empty())
-        list.refuse("corners",
-                    "must be the 3 or more rows (x, y) of a polygon, and of nothing else");
-    if (shape == "box") check_corners(list, values);
-    return {make_shape(values, corners, dimension), values.word("operation")};
-}
-
-/// The shapes of a body, combined in their order.
-Shape read_shapes(List shapes, int dimension) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    Shape whole{[](const Vector&) { return false; },
-                {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}}};
-    const std::vector<std::string> names = shapes.sublist_names();
-    if (names.empty())
-        throw std::invalid_argument(shapes.place() + " is missing; it must be named shapes");
-    for (const std::string& name : names) {
-        auto [part, operation] = read_shape(shapes.take_list(name), dimension);
-        whole = combined(std::move(whole), operation, std::move(part));
-    }
-    return whole;
+    Shape part;
+    if (shape == "polygon") part = polygon_shape(list, values.list("corners"));
+    if (shape == "ball") part = ball_shape(values);
+    if (shape == "box") part = box_shape(list, values);
+    if (shape == "half_space")
+        part.region =
+            half_space_region(vector_of(values.list("point")), vector_of(values.list("normal")));
+    return combined(std::move(whole), values.word("operation"), std::move(part));
 }
 
 VelocityField read_velocity(const List& list, int dimension) {
@@ -157,19 +129,23 @@ std::array<int, 3> whole_numbers(const List& list, const std::string& name,
     return whole;
 }
 
-Body read_body(List list, const std::string& name, int dimension) {
-    const Shape shape = read_shapes(list.take_list("shapes"), dimension);
-    const VelocityField velocity = read_velocity(list.take_list("velocity"), dimension);
+Body read_body(const List& list, int dimension) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Shape shape{[](const Vector&) { return false; },
+                {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}}};
+    const std::vector<List> shapes = list.lists_in("shapes");
+    if (shapes.empty()) list.refuse("shapes", "is missing; it must be a list of shapes");
+    for (const List& one : shapes) shape = with_shape(std::move(shape), one, dimension);
     const std::vector<double> two(static_cast<std::size_t>(dimension), 2.0);
     const Values values = list.values(
         {vector("points_per_cell", "", two), {.name = "material", .kind = Rule::Kind::word}},
-        dimension);
+        dimension, {"shapes", "velocity"});
     return {
         .contains = shape.region,
         .points_per_cell = whole_numbers(list, "points_per_cell", values.list("points_per_cell")),
         .material = values.word("material"),
-        .velocity = velocity,
-        .name = name,
+        .velocity = read_velocity(list.list("velocity"), dimension),
+        .name = list.name,
         .bounds = shape.bounds};
 }
 

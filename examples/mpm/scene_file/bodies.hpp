@@ -7,7 +7,7 @@
 namespace mpm {
 
 /// Body of a list.
-Body read_body(List list, const std::string& name, int dimension);
+Body read_body(const List& list, int dimension);
 
 /// Whole numbers of a list along the axes, each at least 1; 1 beyond the dimension.
 std::array<int, 3> whole_numbers(const List& list, const std::string& name,

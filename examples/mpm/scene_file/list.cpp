@@ -1,10 +1,12 @@
 #include "scene_file/list.hpp"
 
 #include <Teuchos_Array.hpp>
+#include <Teuchos_ParameterList.hpp>
 #include <Teuchos_TwoDArray.hpp>
+#include <Teuchos_YamlParameterListCoreHelpers.hpp>
 
 #include <algorithm>
-#include <optional>
+#include <sstream>
 #include <stdexcept>
 
 namespace mpm {
@@ -13,84 +15,95 @@ namespace {
 
 using Entry = Teuchos::ParameterEntry;
 
+/// Takes a row of numbers, or rows one after the other. Returns whether the entry is one.
 template <typename Number>
-std::optional<Value> array_of(const Entry& entry) {
-    if (!entry.isType<Teuchos::Array<Number>>()) return std::nullopt;
-    const auto& array = Teuchos::getValue<Teuchos::Array<Number>>(entry);
-    return std::vector<double>(array.begin(), array.end());
-}
-
-std::optional<Value> value_of(const Entry& entry) {
-    if (entry.isType<int>()) return static_cast<double>(Teuchos::getValue<int>(entry));
-    if (entry.isType<double>()) return Teuchos::getValue<double>(entry);
-    if (entry.isType<std::string>()) return Teuchos::getValue<std::string>(entry);
-    if (const auto integers = array_of<int>(entry)) return integers;
-    return array_of<double>(entry);
-}
-
-template <typename Number>
-bool append_rows(const Entry& entry, std::size_t width, std::vector<Vector>& rows) {
-    if (!entry.isType<Teuchos::TwoDArray<Number>>()) return false;
-    const auto& array = Teuchos::getValue<Teuchos::TwoDArray<Number>>(entry);
-    if (static_cast<std::size_t>(array.getNumCols()) != width) return false;
-    for (int i = 0; i < static_cast<int>(array.getNumRows()); ++i) {
-        rows.emplace_back();
-        for (std::size_t a = 0; a < width; ++a)
-            rows.back()[a] = static_cast<double>(array(i, static_cast<int>(a)));
+bool take_numbers(const Entry& entry, Value& value) {
+    if (entry.isType<Number>()) value = static_cast<double>(Teuchos::getValue<Number>(entry));
+    if (entry.isType<Teuchos::Array<Number>>()) {
+        const auto& row = Teuchos::getValue<Teuchos::Array<Number>>(entry);
+        value = std::vector<double>(row.begin(), row.end());
     }
-    return true;
+    if (entry.isType<Teuchos::TwoDArray<Number>>()) {
+        const auto& rows = Teuchos::getValue<Teuchos::TwoDArray<Number>>(entry);
+        const auto numbers = rows.getDataArray();
+        if (rows.getNumCols() != 2) return false;
+        value = std::vector<double>(numbers.begin(), numbers.end());
+    }
+    return entry.isType<Number>() || entry.isType<Teuchos::Array<Number>>() ||
+           entry.isType<Teuchos::TwoDArray<Number>>();
+}
+
+List converted(const Teuchos::ParameterList& from, const std::string& name,
+               const std::string& place) {
+    List list{name, place, {}, {}};
+    for (auto at = from.begin(); at != from.end(); ++at) {
+        const std::string& key = from.name(at);
+        const Entry& entry = from.entry(at);
+        Value value;
+        if (entry.isList())
+            list.lists.push_back(converted(from.sublist(key), key, place + " / " + key));
+        else if (entry.isType<std::string>())
+            list.parameters[key] = Teuchos::getValue<std::string>(entry);
+        else if (take_numbers<int>(entry, value) || take_numbers<double>(entry, value))
+            list.parameters[key] = value;
+        else
+            list.refuse(key, "must be a number, a word, a row of numbers or rows of two");
+    }
+    return list;
+}
+
+/// Returns what Teuchos says of a text, without places in its own source.
+std::string readable(const std::string& message) {
+    std::istringstream lines(message);
+    std::string readable;
+    for (std::string line; std::getline(lines, line);)
+        if (!line.empty() && !line.starts_with("./") && !line.starts_with("Throw") &&
+            !line.starts_with("error: Parser failure"))
+            readable += "\n" + line;
+    return readable;
 }
 
 }  // namespace
 
-std::vector<std::string> List::sublist_names() const {
-    std::vector<std::string> names;
-    for (auto entry = list_.begin(); entry != list_.end(); ++entry) {
-        names.push_back(list_.name(entry));
-        if (!list_.entry(entry).isList()) refuse(names.back(), "must be a list of its own");
+List List::list(const std::string& wanted) const {
+    if (parameters.contains(wanted)) refuse(wanted, "must be a list of its own");
+    const auto found = std::ranges::find(lists, wanted, &List::name);
+    return found == lists.end() ? List{wanted, place + " / " + wanted, {}, {}} : *found;
+}
+
+std::vector<List> List::lists_in(const std::string& wanted) const {
+    const List found = list(wanted);
+    for (const auto& [key, value] : found.parameters)
+        found.refuse(key, "must be a list of its own");
+    return found.lists;
+}
+
+void List::check_lists(const std::vector<std::string>& possible) const {
+    for (const List& one : lists)
+        if (std::ranges::find(possible, one.name) == possible.end())
+            refuse(one.name, "is not known here; possible lists: " + joined(possible));
+}
+
+Values List::values(const std::vector<Rule>& rules, int dimension,
+                    const std::vector<std::string>& possible) const {
+    check_lists(possible);
+    return {parameters, rules, place, dimension};
+}
+
+void List::refuse(const std::string& key, const std::string& text) const {
+    throw std::invalid_argument(place + ": '" + key + "' " + text);
+}
+
+List parse_list(const std::string& text) {
+    Teuchos::RCP<Teuchos::ParameterList> list;
+    try {
+        list = Teuchos::getParametersFromYamlString(text);
+    } catch (const std::exception& error) {
+        throw std::invalid_argument(
+            "is not understood; it must be one list named scene, in YAML, each key once:" +
+            readable(error.what()));
     }
-    return names;
-}
-
-List List::take_list(const std::string& name) {
-    const std::string place = place_ + " / " + name;
-    if (!list_.isParameter(name)) return {Teuchos::ParameterList(), place};
-    if (!list_.isSublist(name)) refuse(name, "must be a list of its own");
-    List taken(list_.sublist(name), place);
-    list_.remove(name);
-    return taken;
-}
-
-std::vector<Vector> List::take_rows(const std::string& name, int dimension) {
-    std::vector<Vector> rows;
-    const Entry* entry = list_.getEntryPtr(name);
-    const auto width = static_cast<std::size_t>(dimension);
-    if (entry == nullptr ||
-        !(append_rows<double>(*entry, width, rows) || append_rows<int>(*entry, width, rows)))
-        refuse(name, "must be rows of " + std::to_string(dimension) + " numbers");
-    list_.remove(name);
-    return rows;
-}
-
-Parameters List::parameters() const {
-    Parameters parameters;
-    for (auto entry = list_.begin(); entry != list_.end(); ++entry) {
-        const std::string& name = list_.name(entry);
-        const std::optional<Value> value = value_of(list_.entry(entry));
-        if (!value) refuse(name, "must be a number, a word or a row of numbers");
-        parameters[name] = *value;
-    }
-    return parameters;
-}
-
-void List::refuse_other_lists(const std::string& possible) const {
-    for (auto entry = list_.begin(); entry != list_.end(); ++entry)
-        if (list_.entry(entry).isList())
-            refuse(list_.name(entry), "is not known here; possible lists: " + possible);
-}
-
-void List::refuse(const std::string& name, const std::string& text) const {
-    throw std::invalid_argument(place_ + ": '" + name + "' " + text);
+    return converted(*list, "scene", "scene");
 }
 
 Vector vector_of(const std::vector<double>& numbers) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Teuchos_ParameterList.hpp>
 #include <mpm/parameters.hpp>
 #include <mpm/vector.hpp>
 
@@ -9,37 +8,29 @@
 
 namespace mpm {
 
-/// A list of a scene file with its place, for errors.
-class List {
-  public:
-    List(Teuchos::ParameterList list, std::string place)
-        : list_(std::move(list)), place_(std::move(place)) {}
+/// A list of a scene file.
+struct List {
+    std::string name;
+    std::string place;  ///< names of the lists around it and its own, for errors
+    Parameters parameters;
+    std::vector<List> lists;  ///< in it, in the order of the file
 
-    const std::string& place() const { return place_; }
+    /// Returns the list of this name, an empty one if there is none.
+    List list(const std::string& wanted) const;
+    /// Returns the lists in a list of lists. Throws if it contains anything else.
+    std::vector<List> lists_in(const std::string& wanted) const;
+    /// Throws for a list that is none of these.
+    void check_lists(const std::vector<std::string>& possible) const;
+    /// Returns the parameters, checked by the rules. Throws for lists that are none of the
+    /// possible.
+    Values values(const std::vector<Rule>& rules, int dimension,
+                  const std::vector<std::string>& possible = {}) const;
 
-    /// Names of the lists in this one, in the order of the file. Throws where it holds anything
-    /// else.
-    std::vector<std::string> sublist_names() const;
-    bool has(const std::string& name) const { return list_.isParameter(name); }
-    /// Throws for a list that nobody has taken. The text names the possible ones.
-    void refuse_other_lists(const std::string& possible) const;
-    /// Takes out the list of this name, empty where there is none. Throws where it is no list.
-    List take_list(const std::string& name);
-    /// Takes out rows of as many numbers as there are dimensions.
-    std::vector<Vector> take_rows(const std::string& name, int dimension);
-    /// Entries not taken, which must be numbers, words and rows of numbers.
-    Parameters parameters() const;
-    /// Entries not taken, checked by the rules.
-    Values values(const std::vector<Rule>& rules, int dimension) const {
-        return {parameters(), rules, place_, dimension};
-    }
-
-    [[noreturn]] void refuse(const std::string& name, const std::string& text) const;
-
-  private:
-    Teuchos::ParameterList list_;
-    std::string place_;
+    [[noreturn]] void refuse(const std::string& key, const std::string& text) const;
 };
+
+/// Reads a text in YAML, which must be one list named scene. Throws std::invalid_argument.
+List parse_list(const std::string& text);
 
 /// Numbers along the axes as a vector.
 Vector vector_of(const std::vector<double>& numbers);

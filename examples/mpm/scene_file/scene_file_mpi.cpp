@@ -3,8 +3,6 @@
 #include "parallel/communicator_mpi.hpp"
 #include "scene_file/bodies.hpp"
 
-#include <Teuchos_YamlParameterListCoreHelpers.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -17,27 +15,6 @@ namespace mpm {
 namespace {
 
 constexpr double most_steps = 1e9;
-
-/// What Teuchos says of a text, without the places in its own source.
-std::string readable(const std::string& message) {
-    std::istringstream lines(message);
-    std::string readable;
-    for (std::string line; std::getline(lines, line);)
-        if (!line.empty() && !line.starts_with("./") && !line.starts_with("Throw") &&
-            !line.starts_with("error: Parser failure"))
-            readable += "\n" + line;
-    return readable;
-}
-
-Teuchos::ParameterList parse(const std::string& text) {
-    try {
-        return *Teuchos::getParametersFromYamlString(text);
-    } catch (const std::exception& error) {
-        throw std::invalid_argument(
-            "is not understood; it must be one list named scene, in YAML, each key once:" +
-            readable(error.what()));
-    }
-}
 
 GridShape read_domain(const List& list, int dimension) {
     const Values values = list.values(
@@ -73,26 +50,22 @@ Walls read_walls(const List& list, int dimension) {
     return walls;
 }
 
-Plane read_plane(const List& list, const std::string& name, int dimension) {
+Plane read_plane(const List& list, int dimension) {
     const Values values =
         list.values({vector("point", "m"), vector("normal", ""), choice("kind", {"frictional"}),
                      not_negative("friction", "")},
                     dimension);
-    return {name, vector_of(values.list("point")), vector_of(values.list("normal")),
+    return {list.name, vector_of(values.list("point")), vector_of(values.list("normal")),
             values.number("friction")};
 }
 
 void read_method(const List& list, int dimension, Scene& scene) {
-    const Values values = list.values(
-        {choice("shape_function", {"linear", "quadratic"}), choice("transfer", {"flip", "apic"}),
-         within("flip_fraction", "", 0, 1, scene.flip_fraction),
-         within("courant_number", "", 1e-6, 1, scene.courant_number),
-         within("least_node_mass", "", 0, 0.5, 0.0)},
-        dimension);
+    const Values values = list.values({choice("shape_function", {"linear", "quadratic"}),
+                                       within("courant_number", "", 1e-6, 1, scene.courant_number),
+                                       within("least_node_mass", "", 0, 0.5, 0.0)},
+                                      dimension);
     if (values.word("shape_function") == "quadratic")
         scene.shape_function = ShapeFunction::quadratic;
-    if (values.word("transfer") == "apic") scene.transfer = Transfer::apic;
-    scene.flip_fraction = values.number("flip_fraction");
     scene.courant_number = values.number("courant_number");
     scene.least_node_mass = values.number("least_node_mass");
 }
@@ -106,51 +79,44 @@ OutputPlan read_output(const List& list, int dimension) {
             static_cast<int>(values.number("vtk_every")), values.number("every_time")};
 }
 
-/// Takes out a word; empty where there is none.
-std::string take_word(const std::string& name, Parameters& parameters) {
-    const auto word = parameters.extract(name);
+/// Takes a word out of the parameters of a list; empty if there is none.
+std::string take_word(const std::string& name, List& list) {
+    list.check_lists({});
+    const auto word = list.parameters.extract(name);
     if (!word || !std::holds_alternative<std::string>(word.mapped())) return "";
     return std::get<std::string>(word.mapped());
 }
 
-SceneFile read_list(List list, const std::string& name) {
-    List materials = list.take_list("materials"), bodies = list.take_list("bodies");
-    List effects = list.take_list("effects"), planes = list.take_list("planes");
-    List probes = list.take_list("probes");
-    const List domain = list.take_list("domain"), walls = list.take_list("walls");
-    const List method = list.take_list("method"), output = list.take_list("output");
-    list.refuse_other_lists(
-        "domain, walls, planes, materials, bodies, effects, probes, method, output");
-    const std::vector<Rule> rules{whole("dimension", "", 2, 3), positive("end_time", "s")};
-    const int dimension = static_cast<int>(list.values(rules, 2).number("dimension"));
-
+SceneFile read_list(const List& list, const std::string& name) {
+    const Values values = list.values({whole("dimension", "", 2, 3), positive("end_time", "s")}, 2,
+                                      {"domain", "walls", "planes", "materials", "bodies",
+                                       "effects", "probes", "method", "output"});
+    const int dimension = static_cast<int>(values.number("dimension"));
     SceneFile file;
     Scene& scene = file.scene;
     scene.name = name;
     scene.dimension = dimension;
-    scene.end_time = list.values(rules, 2).number("end_time");
-    scene.grid = read_domain(domain, dimension);
-    scene.walls = read_walls(walls, dimension);
-    for (const std::string& key : planes.sublist_names())
-        scene.planes.push_back(read_plane(planes.take_list(key), key, dimension));
-    for (const std::string& key : materials.sublist_names()) {
-        Parameters parameters = materials.take_list(key).parameters();
-        const std::string model = take_word("model", parameters);
-        scene.materials.push_back({key, model, parameters});
+    scene.end_time = values.number("end_time");
+    scene.grid = read_domain(list.list("domain"), dimension);
+    scene.walls = read_walls(list.list("walls"), dimension);
+    for (const List& one : list.lists_in("planes"))
+        scene.planes.push_back(read_plane(one, dimension));
+    for (List& one : list.lists_in("materials")) {
+        const std::string model = take_word("model", one);
+        scene.materials.push_back({one.name, model, one.parameters});
     }
-    for (const std::string& key : bodies.sublist_names())
-        scene.bodies.push_back(read_body(bodies.take_list(key), key, dimension));
-    for (const std::string& key : effects.sublist_names()) {
-        Parameters parameters = effects.take_list(key).parameters();
-        const std::string kind = take_word("kind", parameters);
-        scene.effects.push_back({key, parameters, kind});
+    for (const List& one : list.lists_in("bodies"))
+        scene.bodies.push_back(read_body(one, dimension));
+    for (List& one : list.lists_in("effects")) {
+        const std::string kind = take_word("kind", one);
+        scene.effects.push_back({one.name, one.parameters, kind});
     }
-    for (const std::string& key : probes.sublist_names())
-        scene.probes.push_back({key, vector_of(probes.take_list(key)
-                                                   .values({vector("position", "m")}, dimension)
-                                                   .list("position"))});
-    read_method(method, dimension, scene);
-    file.output = read_output(output, dimension);
+    for (const List& one : list.lists_in("probes"))
+        scene.probes.push_back(
+            {one.name,
+             vector_of(one.values({vector("position", "m")}, dimension).list("position"))});
+    read_method(list.list("method"), dimension, scene);
+    file.output = read_output(list.list("output"), dimension);
     validate(scene);
     return file;
 }
@@ -167,7 +133,7 @@ std::string text_of(const std::string& path) {
 
 SceneFile parse_scene(const std::string& text, const std::string& name) {
     try {
-        return read_list({parse(text), "scene"}, std::filesystem::path(name).stem());
+        return read_list(parse_list(text), std::filesystem::path(name).stem());
     } catch (const std::invalid_argument& error) {
         throw std::invalid_argument(name + ": " + error.what());
     }

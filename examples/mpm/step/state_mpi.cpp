@@ -2,13 +2,15 @@
 #include "step/stepper.hpp"
 
 #include <algorithm>
-#include <array>
+#include <fstream>
 #include <numeric>
 #include <stdexcept>
 
 namespace mpm {
 
 namespace {
+
+constexpr const char* first_line = "mpm state 2";
 
 /// Owners by the closed boxes; a position on a face is with the first of them.
 Decomposition within(const std::vector<Box>& boxes) {
@@ -21,57 +23,75 @@ Decomposition within(const std::vector<Box>& boxes) {
     return {boxes, look_up, {}};
 }
 
+void write(std::ostream& file, const std::vector<double>& values) {
+    const auto count = static_cast<std::int64_t>(values.size());
+    file.write(reinterpret_cast<const char*>(&count), sizeof count);
+    file.write(reinterpret_cast<const char*>(values.data()),
+               static_cast<std::streamsize>(values.size() * sizeof(double)));
+}
+
+std::vector<double> read(std::istream& file) {
+    // No file with a wrong length makes this take more memory than the file has bytes.
+    std::int64_t count = 0;
+    file.read(reinterpret_cast<char*>(&count), sizeof count);
+    const auto here = file.tellg();
+    file.seekg(0, std::ios::end);
+    const auto left = file.tellg() - here;
+    file.seekg(here);
+    if (!file || count < 0 || count > left / static_cast<std::streamoff>(sizeof(double)))
+        throw std::runtime_error("ends too early");
+    std::vector<double> values(static_cast<std::size_t>(count));
+    file.read(reinterpret_cast<char*>(values.data()),
+              static_cast<std::streamsize>(values.size() * sizeof(double)));
+    return values;
+}
+
 template <typename Numbers>
 void append(const Numbers& numbers, std::vector<double>& list) {
     for (const auto number : numbers) list.push_back(static_cast<double>(number));
 }
 
-/// States of the effects that add up over the ranks, or that are the same on all.
-std::vector<double> saved(const std::vector<EffectState>& states, bool is_sum) {
-    std::vector<double> all;
-    for (const EffectState& state : states)
-        if (state.is_sum == is_sum) append(state.save(), all);
-    return all;
-}
-
-void load(const std::vector<EffectState>& states, bool is_sum, std::span<const double> numbers) {
-    StateSection source(numbers);
-    for (const EffectState& state : states)
-        if (state.is_sum == is_sum) state.load(source.take(state.save().size()));
+std::vector<Box> boxes_of(std::span<const double> numbers) {
+    std::vector<Box> boxes(numbers.size() / 6);
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+        std::ranges::copy(numbers.subspan(6 * k, 3), boxes[k].lower.begin());
+        std::ranges::copy(numbers.subspan(6 * k + 3, 3), boxes[k].upper.begin());
+    }
+    return boxes;
 }
 
 }  // namespace
 
+/// What a scene must have to go on from a state: columns, grid, points.
 template <int D>
-StateHead Stepper<D>::state_head() const {
-    StateHead head{.columns = particles.column_names(),
-                   .scene = {D, scene_.grid.spacing, static_cast<double>(num_points)},
-                   .numbers = {time, time_step, max_speed, static_cast<double>(num_steps)},
-                   .effects = saved(stages_.states, false),
-                   .boxes = decomposition.boxes};
-    append(scene_.grid.lower, head.scene);
-    append(scene_.grid.num_cells, head.scene);
-    head.scene.push_back(start_places.fingerprint());
-    for (const Probe& probe : scene_.probes) append(probe.position, head.scene);
-    return head;
+std::string Stepper<D>::state_names() const {
+    std::string names = first_line;
+    for (const std::string& column : particles.column_names()) names += ' ' + column;
+    return names;
 }
 
-/// What this rank alone knows: its sums, its place between two sorts, its nodes, its points.
+template <int D>
+std::vector<double> Stepper<D>::state_scene() const {
+    std::vector<double> scene{D, scene_.grid.spacing, static_cast<double>(num_points),
+                              fingerprint_};
+    append(scene_.grid.lower, scene);
+    append(scene_.grid.num_cells, scene);
+    return scene;
+}
+
+/// Time and effects, the same on all ranks.
+template <int D>
+std::vector<double> Stepper<D>::state_numbers() const {
+    std::vector<double> numbers{time, time_step, max_speed, static_cast<double>(num_steps)};
+    for (const EffectState& state : stages_.states) append(state.save(), numbers);
+    return numbers;
+}
+
+/// Place between two sorts, and points of this rank.
 template <int D>
 std::vector<double> Stepper<D>::state_section() const {
-    std::vector<double> section = saved(stages_.states, true);
-    append(
-        std::array{static_cast<double>(num_out_of_order_), static_cast<double>(steps_since_sort_)},
-        section);
-    if (stages_.carries_motion) {
-        append(patch_.nodes.begin, section);
-        append(patch_.nodes.count, section);
-        for (std::size_t n = 0; n < patch_.motion.size(); ++n) {
-            const NodeMotion<D>& node = patch_.motion[n];
-            for (const auto& part : {node.velocity, node.velocity_change, node.strain_velocity})
-                append(part, section);
-        }
-    }
+    std::vector<double> section{static_cast<double>(num_out_of_order_),
+                                static_cast<double>(steps_since_sort_)};
     const std::size_t begin = section.size(), width = particles.column_names().size();
     section.resize(begin + particles.size() * width);
     for (std::size_t p = 0; p < particles.size(); ++p)
@@ -81,109 +101,97 @@ std::vector<double> Stepper<D>::state_section() const {
 
 template <int D>
 void Stepper<D>::write_state(const std::string& path) const {
-    write_state_file(path, state_head(), state_section(), comm_);
+    std::vector<double> boxes;
+    for (const Box& box : decomposition.boxes) {
+        append(box.lower, boxes);
+        append(box.upper, boxes);
+    }
+    bool is_good = true;
+    // The ranks write one after the other.
+    for (int rank = 0; rank < size_of(comm_); ++rank) {
+        MPI_Barrier(comm_);
+        if (rank != rank_of(comm_)) continue;
+        std::ofstream file(path, rank == 0 ? std::ios::binary : std::ios::binary | std::ios::app);
+        if (rank == 0) {
+            file << state_names() << '\n';
+            for (const auto& part : {state_scene(), state_numbers(), boxes}) write(file, part);
+        }
+        write(file, state_section());
+        is_good = static_cast<bool>(file.flush());
+    }
+    fail_together(is_good ? "" : path + ": cannot be written", comm_);
 }
 
-/// Takes the motion of the nodes of a section that this rank has, too.
+/// Appends those of the points of a section that this rank owns.
 template <int D>
-void Stepper<D>::read_motion(StateSection& section) {
-    NodeRange<D> nodes;
-    for (int& begin : nodes.begin) begin = static_cast<int>(section.next());
-    for (int& count : nodes.count) count = static_cast<int>(section.next());
-    visit_nodes<D>(nodes, [&](const std::array<int, D>& node) {
-        const std::span<const double> motion = section.take(3 * D);
-        bool is_here = !patch_.nodes.empty();
-        for (std::size_t a = 0; a < D; ++a)
-            is_here &= node[a] >= patch_.nodes.begin[a] &&
-                       node[a] < patch_.nodes.begin[a] + patch_.nodes.count[a];
-        if (!is_here) return;
-        const std::size_t n = patch_.index(node);
-        NodeMotion<D>& mine = patch_.motion[n];
-        std::ranges::copy(motion.first(D), mine.velocity.begin());
-        std::ranges::copy(motion.subspan(D, D), mine.velocity_change.begin());
-        std::ranges::copy(motion.last(D), mine.strain_velocity.begin());
-    });
-}
-
-/// Takes those of the points that are this rank's in a division that did not write them.
-template <int D>
-void Stepper<D>::take_points(std::span<const double> rows) {
+void Stepper<D>::append_own(std::span<const double> rows) {
     const std::size_t width = particles.column_names().size();
     for (std::size_t at = 0; at + width <= rows.size(); at += width) {
         const std::span<const double> row = rows.subspan(at, width);
-        const double* const z = D == 3 ? &row[motion_.position[2]] : nullptr;
+        Vector place{};
+        for (std::size_t a = 0; a < D; ++a) place[a] = row[motion_.position[a]];
         int owner = 0;
-        decomposition.owners({{&row[motion_.position[0]], 1},
-                              {&row[motion_.position[1]], 1},
-                              {z, D == 3 ? std::size_t{1} : 0}},
+        decomposition.owners({{&place[0], 1}, {&place[1], 1}, {&place[2], D == 3 ? 1U : 0U}},
                              {&owner, 1});
         if (owner == rank_of(comm_)) particles.append(row);
     }
 }
 
-/// Takes this rank's share of the section that one rank has written.
+/// Reads a state without communication. On as many ranks as wrote it, each takes its own section.
 template <int D>
-void Stepper<D>::take_section(StateSection section, bool is_mine, bool is_divided_anew) {
-    std::vector<double> sums = saved(stages_.states, true);
-    const std::span<const double> more = section.take(sums.size());
-    // Divided anew, the first rank has the sums of all.
-    for (std::size_t k = 0; k < sums.size(); ++k)
-        sums[k] = is_divided_anew ? sums[k] + (rank_of(comm_) == 0 ? more[k] : 0)
-                                  : (is_mine ? more[k] : sums[k]);
-    load(stages_.states, true, sums);
-    const auto num_out_of_order = static_cast<std::size_t>(section.next());
-    const int steps_since_sort = static_cast<int>(section.next());
-    if (stages_.carries_motion) read_motion(section);
-    if (is_divided_anew) return take_points(section.rest());
-    if (!is_mine) return;
-    num_out_of_order_ = num_out_of_order;
-    steps_since_sort_ = steps_since_sort;
-    particles.append(section.rest());
+void Stepper<D>::load_state(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string names;
+    std::getline(file, names);
+    if (!file || !names.starts_with(first_line))
+        throw std::runtime_error("is no state that this program wrote");
+    const std::vector<double> scene = read(file), numbers = read(file), own = state_numbers();
+    if (names != state_names() || scene != state_scene() || numbers.size() != own.size())
+        throw std::runtime_error(
+            "is the state of another scene, of another grid, or of other bodies, materials, "
+            "effects or method");
+    const std::vector<Box> boxes = boxes_of(read(file));
+    const bool has_own = boxes.size() == static_cast<std::size_t>(size_of(comm_));
+    if (has_own) divide_by(within(boxes));
+    std::vector<std::size_t> all(particles.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    particles.remove(all);
+    for (std::size_t rank = 0; rank < boxes.size(); ++rank) {
+        const std::vector<double> section = read(file);
+        if (section.size() < 2) throw std::runtime_error("ends too early");
+        const auto rows = std::span(section).subspan(2);
+        if (!has_own) append_own(rows);
+        if (!has_own || rank != static_cast<std::size_t>(rank_of(comm_))) continue;
+        num_out_of_order_ = static_cast<std::size_t>(section[0]);
+        steps_since_sort_ = static_cast<int>(section[1]);
+        particles.append(rows);
+    }
+    if (!has_own) transfers_->sort(particles, patch_);
+    time = numbers[0];
+    time_step = numbers[1];
+    max_speed = numbers[2];
+    num_steps = static_cast<std::int64_t>(numbers[3]);
+    auto rest = std::span(numbers).subspan(4);
+    for (const EffectState& state : stages_.states) {
+        const std::size_t count = state.save().size();
+        state.load(rest.first(count));
+        rest = rest.subspan(count);
+    }
 }
 
 template <int D>
 void Stepper<D>::read_state(const std::string& path) {
-    StateReader reader(path, comm_);
-    const StateHead mine = state_head();
-    if (reader.head().columns != mine.columns || reader.head().scene != mine.scene ||
-        reader.head().effects.size() != mine.effects.size() ||
-        reader.head().numbers.size() != mine.numbers.size())
-        throw std::runtime_error(path +
-                                 ": is the state of another scene, of another grid, or of "
-                                 "other bodies, materials, effects, probes or method");
-    std::vector<std::size_t> all(particles.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    particles.remove(all);
-    const std::size_t num_sections = reader.head().boxes.size();
-    const bool is_divided_anew = num_sections != mine.boxes.size();
-    if (!is_divided_anew) divide_by(within(reader.head().boxes));
-    std::ranges::fill(patch_.motion, NodeMotion<D>{});
-    load(stages_.states, false, reader.head().effects);
-    load(stages_.states, true, std::vector<double>(saved(stages_.states, true).size(), 0.0));
-    for (std::size_t k = 0; k < num_sections; ++k) {
-        const std::vector<double> section = reader.next_section();
-        take_section(StateSection(section), k == static_cast<std::size_t>(rank_of(comm_)),
-                     is_divided_anew);
+    std::string error;
+    try {
+        load_state(path);
+    } catch (const std::exception& fault) {
+        error = path + ": " + fault.what();
     }
-    if (is_divided_anew) transfers_->sort(particles, patch_);
-    time = reader.head().numbers[0];
-    time_step = reader.head().numbers[1];
-    max_speed = reader.head().numbers[2];
-    num_steps = static_cast<std::int64_t>(reader.head().numbers[3]);
+    fail_together(error, comm_);
 }
 
-template StateHead Stepper<2>::state_head() const;
-template StateHead Stepper<3>::state_head() const;
-template std::vector<double> Stepper<2>::state_section() const;
-template std::vector<double> Stepper<3>::state_section() const;
 template void Stepper<2>::write_state(const std::string&) const;
 template void Stepper<3>::write_state(const std::string&) const;
-template void Stepper<2>::read_motion(StateSection&);
-template void Stepper<3>::read_motion(StateSection&);
-template void Stepper<2>::take_points(std::span<const double>);
-template void Stepper<3>::take_points(std::span<const double>);
-template void Stepper<2>::take_section(StateSection, bool, bool);
-template void Stepper<3>::take_section(StateSection, bool, bool);
 template void Stepper<2>::read_state(const std::string&);
 template void Stepper<3>::read_state(const std::string&);
 

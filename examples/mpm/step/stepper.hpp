@@ -5,7 +5,6 @@
 #include "parallel/ghost_nodes_mpi.hpp"
 #include "parallel/ownership_mpi.hpp"
 #include "scene/lattice.hpp"
-#include "step/state_file_mpi.hpp"
 #include "step/work_clock.hpp"
 #include "transfer/transfers.hpp"
 
@@ -19,7 +18,7 @@ namespace mpm {
 /// A simulation of either dimension. Its virtual calls are per step, never per point.
 class Simulation::Model {
   public:
-    explicit Model(const StartPlaces& places) : start_places(places) {}
+    explicit Model(const Scene& scene) : start_places(scene) {}
     virtual ~Model() = default;
     virtual void step() = 0;
     virtual RebalanceReport rebalance(const Balancer& balancer) = 0;
@@ -53,7 +52,9 @@ class Stepper final : public Simulation::Model {
     void step() override;
     RebalanceReport rebalance(const Balancer& balancer) override;
     std::vector<std::string> kernels() const override;
-    std::size_t doubles_per_ghost_node() const override;
+    std::size_t doubles_per_ghost_node() const override {
+        return 1 + 2 * D + stages_.fields.size();
+    }
     std::vector<double> work_columns() const override;
     std::vector<double> point_columns() const override;
     Totals totals() const override;
@@ -64,21 +65,20 @@ class Stepper final : public Simulation::Model {
 
   private:
     void build_materials();
-    StateHead state_head() const;
+    std::string state_names() const;
+    std::vector<double> state_scene() const;
+    std::vector<double> state_numbers() const;
     std::vector<double> state_section() const;
-    void take_section(StateSection section, bool is_mine, bool is_divided_anew);
-    void read_motion(StateSection& section);
-    void take_points(std::span<const double> rows);
-    void start_points();
-    double strain_energy(std::size_t point) const;
+    void load_state(const std::string& path);
+    void append_own(std::span<const double> rows);
     void divide_by(Decomposition next);
-    void lay_patches(std::vector<NodeRange<D>> patches);
     void advance_nodes();
     void advance_points();
     void apply_materials(const PointBlock<D>& block);
     double fastest_point() const;
-    void set_time_step(double fastest);
-    void take_in(std::size_t num_arrived);
+    void set_time_step();
+    std::int64_t migrate_leavers(double speed);
+    void sort_if_needed();
 
     Scene scene_;
     Scene ground_;  ///< the same with planes in place of walls with friction
@@ -90,11 +90,11 @@ class Stepper final : public Simulation::Model {
     std::optional<Column> material_column_;  ///< where the scene has several materials
     Stages<D> stages_;
     LeastMass least_mass_;
+    double fingerprint_;  ///< of the points at the start
 
     Ownership ownership_;
     GridPatch<D> patch_;
-    std::vector<NodeRange<D>> patches_;       ///< of all ranks
-    std::vector<NodeMotion<D>> last_motion_;  ///< of the patch before, a buffer
+    std::vector<NodeRange<D>> patches_;  ///< of all ranks
     std::optional<GhostNodes<D>> ghosts_;
     std::vector<CellRun<D>> runs_;
     std::unique_ptr<VelocityGradients<D>> gradients_ = std::make_unique<VelocityGradients<D>>();

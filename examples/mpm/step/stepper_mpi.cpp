@@ -1,9 +1,6 @@
 #include "boundaries/boundaries.hpp"
-#include "effects/probes.hpp"
-#include "materials/plastic_work.hpp"
-#include "parallel/carried_motion_mpi.hpp"
 #include "parallel/communicator_mpi.hpp"
-#include "particles/pair.hpp"
+#include "particles/vectors.hpp"
 #include "step/least_mass.hpp"
 #include "step/stepper.hpp"
 #include "step/work_columns.hpp"
@@ -52,7 +49,6 @@ Stages<D> build_stages(const Scene& scene, const Scene& ground, double wave_spee
         else
             effect.kind->build_3(builder);
     }
-    if (!scene.probes.empty()) add_probes<D>(scene, particles, stages);
     return stages;
 }
 
@@ -60,17 +56,16 @@ Stages<D> build_stages(const Scene& scene, const Scene& ground, double wave_spee
 
 template <int D>
 Stepper<D>::Stepper(const Scene& scene, const ScenePoints& points, MPI_Comm comm)
-    : Model(points.start_places),
+    : Model(scene),
       scene_(scene),
       ground_(with_ground(scene)),
       comm_(duplicate(comm)),
       wave_speed_(max_wave_speed(scene)),
-      transfers_(make_transfers<D>(scene_, FlipShare(scene_, wave_speed_), particles)),
+      transfers_(make_transfers<D>(scene_.shape_function, particles)),
+      fingerprint_(points.fingerprint),
       ownership_(ground_.grid, comm_) {
     build_materials();
     stages_ = build_stages<D>(scene_, ground_, wave_speed_, particles);
-    for (std::size_t k = 0; stages_.work && k < materials_.size(); ++k)
-        add_plastic_work<D>(scene_.materials[k], particles, stages_.work->plastic, materials_[k]);
     least_mass_ = add_least_mass<D>(scene_, motion_.mass, stages_);
     add_images<D>(ground_, stages_);
     patch_.shape = ground_.grid;
@@ -79,9 +74,10 @@ Stepper<D>::Stepper(const Scene& scene, const ScenePoints& points, MPI_Comm comm
     num_points = points.num_points;
     divide_by(slabs(points.box, size_of(comm_)));
     place_points(scene_, decomposition, rank_of(comm_), motion_, particles);
-    start_points();
+    for (const auto& prepare : stages_.preparations) prepare(particles);
     transfers_->sort(particles, patch_);
-    set_time_step(ownership_.agree(fastest_point()).max_speed);
+    max_speed = ownership_.agree(fastest_point()).max_speed;
+    set_time_step();
 }
 
 template <int D>
@@ -100,19 +96,10 @@ void Stepper<D>::divide_by(Decomposition next) {
     patches.reserve(decomposition.boxes.size());
     for (const Box& box : decomposition.boxes)
         patches.push_back(nodes_of<D>(ground_.grid, box, patch_.margin));
-    if (patches != patches_) lay_patches(std::move(patches));
-}
-
-/// Lays the patches of all ranks. Collective if the motion of nodes is carried.
-template <int D>
-void Stepper<D>::lay_patches(std::vector<NodeRange<D>> patches) {
-    const bool carries = stages_.carries_motion && !patches_.empty();
-    if (carries) std::swap(last_motion_, patch_.motion);
-    resize<D>(patch_, patches[static_cast<std::size_t>(rank_of(comm_))]);
-    ghosts_.emplace(patches, comm_);
-    if (stages_.counts_nodes) ghosts_->mark_counted(patch_);
-    if (carries) carry_motion<D>(patches_, patches, last_motion_, patch_, comm_);
+    if (patches == patches_) return;
     patches_ = std::move(patches);
+    resize<D>(patch_, patches_[static_cast<std::size_t>(rank_of(comm_))]);
+    ghosts_.emplace(patches_, comm_);
 }
 
 template <int D>
@@ -147,7 +134,6 @@ void Stepper<D>::advance_points() {
         for (const auto& effect : stages_.gradients)
             effect.kernel(particles, patch_, std::span(runs_).subspan(first_run, run - first_run),
                           block);
-        for (const auto& effect : stages_.before_materials) effect.kernel(particles, block);
         apply_materials(block);
         for (const auto& effect : stages_.after_materials) effect.kernel(particles, block);
     }
@@ -193,18 +179,27 @@ double Stepper<D>::fastest_point() const {
 }
 
 template <int D>
-void Stepper<D>::set_time_step(double fastest) {
-    max_speed = fastest;
+void Stepper<D>::set_time_step() {
     time_step = scene_.courant_number * scene_.grid.spacing / (wave_speed_ + max_speed);
     // The last step ends at the end.
     if (time < scene_.end_time) time_step = std::min(time_step, scene_.end_time - time);
 }
 
-/// Counts the arrivals. Sorts once so many points are out of order that they slow the transfers
-/// down.
+/// Agrees with all ranks on the largest speed and sends the leavers. Returns how many all ranks
+/// had. Collective.
 template <int D>
-void Stepper<D>::take_in(std::size_t num_arrived) {
-    num_out_of_order_ += num_arrived;
+std::int64_t Stepper<D>::migrate_leavers(double speed) {
+    const Agreement agreement = ownership_.agree(speed);
+    max_speed = agreement.max_speed;
+    num_sent += static_cast<std::int64_t>(ownership_.leavers().points.size());
+    num_out_of_order_ +=
+        migrate(particles, ownership_.leavers(), agreement.reach, ghosts_->neighbours(), comm_);
+    return agreement.num_leavers;
+}
+
+/// Sorts once so many points are out of order that they slow the transfers down.
+template <int D>
+void Stepper<D>::sort_if_needed() {
     const double tolerated = tolerated_disorder * static_cast<double>(particles.size());
     if (steps_since_sort_ < sort_interval && static_cast<double>(num_out_of_order_) <= tolerated)
         return;
@@ -224,32 +219,21 @@ void Stepper<D>::step() {
     time += time_step;
     ++num_steps;
     ++steps_since_sort_;
-
     ownership_.find_leavers(decomposition, positions(), particles[motion_.id], time,
                             ghosts_->neighbours());
-    const Agreement agreement = ownership_.agree(fastest_point());
-    num_sent += static_cast<std::int64_t>(ownership_.leavers().points.size());
-    take_in(
-        migrate(particles, ownership_.leavers(), agreement.reach, ghosts_->neighbours(), comm_));
-    set_time_step(agreement.max_speed);
+    migrate_leavers(fastest_point());
+    sort_if_needed();
+    set_time_step();
 }
 
 template <int D>
 RebalanceReport Stepper<D>::rebalance(const Balancer& balancer) {
     Decomposition next = balancer(positions(), comm_);
     ownership_.find_reassigned(next, positions(), ghosts_->neighbours());
-    const Agreement agreement = ownership_.agree(0);
-    num_sent += static_cast<std::int64_t>(ownership_.leavers().points.size());
-    const std::size_t num_arrived =
-        migrate(particles, ownership_.leavers(), agreement.reach, ghosts_->neighbours(), comm_);
+    const std::int64_t num_moved = migrate_leavers(max_speed);
     divide_by(std::move(next));
-    take_in(num_arrived);
-    return {agreement.num_leavers};
-}
-
-template <int D>
-std::size_t Stepper<D>::doubles_per_ghost_node() const {
-    return 1 + 2 * D + stages_.fields.size();
+    sort_if_needed();
+    return {num_moved};
 }
 
 template <int D>

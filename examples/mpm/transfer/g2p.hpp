@@ -63,24 +63,6 @@ template <int D, std::size_t N, std::size_t axis>
     }
 }
 
-/// Velocity gradient of the affine field along an axis.
-///
-/// For B-splines it is the first moment of the velocities, 4 / h^2 sum of weight * velocity *
-/// lever. For linear functions it is the gradient. There a node with next to no mass would weigh as
-/// much as any other, so it is the gradient of `strain`.
-template <int D, std::size_t N, std::size_t axis>
-[[gnu::always_inline]] inline double affine_at(const std::array<double, power(N, D)>& values,
-                                               const std::array<double, power(N, D)>& strain,
-                                               const std::array<Weights<N>, D>& weights, double u) {
-    if constexpr (N == 2) {
-        return slope_at<D, N, axis>(strain, weights);
-    } else {
-        auto factors = values_of<D, N>(weights);
-        unrolled<N>([&](auto i) { factors[axis][i] *= 4 * (static_cast<double>(i) - u); });
-        return interpolated<D, N>(values, factors);
-    }
-}
-
 /// Nodal motion of one run, component by component.
 template <int D, std::size_t N>
 struct RunMotion {
@@ -98,46 +80,30 @@ struct RunMotion {
 };
 
 /// Columns of the points that g2p changes.
-template <int D, bool is_affine>
+template <int D>
 struct PointWriter {
     PointWriter(Particles& particles, const TransferColumns<D>& columns)
         : volume(particles.data(columns.motion.volume)) {
         for (std::size_t a = 0; a < D; ++a) {
             position[a] = particles.data(columns.motion.position[a]);
             velocity[a] = particles.data(columns.motion.velocity[a]);
-            for (std::size_t b = 0; is_affine && b < D; ++b)
-                affine[a][b] = particles.data(columns.affine[a][b]);
         }
     }
 
     std::array<double*, D> position, velocity;
-    std::array<std::array<double*, D>, D> affine;
     double* volume;
 };
 
-/// Velocity of a point after a step: its own with the change of the grid's, and a share
-/// 1 - flip_share of the grid's in its place.
-[[gnu::always_inline]] inline double flip_velocity(double flip_share, double velocity,
-                                                   double change, double of_grid) {
-    return flip_share * (velocity + change) + (1 - flip_share) * of_grid;
-}
-
-template <int D>
-struct G2pFactors {
-    double spacing, flip_share;
-};
-
-template <int D, class Shape, bool is_affine>
-[[gnu::always_inline]] inline void move_run(const PointWriter<D, is_affine>& to, const Shape& shape,
+/// Moves the points of a run with the nodes. They keep their velocity and add the change of the
+/// nodes' (FLIP), so that nothing damps them.
+template <int D, class Shape>
+[[gnu::always_inline]] inline void move_run(const PointWriter<D>& to, const Shape& shape,
                                             const CellRun<D>& run,
                                             const RunMotion<D, Shape::num_nodes>& motion,
-                                            const G2pFactors<D>& factors,
-                                            const PointBlock<D>& block) {
+                                            double spacing, const PointBlock<D>& block) {
     constexpr std::size_t N = Shape::num_nodes;
-    const double inverse_spacing = 1 / factors.spacing, flip = factors.flip_share;
-    const double time_step = block.time_step;
-    const StepGradients<D> gradients(block);
-    const PointWriter<D, is_affine> points = to;
+    const double inverse_spacing = 1 / spacing, time_step = block.time_step;
+    const PointWriter<D> points = to;
     const Components<D> corner = run.corner;
     std::array<std::array<double*, D>, D> gradient;
     for (std::size_t a = 0; a < D; ++a)
@@ -147,11 +113,9 @@ template <int D, class Shape, bool is_affine>
 #pragma GCC ivdep
     for (std::size_t p = begin; p < end; ++p) {
         const std::size_t k = p - begin;
-        Components<D> u;
         std::array<Weights<N>, D> weights;
         unrolled<D>([&](auto a) __attribute__((always_inline)) {
-            u[a] = (points.position[a][p] - corner[a]) * inverse_spacing;
-            weights[a] = shape.at(u[a]);
+            weights[a] = shape.at((points.position[a][p] - corner[a]) * inverse_spacing);
         });
         double expansion = 0;
         unrolled<D>([&](auto a) __attribute__((always_inline)) {
@@ -165,38 +129,24 @@ template <int D, class Shape, bool is_affine>
         const auto values = values_of<D, N>(weights);
         unrolled<D>([&](auto a) __attribute__((always_inline)) {
             const double of_grid = interpolated<D, N>(motion.velocity[a], values);
-            // On linear functions, slopes that jump between cells would feed what points keep.
-            if constexpr (is_affine && N == 2) {
-                points.velocity[a][p] = of_grid;
-            } else {
-                const double change = interpolated<D, N>(motion.change[a], values);
-                points.velocity[a][p] = flip_velocity(flip, points.velocity[a][p], change, of_grid);
-            }
-            if constexpr (is_affine) {
-                unrolled<D>([&](auto b) __attribute__((always_inline)) {
-                    points.affine[a][b][p] =
-                        inverse_spacing *
-                        affine_at<D, N, b>(motion.velocity[a], motion.strain[a], weights, u[b]);
-                });
-            }
+            points.velocity[a][p] += interpolated<D, N>(motion.change[a], values);
             points.position[a][p] += time_step * of_grid;
         });
     }
 }
 
-template <int D, class Shape, bool is_affine>
+template <int D, class Shape>
 MPM_VECTOR_CLONES std::size_t grid_to_points(Particles& particles,
                                              const TransferColumns<D>& columns, const Shape& shape,
-                                             const FlipShare& flip, const GridPatch<D>& patch,
+                                             const GridPatch<D>& patch,
                                              const std::vector<CellRun<D>>& runs,
                                              std::size_t first_run, const PointBlock<D>& block) {
-    const PointWriter<D, is_affine> target(particles, columns);
-    const G2pFactors<D> factors{patch.shape.spacing, flip.over(block.time_step)};
+    const PointWriter<D> target(particles, columns);
     const auto offsets = node_offsets<D, Shape::num_nodes>(patch);
     std::size_t run = first_run;
     for (; run < runs.size() && runs[run].begin < block.end; ++run) {
         const RunMotion<D, Shape::num_nodes> motion(patch.motion.data() + runs[run].node, offsets);
-        move_run<D, Shape, is_affine>(target, shape, runs[run], motion, factors, block);
+        move_run<D, Shape>(target, shape, runs[run], motion, patch.shape.spacing, block);
     }
     return run;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "particles/vector_clones.hpp"
+#include "particles/vectors.hpp"
 #include "transfer/shape_functions.hpp"
 #include "transfer/transfers.hpp"
 
@@ -96,7 +96,7 @@ template <int D, std::size_t N, std::size_t n>
 }
 
 /// Columns of the points that p2g reads.
-template <int D, bool is_affine>
+template <int D>
 struct PointReader {
     PointReader(Particles& particles, const TransferColumns<D>& columns)
         : mass(particles.data(columns.motion.mass)),
@@ -105,8 +105,6 @@ struct PointReader {
         for (std::size_t a = 0; a < D; ++a) {
             position[a] = particles.data(columns.motion.position[a]);
             velocity[a] = particles.data(columns.motion.velocity[a]);
-            for (std::size_t b = 0; is_affine && b < D; ++b)
-                affine[a][b] = particles.data(columns.affine[a][b]);
         }
     }
 
@@ -128,28 +126,9 @@ struct PointReader {
     }
 
     std::array<const double*, D> position, velocity;
-    std::array<std::array<const double*, D>, D> affine;
     const double *mass, *volume;
     StressPointers<D> stress;
 };
-
-/// Momentum that a point hands to a node: its own, or that of its affine velocity field there
-/// (Jiang et al. 2015).
-template <int D, std::size_t N, std::size_t n, bool is_affine>
-[[gnu::always_inline]] inline Components<D> momentum_at(const PointReader<D, is_affine>& from,
-                                                        const Contribution<D>& point, std::size_t p,
-                                                        const Components<D>& u, double spacing) {
-    if constexpr (!is_affine) {
-        return point.momentum;
-    } else {
-        Components<D> momentum = point.momentum;
-        unrolled<D>([&](auto b) {
-            const double lever = (static_cast<double>(digit<N>(n, b)) - u[b]) * spacing;
-            unrolled<D>([&](auto a) { momentum[a] += point.mass * from.affine[a][b][p] * lever; });
-        });
-        return momentum;
-    }
-}
 
 /// Sums of the points of a run on its nodes. Unrolled over axes and nodes, it is
 ///
@@ -158,28 +137,24 @@ template <int D, std::size_t N, std::size_t n, bool is_affine>
 ///             mass[n] += weight(n, p) * mass[p]
 ///             momentum[n] += weight(n, p) * mass[p] * velocity[p]
 ///             force[n] -= volume[p] * stress[p] * slope(n, p)
-template <int D, class Shape, bool is_affine>
+template <int D, class Shape>
 [[gnu::always_inline]] inline std::array<NodeSums<D>, power(Shape::num_nodes, D)> sum_run(
-    const PointReader<D, is_affine>& from, const Shape& shape, const CellRun<D>& run,
-    double spacing) {
+    const PointReader<D>& from, const Shape& shape, const CellRun<D>& run, double spacing) {
     constexpr std::size_t N = Shape::num_nodes;
     const double inverse_spacing = 1 / spacing;
     std::array<NodeSums<D>, power(N, D)> sums{};
     for (std::size_t p = run.begin; p < run.end; ++p) {
-        Components<D> u;
         std::array<Weights<N>, D> weights;
         unrolled<D>([&](auto a) __attribute__((always_inline)) {
-            u[a] = (from.position[a][p] - run.corner[a]) * inverse_spacing;
-            weights[a] = shape.at(u[a]);
+            weights[a] = shape.at((from.position[a][p] - run.corner[a]) * inverse_spacing);
         });
         const Contribution<D> point = from.at(p, inverse_spacing);
         unrolled<power(N, D)>([&](auto n) __attribute__((always_inline)) {
             const double weight = weight_of<D, N, n>(weights);
-            const Components<D> momentum = momentum_at<D, N, n>(from, point, p, u, spacing);
             sums[n].mass += weight * point.mass;
             Components<D> slope;
             unrolled<D>([&](auto a) __attribute__((always_inline)) {
-                sums[n].momentum[a] += weight * momentum[a];
+                sums[n].momentum[a] += weight * point.momentum[a];
                 slope[a] = slope_of<D, N, n, a>(weights);
             });
             add_force<D>(slope, point.stress, sums[n]);
@@ -188,15 +163,15 @@ template <int D, class Shape, bool is_affine>
     return sums;
 }
 
-template <int D, class Shape, bool is_affine>
+template <int D, class Shape>
 MPM_VECTOR_CLONES void points_to_grid(Particles& particles, const TransferColumns<D>& columns,
                                       const Shape& shape, const std::vector<CellRun<D>>& runs,
                                       GridPatch<D>& patch) {
-    const PointReader<D, is_affine> source(particles, columns);
+    const PointReader<D> source(particles, columns);
     const auto offsets = node_offsets<D, Shape::num_nodes>(patch);
     std::ranges::fill(patch.sums, NodeSums<D>{});
     for (const CellRun<D>& run : runs) {
-        const auto sums = sum_run<D, Shape, is_affine>(source, shape, run, patch.shape.spacing);
+        const auto sums = sum_run<D, Shape>(source, shape, run, patch.shape.spacing);
         NodeSums<D>* const lowest = patch.sums.data() + run.node;
         for (std::size_t n = 0; n < sums.size(); ++n) add(sums[n], lowest[offsets[n]]);
     }

@@ -3,12 +3,15 @@
 #include "grid/grid.hpp"
 #include "particles/stress.hpp"
 
+#include <mpi.h>
 #include <mpm/particles.hpp>
 
 #include <array>
-#include <cmath>
 #include <cstddef>
+#include <functional>
 #include <memory>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace mpm {
@@ -79,34 +82,51 @@ struct StepGradients {
     std::array<std::array<const double*, D>, D> entry;
 };
 
+/// The time at the start of a step and its length, s.
+struct StepTime {
+    double time;
+    double time_step;
+};
+
+/// Changes the nodes of a patch. Shared nodes hold the same bits on all ranks before and after it.
+template <int D>
+using NodeKernel = std::function<void(GridPatch<D>&, const StepTime&)>;
+
+/// Adds more contributions of the points to the sums of a patch, after those of p2g.
+template <int D>
+using ScatterKernel =
+    std::function<void(const Particles&, std::span<const CellRun<D>>, GridPatch<D>&)>;
+
+/// Changes the velocity gradients or columns of a block of points by the nodes of its runs.
+template <int D>
+using GradientKernel = std::function<void(Particles&, const GridPatch<D>&,
+                                          std::span<const CellRun<D>>, const PointBlock<D>&)>;
+
+/// Advances a block of points. Never called for a single point.
+template <int D>
+using PointKernel = std::function<void(Particles&, const PointBlock<D>&)>;
+
+/// Collective work at the end of a step.
+using StepKernel = std::function<void(const StepTime&, MPI_Comm)>;
+
+template <typename Kernel>
+struct Named {
+    std::string name;
+    Kernel kernel;
+};
+
 /// Columns that the transfers read and change.
 template <int D>
 struct TransferColumns {
     MotionColumns motion;
     StressColumns<D> stress;
-    std::array<std::array<Column, D>, D> affine{};  ///< APIC only: velocity gradient, 1/s
 };
 
 /// In place of an axis: the weight of a point is the square of the shape function's gradient per
 /// cell.
 inline constexpr int squared_slopes = -2;
 
-/// Share of the velocity that points carry over a step (Scene::flip_fraction).
-///
-/// What the grid cannot represent decays with time, however long the steps are.
-class FlipShare {
-  public:
-    FlipShare(const Scene& scene, double wave_speed)
-        : fraction_(scene.flip_fraction), time_(0.25 * scene.grid.spacing / wave_speed) {}
-
-    double over(double time_step) const { return std::pow(fraction_, time_step / time_); }
-
-  private:
-    double fraction_;
-    double time_;  ///< s
-};
-
-/// The transfers between points and nodes, made for a dimension, shape function and kind.
+/// The transfers between points and nodes, made for a dimension and shape function.
 template <int D>
 class Transfers {
   public:
@@ -140,9 +160,8 @@ class Transfers {
                          std::vector<double>& field) const = 0;
 };
 
-/// Transfers of a scene; adds the columns they need.
+/// Transfers with a shape function; adds the columns they need.
 template <int D>
-std::unique_ptr<Transfers<D>> make_transfers(const Scene& scene, const FlipShare& flip,
-                                             Particles& particles);
+std::unique_ptr<Transfers<D>> make_transfers(ShapeFunction shape, Particles& particles);
 
 }  // namespace mpm

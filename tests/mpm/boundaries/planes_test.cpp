@@ -25,18 +25,18 @@ Scene incline(double friction, double cell_size) {
     const auto cells = [&](double metres) { return static_cast<int>(metres / cell_size); };
     const Region block =
         polygon_region({on_slope(1, 0), on_slope(3, 0), on_slope(3, 1), on_slope(1, 1)});
-    return {.name = "incline",
-            .grid = {.lower = {0, 0}, .spacing = cell_size, .num_cells = {cells(22), cells(12)}},
-            .materials = {elastic_material("block", 1000, 1e6, 0.3)},
-            .bodies = {{.contains = block, .points_per_cell = {2, 2, 1}, .material = "block"}},
-            .planes = {{"slope", top_of_slope, {sine, cosine}, friction}},
-            .effects = {{"gravity", {{"acceleration", std::vector<double>{0, -g}}, {"ramp", ramp}}},
-                        {"energy_audit", {}}}};
+    return {
+        .name = "incline",
+        .grid = {.lower = {0, 0}, .spacing = cell_size, .num_cells = {cells(22), cells(12)}},
+        .materials = {elastic_material("block", 1000, 1e6, 0.3)},
+        .bodies = {{.contains = block, .points_per_cell = {2, 2, 1}, .material = "block"}},
+        .planes = {{"slope", top_of_slope, {sine, cosine}, friction}},
+        .effects = {{"gravity", {{"acceleration", std::vector<double>{0, -g}}, {"ramp", ramp}}}}};
 }
 
 struct Slide {
-    double along, out;               ///< m
-    double energy_gap, lost_energy;  ///< by the potential energy released
+    double along, out;   ///< m
+    double lost_energy;  ///< by the potential energy released
 };
 
 Slide slide(const Scene& scene, double end_time) {
@@ -50,8 +50,7 @@ Slide slide(const Scene& scene, double end_time) {
                  end.momentum[a] / end.mass * (simulation.time() - end_time);
     const double released = start.potential_energy - end.potential_energy;
     return {way[0] * cosine - way[1] * sine, way[0] * sine + way[1] * cosine,
-            (total_energy(simulation) - start.potential_energy) / released,
-            lost_energy(simulation) / released};
+            (start.potential_energy - total_energy(simulation)) / released};
 }
 
 constexpr double five_seconds = 5;
@@ -78,7 +77,6 @@ TEST(Plane, lets_a_block_slide_with_coulomb_friction) {
     EXPECT_LT(std::abs(fine.out), 0.8 * std::abs(coarse.out));
     EXPECT_NEAR(coarse.out, 0, 0.25 * 0.5);
     for (const Slide& sliding : {coarse, fine, smooth}) {
-        EXPECT_NEAR(sliding.energy_gap, 0, 0.005);
         // Of the weight's work, friction takes mu / tan, and what gravity lacked while it grew
         // counts as lost, too: its share of the way gone meanwhile, some 1 %.
         EXPECT_NEAR(sliding.lost_energy, friction / std::tan(slope_angle), 0.03);
@@ -92,7 +90,6 @@ Scene rough_incline(ShapeFunction shape, double degrees, double cell_size, int p
     scene.grid.num_cells[0] = static_cast<int>(8 / cell_size);
     scene.shape_function = shape;
     scene.bodies.front().points_per_cell = {points, points, 1};
-    scene.effects.pop_back();
     return scene;
 }
 
@@ -163,8 +160,7 @@ Scene cube_in_space(double coefficient) {
                         .points_per_cell = {2, 2, 2},
                         .material = "block"}},
             .planes = {{"slope", {0, 5, 0}, {1, 2, 1}, coefficient}},
-            .effects = {{"gravity", {{"acceleration", std::vector<double>{0, -g, 0}}}},
-                        {"energy_audit", {}}},
+            .effects = {{"gravity", {{"acceleration", std::vector<double>{0, -g, 0}}}}},
             .courant_number = 0.1};
 }
 
@@ -181,7 +177,7 @@ TEST_P(PlaneInSpace, guides_a_body) {
     EXPECT_NEAR(end.momentum[0] / end.mass, speed, 0.02 * speed);
     EXPECT_NEAR(end.momentum[1] / end.mass, -speed, 0.1 * speed) << "it settles, too";
     EXPECT_NEAR(end.momentum[2] / end.mass, speed, 0.02 * speed);
-    EXPECT_NEAR(total_energy(simulation), initial, 0.01 * (initial - end.potential_energy));
+    EXPECT_LT(total_energy(simulation), initial + 0.01 * (initial - end.potential_energy));
 }
 
 INSTANTIATE_TEST_SUITE_P(Friction, PlaneInSpace, testing::Values(0.0, 0.3));
@@ -196,23 +192,6 @@ TEST(Plane, acts_the_same_on_any_number_of_ranks) {
     EXPECT_LT(relative_difference(gathered(serial, "displacement_x", MPI_COMM_SELF),
                                   gathered(parallel, "displacement_x", MPI_COMM_WORLD)),
               1e-12);
-}
-
-// Nodes that stick have no velocity at the end of a step, but had one at its start.
-TEST(Plane, leaves_the_account_of_energy_closed_where_a_body_sticks) {
-    Scene scene = flying_disk();
-    scene.bodies.front().velocity = velocity_field({.constant = {-8, -6}});
-    scene.planes = {{"slope", {0, 3}, {1, 1}, 0.2}};
-    scene.grid.lower[0] = -2;
-    scene.effects = {{"energy_audit", {}}};
-    scene.shape_function = ShapeFunction::quadratic;
-    scene.courant_number = 0.05;
-    scene.flip_fraction = 0.97;  // What vibrates sways the account within a step.
-    Simulation simulation(scene, MPI_COMM_WORLD);
-    const double initial = simulation.totals().kinetic_energy;
-    while (simulation.time() < 0.6) simulation.step();
-    EXPECT_GT(lost_energy(simulation), 0.2 * initial);
-    EXPECT_NEAR(total_energy(simulation), initial, 0.002 * initial);
 }
 
 TEST(Plane, that_cannot_be_is_refused_by_its_name) {

@@ -28,7 +28,7 @@ Scene thrown_into_corner(ShapeFunction shape, double friction) {
                         .material = "sand",
                         .velocity = velocity_field({.constant = {-4, -3}})}},
             .walls = {.left = wall, .right = wall, .bottom = wall, .top = wall},
-            .effects = {gravity_effect(9.81), {"energy_audit", {}}},
+            .effects = {gravity_effect(9.81)},
             .shape_function = shape,
             .courant_number = 0.4};
 }
@@ -196,7 +196,6 @@ TEST(LostPoint, is_named_with_its_place_and_time) {
                   4)
             << text;
         EXPECT_GE(id, 0);
-        EXPECT_LT(id, static_cast<double>(simulation.num_points()));
         EXPECT_LT(x, 0);
         EXPECT_GT(x, -0.2);
         EXPECT_NEAR(y, 4, 2);

@@ -44,15 +44,12 @@ TEST(Penetrator, touches_what_is_within_the_size_of_a_point) {
 
 TEST(Penetrator, knows_its_volume_and_surface) {
     constexpr double pi = std::numbers::pi;
-    EXPECT_EQ(pencil.volume_below(1.9), 0);
-    EXPECT_NEAR(pencil.volume_below(4), 1.5 * pi, 1e-14) << "a cone of 1.5 m radius, 2 m high";
-    EXPECT_NEAR(pencil.volume_below(100), (12 + 54) * pi, 1e-13);
+    EXPECT_NEAR(pencil.volume(), (12 + 54) * pi, 1e-13);
     EXPECT_NEAR(pencil.area_below(2), 1.5 * 2.5 * pi, 1e-14);
     EXPECT_NEAR(pencil.area_below(10), (15 + 36) * pi, 1e-13);
     const Penetrator<2> wedge{
         .tip = {0, 0}, .radius = 3, .cone_height = 4, .length = 10, .mass = 1};
-    EXPECT_NEAR(wedge.volume_below(2), 0.5 * 2 * 3, 1e-15);
-    EXPECT_NEAR(wedge.volume_below(10), 12 + 36, 1e-14);
+    EXPECT_NEAR(wedge.volume(), 12 + 36, 1e-14);
     EXPECT_NEAR(wedge.area_below(10), 2 * (5 + 6), 1e-14);
     const GridShape grid{.lower = {0, -5, 3}, .spacing = 1, .num_cells = {9, 9, 9}};
     EXPECT_EQ(pencil.share_in(grid), 0.5) << "on the side z = 3";
@@ -86,8 +83,7 @@ Scene struck_block(double mass, double speed) {
                           {"radius", 1.5},
                           {"length", 1.0},
                           {"mass", mass},
-                          {"velocity", -speed}}},
-                        {"energy_audit", {}}},
+                          {"velocity", -speed}}}},
             .courant_number = 0.1};
 }
 
@@ -96,17 +92,15 @@ Scene struck_block(double mass, double speed) {
 TEST(Penetrator, keeps_momentum_and_gains_no_energy) {
     constexpr double mass = 2000, speed = 2;
     Simulation simulation(struck_block(mass, speed), MPI_COMM_WORLD);
-    const double initial = simulation.totals().kinetic_energy;
-    EXPECT_NEAR(initial, 0.5 * mass * speed * speed, 1e-12 * initial);
+    const double initial = 0.5 * mass * speed * speed;
     double least = speed;
     while (simulation.time() < 0.6) {
         for (int step = 0; step < 25; ++step) simulation.step();
         const Totals soil = simulation.totals();
         const double velocity = report(simulation, "penetrator_velocity");
         EXPECT_NEAR(mass * velocity + soil.momentum[1], -mass * speed, 1e-9 * mass * speed);
-        const double kept = soil.kinetic_energy + soil.strain_energy;
-        EXPECT_LT(kept, initial * 1.001);
-        EXPECT_NEAR(kept + lost_energy(simulation), initial, 0.01 * initial);
+        const double of_plate = 0.5 * mass * velocity * velocity;
+        EXPECT_LT(of_plate + soil.kinetic_energy + soil.strain_energy, initial * 1.001);
         least = std::min(least, std::abs(velocity));
     }
     EXPECT_LT(least, 0.7 * speed);

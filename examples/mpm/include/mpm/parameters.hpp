@@ -48,8 +48,8 @@ Rule whole(std::string name, std::string unit, double least, double most,
            std::optional<double> fallback = {});
 /// Numbers along the axes, as many as the scene has dimensions.
 Rule vector(std::string name, std::string unit, std::optional<std::vector<double>> fallback = {});
-/// At least one number, with as many as the scene likes.
-Rule numbers(std::string name, std::string unit, std::optional<std::vector<double>> fallback = {});
+/// Any number of numbers.
+Rule rows(std::string name, std::string unit);
 /// One of some words. The first is the fallback.
 Rule choice(std::string name, std::vector<std::string> choices);
 /// Rule for a parameter that may be left out altogether.

@@ -81,7 +81,7 @@ struct Effect {
     std::string kind = {};  ///< a scene may have several tractions
 };
 
-/// The point nearest to a position at the start, whose motion, stress and strain are recorded.
+/// The point nearest to a position at the start, whose motion and stress are recorded.
 struct Probe {
     std::string name;
     Vector position{};  ///< m
@@ -90,11 +90,6 @@ struct Probe {
 enum class ShapeFunction {
     linear,    ///< 2 nodes along an axis
     quadratic  ///< B-spline, 3 nodes
-};
-
-enum class Transfer {
-    flip,  ///< points carry their velocity, see flip_fraction
-    apic   ///< points carry an affine velocity field: its mean as with flip, its slope of the grid
 };
 
 /// A scene in SI units.
@@ -113,11 +108,6 @@ struct Scene {
     std::vector<Probe> probes = {};
 
     ShapeFunction shape_function = ShapeFunction::linear;
-    Transfer transfer = Transfer::flip;
-    /// Share of the velocity that the points carry (FLIP) through a quarter of the time in which a
-    /// wave crosses a cell. They read the rest back from the grid (PIC), which is a viscosity:
-    /// pic_viscosity(). With 0 all is read back, at every step.
-    double flip_fraction = 1;
     double courant_number = 0.5;  ///< time step * (wave speed + point speed) / grid spacing
     /// Share of a full node's mass below which a node's acceleration strains points less
     /// (move_nodes). 0: the least at which the time step is stable, and at least 0.01; none with

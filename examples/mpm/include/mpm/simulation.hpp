@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,22 +18,15 @@ struct RebalanceReport {
     std::int64_t moved_points = 0;  ///< over all ranks
 };
 
-/// Sums over all points, energies over rigid bodies as well. In two dimensions all but `num_points`
-/// are per metre of depth.
+/// Sums over all points. In two dimensions all but `num_points` are per metre of depth.
 struct Totals {
     std::int64_t num_points = 0;
-    double mass = 0;              ///< kg
-    Vector center{};              ///< of mass, m
-    Vector momentum{};            ///< kg m/s
-    double kinetic_energy = 0;    ///< J
-    double strain_energy = 0;     ///< elastic, J
-    double potential_energy = 0;  ///< of gravity at its full strength, J; 0 at the origin
-    /// By plastic strain, walls, damping and drag, J, where an effect keeps account of it.
-    std::optional<double> dissipated_energy = {};
-    /// Energy that is lost beside that, J, where an effect keeps account of it: by the transfers
-    /// between points and nodes, and by stress that follows strain in steps. Negative: the run
-    /// feeds on it, as an unstable one does.
-    std::optional<double> transfer_loss = {};
+    double mass = 0;                   ///< kg
+    Vector center{};                   ///< of mass, m
+    Vector momentum{};                 ///< kg m/s
+    double kinetic_energy = 0;         ///< J
+    double strain_energy = 0;          ///< elastic, J
+    double potential_energy = 0;       ///< of gravity at its full strength, J; 0 at the origin
     std::int64_t num_migrated = 0;     ///< changes of rank since the start, rebalances included
     std::int64_t num_ghost_nodes = 0;  ///< nodes that a rank shares with others, of all ranks
 };

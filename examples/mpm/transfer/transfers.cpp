@@ -1,21 +1,18 @@
-#pragma once
+#include "transfer/transfers.hpp"
 
 #include "transfer/g2p.hpp"
-#include "transfer/transfers.hpp"
 
 namespace mpm {
 
-/// The transfers of one dimension, shape function and kind.
-template <int D, class Shape, bool is_affine>
+namespace {
+
+/// The transfers of one dimension and shape function.
+template <int D, class Shape>
 class TransfersOf final : public Transfers<D> {
   public:
-    TransfersOf(const FlipShare& flip, Particles& particles) : flip_(flip) {
+    explicit TransfersOf(Particles& particles) {
         columns_.motion = add_motion_columns(particles, D);
         columns_.stress = add_stress_columns<D>(particles);
-        for (std::size_t a = 0; is_affine && a < D; ++a)
-            for (std::size_t b = 0; b < D; ++b)
-                columns_.affine[a][b] =
-                    particles.add_column(std::string("affine_") + "xyz"[a] + "xyz"[b]);
     }
 
     int margin() const override { return Shape::margin; }
@@ -53,14 +50,13 @@ class TransfersOf final : public Transfers<D> {
 
     void p2g(Particles& particles, const std::vector<CellRun<D>>& runs,
              GridPatch<D>& patch) const override {
-        points_to_grid<D, Shape, is_affine>(particles, columns_, shape_, runs, patch);
+        points_to_grid<D, Shape>(particles, columns_, shape_, runs, patch);
     }
 
     std::size_t g2p(Particles& particles, const GridPatch<D>& patch,
                     const std::vector<CellRun<D>>& runs, std::size_t first_run,
                     const PointBlock<D>& block) const override {
-        return grid_to_points<D, Shape, is_affine>(particles, columns_, shape_, flip_, patch, runs,
-                                                   first_run, block);
+        return grid_to_points<D, Shape>(particles, columns_, shape_, patch, runs, first_run, block);
     }
 
     void scatter(const Particles& particles, Column column, int axis,
@@ -134,24 +130,19 @@ class TransfersOf final : public Transfers<D> {
     }
 
     Shape shape_;
-    FlipShare flip_;
     TransferColumns<D> columns_;
 };
 
-template <int D, class Shape>
-std::unique_ptr<Transfers<D>> make_with(const Scene& scene, const FlipShare& flip,
-                                        Particles& particles) {
-    if (scene.transfer == Transfer::apic)
-        return std::make_unique<TransfersOf<D, Shape, true>>(flip, particles);
-    return std::make_unique<TransfersOf<D, Shape, false>>(flip, particles);
-}
+}  // namespace
 
 template <int D>
-std::unique_ptr<Transfers<D>> make_transfers(const Scene& scene, const FlipShare& flip,
-                                             Particles& particles) {
-    if (scene.shape_function == ShapeFunction::linear)
-        return make_with<D, LinearShape>(scene, flip, particles);
-    return make_with<D, QuadraticShape>(scene, flip, particles);
+std::unique_ptr<Transfers<D>> make_transfers(ShapeFunction shape, Particles& particles) {
+    if (shape == ShapeFunction::linear)
+        return std::make_unique<TransfersOf<D, LinearShape>>(particles);
+    return std::make_unique<TransfersOf<D, QuadraticShape>>(particles);
 }
+
+template std::unique_ptr<Transfers<2>> make_transfers<2>(ShapeFunction, Particles&);
+template std::unique_ptr<Transfers<3>> make_transfers<3>(ShapeFunction, Particles&);
 
 }  // namespace mpm

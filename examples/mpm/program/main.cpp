@@ -23,6 +23,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -293,6 +294,9 @@ int main(int argc, char** argv) {
     try {
         const std::optional<Arguments> arguments = read_arguments(argc, argv);
         if (arguments) run(*arguments, MPI_COMM_WORLD);
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "rrcb_mpm: there is not enough memory for the grid or the points\n");
+        MPI_Abort(MPI_COMM_WORLD, 1);
     } catch (const std::exception& error) {
         if (mpm::rank_of(MPI_COMM_WORLD) == 0) std::fprintf(stderr, "rrcb_mpm: %s\n", error.what());
         exit_code = 1;

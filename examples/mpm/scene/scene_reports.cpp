@@ -45,8 +45,8 @@ void check_material(const Scene& scene, const Material& material, Warnings& warn
     const double weight = weight_stress(scene, density);
     if (weight > 0 && (density < 10 || density > 30e3))
         warnings.push_back(place + "the density " + written(density) + " must be in kg/m^3");
-    if (weight > values.number("youngs_modulus"))
-        warnings.push_back(place + "its weight presses more than the youngs_modulus " +
+    if (weight > 2 * values.number("youngs_modulus"))
+        warnings.push_back(place + "its weight presses more than twice the youngs_modulus " +
                            written(values.number("youngs_modulus")) + "; that must be in Pa");
     if (material.model != "drucker_prager") return;
     const double angle = values.number("friction_angle");

@@ -56,10 +56,12 @@ List converted(const Teuchos::ParameterList& from, const std::string& name,
 std::string readable(const std::string& message) {
     std::istringstream lines(message);
     std::string readable;
-    for (std::string line; std::getline(lines, line);)
+    for (std::string line; std::getline(lines, line);) {
+        line = line.substr(0, line.find(" in list \"ANONYMOUS\""));
         if (!line.empty() && !line.starts_with("./") && !line.starts_with("Throw") &&
             !line.starts_with("error: Parser failure"))
             readable += "\n" + line;
+    }
     return readable;
 }
 

@@ -2,6 +2,7 @@
 #include "support.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -13,10 +14,14 @@ namespace {
 /// A file of these ranks, taken away in the end.
 class StateFile {
   public:
-    StateFile()
-        : path_((std::filesystem::temp_directory_path() /
-                 ("state_" + std::to_string(size_of(MPI_COMM_WORLD)) + ".mpm"))
-                    .string()) {}
+    StateFile() {
+        // Several runs of this test may share a folder.
+        int process = getpid();
+        MPI_Bcast(&process, 1, MPI_INT, 0, MPI_COMM_WORLD);
+        path_ =
+            (std::filesystem::temp_directory_path() / ("state_" + std::to_string(process) + ".mpm"))
+                .string();
+    }
     ~StateFile() {
         MPI_Barrier(MPI_COMM_WORLD);
         if (rank_of(MPI_COMM_WORLD) == 0) std::filesystem::remove(path_);

@@ -25,7 +25,7 @@ int with(const rrcb_groups* groups, Body&& body) noexcept {
 }
 
 void make_groups(const rrcb_balancer& own, const rrcb_points* given, const uint64_t* keys,
-                 rrcb_group_place place, rrcb_groups** groups) {
+                 int place, rrcb_groups** groups) {
     auto made = rrcb::c::make_handle(own.comm, groups, "groups");
     Participant self{duplicate_of(own.comm)};
     rrcb::Points points;
@@ -43,7 +43,7 @@ void make_groups(const rrcb_balancer& own, const rrcb_points* given, const uint6
 }  // namespace
 
 int rrcb_groups_create(const rrcb_balancer* balancer, const rrcb_points* points,
-                       const uint64_t* keys, rrcb_group_place place, rrcb_groups** groups) {
+                       const uint64_t* keys, int place, rrcb_groups** groups) {
     return guarded(balancer,
                    [&](const auto& own) { make_groups(own, points, keys, place, groups); });
 }

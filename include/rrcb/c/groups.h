@@ -22,9 +22,9 @@ typedef enum rrcb_group_place {
 /** Finds the groups of all points with equal keys, as rrcb::groups. They belong to the caller.
  *
  *  Collective over the communicator of the balancer, whose cuts are not used. `keys` has an entry
- *  for each point. If it fails, `*groups` is left unchanged. */
+ *  for each point, `place` is an rrcb_group_place. If it fails, `*groups` is left unchanged. */
 RRCB_API int rrcb_groups_create(const rrcb_balancer* balancer, const rrcb_points* points,
-                                const uint64_t* keys, rrcb_group_place place, rrcb_groups** groups);
+                                const uint64_t* keys, int place, rrcb_groups** groups);
 
 /** Frees groups, which may be null, and their points. Not collective. */
 RRCB_API void rrcb_groups_destroy(rrcb_groups* groups);

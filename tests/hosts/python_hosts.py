@@ -5,15 +5,15 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from programs import BUILD, run
+from programs import BUILD, ROOT, run
 from result import Case, Failed, Result
 
 FOLDER = Path(__file__).parent
-LIBRARY = {"RRCB_LIBRARY": BUILD / "src" / "librrcb.so"}
+PACKAGE = {"RRCB_LIBRARY": BUILD / "src" / "librrcb.so", "PYTHONPATH": ROOT / "python"}
 
 
 def result_of(ranks: int, command: list, folder: Path) -> tuple[float, str]:
-    seconds, output, code = run(ranks, ["/usr/bin/python3", *command], LIBRARY, folder)
+    seconds, output, code = run(ranks, ["/usr/bin/python3", *command], PACKAGE, folder)
     result = re.search(r"^result (.*)$", output, re.MULTILINE)
     if code != 0 or result is None:
         raise Failed(output.strip().split("\n")[-1])
@@ -38,7 +38,7 @@ def compare_petsc(plain: Result, rrcb: Result) -> str:
 
 def launch_vtk(ranks: int, with_rrcb: bool, folder: Path) -> Result:
     """There is no plain run: VTK reads what RRCB made."""
-    seconds, text = result_of(1, [FOLDER / "vtk_boxes.py", folder / "boxes.vtu"], folder)
+    seconds, text = result_of(1, [FOLDER / "vtk_boxes.py", folder / "boxes.vtk"], folder)
     return Result(seconds, answer={text: 1})
 
 

@@ -120,9 +120,9 @@ def parameters_of(code):
 
 
 def faulty_comments(root):
-    """Comments of the C++ headers above 15 lines, and those that lack some of the parameters."""
-    for name in CPP:
-        file = Path(root) / "include" / "rrcb" / f"{name}.hpp"
+    """Comments of the headers above 15 lines, and those that lack some of the parameters."""
+    for name in (*(f"{each}.hpp" for each in CPP), *(f"{each}.h" for each in C)):
+        file = Path(root) / "include" / "rrcb" / name
         for function, comment, code in items_of(file.read_text().splitlines(), name):
             if len(comment.splitlines()) > 15:
                 yield f"{file}: the comment of {function} has more than 15 lines"

@@ -66,8 +66,8 @@ inline constexpr Part no_part = -1;
 /// Not collective. Nothing is checked.
 /// @param cuts     of a balance, or others that fulfil the conditions at Cut and Cuts
 /// @param position in the unit of the points
-/// @return no_part if a coordinate is NaN, or if the cuts that decide are not known Cost: O(depth),
-/// times a logarithm if the tree is not complete.
+/// @return no_part if a coordinate is NaN, or if the cuts that decide are not known
+/// Cost: O(depth), times a logarithm if the tree is not complete.
 RRCB_API Part part_of(const Cuts& cuts, const Vector& position);
 
 /// Writes the part of every point. Not collective.

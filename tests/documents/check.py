@@ -3,13 +3,19 @@
 
 Fails unless every relative link leads to a file, and its mark to a heading; every path in the type of
 code is there; each message in the table of docs/errors.md is in the source, except words in capitals,
-which stand for numbers and names; and every figure is shown, with a caption and a command.
+which stand for numbers and names; every figure is shown, with a caption and a command; and the comment
+of each public function has at most 15 lines and all parameters, if there are several.
 """
 import re
 import shutil
 import subprocess
 import sys
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "docs"))
+sys.dont_write_bytecode = True
+
+from reference import faulty_comments  # noqa: E402
 
 # What stands for names in messages.
 PLACE = re.compile(r"\b(?:[A-Z]|[A-Z]{4,})\b")
@@ -97,7 +103,7 @@ def main():
     found = documents(root)
     problems = [problem for document in found
                 for problem in (*broken_links(document), *missing_paths(document, root))]
-    problems += [*unknown_messages(root), *problems_of_figures(root, found)]
+    problems += [*unknown_messages(root), *problems_of_figures(root, found), *faulty_comments(root)]
     print("\n".join(problems) or f"{len(found)} documents")
     return 1 if problems or not found else 0
 

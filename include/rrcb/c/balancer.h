@@ -45,109 +45,160 @@ typedef struct rrcb_report {
     int surplus_parts;          /**< parts that must stay empty: more parts than points */
 } rrcb_report;
 
-/** Makes a balancer with the default options and no cuts, which belongs to the caller.
+/** Makes a balancer with the default options and no cuts. Collective.
  *
- *  Collective over `comm`, which must outlive it. If it fails, `*balancer` is left unchanged. */
+ * @param comm     must outlive the balancer
+ * @param balancer belongs to the caller; unchanged if the call fails */
 RRCB_API int rrcb_create(MPI_Comm comm, rrcb_balancer** balancer);
 
-/** Makes a balancer from a communicator of Fortran. Collective. */
+/** Does the same from a communicator of Fortran. Collective.
+ *
+ * @param comm     must outlive the balancer
+ * @param balancer belongs to the caller; unchanged if the call fails */
 RRCB_API int rrcb_create_fortran(MPI_Fint comm, rrcb_balancer** balancer);
 
 /** Frees a balancer, which may be null, and the cuts and the plan it has shown. Not collective. */
 RRCB_API void rrcb_destroy(rrcb_balancer* balancer);
 
-/** Sets an option by its name in rrcb::Options, to a text as docs/parameters.md lists them:
- *  ("refine", "EXACT"), ("imbalance_tolerance", "1.05"), ("axes.min_width", "0.1 0.1").
+/** Sets an option, such as ("refine", "EXACT") or ("axes.min_width", "0.1 0.1"). Not collective.
  *
- *  Not collective, but all ranks set the same, which rrcb_balance checks. */
+ * @param balancer the same options on all ranks, which rrcb_balance checks
+ * @param option   its name in rrcb::Options
+ * @param value    as docs/parameters.md lists them */
 RRCB_API int rrcb_set(rrcb_balancer* balancer, const char* option, const char* value);
 
-/** Sets the relative weights of the parts; none for equal ones. Not collective, as rrcb_set. */
+/** Sets the relative weights of the parts. Not collective.
+ *
+ * @param balancer the same sizes on all ranks, which rrcb_balance checks
+ * @param count    one for each part; 0: equal parts
+ * @param sizes    0 or more, not all 0 */
 RRCB_API int rrcb_set_part_sizes(rrcb_balancer* balancer, size_t count, const double* sizes);
 
-/** Writes the part of each point of this rank into `parts`, and keeps the cuts; as rrcb::balance.
+/** Divides the points of all ranks into parts and keeps the cuts, as rrcb::balance. Collective.
  *
- *  Collective. On a rank without points, which states the dimension, arrays may be null. From the
- *  second call on with as many points no memory is allocated for each point. */
+ * @param balancer with the options; gets the cuts and the report
+ * @param points   of this rank; without points arrays may be null, but the dimension is set
+ * @param parts    gets the part of each point; may be null without points */
 RRCB_API int rrcb_balance(rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts);
 
-/** Does the same from the cuts of the balancer, for points that moved little since; as
- *  rrcb::rebalance. Collective. */
+/** Divides points that moved little, from the cuts of the balancer; as rrcb::rebalance. Collective.
+ *
+ * @param balancer with cuts of the same dimension and number of parts; gets new ones
+ * @param points   as for rrcb_balance
+ * @param parts    as for rrcb_balance */
 RRCB_API int rrcb_rebalance(rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts);
 
 /** Frees the buffers that calls on the communicator keep for the next ones, as
- *  rrcb::release_buffers. Not collective. */
+ * rrcb::release_buffers. Not collective. */
 RRCB_API int rrcb_release_buffers(rrcb_balancer* balancer);
 
-/** Writes the report of the last balance. Not collective. Fails before the first. */
+/** Writes the report of the last balance. Not collective.
+ *
+ * @param balancer fails before its first balance
+ * @param report   gets the report */
 RRCB_API int rrcb_get_report(const rrcb_balancer* balancer, rrcb_report* report);
 
-/** Shows the cuts, which belong to the balancer until it gets others. Not collective.
+/** Shows the cuts. Not collective.
  *
- *  Fails before the first balance or rrcb_set_cuts, as all functions that need cuts. After
- *  rrcb_set("cuts", "OWN") also fails on this rank only if it has only some cuts, see rrcb::Cuts;
- *  call rrcb_gather_cuts before. */
+ * @param balancer owns the cuts until it gets others
+ * @param cuts     gets a view of them
+ * Fails before the first balance or rrcb_set_cuts, as all functions that need cuts. After
+ * rrcb_set("cuts", "OWN") also fails, on this rank only, if it has only some cuts: call
+ * rrcb_gather_cuts before. */
 RRCB_API int rrcb_get_cuts(const rrcb_balancer* balancer, rrcb_cuts* cuts);
 
 /** Gives each rank's balancer all cuts, if each has some of them, as rrcb::gather_cuts.
- *  Collective. */
+ * Collective. */
 RRCB_API int rrcb_gather_cuts(rrcb_balancer* balancer);
 
-/** Gives the balancer cuts, as of an earlier run; they are copied. Not collective, but all ranks
- *  give the same, which rrcb_rebalance checks. */
+/** Copies cuts into the balancer, such as those of an earlier run. Not collective.
+ *
+ * @param balancer for rrcb_rebalance and look-ups
+ * @param cuts     the same on all ranks, which rrcb_rebalance checks */
 RRCB_API int rrcb_set_cuts(rrcb_balancer* balancer, const rrcb_cuts* cuts);
 
-/** Writes the part of a position, of length 3, without any checks of it; as rrcb::part_of. Not
- *  collective. */
+/** Writes the part of a position, as rrcb::part_of. Not collective.
+ *
+ * @param balancer with cuts
+ * @param position of length 3, not checked
+ * @param part     gets its part */
 RRCB_API int rrcb_part_of(const rrcb_balancer* balancer, const double* position, int32_t* part);
 
-/** Writes the parts of any positions by the cuts, as rrcb::assign. Not collective.
+/** Writes the part of every point by the cuts, as rrcb::assign. Not collective.
  *
- *  After rrcb_set("cuts", "OWN") fails on this rank only if it lacks a cut above a position; call
- *  rrcb_assign_all instead. */
+ * @param balancer with cuts
+ * @param points   of the dimension of the cuts; weights are ignored
+ * @param parts    gets the part of each point
+ * After rrcb_set("cuts", "OWN") fails, on this rank only, if it lacks a cut above a point: call
+ * rrcb_assign_all instead. */
 RRCB_API int rrcb_assign(const rrcb_balancer* balancer, const rrcb_points* points, int32_t* parts);
 
-/** Writes the parts of any positions, whichever cuts the ranks have; as rrcb::assign_all.
- *  Collective. */
+/** Writes the part of every point, whichever cuts the ranks have; as rrcb::assign_all. Collective.
+ *
+ * @param balancer with cuts
+ * @param points   of this rank, of the dimension of the cuts; weights are ignored
+ * @param parts    gets the part of each point */
 RRCB_API int rrcb_assign_all(const rrcb_balancer* balancer, const rrcb_points* points,
                              int32_t* parts);
 
-/** Writes the region of a part by the cuts: `lower` and `upper` of length 3. Not collective.
+/** Writes the region of a part; sides without a cut are +-infinity. Not collective.
  *
- *  After rrcb_set("cuts", "OWN") fails on this rank only if it lacks a cut above the part;
- *  call rrcb_gather_cuts before. */
+ * @param balancer with cuts
+ * @param part     0 ... num_parts - 1
+ * @param lower    gets the lower end, of length 3
+ * @param upper    gets the upper end, of length 3
+ * After rrcb_set("cuts", "OWN") fails, on this rank only, if it lacks a cut above the part: call
+ * rrcb_gather_cuts before. */
 RRCB_API int rrcb_box_of(const rrcb_balancer* balancer, int32_t part, double* lower, double* upper);
 
-/** Writes the parts whose region a closed box touches, ascending, as rrcb::parts_touching; `lower`
- *  and `upper` have length 3. Not collective.
+/** Writes the parts whose region a closed box touches, as rrcb::parts_touching. Not collective.
  *
- *  Writes how many there are to `count`, and the first `capacity` of them to `parts`. */
+ * @param balancer with cuts
+ * @param lower    end of the box, of length 3
+ * @param upper    end of the box, of length 3
+ * @param capacity length of `parts`
+ * @param parts    gets the first `capacity` of them, ascending
+ * @param count    gets how many there are, which may be more */
 RRCB_API int rrcb_parts_touching(const rrcb_balancer* balancer, const double* lower,
                                  const double* upper, size_t capacity, int32_t* parts,
                                  size_t* count);
 
-/** Makes and keeps the plan that brings `count` points to the ranks of their parts, as rrcb::plan;
- *  the parts are those of the cuts. Collective. */
+/** Makes and keeps the plan that brings points to the ranks of their parts, as rrcb::plan.
+ * Collective.
+ *
+ * @param balancer with the cuts of the parts; gets the plan
+ * @param count    points of this rank
+ * @param parts    the new part of each */
 RRCB_API int rrcb_make_plan(rrcb_balancer* balancer, size_t count, const int32_t* parts);
 
-/** Shows the plan, which belongs to the balancer until it makes another. Not collective. Fails
- *  before the first, as rrcb_transfer. */
+/** Shows the plan. Not collective.
+ *
+ * @param balancer owns the plan until it makes another; fails before the first
+ * @param plan     gets a view of it */
 RRCB_API int rrcb_get_plan(const rrcb_balancer* balancer, rrcb_plan* plan);
 
 /** Moves columns along the plan, as rrcb::transfer: first the points that stay, then those that
- *  come.
+ * come. Collective.
  *
- *  Collective. A column has an entry for each of plan.num_points points, its result for each of
- *  plan.num_points_after. `limits` may be null, for the default, and so may `report`. */
+ * @param balancer    with a plan
+ * @param num_columns the same on every rank
+ * @param columns     `from` has num_points entries of the plan, `to` room for num_points_after
+ * @param limits      null: the default
+ * @param report      may be null */
 RRCB_API int rrcb_transfer(rrcb_balancer* balancer, size_t num_columns, const rrcb_column* columns,
                            const rrcb_transfer_limits* limits, rrcb_transfer_report* report);
 
 /** Numbers the parts of the cuts so that many points stay, as rrcb::remap. Collective.
  *
- *  `parts` is the new part of each of `count` points. `previous` is the part that each was in, or
- *  null on all ranks that have points: then points stay on their ranks. Part p is on
- *  ranks_of_parts[p], if not null, otherwise as by rrcb_ranks_of_part. Writes the new number of
- *  part p to numbers[p], of which there are num_parts; `kept` may be null. */
+ * @param balancer       with cuts
+ * @param count          points of this rank
+ * @param parts          the new part of each
+ * @param previous       the part that each was in; null on all ranks that have points: points stay
+ * on their ranks
+ * @param ranks_of_parts the ranks of each part; null: as by rrcb_ranks_of_part
+ * @param num_parts      that of the cuts, length of `numbers`
+ * @param numbers        gets the new number of each part
+ * @param kept           gets how many points stay; may be null */
 RRCB_API int rrcb_remap(rrcb_balancer* balancer, size_t count, const int32_t* parts,
                         const int32_t* previous, const rrcb_rank_range* ranks_of_parts,
                         size_t num_parts, int32_t* numbers, rrcb_kept* kept);

@@ -13,65 +13,109 @@ typedef struct rrcb_controller rrcb_controller;
 /** Learns the costs of points. */
 typedef struct rrcb_cost_model rrcb_cost_model;
 
-/** Makes a controller, which belongs to the caller; as rrcb::Controller. Collective. */
+/** Makes a controller, as rrcb::Controller. Collective.
+ *
+ * @param comm       may be freed before the controller
+ * @param controller belongs to the caller; unchanged if the call fails */
 RRCB_API int rrcb_controller_create(MPI_Comm comm, rrcb_controller** controller);
 
-/** Makes a controller from a communicator of Fortran. Collective. */
+/** Does the same from a communicator of Fortran. Collective.
+ *
+ * @param comm       may be freed before the controller
+ * @param controller belongs to the caller; unchanged if the call fails */
 RRCB_API int rrcb_controller_create_fortran(MPI_Fint comm, rrcb_controller** controller);
 
 /** Frees a controller, which may be null. Collective. */
 RRCB_API void rrcb_controller_destroy(rrcb_controller* controller);
 
-/** Records a step that took this rank `load` of its own work, and writes 1 to `due`, which may be
- *  null, if a rebalance is due. Collective. */
+/** Records a step. Collective.
+ *
+ * @param controller of this loop
+ * @param load       of this rank's own work, without waiting, in the unit of the costs
+ * @param due        gets 1 if a rebalance is due, else 0; may be null */
 RRCB_API int rrcb_controller_step(rrcb_controller* controller, double load, int* due);
 
-/** Does the same with the number of points of this rank, or the sum of their weights. Collective.
- */
+/** Records a step and smooths the load; prefer it for measured loads. Collective.
+ *
+ * @param controller of this loop
+ * @param load       as for rrcb_controller_step
+ * @param points     number of points of this rank, or the sum of their weights
+ * @param due        as for rrcb_controller_step */
 RRCB_API int rrcb_controller_step_points(rrcb_controller* controller, double load, double points,
                                          int* due);
 
-/** Writes 1 if a rebalance is due before the next step, else 0. Not collective. */
+/** Writes whether a rebalance is due before the next step. Not collective.
+ *
+ * @param controller of this loop
+ * @param due        gets 1 or 0 */
 RRCB_API int rrcb_controller_due(const rrcb_controller* controller, int* due);
 
-/** Records a rebalance with its cost on this rank, and the report of the balance, or null. Called
- *  on all ranks, without communication. */
+/** Records a rebalance. Called on all ranks, without communication.
+ *
+ * @param controller of this loop
+ * @param report     of the balance, or null
+ * @param cost       on this rank, with all that it moved, in the unit of the loads */
 RRCB_API int rrcb_controller_rebalanced(rrcb_controller* controller, const rrcb_report* report,
                                         double cost);
 
-/** Makes a cost model, which belongs to the caller; as rrcb::CostModel. Collective.
+/** Makes a cost model, as rrcb::CostModel. Collective.
  *
- *  Its sums travel with the steps of `controller`, on the ranks of `comm`, which must outlive
- *  it and has recorded none; with a null one the model has a communicator of its own. */
+ * @param comm        may be freed before the model
+ * @param controller  carries the sums with its steps: outlives the model, has recorded none. Null:
+ * the model has a communicator of its own
+ * @param num_columns the same on every rank
+ * @param model       belongs to the caller; unchanged if the call fails */
 RRCB_API int rrcb_cost_model_create(MPI_Comm comm, rrcb_controller* controller, int num_columns,
                                     rrcb_cost_model** model);
 
-/** Makes a cost model from a communicator of Fortran, and the address of a controller or null.
- *  Collective. */
+/** Does the same from a communicator of Fortran. Collective.
+ *
+ * @param comm        may be freed before the model
+ * @param controller  address of a controller, or null
+ * @param num_columns the same on every rank
+ * @param model       belongs to the caller; unchanged if the call fails */
 RRCB_API int rrcb_cost_model_create_fortran(MPI_Fint comm, rrcb_controller* const* controller,
                                             int num_columns, rrcb_cost_model** model);
 
 /** Frees a cost model, which may be null. Collective unless it was made with a controller. */
 RRCB_API void rrcb_cost_model_destroy(rrcb_cost_model* model);
 
-/** Records a step: the seconds of this rank's own work, and its number of each column. With a
- *  controller also its step; rrcb_controller_due then returns the decision. Collective. */
+/** Records a step, also in the controller of the model, whose decision rrcb_controller_due returns.
+ * Collective.
+ *
+ * @param model       of this loop
+ * @param seconds     of this rank's own work, without waiting
+ * @param num_columns those of the model
+ * @param columns     numbers of this rank, one for each column */
 RRCB_API int rrcb_cost_model_step(rrcb_cost_model* model, double seconds, size_t num_columns,
                                   const double* columns);
 
-/** Writes the weight of each of `count` points in seconds, to divide them by at once; `columns` has
- *  length count * num_columns, point after point. Called on all ranks, without communication. */
+/** Writes the weight of each point in seconds, to balance by at once. Called on all ranks, without
+ * communication.
+ *
+ * @param model       of this loop
+ * @param count       points of this rank
+ * @param num_columns those of the model
+ * @param columns     a row of columns for each point, one row after the other
+ * @param weights     gets one for each point */
 RRCB_API int rrcb_cost_model_weights(rrcb_cost_model* model, size_t count, size_t num_columns,
                                      const double* columns, double* weights);
 
-/** Writes the seconds of a unit of each column. Not collective. */
+/** Writes the seconds of a unit of each column. Not collective.
+ *
+ * @param model       of this loop
+ * @param num_columns those of the model
+ * @param costs       gets one for each column */
 RRCB_API int rrcb_cost_model_costs(const rrcb_cost_model* model, size_t num_columns, double* costs);
 
-/** Writes 1 if weights are by the costs, 0 if points are counted. Not collective. */
+/** Writes whether weights are by the costs. Not collective.
+ *
+ * @param model      of this loop
+ * @param uses_costs gets 1, or 0 if points are counted */
 RRCB_API int rrcb_cost_model_uses_costs(const rrcb_cost_model* model, int* uses_costs);
 
-/** Returns a sentence: whether costs are used, and why; valid until the next call; empty for a null
- * model. Not collective. */
+/** Returns a sentence: whether costs are used, and why. Not collective; valid until the next call,
+ * empty for a null model. */
 RRCB_API const char* rrcb_cost_model_report(rrcb_cost_model* model);
 
 #ifdef __cplusplus

@@ -35,38 +35,54 @@ typedef struct rrcb_ghost_plan {
                                          a periodic box */
 } rrcb_ghost_plan;
 
-/** Finds the points that other ranks need, from the cuts of the balancer; as rrcb::ghosts. They
- *  belong to the caller and do not need the balancer any more.
+/** Finds the points that other ranks need, as rrcb::ghosts. Collective.
  *
- *  Collective. If it fails, `*ghosts` is left unchanged. */
+ * @param balancer with the cuts, whose ranks have the points; not needed afterwards
+ * @param points   of this rank
+ * @param options  radius, periodic box, ranks of the parts
+ * @param ghosts   belong to the caller; unchanged if the call fails */
 RRCB_API int rrcb_ghosts_create(const rrcb_balancer* balancer, const rrcb_points* points,
                                 const rrcb_ghost_options* options, rrcb_ghosts** ghosts);
 
 /** Frees ghosts, which may be null, and their lists. Not collective. */
 RRCB_API void rrcb_ghosts_destroy(rrcb_ghosts* ghosts);
 
-/** Shows the lists, which belong to the ghosts. Not collective. */
+/** Shows the lists. Not collective.
+ *
+ * @param ghosts own the lists
+ * @param plan   gets a view of them */
 RRCB_API int rrcb_ghosts_get_plan(const rrcb_ghosts* ghosts, rrcb_ghost_plan* plan);
 
-/** Fetches columns of the ghosts, as rrcb::fetch; see there how long `ghosts` may be used.
+/** Fetches columns of the ghosts, as rrcb::fetch. Collective.
  *
- *  Collective. A column has an entry for each of plan.num_points points, its result for each of
- *  plan.num_ghosts. `limits` may be null, for the default, and so may `report`. */
+ * @param ghosts      may be used again as long as no point changes its index
+ * @param num_columns the same on every rank
+ * @param columns     `from` has num_points entries of the plan, `to` room for num_ghosts
+ * @param limits      null: the default
+ * @param report      may be null */
 RRCB_API int rrcb_ghosts_fetch(const rrcb_ghosts* ghosts, size_t num_columns,
                                const rrcb_column* columns, const rrcb_transfer_limits* limits,
                                rrcb_transfer_report* report);
 
-/** Adds values of ghosts to those of their points, such as forces, as rrcb::accumulate.
+/** Adds values of ghosts to those of their points, such as forces, as rrcb::accumulate. Collective.
  *
- *  Collective, otherwise as rrcb_ghosts_fetch. `from` has an entry for each ghost, `to` holds those
- *  of the points, to which they are added. No type is RRCB_BYTE. If it fails, `to` is unchanged,
- *  except on a rank on which a message fails. */
+ * @param ghosts      as for rrcb_ghosts_fetch
+ * @param num_columns the same on every rank
+ * @param columns     `from` has an entry for each ghost, `to` the values of the points, which are
+ * added to; no type is RRCB_BYTE
+ * @param limits      null: the default
+ * @param report      may be null
+ * If it fails, `to` is unchanged, except on a rank on which a message fails. */
 RRCB_API int rrcb_ghosts_accumulate(const rrcb_ghosts* ghosts, size_t num_columns,
                                     const rrcb_column* columns, const rrcb_transfer_limits* limits,
                                     rrcb_transfer_report* report);
 
-/** Moves fetched positions, interleaved, to those of the images, as rrcb::apply_shifts. Not
- *  collective. `length` is that of `positions`, of type RRCB_DOUBLE or RRCB_FLOAT. */
+/** Moves fetched positions to those of the images, as rrcb::apply_shifts. Not collective.
+ *
+ * @param ghosts    that the positions were fetched for
+ * @param type      RRCB_DOUBLE or RRCB_FLOAT
+ * @param length    of `positions`: dimension * num_ghosts
+ * @param positions interleaved */
 RRCB_API int rrcb_ghosts_apply_shifts(const rrcb_ghosts* ghosts, rrcb_type type, size_t length,
                                       void* positions);
 

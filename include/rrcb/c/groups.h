@@ -19,31 +19,43 @@ typedef enum rrcb_group_place {
     RRCB_FIRST_POINT = 1 /**< of the lowest rank that has one */
 } rrcb_group_place;
 
-/** Finds the groups of all points with equal keys, as rrcb::groups. They belong to the caller.
+/** Finds the groups of all points with equal keys, as rrcb::groups. Collective.
  *
- *  Collective over the communicator of the balancer, whose cuts are not used. `keys` has an entry
- *  for each point, `place` is an rrcb_group_place. If it fails, `*groups` is left unchanged. */
+ * @param balancer whose communicator is used, not its cuts
+ * @param points   of this rank
+ * @param keys     one for each point; RRCB_NO_GROUP for a point that needs none
+ * @param place    an rrcb_group_place, the same on every rank
+ * @param groups   belong to the caller; unchanged if the call fails */
 RRCB_API int rrcb_groups_create(const rrcb_balancer* balancer, const rrcb_points* points,
                                 const uint64_t* keys, int place, rrcb_groups** groups);
 
 /** Frees groups, which may be null, and their points. Not collective. */
 RRCB_API void rrcb_groups_destroy(rrcb_groups* groups);
 
-/** Shows the groups of this rank as points, for rrcb_balance; they belong to the groups. Not
- *  collective. */
+/** Shows the groups of this rank as points, for rrcb_balance. Not collective.
+ *
+ * @param groups own the points
+ * @param points get a view of them */
 RRCB_API int rrcb_groups_points(const rrcb_groups* groups, rrcb_points* points);
 
 /** Fetches columns with the values of the groups of points, such as parts, as rrcb::fetch.
+ * Collective.
  *
- *  Collective. A column has an entry for each group of this rank, its result for each of its
- *  points. `limits` may be null, for the default, and so may `report`. */
+ * @param groups      of these points
+ * @param num_columns the same on every rank
+ * @param columns     `from` has an entry for each group of this rank, `to` room for each point
+ * @param limits      null: the default
+ * @param report      may be null */
 RRCB_API int rrcb_groups_fetch(const rrcb_groups* groups, size_t num_columns,
                                const rrcb_column* columns, const rrcb_transfer_limits* limits,
                                rrcb_transfer_report* report);
 
-/** Writes the sums of values over the points of each group of this rank, as rrcb::sums.
+/** Writes the sums of values over the points of each group of this rank, as rrcb::sums. Collective.
  *
- *  Collective. `values` has `components` for each point of this rank, `sums` for each group. */
+ * @param groups     of these points
+ * @param components sums for each group
+ * @param values     `components` for each point of this rank
+ * @param sums       gets `components` for each group of this rank */
 RRCB_API int rrcb_groups_sums(const rrcb_groups* groups, size_t components, const double* values,
                               double* sums);
 

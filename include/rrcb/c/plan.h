@@ -62,7 +62,12 @@ typedef struct rrcb_kept {
     int64_t kept_after;  /**< those that stay under the new numbers */
 } rrcb_kept;
 
-/** Writes the ranks of a part, as rrcb::ranks_of_part. Not collective. */
+/** Writes the ranks of a part, as rrcb::ranks_of_part. Not collective.
+ *
+ * @param part      0 ... num_parts - 1
+ * @param num_parts 1 or more
+ * @param num_ranks 1 or more
+ * @param ranks     gets the consecutive ranks */
 RRCB_API int rrcb_ranks_of_part(int32_t part, int num_parts, int num_ranks, rrcb_rank_range* ranks);
 
 #ifdef __cplusplus

@@ -32,17 +32,31 @@ typedef struct rrcb_points {
     const double* weights; /**< one per point; null on every rank that has points: all weigh 1 */
 } rrcb_points;
 
-/** Returns a view of `count` points stored one after another. Not collective. */
+/** Returns a view of points stored one after another. Not collective.
+ *
+ * @param type        RRCB_DOUBLE or RRCB_FLOAT
+ * @param dimension   1 to 3
+ * @param count       points of this rank
+ * @param coordinates dimension * count
+ * @param weights     one for each point; null: all weigh 1 */
 RRCB_API rrcb_points rrcb_interleaved_points(rrcb_type type, int dimension, size_t count,
                                              const void* coordinates, const double* weights);
 
-/** Returns a view of one array per axis, of which the axes beyond the dimension are ignored. Not
- *  collective. */
+/** Returns a view of one array per axis. Not collective.
+ *
+ * @param type      RRCB_DOUBLE or RRCB_FLOAT
+ * @param dimension 1 to 3
+ * @param count     points of this rank
+ * @param columns   `dimension` arrays of length `count`
+ * @param weights   one for each point; null: all weigh 1 */
 RRCB_API rrcb_points rrcb_column_points(rrcb_type type, int dimension, size_t count,
                                         const void* const* columns, const double* weights);
 
-/** Writes the smallest box that holds all points, `lower` and `upper` of length 3; as
- *  rrcb::bounding_box. Not collective. */
+/** Writes the smallest box that holds all points, as rrcb::bounding_box. Not collective.
+ *
+ * @param points of this rank
+ * @param lower  gets the lower end, of length 3
+ * @param upper  gets the upper end, of length 3 */
 RRCB_API int rrcb_bounding_box(const rrcb_points* points, double* lower, double* upper);
 
 #ifdef __cplusplus

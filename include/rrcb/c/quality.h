@@ -7,28 +7,51 @@
 extern "C" {
 #endif
 
-/** Writes heaviest part / mean part, as rrcb::imbalance; `part_sizes` has an entry for each part,
- *  or is null for equal parts. Not collective. */
+/** Writes heaviest part / mean part, as rrcb::imbalance. Not collective.
+ *
+ * @param num_parts    length of the arrays
+ * @param part_weights weight of each part
+ * @param part_sizes   relative, one for each part; null: equal parts
+ * @param imbalance    gets the ratio */
 RRCB_API int rrcb_imbalance(size_t num_parts, const double* part_weights, const double* part_sizes,
                             double* imbalance);
 
-/** Writes the load unbalance of each part in percent, as rrcb::load_unbalance_percent. Not
- *  collective. */
+/** Writes (ideal - actual) / ideal * 100 of each part, as rrcb::load_unbalance_percent. Not
+ * collective.
+ *
+ * @param num_parts    length of the arrays
+ * @param part_weights weight of each part
+ * @param part_sizes   relative, one for each part; null: equal parts
+ * @param percent      gets one for each part */
 RRCB_API int rrcb_load_unbalance_percent(size_t num_parts, const double* part_weights,
                                          const double* part_sizes, double* percent);
 
-/** Writes the largest absolute value of rrcb_load_unbalance_percent. Not collective. */
+/** Writes the largest absolute value of rrcb_load_unbalance_percent. Not collective.
+ *
+ * @param num_parts    length of the arrays
+ * @param part_weights weight of each part
+ * @param part_sizes   relative, one for each part; null: equal parts
+ * @param percent      gets the value */
 RRCB_API int rrcb_worst_load_unbalance_percent(size_t num_parts, const double* part_weights,
                                                const double* part_sizes, double* percent);
 
 /** Writes the weight of each part of the cuts over all ranks, as rrcb::part_weights. Collective.
  *
- *  `parts` has an entry for each point, `part_weights` num_parts, one for each part. */
+ * @param balancer     with cuts
+ * @param points       of this rank
+ * @param parts        the part of each point
+ * @param num_parts    that of the cuts, length of `part_weights`
+ * @param part_weights gets one for each part */
 RRCB_API int rrcb_part_weights(const rrcb_balancer* balancer, const rrcb_points* points,
                                const int32_t* parts, size_t num_parts, double* part_weights);
 
 /** Writes the share of the weight whose rank is not among those of its new part, as
- *  rrcb::moved_fraction. Collective. */
+ * rrcb::moved_fraction. Collective.
+ *
+ * @param balancer with cuts
+ * @param points   of this rank
+ * @param parts    the new part of each point
+ * @param fraction gets the share, 0 ... 1 */
 RRCB_API int rrcb_moved_fraction(const rrcb_balancer* balancer, const rrcb_points* points,
                                  const int32_t* parts, double* fraction);
 

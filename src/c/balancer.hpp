@@ -19,7 +19,6 @@ struct rrcb_balancer {
     rrcb::Cuts cuts{};
     std::optional<rrcb::Report> report{};
     std::optional<rrcb::Plan> plan{};
-    std::vector<rrcb::Part> parts{};  ///< memory for the next call
 };
 
 namespace rrcb::c {

@@ -5,6 +5,7 @@
 #include "collective/duplicate.hpp"
 #include "cuts/assign_mpi.hpp"
 #include "cuts/gather_cuts_mpi.hpp"
+#include "search/workspace_mpi.hpp"
 
 #include <algorithm>
 
@@ -16,16 +17,19 @@ namespace {
 void balance(const rrcb_points* given, const Cuts* previous, int32_t* parts, rrcb_balancer& own) {
     Participant self{mpi::duplicate_of(own.comm)};
     Points points;
+    Workspace* workspace = nullptr;
     self.attempt([&] {
+        workspace = &workspace_of(self.comm);
         if (previous != nullptr) require_cuts(own);
         points = points_of(given);
         require_array(points.count, parts, "parts");
     });
-    Balance made = rrcb::balance(points, own.options, previous, true, self, std::move(own.parts));
+    Balance made = rrcb::balance(points, own.options, previous, true, self,
+                                 workspace ? std::move(workspace->result) : std::vector<Part>());
     std::ranges::copy(made.parts, parts);
     own.cuts = std::move(made.cuts);
     own.report = std::move(made.report);
-    own.parts = std::move(made.parts);
+    workspace->result = std::move(made.parts);
 }
 
 }  // namespace

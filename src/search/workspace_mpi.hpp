@@ -16,6 +16,7 @@ struct Workspace {
     SortedPoints sorted{};  ///< of searches: 8 bytes a point for each coordinate, 8, 8 weighted
     UndecidedPoints undecided{};  ///< of corrections: some of the points
     std::vector<Part> parts{};    ///< of cuts that another search may improve: 4 bytes a point
+    std::vector<Part> result{};   ///< of calls from C, which get a copy: 4 bytes a point
 };
 
 /// Returns the workspace kept with a duplicate of the library's, made at the first call and freed

@@ -25,6 +25,10 @@ def same_error(call, fragment):
         raise AssertionError(f"no error: {fragment}")
 
 
+def on_rank(rank, bad, good):
+    return bad if comm.rank == rank else good
+
+
 def run(module):
     chosen = sys.argv[1:]
     tests = [

@@ -7,8 +7,8 @@ import numpy as np
 import rrcb
 import runner
 from rrcb.mpipartition import Partition, distribute, overload
-from runner import comm, same_error
-from test_rrcb import ME, RANKS, everywhere, ids, on_rank
+from runner import comm, on_rank, same_error
+from test_rrcb import ME, RANKS, everywhere, ids
 
 BOX = 50.0
 

@@ -1,0 +1,81 @@
+"""Checks that an error of one rank is raised on all."""
+import sys
+
+import numpy as np
+
+import rrcb
+import runner
+from runner import comm, on_rank, same_error
+from test_rrcb import RANKS, check_balance, cloud
+
+
+def test_raises_the_error_of_one_rank_on_all():
+    last = RANKS - 1
+    x = cloud(2)
+    balance = rrcb.balance(x, comm=comm)
+    nan = x.copy()
+    nan[3] = np.nan
+    for bad, text in (
+        (x.astype(int), "must be float64 or float32, not int64"),
+        (x.astype(np.float16), "float16"),
+        (x.astype(">f8"), ">f8"),
+        (x + 0j, "complex128"),
+        (np.zeros((4, 4)), "1 to 3 axes, not 4"),
+        (np.zeros((4, 2, 1)), "shape (n, d)"),
+        ((x[:, 0], x[1:, 1]), "1-D arrays of one length"),
+        ((x[:, 0], x[:, 1].astype("f4")), "one dtype"),
+        ("text", "positions"),
+        (nan, ""),
+    ):
+        given = on_rank(last, bad, x)
+        same_error(lambda: rrcb.balance(given, comm=comm), text)
+    if RANKS > 1:
+        given = on_rank(last, cloud(3), x)
+        same_error(lambda: rrcb.balance(given, comm=comm), "dimension")
+        different = on_rank(last, 1.2, 1.1)
+        same_error(lambda: rrcb.balance(x, comm=comm, tolerance=different), "tolerance")
+        earlier = on_rank(last, balance, None)
+        same_error(lambda: rrcb.balance(x, comm=comm, previous=earlier), "previous")
+    for bad, text in ((np.ones(3), "weights must have the shape"), (["a"] * len(x), "numbers"),
+                      (-np.ones(len(x)), "")):
+        given = on_rank(0, bad, np.ones(len(x)))
+        same_error(lambda: rrcb.balance(x, weights=given, comm=comm), text)
+    for name, value in (("nonsense", 1), ("refine", "WRONG"), ("cuts", "OWN")):
+        given = on_rank(last, {name: value}, {})
+        same_error(lambda: rrcb.balance(x, comm=comm, **given), name)
+
+
+def test_raises_errors_of_columns_on_all():
+    last = RANKS - 1
+    x = cloud(2)
+    balance = rrcb.balance(x, comm=comm)
+    here = balance.distribute(x)
+    for bad, text in ((x[1:], "points"), (np.array([None] * len(x)), "fixed size"),
+                      (np.float64(1), "shape")):
+        given = on_rank(last, bad, x)
+        same_error(lambda: balance.distribute(given), text)
+    if RANKS > 1:
+        for bad in ({"x": x}, {"y": x[:, 0], "x": x.astype("f4")}, {"y": x, "x": x}):
+            given = on_rank(last, bad, {"x": x, "y": x[:, 0]})
+            same_error(lambda: balance.distribute(given), "same on every rank")
+    same_error(lambda: balance.ghosts(here, on_rank(0, -1.0, 0.1)), "")
+    same_error(lambda: balance.ghosts(here, on_rank(0, np.ones(len(here) + 1), 0.1)), "radius")
+    same_error(lambda: balance.ghosts(here, 0.1, on_rank(last, [1, 2, 3], 1.0)), "period")
+    same_error(lambda: balance.ghosts(here + 5.0, 0.1, 1.0), "")
+    ghosts = balance.ghosts(here, 0.1)
+    ones = np.ones(ghosts.count)
+    same_error(lambda: ghosts.accumulate(on_rank(last, ones[:, None] > 0, ones)), "are added")
+    same_error(lambda: ghosts.accumulate(on_rank(last, np.ones(ghosts.count + 1), ones)), "ghosts")
+    check_balance(rrcb.balance(x, comm=comm), x)
+
+
+def test_refuses_what_is_no_communicator():
+    from mpi4py import MPI
+
+    for bad, text in ((MPI.COMM_NULL, "COMM_NULL"), (3, "int")):
+        same_error(lambda: rrcb.balance(cloud(2), comm=bad), text)
+        same_error(lambda: rrcb.Controller(bad), text)
+
+
+if __name__ == "__main__":
+    runner.run(sys.modules[__name__])

@@ -107,8 +107,7 @@ RRCB_API void rebalance_into(Balance& result, const Points& points, const Option
 /// `comm`.
 ///
 /// Not collective, and not during a call, as from a StageObserver. A call that searches cuts, as
-/// with Refine::exact, keeps 8 bytes a point for each coordinate, 8 more, and 8 with weights; other
-/// calls keep less.
+/// with Refine::exact, keeps a copy of the points; other calls keep less.
 RRCB_API void release_buffers(MPI_Comm comm);
 
 }  // namespace rrcb

@@ -58,8 +58,8 @@ class CostModel {
     /// @param seconds of this rank's own work; processor time if ranks share cores
     /// @param columns this rank's number of each column, from 0 to 1e100
     /// Throws Error on every rank alike, one call later, if a rank gave another number, or too many
-    /// or few. Every later call then throws it. Cost: a reduction of n^2 + 2 n + 20 doubles for n
-    /// columns, which overlaps with the next step, and a fit on rank 0; no allocation.
+    /// or few. Every later call then throws it. Cost: a small reduction, which overlaps with
+    /// the next step, and a fit on rank 0; no allocation.
     RRCB_API void step(double seconds, std::span<const double> columns);
 
     /// Returns the seconds of a unit of each column, by the steps so far, in which late ones count

@@ -118,7 +118,7 @@ RRCB_API std::vector<Part> parts_touching(const Cuts& cuts, const Box& box);
 /// @param comm that of the balance
 /// Throws Error on every rank alike: if cuts are no tree, if the ranks' trees differ, if a rank
 /// lacks the cut of a node whose lowest part begins on it, or has no memory. Cost: one reduction of
-/// 32 bytes a part, which every rank has to hold.
+/// an entry for each part, which every rank has to hold.
 RRCB_API Cuts gather_cuts(const Cuts& cuts, MPI_Comm comm);
 
 }  // namespace rrcb

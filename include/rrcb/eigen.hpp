@@ -6,8 +6,6 @@
 
 namespace rrcb {
 
-// Needs Eigen, which rrcb::rrcb does not bring along: link Eigen3::Eigen as well.
-
 /// Returns a view of a column-major matrix with one point per column. Not collective. Link
 /// Eigen3::Eigen as well, which rrcb::rrcb does not bring along.
 ///

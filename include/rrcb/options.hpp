@@ -25,8 +25,7 @@ enum class Coincident {
 
 /// Cuts that each rank gets if many ranks make the parts, see Tuning::central_parts.
 enum class HeldCuts {
-    whole,  ///< all, so that look-ups work on every rank: two more reductions, of 40 bytes a part
-            ///< together
+    whole,  ///< all, so that look-ups work on every rank: two more reductions, over all parts
     own     ///< those above its points and its parts, see Cuts::nodes: no memory for each part
 };
 

@@ -52,9 +52,9 @@ struct PaperOptions {
 /// @param options the same on every rank
 /// @param comm    as for balance()
 /// @return as balance(); Report::imbalance is NaN, as nothing is counted
-/// Throws Error on every rank alike, as balance(). Cost: two reductions, one gathering of 2 + 2 *
-/// dimension doubles a cell (`dimension` or one more a point, for PaperDomain::points), two
-/// broadcasts; rank 0 holds all points drawn or gathered.
+/// Throws Error on every rank alike, as balance(). Cost: two reductions, one gathering of all
+/// cells (or of all points, for PaperDomain::points), two broadcasts; rank 0 holds all points drawn
+/// or gathered.
 RRCB_API Balance balance_as_in_paper(const Points& points, const PaperOptions& options,
                                      MPI_Comm comm);
 

@@ -119,19 +119,6 @@ def parameters_of(code):
     return [name[0] for name in named if name]
 
 
-def faulty_comments(root):
-    """Comments of the headers above 15 lines, and those that lack some of the parameters."""
-    for name in (*(f"{each}.hpp" for each in CPP), *(f"{each}.h" for each in C)):
-        file = Path(root) / "include" / "rrcb" / name
-        for function, comment, code in items_of(file.read_text().splitlines(), name):
-            if len(comment.splitlines()) > 15:
-                yield f"{file}: the comment of {function} has more than 15 lines"
-            names = parameters_of(code) if code else []
-            for each in names if len(names) > 1 else []:
-                if not re.search(rf"^@param {each}\b", comment, re.M):
-                    yield f"{file}: {function} has no @param {each}"
-
-
 def trailing_comment(code):
     return re.search(r"///<|/\*\*<", code)
 
@@ -227,6 +214,36 @@ def fortran_items(text, public):
         yield title, comment_text(comment.splitlines()), code
 
 
+def public_names(sources):
+    """The names that the module rrcb exports."""
+    text = re.sub(r"&\s*\n", "", (sources / "rrcb.f90").read_text())
+    return set(re.findall(r"\brrcb_\w+", " ".join(re.findall(r"only:(.*)", text))))
+
+
+def faults(file, name, comment, parameters):
+    """Whether the comment of a function is above 15 lines or lacks some of several parameters."""
+    if len(comment.splitlines()) > 15:
+        yield f"{file}: the comment of {name} has more than 15 lines"
+    for each in parameters if len(parameters) > 1 else []:
+        if not re.search(rf"^@param {each}\b", comment, re.M):
+            yield f"{file}: {name} has no @param {each}"
+
+
+def faulty_comments(root):
+    """Faults of the headers and of the Fortran modules."""
+    for name in (*(f"{each}.hpp" for each in CPP), *(f"{each}.h" for each in C)):
+        file = Path(root) / "include" / "rrcb" / name
+        for function, comment, code in items_of(file.read_text().splitlines(), name):
+            yield from faults(file, function, comment, parameters_of(code) if code else [])
+    sources = Path(root) / "src" / "fortran"
+    for name in FORTRAN:
+        file = sources / name
+        for function, comment, code in fortran_items(file.read_text(), public_names(sources)):
+            listed = re.match(r" *(?:pure )?(?:subroutine|function) \w+\(([\w, ]*)\)", code)
+            given = listed[1].split(", ") if listed else []
+            yield from faults(file, function, comment, [each for each in given if each not in ("self", "error")])
+
+
 def overview(title, text, names, all_items):
     lines = [f"# {title}", "", text, ""]
     for name in names:
@@ -259,11 +276,10 @@ def pages(root):
             text = (include / f"{name}{suffix}").read_text()
             items[title] = list(items_of(text.splitlines(), title))
             languages[title] = language
-    public = re.sub(r"&\s*\n", "", (sources / "rrcb.f90").read_text())
-    public = set(re.findall(r"\brrcb_\w+", " ".join(re.findall(r"only:(.*)", public))))
     for name in FORTRAN:
         title = f"fortran/{name}"
-        items[title] = list(fortran_items((sources / name).read_text(), public))
+        items[title] = list(fortran_items((sources / name).read_text(),
+                                         public_names(sources)))
         languages[title] = "fortran"
     result = {f"reference/{title}.md": page(title, languages[title], of_page,
                                             links_from(os.path.dirname(title), items))

@@ -69,7 +69,9 @@ contains
     self%handle = c_null_ptr
   end subroutine
 
-  !> Sets an option by its name in rrcb::Options to a text. Not collective, but the same on all ranks.
+  !> Sets an option, such as ("refine", "EXACT"), the same on all ranks. Not collective.
+  !> @param option its name in rrcb::Options
+  !> @param value  as docs/parameters.md lists them
   subroutine set(self, option, value, error)
     class(rrcb_balancer), intent(inout) :: self
     character(*), intent(in) :: option, value
@@ -85,7 +87,9 @@ contains
     error = c_set_part_sizes(self%handle, size(sizes, kind=c_size_t), sizes)
   end subroutine
 
-  !> Writes the new part of each point of this rank into `parts` and keeps the cuts. Collective.
+  !> Divides the points of all ranks into parts and keeps the cuts. Collective.
+  !> @param points of this rank
+  !> @param parts  gets the new part of each
   subroutine balance(self, points, parts, error)
     class(rrcb_balancer), intent(inout) :: self
     type(rrcb_points), intent(in) :: points
@@ -94,7 +98,9 @@ contains
     error = c_balance(self%handle, points, place_of(parts, points%count))
   end subroutine
 
-  !> Does the same from the cuts of the balancer, for points that moved little. Collective.
+  !> Divides points that moved little, from the cuts of the balancer. Collective.
+  !> @param points of this rank
+  !> @param parts  gets the new part of each
   subroutine rebalance(self, points, parts, error)
     class(rrcb_balancer), intent(inout) :: self
     type(rrcb_points), intent(in) :: points
@@ -158,7 +164,9 @@ contains
     error = c_set_cuts(self%handle, given)
   end subroutine
 
-  !> Finds the part of a position, which has an entry for each axis. Not collective.
+  !> Finds the part of a position. Not collective.
+  !> @param position an entry for each axis
+  !> @param part     gets its part
   subroutine part_of(self, position, part, error)
     class(rrcb_balancer), intent(in) :: self
     real(c_double), intent(in) :: position(:)
@@ -175,6 +183,8 @@ contains
   end function
 
   !> Finds the parts of points by the cuts of this rank. Not collective.
+  !> @param points any positions
+  !> @param parts  gets the part of each
   subroutine assign(self, points, parts, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_points), intent(in) :: points
@@ -184,6 +194,8 @@ contains
   end subroutine
 
   !> Finds the parts of points, whichever cuts the ranks hold. Collective.
+  !> @param points any positions
+  !> @param parts  gets the part of each
   subroutine assign_all(self, points, parts, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_points), intent(in) :: points
@@ -193,6 +205,9 @@ contains
   end subroutine
 
   !> Finds the region of a part; sides without a cut are infinite. Not collective.
+  !> @param part  from 0
+  !> @param lower gets the lower end
+  !> @param upper gets the upper end
   subroutine box_of(self, part, lower, upper, error)
     class(rrcb_balancer), intent(in) :: self
     integer(c_int32_t), intent(in) :: part
@@ -201,7 +216,10 @@ contains
     error = c_box_of(self%handle, part, lower, upper)
   end subroutine
 
-  !> Finds the parts that a box touches, whose ends have an entry for each axis. Not collective.
+  !> Finds the parts that a closed box touches. Not collective.
+  !> @param lower end of the box, an entry for each axis
+  !> @param upper end of the box
+  !> @param parts gets their numbers, ascending
   subroutine parts_touching(self, lower, upper, parts, error)
     class(rrcb_balancer), intent(in) :: self
     real(c_double), intent(in) :: lower(:), upper(:)
@@ -246,6 +264,9 @@ contains
   end subroutine
 
   !> Moves columns by the plan: first the points that stay, then those that come. Collective.
+  !> @param columns the same in the same order on every rank
+  !> @param limit   most bytes of messages on each rank, the same on every rank
+  !> @param report  gets memory and messages
   subroutine transfer_columns(self, columns, error, limit, report)
     class(rrcb_balancer), intent(inout) :: self
     type(rrcb_column), intent(in) :: columns(:)
@@ -258,8 +279,12 @@ contains
                        columns_in_c(columns, plan%num_points, plan%num_points_after), limit, report)
   end subroutine
 
-  !> Writes the new number of part p to numbers(p + 1). `previous` has the part that each point was
-  !> in; without it points stay on their ranks. Collective.
+  !> Numbers the parts of the cuts so that many points stay. Collective.
+  !> @param parts          the new part of each point
+  !> @param numbers        numbers(p + 1) gets the new number of part p
+  !> @param previous       the part that each point was in; without it points stay on their ranks
+  !> @param ranks_of_parts the ranks of part p at p + 1; without it as by rrcb_ranks_of_part
+  !> @param kept           gets how many points stay
   subroutine remap(self, parts, numbers, error, previous, ranks_of_parts, kept)
     class(rrcb_balancer), intent(inout) :: self
     integer(c_int32_t), intent(in), target, contiguous :: parts(:)
@@ -280,7 +305,10 @@ contains
                     num_parts, numbers, kept)
   end subroutine
 
-  !> Writes the weight of part p over all ranks to weights(p + 1). Collective.
+  !> Adds up the weights of each part over all ranks. Collective.
+  !> @param points  of this rank
+  !> @param parts   the part of each
+  !> @param weights weights(p + 1) gets that of part p
   subroutine part_weights(self, points, parts, weights, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_points), intent(in) :: points
@@ -291,7 +319,10 @@ contains
                            size(weights, kind=c_size_t), weights)
   end subroutine
 
-  !> Writes the share of the weight whose rank changes. Collective.
+  !> Finds the share of the weight whose rank changes. Collective.
+  !> @param points   of this rank
+  !> @param parts    the new part of each
+  !> @param fraction gets the share, 0 to 1
   subroutine moved_fraction(self, points, parts, fraction, error)
     class(rrcb_balancer), intent(in) :: self
     type(rrcb_points), intent(in) :: points

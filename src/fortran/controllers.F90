@@ -56,6 +56,9 @@ contains
   end subroutine
 
   !> Does the same with the type of `use mpi_f08`.
+  !> @param comm        as above
+  !> @param num_columns as above
+  !> @param controller  as above
   subroutine cost_model_create_by_type(self, comm, num_columns, error, controller)
     class(rrcb_cost_model), intent(inout) :: self
     type(MPI_Comm), intent(in) :: comm
@@ -81,8 +84,9 @@ contains
     self%handle = c_null_ptr
   end subroutine
 
-  !> Records a step that took `load`, without waiting. With `points`, those of this rank or the sum of
-  !> their weights, the load is smoothed. Collective.
+  !> Records a step. Collective.
+  !> @param load   of this rank's own work, without waiting
+  !> @param points of this rank, or the sum of their weights; with them the load is smoothed
   subroutine controller_step(self, load, error, points)
     class(rrcb_controller), intent(inout) :: self
     real(c_double), intent(in) :: load
@@ -105,8 +109,9 @@ contains
     due = c_controller_due(self%handle, answer) == rrcb_ok .and. answer == 1
   end function
 
-  !> Records a rebalance that took `cost`, in the unit of the loads. Called on all ranks, without
-  !> communication.
+  !> Records a rebalance. Called on all ranks, without communication.
+  !> @param cost   on this rank, in the unit of the loads
+  !> @param report of the balance
   subroutine controller_rebalanced(self, cost, error, report)
     class(rrcb_controller), intent(inout) :: self
     real(c_double), intent(in) :: cost
@@ -115,8 +120,10 @@ contains
     error = c_controller_rebalanced(self%handle, report, cost)
   end subroutine
 
-  !> Makes a model. Its sums travel with the steps of `controller`, which has recorded none and is
-  !> destroyed later. Collective over the communicator.
+  !> Makes a model. Collective over the communicator.
+  !> @param comm        may be freed before the model
+  !> @param num_columns the same on every rank
+  !> @param controller  carries the sums with its steps: is destroyed later, has recorded none
   subroutine cost_model_create(self, comm, num_columns, error, controller)
     class(rrcb_cost_model), intent(inout) :: self
     integer, intent(in) :: comm, num_columns
@@ -135,7 +142,9 @@ contains
     self%handle = c_null_ptr
   end subroutine
 
-  !> Records a step: the seconds of this rank, and its columns. Collective.
+  !> Records a step. Collective.
+  !> @param seconds of this rank's own work, without waiting
+  !> @param columns numbers of this rank, one for each column
   subroutine cost_model_step(self, seconds, columns, error)
     class(rrcb_cost_model), intent(inout) :: self
     real(c_double), intent(in) :: seconds
@@ -144,8 +153,9 @@ contains
     error = c_cost_model_step(self%handle, seconds, size(columns, kind=c_size_t), columns)
   end subroutine
 
-  !> Writes the weights of points: `columns` has the shape (columns, points).
-  !> Called on all ranks, without communication.
+  !> Writes the weights of points. Called on all ranks, without communication.
+  !> @param columns of shape (columns, points)
+  !> @param weights gets one for each point
   subroutine cost_model_weights(self, columns, weights, error)
     class(rrcb_cost_model), intent(inout) :: self
     real(c_double), intent(in), contiguous :: columns(:, :)

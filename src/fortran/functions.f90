@@ -41,7 +41,10 @@ contains
     text = text_of(c_last_error())
   end function
 
-  !> Returns the smallest box that holds all points, three entries for each end.
+  !> Finds the smallest box that holds all points.
+  !> @param points of this rank
+  !> @param lower  gets the lower end
+  !> @param upper  gets the upper end
   subroutine rrcb_bounding_box(points, lower, upper, error)
     type(rrcb_points), intent(in) :: points
     real(c_double), intent(inout) :: lower(3), upper(3)
@@ -49,7 +52,11 @@ contains
     error = c_bounding_box(points, lower, upper)
   end subroutine
 
-  !> Returns the ranks of a part.
+  !> Finds the ranks of a part.
+  !> @param part      from 0
+  !> @param num_parts 1 or more
+  !> @param num_ranks 1 or more
+  !> @param ranks     gets the consecutive ranks
   subroutine rrcb_ranks_of_part(part, num_parts, num_ranks, ranks, error)
     integer(c_int32_t), intent(in) :: part
     integer, intent(in) :: num_parts, num_ranks
@@ -58,7 +65,10 @@ contains
     error = c_ranks_of_part(part, num_parts, num_ranks, ranks)
   end subroutine
 
-  !> Returns heaviest part / mean part. `part_sizes` are relative, one for each part.
+  !> Computes heaviest part / mean part.
+  !> @param part_weights weight of each part
+  !> @param imbalance    gets the ratio
+  !> @param part_sizes   relative, one for each part
   subroutine rrcb_imbalance(part_weights, imbalance, error, part_sizes)
     real(c_double), intent(in), contiguous :: part_weights(:)
     real(c_double), intent(inout) :: imbalance
@@ -67,7 +77,10 @@ contains
     error = c_imbalance(size(part_weights, kind=c_size_t), part_weights, address_of(part_sizes), imbalance)
   end subroutine
 
-  !> Returns the load unbalance of each part in percent.
+  !> Computes (ideal - actual) / ideal * 100 of each part.
+  !> @param part_weights weight of each part
+  !> @param percent      gets one for each part
+  !> @param part_sizes   relative, one for each part
   subroutine rrcb_load_unbalance_percent(part_weights, percent, error, part_sizes)
     real(c_double), intent(in), contiguous :: part_weights(:)
     real(c_double), intent(inout), contiguous :: percent(:)
@@ -77,7 +90,10 @@ contains
       address_of(part_sizes), percent)
   end subroutine
 
-  !> Returns the largest absolute value of rrcb_load_unbalance_percent.
+  !> Computes the largest absolute value of rrcb_load_unbalance_percent.
+  !> @param part_weights weight of each part
+  !> @param percent      gets the value
+  !> @param part_sizes   relative, one for each part
   subroutine rrcb_worst_load_unbalance_percent(part_weights, percent, error, part_sizes)
     real(c_double), intent(in), contiguous :: part_weights(:)
     real(c_double), intent(inout) :: percent

@@ -22,8 +22,14 @@ module rrcb_ghost_lists
 
 contains
 
-  !> Finds points within `radius`, or one radius of each point, from the cuts of the balancer;
-  !> `lower` and `upper` are the ends of a periodic box, three entries each. Collective.
+  !> Finds the points that other ranks need, from the cuts. Collective.
+  !> @param balancer       whose ranks have the points
+  !> @param points         of this rank
+  !> @param radius         cut-off of all points
+  !> @param radii          one for each point instead
+  !> @param lower          end of a periodic box
+  !> @param upper          the other end
+  !> @param ranks_of_parts the ranks of part p at p + 1; without it as by rrcb_ranks_of_part
   subroutine create(self, balancer, points, error, radius, radii, lower, upper, ranks_of_parts)
     class(rrcb_ghosts), intent(inout) :: self
     class(rrcb_balancer), intent(in) :: balancer
@@ -75,6 +81,9 @@ contains
   end subroutine
 
   !> Fetches columns of the ghosts from those of the points. Collective.
+  !> @param columns the same in the same order on every rank
+  !> @param limit   most bytes of messages on each rank, the same on every rank
+  !> @param report  gets memory and messages
   subroutine fetch(self, columns, error, limit, report)
     class(rrcb_ghosts), intent(in) :: self
     type(rrcb_column), intent(in) :: columns(:)
@@ -88,6 +97,9 @@ contains
   end subroutine
 
   !> Adds columns of the ghosts, `from`, to those of their points, `to`. Collective.
+  !> @param columns the same in the same order on every rank
+  !> @param limit   most bytes of messages on each rank, the same on every rank
+  !> @param report  gets memory and messages
   subroutine accumulate(self, columns, error, limit, report)
     class(rrcb_ghosts), intent(in) :: self
     type(rrcb_column), intent(in) :: columns(:)

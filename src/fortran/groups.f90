@@ -21,8 +21,11 @@ module rrcb_group_lists
 
 contains
 
-  !> Finds the groups of points with equal keys, -1 for a point without others; each at its centre of
-  !> weight, or its first point. Collective.
+  !> Finds the groups of points with equal keys. Collective.
+  !> @param balancer       whose communicator is used, not its cuts
+  !> @param points         of this rank
+  !> @param keys           one for each point; -1 for a point without others
+  !> @param at_first_point .true.: a group is at its first point; otherwise at its centre of weight
   subroutine create(self, balancer, points, keys, error, at_first_point)
     class(rrcb_groups), intent(inout) :: self
     class(rrcb_balancer), intent(in) :: balancer
@@ -56,6 +59,9 @@ contains
   end subroutine
 
   !> Fetches columns of the points from those of their groups, such as parts. Collective.
+  !> @param columns the same in the same order on every rank
+  !> @param limit   most bytes of messages on each rank, the same on every rank
+  !> @param report  gets memory and messages
   subroutine fetch(self, columns, error, limit, report)
     class(rrcb_groups), intent(in) :: self
     type(rrcb_column), intent(in) :: columns(:)
@@ -68,8 +74,9 @@ contains
                            columns_in_c(columns, groups%count, self%num_points), limit, report)
   end subroutine
 
-  !> Adds up values(components, points) over the points of each group: sums(components, groups).
-  !> Collective.
+  !> Adds up values over the points of each group. Collective.
+  !> @param values    of shape (components, points)
+  !> @param of_groups gets the sums, of shape (components, groups)
   subroutine sums(self, values, of_groups, error)
     class(rrcb_groups), intent(in) :: self
     real(c_double), intent(in), target, contiguous :: values(:, :)

@@ -37,7 +37,8 @@ def simulated(method: str, number: int, path: float, **more: object) -> dict:
         "wall_s balance_s step_s mean_imbalance worst_imbalance front_x_m moved_m mass_kg step_network_s"
         " balance_work_s"
     )
-    return dict.fromkeys(names.split(), 1) | {
+    decisions = "decide_s decide_work_s decide_path_s decide_network_s"
+    return dict.fromkeys(names.split(), 1) | dict.fromkeys(decisions.split(), 0) | {
         "method": method, "round": number, "seed": None, "ranks": 4, "points": 1000, "steps": 10,
         "every": "auto", "critical_path_s": path, "step_work_s": 4, "step_path_s": 1.1,
         "path_points": 2500, "balance_path_s": 0.1, "balance_network_s": 0.1, "rebalances": 2,

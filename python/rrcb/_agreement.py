@@ -19,7 +19,7 @@ def communicator(comm: MPI.Comm | None) -> MPI.Intracomm:
     if not isinstance(chosen, MPI.Comm):
         raise Error(f"comm must be a communicator of mpi4py, not {type(chosen).__name__}")
     if chosen == MPI.COMM_NULL:
-        raise Error("comm is MPI.COMM_NULL: call this only on the ranks of a communicator")
+        raise Error("comm is MPI.COMM_NULL: it was freed, or this rank is not in it")
     if not isinstance(chosen, MPI.Intracomm) or chosen.Is_inter():
         raise Error("comm is an intercommunicator: call Merge() and pass its result")
     return chosen
@@ -32,6 +32,7 @@ def prepare(
 
     Collective: one reduction of three integers.
     """
+    communicator(comm)
     failure: Exception | None = None
     number = 0
     try:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Mapping
-from typing import Any, Callable, Sequence
+from typing import Any, Callable
 
 import numpy as np
 
@@ -27,14 +27,21 @@ def float_type(values: Array, name: str) -> int:
     return FLOATS[values.dtype]
 
 
+def as_array(values: Any) -> Array:
+    """Returns values as an array. Raises Error if some are masked."""
+    if np.ma.is_masked(values):
+        raise c.Error("some values are masked: drop them, or call .filled()")
+    return np.asarray(values)
+
+
 def axes_of(x: Any) -> list[Array]:
     """Returns an array for each axis of points: (n, d), (n,) or a tuple of columns."""
     if isinstance(x, tuple):
-        axes = [np.asarray(axis) for axis in x]
+        axes = [as_array(axis) for axis in x]
         if not axes or any(axis.ndim != 1 or len(axis) != len(axes[0]) for axis in axes):
             raise c.Error("a tuple of positions must contain 1-D arrays of one length")
     else:
-        whole = np.asarray(x)
+        whole = as_array(x)
         if whole.ndim == 1:
             whole = whole[:, np.newaxis]
         if whole.ndim != 2:
@@ -83,7 +90,7 @@ class Points:
 
 def weights_of(weights: Any, count: int) -> Array:
     """Returns weights as the library takes them."""
-    values = np.asarray(weights)
+    values = as_array(weights)
     if values.dtype.kind not in "fiub":
         raise c.Error(f"weights must be numbers, not {values.dtype}")
     if values.shape != (count,):
@@ -104,12 +111,12 @@ def split(data: Any) -> tuple[list[tuple[str, Array]], Build]:
             found = dict(zip(names, arrays))
             return {name: found[name] for name in order}
 
-        return [(str(name), np.asarray(data[name])) for name in names], to_dict
+        return [(str(name), as_array(data[name])) for name in names], to_dict
     if isinstance(data, tuple):
-        return [(str(k), np.asarray(values)) for k, values in enumerate(data)], tuple
+        return [(str(k), as_array(values)) for k, values in enumerate(data)], tuple
     if hasattr(data, "iloc") and hasattr(data, "columns"):
         return split_frame(data)
-    return [("data", np.asarray(data))], lambda arrays: arrays[0]
+    return [("data", as_array(data))], lambda arrays: arrays[0]
 
 
 def split_frame(frame: Any) -> tuple[list[tuple[str, Array]], Build]:
@@ -135,13 +142,15 @@ def split_frame(frame: Any) -> tuple[list[tuple[str, Array]], Build]:
 class Columns:
     """Columns to send, and arrays for what arrives."""
 
-    def __init__(self, data: Any, rows: int, of: str) -> None:
-        named, self.build = split(data)
+    def __init__(self, data: Any, rows: int, of: str, rows_after: int, fill: Any = np.empty) -> None:
+        named, self._build = split(data)
         for name, values in named:
             check_column(name, values, rows, of)
         self.names = [name for name, _ in named]
         self.arrays = [np.ascontiguousarray(values) for _, values in named]
-        self.rows = rows
+        self.results: list[Array] = [
+            fill((rows_after, *a.shape[1:]), a.dtype) for a in self.arrays
+        ]
 
     def signature(self) -> str:
         """Returns names, dtypes and trailing shapes, which must be the same on every rank."""
@@ -152,22 +161,30 @@ class Columns:
             ]
         )
 
-    def sent(self, rows_after: int) -> tuple[int, Any, list[Array]]:
-        """Returns the columns as bytes, and the arrays that receive them."""
-        results = [np.empty((rows_after, *a.shape[1:]), a.dtype) for a in self.arrays]
-        pairs = [
-            (a, r, a.itemsize * int(np.prod(a.shape[1:]))) for a, r in zip(self.arrays, results)
-        ]
-        return (*as_columns([(0, size, a, r) for a, r, size in pairs if size > 0]), results)
+    def result(self) -> Any:
+        """Returns what has arrived, as the data are."""
+        return self._build(self.results)
 
-    def added(self, rows_after: int) -> tuple[int, Any, list[Array]]:
-        """Returns the columns as numbers, and zeros to which they are added."""
-        results = [np.zeros((rows_after, *a.shape[1:]), a.dtype) for a in self.arrays]
-        pairs = [
-            (NUMBERS[a.dtype], int(np.prod(a.shape[1:])), a, r)
-            for a, r in zip(self.arrays, results)
+    def as_bytes(self) -> tuple[int, Any]:
+        """Returns the columns as the library takes them, of any dtypes."""
+        return self._columns([(0, a.itemsize * row_length(a)) for a in self.arrays])
+
+    def as_numbers(self) -> tuple[int, Any]:
+        """Returns the columns as the library takes them, to be added."""
+        return self._columns([(NUMBERS[a.dtype], row_length(a)) for a in self.arrays])
+
+    def _columns(self, types: list[tuple[int, int]]) -> tuple[int, Any]:
+        made = [
+            c.Column(kind, size, pointer(a), pointer(result))
+            for (kind, size), a, result in zip(types, self.arrays, self.results)
+            if size > 0
         ]
-        return (*as_columns([pair for pair in pairs if pair[1] > 0]), results)
+        return len(made), (c.Column * len(made))(*made)
+
+
+def row_length(values: Array) -> int:
+    """Returns the number of values in a row."""
+    return int(np.prod(values.shape[1:]))
 
 
 def check_column(name: str, values: Array, rows: int, of: str) -> None:
@@ -178,9 +195,3 @@ def check_column(name: str, values: Array, rows: int, of: str) -> None:
         )
     if values.ndim == 0 or len(values) != rows:
         raise c.Error(f"column {name} has the shape {values.shape}, but there are {rows} {of}")
-
-
-def as_columns(columns: Sequence[tuple[int, int, Array, Array]]) -> tuple[int, Any]:
-    """Returns the number of columns, and them as an array of rrcb_column."""
-    made = [c.Column(kind, size, pointer(a), pointer(r)) for kind, size, a, r in columns]
-    return len(made), (c.Column * len(made))(*made)

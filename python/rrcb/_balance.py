@@ -58,18 +58,23 @@ def report_of(balancer: c.Handle) -> tuple[Report, c.Report]:
 class Distribution:
     """Parts of the points of this rank, by cuts; made by assign() and balance()."""
 
-    parts: Array  #: of each point of this rank, int32
     cuts: Cuts  #: the tree of cuts
 
     def __init__(self, comm: MPI.Intracomm, own: c.OwnedHandle, parts: Array, cuts: Cuts) -> None:
         self.comm = comm
-        self.parts = parts
         self.cuts = cuts
         self._own = own
+        self._parts = parts
+        self._parts.flags.writeable = False
         self._num_points_after: int | None = None
 
     def __repr__(self) -> str:
         return f"<rrcb.Distribution of {len(self.parts)} points to {self.cuts.num_parts} parts>"
+
+    @property
+    def parts(self) -> Array:
+        """Part of each point of this rank, int32; read-only."""
+        return self._parts
 
     def distribute(self, data: Any) -> Any:
         """Returns data with a row for each point that belongs on this rank. Collective.
@@ -78,13 +83,12 @@ class Distribution:
         pandas DataFrame, of any dtypes of a fixed size. The result is of the same kind: first the
         points that stay, then those that arrive, by rank.
         """
-        columns = prepare(
-            self.comm, lambda: Columns(data, len(self.parts), "points"), Columns.signature
-        )
         rows = self._plan()
-        count, sent, results = columns.sent(rows)
-        c.call("transfer", self._own, count, sent, None, None)
-        return columns.build(results)
+        columns = prepare(
+            self.comm, lambda: Columns(data, len(self.parts), "points", rows), Columns.signature
+        )
+        c.call("transfer", self._own, *columns.as_bytes(), None, None)
+        return columns.result()
 
     def ghosts(self, x: Any, radius: Any, period: Any = None) -> Ghosts:
         """Finds the points that other ranks need within a radius. Collective.
@@ -97,6 +101,7 @@ class Distribution:
 
     def _plan(self) -> int:
         if self._num_points_after is None:
+            communicator(self.comm)
             c.call("make_plan", self._own, len(self.parts), pointer(self.parts))
             shown = c.Plan()
             c.call("get_plan", self._own, shown)
@@ -122,7 +127,7 @@ def balance(
     weights: Any = None,
     comm: MPI.Comm | None = None,
     tolerance: float | None = None,
-    previous: Balance | Cuts | None = None,
+    previous: Distribution | Cuts | None = None,
     part_sizes: Sequence[float] | None = None,
     **options: Any,
 ) -> Balance:
@@ -133,13 +138,12 @@ def balance(
     `tolerance` is the largest heaviest part / mean part to accept, 1.01 by default. With
     `previous`, starts from earlier cuts, for points that moved little. `part_sizes` are relative
     weights of the parts. `options` are those of docs/parameters.md, with a double underscore for
-    a dot: refine="EXACT", num_parts=8, tuning__support_mesh=64.
+    a dot: refine="EXACT", num_parts=8, axes__min_width=(0.1, 0.1).
 
     Raises Error on every rank alike.
     """
     chosen = communicator(comm)
     own = c.OwnedHandle("create_fortran", "destroy", chosen.py2f())
-    sizes = None if part_sizes is None else np.asarray(part_sizes, dtype=np.float64)
 
     def local() -> tuple[Points, Array]:
         points = Points(x, weights)
@@ -147,10 +151,11 @@ def balance(
             set_option(own, "imbalance_tolerance", tolerance)
         for name, value in options.items():
             set_option(own, name.replace("__", "."), value)
-        if sizes is not None:
+        if part_sizes is not None:
+            sizes = np.array(part_sizes, dtype=np.float64).ravel()
             c.call("set_part_sizes", own, sizes.size, sizes.ctypes.data)
         if previous is not None:
-            (previous.cuts if isinstance(previous, Balance) else previous).give(own)
+            cuts_from(previous).give(own)
         return points, np.empty(points.count, dtype=np.int32)
 
     points, parts = prepare(chosen, local, lambda _: f"previous={previous is not None}")
@@ -159,26 +164,38 @@ def balance(
     return Balance(chosen, own, parts)
 
 
-def assign(x: Any, cuts: Cuts, comm: MPI.Comm | None = None) -> Distribution:
+def assign(x: Any, cuts: Distribution | Cuts, comm: MPI.Comm | None = None) -> Distribution:
     """Assigns points to parts by earlier cuts, without balancing. Collective over `comm`."""
     chosen = communicator(comm)
     own = c.OwnedHandle("create_fortran", "destroy", chosen.py2f())
 
     def local() -> tuple[Points, Array]:
         points = Points(x)
-        cuts.give(own)
+        cuts_from(cuts).give(own)
         return points, np.empty(points.count, dtype=np.int32)
 
     points, parts = prepare(chosen, local)
     c.call("assign_all", own, points, pointer(parts))
-    return Distribution(chosen, own, parts, cuts)
+    return Distribution(chosen, own, parts, cuts_from(cuts))
+
+
+def cuts_from(given: Any) -> Cuts:
+    """Returns given cuts, or those of a balance."""
+    cuts = given.cuts if isinstance(given, Distribution) else given
+    if not isinstance(cuts, Cuts):
+        raise c.Error(f"give a balance or its cuts, not {type(given).__name__}")
+    return cuts
 
 
 def set_option(own: c.Handle, name: str, value: Any) -> None:
     """Sets an option by its text."""
     if name == "cuts":
         raise c.Error("the option cuts cannot be set from Python: every rank gets all cuts")
-    given = f"{value:.17g}" if isinstance(value, float) else str(value)
-    c.call("set", own, name.encode(), given.encode())
+    c.call("set", own, name.encode(), text_of(value).encode())
 
 
+def text_of(value: Any) -> str:
+    """Returns a value as the text of an option: numbers of a row by spaces, rows by commas."""
+    if isinstance(value, (tuple, list, np.ndarray)):
+        return (", " if np.ndim(value) > 1 else " ").join(map(text_of, value))
+    return f"{value:.17g}" if isinstance(value, float) else str(value)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import ctypes
+import operator
 from typing import Any
 
 import numpy as np
 from mpi4py import MPI
 
 from . import _library as c
-from ._agreement import communicator
+from ._agreement import communicator, prepare
 from ._arrays import Array
 from ._balance import Balance
 
@@ -17,6 +18,7 @@ from ._balance import Balance
 class Owner:
     """Object with a collective free(), which `with` calls; never freed, it lasts until MPI ends."""
 
+    _comm: MPI.Intracomm
     _own: c.Handle
 
     def free(self) -> None:
@@ -40,12 +42,20 @@ def number(value: Any) -> float:
         return float("nan")
 
 
+def values_of(columns: Any) -> Any:
+    """Returns numbers as one row; NaN for what has no shape."""
+    try:
+        return np.ravel(columns)
+    except ValueError:
+        return [float("nan")]
+
+
 class Controller(Owner):
     """Decides when a rebalance pays. Making and freeing one are collective over `comm`."""
 
     def __init__(self, comm: MPI.Comm | None = None) -> None:
-        chosen = communicator(comm)
-        self._own = c.Handle("controller_create_fortran", "controller_destroy", chosen.py2f())
+        self._comm = communicator(comm)
+        self._own = c.Handle("controller_create_fortran", "controller_destroy", self._comm.py2f())
 
     @property
     def due(self) -> bool:
@@ -60,6 +70,7 @@ class Controller(Owner):
         `points` is the number of points of this rank or the sum of their weights; give it with
         measured loads. An illegal number raises Error on every rank, one call later.
         """
+        communicator(self._comm)
         due = ctypes.c_int()
         if points is None:
             c.call("controller_step", self._own, number(load), due)
@@ -69,7 +80,9 @@ class Controller(Owner):
 
     def rebalanced(self, balance: Balance | None, cost: float) -> None:
         """Records a rebalance and its cost on this rank, in the unit of the loads. On all ranks."""
-        report = None if balance is None else balance._report
+        report = balance._report if isinstance(balance, Balance) else None
+        if report is None and balance is not None:
+            cost = float("nan")
         c.call("controller_rebalanced", self._own, report, number(cost))
 
 
@@ -84,16 +97,25 @@ class CostModel(Owner):
         self, num_columns: int, controller: Controller | None = None, comm: MPI.Comm | None = None
     ) -> None:
         chosen = communicator(comm)
-        given = None if controller is None else controller._own._as_parameter_
-        self.num_columns = num_columns
-        self._controller = controller
+
+        def local() -> tuple[Any, int]:
+            given = None if controller is None else controller._own._as_parameter_
+            return given, operator.index(num_columns)
+
+        given, self.num_columns = prepare(chosen, local)
+        self._comm, self._controller = chosen, controller
         self._own = c.Handle(
-            "cost_model_create_fortran", "cost_model_destroy", chosen.py2f(), given, num_columns
+            "cost_model_create_fortran",
+            "cost_model_destroy",
+            chosen.py2f(),
+            given,
+            self.num_columns,
         )
 
     def step(self, seconds: float, columns: Any) -> None:
         """Records a step: seconds of this rank's own work, its number of each column. Collective."""
-        counts = np.array([number(value) for value in np.ravel(columns)])
+        communicator(self._comm)
+        counts = np.array([number(value) for value in values_of(columns)])
         c.call("cost_model_step", self._own, number(seconds), counts.size, counts.ctypes.data)
 
     def weights(self, columns: Any) -> Array:

@@ -54,11 +54,12 @@ class Ghosts:
         `data` has a row for each point of this rank, as for Balance.distribute().
         """
         columns = prepare(
-            self.comm, lambda: Columns(data, self.num_points, "points"), Columns.signature
+            self.comm,
+            lambda: Columns(data, self.num_points, "points", self.count),
+            Columns.signature,
         )
-        count, sent, results = columns.sent(self.count)
-        c.call("ghosts_fetch", self._own, count, sent, None, None)
-        return columns.build(results)
+        c.call("ghosts_fetch", self._own, *columns.as_bytes(), None, None)
+        return columns.result()
 
     def fetch_positions(self, x: Any) -> Any:
         """Returns positions of the ghosts, moved to those of the periodic images. Collective."""
@@ -75,10 +76,11 @@ class Ghosts:
 
         `data` has a row for each ghost, of int32, int64, float32 or float64: forces += returned.
         """
-        columns = prepare(self.comm, lambda: numbers_of(data, self.count), Columns.signature)
-        count, sent, results = columns.added(self.num_points)
-        c.call("ghosts_accumulate", self._own, count, sent, None, None)
-        return columns.build(results)
+        columns = prepare(
+            self.comm, lambda: numbers_of(data, self.count, self.num_points), Columns.signature
+        )
+        c.call("ghosts_accumulate", self._own, *columns.as_numbers(), None, None)
+        return columns.result()
 
     def _read(self, dimension: int) -> None:
         shown = c.GhostPlan()
@@ -99,9 +101,9 @@ class Ghosts:
         self.shifts = shifts[:, :dimension].copy()
 
 
-def numbers_of(data: Any, rows: int) -> Columns:
+def numbers_of(data: Any, rows: int, rows_after: int) -> Columns:
     """Returns columns of numbers that can be added."""
-    columns = Columns(data, rows, "ghosts")
+    columns = Columns(data, rows, "ghosts", rows_after, np.zeros)
     for name, values in zip(columns.names, columns.arrays):
         if values.dtype not in NUMBERS:
             raise c.Error(

@@ -208,17 +208,16 @@ def overload(
     if partition.nranks == 1:
         return data
     comm = partition.comm
-    x, columns = prepare(
-        comm,
-        lambda: (
-            positions_of(partition, box_size, data, coord_keys),
-            Columns(data, len(data[coord_keys[0]]), "points"),
-        ),
-        lambda made: made[1].signature(),
-    )
-    length = overload_length / box_size
-    own = c.OwnedHandle("create_fortran", "destroy", comm.py2f())
-    partition.cuts.give(own)
+    own = c.OwnedHandle("create_fortran", "destroy", communicator(comm).py2f())
+
+    def local() -> tuple[Array, Columns, Array | None, float]:
+        x = positions_of(partition, box_size, data, coord_keys)
+        columns = Columns(data, len(x), "points", 0)
+        tags = None if structure_key is None else np.asarray(data[structure_key])
+        partition.cuts.give(own)
+        return x, columns, tags, float(overload_length / box_size)
+
+    x, columns, tags, length = prepare(comm, local, lambda made: made[1].signature())
     # The cube around a part's box with the margin `length` is in the ball of this radius.
     near = Ghosts(comm, own, x, length * math.sqrt(x.shape[1]) * (1 + 1e-12), 1.0)
     rows = {}
@@ -226,8 +225,7 @@ def overload(
         if rank != partition.rank:
             inside = in_margin(x[found], partition.boxes[rank][:, : x.shape[1]], length)
             rows[rank] = np.unique(found[inside])
-    if structure_key is not None:
-        tags = np.asarray(data[structure_key])
+    if tags is not None:
         rows = {rank: with_structures(found, tags) for rank, found in rows.items()}
     arrived = exchange(comm, columns, rows)
     result = {name: np.concatenate([data[name], arrived[name]]) for name in data}

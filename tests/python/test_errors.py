@@ -2,6 +2,7 @@
 import sys
 
 import numpy as np
+from mpi4py import MPI
 
 import rrcb
 import runner
@@ -25,6 +26,7 @@ def test_raises_the_error_of_one_rank_on_all():
         ((x[:, 0], x[1:, 1]), "1-D arrays of one length"),
         ((x[:, 0], x[:, 1].astype("f4")), "one dtype"),
         ("text", "positions"),
+        (np.ma.masked_less(x, 0.5), "masked"),
         (nan, ""),
     ):
         given = on_rank(last, bad, x)
@@ -36,6 +38,16 @@ def test_raises_the_error_of_one_rank_on_all():
         same_error(lambda: rrcb.balance(x, comm=comm, tolerance=different), "tolerance")
         earlier = on_rank(last, balance, None)
         same_error(lambda: rrcb.balance(x, comm=comm, previous=earlier), "previous")
+        alone = rrcb.balance(x, comm=MPI.COMM_SELF, num_parts=RANKS)
+        same_error(lambda: rrcb.balance(x, comm=comm, previous=alone), "previous differs")
+    for call in (
+        lambda given: rrcb.balance(x, comm=comm, previous=given),
+        lambda given: rrcb.assign(x, given, comm),
+    ):
+        same_error(lambda: call(on_rank(last, 3, balance)), "give a balance or its cuts, not int")
+    for bad in (["a"], np.ones(RANKS + 1)):
+        given = on_rank(last, bad, np.ones(RANKS))
+        same_error(lambda: rrcb.balance(x, comm=comm, part_sizes=given), "")
     for bad, text in ((np.ones(3), "weights must have the shape"), (["a"] * len(x), "numbers"),
                       (-np.ones(len(x)), "")):
         given = on_rank(0, bad, np.ones(len(x)))
@@ -70,11 +82,39 @@ def test_raises_errors_of_columns_on_all():
 
 
 def test_refuses_what_is_no_communicator():
-    from mpi4py import MPI
-
     for bad, text in ((MPI.COMM_NULL, "COMM_NULL"), (3, "int")):
         same_error(lambda: rrcb.balance(cloud(2), comm=bad), text)
         same_error(lambda: rrcb.Controller(bad), text)
+
+
+def test_refuses_a_freed_communicator():
+    freed, x = comm.Dup(), cloud(2)
+    balance = rrcb.balance(x, comm=freed)
+    ghosts = balance.ghosts(balance.distribute(x), 0.1)
+    controller, later = rrcb.Controller(freed), rrcb.balance(x, comm=freed)
+    freed.Free()
+    for call in (
+        lambda: rrcb.balance(x, comm=freed, previous=balance),
+        lambda: balance.distribute(x),
+        lambda: later.distribute(x),
+        lambda: balance.ghosts(x, 0.1),
+        lambda: ghosts.accumulate(np.ones(ghosts.count)),
+        lambda: controller.step(1.0),
+    ):
+        same_error(call, "was freed")
+    assert np.array_equal(balance.cuts.part_of(x), balance.parts)
+
+
+def test_raises_errors_of_a_controller_on_all():
+    last, balance = RANKS - 1, rrcb.balance(cloud(2), comm=comm)
+    for given, cost in ((on_rank(last, 3, balance), 1.0), (None, on_rank(last, "text", 1.0))):
+        with rrcb.Controller(comm) as controller:
+            controller.rebalanced(given, cost)
+            same_error(lambda: [controller.step(1.0) for _ in range(3)], "")
+    same_error(lambda: rrcb.CostModel(on_rank(last, "a", 1), comm=comm), "TypeError")
+    with rrcb.CostModel(2, comm=comm) as model:
+        model.step(1.0, on_rank(last, [[1], [1, 2]], [1, 2]))
+        same_error(lambda: [model.step(1.0, [1, 2]) for _ in range(3)], "")
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ import reference
 
 ROOT = Path(__file__).resolve().parents[1]
 MENU = {
-    "Start": ["docs/install", "docs/first_program", "docs/zoltan"],
+    "Start": ["docs/install", "docs/first_program", "docs/python", "docs/zoltan"],
     "Guide": ["docs/loop", "docs/rebalancing", "docs/weights", "docs/choosing", "docs/machines",
               "docs/performance", "docs/hosts", "docs/errors", "docs/edge_cases", "docs/teuchos",
               "SUPPORT"],

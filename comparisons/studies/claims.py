@@ -108,7 +108,7 @@ def _name(method: str) -> str:
 
 def _traffic(evidence: Evidence) -> Iterator[Claim]:
     for column, what in (("bytes", "bytes of RCB / of RRCB, the four settings"),
-                         ("root_bytes_in", "bytes into the root, RCB / RRCB")):  # fmt: skip
+                         ("root_bytes_in", "bytes received by rank 0, RCB / RRCB")):  # fmt: skip
         if found := [getattr(rcb, column) / getattr(ours, column) for rcb, ours in evidence.winners]:
             text = "RRCB exchanges far less than RCB"
             yield Claim(text, what, counts(found), ONE, "snapshots", 1)

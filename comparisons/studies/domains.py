@@ -91,7 +91,7 @@ def draw_errors(means: pd.DataFrame) -> Figure:
             here = means[(means["dim"] == dimension) & (means["parts"] == number)]
             _draw_case(axes, here)
             axes.set_title(f"{dimension}-D, {number} parts")
-    plot.label_edges(grid, "bytes into the root", "imbalance − 1")
+    plot.label_edges(grid, "bytes received by rank 0", "imbalance − 1")
     return plot.legend_above(figure, grid[0, 0], inches=1.2)
 
 

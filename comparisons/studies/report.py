@@ -17,13 +17,13 @@ ZOLTAN = "zoltan-rcb"
 INTERFACES = {"rrcb": "rrcb-exact", "rrcb-arrays": "rrcb-arrays[refine=exact]"}
 DEFINITIONS = (
     "imbalance: heaviest part / mean part. Lu: (ideal − actual) / ideal of a part, below 0 if it is"
-    " too heavy. time: slowest rank, median of the repeats. times as fast: Zoltan RCB's time / this"
-    " method's. bytes and messages: of one call over all ranks. into root: bytes that rank 0 receives."
-    " moved: weight that changes rank. ghosts: copies of points that parts need from others, the price"
-    " of their shape. neighbours: the most parts that a part needs them from. gain kept: of what ideal"
+    " too heavy. time: slowest rank, median of the repeats. speed-up: Zoltan RCB's time / this"
+    " method's. bytes and messages: of one call over all ranks. moved: weight that changes"
+    " rank. ghosts: copies of points that parts need from others, the price of their shape. neighbours: the most parts that a part needs them from. gain kept: of what ideal"
     " balance without cost would gain; of even time: of what even times of all ranks without messages would"
-    " gain. count, learned: rrcb-arrays, whose points weigh 1 or the seconds that they cost. wall: by the clock. In brackets: intervals of 95 %; if the"
-    " interval of a ratio contains 1, the two methods are not told apart."
+    " gain. count, learned: rrcb-arrays, whose points weigh 1 or the seconds that they cost. wall: by the"
+    " clock. In brackets: intervals of 95 %; if the interval of a ratio contains 1, the two methods are"
+    " not told apart."
 )
 
 
@@ -64,7 +64,7 @@ def _add_simulations(report: Report, results: Results) -> None:
         "method": runs["method"],
         "imbalance": _numbers(runs["mean_imbalance"], ".4f"),
         "critical path s": _numbers(runs["critical_path_s"], ".4g"),
-        "times as fast as none": _texts(runs, "speed_up_critical_path", 2),
+        "speed-up over none": _texts(runs, "speed_up_critical_path", 2),
     }
     show(caption, pd.DataFrame(shown))
     for text in (
@@ -99,16 +99,17 @@ def method_table(rows: pd.DataFrame) -> pd.DataFrame:
             "imbalance": _texts(rows, "imbalance", 5),
             "largest Lu, signed %": _numbers(rows["lu_worst_percent"] + 0.0, "+.3f"),
             "time ms": _texts(rows, "time_ms", 2),
-            "times as fast": [_ratio(v, m == ZOLTAN) for v, m in zip(speeds, rows["method"])],
+            "speed-up": [_ratio(v, m == ZOLTAN) for v, m in zip(speeds, rows["method"])],
             "bytes": _numbers(rows["bytes"], ","),
             "messages": _numbers(rows["messages"], ","),
-            "into root": _numbers(rows["root_bytes_in"], ","),
+            "bytes received by rank 0": _numbers(rows["root_bytes_in"], ","),
             "moved %": _numbers(100 * rows["moved_fraction"], ".1f"),
             "ghosts": _numbers(rows["ghosts"], ",.0f"),
             "% of the points": _numbers(100 * rows["ghosts"] / rows["points"], ".1f"),
             "most on a part": _numbers(rows["ghosts_max"], ",.0f"),
             "neighbours": _numbers(rows["neighbours_max"], ".0f"),
-            "off the machine %": _numbers(100 * rows["off_machine_ghosts"] / rows["ghosts"], ".1f"),
+            "ghosts from other machines %":
+                _numbers(100 * rows["off_machine_ghosts"] / rows["ghosts"], ".1f"),
         }
     )
 
@@ -125,7 +126,7 @@ def simulation_table(runs: pd.DataFrame, rounds: pd.DataFrame) -> pd.DataFrame:
             "method": runs["method"],
             "mean imbalance": _texts(runs, "mean_imbalance", 4),
             "critical path s": _texts(runs, "critical_path_s", digits),
-            "times as fast as none": [_ratio(v, m == "none") for v, m in zip(speeds, runs["method"])],
+            "speed-up over none": [_ratio(v, m == "none") for v, m in zip(speeds, runs["method"])],
             f"as {ZOLTAN}": [_ratio(v, m == ZOLTAN) for v, m in zip(as_zoltan, runs["method"])],
             "gain kept %": _numbers(100 * runs["gain_kept"], ".1f"),
             "of even time %": _numbers(100 * runs["gain_kept_time"], ".1f"),

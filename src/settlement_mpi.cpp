@@ -39,6 +39,7 @@ PartTree tree_of(const Options& options, const Verdict& verdict, double weight, 
     tree.rule.is_exact = options.refine == Refine::exact;
     tree.share_of_longest = near_longest;
     tree.plain_cuts = options.axes.plain;
+    tree.centres_cuts = tree.rule.is_exact;
     tree.divides_coincident = options.coincident == Coincident::divide;
     return tree;
 }

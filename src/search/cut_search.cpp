@@ -1,6 +1,7 @@
 #include "search/cut_search.hpp"
 
 #include "search/candidate_division.hpp"
+#include "search/gap.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -292,7 +293,7 @@ void decide_by_splitters(CutSearch& search, CutTarget& target, const HistogramLa
         target.num_candidates <= most_gathered ? CutSearch::gathering : CutSearch::sampling;
 }
 
-void decide_among(CutSearch& search, CutTarget& target, std::span<const double> records,
+bool decide_among(CutSearch& search, CutTarget& target, std::span<const double> records,
                   int dimension) {
     std::vector<Candidate> candidates = read_candidates(records, dimension);
     const PositionOrder before = order_of(search);
@@ -305,7 +306,7 @@ void decide_among(CutSearch& search, CutTarget& target, std::span<const double> 
     if (search.coincident != 0 && search.divides != 0 && !good) {
         const Ties& ties = division.ties;
         finish_among_ties(search, target, candidates[ties.begin].position, ties.below, ties.weight);
-        return;
+        return false;
     }
     if (best == 0 || best == candidates.size()) {
         if (search.between_splitters == 0) {
@@ -315,7 +316,7 @@ void decide_among(CutSearch& search, CutTarget& target, std::span<const double> 
         } else {
             finish_behind(search, candidates.back().position, division.below);
         }
-        return;
+        return false;
     }
     const Vector& last_below = candidates[best - 1].position;
     const Vector& first_above = candidates[best].position;
@@ -326,8 +327,8 @@ void decide_among(CutSearch& search, CutTarget& target, std::span<const double> 
         search.cut.at[axis] = first_above[axis];
     }
     const std::size_t axis = axis_index(search, search.tied);
-    const double middle = last_below[axis] / 2 + first_above[axis] / 2;
-    finish(search, middle > last_below[axis] ? middle : first_above[axis], division.below);
+    finish(search, middle_of(last_below[axis], first_above[axis]), division.below);
+    return true;
 }
 
 }  // namespace rrcb

@@ -26,6 +26,7 @@ struct CutSearch {
         sampling,         ///< bring a sample of those left to the owner, for splitters
         over_splitters,   ///< count those left between the splitters
         gathering,        ///< bring all those left to the owner
+        centring,         ///< find the gap around the cut, which is known
         done
     };
     Stage stage = over_fragments;
@@ -96,8 +97,9 @@ void decide_by_splitters(CutSearch& search, CutTarget& target, const HistogramLa
                          std::span<const Vector> splitters, std::span<const double> histogram);
 
 /// Ends the search with the best cut between the gathered positions: the weight below it is as near
-/// to the target as these allow. `records` hold position and weight of each.
-void decide_among(CutSearch& search, CutTarget& target, std::span<const double> records,
+/// to the target as these allow. `records` hold position and weight of each. Returns true if the
+/// cut is in the middle of two of them.
+bool decide_among(CutSearch& search, CutTarget& target, std::span<const double> records,
                   int dimension);
 
 /// Candidates of one search up to which gathering costs less than another count. A quarter of this

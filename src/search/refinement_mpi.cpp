@@ -23,6 +23,7 @@ Refinement::Refinement(const Options& options, const Participant& self, PartSums
     tree_.num_ranks = mpi::size_of(self.comm);
     tree_.part_sizes = options.part_sizes;
     tree_.plain_cuts = options.axes.plain;
+    tree_.centres_cuts = options.refine == Refine::exact && !are_cuts_limited(options);
     tree_.divides_coincident = options.coincident == Coincident::divide;
     tree_.limits = axis_limits(options);
     if (options.refine != Refine::exact && !are_cuts_limited(options))

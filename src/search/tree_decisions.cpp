@@ -1,4 +1,5 @@
 // The decisions of the owner of a node.
+#include "search/gap.hpp"
 #include "search/sample.hpp"
 #include "search/tree_search.hpp"
 
@@ -137,6 +138,11 @@ CutTarget TreeSearch::target_of(const Node& node, double weight) const {
 /// left.
 CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
     CutSearch search = node.search;
+    if (search.stage == CutSearch::centring) {
+        search.stage = CutSearch::done;
+        if (!payload.empty()) centre(search.cut, search.num_axes, payload.subspan(1));
+        return search;
+    }
     if (payload.empty()) {
         // The weight was round-off.
         search.stage = CutSearch::done;
@@ -145,6 +151,7 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
         return search;
     }
     const auto histogram = payload.subspan(1);
+    bool is_centred = false;
     if (search.stage == CutSearch::over_fragments) {
         decide_by_first_count(node, histogram, search);
     } else if (search.stage == CutSearch::over_candidates) {
@@ -154,13 +161,15 @@ CutSearch TreeSearch::decide_on(Node& node, std::span<const double> payload) {
     } else if (search.stage == CutSearch::over_splitters) {
         decide_by_splitters(search, node.target, layout_, node.local.splitters(), histogram);
     } else {
-        decide_among_candidates(node, payload, search);
+        is_centred = decide_among_candidates(node, payload, search);
     }
+    const bool is_done = search.stage == CutSearch::done && !(search.lot_below > 0);
+    if (tree_.centres_cuts && is_done && !is_centred) search.stage = CutSearch::centring;
     return search;
 }
 
 /// Decides among candidates in an order that does not depend on their routes to the owner.
-void TreeSearch::decide_among_candidates(const Node& node, std::span<const double> payload,
+bool TreeSearch::decide_among_candidates(const Node& node, std::span<const double> payload,
                                          CutSearch& search) const {
     const std::size_t length = static_cast<std::size_t>(dimension_) + 1;
     std::vector<std::span<const double>> candidates;
@@ -173,7 +182,7 @@ void TreeSearch::decide_among_candidates(const Node& node, std::span<const doubl
     for (const auto& candidate : candidates)
         records.insert(records.end(), candidate.begin(), candidate.end());
     CutTarget target = node.target;
-    decide_among(search, target, records, dimension_);
+    return decide_among(search, target, records, dimension_);
 }
 
 /// Takes weight and box of the node from the first count.

@@ -1,4 +1,5 @@
 // The records that ranks send to the owners of nodes, and how they follow the answers.
+#include "search/gap.hpp"
 #include "search/sample.hpp"
 #include "search/tree_search.hpp"
 
@@ -45,6 +46,7 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
         if (weight > 0) payload.assign(std::begin(told), std::end(told));
         return;
     }
+    if (node.search.stage == CutSearch::centring) return find_gap(node, payload);
     if (node.search.stage == CutSearch::gathering) {
         payload.push_back(mark_of_candidates);
         node.local.append_candidates(payload);
@@ -61,11 +63,22 @@ void TreeSearch::count(const Node& node, std::vector<double>& payload) {
     }
 }
 
+/// Appends the gap of this rank's points around the cut of a node, which is known.
+void TreeSearch::find_gap(const Node& node, std::vector<double>& payload) {
+    const Cut& cut = node.search.cut;
+    const auto& fragments = node.content.fragments;
+    Gap gap = gap_at(cut, fragments, points_);
+    sort_between(gap[1], -gap[0], cut.axis, node.content);
+    gap = gap_at(cut, fragments, points_);
+    payload.push_back(mark_of_gap);
+    payload.insert(payload.end(), gap.begin(), gap.begin() + 2 * node.search.num_axes);
+}
+
 void TreeSearch::join(std::span<const double> a, std::span<const double> b,
                       std::vector<double>& joined) {
     const bool is_alike = a.empty() || b.empty() || a[0] == b[0];
     const bool adds = !a.empty() && !b.empty() && a.size() == b.size() &&
-                      (a[0] == mark_of_histogram || a[0] == mark_of_parts);
+                      (a[0] == mark_of_histogram || a[0] == mark_of_parts || a[0] == mark_of_gap);
     joined.insert(joined.end(), a.begin(), a.end());
     // Records that do not fit together follow from a failure, which all ranks learn of after the
     // pass.
@@ -76,6 +89,9 @@ void TreeSearch::join(std::span<const double> a, std::span<const double> b,
         joined.insert(joined.end(), records.begin(), records.end());
     } else if (a[0] == mark_of_histogram) {
         join_histograms(b.subspan(1), sum);
+    } else if (a[0] == mark_of_gap) {
+        std::ranges::transform(sum, b.subspan(1), sum.begin(),
+                               [](double x, double y) { return std::max(x, y); });
     } else {
         std::ranges::transform(sum, b.subspan(1), sum.begin(), std::plus<>());
     }
@@ -113,9 +129,16 @@ void TreeSearch::follow(Node&& node, std::span<const double> payload) {
 /// Searches a node further, or goes on with its children.
 void TreeSearch::follow_search(Node&& node, const CutSearch& next, std::span<const double> more) {
     const CutSearch before = std::exchange(node.search, next);
+    if (before.stage == CutSearch::centring) return note(node.at.node, next.cut);
     if (before.stage == CutSearch::over_fragments) {
         node.content.is_counted = true;
         if (!is_central()) node.content.box = read<Box>(more);
+    }
+    if (next.stage == CutSearch::centring) {
+        // The parts below do not depend on where in its gap the cut is.
+        Node divided = node;
+        nodes_.push_back(std::move(node));
+        return end_at_cut(std::move(divided), {});
     }
     const bool is_done = next.stage == CutSearch::done;
     if (is_done && !(next.lot_below > 0)) return end_at_cut(std::move(node), {});

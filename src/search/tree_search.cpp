@@ -306,11 +306,16 @@ CutSearch TreeSearch::first_search(const Descent& at, const Box& box, double wei
 
 Cuts TreeSearch::cuts() const {
     std::vector<KnownCut> known = known_;
-    std::ranges::sort(known, {}, &KnownCut::node);
+    std::ranges::stable_sort(known, {}, &KnownCut::node);
     Cuts cuts{dimension_, tree_.num_parts, {}, {}, tree_.shape};
     for (const KnownCut& one : known) {
+        const auto node = static_cast<std::int32_t>(one.node);
+        if (!cuts.nodes.empty() && cuts.nodes.back() == node) {
+            cuts.tree.back() = one.cut;  // moved since it was found
+            continue;
+        }
         cuts.tree.push_back(one.cut);
-        cuts.nodes.push_back(static_cast<std::int32_t>(one.node));
+        cuts.nodes.push_back(node);
     }
     return cuts;
 }

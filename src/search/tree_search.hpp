@@ -40,6 +40,8 @@ struct PartTree {
     TargetRule rule{};            ///< of a spread search without the sizes and the weight per size
     double share_of_longest = 1;  ///< see longest_axis()
     bool plain_cuts = false;
+    bool centres_cuts = false;  ///< moves cuts to the middle between points, whatever ranks hold
+                                ///< these
     bool divides_coincident = false;                 ///< divides coincident points, see Coincident
     std::array<AxisLimits, max_dimension> limits{};  ///< of a central search
 
@@ -132,11 +134,12 @@ class TreeSearch {
 
   private:
     /// First entry of a node's record from a rank with points there: it contains a histogram, the
-    /// candidates, the weights of ranks, or those of the parts below.
+    /// candidates, the weights of ranks, those of the parts below, or the gap around the cut.
     static constexpr double mark_of_histogram = 0;
     static constexpr double mark_of_candidates = 1;
     static constexpr double mark_of_weights = 2;
     static constexpr double mark_of_parts = 3;
+    static constexpr double mark_of_gap = 4;
 
     /// Question of a round about a node.
     enum class Question {
@@ -216,10 +219,11 @@ class TreeSearch {
     Bracket bracket_of(const Node& node) const;
     void count(const Node& node, std::vector<double>& payload);
     void count_parts(const Node& node, std::vector<double>& payload);
+    void find_gap(const Node& node, std::vector<double>& payload);
     std::vector<double> answer_to(const Record& record, const Node& node) const;
     LotAnswer place_lot(const Node& node, std::span<const double> payload) const;
     CutSearch decide_on(Node& node, std::span<const double> payload);
-    void decide_among_candidates(const Node& node, std::span<const double> payload,
+    bool decide_among_candidates(const Node& node, std::span<const double> payload,
                                  CutSearch& search) const;
     void decide_by_first_count(Node& node, std::span<const double> histogram, CutSearch& search);
     void limit_gathering();

@@ -1,5 +1,5 @@
-// Exact cuts across given axes divide points in the same way on any number of ranks, however these
-// hold the points.
+// Exact cuts across given axes are bit-identical on any number of ranks, however these hold the
+// points.
 #include "clouds.hpp"
 #include "ranks.hpp"
 
@@ -9,7 +9,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <numeric>
 #include <random>
@@ -40,10 +42,11 @@ using Coordinate = std::function<double(int i, double u)>;
 /// A weight whose sums are exact; 0: there are none.
 using Weight = std::function<double(double u)>;
 
-Cloud cloud_of(int dimension, const Coordinate& coordinate, const Weight& weight, unsigned seed) {
+Cloud cloud_of(int dimension, const Coordinate& coordinate, const Weight& weight, unsigned seed,
+               int count) {
     std::mt19937_64 random(seed);
     Cloud cloud{dimension};
-    for (int i = 0; i < 600; ++i) {
+    for (int i = 0; i < count; ++i) {
         for (int axis = 0; axis < dimension; ++axis)
             cloud.coordinates.push_back(coordinate(i, test::uniform(random)));
         if (const double w = weight(test::uniform(random)); w > 0) cloud.weights.push_back(w);
@@ -51,12 +54,17 @@ Cloud cloud_of(int dimension, const Coordinate& coordinate, const Weight& weight
     return cloud;
 }
 
-/// Parts of all points by the cuts of the first ranks, to which points are dealt at random; nothing
-/// on other ranks. Collective.
-std::vector<Part> parts_by(int ranks, const Cloud& cloud, const Options& options, unsigned deal) {
+struct Division {
+    std::vector<Part> parts{};          ///< of all points
+    std::vector<std::uint64_t> cuts{};  ///< their bits
+};
+
+/// Division of all points by the first ranks, to which points are dealt at random; nothing on other
+/// ranks. Collective.
+Division division_by(int ranks, const Cloud& cloud, const Options& options, unsigned deal) {
     MPI_Comm comm = MPI_COMM_NULL;
     MPI_Comm_split(MPI_COMM_WORLD, rank() < ranks ? 0 : 1, 0, &comm);
-    std::vector<Part> parts;
+    Division division;
     if (rank() < ranks) {
         std::vector<std::size_t> order(cloud.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
@@ -70,22 +78,26 @@ std::vector<Part> parts_by(int ranks, const Cloud& cloud, const Options& options
                 mine.append(cloud, i);
         const Balance made = balance(
             interleaved_points(mine.coordinates, mine.dimension, mine.weights), options, comm);
-        parts.resize(cloud.size());
-        assign(made.cuts, interleaved_points(cloud.coordinates, cloud.dimension), parts);
+        division.parts.resize(cloud.size());
+        assign(made.cuts, interleaved_points(cloud.coordinates, cloud.dimension), division.parts);
+        for (const Cut& cut : made.cuts.tree)
+            for (const double at : cut.at)
+                division.cuts.push_back(std::bit_cast<std::uint64_t>(at));
     }
     MPI_Comm_free(&comm);
-    return parts;
+    return division;
 }
 
-void expect_same_parts(const Cloud& cloud, const Options& options) {
-    const std::vector<Part> expected = parts_by(1, cloud, options, 0);
+void expect_same_division(const Cloud& cloud, const Options& options) {
+    const Division expected = division_by(1, cloud, options, 0);
     for (const int ranks : {1, 2, 3, 5, 8, 13, 16, 64}) {
         if (ranks > num_ranks()) break;
         for (unsigned deal = 0; deal < 2; ++deal) {
             SCOPED_TRACE(testing::Message() << ranks << " ranks, deal " << deal);
-            const std::vector<Part> parts = parts_by(ranks, cloud, options, deal);
+            const Division division = division_by(ranks, cloud, options, deal);
             if (rank() == 0) {
-                EXPECT_TRUE(parts == expected);
+                EXPECT_TRUE(division.parts == expected.parts);
+                EXPECT_TRUE(division.cuts == expected.cuts);
             }
         }
     }
@@ -105,26 +117,36 @@ std::vector<Options> options_for(int dimension, int num_parts) {
     return {options, by_many};
 }
 
-TEST(AnyRanks, divide_points_in_the_same_way) {
-    const Coordinate places[] = {
-        [](int, double u) { return u * u; }, [](int, double u) { return std::floor(12 * u); },
-        [](int, double u) { return std::floor(3 * u) + 0.01 * (3 * u - std::floor(3 * u)); },
-        [](int i, double u) { return i % 3 == 0 ? 0.25 : u; }};
-    const Weight weights[] = {[](double) { return 0; },
-                              [](double u) { return 1 + std::floor(9 * u); },
-                              [](double u) { return std::ldexp(1 + std::floor(64 * u), -3); }};
+/// Even, on lattice lines, in clusters, and with a third of the points in one place.
+const Coordinate places[] = {
+    [](int, double u) { return u * u; }, [](int, double u) { return std::floor(12 * u); },
+    [](int, double u) { return std::floor(3 * u) + 0.01 * (3 * u - std::floor(3 * u)); },
+    [](int i, double u) { return i % 3 == 0 ? 0.25 : u; }};
+const Weight weights[] = {[](double) { return 0; }, [](double u) { return 1 + std::floor(9 * u); },
+                          [](double u) { return std::ldexp(1 + std::floor(64 * u), -3); }};
+
+TEST(AnyRanks, make_the_same_cuts) {
     unsigned seed = 0;
     for (const Coordinate& place : places)
         for (const Weight& weight : weights)
             for (int dimension = 1; dimension <= 3; ++dimension) {
                 const int num_parts = 5 + static_cast<int>(++seed % 4) * 3;
                 SCOPED_TRACE(testing::Message() << "seed " << seed << ", " << dimension << "-D");
-                const Cloud cloud = cloud_of(dimension, place, weight, seed);
+                const Cloud cloud = cloud_of(dimension, place, weight, seed, 600);
                 for (const Options& options : options_for(dimension, num_parts)) {
                     SCOPED_TRACE(options.tuning.central_parts);
-                    expect_same_parts(cloud, options);
+                    expect_same_division(cloud, options);
                 }
             }
+}
+
+// More candidates than are gathered at once: cuts end between bins, at splitters or among ties.
+TEST(AnyRanks, make_the_same_cuts_of_many_points) {
+    for (const Coordinate& place : places)
+        for (const Weight& weight : {weights[0], weights[1]}) {
+            const Cloud cloud = cloud_of(2, place, weight, 5, 20000);
+            for (const Options& options : options_for(2, 6)) expect_same_division(cloud, options);
+        }
 }
 
 }  // namespace

@@ -4,11 +4,11 @@
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "cuts/cut_limits.hpp"
+#include "cuts/cuts_mpi.hpp"
 #include "cuts/direct_assignment.hpp"
-#include "cuts/gather_cuts_mpi.hpp"
 #include "cuts/path_search.hpp"
 #include "cuts/tier_search_mpi.hpp"
-#include "lists/quality_mpi.hpp"
+#include "lists/duplicated_mpi.hpp"
 #include "options/stage_scope.hpp"
 
 #include <algorithm>

@@ -1,8 +1,11 @@
 #pragma once
 
+#include "bisection/cell_density.hpp"
+
 #include <rrcb/method/statistical_domain.hpp>
 
 #include <array>
+#include <vector>
 
 namespace rrcb {
 
@@ -21,5 +24,13 @@ using AxisDensity = std::array<DensityPiece, 2>;
 /// Returns a density on [lower, upper] with this mean and deviation, or with nearby ones if no
 /// points of the interval have these; see analytic_domain().
 AxisDensity density_of(double mean, double deviation, double lower, double upper);
+
+/// Returns the density of greatest entropy on [lower, upper] with this mean and deviation, exp(a +
+/// b x + c x^2), as a few pieces that keep its moments. For heavy cells, which are cut more than
+/// once. If it is almost quadratic, or not found, returns density_of().
+///
+/// Jaynes: Information theory and statistical mechanics (1957).
+std::vector<DensityPiece> entropy_density_of(double mean, double deviation, double lower,
+                                             double upper);
 
 }  // namespace rrcb

@@ -1,7 +1,6 @@
 #include "bisection/cell_patches.hpp"
 
 #include "bisection/cell_density.hpp"
-#include "bisection/entropy_density.hpp"
 
 #include <algorithm>
 

@@ -3,8 +3,7 @@
 #include "c/handle_mpi.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/duplicate.hpp"
-#include "cuts/assign_mpi.hpp"
-#include "cuts/gather_cuts_mpi.hpp"
+#include "cuts/cuts_mpi.hpp"
 #include "search/workspace_mpi.hpp"
 
 #include <algorithm>

@@ -1,8 +1,7 @@
-#include "lists/ghosts_mpi.hpp"
-
 #include "c/columns.hpp"
 #include "c/handle_mpi.hpp"
 #include "lists/delivery_mpi.hpp"
+#include "lists/duplicated_mpi.hpp"
 #include "options/rejection.hpp"
 
 #include <algorithm>

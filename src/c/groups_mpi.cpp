@@ -1,7 +1,6 @@
-#include "lists/groups_mpi.hpp"
-
 #include "c/columns.hpp"
 #include "c/handle_mpi.hpp"
+#include "lists/duplicated_mpi.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,6 @@
-#include "lists/plan_mpi.hpp"
-
 #include "c/columns.hpp"
 #include "collective/duplicate.hpp"
+#include "lists/duplicated_mpi.hpp"
 #include "lists/remap_mpi.hpp"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
-#include "lists/quality_mpi.hpp"
-
 #include "c/balancer.hpp"
 #include "collective/duplicate.hpp"
+#include "lists/duplicated_mpi.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -1,11 +1,32 @@
 #pragma once
 
-#include "controller/waste.hpp"
-
 #include <array>
 #include <cstddef>
 
 namespace rrcb {
+
+/// Sums over some steps, in units of the first mean load.
+struct Waste {
+    double waste = 0;  ///< of heaviest - mean load
+    double work = 0;   ///< of the mean loads
+
+    double excess() const { return work > 0 ? waste / work : 0; }
+
+    friend Waste operator+(const Waste& a, const Waste& b) {
+        return {a.waste + b.waste, a.work + b.work};
+    }
+    friend Waste operator*(double factor, const Waste& a) {
+        return {factor * a.waste, factor * a.work};
+    }
+};
+
+/// Runs of steps have lengths 2^k of k below this: more steps than any program makes.
+inline constexpr std::size_t num_lengths = 48;
+
+/// Number of steps of length k.
+inline double steps_of(std::size_t k) {
+    return static_cast<double>(std::size_t{1} << k);
+}
 
 /// Course of the waste after a rebalance: sums over the first 1, 2, 4, ... steps, of one cycle or
 /// an average of several.
@@ -33,6 +54,34 @@ class Cycle {
     std::size_t count_ = 0;
     Waste total_;  ///< of this cycle only
     std::array<Waste, num_lengths> first_{};
+};
+
+/// Blocks of the latest steps, three of each length 2^k.
+///
+/// A mean over a block takes every step as it was measured, so an imbalance of every fifth step
+/// counts as much as a fifth of it in each. Of three blocks in a row, one stall raises only one.
+class LatestSteps {
+  public:
+    static constexpr std::size_t num_blocks = 3;
+
+    void add(const Waste& step);
+    std::size_t count() const { return count_; }
+
+    /// Returns whether there are three blocks of length 2^k.
+    bool has(std::size_t k) const { return k < num_lengths && count_ >> k >= num_blocks; }
+
+    /// Returns the excess that all of these blocks reach: the least of their mean excesses.
+    double lasting(std::size_t k) const;
+
+    /// Returns the greatest of lasting() over all lengths; 0 if there are less than three steps.
+    double lasting() const;
+
+    /// Returns the latest complete block of length 2^k.
+    const Waste& block(std::size_t k) const { return blocks_[k][0]; }
+
+  private:
+    std::size_t count_ = 0;
+    std::array<std::array<Waste, num_blocks>, num_lengths> blocks_{};  ///< latest first
 };
 
 }  // namespace rrcb

@@ -7,7 +7,12 @@ namespace rrcb {
 class PointCost {
   public:
     /// Takes a step, and returns the points times their average cost; `load` if there are none yet.
-    double smoothed(double load, double points);
+    double smoothed(double load, double points) {
+        constexpr double fading = 0.993;
+        load_ = fading * load_ + load;
+        points_ = fading * points_ + points;
+        return points_ > 0 ? points * (load_ / points_) : load;
+    }
 
   private:
     double load_ = 0;

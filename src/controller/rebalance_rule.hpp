@@ -1,7 +1,6 @@
 #pragma once
 
 #include "controller/cycle.hpp"
-#include "controller/latest_steps.hpp"
 
 #include <array>
 #include <cstddef>

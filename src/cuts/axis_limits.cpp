@@ -1,7 +1,5 @@
 #include "cuts/axis_limits.hpp"
 
-#include "cuts/double_order.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

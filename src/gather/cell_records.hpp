@@ -1,13 +1,26 @@
 #pragma once
 
-#include "cells/cell_set.hpp"
-
+#include <rrcb/method/moments.hpp>
 #include <rrcb/method/statistical_domain.hpp>
 
+#include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace rrcb {
+
+/// Cells of several ranks, of their support meshes or of a lattice.
+///
+/// The lattice of an exponent e divides all of space into cubes with edges of 2^e and corners at
+/// multiples of 2^e. The cubes of a greater exponent are therefore unions of those of a smaller
+/// one.
+struct CellSet {
+    std::vector<CellMoments> cells;
+    int exponent = no_lattice;  ///< the greatest of those that cells were merged on
+
+    static constexpr int no_lattice = std::numeric_limits<int>::min();
+};
 
 /// Appends the cells of a support mesh to the records that travel to the root, as LeanCells:
 /// rounded moments in an eighth of the doubles.

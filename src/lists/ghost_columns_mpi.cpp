@@ -1,8 +1,7 @@
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "lists/delivery_mpi.hpp"
-#include "lists/ghosts_mpi.hpp"
-#include "lists/groups_mpi.hpp"
+#include "lists/duplicated_mpi.hpp"
 #include "options/rejection.hpp"
 
 #include <algorithm>

@@ -1,5 +1,3 @@
-#include "lists/ghosts_mpi.hpp"
-
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
@@ -9,6 +7,7 @@
 #include "cuts/tier_search.hpp"
 #include "cuts/tier_search_mpi.hpp"
 #include "lists/delivery_mpi.hpp"
+#include "lists/duplicated_mpi.hpp"
 #include "lists/remap_mpi.hpp"
 #include "options/rejection.hpp"
 #include "options/request.hpp"

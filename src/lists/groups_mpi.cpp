@@ -1,10 +1,9 @@
-#include "lists/groups_mpi.hpp"
-
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "collective/exchange_mpi.hpp"
 #include "collective/mix.hpp"
+#include "lists/duplicated_mpi.hpp"
 #include "options/rejection.hpp"
 #include "options/validation.hpp"
 

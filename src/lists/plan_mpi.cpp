@@ -1,9 +1,8 @@
-#include "lists/plan_mpi.hpp"
-
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
 #include "collective/exchange_mpi.hpp"
+#include "lists/duplicated_mpi.hpp"
 #include "options/rejection.hpp"
 
 #include <rrcb/balance.hpp>

@@ -1,8 +1,7 @@
-#include "lists/quality_mpi.hpp"
-
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
 #include "collective/duplicate.hpp"
+#include "lists/duplicated_mpi.hpp"
 #include "options/rejection.hpp"
 
 #include <rrcb/balance.hpp>

@@ -2,7 +2,7 @@
 #include "collective/duplicate.hpp"
 #include "collective/rank_order.hpp"
 #include "lists/delivery_mpi.hpp"
-#include "lists/plan_mpi.hpp"
+#include "lists/duplicated_mpi.hpp"
 #include "options/rejection.hpp"
 
 #include <algorithm>

@@ -3,21 +3,11 @@
 namespace rrcb {
 
 const char* name_of(Stage stage) {
-    switch (stage) {
-        case Stage::moments:
-            return "moments";
-        case Stage::gather:
-            return "gather";
-        case Stage::bisection:
-            return "bisection";
-        case Stage::broadcast:
-            return "broadcast";
-        case Stage::refinement:
-            return "refinement";
-        case Stage::assignment:
-            return "assignment";
-    }
-    return "";
+    static constexpr std::array names = {"moments",   "gather",     "bisection",
+                                         "broadcast", "refinement", "assignment"};
+    static_assert(names.size() == stages.size());
+    const auto number = static_cast<std::size_t>(stage);
+    return number < names.size() ? names[number] : "";
 }
 
 }  // namespace rrcb

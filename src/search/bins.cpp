@@ -1,6 +1,6 @@
 #include "search/bins.hpp"
 
-#include "cuts/double_order.hpp"
+#include "cuts/axis_limits.hpp"
 
 #include <algorithm>
 #include <cmath>

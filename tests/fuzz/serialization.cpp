@@ -4,7 +4,7 @@
 #include "zoltan/handle/serialization.hpp"
 
 #include "fuzzing.hpp"
-#include "zoltan/real/zoltan_error.hpp"
+#include "zoltan/real/message.hpp"
 
 #include <utility>
 #include <vector>

@@ -1,6 +1,5 @@
 #include "../support/clouds.hpp"
 #include "bisection/cell_density.hpp"
-#include "bisection/entropy_density.hpp"
 #include "bisection/slice.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Where Zoltan lays parts out, on one process.
 #include "zoltan/handle/part_map.hpp"
 
-#include "zoltan/real/zoltan_error.hpp"
+#include "zoltan/real/message.hpp"
 
 #include <gtest/gtest.h>
 

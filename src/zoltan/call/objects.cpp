@@ -1,6 +1,6 @@
 #include "zoltan/call/objects.hpp"
 
-#include "zoltan/real/zoltan_error.hpp"
+#include "zoltan/real/message.hpp"
 
 #include <algorithm>
 #include <string>

@@ -3,7 +3,7 @@
 #include "balance_mpi.hpp"
 #include "collective/agreement_mpi.hpp"
 #include "collective/communicator.hpp"
-#include "cuts/gather_cuts_mpi.hpp"
+#include "cuts/cuts_mpi.hpp"
 #include "gather/call_options.hpp"
 #include "options/validation.hpp"
 #include "paper/paper_mpi.hpp"
@@ -12,14 +12,12 @@
 #include "zoltan/call/kept_objects_mpi.hpp"
 #include "zoltan/call/layout_mpi.hpp"
 #include "zoltan/call/lists_mpi.hpp"
-#include "zoltan/call/look_ups_mpi.hpp"
 #include "zoltan/call/notices.hpp"
 #include "zoltan/call/rcb_options.hpp"
 #include "zoltan/call/renumber_mpi.hpp"
 #include "zoltan/call/vote_mpi.hpp"
 #include "zoltan/dump/dump_mpi.hpp"
 #include "zoltan/real/message.hpp"
-#include "zoltan/real/zoltan_error.hpp"
 
 #include <rrcb/error.hpp>
 #include <rrcb/quality.hpp>
@@ -37,6 +35,25 @@
 namespace rrcb::zoltan {
 
 namespace {
+
+/// Returns the numbers of all boxes, of which each rank knows those of its own at least.
+/// Collective: two reductions, one of them with an entry for each part; throws Error on all ranks
+/// alike.
+Numbering whole_numbering(const Numbering& numbering, const PartMap& map, Participant& self) {
+    std::vector<Part> numbers;
+    std::vector<Part> buffer;
+    self.attempt([&] {
+        numbers.resize(map.num_parts);
+        buffer.resize(numbers.size());
+    });
+    agree(self);
+    const auto [first, end] = map.parts_on(mpi::rank_of(self.comm));
+    for (Part part = first; part < end; ++part) numbers[part] = numbering.number_of(part);
+    mpi::check(
+        MPI_Allreduce(MPI_IN_PLACE, numbers.data(), map.num_parts, MPI_INT, MPI_SUM, self.comm),
+        "MPI_Allreduce");
+    return Numbering::of_all(std::move(numbers), std::move(buffer));
+}
 
 /// Collects the objects and checks the parameters of this rank. Errors and foreign exceptions
 /// become a status.

@@ -3,7 +3,7 @@
 #include "cuts/cut_limits.hpp"
 #include "cuts/tree.hpp"
 #include "zoltan/call/forwarding.hpp"
-#include "zoltan/real/zoltan_error.hpp"
+#include "zoltan/real/message.hpp"
 
 #include <array>
 

@@ -6,7 +6,6 @@
 
 #include "zoltan/handle/state.hpp"
 #include "zoltan/real/message.hpp"
-#include "zoltan/real/zoltan_error.hpp"
 
 #include <exception>
 #include <new>

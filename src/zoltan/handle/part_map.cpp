@@ -1,6 +1,6 @@
 #include "zoltan/handle/part_map.hpp"
 
-#include "zoltan/real/zoltan_error.hpp"
+#include "zoltan/real/message.hpp"
 
 #include <zoltan_types.h>
 

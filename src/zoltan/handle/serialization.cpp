@@ -1,6 +1,6 @@
 #include "zoltan/handle/serialization.hpp"
 
-#include "zoltan/real/zoltan_error.hpp"
+#include "zoltan/real/message.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,20 @@
 #pragma once
 
+#include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace rrcb::zoltan {
+
+/// An error of one rank, on its way to becoming a Zoltan return code.
+class ZoltanError : public std::runtime_error {
+  public:
+    ZoltanError(int code, const std::string& text) : std::runtime_error(text), code_(code) {}
+    int code() const noexcept { return code_; }
+
+  private:
+    int code_;
+};
 
 /// Prints a line on stderr in the form of Zoltan's own messages. An unknown rank is -1.
 void print_error(int rank, const char* function, std::string_view text) noexcept;

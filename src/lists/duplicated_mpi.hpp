@@ -1,0 +1,44 @@
+#pragma once
+
+#include "collective/participant.hpp"
+
+#include <rrcb/ghosts.hpp>
+#include <rrcb/groups.hpp>
+#include <rrcb/quality.hpp>
+#include <rrcb/transfer.hpp>
+
+#include <span>
+#include <vector>
+
+// As the public functions, over a communicator that is a duplicate already. A failure of one rank
+// before a call is thrown on all. Collective.
+
+namespace rrcb {
+
+Plan plan(std::span<const Part> parts, int num_parts, Participant& self);
+
+/// As transfer(), for columns without their types.
+void move(const Plan& plan, std::span<const detail::ByteColumn> columns,
+          const TransferLimits& limits, TransferReport* report, Participant& self);
+
+GhostPlan ghosts(const Cuts& cuts, const Points& points, const GhostOptions& options,
+                 Participant& self);
+void move(const GhostPlan& plan, std::span<const detail::ByteColumn> columns,
+          const TransferLimits& limits, TransferReport* report, Participant& self);
+void move_back(const GhostPlan& plan, std::span<const detail::ByteColumn> of_ghosts,
+               std::span<const detail::ByteColumn> of_points, const TransferLimits& limits,
+               TransferReport* report, Participant& self);
+
+Groups groups(const Points& points, std::span<const std::uint64_t> keys, GroupPlace place,
+              Participant& self);
+void move(const Groups& groups, std::span<const detail::ByteColumn> columns,
+          const TransferLimits& limits, TransferReport* report, Participant& self);
+std::vector<double> sums(const Groups& groups, std::span<const double> values,
+                         std::size_t components, Participant& self);
+
+std::vector<double> part_weights(const Points& points, std::span<const Part> parts, int num_parts,
+                                 Participant& self);
+double moved_fraction(const Points& points, std::span<const Part> parts, int num_parts,
+                      Participant& self);
+
+}  // namespace rrcb

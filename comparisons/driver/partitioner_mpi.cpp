@@ -1,9 +1,7 @@
 #include "partitioner_mpi.hpp"
 
 #include "failure_mpi.hpp"
-#include "rrcb_balancer_mpi.hpp"
 #include "text.hpp"
-#include "zoltan_balancer_mpi.hpp"
 
 #include <rrcb/balance.hpp>
 #include <rrcb/error.hpp>
@@ -132,7 +130,7 @@ mpm::Decomposition multijagged_decomposition(mpm::Positions positions, MPI_Comm 
 
 ZoltanPartitioner::ZoltanPartitioner(const ZoltanParameters& parameters, const Workload& workload,
                                      MPI_Comm comm)
-    : comm_(comm), points_{workload.points(), 0}, zoltan_(Zoltan_Create(comm)) {
+    : comm_(comm), zoltan_(Zoltan_Create(comm)) {
     if (zoltan_ == nullptr) throw Failure("Zoltan_Create failed: not enough memory");
     for (const auto& [name, value] : parameters) {
         if (Zoltan_Set_Param(zoltan_, name.c_str(), value.c_str()) == ZOLTAN_OK) continue;
@@ -144,9 +142,7 @@ ZoltanPartitioner::ZoltanPartitioner(const ZoltanParameters& parameters, const W
     Zoltan_Set_Obj_List_Fn(zoltan_, object_list, &points_);
     Zoltan_Set_Num_Geom_Fn(zoltan_, dimension, &points_);
     Zoltan_Set_Geom_Multi_Fn(zoltan_, coordinates, &points_);
-    const auto count = static_cast<ZOLTAN_ID_TYPE>(points_.points.count);
-    MPI_Scan(&count, &points_.first_id, 1, ZOLTAN_ID_MPI_TYPE, MPI_SUM, comm);
-    points_.first_id -= count;
+    use_points(workload.points());
 }
 
 ZoltanPartitioner::~ZoltanPartitioner() {
@@ -180,6 +176,13 @@ void ZoltanPartitioner::free_lists() {
 
 void ZoltanPartitioner::use_seed(std::uint64_t seed) {
     Zoltan_Set_Param(zoltan_, "RRCB_SEED", write_number(seed).c_str());
+}
+
+void ZoltanPartitioner::use_points(const rrcb::Points& points) {
+    const auto count = static_cast<ZOLTAN_ID_TYPE>(points.count);
+    points_.points = points;
+    MPI_Scan(&count, &points_.first_id, 1, ZOLTAN_ID_MPI_TYPE, MPI_SUM, comm_);
+    points_.first_id -= count;
 }
 
 rrcb::Box ZoltanPartitioner::box_of(rrcb::Part part) const {
@@ -216,6 +219,48 @@ std::unique_ptr<Partitioner> make_partitioner(const Method& method, const Worklo
 #endif
     return std::make_unique<ZoltanPartitioner>(zoltan_parameters(method, lists), workload, comm);
 }
+
+namespace {
+
+/// The division of points by Zoltan, which keeps its cuts for look-ups. Collective.
+mpm::Decomposition decompose(const std::shared_ptr<ZoltanPartitioner>& zoltan, MPI_Comm comm) {
+    zoltan->free_lists();
+    int code = zoltan->partition();
+    // Negative codes are errors. All ranks throw the one of any.
+    MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MIN, comm);
+    if (code < 0) throw std::runtime_error("Zoltan_LB_Partition returned " + std::to_string(code));
+    mpm::Decomposition decomposition;
+    decomposition.local_owners = zoltan->parts();
+    for (int part = 0; part < size_of(comm); ++part) {
+        const rrcb::Box box = zoltan->box_of(part);
+        decomposition.boxes.push_back({box.lower, box.upper});
+    }
+    decomposition.owners = [zoltan](mpm::Positions at, std::span<int> owners) {
+        for (std::size_t i = 0; i < owners.size(); ++i) {
+            mpm::Vector place = at[i];
+            int rank = -1;
+            Zoltan_LB_Point_PP_Assign(zoltan->handle(), place.data(), &rank, &owners[i]);
+        }
+    };
+    return decomposition;
+}
+
+/// Zoltan's handle stays from one call to the next.
+mpm::Balancer zoltan_balancer(ZoltanParameters parameters) {
+    // Boxes and look-ups need kept cuts. The last setting counts.
+    parameters.insert(parameters.begin(), {"REMAP", "0"});
+    parameters.emplace_back("KEEP_CUTS", "1");
+    auto zoltan = std::make_shared<std::shared_ptr<ZoltanPartitioner>>();
+    return [zoltan, parameters](mpm::Positions positions, MPI_Comm comm) {
+        if (!*zoltan) *zoltan = std::make_shared<ZoltanPartitioner>(parameters, Workload(), comm);
+        const std::array<std::span<const double>, 3> columns{positions.x, positions.y, positions.z};
+        (*zoltan)->use_points(
+            rrcb::column_points(std::span(columns).first(positions.z.empty() ? 2 : 3)));
+        return decompose(*zoltan, comm);
+    };
+}
+
+}  // namespace
 
 std::optional<mpm::Balancer> make_balancer(const Method& method, const PointWeights& weights) {
     if (method.lb_method == on_arrays)

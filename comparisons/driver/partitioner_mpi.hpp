@@ -6,9 +6,9 @@
 
 #include <rrcb/points.hpp>
 
+#include <balancers_mpi.hpp>
 #include <mpi.h>
 #include <mpm/decomposition.hpp>
-#include <rrcb_balancer_mpi.hpp>
 #include <zoltan.h>
 
 #include <cstdint>
@@ -39,8 +39,10 @@ class ZoltanPartitioner : public Partitioner {
     std::string function() const override { return "Zoltan_LB_Partition"; }
     void free_lists() override;                  ///< Zoltan_LB_Free_Part
     void use_seed(std::uint64_t seed) override;  ///< RRCB_SEED
+    /// Takes other points for the next partitions. Collective.
+    void use_points(const rrcb::Points& points);
 
-    Zoltan_Struct* handle() { return zoltan_; }  ///< for settings of other kinds
+    Zoltan_Struct* handle() const { return zoltan_; }  ///< for settings of other kinds
 
     /// Box of a part by the kept cuts; open sides are +-infinity. Throws Failure without KEEP_CUTS.
     /// Not collective.

@@ -147,11 +147,12 @@ bool TimedSimulation::is_due() const {
 }
 
 void TimedSimulation::rebalance() {
-    mpm::RebalanceReport report;
-    run_.balance_s += timed([&] { report = simulation_->rebalance(*balancer_); }, balances_, comm_);
+    std::uint64_t moved = 0;
+    run_.balance_s += timed([&] { moved = simulation_->rebalance(*balancer_); }, balances_, comm_);
+    MPI_Allreduce(MPI_IN_PLACE, &moved, 1, MPI_UINT64_T, MPI_SUM, comm_);
     if (controller_) controller_->rebalanced(balances_.last_s(num_ranks_));
     const auto num_points = static_cast<double>(std::max<std::int64_t>(1, run_.num_points));
-    moved_lately_ = static_cast<double>(report.moved_points) / num_points;
+    moved_lately_ = static_cast<double>(moved) / num_points;
     run_.moved_fraction += (moved_lately_ - run_.moved_fraction) / ++run_.rebalances;
 }
 

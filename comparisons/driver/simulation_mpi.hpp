@@ -6,8 +6,8 @@
 #include <rrcb/controller.hpp>
 #include <rrcb/cost.hpp>
 
+#include <balancers_mpi.hpp>
 #include <mpm/simulation.hpp>
-#include <rrcb_balancer_mpi.hpp>
 
 #include <cstdint>
 #include <functional>

@@ -20,6 +20,13 @@
 
 namespace mpm::test {
 
+/// Parameters of a scene's effect; null if the scene does not name it.
+inline Parameters* find_effect(Scene& scene, const std::string& name) {
+    for (Effect& effect : scene.effects)
+        if (effect.name == name) return &effect.parameters;
+    return nullptr;
+}
+
 /// How far this rank's points have moved along an axis, m.
 inline std::vector<double> displacements_along(const Simulation& simulation, std::size_t axis) {
     std::vector<double> along;

@@ -1,25 +1,21 @@
 #include "balancers/balancers_mpi.hpp"
 
-#ifdef RRCB_MPM_ZOLTAN
-#include "balancers/zoltan_balancer_mpi.hpp"
-#endif
+#include <rrcb/balance.hpp>
+#include <rrcb/paper.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
 namespace {
 
-constexpr std::array<std::string_view, 7> names{
-    "none", "rrcb", "rrcb-exact", "rrcb-cells", "rrcb-sampled", "root-rcb", "zoltan-rcb"};
-
-constexpr std::array<std::pair<std::string_view, std::string_view>, 3> without_boxes{{
-    {"zoltan-rib", "RIB cuts along the axes of inertia"},
-    {"zoltan-hsfc", "HSFC cuts along a curve"},
-    {"zoltan2-mj", "those of multijagged need Zoltan2, which it does without"},
-}};
+constexpr std::array<std::string_view, 6> names{"none",       "rrcb",         "rrcb-exact",
+                                                "rrcb-cells", "rrcb-sampled", "root-rcb"};
 
 [[noreturn]] void refuse(const std::string& name, const std::string& reason) {
     throw std::invalid_argument("--balancer: '" + name + "' " + reason +
@@ -36,14 +32,62 @@ void cut_by_cells(const mpm::Scene& scene, rrcb::Options& options) {
     }
 }
 
-rrcb::Options options_of(const std::string& name, const mpm::Scene& scene) {
-    rrcb::Options options;
-    if (name == "rrcb-cells") cut_by_cells(scene, options);
-    if (name == "rrcb-exact") options.refine = rrcb::Refine::exact;
-    return options;
+rrcb::Points points_of(mpm::Positions positions) {
+    const std::array<std::span<const double>, 3> columns{positions.x, positions.y, positions.z};
+    return rrcb::column_points(std::span(columns).first(positions.z.empty() ? 2 : 3));
+}
+
+/// The box of a part. A cut on a face of cells leaves the points on it above, so that the box below
+/// ends before it and touches no cell beyond.
+mpm::Box closed_box(const rrcb::Cuts& cuts, rrcb::Part part, bool on_faces) {
+    rrcb::Box box = rrcb::box_of(cuts, part);
+    for (double& face : box.upper)
+        if (on_faces && std::isfinite(face))
+            face = std::nextafter(face, -std::numeric_limits<double>::infinity());
+    return {box.lower, box.upper};
+}
+
+/// The decomposition of a balance, whose parts it takes.
+mpm::Decomposition decomposition_of(rrcb::Balance& balance, bool on_faces) {
+    mpm::Decomposition decomposition;
+    for (rrcb::Part part = 0; part < balance.cuts.num_parts; ++part)
+        decomposition.boxes.push_back(closed_box(balance.cuts, part, on_faces));
+    decomposition.local_owners = std::move(balance.parts);
+    decomposition.owners = [cuts = balance.cuts](mpm::Positions at, std::span<int> owners) {
+        rrcb::assign(cuts, points_of(at), owners);
+    };
+    return decomposition;
+}
+
+/// RRCB, or RCB, by rrcb::balance_as_in_paper.
+mpm::Balancer paper_balancer(bool of_all_points) {
+    rrcb::PaperOptions options;
+    if (of_all_points) options.domain = rrcb::PaperDomain::points;
+    return [options](mpm::Positions positions, MPI_Comm comm) {
+        rrcb::Balance balance = rrcb::balance_as_in_paper(points_of(positions), options, comm);
+        return decomposition_of(balance, false);
+    };
 }
 
 }  // namespace
+
+mpm::Balancer rrcb_balancer(const rrcb::Options& asked, const PointWeights& weights,
+                            bool reuses_cuts) {
+    rrcb::Options options = asked;
+    // Every rank has the boxes of all, and looks up owners by itself.
+    options.cuts = rrcb::HeldCuts::whole;
+    const auto last = std::make_shared<std::optional<rrcb::Balance>>();
+    return [options, weights, reuses_cuts, last](mpm::Positions positions, MPI_Comm comm) {
+        const std::vector<double> weight = weights ? weights() : std::vector<double>();
+        rrcb::Points points = points_of(positions);
+        points.weights = weight;
+        if (reuses_cuts && last->has_value())
+            rrcb::rebalance_into(**last, points, options, (*last)->cuts, comm);
+        else
+            *last = rrcb::balance(points, options, comm);
+        return decomposition_of(**last, !options.axes.grid.empty());
+    };
+}
 
 std::string balancer_names() {
     std::string text;
@@ -54,21 +98,14 @@ std::string balancer_names() {
 
 std::optional<mpm::Balancer> make_balancer(const std::string& name, const mpm::Scene& scene,
                                            const PointWeights& weights) {
-    for (const auto& [method, reason] : without_boxes) {
-        if (name == method)
-            refuse(name, "makes no boxes, which the simulation needs: " + std::string(reason));
-    }
     if (std::ranges::find(names, name) == names.end()) refuse(name, "is not known");
-    const bool takes_weights = name == "rrcb" || name == "rrcb-exact" || name == "rrcb-cells";
-    if (weights && !takes_weights) refuse(name, "takes no weights, as --cost=learned gives them");
+    const bool is_paper = name == "rrcb-sampled" || name == "root-rcb";
+    if (weights && (is_paper || name == "none"))
+        refuse(name, "takes no weights, as --cost=learned gives them");
     if (name == "none") return std::nullopt;
-    rrcb::PaperOptions paper;
-    if (name == "root-rcb") paper.domain = rrcb::PaperDomain::points;
-    if (name == "rrcb-sampled" || name == "root-rcb") return rrcb_balancer(paper);
-    if (name != "zoltan-rcb") return rrcb_balancer(options_of(name, scene), weights, true);
-#ifdef RRCB_MPM_ZOLTAN
-    return zoltan_balancer({{"DEBUG_LEVEL", "0"}, {"LB_METHOD", "RCB"}, {"CHECK_GEOM", "0"}});
-#else
-    refuse(name, "is not there, because this was built without Zoltan");
-#endif
+    if (is_paper) return paper_balancer(name == "root-rcb");
+    rrcb::Options options;
+    if (name == "rrcb-cells") cut_by_cells(scene, options);
+    if (name == "rrcb-exact") options.refine = rrcb::Refine::exact;
+    return rrcb_balancer(options, weights, true);
 }

@@ -1,24 +1,31 @@
 #pragma once
 
-#include "balancers/rrcb_balancer_mpi.hpp"
+#include <rrcb/options.hpp>
 
 #include <mpm/decomposition.hpp>
 #include <mpm/scene.hpp>
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
+
+/// Returns the weights of the points that are to be divided; none: each weighs 1.
+using PointWeights = std::function<std::vector<double>()>;
+
+/// Balancer by rrcb::balance, collective as that is. With `reuses_cuts` it starts from the cuts of
+/// its last call, for a loop over steps.
+mpm::Balancer rrcb_balancer(const rrcb::Options& options = {}, const PointWeights& weights = {},
+                            bool reuses_cuts = false);
 
 /// Names that make_balancer knows, with commas between them.
 std::string balancer_names();
 
-/// Balancer of a name; none for `none`, which leaves the equal slabs of the start.
+/// Makes the balancer of a name; none for `none`, which leaves the equal slabs of the start.
 ///
-/// The simulation asks for one box a rank: it lays a rank's grid over its box, and a point stays
-/// with its rank until it leaves the box. Throws std::invalid_argument for a method whose parts are
-/// no boxes, and for an unknown name. Zoltan_Initialize must have been called. Not
-/// collective. Balancers of rrcb start from the cuts of their last call. `scene` tells `rrcb-cells`
-/// its cells and shape functions: it cuts on faces of cells alone, into parts as wide as the nodes
-/// that a point reaches along each axis are many cells, so that nodes are shared with adjacent
-/// ranks only. Only rrcb, rrcb-exact and rrcb-cells take weights.
+/// Not collective. Throws std::invalid_argument for an unknown name, and for weights if the
+/// balancer takes none. Those of rrcb start from the cuts of their last call. `rrcb-cells` cuts
+/// only on faces of the cells of `scene`, into parts as wide as a shape function, so that nodes are
+/// shared with adjacent ranks only.
 std::optional<mpm::Balancer> make_balancer(const std::string& name, const mpm::Scene& scene = {},
                                            const PointWeights& weights = {});

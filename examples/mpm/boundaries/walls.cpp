@@ -1,7 +1,5 @@
 #include "boundaries/boundaries.hpp"
 
-#include <algorithm>
-
 namespace mpm {
 
 namespace {

@@ -7,15 +7,13 @@ namespace mpm {
 
 namespace {
 
-double density_of(const Scene& scene) {
-    const auto density = [&](const Material& material) {
-        return values_of(material, scene.dimension).number("density");
-    };
+double only_density(const Scene& scene) {
+    const double density = density_of(scene.materials.front(), scene.dimension);
     for (const Material& material : scene.materials)
-        if (density(material) != density(scene.materials.front()))
+        if (density_of(material, scene.dimension) != density)
             throw std::invalid_argument(
                 "effects / buoyancy: all materials must have the same density");
-    return density(scene.materials.front());
+    return density;
 }
 
 template <int D>
@@ -23,7 +21,7 @@ void build(const EffectBuilder<D>& builder) {
     if (!builder.stages.gravity)
         throw std::invalid_argument("effects / buoyancy: needs the effect gravity");
     const Gravity<D> gravity = *builder.stages.gravity;
-    const double share = builder.values.number("water_density") / density_of(builder.scene);
+    const double share = builder.values.number("water_density") / only_density(builder.scene);
     for (double& component : builder.stages.gravity->acceleration) component *= 1 - share;
     builder.stages.forces.push_back({"buoyancy", [=](GridPatch<D>& patch, const StepTime& step) {
                                          Components<D> lift = gravity.acceleration;

@@ -1,15 +1,191 @@
+#include "effects/penetrator/penetrator.hpp"
+
 #include "effects/effect.hpp"
-#include "effects/penetrator/contact.hpp"
+#include "materials/material.hpp"
+#include "materials/undrained.hpp"
 #include "scene/lattice.hpp"
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 namespace mpm {
 
 namespace {
+
+/// A rigid body among points, and the force between them.
+template <int D>
+struct RigidContact {
+    Penetrator<D> body;
+    double friction = 0;                         ///< Coulomb's coefficient
+    std::optional<FrictionBands<D>> bands = {};  ///< if friction has a limit
+    double force = 0;       ///< along y on the points of all ranks in this step, N
+    double last_force = 0;  ///< in the step before, N
+    double next_force = 0;  ///< on those of this rank in the next step, N
+};
+
+/// The undrained strength of points, whatever their material.
+template <int D>
+class SoilStrength {
+  public:
+    explicit SoilStrength(const EffectBuilder<D>& builder)
+        : start_level_(builder.particles.add_column(start_level_column)) {
+        for (const Material& material : builder.scene.materials) {
+            if (material.model != "von_mises")
+                throw std::invalid_argument(
+                    "effects / penetrator: 'adhesion_factor' needs an undrained strength; the "
+                    "material '" +
+                    material.name + "' must be von_mises, not " + material.model);
+            clays_.push_back(undrained_of(values_of(material, D)));
+        }
+        if (clays_.size() > 1) material_ = builder.particles.find_column("material");
+        if (builder.particles.has_column("plastic_strain"))
+            plastic_strain_ = builder.particles.find_column("plastic_strain");
+    }
+
+    /// Strength at the depth, softening and rate of point `p` of the block, Pa.
+    double at(const Particles& particles, const PointBlock<D>& block, std::size_t p) const {
+        const double number = material_ ? particles[*material_][p] : 0;
+        const UndrainedStrength& clay = clays_[static_cast<std::size_t>(number)];
+        double strength = clay.intact(particles[start_level_][p]);
+        if (plastic_strain_) strength *= clay.softened(particles[*plastic_strain_][p]);
+        if (clay.rate_factor > 0) strength *= clay.quickened(shear_rate<D>(block, p - block.begin));
+        return strength;
+    }
+
+  private:
+    std::vector<UndrainedStrength> clays_;  ///< by material
+    Column start_level_;
+    std::optional<Column> material_, plastic_strain_;
+};
+
+/// Parameters of contact that do not change.
+template <int D>
+struct Settings {
+    MotionColumns motion;
+    std::array<Column, D> force{};
+    double spacing, wave_speed;
+    double adhesion_factor = 0;
+    std::optional<SoilStrength<D>> strength = {};
+
+    /// Time in which a point loses its speed into a body of a speed, s: that of a step with a
+    /// Courant number of 0.3, or of a longer one.
+    double contact_time(double speed, double time_step) const {
+        return std::max(0.3 * spacing / (wave_speed + std::abs(speed)), time_step);
+    }
+};
+
+/// The forces of one step on the points of a block.
+template <int D>
+class Pusher {
+  public:
+    Pusher(RigidContact<D>& contact, const Settings<D>& settings, const Particles& particles,
+           const PointBlock<D>& block)
+        : contact_(contact),
+          settings_(settings),
+          particles_(particles),
+          block_(block),
+          body_(contact.body) {
+        // By the time the force acts the body will have moved on.
+        body_.tip[1] += block.time_step * body_.velocity;
+        time_ = settings.contact_time(body_.velocity, block.time_step);
+        ahead_ = time_ * std::abs(body_.velocity);
+    }
+
+    std::optional<Components<D>> force_on(std::size_t p) const {
+        Vector at{};
+        for (std::size_t a = 0; a < D; ++a) at[a] = particles_[settings_.motion.position[a]][p];
+        // Most points are far away: a point is at most as large as a cell.
+        const double largest = 0.5 * settings_.spacing;
+        if (!body_.touch(at, largest + ahead_)) return std::nullopt;
+        const double width = std::pow(particles_[settings_.motion.volume][p], 1.0 / D);
+        const auto touch = body_.touch(at, std::min(0.5 * width, largest) + ahead_);
+        if (!touch) return std::nullopt;
+        return force_of(*touch, p, at[1] - body_.tip[1]);
+    }
+
+  private:
+    Components<D> force_of(const Touch<D>& touch, std::size_t p, double height) const {
+        const Components<D>& normal = touch.normal;
+        Components<D> along;  // of the velocity relative to the body
+        for (std::size_t a = 0; a < D; ++a) along[a] = particles_[settings_.motion.velocity[a]][p];
+        along[1] -= body_.velocity;
+        double inward = 0, square = 0;
+        for (std::size_t a = 0; a < D; ++a) inward -= along[a] * normal[a];
+        for (std::size_t a = 0; a < D; ++a) {
+            along[a] += inward * normal[a];
+            square += along[a] * along[a];
+        }
+        const double speed = std::sqrt(square), overlap = touch.depth - ahead_;
+        // A gap may close in the contact time. Of an overlap half is taken back.
+        const double recovered = overlap < 0 ? overlap : 0.5 * overlap;
+        const double mass_rate = particles_[settings_.motion.mass][p] / time_;
+        const double push = mass_rate * std::max(0.0, inward + recovered / time_);
+        const double friction = std::min(friction_on(p, height, push), mass_rate * speed);
+        Components<D> force;
+        for (std::size_t a = 0; a < D; ++a) {
+            force[a] = push * normal[a];
+            if (speed > 0) force[a] -= friction * along[a] / speed;
+        }
+        return force;
+    }
+
+    double friction_on(std::size_t p, double height, double push) const {
+        if (!contact_.bands) return contact_.friction * push;
+        contact_.bands->add(
+            height, push,
+            settings_.adhesion_factor * settings_.strength->at(particles_, block_, p));
+        return contact_.bands->most_at(height, contact_.friction) * push;
+    }
+
+    RigidContact<D>& contact_;
+    const Settings<D>& settings_;
+    const Particles& particles_;
+    const PointBlock<D>& block_;
+    Penetrator<D> body_;
+    double time_ = 0;   ///< of contact, s
+    double ahead_ = 0;  ///< way of the body in it, m
+};
+
+/// Adds the kernels that push the points out of the body.
+///
+/// The volume of a point gives its width. Within a contact time a point loses its velocity into the
+/// body and half of its overlap. Nothing holds it at the body.
+template <int D>
+void add_contact(const EffectBuilder<D>& builder, const std::shared_ptr<RigidContact<D>>& contact) {
+    Stages<D>& stages = builder.stages;
+    Settings<D> settings{.motion = add_motion_columns(builder.particles, D),
+                         .spacing = builder.scene.grid.spacing,
+                         .wave_speed = builder.wave_speed};
+    if (builder.values.has("adhesion_factor")) {
+        settings.adhesion_factor = builder.values.number("adhesion_factor");
+        settings.strength.emplace(builder);
+        contact->bands.emplace(contact->body, settings.spacing,
+                               contact->body.share_in(builder.scene.grid));
+    }
+    const std::size_t first = stages.fields.size();
+    for (std::size_t a = 0; a < D; ++a) {
+        settings.force[a] = builder.particles.add_column(std::string("contact_force_") + "xyz"[a]);
+        stages.fields.push_back({"contact", settings.force[a], -1, static_cast<int>(a)});
+    }
+    stages.forces.push_back({"contact", [=](GridPatch<D>& patch, const StepTime&) {
+                                 for (std::size_t a = 0; a < D; ++a)
+                                     for (std::size_t n = 0; n < patch.sums.size(); ++n)
+                                         patch.sums[n].force[a] += patch.fields[first + a][n];
+                             }});
+    stages.after_materials.push_back(
+        {"contact", [=](Particles& particles, const PointBlock<D>& block) {
+             const Pusher<D> pusher(*contact, settings, particles, block);
+             for (std::size_t p = block.begin; p < block.end; ++p) {
+                 const auto force = pusher.force_on(p);
+                 for (std::size_t a = 0; a < D; ++a)
+                     particles.data(settings.force[a])[p] = force ? (*force)[a] : 0;
+                 if (force) contact->next_force += (*force)[1];
+             }
+         }});
+}
 
 /// Loads on the body beside the soil.
 template <int D>
@@ -79,27 +255,6 @@ Loads<D> read_loads(const EffectBuilder<D>& builder, const Penetrator<D>& body) 
             .drag_factor = 0.5 * fluid * values.number("drag_coefficient") * body.section()};
 }
 
-/// Lets a written state contain the body, its force and the means of its friction.
-template <int D>
-EffectState state_of(const std::shared_ptr<RigidContact<D>>& contact) {
-    const auto save = [=] {
-        std::vector<double> state{contact->body.tip[1], contact->body.velocity, contact->force,
-                                  contact->last_force};
-        if (!contact->bands) return state;
-        const auto means = contact->bands->means();
-        state.insert(state.end(), means.begin(), means.end());
-        return state;
-    };
-    const auto load = [=](std::span<const double> state) {
-        contact->body.tip[1] = state[0];
-        contact->body.velocity = state[1];
-        contact->force = state[2];
-        contact->last_force = state[3];
-        if (contact->bands) contact->bands->resume(state.subspan(4));
-    };
-    return {save, load};
-}
-
 template <int D>
 void build(const EffectBuilder<D>& builder) {
     Stages<D>& stages = builder.stages;
@@ -117,14 +272,17 @@ void build(const EffectBuilder<D>& builder) {
     stages.reports.push_back({"penetrator_tip_y", [=] { return contact->body.tip[1]; }});
     stages.reports.push_back({"penetrator_velocity", [=] { return contact->body.velocity; }});
     stages.reports.push_back({"penetrator_force", [=] { return -contact->last_force; }});
-    stages.states.push_back(state_of(contact));
+    stages.kept = {&contact->body.tip[1], &contact->body.velocity, &contact->force,
+                   &contact->last_force};
+    if (contact->bands)
+        for (double& mean : contact->bands->means()) stages.kept.push_back(&mean);
 }
 
 }  // namespace
 
 /// A rigid upright cylinder with a conical tip, in two dimensions a wall with a wedge, that moves
-/// along y by its weight and the forces of the soil and of still fluid around all of it. Symmetry
-/// cuts a body on a side of the domain.
+/// along y by its weight and the forces of soil and of still fluid. A side of the domain may cut
+/// it.
 ///
 /// Friction is at most friction * normal force and, if it is given, adhesion_factor * undrained
 /// strength * area.

@@ -4,7 +4,6 @@
 
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -40,13 +39,6 @@ struct Report {
     std::function<double()> value;
 };
 
-/// Numbers that an effect keeps between steps beside columns, the same on all ranks; a written
-/// state contains them.
-struct EffectState {
-    std::function<std::vector<double>()> save;
-    std::function<void(std::span<const double>)> load;  ///< as many as save returns
-};
-
 /// Places of kernels in a step, in its order. An empty stage is a loop over nothing.
 template <int D>
 struct Stages {
@@ -60,7 +52,9 @@ struct Stages {
     std::vector<Named<PointKernel<D>>> after_materials;  ///< stresses are the new ones
     std::vector<Named<StepKernel>> ends;                 ///< after all points have moved
     std::vector<Report> reports;                         ///< for the history
-    std::vector<EffectState> states;
+    /// Numbers that effects keep between steps beside columns, the same on all ranks; a written
+    /// state contains them.
+    std::vector<double*> kept;
     std::optional<Gravity<D>> gravity;  ///< for the potential energy
 };
 

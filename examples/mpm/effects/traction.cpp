@@ -92,10 +92,8 @@ void build(const EffectBuilder<D>& builder) {
 
 }  // namespace
 
-/// A force by area on the points of a face, the outermost of their bodies on one side at the start,
-/// at once or after a ramp.
-///
-/// It keeps its direction, and the area that it acts on is that of the start.
+/// A force by area on the points of a face, the outermost of their bodies on one side at the start.
+/// It keeps its direction and area.
 EffectKind traction_effect() {
     Rule side{.name = "side", .kind = Rule::Kind::word, .choices = sides};
     return {"traction",

@@ -1,7 +1,6 @@
 #include "grid/grid.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace mpm {
 

@@ -13,9 +13,6 @@ template <int D>
 using Components = std::array<double, D>;
 
 /// Sums of the points on a node.
-///
-/// A message sums them over neighbouring ranks: five doubles a node in two dimensions, seven in
-/// three.
 template <int D>
 struct NodeSums {
     double mass = 0;

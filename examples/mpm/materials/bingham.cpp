@@ -7,10 +7,8 @@ namespace mpm {
 
 namespace {
 
-/// Stress after a step from an elastic trial stress, whose mean stays.
-///
-/// The viscosity is implicit, so it does not limit the time step. `stiffness` is shear modulus *
-/// time step.
+/// Stress after a step from an elastic trial stress, whose mean stays. The viscosity is implicit,
+/// so it does not limit the time step. `stiffness` is shear modulus * time step.
 template <int D>
 Stress<D> returned(double yield_stress, double viscosity, double stiffness,
                    const Stress<D>& trial) {

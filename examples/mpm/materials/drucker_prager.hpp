@@ -19,11 +19,8 @@ struct DruckerPrager {
 /// stress.
 DruckerPrager matched_cone(double cohesion, double friction_angle, double tension_cut_off);
 
-/// Admissible stress that a trial stress returns to.
-///
-/// Without dilation the shear return keeps the mean stress. Beyond the tension limit it would end
-/// outside, so both returns follow each other: the mean is cut to the limit, then the deviator to
-/// the cone.
+/// Admissible stress that a trial stress returns to: the mean is cut to the tension limit, then the
+/// deviator to the cone. Without dilation the shear return keeps the mean stress.
 template <int D>
 inline Stress<D> returned(const DruckerPrager& cone, const Stress<D>& trial) {
     const double old_mean = mean(trial);

@@ -39,7 +39,7 @@ MPM_VECTOR_CLONES void strain(const StepGradients<D>& gradients, double bulk, do
     for (std::size_t k = 0; k < count; ++k) {
         const DisplacementGradient<D> gradient = of_step[k];
         const Stress<D> turned = rotated(load<D>(columns, begin + k), gradient);
-        store<D>(strained(turned, gradient, bulk, shear), columns, begin + k);
+        store<D>(strained<D>(turned, gradient, bulk, shear), columns, begin + k);
     }
 }
 

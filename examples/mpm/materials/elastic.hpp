@@ -72,25 +72,22 @@ inline Stress<3> rotated(const Stress<3>& s, const DisplacementGradient<3>& grad
 }
 
 /// Adds the stress of a small strain: isotropic, linear.
-inline Stress<2> strained(const Stress<2>& stress, const DisplacementGradient<2>& gradient,
-                          double bulk, double shear) {
-    const double volumetric = gradient[0][0] + gradient[1][1];
+template <int D>
+inline Stress<D> strained(Stress<D> stress, const DisplacementGradient<D>& gradient, double bulk,
+                          double shear) {
+    double volumetric = gradient[0][0] + gradient[1][1];
+    if constexpr (D == 3) volumetric += gradient[2][2];
     const double pressure_part = (bulk - 2 * shear / 3) * volumetric;
-    return {stress.xx + pressure_part + 2 * shear * gradient[0][0],
-            stress.yy + pressure_part + 2 * shear * gradient[1][1], stress.zz + pressure_part,
-            stress.xy + shear * (gradient[0][1] + gradient[1][0])};
-}
-
-inline Stress<3> strained(const Stress<3>& stress, const DisplacementGradient<3>& gradient,
-                          double bulk, double shear) {
-    const double volumetric = gradient[0][0] + gradient[1][1] + gradient[2][2];
-    const double pressure_part = (bulk - 2 * shear / 3) * volumetric;
-    return {stress.xx + pressure_part + 2 * shear * gradient[0][0],
-            stress.yy + pressure_part + 2 * shear * gradient[1][1],
-            stress.zz + pressure_part + 2 * shear * gradient[2][2],
-            stress.xy + shear * (gradient[0][1] + gradient[1][0]),
-            stress.yz + shear * (gradient[1][2] + gradient[2][1]),
-            stress.zx + shear * (gradient[2][0] + gradient[0][2])};
+    stress.xx = stress.xx + pressure_part + 2 * shear * gradient[0][0];
+    stress.yy = stress.yy + pressure_part + 2 * shear * gradient[1][1];
+    stress.zz = stress.zz + pressure_part;
+    stress.xy += shear * (gradient[0][1] + gradient[1][0]);
+    if constexpr (D == 3) {
+        stress.zz += 2 * shear * gradient[2][2];
+        stress.yz += shear * (gradient[1][2] + gradient[2][1]);
+        stress.zx += shear * (gradient[2][0] + gradient[0][2]);
+    }
+    return stress;
 }
 
 }  // namespace mpm

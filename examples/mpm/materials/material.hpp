@@ -38,6 +38,11 @@ const MaterialKind& find_material_kind(const Material& material);
 /// Checked parameters of a material. Throws std::invalid_argument for wrong ones.
 Values values_of(const Material& material, int dimension);
 
+/// Density of a material, kg/m^3.
+inline double density_of(const Material& material, int dimension) {
+    return values_of(material, dimension).number("density");
+}
+
 /// Number of a body's material in the scene. Throws std::invalid_argument where it has no such one.
 std::size_t material_of(const Scene& scene, const Body& body);
 

@@ -3,7 +3,6 @@
 #include "parallel/communicator_mpi.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace mpm {

@@ -16,12 +16,8 @@ class History {
     /// Rank 0 opens the file. Collective; throws std::runtime_error on all ranks when it cannot.
     History(const std::string& path, const Scene& scene, MPI_Comm comm);
 
-    /// Appends the present state. Collective.
-    ///
-    /// `front_x` is the largest x of a point that has moved by more than a cell (the lower side of
-    /// the domain while there is none), `top_y` the largest y of all, `imbalance` the points of the
-    /// heaviest rank by the mean, `migrated` the changes of rank since the last row, `ghost_nodes`
-    /// the nodes that ranks share, counted on each. Reports of effects follow.
+    /// Appends the present state, with the columns that README.md lists. Collective. While no point
+    /// has moved by a cell, `front_x` is the lower side of the domain.
     void write(const Simulation& simulation);
 
   private:

@@ -3,7 +3,6 @@
 #include "parallel/communicator_mpi.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -59,15 +58,13 @@ void write_head(std::ofstream& file, std::string_view type) {
          << "\" header_type=\"UInt64\">\n";
 }
 
-/// Name of a vector whose first column this is, without the axis.
-std::string vector_name(const std::string& column) {
-    constexpr std::string_view ending = "_x";
-    if (!column.ends_with(ending)) return "";
-    return column.substr(0, column.size() - ending.size());
-}
-
-bool is_vector(const Particles& particles, const std::string& name) {
-    return !name.empty() && particles.has_column(name + "_x") && particles.has_column(name + "_y");
+/// Columns that are written as they are; position and velocity are vectors.
+std::vector<std::string> scalars_of(const Particles& particles) {
+    std::vector<std::string> names = particles.column_names();
+    std::erase_if(names, [](const std::string& name) {
+        return name.size() == 1 || name.starts_with("velocity_");
+    });
+    return names;
 }
 
 /// Columns x, y and z of a vector as rows of three; 0 for a missing one.
@@ -80,26 +77,6 @@ std::vector<double> triples(const Particles& particles, const std::string& prefi
         for (std::size_t p = 0; p < column.size(); ++p) rows[3 * p + a] = column[p];
     }
     return rows;
-}
-
-/// One field of the points: a column, or the columns of a vector.
-struct Field {
-    std::string name;
-    std::size_t num_components;
-};
-
-std::vector<Field> fields_of(const Particles& particles) {
-    std::vector<Field> fields;
-    for (const std::string& column : particles.column_names()) {
-        const std::string vector = vector_name(column);
-        if (column.size() == 1) continue;
-        if (is_vector(particles, vector))
-            fields.push_back({vector, 3});
-        else if (!(column[column.size() - 2] == '_' &&
-                   is_vector(particles, column.substr(0, column.size() - 2))))
-            fields.push_back({column, 1});
-    }
-    return fields;
 }
 
 void write_cells(std::ofstream& file, const std::string& tag,
@@ -128,13 +105,9 @@ bool write_points(const std::string& path, const Simulation& simulation, int ran
     write_head(file, "PolyData");
     file << "<PolyData><Piece NumberOfPoints=\"" << count << "\" NumberOfVerts=\"" << count
          << "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData>\n";
-    for (const Field& field : fields_of(particles)) {
-        if (field.num_components == 3)
-            write_array<double>(file, "Float64", field.name, 3,
-                                triples(particles, field.name + "_"));
-        else
-            write_array<double>(file, "Float64", field.name, 1, particles[field.name]);
-    }
+    for (const std::string& name : scalars_of(particles))
+        write_array<double>(file, "Float64", name, 1, particles[name]);
+    write_array<double>(file, "Float64", "velocity", 3, triples(particles, "velocity_"));
     write_array<double>(file, "Float64", "displacement", 3, displacement_rows(simulation));
     write_array<std::int32_t>(file, "Int32", "part", 1, std::vector<std::int32_t>(count, rank));
     file << "</PointData>\n<Points>\n";
@@ -142,24 +115,6 @@ bool write_points(const std::string& path, const Simulation& simulation, int ran
     file << "</Points>\n";
     write_cells(file, "Verts", numbers, offsets);
     file << "</Verts></Piece></PolyData></VTKFile>\n";
-    return file.good();
-}
-
-bool write_parallel_points(const std::string& path, const std::string& piece,
-                           const Particles& particles, int num_ranks) {
-    std::ofstream file(path);
-    write_head(file, "PPolyData");
-    file << "<PPolyData GhostLevel=\"0\">\n<PPointData>\n";
-    for (const Field& field : fields_of(particles))
-        file << "<PDataArray type=\"Float64\" Name=\"" << field.name << "\" NumberOfComponents=\""
-             << field.num_components << "\"/>\n";
-    file << "<PDataArray type=\"Float64\" Name=\"displacement\" NumberOfComponents=\"3\"/>\n"
-            "<PDataArray type=\"Int32\" Name=\"part\"/>\n</PPointData>\n<PPoints>\n"
-            "<PDataArray type=\"Float64\" Name=\"position\" NumberOfComponents=\"3\"/>\n"
-            "</PPoints>\n";
-    for (int rank = 0; rank < num_ranks; ++rank)
-        file << "<Piece Source=\"" << piece << '_' << rank << ".vtp\"/>\n";
-    file << "</PPolyData></VTKFile>\n";
     return file.good();
 }
 
@@ -222,26 +177,27 @@ VtkSeries::VtkSeries(std::string folder, const Scene& scene, MPI_Comm comm)
 
 void VtkSeries::write(const Simulation& simulation) {
     frames_.push_back({simulation.time(), padded(simulation.step_count())});
-    const std::string piece = "points_" + frames_.back().number;
-    const std::string base = folder_ + "/" + piece;
-    int good = write_points(base + '_' + std::to_string(rank_) + ".vtp", simulation, rank_);
+    const std::string& number = frames_.back().second;
+    const std::string piece = number + '_' + std::to_string(rank_);
+    int good = write_points(folder_ + "/points_" + piece + ".vtp", simulation, rank_);
     if (rank_ == 0) {
-        good &= write_parallel_points(base + ".pvtp", piece, simulation.particles(), num_ranks_);
-        good &= write_boxes(folder_ + "/boxes_" + frames_.back().number + ".vtu",
-                            simulation.decomposition(), grid_, dimension_);
-        good &= write_series("points", ".pvtp") && write_series("boxes", ".vtu");
+        good &= write_boxes(folder_ + "/boxes_" + number + "_0.vtu", simulation.decomposition(),
+                            grid_, dimension_);
+        good &= write_series("points", ".vtp", num_ranks_) && write_series("boxes", ".vtu", 1);
     }
     MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, comm_);
     if (good == 0) throw std::runtime_error(folder_ + ": a VTK file cannot be written there");
 }
 
-bool VtkSeries::write_series(const std::string& name, const std::string& extension) const {
+bool VtkSeries::write_series(const std::string& name, const std::string& extension,
+                             int num_pieces) const {
     std::ofstream file(folder_ + "/" + name + ".pvd");
     write_head(file, "Collection");
     file << "<Collection>\n";
-    for (const Frame& frame : frames_)
-        file << "<DataSet timestep=\"" << frame.time << "\" part=\"0\" file=\"" << name << '_'
-             << frame.number << extension << "\"/>\n";
+    for (const auto& [time, number] : frames_)
+        for (int piece = 0; piece < num_pieces; ++piece)
+            file << "<DataSet timestep=\"" << time << "\" part=\"" << piece << "\" file=\"" << name
+                 << '_' << number << '_' << piece << extension << "\"/>\n";
     file << "</Collection></VTKFile>\n";
     return file.good();
 }

@@ -4,6 +4,7 @@
 #include <mpm/simulation.hpp>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mpm {
@@ -11,7 +12,7 @@ namespace mpm {
 /// Series of files that ParaView opens: points.pvd has the material points with all their columns,
 /// displacement and rank, boxes.pvd the boxes of the ranks.
 ///
-/// Every rank writes its points (VTP), rank 0 all else (PVTP, VTU, PVD).
+/// Every rank writes its points (VTP), rank 0 all else (VTU, PVD).
 class VtkSeries {
   public:
     VtkSeries(std::string folder, const Scene& scene, MPI_Comm comm);
@@ -21,19 +22,14 @@ class VtkSeries {
     void write(const Simulation& simulation);
 
   private:
-    struct Frame {
-        double time;
-        std::string number;
-    };
-
-    bool write_series(const std::string& name, const std::string& extension) const;
+    bool write_series(const std::string& name, const std::string& extension, int num_pieces) const;
 
     std::string folder_;
     GridShape grid_;
     int dimension_;
     MPI_Comm comm_;
     int rank_, num_ranks_;
-    std::vector<Frame> frames_;
+    std::vector<std::pair<double, std::string>> frames_;  ///< time and number of each
 };
 
 }  // namespace mpm

@@ -1,5 +1,6 @@
 #include "parallel/communicator_mpi.hpp"
 
+#include <new>
 #include <stdexcept>
 
 namespace mpm {
@@ -16,6 +17,16 @@ void fail_together(const std::string& text, MPI_Comm comm) {
     int first = text.empty() ? size_of(comm) : rank_of(comm);
     MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, comm);
     if (first < size_of(comm)) throw std::runtime_error(broadcast(text, comm, first));
+}
+
+void in_memory(const std::function<void()>& work, const std::string& place, MPI_Comm comm) {
+    std::string text;
+    try {
+        work();
+    } catch (const std::bad_alloc&) {
+        text = place + " need more memory than there is; take larger cells or more machines";
+    }
+    fail_together(text, comm);
 }
 
 }  // namespace mpm

@@ -2,6 +2,7 @@
 
 #include <mpi.h>
 
+#include <functional>
 #include <string>
 
 namespace mpm {
@@ -25,5 +26,9 @@ std::string broadcast(std::string text, MPI_Comm comm, int from = 0);
 
 /// Throws std::runtime_error on all ranks if any has a text, with that of the lowest. Collective.
 void fail_together(const std::string& text, MPI_Comm comm);
+
+/// Runs work of this rank. Collective; throws std::runtime_error with the place on all ranks if any
+/// lacks the memory.
+void in_memory(const std::function<void()>& work, const std::string& place, MPI_Comm comm);
 
 }  // namespace mpm

@@ -17,10 +17,8 @@ class GhostNodes {
     /// Finds the shared nodes from the patches of all ranks. Not collective.
     GhostNodes(std::span<const NodeRange<D>> patches, MPI_Comm comm);
 
-    /// Sums the shared nodes over the ranks, sums and fields. Collective over the neighbours.
-    ///
-    /// One message goes to each neighbour. Every rank adds the contributions to a node in ascending
-    /// order of the ranks, so that all hold the same bits.
+    /// Sums the shared nodes over the ranks, sums and fields, to the same bits on all. One message
+    /// goes to each neighbour. Collective over the neighbours.
     void sum(GridPatch<D>& patch);
 
     /// Nodes that this rank shares with any other.

@@ -13,19 +13,6 @@ namespace mpm {
 
 namespace {
 
-/// What ranks agree on: the largest fault, reach and speed, and the sum of the leavers.
-struct Worst {
-    double fault, reach, speed, num_leavers;
-};
-
-void join(void* from, void* into, int* length, MPI_Datatype*) {
-    const Worst* const a = static_cast<const Worst*>(from);
-    Worst* const b = static_cast<Worst*>(into);
-    for (int i = 0; i < *length; ++i)
-        b[i] = {std::max(a[i].fault, b[i].fault), std::max(a[i].reach, b[i].reach),
-                std::max(a[i].speed, b[i].speed), a[i].num_leavers + b[i].num_leavers};
-}
-
 /// Text about a point that has left the grid.
 std::string text_of(double id, Positions positions, std::size_t p, double now) {
     std::ostringstream text;
@@ -43,16 +30,7 @@ Ownership::Ownership(const GridShape& grid, MPI_Comm comm)
     : comm_(comm),
       rank_(rank_of(comm)),
       num_ranks_(static_cast<std::size_t>(size_of(comm))),
-      grid_{grid.lower, grid.upper()} {
-    MPI_Type_contiguous(sizeof(Worst) / sizeof(double), MPI_DOUBLE, &worst_type_);
-    MPI_Type_commit(&worst_type_);
-    MPI_Op_create(join, 1, &worst_of_);
-}
-
-Ownership::~Ownership() {
-    MPI_Op_free(&worst_of_);
-    MPI_Type_free(&worst_type_);
-}
+      grid_{grid.lower, grid.upper()} {}
 
 /// Whether a point lies in the box along all axes.
 template <int D>
@@ -195,16 +173,14 @@ void Ownership::report(Fault fault) {
 }
 
 Agreement Ownership::agree(double speed) {
-    Worst worst{static_cast<double>(fault_), static_cast<double>(reach_), speed,
-                static_cast<double>(leavers_.points.size())};
-    MPI_Allreduce(MPI_IN_PLACE, &worst, 1, worst_type_, worst_of_, comm_);
-    const auto fault = static_cast<Fault>(static_cast<int>(worst.fault));
+    std::array<double, 3> worst{static_cast<double>(fault_), static_cast<double>(reach_), speed};
+    MPI_Allreduce(MPI_IN_PLACE, worst.data(), 3, MPI_DOUBLE, MPI_MAX, comm_);
+    const auto fault = static_cast<Fault>(static_cast<int>(worst[0]));
     const bool is_mine = fault_ == fault;
     fault_ = Fault::none;
     reach_ = Reach::nowhere;
     if (fault != Fault::none) throw_fault(fault, is_mine);
-    return {static_cast<Reach>(static_cast<int>(worst.reach)), worst.speed,
-            static_cast<std::int64_t>(worst.num_leavers)};
+    return {static_cast<Reach>(static_cast<int>(worst[1])), worst[2]};
 }
 
 void Ownership::throw_fault(Fault fault, bool is_mine) {

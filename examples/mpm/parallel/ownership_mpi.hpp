@@ -7,7 +7,6 @@
 #include <mpm/scene.hpp>
 
 #include <array>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,16 +17,12 @@ namespace mpm {
 struct Agreement {
     Reach reach = Reach::nowhere;
     double max_speed = 0;  ///< m/s
-    std::int64_t num_leavers = 0;
 };
 
 /// Finds the points that belong to other ranks, and makes all ranks agree on what follows.
 class Ownership {
   public:
     Ownership(const GridShape& grid, MPI_Comm comm);
-    ~Ownership();
-    Ownership(const Ownership&) = delete;
-    Ownership& operator=(const Ownership&) = delete;
 
     /// Finds the points that have left this rank's box. `now` and the numbers of the points are for
     /// the message about one that has left the grid. Not collective.
@@ -41,8 +36,8 @@ class Ownership {
     void find_reassigned(const Decomposition& next, Positions positions,
                          std::span<const int> neighbours);
 
-    /// Largest reach and speed over the ranks, and sum of the leavers. Collective. Throws
-    /// std::runtime_error on all ranks where one has found a fault since the last agreement.
+    /// Largest reach and speed over the ranks. Collective. Throws std::runtime_error on all ranks
+    /// where one has found a fault since the last agreement.
     Agreement agree(double speed);
 
     const Leavers& leavers() const { return leavers_; }
@@ -64,8 +59,6 @@ class Ownership {
     void measure_reach(std::span<const int> neighbours);
 
     MPI_Comm comm_;
-    MPI_Datatype worst_type_ = MPI_DATATYPE_NULL;
-    MPI_Op worst_of_ = MPI_OP_NULL;
     int rank_;
     std::size_t num_ranks_;
     Box grid_;

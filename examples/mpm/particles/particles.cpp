@@ -5,12 +5,11 @@
 
 namespace mpm {
 
-Column Particles::add_column(std::string_view name, double initial) {
+Column Particles::add_column(std::string_view name) {
     const auto found = std::ranges::find(names_, name);
     if (found != names_.end()) return static_cast<Column>(found - names_.begin());
     names_.emplace_back(name);
-    initial_.push_back(initial);
-    columns_.emplace_back(size_, initial);
+    columns_.emplace_back(size_, 0.0);
     return columns_.size() - 1;
 }
 

@@ -45,8 +45,8 @@ def with_image(left: float, low: float, right: float, high: float) -> list[tuple
     return [(left, low, right, high), (-right, low, -left, high)]
 
 
-def read_frame(time: float, points_file: Path, boxes_file: Path, view: View) -> Frame:
-    points = points_of(points_file)
+def read_frame(time: float, point_files: list[Path], box_files: list[Path], view: View) -> Frame:
+    points = points_of(point_files)
     position, displacement = points["position"], points["displacement"]
     value = points[view.column] if view.column else np.linalg.norm(displacement, axis=1)
     start_z = position[:, 2] - displacement[:, 2]
@@ -56,7 +56,7 @@ def read_frame(time: float, points_file: Path, boxes_file: Path, view: View) -> 
     shown, value = position[layer, :2], value[layer]
     if view.is_mirrored:
         shown, value = np.concatenate([shown, shown * (-1, 1)]), np.concatenate([value, value])
-    arrays = arrays_in(boxes_file)
+    arrays = arrays_in(box_files[0])
     corners = arrays["corner"].reshape(arrays["part"].size, -1, 3)[:, :, :2]
     boxes = [(*box.min(axis=0), *box.max(axis=0)) for box in corners]
     if view.is_mirrored:

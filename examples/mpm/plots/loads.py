@@ -1,6 +1,7 @@
-"""Draws loads.csv of two runs, counted and learned, and tells what their slowest ranks take.
+"""Draws the times of ranks in a history of comparisons/run --cost=learned, and prints what the
+slowest ranks take.
 
-    loads.py FOLDER [PICTURE]      FOLDER-count/loads.csv and FOLDER-learned/loads.csv
+    loads.py history.csv [PICTURE]
 """
 import csv
 import sys
@@ -11,10 +12,19 @@ matplotlib.use("Agg")
 from matplotlib import pyplot
 
 
-def read(path):
+STEPS = 100  # that a value is the mean of
+
+
+def read(path, method):
+    """Steps, and rows of the mean seconds of all ranks."""
+    bins = {}
     with open(path, encoding="utf-8") as file:
-        rows = [[float(number) for number in row] for row in list(csv.reader(file))[1:]]
-    return [row[0] for row in rows], [row[1:] for row in rows]
+        for row in csv.DictReader(file):
+            if row["method"] == method and int(row["step"]) > 0:
+                times = bins.setdefault(int(row["step"]) // STEPS, {})
+                times.setdefault(int(row["part"]), []).append(float(row["seconds"]))
+    loads = [[sum(times[part]) / len(times[part]) for part in sorted(times)] for times in bins.values()]
+    return [STEPS * number for number in bins], loads
 
 
 def imbalance(loads):
@@ -22,10 +32,10 @@ def imbalance(loads):
     return sum(max(row) for row in loads) * len(loads[0]) / sum(map(sum, loads))
 
 
-def main(folder, picture=None):
+def main(history, picture=None):
     figure, axes = pyplot.subplots(1, 2, figsize=(10, 3.6), sharey=True, layout="constrained")
     for axis, cost in zip(axes, ("count", "learned")):
-        steps, loads = read(f"{folder}-{cost}/loads.csv")
+        steps, loads = read(history, cost)
         print(f"{cost}: the slowest ranks take {imbalance(loads):.3f} times the mean")
         for rank, column in enumerate(zip(*loads)):
             axis.plot(steps, [1e6 * seconds for seconds in column], label=f"rank {rank}")
@@ -33,7 +43,7 @@ def main(folder, picture=None):
         axis.plot(steps, mean, "k--", linewidth=1, label="mean")
         axis.set_title(f"--cost={cost}: slowest ranks {imbalance(loads):.2f} times the mean")
         axis.set_xlabel("step")
-    axes[0].set_ylabel("processor time of a step, µs")
+    axes[0].set_ylabel("time of a step, µs")
     axes[0].set_ylim(bottom=0)
     axes[0].legend(fontsize=8)
     if picture:

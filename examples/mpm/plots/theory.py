@@ -62,8 +62,8 @@ def axial_bar(axes: Axes, folder: Path, scene: str) -> None:
     frames = frames_of(folder, "points")
     for share in (0.25, 0.75):
         wanted = share * 2 * np.pi / (wave_number * wave_speed)
-        time, file = min(frames, key=lambda frame: abs(frame[0] - wanted))
-        points = points_of(file)
+        time, files = min(frames, key=lambda frame: abs(frame[0] - wanted))
+        points = points_of(files)
         start = points["position"][:, 0] - points["displacement"][:, 0]
         phase = np.sin(wave_number * wave_speed * time)
         theory = modulus * speed / wave_speed * np.cos(wave_number * start) * phase

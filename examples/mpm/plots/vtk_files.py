@@ -22,17 +22,15 @@ def arrays_in(path: Path) -> dict[str, np.ndarray]:
     return arrays
 
 
-def points_of(path: Path) -> dict[str, np.ndarray]:
+def points_of(files: list[Path]) -> dict[str, np.ndarray]:
     """Columns of the points of all ranks."""
-    pieces = [
-        arrays_in(path.parent / piece.get("Source"))
-        for piece in xml.parse(path).getroot().iter("Piece")
-    ]
-    pieces = [piece for piece in pieces if piece["part"].size > 0]
+    pieces = [piece for piece in map(arrays_in, files) if piece["part"].size > 0]
     return {name: np.concatenate([piece[name] for piece in pieces]) for name in pieces[0]}
 
 
-def frames_of(folder: Path, name: str) -> list[tuple[float, Path]]:
-    """Times and files of a series, `points` or `boxes`."""
-    entries = xml.parse(folder / f"{name}.pvd").getroot().iter("DataSet")
-    return [(float(entry.get("timestep")), folder / entry.get("file")) for entry in entries]
+def frames_of(folder: Path, name: str) -> list[tuple[float, list[Path]]]:
+    """Times of a series, `points` or `boxes`, and the files of each."""
+    frames: dict[float, list[Path]] = {}
+    for entry in xml.parse(folder / f"{name}.pvd").getroot().iter("DataSet"):
+        frames.setdefault(float(entry.get("timestep")), []).append(folder / entry.get("file"))
+    return list(frames.items())

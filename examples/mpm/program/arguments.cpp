@@ -31,7 +31,6 @@ const std::map<std::string, std::string> helps{
     {"balancer", balancer_names()},
     {"every", "steps between two rebalances, or auto: when they pay"},
     {"cost", "what is divided evenly: count, the points, or learned, their time"},
-    {"load-every", "steps between rows of loads.csv, the time of each rank; 0: none"},
     {"end-time", "simulated seconds, in place of the scene's"},
     {"cell-size", "m, in place of the scene's"},
     {"vtk-every", "steps between VTK files; 0: none"},
@@ -77,7 +76,6 @@ std::optional<Arguments> read_arguments(int argc, char** argv) {
     };
     if (texts["every"] != "auto") arguments.every = steps("every", 0, 1);
     arguments.vtk_every = steps("vtk-every", -1, 0);
-    arguments.load_every = steps("load-every", 0, 0);
     arguments.state_every = steps("state-every", 0, 0);
     arguments.every_time = positive("every-time");
     arguments.end_time = positive("end-time");

@@ -10,7 +10,6 @@ struct Arguments {
     std::string out;
     int every = 0;             ///< steps between rebalances; 0: when they pay
     bool learns_cost = false;  ///< weighs points by time
-    int load_every = 0;        ///< steps between rows of loads.csv; 0: none
     int vtk_every = -1;        ///< -1: as the scene says
     double end_time = 0;       ///< s; 0: as the scene says
     double cell_size = 0;      ///< m; 0: as the scene says

@@ -1,15 +1,11 @@
 #include "balancers/balancers_mpi.hpp"
+#include "output/history_mpi.hpp"
+#include "output/probe_table_mpi.hpp"
+#include "output/vtk_mpi.hpp"
 #include "parallel/communicator_mpi.hpp"
 #include "program/arguments.hpp"
 #include "scene/scene_reports.hpp"
 #include "scene_file/scene_file_mpi.hpp"
-#ifdef RRCB_MPM_ZOLTAN
-#include <zoltan.h>
-#endif
-
-#include "output/history_mpi.hpp"
-#include "output/probe_table_mpi.hpp"
-#include "output/vtk_mpi.hpp"
 
 #include <rrcb/cost.hpp>
 
@@ -22,7 +18,6 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -31,26 +26,14 @@
 
 namespace {
 
-void print_words(const char* title, const std::vector<std::string>& words) {
-    std::printf("%s:", title);
-    for (const std::string& word : words) std::printf(" %s", word.c_str());
-    std::printf("\n");
-}
-
 /// Prints the kernels of a step, and the bytes of points and messages.
 void list_kernels(const mpm::Simulation& simulation) {
     const auto& columns = simulation.particles().column_names();
-    print_words("kernels", simulation.kernels());
-    print_words("columns", columns);
+    std::printf("kernels: %s\n", mpm::joined(simulation.kernels()).c_str());
+    std::printf("columns: %s\n", mpm::joined(columns).c_str());
     std::printf("%zu bytes per point\n%zu bytes per migrated point\n%zu doubles per ghost node\n",
                 columns.size() * sizeof(double), columns.size() * sizeof(double),
                 simulation.doubles_per_ghost_node());
-}
-
-/// Prints values that may not be meant.
-void report_scene(const std::string& path, const mpm::Scene& scene) {
-    for (const std::string& warning : mpm::scene_warnings(scene))
-        std::fprintf(stderr, "rrcb_mpm: warning: %s: %s\n", path.c_str(), warning.c_str());
 }
 
 /// Files that the output plan asks for, in a folder that rank 0 makes.
@@ -113,36 +96,6 @@ class Recorder {
     mpm::History history_;
     mpm::VtkSeries vtk_;
     std::optional<mpm::ProbeTable> probes_;
-};
-
-/// Mean processor time of each rank's own work, every so many steps.
-class LoadTable {
-  public:
-    /// Collective over `comm`.
-    LoadTable(const std::string& path, int every, MPI_Comm comm) : every_(every), comm_(comm) {
-        if (every > 0 && mpm::rank_of(comm) == 0) file_.open(path);
-        if (file_.is_open()) file_ << "step,seconds of each rank\n";
-    }
-
-    /// Takes the step that has been done. Collective.
-    void add(const mpm::Simulation& simulation) {
-        if (every_ == 0) return;
-        seconds_ += simulation.work_seconds() / every_;
-        if (simulation.step_count() % every_ != 0) return;
-        std::vector<double> all(static_cast<std::size_t>(mpm::size_of(comm_)));
-        MPI_Gather(&seconds_, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, 0, comm_);
-        seconds_ = 0;
-        if (!file_.is_open()) return;
-        file_ << simulation.step_count();
-        for (const double seconds : all) file_ << ',' << seconds;
-        file_ << '\n';
-    }
-
-  private:
-    int every_;
-    MPI_Comm comm_;
-    double seconds_ = 0;
-    std::ofstream file_;
 };
 
 /// When to rebalance: before the first step, and then each so many steps or when it pays. A restart
@@ -229,7 +182,6 @@ void simulate(mpm::Simulation& simulation, const mpm::Scene& scene, const Argume
     };
     std::optional<mpm::Balancer> balancer = new_balancer();
     Progress progress(simulation.time(), arguments.end_time);
-    LoadTable loads(arguments.out + "/loads.csv", arguments.load_every, comm);
     for (bool is_last = false; !is_last;) {
         is_last = !(simulation.time() < arguments.end_time);
         if (balancer && !is_last) schedule.rebalance_if_due(simulation, *balancer);
@@ -238,7 +190,6 @@ void simulate(mpm::Simulation& simulation, const mpm::Scene& scene, const Argume
         if (mpm::rank_of(comm) == 0) progress.show(simulation, is_last);
         if (is_last) break;
         simulation.step();
-        loads.add(simulation);
     }
     if (mpm::rank_of(comm) == 0 && arguments.learns_cost)
         std::printf("%s\n", schedule.report().c_str());
@@ -275,7 +226,10 @@ void run(Arguments arguments, MPI_Comm comm) {
         if (mpm::rank_of(comm) == 0) list_kernels(simulation);
         return;
     }
-    if (mpm::rank_of(comm) == 0) report_scene(arguments.scene, file.scene);
+    if (mpm::rank_of(comm) == 0)
+        for (const std::string& warning : mpm::scene_warnings(file.scene))
+            std::fprintf(stderr, "rrcb_mpm: warning: %s: %s\n", arguments.scene.c_str(),
+                         warning.c_str());
     Recorder recorder(arguments.out, file, arguments.state_every, comm);
     const double start_time = MPI_Wtime();
     simulate(simulation, file.scene, arguments, recorder, comm);
@@ -286,16 +240,12 @@ void run(Arguments arguments, MPI_Comm comm) {
 
 int main(int argc, char** argv) {
     MPI_Init(&argc, &argv);
-#ifdef RRCB_MPM_ZOLTAN
-    float version = 0;
-    Zoltan_Initialize(argc, argv, &version);
-#endif
     int exit_code = 0;
     try {
         const std::optional<Arguments> arguments = read_arguments(argc, argv);
         if (arguments) run(*arguments, MPI_COMM_WORLD);
     } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "rrcb_mpm: there is not enough memory for the grid or the points\n");
+        std::fprintf(stderr, "rrcb_mpm: there is not enough memory for more points\n");
         MPI_Abort(MPI_COMM_WORLD, 1);
     } catch (const std::exception& error) {
         if (mpm::rank_of(MPI_COMM_WORLD) == 0) std::fprintf(stderr, "rrcb_mpm: %s\n", error.what());

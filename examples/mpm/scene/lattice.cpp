@@ -4,7 +4,6 @@
 #include "materials/undrained.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -39,9 +38,7 @@ Vector StartPlaces::place(const Lattice& lattice, const std::array<std::int64_t,
     return at;
 }
 
-template <typename Visit>
-void StartPlaces::visit(const Body& body, std::size_t body_number, Visit visit) const {
-    const Lattice& lattice = lattices_[body_number];
+void StartPlaces::visit(const Body& body, const Lattice& lattice, const PointVisit& visit) const {
     std::array<std::int64_t, 3> first{}, end = lattice.count;
     // Only the part of the lattice that the bounds of the body touch.
     for (std::size_t a = 0; a < static_cast<std::size_t>(dimension_); ++a) {
@@ -59,8 +56,9 @@ void StartPlaces::visit(const Body& body, std::size_t body_number, Visit visit) 
             for (at[0] = first[0]; at[0] < end[0]; ++at[0]) {
                 const Vector position = place(lattice, at);
                 if (!body.contains(position)) continue;
-                visit(position, lattice.first_number + at[0] +
-                                    lattice.count[0] * (at[1] + lattice.count[1] * at[2]));
+                visit(body, position,
+                      lattice.first_number + at[0] +
+                          lattice.count[0] * (at[1] + lattice.count[1] * at[2]));
             }
 }
 
@@ -97,13 +95,10 @@ double StartPlaces::front_x(Positions at, std::span<const double> numbers, doubl
     return front;
 }
 
-void visit_points(const Scene& scene,
-                  const std::function<void(const Body&, const Vector&, std::int64_t)>& visit) {
+void visit_points(const Scene& scene, const PointVisit& visit) {
     const StartPlaces places(scene);
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-        places.visit(scene.bodies[b], b, [&](const Vector& at, std::int64_t number) {
-            visit(scene.bodies[b], at, number);
-        });
+        places.visit(scene.bodies[b], places.lattices_[b], visit);
 }
 
 void refuse_point(const std::string& place, const Vector& at, const std::string& text) {
@@ -191,8 +186,8 @@ void place_points(const Scene& scene, const Decomposition& decomposition, int ra
     const auto dimension = static_cast<std::size_t>(scene.dimension);
     std::vector<double> densities;
     for (const Material& one : scene.materials)
-        densities.push_back(values_of(one, scene.dimension).number("density"));
-    std::vector<double> row = particles.initial_row();
+        densities.push_back(density_of(one, scene.dimension));
+    std::vector<double> row(particles.column_names().size());
     visit_points(scene, [&](const Body& body, const Vector& at, std::int64_t number) {
         int owner = 0;
         decomposition.owners({{&at[0], 1}, {&at[1], 1}, {&at[2], 1}}, {&owner, 1});

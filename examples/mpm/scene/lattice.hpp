@@ -11,21 +11,22 @@
 
 namespace mpm {
 
+/// Called with a body, the place and the number of a point.
+using PointVisit = std::function<void(const Body&, const Vector&, std::int64_t)>;
+
 /// The lattices of a scene's bodies. A point's number is its place on them, so that it tells where
 /// the point was at the start.
 class StartPlaces {
   public:
     explicit StartPlaces(const Scene& scene);
 
-    /// Calls visit(place, number) for the points of a body in ascending order of the numbers.
-    template <typename Visit>
-    void visit(const Body& body, std::size_t body_number, Visit visit) const;
-
     /// How far the points with these numbers, now at these positions, have moved, m.
     std::vector<Vector> displacements(Positions at, std::span<const double> numbers) const;
 
     /// Largest x of those that have moved by more than `way` m; -infinity if there is none.
     double front_x(Positions at, std::span<const double> numbers, double way) const;
+
+    friend void visit_points(const Scene& scene, const PointVisit& visit);
 
   private:
     struct Lattice {
@@ -34,6 +35,7 @@ class StartPlaces {
         Vector spacing;
     };
 
+    void visit(const Body& body, const Lattice& lattice, const PointVisit& visit) const;
     Vector place(const Lattice& lattice, const std::array<std::int64_t, 3>& node) const;
     Vector displacement(Positions at, std::span<const double> numbers, std::size_t point) const;
 
@@ -53,9 +55,8 @@ struct ScenePoints {
 /// point whose velocity is not finite or that lies in two bodies or behind a plane.
 ScenePoints scene_points(const Scene& scene);
 
-/// Calls visit(body, place, number) for each point of a scene in ascending order of the numbers.
-void visit_points(const Scene& scene,
-                  const std::function<void(const Body&, const Vector&, std::int64_t)>& visit);
+/// Visits each point of a scene in ascending order of the numbers.
+void visit_points(const Scene& scene, const PointVisit& visit);
 
 /// Distance of a body's neighbouring points along the axes, m; in two dimensions 1 along z.
 Vector lattice_spacing(const Scene& scene, const Body& body);
@@ -71,7 +72,7 @@ NearestPoint nearest_point(const Scene& scene, const Vector& position);
 [[noreturn]] void refuse_point(const std::string& place, const Vector& at, const std::string& text);
 
 /// Appends the scene's points that `rank` owns. Columns other than those of motion, `material`
-/// and the level at the start begin with their initial values.
+/// and the level at the start begin with 0.
 void place_points(const Scene& scene, const Decomposition& decomposition, int rank,
                   const MotionColumns& motion, Particles& particles);
 

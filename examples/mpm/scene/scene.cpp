@@ -75,10 +75,4 @@ void validate(const Scene& scene) {
     effects_of(scene);
 }
 
-Parameters* find_effect(Scene& scene, const std::string& name) {
-    for (Effect& effect : scene.effects)
-        if (effect.name == name) return &effect.parameters;
-    return nullptr;
-}
-
 }  // namespace mpm

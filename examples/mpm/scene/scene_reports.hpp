@@ -11,9 +11,7 @@ namespace mpm {
 /// without gaining energy, by the shape function of a scene, in steps of 0.1.
 double stable_courant_number(const Scene& scene);
 
-/// Values of a scene that may not be meant, each with a fix: bodies beyond the domain, a Courant
-/// number beyond the stable one, frictional soil that locks, numbers that look as if in other
-/// units, probes far from points.
+/// Values of a scene that may not be meant, each with a fix.
 std::vector<std::string> scene_warnings(const Scene& scene);
 
 }  // namespace mpm

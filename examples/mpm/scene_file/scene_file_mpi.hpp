@@ -21,14 +21,10 @@ struct SceneFile {
 };
 
 /// Scene of a text. `name` is that of the file, for errors and as the scene's name. Not collective.
-///
-/// Throws std::invalid_argument that names the file, the place and the key, and tells what is
-/// allowed.
+/// Throws std::invalid_argument with the file, the place, the key and what is allowed.
 SceneFile parse_scene(const std::string& text, const std::string& name);
 
-/// Scene of a file in YAML.
-///
-/// Collective over `comm`: rank 0 reads, and an error is thrown on all ranks.
+/// Scene of a file in YAML, as parse_scene. Collective over `comm`: rank 0 reads.
 SceneFile read_scene(const std::string& path, MPI_Comm comm);
 
 /// Gives a scene's domain cells of another size, m. The domain may grow by part of a cell at its

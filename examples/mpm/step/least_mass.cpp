@@ -1,6 +1,4 @@
-#include "step/least_mass.hpp"
-
-#include "materials/material.hpp"
+#include "step/stepper.hpp"
 
 #include <algorithm>
 
@@ -35,11 +33,6 @@ double least_share(const Scene& scene, const Body& body) {
     return std::max(least, courant_number * courant_number / layers_of(body, scene.dimension));
 }
 
-double density_of(const Scene& scene, const Body& body) {
-    const Material& material = scene.materials[material_of(scene, body)];
-    return values_of(material, scene.dimension).number("density");
-}
-
 }  // namespace
 
 template <int D>
@@ -47,8 +40,8 @@ LeastMass add_least_mass(const Scene& scene, Column mass, Stages<D>& stages) {
     LeastMass least;
     bool differ = false;
     for (const Body& body : scene.bodies) {
-        double full = density_of(scene, body);
-        differ |= full != density_of(scene, scene.bodies.front());
+        double full = density_of(scene.materials[material_of(scene, body)], D);
+        differ |= full != density_of(scene.materials.front(), D);
         for (int a = 0; a < D; ++a) full *= scene.grid.spacing;
         const double share = least_share(scene, body);
         least.everywhere = std::max(least.everywhere, share * full);

@@ -41,7 +41,7 @@ void Simulation::write_state(const std::string& path) const {
 void Simulation::step() {
     model_->step();
 }
-RebalanceReport Simulation::rebalance(const Balancer& balancer) {
+std::size_t Simulation::rebalance(const Balancer& balancer) {
     return model_->rebalance(balancer);
 }
 double Simulation::time() const {

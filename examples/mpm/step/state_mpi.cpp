@@ -12,17 +12,6 @@ namespace {
 
 constexpr const char* first_line = "mpm state 2";
 
-/// Owners by the closed boxes; a position on a face is with the first of them.
-Decomposition within(const std::vector<Box>& boxes) {
-    const auto look_up = [boxes](Positions at, std::span<int> owners) {
-        for (std::size_t p = 0; p < owners.size(); ++p)
-            owners[p] = static_cast<int>(
-                std::ranges::find_if(boxes, [&](const Box& box) { return contains(box, at[p]); }) -
-                boxes.begin());
-    };
-    return {boxes, look_up, {}};
-}
-
 void write(std::ostream& file, const std::vector<double>& values) {
     const auto count = static_cast<std::int64_t>(values.size());
     file.write(reinterpret_cast<const char*>(&count), sizeof count);
@@ -83,7 +72,7 @@ std::vector<double> Stepper<D>::state_scene() const {
 template <int D>
 std::vector<double> Stepper<D>::state_numbers() const {
     std::vector<double> numbers{time, time_step, max_speed, static_cast<double>(num_steps)};
-    for (const EffectState& state : stages_.states) append(state.save(), numbers);
+    for (const double* number : stages_.kept) numbers.push_back(*number);
     return numbers;
 }
 
@@ -152,7 +141,7 @@ void Stepper<D>::load_state(const std::string& path) {
             "effects or method");
     const std::vector<Box> boxes = boxes_of(read(file));
     const bool has_own = boxes.size() == static_cast<std::size_t>(size_of(comm_));
-    if (has_own) divide_by(within(boxes));
+    if (has_own) divide_by(within(boxes), MPI_COMM_SELF);
     std::vector<std::size_t> all(particles.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     particles.remove(all);
@@ -171,12 +160,7 @@ void Stepper<D>::load_state(const std::string& path) {
     time_step = numbers[1];
     max_speed = numbers[2];
     num_steps = static_cast<std::int64_t>(numbers[3]);
-    auto rest = std::span(numbers).subspan(4);
-    for (const EffectState& state : stages_.states) {
-        const std::size_t count = state.save().size();
-        state.load(rest.first(count));
-        rest = rest.subspan(count);
-    }
+    for (std::size_t k = 0; k < stages_.kept.size(); ++k) *stages_.kept[k] = numbers[4 + k];
 }
 
 template <int D>

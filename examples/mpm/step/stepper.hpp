@@ -5,7 +5,7 @@
 #include "parallel/ghost_nodes_mpi.hpp"
 #include "parallel/ownership_mpi.hpp"
 #include "scene/lattice.hpp"
-#include "step/work_clock.hpp"
+#include "step/work.hpp"
 #include "transfer/transfers.hpp"
 
 #include <mpm/simulation.hpp>
@@ -15,13 +15,18 @@
 
 namespace mpm {
 
+/// Least mass of the nodes of a scene (Scene::least_node_mass). Where bodies differ in density it
+/// adds a field of the nodes, so that each node goes by the points that touch it.
+template <int D>
+LeastMass add_least_mass(const Scene& scene, Column mass, Stages<D>& stages);
+
 /// A simulation of either dimension. Its virtual calls are per step, never per point.
 class Simulation::Model {
   public:
     explicit Model(const Scene& scene) : start_places(scene) {}
     virtual ~Model() = default;
     virtual void step() = 0;
-    virtual RebalanceReport rebalance(const Balancer& balancer) = 0;
+    virtual std::size_t rebalance(const Balancer& balancer) = 0;
     virtual std::vector<std::string> kernels() const = 0;
     virtual std::size_t doubles_per_ghost_node() const = 0;
     virtual std::vector<double> work_columns() const = 0;
@@ -50,7 +55,7 @@ class Stepper final : public Simulation::Model {
     ~Stepper() override { MPI_Comm_free(&comm_); }
 
     void step() override;
-    RebalanceReport rebalance(const Balancer& balancer) override;
+    std::size_t rebalance(const Balancer& balancer) override;
     std::vector<std::string> kernels() const override;
     std::size_t doubles_per_ghost_node() const override {
         return 1 + 2 * D + stages_.fields.size();
@@ -71,13 +76,13 @@ class Stepper final : public Simulation::Model {
     std::vector<double> state_section() const;
     void load_state(const std::string& path);
     void append_own(std::span<const double> rows);
-    void divide_by(Decomposition next);
+    void divide_by(Decomposition next, MPI_Comm comm);
     void advance_nodes();
     void advance_points();
     void apply_materials(const PointBlock<D>& block);
     double fastest_point() const;
     void set_time_step();
-    std::int64_t migrate_leavers(double speed);
+    void migrate_leavers(double speed);
     void sort_if_needed();
 
     Scene scene_;

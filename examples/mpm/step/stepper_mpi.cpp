@@ -1,13 +1,10 @@
 #include "boundaries/boundaries.hpp"
 #include "parallel/communicator_mpi.hpp"
 #include "particles/vectors.hpp"
-#include "step/least_mass.hpp"
 #include "step/stepper.hpp"
-#include "step/work_columns.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace mpm {
 
@@ -72,10 +69,13 @@ Stepper<D>::Stepper(const Scene& scene, const ScenePoints& points, MPI_Comm comm
     patch_.margin = transfers_->margin();
     patch_.fields.resize(stages_.fields.size());
     num_points = points.num_points;
-    divide_by(slabs(points.box, size_of(comm_)));
-    place_points(scene_, decomposition, rank_of(comm_), motion_, particles);
-    for (const auto& prepare : stages_.preparations) prepare(particles);
-    transfers_->sort(particles, patch_);
+    divide_by(slabs(points.box, size_of(comm_)), comm_);
+    const auto place = [&] {
+        place_points(scene_, decomposition, rank_of(comm_), motion_, particles);
+        for (const auto& prepare : stages_.preparations) prepare(particles);
+        transfers_->sort(particles, patch_);
+    };
+    in_memory(place, "bodies: the points", comm_);
     max_speed = ownership_.agree(fastest_point()).max_speed;
     set_time_step();
 }
@@ -88,8 +88,9 @@ void Stepper<D>::build_materials() {
 }
 
 /// Divides space by a decomposition. The grid is kept while no box begins or ends in another cell.
+/// Collective over `comm`, whose ranks fail together.
 template <int D>
-void Stepper<D>::divide_by(Decomposition next) {
+void Stepper<D>::divide_by(Decomposition next, MPI_Comm comm) {
     decomposition = std::move(next);
     decomposition.local_owners.clear();
     std::vector<NodeRange<D>> patches;
@@ -98,7 +99,8 @@ void Stepper<D>::divide_by(Decomposition next) {
         patches.push_back(nodes_of<D>(ground_.grid, box, patch_.margin));
     if (patches == patches_) return;
     patches_ = std::move(patches);
-    resize<D>(patch_, patches_[static_cast<std::size_t>(rank_of(comm_))]);
+    const NodeRange<D>& mine = patches_[static_cast<std::size_t>(rank_of(comm_))];
+    in_memory([&] { resize<D>(patch_, mine); }, "domain: the cells", comm);
     ghosts_.emplace(patches_, comm_);
 }
 
@@ -185,16 +187,14 @@ void Stepper<D>::set_time_step() {
     if (time < scene_.end_time) time_step = std::min(time_step, scene_.end_time - time);
 }
 
-/// Agrees with all ranks on the largest speed and sends the leavers. Returns how many all ranks
-/// had. Collective.
+/// Agrees with all ranks on the largest speed and sends the leavers. Collective.
 template <int D>
-std::int64_t Stepper<D>::migrate_leavers(double speed) {
+void Stepper<D>::migrate_leavers(double speed) {
     const Agreement agreement = ownership_.agree(speed);
     max_speed = agreement.max_speed;
     num_sent += static_cast<std::int64_t>(ownership_.leavers().points.size());
     num_out_of_order_ +=
         migrate(particles, ownership_.leavers(), agreement.reach, ghosts_->neighbours(), comm_);
-    return agreement.num_leavers;
 }
 
 /// Sorts once so many points are out of order that they slow the transfers down.
@@ -227,13 +227,13 @@ void Stepper<D>::step() {
 }
 
 template <int D>
-RebalanceReport Stepper<D>::rebalance(const Balancer& balancer) {
+std::size_t Stepper<D>::rebalance(const Balancer& balancer) {
     Decomposition next = balancer(positions(), comm_);
     ownership_.find_reassigned(next, positions(), ghosts_->neighbours());
-    const std::int64_t num_moved = migrate_leavers(max_speed);
-    divide_by(std::move(next));
+    migrate_leavers(max_speed);
+    divide_by(std::move(next), comm_);
     sort_if_needed();
-    return {num_moved};
+    return ownership_.leavers().points.size();
 }
 
 template <int D>

@@ -1,4 +1,5 @@
-#include "effects/penetrator/friction_bands.hpp"
+#include "effects/penetrator/penetrator.hpp"
+
 #include "support.hpp"
 
 #include <gtest/gtest.h>

@@ -125,8 +125,8 @@ TEST(Elastic, turns_stress_with_the_material) {
 TEST(Elastic, answers_a_strain_as_hooke) {
     // E = 26, nu = 0.3: G = 10, K = 65/3, lambda = 15.
     const Elastic elastic{26, 0.3};
-    const Stress<2> stress = strained(Stress<2>{}, {{{0.1, 0.04}, {0.02, 0.2}}},
-                                      elastic.bulk_modulus(), elastic.shear_modulus());
+    const Stress<2> stress = strained<2>(Stress<2>{}, {{{0.1, 0.04}, {0.02, 0.2}}},
+                                         elastic.bulk_modulus(), elastic.shear_modulus());
     expect_stress(stress, 15 * 0.3 + 2, 15 * 0.3 + 4, 15 * 0.3, 0.6);
     EXPECT_NEAR(elastic.wave_speed(35), 1, 1e-14);
 }

@@ -49,7 +49,7 @@ constexpr Elastic rubber{26, 0.3};
 TEST(Elastic, answers_a_strain_in_three_dimensions_as_hooke) {
     const DisplacementGradient<3> gradient{{{0.1, 0.04, 0}, {0.02, 0.2, 0.5}, {0.3, 0.1, -0.1}}};
     const Stress<3> stress =
-        strained(Stress<3>{}, gradient, rubber.bulk_modulus(), rubber.shear_modulus());
+        strained<3>(Stress<3>{}, gradient, rubber.bulk_modulus(), rubber.shear_modulus());
     EXPECT_NEAR(stress.xx, 15 * 0.2 + 2, 1e-13);
     EXPECT_NEAR(stress.yy, 15 * 0.2 + 4, 1e-13);
     EXPECT_NEAR(stress.zz, 15 * 0.2 - 2, 1e-13);

@@ -20,7 +20,7 @@ Material clay(Parameters more) {
 class Strained {
   public:
     explicit Strained(const Material& material) : model_(build_material<2>(material, particles_)) {
-        particles_.append(particles_.initial_row());
+        particles_.append(std::vector<double>(particles_.column_names().size()));
         for (auto& row : gradients_)
             for (auto& entry : row) entry.fill(0);
     }

@@ -1,14 +1,8 @@
 #include "balancers/balancers_mpi.hpp"
-#include "balancers/rrcb_balancer_mpi.hpp"
 #include "scene_file/scene_file_mpi.hpp"
 #include "support.hpp"
 
 #include <gtest/gtest.h>
-#ifdef RRCB_MPM_ZOLTAN
-#include "balancers/zoltan_balancer_mpi.hpp"
-
-#include <zoltan.h>
-#endif
 
 #include <map>
 #include <stdexcept>
@@ -20,13 +14,8 @@ constexpr int num_steps = 40;
 constexpr int every = 5;  // steps between rebalances
 constexpr double round_off = 1e-12;
 
-#ifdef RRCB_MPM_ZOLTAN
-constexpr std::array<const char*, 6> balancers{"none",         "rrcb",     "rrcb-exact",
-                                               "rrcb-sampled", "root-rcb", "zoltan-rcb"};
-#else
 constexpr std::array<const char*, 5> balancers{"none", "rrcb", "rrcb-exact", "rrcb-sampled",
                                                "root-rcb"};
-#endif
 
 constexpr std::array<const char*, 1> usual{"rrcb"};
 
@@ -67,10 +56,6 @@ State run(const Scene& scene, const std::optional<Balancer>& balancer, MPI_Comm 
 }
 
 State run(const Scene& scene, const char* name, MPI_Comm comm) {
-#ifdef RRCB_MPM_ZOLTAN
-    float version = 0;
-    Zoltan_Initialize(0, nullptr, &version);
-#endif
     return run(scene, make_balancer(name, scene), comm);
 }
 
@@ -205,44 +190,16 @@ TEST(Balancers, of_cells_cut_on_faces_and_do_not_show) {
     }
 }
 
-TEST(Balancers, without_boxes_are_refused_with_the_reason) {
-    for (const char* name : {"zoltan-rib", "zoltan-hsfc", "zoltan2-mj", "magic"}) {
-        try {
-            make_balancer(name);
-            ADD_FAILURE() << name;
-        } catch (const std::invalid_argument& error) {
-            const std::string text = error.what();
-            const bool is_known = std::string(name) != "magic";
-            EXPECT_EQ(text.find("makes no boxes") != text.npos, is_known) << text;
-            EXPECT_NE(text.find("choose from: none, rrcb, rrcb-exact"), text.npos) << text;
-        }
-    }
-}
-
-#ifdef RRCB_MPM_ZOLTAN
-/// What a balancer of Zoltan throws on this rank.
-std::string refusal(const ZoltanParameters& parameters) {
-    float version = 0;
-    Zoltan_Initialize(0, nullptr, &version);
-    const std::vector<double> x{1, 2, 3}, y{3, 1, 2};
+TEST(Balancers, of_an_unknown_name_are_refused_with_the_known_ones) {
     try {
-        zoltan_balancer(parameters)({x, y}, MPI_COMM_WORLD);
-    } catch (const std::runtime_error& error) {
-        return error.what();
+        make_balancer("magic");
+        ADD_FAILURE();
+    } catch (const std::invalid_argument& error) {
+        EXPECT_NE(std::string(error.what()).find("choose from: none, rrcb, rrcb-exact"),
+                  std::string::npos)
+            << error.what();
     }
-    return "";
 }
-
-TEST(Balancers, of_zoltan_tell_every_rank_what_it_refuses) {
-    const bool has_boxes = size_of(MPI_COMM_WORLD) > 1;
-    EXPECT_EQ(refusal({{"DEBUG_LEVEL", "0"}, {"LB_METHOD", "RCB"}}), "");
-    const std::string unknown = refusal({{"DEBUG_LEVEL", "0"}, {"NO_SUCH", "1"}});
-    EXPECT_EQ(unknown, "Zoltan refuses the parameter NO_SUCH=1");
-    const std::string curve = refusal({{"DEBUG_LEVEL", "0"}, {"LB_METHOD", "HSFC"}});
-    EXPECT_EQ(curve.find("only LB_METHOD=RCB and RRCB make boxes") != curve.npos, has_boxes)
-        << curve;
-}
-#endif
 
 }  // namespace
 }  // namespace mpm::test

@@ -1,7 +1,6 @@
 // Processor time of a step's own work.
-#include "step/work_clock.hpp"
-
 #include "slope.hpp"
+#include "step/work.hpp"
 
 #include <gtest/gtest.h>
 #include <mpi.h>

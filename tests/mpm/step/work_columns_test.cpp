@@ -1,6 +1,6 @@
 // Columns of the work of ranks: parts of points add up to them, and a cost model that is told the
 // seconds by them evens out the dam break. Seconds are counts here, not a clock's.
-#include "rrcb_balancer_mpi.hpp"
+#include "balancers_mpi.hpp"
 #include "scene_file/scene_file_mpi.hpp"
 #include "support.hpp"
 

@@ -30,6 +30,9 @@ struct Decomposition {
 /// A division of the points of all ranks. Collective over the communicator.
 using Balancer = std::function<Decomposition(Positions, MPI_Comm)>;
 
+/// Owners by closed boxes; a position on a face is with the first of them.
+Decomposition within(const std::vector<Box>& boxes);
+
 /// Slabs of equal width across the longest extent, one per rank, whatever they hold.
 Decomposition slabs(const Box& extent, int num_ranks);
 

@@ -20,8 +20,8 @@ using Column = std::size_t;
 /// changes whenever points are sorted or migrate.
 class Particles {
   public:
-    /// Adds a column, or finds the one of this name. New points start with `initial`.
-    Column add_column(std::string_view name, double initial = 0);
+    /// Adds a column, or finds the one of this name. New points start with 0.
+    Column add_column(std::string_view name);
     /// Whether there is a column of this name.
     bool has_column(std::string_view name) const;
     /// Number of a column. Throws std::out_of_range where nobody has added it.
@@ -38,8 +38,6 @@ class Particles {
         return (*this)[find_column(name)];
     }
 
-    /// A row of the values new points start with.
-    std::vector<double> initial_row() const { return initial_; }
     /// Appends rows, each of one value per column in the order of the columns.
     void append(std::span<const double> rows);
     /// Copies one point into a row of one value per column.
@@ -51,7 +49,6 @@ class Particles {
 
   private:
     std::vector<std::string> names_;
-    std::vector<double> initial_;
     std::vector<std::vector<double>> columns_;
     std::vector<double> scratch_;
     std::size_t size_ = 0;

@@ -119,7 +119,4 @@ struct Scene {
 /// Checks a scene. Throws std::invalid_argument that names its fault.
 void validate(const Scene& scene);
 
-/// Parameters of a scene's effect; null where the scene does not name it.
-Parameters* find_effect(Scene& scene, const std::string& name);
-
 }  // namespace mpm

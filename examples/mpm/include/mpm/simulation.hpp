@@ -13,11 +13,6 @@
 
 namespace mpm {
 
-/// Result of a rebalance.
-struct RebalanceReport {
-    std::int64_t moved_points = 0;  ///< over all ranks
-};
-
 /// Sums over all points. In two dimensions all but `num_points` are per metre of depth.
 struct Totals {
     std::int64_t num_points = 0;
@@ -53,10 +48,11 @@ class Simulation {
     /// Advances by time_step(); throws when a point has left the grid.
     void step();
 
-    /// Asks the balancer for a new decomposition and moves the points to their new owners.
+    /// Asks the balancer for a new decomposition and moves the points to their new owners. Returns
+    /// how many have left this rank.
     ///
     /// Throws where it has not one box per rank or a box does not hold the points given to it.
-    RebalanceReport rebalance(const Balancer& balancer);
+    std::size_t rebalance(const Balancer& balancer);
 
     /// Writes all that the next steps depend on to a file. Collective; rank 0 writes. Doubles are
     /// in the byte order of the machine.
@@ -87,8 +83,7 @@ class Simulation {
     double front_x(double way) const;
     const Decomposition& decomposition() const;
 
-    /// Names of the kernels of a step in their order, communication included, each as often as it
-    /// is called on all nodes or a block of points.
+    /// Names of the kernels of a step in their order, communication included.
     std::vector<std::string> kernels() const;
     /// Doubles in a message per shared node.
     std::size_t doubles_per_ghost_node() const;

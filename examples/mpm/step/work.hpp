@@ -1,6 +1,10 @@
 #pragma once
 
+#include "transfer/transfers.hpp"
+
 #include <ctime>
+#include <span>
+#include <vector>
 
 namespace mpm {
 
@@ -25,5 +29,12 @@ class WorkClock {
     double seconds_ = 0;
     double start_ = 0;
 };
+
+/// Parts of each point in the columns of Simulation::work_columns(), row after row.
+///
+/// The points of a run share it, and those that reach a node share that. An empty node is given to
+/// the nearest one that is reached: behind a cut it goes with the points on the same side.
+template <int D>
+std::vector<double> point_columns(const GridPatch<D>& patch, std::span<const CellRun<D>> runs);
 
 }  // namespace mpm

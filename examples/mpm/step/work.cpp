@@ -1,4 +1,4 @@
-#include "step/work_columns.hpp"
+#include "step/work.hpp"
 
 #include <mpm/simulation.hpp>
 

@@ -1,4 +1,3 @@
-#include "scene_file/scene_file_mpi.hpp"
 #include "support.hpp"
 
 #include <gtest/gtest.h>
@@ -9,10 +8,6 @@ namespace mpm::test {
 namespace {
 
 constexpr double g = 9.81;
-
-Scene shipped(const std::string& name) {
-    return read_scene(RRCB_SCENES "/" + name + ".yaml", MPI_COMM_WORLD).scene;
-}
 
 constexpr double slope_angle = 24 * std::numbers::pi / 180, ramp = 1;
 
@@ -85,31 +80,6 @@ TEST(FallingBody, that_is_neutrally_buoyant_stays) {
     Simulation simulation(in_water(1000), MPI_COMM_WORLD);
     for (int step = 0; step < 50; ++step) simulation.step();
     EXPECT_EQ(simulation.max_speed(), 0);
-}
-
-/// Period of a vibration: twice the time between the first two zeros of the momentum along an axis.
-double period_of(Simulation& simulation, std::size_t axis) {
-    std::vector<double> zeros;
-    double before = simulation.totals().momentum[axis];
-    while (zeros.size() < 2) {
-        const double start = simulation.time();
-        for (int step = 0; step < 10; ++step) simulation.step();
-        const double now = simulation.totals().momentum[axis];
-        if ((before > 0) != (now > 0))
-            zeros.push_back(start + (simulation.time() - start) * before / (before - now));
-        before = now;
-    }
-    return 2 * (zeros[1] - zeros[0]);
-}
-
-// The lowest of beams with shear and rotary inertia along the centres of its members, from their
-// stiffness and mass matrices: 3.090 s, without shear 3.022 s. The
-// solid corners, half a metre of four, make the frame stiffer.
-TEST(Portal, sways_with_the_period_of_its_beams) {
-    Scene scene = shipped("elastic_structure");
-    resize_cells(scene, 0.25);
-    Simulation simulation(scene, MPI_COMM_WORLD);
-    EXPECT_NEAR(period_of(simulation, 0), 3.09, 0.05 * 3.09);
 }
 
 TEST(Effects, that_are_not_named_leave_no_trace) {

@@ -18,8 +18,9 @@ INTERFACES = {"rrcb": "rrcb-exact", "rrcb-arrays": "rrcb-arrays[refine=exact]"}
 DEFINITIONS = (
     "imbalance: heaviest part / mean part. Lu: (ideal − actual) / ideal of a part, below 0 if it is"
     " too heavy. time: slowest rank, median of the repeats. speed-up: Zoltan RCB's time / this"
-    " method's. bytes and messages: of one call over all ranks. moved: weight that changes"
-    " rank. ghosts: copies of points that parts need from others, the price of their shape. neighbours: the most parts that a part needs them from. gain kept: of what ideal"
+    " method's. bytes and messages: of one call over all ranks. moved: weight that changes rank."
+    " ghosts: copies of points that parts need from others, the price of their shape. neighbours: the"
+    " most parts that a part needs them from. gain kept: of what ideal"
     " balance without cost would gain; of even time: of what even times of all ranks without messages would"
     " gain. count, learned: rrcb-arrays, whose points weigh 1 or the seconds that they cost. wall: by the"
     " clock. In brackets: intervals of 95 %; if the interval of a ratio contains 1, the two methods are"

@@ -98,7 +98,8 @@ void accumulate(const rrcb_ghosts& own, std::span<const rrcb_column> columns,
         of_ghosts = columns_of(columns, total(own.plan.receive));
         arrived.reserve(columns.size());
         for (std::size_t k = 0; k < columns.size(); ++k) {
-            if (columns[k].type == RRCB_BYTE) reject("only numbers can be added");
+            if (columns[k].type == RRCB_BYTE)
+                reject("columns of RRCB_BYTE cannot be added; give a type of numbers");
             of_points.push_back(of_ghosts[k]);
             of_points[k].from = static_cast<const std::byte*>(columns[k].to);
             of_points[k].num_values = own.plan.num_points * columns[k].components;

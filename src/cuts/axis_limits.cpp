@@ -10,7 +10,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The least double above `from` that `holds`, which all above it do; `guess` is likely near it.
+/// Returns the least double above `from` for which `holds` is true, as for all above it. A `guess`
+/// near it saves steps.
 template <class Holds>
 double least_double(double from, double guess, Holds&& holds) {
     for (const double x : {guess, std::nextafter(guess, infinity)})

@@ -69,7 +69,7 @@ Extent extent_of(const Points& points, const Box& box, double weight) {
     Extent extent;
     extent.count = static_cast<double>(points.count);
     extent.weight = weight;
-    // Few points are on the faces of the box; finding their blocks costs as much as the box.
+    // Only blocks that touch a face of the box hold ends of the order, and few of them do.
     in_ranges(points.count, block_length, [&](LocalIndex first, LocalIndex last) {
         const Points block = range_of(points, first, last);
         const Box its_own = bounding_box(block);

@@ -36,10 +36,11 @@ std::optional<Cut> cut_between(const Extent& below, const Extent& above, int axi
 /// the options allow it. Rank r holds part r if that is possible. Otherwise, if every rank has
 /// points, parts go to the ranks in any order, as after a renumbering.
 ///
-/// A cut counts if a new one might be there as well: across the axis of the cut in `estimate`, with
-/// those above it, or a long axis of the points it divides. So slabs of a cube are no bisection,
-/// and a box with nearly equal sides may be cut across either. Limited cuts count across any axis,
-/// if there are places for them between the ranks.
+/// A cut must be across an axis that a new cut might have:
+/// - that of the same cut in `estimate`, if all cuts above it are across those of `estimate` too,
+/// - or a long axis of the points that it divides. Slabs of a cube are therefore no bisection.
+///
+/// Limited cuts may be across any axis, if places between the ranks allow them.
 std::optional<KeptTree> read_kept_tree(std::span<const Extent> extents, const Cuts& estimate,
                                        const Options& options);
 

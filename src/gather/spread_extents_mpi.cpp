@@ -21,8 +21,8 @@ namespace {
 
 using CutWords = std::array<double, sizeof(Cut) / sizeof(double)>;
 
-/// The points below a cut and those above it, as far as a cut needs them: the ends of each side
-/// that face the other, the box, and as count whether there are any.
+/// Extents of the points on both sides of a cut. Only the ends that face the other side and the
+/// boxes are complete; the count is 1 if there are points.
 struct FacingExtents {
     Extent below, above;
 };

@@ -23,7 +23,8 @@ template <auto member>
 auto real_function() {
     const RealZoltan* real = real_zoltan();
     if (real == nullptr || real->*member == nullptr)
-        throw ZoltanError(ZOLTAN_FATAL, "the Zoltan behind RRCB has no such function");
+        throw ZoltanError(ZOLTAN_FATAL,
+                          "the Zoltan behind RRCB has no such function; use a newer one");
     return real->*member;
 }
 

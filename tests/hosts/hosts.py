@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from lammps import LAMMPS_CASES
-from pysph import PYSPH_CASES
 from python_hosts import PYTHON_CASES
 from result import Case
+from zoltan_hosts import ZOLTAN_CASES
 
-CASES: list[Case] = [*LAMMPS_CASES, *PYTHON_CASES, *PYSPH_CASES]
+CASES: list[Case] = [*LAMMPS_CASES, *PYTHON_CASES, *ZOLTAN_CASES]

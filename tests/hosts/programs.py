@@ -9,6 +9,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "release"
+HOSTS = ROOT / "build" / "hosts"  # what is not of Debian
 TIMEOUT_SECONDS = 600
 MPIRUN = ("mpirun --oversubscribe --allow-run-as-root --bind-to none"
           " --mca mpi_yield_when_idle 1").split()
@@ -31,12 +32,25 @@ def version_of(package: str) -> str:
     return query(package, "Version")
 
 
-def run(ranks: int, command: list, variables: dict, folder: Path) -> tuple[float, str, int]:
+def first_failure(steps: list[list]) -> str:
+    """Runs commands until one fails, of which it returns the last line."""
+    for step in steps:
+        done = subprocess.run(list(map(str, step)), capture_output=True, text=True,
+                              stdin=subprocess.DEVNULL)
+        if done.returncode != 0:
+            lines = (done.stderr or done.stdout).strip().split("\n")
+            return f"{Path(step[0]).name}: {lines[-1]}"
+    return ""
+
+
+def run(ranks: int, command: list, variables: dict, folder: Path,
+        mpirun: list = MPIRUN) -> tuple[float, str, int]:
     """Seconds of the whole program, its output and its code."""
     # Threads of BLAS would take the cores from other ranks.
     words = [f"{name}={value}" for name, value in {"OMP_NUM_THREADS": 1, **variables}.items()]
     start = time.monotonic()
-    process = subprocess.Popen([*MPIRUN, "-n", str(ranks), "env", *words, *map(str, command)],
+    process = subprocess.Popen([*map(str, mpirun), "-n", str(ranks), "env", *words,
+                                *map(str, command)],
                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, cwd=folder,
                                stderr=subprocess.STDOUT, text=True, errors="replace",
                                env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})

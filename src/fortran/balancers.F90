@@ -154,9 +154,9 @@ contains
     class(rrcb_balancer), intent(inout) :: self
     type(rrcb_cuts), intent(in) :: cuts
     integer, intent(out) :: error
-    type(rrcb_cut), allocatable, target :: tree(:)
+    type(rrcb_cut), target :: tree(size(cuts%tree))
     type(c_cuts) :: given
-    allocate (tree, source=cuts%tree)
+    tree = cuts%tree
     tree%axis = tree%axis - 1
     given = c_cuts(cuts%dimension, size(tree) + 1, c_null_ptr, cuts%group_size, &
                    merge(1, 0, cuts%larger_below), cuts%dealt)
@@ -228,8 +228,7 @@ contains
     integer(c_size_t) :: count
     count = 16
     do
-      if (allocated(parts)) deallocate (parts)
-      allocate (parts(count))
+      parts = spread(0_c_int32_t, 1, count)
       error = c_parts_touching(self%handle, three_of(lower), three_of(upper), &
                                size(parts, kind=c_size_t), parts, count)
       if (error /= rrcb_ok) count = 0

@@ -17,9 +17,9 @@ contains
     character(kind=c_char), pointer :: letters(:)
     integer :: i
     call c_f_pointer(address, letters, [c_strlen(address)])
-    allocate (character(size(letters)) :: text)
+    text = ''
     do i = 1, size(letters)
-      text(i:i) = letters(i)
+      text = text//letters(i)
     end do
   end function
 

@@ -126,6 +126,17 @@ TEST(Serialization, refuses_a_flag_that_is_neither_true_nor_false_under_the_righ
     EXPECT_EQ(Zoltan_Deserialize(program.zz, bytes.size(), bytes.data()), ZOLTAN_FATAL);
 }
 
+TEST(Serialization, refuses_a_buffer_of_the_other_byte_order_by_name) {
+    Program program;
+    program.set("LB_METHOD", "RRCB");
+    std::vector<char> bytes = bytes_of(program.zz);
+    std::reverse(bytes.begin() + 8, bytes.begin() + 16);  // the size
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(Zoltan_Deserialize(program.zz, bytes.size(), bytes.data()), ZOLTAN_FATAL);
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("the other byte order"),
+              std::string::npos);
+}
+
 TEST(Serialization, refuses_a_buffer_that_is_too_small_to_write) {
     Sender sender;
     std::vector<char> bytes(Zoltan_Serialize_Size(sender.zz));

@@ -212,7 +212,10 @@ Parcel deserialize(std::span<const char> bytes) {
     if (bytes.size() < sizeof(Header)) refuse("truncated");
     const auto header = Reader(bytes).value<Header>();
     const auto body = bytes.subspan(sizeof(Header));
-    if (header.size > body.size()) refuse("truncated");
+    if (header.size > body.size()) {
+        const bool swapped = __builtin_bswap64(header.size) <= body.size();
+        refuse(swapped ? "from a machine with the other byte order" : "truncated");
+    }
     if (checksum_of(body.first(header.size)) != header.checksum) refuse("damaged");
     Reader reader(body.first(header.size));
     Parcel parcel;

@@ -19,7 +19,7 @@ struct Parcel {
     std::vector<char> of_zoltan;  ///< buffer of the real Zoltan; empty: it has no cuts
 };
 
-/// The parcel of a handle as bytes, for machines of one kind; `of_zoltan` as in Parcel. Not
+/// The parcel of a handle as bytes, for machines of one byte order; `of_zoltan` as in Parcel. Not
 /// collective.
 std::vector<char> serialize(const State& state, const std::vector<char>& of_zoltan);
 

@@ -3,6 +3,7 @@
 #include "collective/communicator.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 
@@ -19,7 +20,6 @@ NumberRule rule_of_groups(const NumberRule& rule) {
 struct GroupsHere {
     std::vector<Part> groups;   ///< of the parts of its points
     std::vector<Part> origins;  ///< groups whose numbers keep them; no_part: none
-    GlobalCount kept = 0;       ///< of its points, those that the old numbers keep
 };
 
 GroupsHere groups_here(std::span<const Part> parts, const PreviousParts& previous,
@@ -35,9 +35,18 @@ GroupsHere groups_here(std::span<const Part> parts, const PreviousParts& previou
         const Part from = origin == no_origin ? no_part : rule.group_of(origin);
         here.groups[i] = rule.group_of_part(parts[i]);
         here.origins[i] = here.groups[i] < num_full && from < num_full ? from : no_part;
-        if (origin != no_origin && rule.home_of(parts[i]) == origin) ++here.kept;
     }
     return here;
+}
+
+/// Counts a rank's points that stay if their parts have these numbers. The search counts fewer: a
+/// rank may have numbers of two groups, of which a part can only get those of its own.
+GlobalCount count_kept(std::span<const Part> numbers, const Origins& origins,
+                       const NumberRule& rule) {
+    GlobalCount kept = 0;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (origins.of(i) != no_origin && rule.home_of(numbers[i]) == origins.of(i)) ++kept;
+    return kept;
 }
 
 }  // namespace
@@ -66,8 +75,13 @@ NewNumbers find_numbers(std::span<const Part> parts, const PreviousParts& previo
     std::ranges::transform(parts, here.groups.begin(), moved);
     NewNumbers found = find_numbers(here.groups, previous, buffers.parts, self);
     Remap& remap = found.remap;
-    mpi::check(MPI_Allreduce(&here.kept, &remap.kept_before, 1, MPI_INT64_T, MPI_SUM, self.comm),
+    for (Part& part : here.groups) part = remap.numbers[part];
+    const Origins origins(previous, rule, mpi::rank_of(self.comm));
+    std::array kept{count_kept(parts, origins, rule), count_kept(here.groups, origins, rule)};
+    mpi::check(MPI_Allreduce(MPI_IN_PLACE, kept.data(), 2, MPI_INT64_T, MPI_SUM, self.comm),
                "MPI_Allreduce");
+    remap.kept_before = kept[0];
+    remap.kept_after = kept[1];
     remap.identity = remap.kept_after <= remap.kept_before;
     std::iota(buffers.numbers.begin(), buffers.numbers.end(), Part{0});
     if (remap.identity) {

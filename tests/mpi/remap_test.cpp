@@ -212,6 +212,11 @@ TEST(Remap, of_groups_that_divide_the_parts_of_a_rank_leaves_them_together) {
     for (Part part = 0; part < num_parts; ++part)
         EXPECT_EQ(result.numbers[static_cast<std::size_t>(part)] / 3,
                   result.numbers[static_cast<std::size_t>(part / 3 * 3)] / 3);
+    GlobalCount kept = std::ranges::count_if(parts, [&](Part part) {
+        return result.numbers[static_cast<std::size_t>(part)] / 2 == rank();
+    });
+    MPI_Allreduce(MPI_IN_PLACE, &kept, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+    EXPECT_EQ(result.kept_after, kept);
 }
 
 TEST(Remap, refuses_groups_without_parts_and_different_ones) {

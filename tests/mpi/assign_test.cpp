@@ -96,6 +96,10 @@ TEST(AssignTogether, refuses_what_one_rank_gives_wrong_on_all) {
     if (num_ranks() == 1) return;
     expect_refusal("whether the tree is whole differs", is_last_rank() ? whole : right,
                    interleaved_points(std::span<const double>(), 2));
+    Cuts other = whole;
+    if (is_last_rank()) other.tree.front().at.fill(0.123);
+    expect_refusal("the tree of cuts differs", other,
+                   interleaved_points(std::span<const double>(), 2));
 }
 
 }  // namespace

@@ -120,6 +120,7 @@ class GhostOptions(Structure):
         ("lower", c_void_p),
         ("upper", c_void_p),
         ("ranks_of_parts", c_void_p),
+        ("num_parts", c_size_t),
     ]
 
 

@@ -21,14 +21,10 @@ struct KeptOptions {
     GhostOptions options{};
     std::vector<RankRange> ranks{};
 
-    void read(const rrcb_ghost_options* from, LocalIndex num_points, int num_parts) {
+    void read(const rrcb_ghost_options* from, LocalIndex num_points) {
         require(from, "options");
         options.radius = from->radius;
         if (from->radii != nullptr) options.radii = view(from->radii, num_points);
-        if (!options.radii && num_points > 0 && options.radius == 0)
-            reject(
-                "radius is 0 and radii is null (in Fortran: or has the wrong length); give one"
-                " of them");
         if (from->lower != nullptr || from->upper != nullptr) {
             require(from->lower, "lower");
             require(from->upper, "upper");
@@ -37,9 +33,8 @@ struct KeptOptions {
             std::copy_n(from->upper, max_dimension, options.periodic->upper.begin());
         }
         if (from->ranks_of_parts == nullptr) return;
-        for (int part = 0; part < num_parts; ++part)
-            ranks.push_back(
-                {from->ranks_of_parts[part].first_rank, from->ranks_of_parts[part].count});
+        for (const rrcb_rank_range& given : view(from->ranks_of_parts, from->num_parts))
+            ranks.push_back({given.first_rank, given.count});
         options.ranks_of_parts = ranks;
     }
 };
@@ -60,7 +55,8 @@ void make_ghosts(const rrcb_balancer& own, const rrcb_points* given,
     self.attempt([&] {
         require_cuts(own);
         points = points_of(given);
-        kept.read(given_options, points.count, own.cuts.num_parts);
+        kept.read(given_options, points.count);
+        if (given_options->ranks_of_parts != nullptr) require_parts(own, given_options->num_parts);
     });
     made->comm = own.comm;
     made->plan = rrcb::ghosts(own.cuts, points, kept.options, self);

@@ -154,9 +154,10 @@ contains
     class(rrcb_balancer), intent(inout) :: self
     type(rrcb_cuts), intent(in) :: cuts
     integer, intent(out) :: error
-    type(rrcb_cut), target :: tree(size(cuts%tree))
+    type(rrcb_cut), allocatable, target :: tree(:)
     type(c_cuts) :: given
-    tree = cuts%tree
+    allocate (tree(0))
+    if (allocated(cuts%tree)) tree = cuts%tree
     tree%axis = tree%axis - 1
     given = c_cuts(cuts%dimension, size(tree) + 1, c_null_ptr, cuts%group_size, &
                    merge(1, 0, cuts%larger_below), cuts%dealt)

@@ -40,14 +40,21 @@ contains
     real(c_double), intent(in), target, optional :: lower(3), upper(3)
     type(rrcb_rank_range), intent(in), target, contiguous, optional :: ranks_of_parts(:)
     type(c_ghost_options) :: options
-    if (present(radii)) then
-      options%radius = 0
-      if (size(radii) > 0 .and. size(radii, kind=c_size_t) == points%count) options%radii = c_loc(radii)
-    end if
     if (present(radius)) options%radius = radius
+    if (present(radii)) then
+      if (size(radii, kind=c_size_t) /= points%count) then
+        options%radius = -1  ! refused as a missing one
+      else
+        if (.not. present(radius)) options%radius = 0
+        if (size(radii) > 0) options%radii = c_loc(radii)
+      end if
+    end if
     if (present(lower)) options%lower = c_loc(lower)
     if (present(upper)) options%upper = c_loc(upper)
-    if (present(ranks_of_parts)) options%ranks_of_parts = c_loc(ranks_of_parts)
+    if (present(ranks_of_parts)) then
+      options%ranks_of_parts = c_loc(ranks_of_parts)
+      options%num_parts = size(ranks_of_parts, kind=c_size_t)
+    end if
     error = c_ghosts_create(balancer%handle, points, options, self%handle)
   end subroutine
 

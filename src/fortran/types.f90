@@ -235,7 +235,10 @@ contains
     type(*), target, intent(in) :: first(*)
     type(rrcb_points), intent(inout) :: points
     points%dimension = points%dimension + 1
-    if (count /= points%count) points%axes = c_null_ptr
+    if (count /= points%count) then
+      points%axes = c_null_ptr  ! refused as missing, if there is any point
+      points%count = max(count, points%count)
+    end if
     if (c_associated(points%axes(1))) points%axes(points%dimension) = c_loc(first)
   end subroutine
 

@@ -9,6 +9,8 @@ program module_test
   type(rrcb_controller) :: controller
   type(rrcb_cost_model) :: model
   type(rrcb_ghosts) :: ghosts
+  type(rrcb_rank_range) :: no_ranks(0)
+  type(rrcb_cuts) :: no_cuts
   type(rrcb_groups) :: groups
   type(rrcb_plan) :: plan
   type(rrcb_ghost_plan) :: ghost_plan
@@ -231,6 +233,12 @@ program module_test
   call expect(error == rrcb_invalid_argument, "ghosts without a radius")
   call ghosts%create(balancer, rrcb_interleaved_points(moved), error, radii=moved_weights(2:))
   call expect(error == rrcb_invalid_argument, "ghosts by too few radii")
+  call ghosts%create(balancer, rrcb_interleaved_points(moved), error, 1.0_c_double, moved_weights(2:))
+  call expect(error == rrcb_invalid_argument, "ghosts by a radius and too few radii")
+  call ghosts%create(balancer, rrcb_interleaved_points(moved), error, 1.0_c_double, ranks_of_parts=no_ranks)
+  call expect(error == rrcb_invalid_argument, "ghosts of too few parts")
+  call other%set_cuts(no_cuts, error)
+  call expect(error == rrcb_invalid_argument, "set_cuts without cuts")
   ! Pairs of points, which cuts do not part, though ranks do.
   call groups%create(balancer, rrcb_interleaved_points(moved), int((numbers + 1)/2, c_int64_t), error)
   call expect(error == rrcb_ok, "create groups")

@@ -141,6 +141,7 @@ TEST_F(CGhosts, take_a_radius_of_each_point_and_ranks_of_parts) {
     rrcb_ghost_options options{};
     options.radii = radii.data();
     options.ranks_of_parts = ranks_in_c.data();
+    options.num_parts = ranks_in_c.size();
     find(options);
     GhostOptions expected;
     expected.radii = radii;
@@ -167,9 +168,13 @@ TEST_F(CGhosts, what_is_wrong_on_one_rank_fails_on_all) {
     if (is_last_rank()) options.lower = unit.lower.data();
     expect_error(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), "upper is null");
     options.lower = nullptr;
-    options.radius = 0;
-    expect_error(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), "radii is null");
+    options.radius = -1;
+    expect_error(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), "give it or radii");
     options.radius = 0.1;
+    const rrcb_rank_range to_first{0, 1};
+    options.ranks_of_parts = is_last_rank() ? &to_first : nullptr;
+    expect_error(rrcb_ghosts_create(balancer, &in_c, &options, &ghosts), "parts, not 0");
+    options.ranks_of_parts = nullptr;
     rrcb_points shifted = in_c;
     if (rank() == 0) shifted.stride = 3;
     expect_error(rrcb_ghosts_create(balancer, &shifted, &options, &ghosts), "must be in bytes");

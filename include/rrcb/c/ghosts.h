@@ -19,6 +19,7 @@ typedef struct rrcb_ghost_options {
     const double* upper; /**< of the same box */
     const rrcb_rank_range* ranks_of_parts; /**< an entry for each part, as after rrcb_remap; null:
                                               as by rrcb_ranks_of_part */
+    size_t num_parts;                      /**< length of `ranks_of_parts` */
 } rrcb_ghost_options;
 
 /** Lists of points sent and received as ghosts, as rrcb::GhostPlan; indices count from 0. */

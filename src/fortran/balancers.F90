@@ -154,16 +154,21 @@ contains
     class(rrcb_balancer), intent(inout) :: self
     type(rrcb_cuts), intent(in) :: cuts
     integer, intent(out) :: error
-    type(rrcb_cut), allocatable, target :: tree(:)
+    type(rrcb_cut), target :: tree(num_cuts(cuts))
     type(c_cuts) :: given
-    allocate (tree(0))
-    if (allocated(cuts%tree)) tree = cuts%tree
+    if (size(tree) > 0) tree = cuts%tree
     tree%axis = tree%axis - 1
     given = c_cuts(cuts%dimension, size(tree) + 1, c_null_ptr, cuts%group_size, &
                    merge(1, 0, cuts%larger_below), cuts%dealt)
     if (size(tree) > 0) given%tree = c_loc(tree)
     error = c_set_cuts(self%handle, given)
   end subroutine
+
+  pure integer function num_cuts(cuts)
+    type(rrcb_cuts), intent(in) :: cuts
+    num_cuts = 0
+    if (allocated(cuts%tree)) num_cuts = size(cuts%tree)
+  end function
 
   !> Finds the part of a position. Not collective.
   !> @param position an entry for each axis

@@ -181,7 +181,8 @@ TEST_F(CGhosts, what_is_wrong_on_one_rank_fails_on_all) {
     find(options);
     double value = 0;
     const rrcb_column column{is_last_rank() ? RRCB_BYTE : RRCB_DOUBLE, 0, &value, &value};
-    expect_error(rrcb_ghosts_accumulate(ghosts, 1, &column, nullptr, nullptr), "only numbers");
+    expect_error(rrcb_ghosts_accumulate(ghosts, 1, &column, nullptr, nullptr),
+                 "give a type of numbers");
     const rrcb_column* no_columns = is_last_rank() ? nullptr : &column;
     expect_error(rrcb_ghosts_fetch(ghosts, 1, no_columns, nullptr, nullptr), "columns is null");
     expect_error(rrcb_ghosts_accumulate(ghosts, 1, no_columns, nullptr, nullptr),

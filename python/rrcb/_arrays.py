@@ -29,7 +29,7 @@ def float_type(values: Array, name: str) -> int:
 
 def as_array(values: Any) -> Array:
     """Returns values as an array. Raises Error if some are masked."""
-    if np.ma.is_masked(values):
+    if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
         raise c.Error("some values are masked: drop them, or call .filled()")
     return np.asarray(values)
 

@@ -48,7 +48,7 @@ def report_of(balancer: c.Handle) -> tuple[Report, c.Report]:
     shown = c.Report()
     c.call("get_report", balancer, shown)
     values = {
-        field.name: bool(value) if field.type == "bool" else value
+        field.name: bool(value) if str(field.type) == "bool" else value
         for field in dataclasses.fields(Report)
         for value in [getattr(shown, field.name)]
     }

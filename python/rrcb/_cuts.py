@@ -64,8 +64,8 @@ class Cuts:
     def finite_boxes(self, within: Any = None) -> Array:
         """Returns boxes() clipped to a box: (lower, upper), or one a little around all cuts."""
         boxes = self.boxes()
-        lower, upper = self._around(boxes) if within is None else np.asarray(within, dtype=float)
-        return np.clip(boxes, lower, upper)
+        ends = np.asarray(self._around(boxes) if within is None else within, dtype=float)
+        return np.clip(boxes, ends[0], ends[1])
 
     def plot(self, ax: Any = None, within: Any = None, **style: Any) -> Any:
         """Draws the parts by matplotlib into `ax`, or new axes, which it returns."""

@@ -29,7 +29,7 @@ def edges_of(boxes: Array) -> Array:
     corners = corners_of(boxes)
     count = corners.shape[1]
     pairs = [(a, a | bit) for a in range(count) for bit in (1, 2, 4) if a | bit != a and a | bit < count]
-    return np.concatenate([corners[:, pair, :] for pair in map(list, pairs)])
+    return np.concatenate([corners[:, np.array(pair), :] for pair in pairs])
 
 
 def plot(cuts: Cuts, ax: Any, within: Any, style: dict[str, Any]) -> Any:

@@ -217,7 +217,10 @@ def overload(
         partition.cuts.give(own)
         return x, columns, tags, float(overload_length / box_size)
 
-    x, columns, tags, length = prepare(comm, local, lambda made: made[1].signature())
+    def signature(made: tuple[Array, Columns, Array | None, float]) -> str:
+        return made[1].signature()
+
+    x, columns, tags, length = prepare(comm, local, signature)
     # The cube around a part's box with the margin `length` is in the ball of this radius.
     near = Ghosts(comm, own, x, length * math.sqrt(x.shape[1]) * (1 + 1e-12), 1.0)
     rows = {}
